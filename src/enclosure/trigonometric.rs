@@ -1,0 +1,90 @@
+//! Pi, sine, cosine, tangent and arc tangent.
+
+use super::Enclosure;
+use rug::Float;
+use rug::float::{Constant, Round};
+
+/// Arguments beyond this binary exponent are not reduced modulo pi (that would need as many bits); the trivial
+/// enclosure is returned instead, which keeps hostile arguments cheap.
+const MAX_REDUCED_EXPONENT: i32 = 1 << 12;
+
+impl Enclosure {
+    /// The constant pi.
+    #[must_use]
+    pub fn pi(precision: u32) -> Enclosure {
+        Enclosure {
+            lower: Float::with_val_round(precision, Constant::Pi, Round::Down).0,
+            upper: Float::with_val_round(precision, Constant::Pi, Round::Up).0,
+        }
+    }
+
+    /// Whether both ends are finite and small enough to be reduced modulo pi.
+    fn is_reducible(&self) -> bool {
+        self.is_bounded()
+            && [&self.lower, &self.upper].iter().all(|x| x.get_exp().is_none_or(|e| e <= MAX_REDUCED_EXPONENT))
+    }
+
+    /// Whether `offset * pi/2 + k * period * pi/2` may lie in the interval for some integer k.
+    fn may_contain_phase(&self, offset: i64, period: i64) -> bool {
+        let p = self.precision() + 32;
+        let quarter = Enclosure::pi(p) / 2;
+        let turns = (self / &quarter - offset) / period;
+        !turns.is_bounded() || turns.integers().is_some()
+    }
+
+    /// The sine: the values at the two ends, and 1 or -1 wherever a crest or a trough may lie in between.
+    #[must_use]
+    pub fn sin(&self) -> Enclosure {
+        let p = self.precision();
+        if !self.is_defined() {
+            return Enclosure::undefined(p);
+        }
+        let full = Enclosure { lower: Float::with_val(p, -1), upper: Float::with_val(p, 1) };
+        if !self.is_reducible() {
+            return full;
+        }
+        let at = |x: &Float, round| Float::with_val_round(p, x.sin_ref(), round).0;
+        let crest = self.may_contain_phase(1, 4);
+        let trough = self.may_contain_phase(-1, 4);
+        Enclosure {
+            lower: if trough { full.lower } else { at(&self.lower, Round::Down).min(&at(&self.upper, Round::Down)) },
+            upper: if crest { full.upper } else { at(&self.lower, Round::Up).max(&at(&self.upper, Round::Up)) },
+        }
+    }
+
+    /// The cosine, in the same way as the sine.
+    #[must_use]
+    pub fn cos(&self) -> Enclosure {
+        let p = self.precision();
+        if !self.is_defined() {
+            return Enclosure::undefined(p);
+        }
+        let full = Enclosure { lower: Float::with_val(p, -1), upper: Float::with_val(p, 1) };
+        if !self.is_reducible() {
+            return full;
+        }
+        let at = |x: &Float, round| Float::with_val_round(p, x.cos_ref(), round).0;
+        let crest = self.may_contain_phase(0, 4);
+        let trough = self.may_contain_phase(2, 4);
+        Enclosure {
+            lower: if trough { full.lower } else { at(&self.lower, Round::Down).min(&at(&self.upper, Round::Down)) },
+            upper: if crest { full.upper } else { at(&self.lower, Round::Up).max(&at(&self.upper, Round::Up)) },
+        }
+    }
+
+    /// The tangent, increasing between its poles; undefined if a pole may lie in the interval.
+    #[must_use]
+    pub fn tan(&self) -> Enclosure {
+        let p = self.precision();
+        if !self.is_reducible() || self.may_contain_phase(1, 2) {
+            return Enclosure::undefined(p);
+        }
+        self.nondecreasing(|x, p, round| Float::with_val_round(p, x.tan_ref(), round).0)
+    }
+
+    /// The arc tangent in (-pi/2, pi/2).
+    #[must_use]
+    pub fn atan(&self) -> Enclosure {
+        self.nondecreasing(|x, p, round| Float::with_val_round(p, x.atan_ref(), round).0)
+    }
+}

@@ -1,0 +1,3 @@
+//! scratch
+pub mod enclosure;
+pub mod number;

@@ -1,0 +1,13 @@
+//! Exact numbers: decimals and fractions in, short rationals out.
+//!
+//! Everything a claim rests on is a [`rug::Rational`]. This module reads the decimals that users write (0.1 is 1/10,
+//! never the nearest double), writes rationals as terminating decimals or fractions, and rounds floating-point
+//! proposals of a search to short rationals in a chosen direction.
+
+mod constant;
+mod decimal;
+mod short;
+
+pub use constant::Monomial;
+pub use decimal::{DecimalError, MAX_EXPONENT, MAX_LENGTH, parse_decimal, write_exact};
+pub use short::{Direction, round_f64, round_rational};
