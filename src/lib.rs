@@ -1,3 +1,5 @@
 //! scratch
 pub mod enclosure;
+pub mod expr;
 pub mod number;
+pub mod spec;

@@ -87,7 +87,7 @@ mod tests {
         assert_eq!(minus.lower_decimal(5), "-0.33334");
         assert_eq!(minus.upper_decimal(5), "-0.33333");
         for (value, text) in
-            [((1, 1), "1"), ((0, 1), "0"), ((1250, 1), "1250"), ((1, 1000), "0.001"), ((-49, 2), "-24.5")]
+            [((1, 1), "1"), ((0, 1), "0"), ((1250, 1), "1250"), ((1, 512), "0.001953125"), ((-49, 2), "-24.5")]
         {
             let exact = Enclosure::from_rational(&Rational::from(value), 64);
             assert_eq!(exact.lower_decimal(8), text);

@@ -1,0 +1,3 @@
+//! The specification
+pub mod model;
+pub mod weights;

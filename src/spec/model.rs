@@ -1,0 +1,182 @@
+//! What a bounding specification says, with every number exact.
+
+use crate::enclosure::Enclosure;
+use crate::expr::Expr;
+use crate::number::Monomial;
+use rug::Rational;
+
+use super::weights::Weights;
+
+/// A checked specification: fields present, numbers exact and in range, weights proved to satisfy W1-W3.
+///
+/// What is *not* checked here, because it depends on the arguments that a certificate uses: that the bounding
+/// functions are finite, nonnegative and nondecreasing (see `expr::prove`).
+#[derive(Clone, Debug)]
+pub struct Specification {
+    /// The name of the plant, for reports.
+    pub name: String,
+    /// Free text, for reports.
+    pub description: Option<String>,
+    /// The period T > 0 of f and q, in units of time.
+    pub period: Constant,
+    /// The Lyapunov data of the zero dynamics.
+    pub lyapunov: Lyapunov,
+    /// The bounding functions.
+    pub bounds: Bounds,
+    /// Where the bounding functions hold; everywhere when absent.
+    pub domain: Option<Domain>,
+    /// The internal model of the regulator.
+    pub internal_model: InternalModel,
+    /// The initial conditions to be covered.
+    pub initial_set: InitialSet,
+    /// The relative-degree filter, when e is a combination of xi_1, ..., xi_r.
+    pub relative_degree: Option<RelativeDegree>,
+    /// The document as it was read.
+    pub document: serde_json::Value,
+    /// SHA-256, in hexadecimal, of the canonical form of the document (keys sorted, no white space, numbers as
+    /// written).
+    pub sha256: String,
+}
+
+/// A real constant: its text, and its exact form where it has one.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// As written in the document.
+    pub text: String,
+    /// The expression, without variables.
+    pub expr: Expr,
+    /// The exact value, when the expression has the form c sqrt(r) pi^k.
+    pub exact: Option<Monomial>,
+}
+
+impl Constant {
+    /// An enclosure at the given precision.
+    #[must_use]
+    pub fn enclose(&self, precision: u32) -> Enclosure {
+        match &self.exact {
+            Some(exact) => exact.enclose(precision),
+            None => self.expr.enclose_constant(precision),
+        }
+    }
+
+    /// The exact rational value, if the constant is known to be rational.
+    #[must_use]
+    pub fn as_rational(&self) -> Option<&Rational> {
+        self.exact.as_ref().and_then(Monomial::as_rational)
+    }
+
+    /// The nearest double, for searches and display only.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        self.enclose(64).midpoint_f64()
+    }
+}
+
+/// `p_low I <= P_x(t) <= p_up I` and `P_x' + P_x F + F' P_x <= -2 alpha P_x` (P:eq:Pass1, P:eq:Pass2), with
+/// 0 < p_low <= p_up and alpha > 0 (in 1/time).
+#[derive(Clone, Debug)]
+pub struct Lyapunov {
+    /// Lower bound of P_x.
+    pub p_low: Constant,
+    /// Upper bound of P_x.
+    pub p_up: Constant,
+    /// Rate.
+    pub alpha: Constant,
+}
+
+/// Bounding functions of (X, E), upper bounds on |x| <= X, |e| <= E for every t (P:LP1, P:LP2).
+#[derive(Clone, Debug)]
+pub struct Bounds {
+    /// Of |f|.
+    pub f: Expr,
+    /// Of |df/de|.
+    pub f_e: Expr,
+    /// Of |d2f/dxdx| as a bilinear map.
+    pub f_xx: Expr,
+    /// Of |d2f/dedx|.
+    pub f_ex: Expr,
+    /// Of |q|.
+    pub q: Expr,
+    /// Of |dq/de|.
+    pub q_e: Expr,
+    /// Of |dq/dx|.
+    pub q_x: Expr,
+    /// Of |dq/dt|.
+    pub q_t: Expr,
+    /// Of the root mean square over a period of sup |q|; `q` serves where absent.
+    pub q_rms: Option<Expr>,
+    /// Of the root mean square over a period of sup |dq/dt|; `q_t` serves where absent.
+    pub q_t_rms: Option<Expr>,
+}
+
+impl Bounds {
+    /// The bounding functions that are given, each with the name of its field.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, &Expr)> {
+        [
+            ("f", Some(&self.f)),
+            ("f_e", Some(&self.f_e)),
+            ("f_xx", Some(&self.f_xx)),
+            ("f_ex", Some(&self.f_ex)),
+            ("q", Some(&self.q)),
+            ("q_e", Some(&self.q_e)),
+            ("q_x", Some(&self.q_x)),
+            ("q_t", Some(&self.q_t)),
+            ("q_rms", self.q_rms.as_ref()),
+            ("q_t_rms", self.q_t_rms.as_ref()),
+        ]
+        .into_iter()
+        .filter_map(|(name, expr)| expr.map(|expr| (name, expr)))
+    }
+}
+
+/// The box X <= x, E <= e on which the bounding functions hold; both positive.
+#[derive(Clone, Debug)]
+pub struct Domain {
+    /// The largest |x|.
+    pub x: Constant,
+    /// The largest |e|.
+    pub e: Constant,
+}
+
+/// The regulator's internal model: mu > 0 and w > 0 in 1/time.
+#[derive(Clone, Debug)]
+pub struct InternalModel {
+    /// The gain mu.
+    pub mu: Constant,
+    /// The base frequency w (omega-hat).
+    pub base_frequency: Constant,
+    /// Whether base_frequency = 2 pi / period, proved exactly.
+    pub matched: bool,
+    /// The weights n_0, n_1, ...
+    pub weights: Weights,
+}
+
+/// The initial conditions |x| <= X0, |e| <= E0, |z|_N <= Z0 that the domain of attraction must cover.
+#[derive(Clone, Debug)]
+pub enum InitialSet {
+    /// X0 = 2 X_p, E0 = 2 E_p, Z0 = 2 (Z + Nbar E_p), as in theorem 1 of the paper.
+    Paper,
+    /// The controller starts at rest: Z0 = 0; X0 and E0 from the user, or 2 X_p and 2 E_p.
+    AtRest {
+        /// The user's X0.
+        x0: Option<Constant>,
+        /// The user's E0.
+        e0: Option<Constant>,
+    },
+    /// A box given by the user.
+    Box {
+        /// X0.
+        x0: Constant,
+        /// E0.
+        e0: Constant,
+        /// Z0.
+        z0: Constant,
+    },
+}
+
+/// The coefficients a_1, ..., a_{r-1} of e = xi_r + sum a_i xi_i (derivation, section 6).
+#[derive(Clone, Debug)]
+pub struct RelativeDegree {
+    /// a_1, ..., a_{r-1}; not empty.
+    pub a: Vec<Constant>,
+}
