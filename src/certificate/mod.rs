@@ -1,0 +1,19 @@
+//! From a specification to a decided claim: search, rounding, rigorous decision, certificate file.
+
+mod bounding;
+mod decide;
+mod produce;
+mod read;
+mod round;
+mod verdict;
+mod write;
+
+pub use bounding::{BoundingProblem, prove_bounds};
+pub use decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
+pub use produce::{
+    Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RepairedProof, SharpProof, TransferChoice,
+    certify, recheck,
+};
+pub use read::{WitnessError, WitnessFile, read_witness};
+pub use verdict::Verdict;
+pub use write::{certificate_json, constants_json, conditions_json};

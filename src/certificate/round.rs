@@ -1,0 +1,235 @@
+//! From floating-point proposals to short rational witnesses.
+//!
+//! Rounding spends a little of sigma: each attempt takes a sigma a bit larger than the last, recomputes the dependent
+//! numbers for it, rounds, and asks for a rigorous decision; the first witness that is proved is returned.
+
+use super::decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
+use crate::constants::data::Data;
+use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness, steady_state_norm};
+use crate::constants::existence::{PeriodicBounds, kappas};
+use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
+use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness, distances};
+use crate::enclosure::Enclosure;
+use crate::number::{Direction, round_f64, round_rational};
+use crate::search::{FloatModel, RepairedProposal, SharpParameters, SharpProposal, at_sigma, search_exact};
+use crate::spec::model::InitialSet;
+use crate::transfer::{TransferProof, closed_form_pair};
+use rug::Rational;
+
+/// Significant digits of sigma*.
+const SIGMA_DIGITS: u32 = 6;
+/// Significant digits of X_p, E_p and the kappas.
+const SHORT_DIGITS: u32 = 8;
+/// Significant digits of numbers in which a condition is active.
+const LONG_DIGITS: u32 = 14;
+/// Relative slacks of sigma that are tried in turn.
+const SLACKS: [f64; 12] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e3];
+
+fn nearest(value: f64, digits: u32) -> Option<Rational> {
+    round_f64(value, digits, Direction::Nearest)
+}
+
+fn upper(value: &Enclosure, digits: u32) -> Option<Rational> {
+    value.upper_rational().map(|exact| round_rational(&exact, digits, Direction::Up))
+}
+
+fn rounded_sigma(sigma: f64, slack: f64) -> Option<Rational> {
+    round_f64(sigma * (1.0 + slack), SIGMA_DIGITS, Direction::Up)
+}
+
+/// The claimed set for X_p, E_p and Z: what the specification requires, rounded up where it is not a short rational.
+fn claimed_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -> Option<ClaimedSet> {
+    let user = |constant: &crate::spec::model::Constant| match constant.as_rational() {
+        Some(exact) => Some(exact.clone()),
+        None => upper(&constant.enclose(data.precision), LONG_DIGITS),
+    };
+    let twice = |value: &Rational| Rational::from(value * 2u32);
+    Some(match &data.spec.initial_set {
+        InitialSet::Paper => ClaimedSet {
+            x0: twice(x_p),
+            e0: twice(e_p),
+            z0: upper(&(2 * (z + &data.n_bar * data.rational(e_p))), SHORT_DIGITS)?,
+        },
+        InitialSet::AtRest { x0, e0 } => ClaimedSet {
+            x0: x0.as_ref().map_or_else(|| Some(twice(x_p)), user)?,
+            e0: e0.as_ref().map_or_else(|| Some(twice(e_p)), user)?,
+            z0: Rational::new(),
+        },
+        InitialSet::Box { x0, e0, z0 } => ClaimedSet { x0: user(x0)?, e0: user(e0)?, z0: user(z0)? },
+    })
+}
+
+/// The transfer constants proposed by the trade-off, rounded up, with their proof.
+fn transfer_pair(data: &Data<'_>, pair: (f64, f64, u32), matched: bool) -> Option<(Rational, Rational, TransferProof)> {
+    if matched {
+        let up = |value: f64| round_f64(value * (1.0 + 1e-12), SHORT_DIGITS, Direction::Up);
+        return Some((up(pair.0)?, up(pair.1)?, TransferProof::Matched { k: pair.2 }));
+    }
+    let (k0, k1) = closed_form_pair(data);
+    Some((upper(&k0, SHORT_DIGITS)?, upper(&k1, SHORT_DIGITS)?, TransferProof::ClosedForm))
+}
+
+/// Rounds a sharp proposal and decides it; the first attempt that is proved, or the last one.
+pub(super) fn round_sharp(
+    data: &Data<'_>,
+    model: &FloatModel,
+    proposal: &SharpProposal,
+    matched: bool,
+    ladder: Ladder,
+) -> Option<(SharpWitness, SharpEvaluation, u32)> {
+    let mut last = None;
+    for slack in SLACKS {
+        let Some(witness) = sharp_witness(data, model, proposal, matched, slack) else { continue };
+        let (evaluation, precision) = decide_sharp(data.spec, &witness, ladder);
+        let proved = evaluation.truth().is_true();
+        last = Some((witness, evaluation, precision));
+        if proved {
+            break;
+        }
+    }
+    last
+}
+
+fn sharp_witness(
+    data: &Data<'_>,
+    model: &FloatModel,
+    proposal: &SharpProposal,
+    matched: bool,
+    slack: f64,
+) -> Option<SharpWitness> {
+    let sigma = rounded_sigma(proposal.sigma, slack)?;
+    let x_p = nearest(proposal.parameters.x_p, SHORT_DIGITS)?;
+    // E_p down: C1 is active at its largest value, and C2 has the slack of sigma.
+    let e_p = round_f64(proposal.parameters.e_p, SHORT_DIGITS, Direction::Down)?;
+    let parameters = SharpParameters { x_p: x_p.to_f64(), e_p: e_p.to_f64(), ..proposal.parameters };
+    let (existence, at) = at_sigma(model, &parameters, sigma.to_f64()).ok()?;
+    let (k0, k1, transfer) = transfer_pair(data, existence.pair, matched)?;
+
+    let bounds = PeriodicBounds::new(data, data.rational(&x_p), data.rational(&e_p));
+    let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));
+    let z = bounds.z_squared_sharp(data, &kappa_0, &kappa_1).sqrt();
+    let set = claimed_set(data, &x_p, &e_p, &z)?;
+
+    let error_box = rounded_box(model, at.d_x, at.rho, [at.dist_e, at.dist_z], at.eta, slack)?;
+    let (p_x, p_e) = existence.perron(model, sigma.to_f64());
+    let scale = p_x.max(p_e);
+    Some(SharpWitness {
+        sigma,
+        x_p,
+        e_p,
+        d_x: error_box.d_x,
+        d_e: error_box.d_e,
+        p_x: nearest(p_x / scale, LONG_DIGITS)?,
+        p_e: nearest(p_e / scale, LONG_DIGITS)?,
+        w_x: error_box.w_x,
+        h: error_box.h,
+        k0,
+        k1,
+        transfer,
+        set,
+    })
+}
+
+/// D_x, D_e, w_x, h of an error box whose level condition holds with a small slack after rounding.
+struct RoundedBox {
+    d_x: Rational,
+    d_e: Rational,
+    w_x: Rational,
+    h: Rational,
+}
+
+fn rounded_box(
+    model: &FloatModel,
+    d_x: f64,
+    rho: f64,
+    [dist_e, dist_z]: [f64; 2],
+    eta: f64,
+    slack: f64,
+) -> Option<RoundedBox> {
+    let d_x = nearest(d_x, LONG_DIGITS)?;
+    let enlarged = 1.0 + (0.1 * slack).max(1e-11);
+    let level = (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho)) * enlarged;
+    let width = d_x.to_f64();
+    Some(RoundedBox {
+        d_e: nearest(level.sqrt(), LONG_DIGITS)?,
+        w_x: nearest(level / (model.p_low * width * width), LONG_DIGITS)?,
+        h: nearest(eta * dist_e * dist_e / (dist_z * dist_z), LONG_DIGITS)?,
+        d_x,
+    })
+}
+
+/// Rounds a repaired proposal and decides it; the first attempt that is proved, or the last one.
+pub(super) fn round_repaired(
+    data: &Data<'_>,
+    proposal: &RepairedProposal,
+    ladder: Ladder,
+) -> Option<(RepairedWitness, RepairedEvaluation, u32)> {
+    let mut last = None;
+    for slack in SLACKS {
+        let Some(witness) = repaired_witness(data, proposal, slack) else { continue };
+        let (evaluation, precision) = decide_repaired(data.spec, &witness, ladder);
+        let proved = evaluation.truth().is_true();
+        last = Some((witness, evaluation, precision));
+        if proved {
+            break;
+        }
+    }
+    last
+}
+
+fn repaired_witness(data: &Data<'_>, proposal: &RepairedProposal, slack: f64) -> Option<RepairedWitness> {
+    let x = nearest(proposal.x, SHORT_DIGITS)?;
+    let e = round_f64(proposal.e, SHORT_DIGITS, Direction::Down)?;
+    let (k0, k1, transfer) = transfer_pair(data, (0.0, 0.0, 0), false)?;
+    let bounds = PeriodicBounds::new(data, data.rational(&x), data.rational(&e));
+    let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));
+    let z = bounds.z_squared_printed(data, &kappa_0, &kappa_1).sqrt();
+    let set = claimed_set(data, &x, &e, &z)?;
+    let h = nearest(proposal.h, LONG_DIGITS)?;
+    let [dist_x, dist_e, dist_z] = distances(data, &set, [&data.rational(&x), &data.rational(&e), &z]);
+    let start = &data.p_up * dist_x.sqr() + dist_e.sqr() + data.rational(&h) * dist_z.sqr();
+    let level = start.upper_rational()? * Rational::from_f64(1.0 + (0.1 * slack).max(1e-11))?;
+    let scale = proposal.weights.0.max(proposal.weights.1);
+    Some(RepairedWitness {
+        sigma: rounded_sigma(proposal.sigma, slack)?,
+        level: round_rational(&level, LONG_DIGITS, Direction::Up),
+        h,
+        p_x: nearest(proposal.weights.0 / scale, LONG_DIGITS)?,
+        p_e: nearest(proposal.weights.1 / scale, LONG_DIGITS)?,
+        x,
+        e,
+        k0,
+        k1,
+        transfer,
+        set,
+    })
+}
+
+/// Searches and decides exact regulation for a claimed set; `None` when nothing was proved.
+pub(super) fn exact_claim(
+    data: &Data<'_>,
+    model: &FloatModel,
+    set: &ClaimedSet,
+    ladder: Ladder,
+) -> Option<(ExactWitness, ExactEvaluation, u32)> {
+    let z = steady_state_norm(data);
+    let [dist_x, dist_e, dist_z] =
+        distances(data, set, [&data.zero(), &data.zero(), &z]).map(|distance| distance.upper_f64());
+    // Floors keep the box open where a distance is 0.
+    let dist_x = if dist_x > 0.0 { dist_x } else { dist_e.max(1e-9) * 1e-6 };
+    let dist_e = if dist_e > 0.0 { dist_e } else { dist_x * 1e-6 };
+    let dist_z = dist_z.max(1e-6 * model.n_bar * dist_e);
+    let at = search_exact(model, [dist_x, dist_e, dist_z]).ok()?;
+    SLACKS.iter().find_map(|&slack| {
+        let error_box = rounded_box(model, at.d_x, at.rho, [dist_e, dist_z], at.eta, slack)?;
+        let witness = ExactWitness {
+            sigma: rounded_sigma(at.threshold, slack)?,
+            d_x: error_box.d_x,
+            d_e: error_box.d_e,
+            w_x: error_box.w_x,
+            h: error_box.h,
+        };
+        let (evaluation, precision) = decide_exact(data.spec, set, &witness, ladder);
+        evaluation.truth().is_true().then_some((witness, evaluation, precision))
+    })
+}

@@ -1,0 +1,125 @@
+//! What a certificate says about the regulated error (derivation, section 6).
+
+use super::data::Data;
+use super::existence::{PeriodicBounds, x_per_gain};
+use crate::enclosure::Enclosure;
+
+/// Terms of the infinite sums that are added one by one before the tail is bounded.
+const PARTIAL_TERMS: u64 = 64;
+
+/// The largest number of oscillators that a target search considers.
+pub const MAX_OSCILLATORS: u64 = 1 << 40;
+
+/// psi_1, psi_x and psi_2: bounds for every n_o and mu at once.
+#[derive(Clone, Debug)]
+pub struct Psi {
+    /// psi_1 = T q1/sqrt(12): sup|e| <= psi_1/sigma.
+    pub psi_1: Enclosure,
+    /// psi_x = x_per gain times psi_1: sup|x| <= psi_x/sigma.
+    pub psi_x: Enclosure,
+    /// psi_2 = T qr^2/Om^2, Om = 2 pi/T: the integral of e^2 over a period is at most psi_2/(n_o+1)^2 (matched only).
+    pub psi_2: Enclosure,
+}
+
+impl Psi {
+    /// Evaluates the three constants. Hypotheses: C1-C3.
+    #[must_use]
+    pub fn new(data: &Data<'_>, bounds: &PeriodicBounds) -> Psi {
+        let psi_1 = &data.period * &bounds.q_rate_rms / Enclosure::from_integer(12, data.precision).sqrt();
+        let omega = fundamental(data);
+        Psi {
+            psi_x: x_per_gain(data, bounds) * &psi_1,
+            psi_1,
+            psi_2: &data.period * bounds.q_rms.sqr() / omega.sqr(),
+        }
+    }
+}
+
+/// Om = 2 pi/T.
+#[must_use]
+pub fn fundamental(data: &Data<'_>) -> Enclosure {
+    2 * Enclosure::pi(data.precision) / &data.period
+}
+
+/// Certified bounds of the periodic error for one number of oscillators, upper bounds only.
+#[derive(Clone, Debug)]
+pub struct ErrorBounds {
+    /// rms(e) over a period.
+    pub rms: Enclosure,
+    /// sup|e|.
+    pub sup: Enclosure,
+}
+
+/// Bounds of rms(e) and sup|e| with n_o oscillators at a matched base frequency, for every sigma' >= sigma.
+///
+/// Harmonics |k| <= n_o of e vanish and |e_k| <= |q_k|/sqrt((k Om)^2 + sigma^2), so with a = (n_o+1) Om
+/// rms(e) <= min{ qr/sqrt(a^2 + sigma^2), q1/(a sqrt(a^2 + sigma^2)) },
+/// sup|e| <= min{ e_per, qr sqrt(2 S_0), q1 sqrt(2 S_1) } with S_0 = sum_{k>n_o} 1/((k Om)^2 + sigma^2) and
+/// S_1 = sum_{k>n_o} 1/((k Om)^2 ((k Om)^2 + sigma^2)), by Cauchy-Schwarz.
+///
+/// Hypotheses: C1-C3 at sigma; base_frequency = 2 pi/T. Guarantee: both are upper bounds, nonincreasing in n_o up to
+/// rounding; e_per also bounds the rms.
+#[must_use]
+pub fn error_bounds(
+    data: &Data<'_>,
+    bounds: &PeriodicBounds,
+    sigma: &Enclosure,
+    e_per: &Enclosure,
+    n_o: u64,
+) -> ErrorBounds {
+    let omega = fundamental(data);
+    let first = Enclosure::from_integer(n_o as i64 + 1, data.precision.max(64)) * &omega;
+    let modulus = (first.sqr() + sigma.sqr()).sqrt();
+    let rms = e_per.min(&(&bounds.q_rms / &modulus)).min(&(&bounds.q_rate_rms / (first * modulus)));
+    let [by_size, by_rate] = tail_sums(data, sigma, n_o);
+    let sup = e_per
+        .min(&(&bounds.q_rms * (2 * by_size).sqrt()))
+        .min(&(&bounds.q_rate_rms * (2 * by_rate).sqrt()));
+    ErrorBounds { rms: rms.ceiling(), sup: sup.ceiling() }
+}
+
+/// Upper bounds of S_0 and S_1: a partial sum and the tails
+/// `sum_{k>n} 1/((k Om)^2 + sigma^2) <= arctan(sigma/(n Om))/(Om sigma)` and
+/// `sum_{k>n} 1/((k Om)^2((k Om)^2 + sigma^2)) <= (1/(n+1)^2 + 1/(n+1))/(Om^2 (((n+1) Om)^2 + sigma^2))`.
+fn tail_sums(data: &Data<'_>, sigma: &Enclosure, n_o: u64) -> [Enclosure; 2] {
+    let omega = fundamental(data);
+    let integer = |k: u64| Enclosure::from_integer(k as i64, data.precision.max(64));
+    let (mut by_size, mut by_rate) = (data.zero(), data.zero());
+    let last = n_o + PARTIAL_TERMS;
+    for k in n_o + 1..=last {
+        let square = (integer(k) * &omega).sqr();
+        let term = (&square + sigma.sqr()).recip();
+        by_rate = by_rate + &term / square;
+        by_size = by_size + term;
+    }
+    let size_tail = (sigma / (integer(last) * &omega)).atan() / (&omega * sigma);
+    let next = integer(last + 1);
+    let rate_tail =
+        (next.sqr().recip() + next.recip()) / (omega.sqr() * ((&next * &omega).sqr() + sigma.sqr()));
+    [(by_size + size_tail).ceiling(), (by_rate + rate_tail).ceiling()]
+}
+
+/// The smallest n_o (up to [`MAX_OSCILLATORS`]) whose bound, chosen by `of`, is certainly at most `target`.
+///
+/// Guarantee: the bound at the returned n_o is proved to be at most the target. (It is the smallest for which that is
+/// provable with these formulas, which decrease in n_o up to rounding.) `None` if none was found.
+#[must_use]
+pub fn smallest_n_o(target: &Enclosure, of: impl Fn(u64) -> Enclosure) -> Option<u64> {
+    let reaches = |n_o: u64| of(n_o).le(target).is_true();
+    if reaches(0) {
+        return Some(0);
+    }
+    let mut high = 1;
+    while !reaches(high) {
+        high *= 2;
+        if high > MAX_OSCILLATORS {
+            return None;
+        }
+    }
+    let mut low = high / 2;
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if reaches(middle) { high = middle } else { low = middle }
+    }
+    Some(high)
+}

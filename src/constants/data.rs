@@ -1,0 +1,139 @@
+//! The data of a specification, enclosed at one working precision.
+
+use crate::enclosure::Enclosure;
+use crate::expr::Expr;
+use crate::spec::model::Specification;
+
+/// The numbers of a specification as enclosures, and the quantities that follow from them alone.
+///
+/// Units: `period` is a time; `alpha`, `mu`, `base_frequency` are 1/time; `p_low`, `p_up` are |x|^-2 times anything;
+/// the weights are pure numbers.
+#[derive(Clone, Debug)]
+pub struct Data<'s> {
+    /// The specification itself.
+    pub spec: &'s Specification,
+    /// The working precision in bits.
+    pub precision: u32,
+    /// The period T.
+    pub period: Enclosure,
+    /// P_low.
+    pub p_low: Enclosure,
+    /// P_up.
+    pub p_up: Enclosure,
+    /// alpha.
+    pub alpha: Enclosure,
+    /// mu.
+    pub mu: Enclosure,
+    /// The base frequency w.
+    pub base_frequency: Enclosure,
+    /// c = sqrt(P_up / P_low) >= 1.
+    pub c: Enclosure,
+    /// nu = mu / w.
+    pub nu: Enclosure,
+    /// n_0.
+    pub n_0: Enclosure,
+    /// n_1.
+    pub n_1: Enclosure,
+    /// Nbar^2, the sum of all weights.
+    pub n_bar_squared: Enclosure,
+    /// Nbar.
+    pub n_bar: Enclosure,
+}
+
+/// One of the bounding functions of a specification.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// b_f.
+    F,
+    /// b_fe.
+    Fe,
+    /// b_fxx.
+    Fxx,
+    /// b_fex.
+    Fex,
+    /// b_q.
+    Q,
+    /// b_qe.
+    Qe,
+    /// b_qx.
+    Qx,
+    /// b_qt.
+    Qt,
+    /// b_q_rms, or b_q where absent.
+    QRms,
+    /// b_qt_rms, or b_qt where absent.
+    QtRms,
+}
+
+impl Bound {
+    /// The expression in a specification.
+    #[must_use]
+    pub fn of(self, spec: &Specification) -> &Expr {
+        let bounds = &spec.bounds;
+        match self {
+            Bound::F => &bounds.f,
+            Bound::Fe => &bounds.f_e,
+            Bound::Fxx => &bounds.f_xx,
+            Bound::Fex => &bounds.f_ex,
+            Bound::Q => &bounds.q,
+            Bound::Qe => &bounds.q_e,
+            Bound::Qx => &bounds.q_x,
+            Bound::Qt => &bounds.q_t,
+            Bound::QRms => bounds.q_rms.as_ref().unwrap_or(&bounds.q),
+            Bound::QtRms => bounds.q_t_rms.as_ref().unwrap_or(&bounds.q_t),
+        }
+    }
+}
+
+impl<'s> Data<'s> {
+    /// Encloses the numbers of a specification at the given precision.
+    #[must_use]
+    pub fn new(spec: &'s Specification, precision: u32) -> Data<'s> {
+        let model = &spec.internal_model;
+        let p_low = spec.lyapunov.p_low.enclose(precision);
+        let p_up = spec.lyapunov.p_up.enclose(precision);
+        let mu = model.mu.enclose(precision);
+        let base_frequency = model.base_frequency.enclose(precision);
+        let n_bar_squared = model.weights.total(precision);
+        // p_low <= p_up was proved when the specification was read, so the ratio is at least 1.
+        let at_least_one = Enclosure::entire(precision).max(&Enclosure::one(precision));
+        let c = (&p_up / &p_low).sqrt().intersect(&at_least_one);
+        Data {
+            spec,
+            precision,
+            period: spec.period.enclose(precision),
+            alpha: spec.lyapunov.alpha.enclose(precision),
+            c,
+            nu: &mu / &base_frequency,
+            n_0: model.weights.weight(0, precision),
+            n_1: model.weights.weight(1, precision),
+            n_bar: n_bar_squared.sqrt(),
+            n_bar_squared,
+            p_low,
+            p_up,
+            mu,
+            base_frequency,
+        }
+    }
+
+    /// An exact number at the working precision.
+    #[must_use]
+    pub fn rational(&self, value: &rug::Rational) -> Enclosure {
+        Enclosure::from_rational(value, self.precision)
+    }
+
+    /// Exactly 0.
+    #[must_use]
+    pub fn zero(&self) -> Enclosure {
+        Enclosure::zero(self.precision)
+    }
+
+    /// The value of a bounding function at (X, E).
+    ///
+    /// Guarantee: contains the value for all X, E in the enclosures. It bounds the plant's function only where
+    /// (X, E) lies in the domain of the specification and the bounding function was proved nondecreasing.
+    #[must_use]
+    pub fn bound(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
+        which.of(self.spec).enclose(x, e)
+    }
+}

@@ -1,0 +1,206 @@
+//! The sharp derivation: conditions C1-C5 decided from a rational witness (derivation, sections 4 and 5).
+
+use super::condition::{self, Condition};
+use super::data::Data;
+use super::existence::{PeriodicBounds, PeriodicSolution, kappas};
+use super::gains;
+use super::stability::{DecayCondition, ErrorBox, level_condition};
+use super::domain_conditions;
+use crate::enclosure::{Enclosure, Truth};
+use crate::transfer::{self, TransferProof};
+use rug::Rational;
+
+/// The set of initial conditions |x| <= x0, |e| <= e0, |z|_N <= z0 of a claim, exactly.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ClaimedSet {
+    /// X_0.
+    pub x0: Rational,
+    /// E_0.
+    pub e0: Rational,
+    /// Z_0.
+    pub z0: Rational,
+}
+
+/// The free numbers of the sharp derivation, exactly.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SharpWitness {
+    /// The gain to be certified.
+    pub sigma: Rational,
+    /// X_p > 0.
+    pub x_p: Rational,
+    /// E_p > 0.
+    pub e_p: Rational,
+    /// D_x > 0.
+    pub d_x: Rational,
+    /// D_e > 0.
+    pub d_e: Rational,
+    /// p_x > 0.
+    pub p_x: Rational,
+    /// p_e > 0.
+    pub p_e: Rational,
+    /// w_x > 0.
+    pub w_x: Rational,
+    /// h > 0.
+    pub h: Rational,
+    /// k0, in units of x = omega/w.
+    pub k0: Rational,
+    /// k1, in units of x = omega/w.
+    pub k1: Rational,
+    /// Why T_N(x) <= k0 + k1 x^2.
+    pub transfer: TransferProof,
+    /// The initial set to be covered.
+    pub set: ClaimedSet,
+}
+
+/// Everything the sharp derivation computes from a witness.
+#[derive(Clone, Debug)]
+pub struct SharpEvaluation {
+    /// sigma.
+    pub sigma: Enclosure,
+    /// The bounding functions at (X_p, E_p).
+    pub bounds: PeriodicBounds,
+    /// e_per and x_per at sigma.
+    pub periodic: PeriodicSolution,
+    /// kappa_0 = k0/w^2.
+    pub kappa_0: Enclosure,
+    /// kappa_1 = k1/w^4.
+    pub kappa_1: Enclosure,
+    /// Z.
+    pub z: Enclosure,
+    /// The error box.
+    pub error_box: ErrorBox,
+    /// C5.
+    pub decay: DecayCondition,
+    /// All conditions in order.
+    pub conditions: Vec<Condition>,
+}
+
+impl SharpEvaluation {
+    /// Evaluates all quantities and conditions at the precision of `data`.
+    ///
+    /// Guarantee: if [`SharpEvaluation::truth`] is `True` and the bounding functions are finite, nonnegative and
+    /// nondecreasing up to (max{X_p, X_b}, max{E_p, E_b}), then for every n_o >= 0 and every sigma' >= sigma there is a
+    /// T-periodic solution with sup|x| <= x_per, sup|e| <= e_per, sup|zeta|_N <= Z, and every solution from the claimed
+    /// set, at any initial time, converges to it exponentially.
+    #[must_use]
+    pub fn new(data: &Data<'_>, witness: &SharpWitness) -> SharpEvaluation {
+        let number = |value: &Rational| data.rational(value);
+        let sigma = number(&witness.sigma);
+        let k = gains::k_alpha_sharp(&data.c);
+        let bounds = PeriodicBounds::new(data, number(&witness.x_p), number(&witness.e_p));
+        let periodic = PeriodicSolution::new(data, &bounds, &sigma);
+        let (kappa_0, kappa_1) = kappas(data, &number(&witness.k0), &number(&witness.k1));
+        let z = bounds.z_squared_sharp(data, &kappa_0, &kappa_1).sqrt();
+
+        let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
+        let (w_x, h) = (number(&witness.w_x), number(&witness.h));
+        let error_box = ErrorBox::new(data, &periodic.x_per, &periodic.e_per, &d_x, &d_e);
+        let decay = DecayCondition::new(data, &error_box, &w_x, &h);
+
+        let mut conditions = positivity(witness, data);
+        conditions.extend(set_conditions(data, witness, &z));
+        conditions.extend(domain_conditions(
+            data,
+            bounds.x_p.max(&error_box.x_b),
+            bounds.e_p.max(&error_box.e_b),
+        ));
+        let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, witness.transfer);
+        conditions.push(Condition::at_most(
+            "T",
+            format!("transfer bound, {}: {}", witness.transfer.name(), step.what),
+            step.lhs,
+            step.rhs,
+        ));
+        conditions.push(Condition::at_most(
+            "C1",
+            "(c/alpha)(b_fe E_p + b_fxx X_p^2/2) <= X_p",
+            bounds.invariance_lhs(data, &k),
+            bounds.x_p.clone(),
+        ));
+        conditions.push(Condition::less(
+            "C1b",
+            "(c/alpha) b_fxx X_p/2 < 1",
+            bounds.quadratic_share(data, &k),
+            Enclosure::one(data.precision),
+        ));
+        conditions.push(Condition::at_most(
+            "C2",
+            "min{beta_s(sigma) qr, tau(sigma) q1} <= E_p",
+            periodic.by_size.min(&periodic.by_rate),
+            bounds.e_p.clone(),
+        ));
+        let (p_x, p_e) = (number(&witness.p_x), number(&witness.p_e));
+        let matrix = bounds.contraction(data, &k, 1, &gains::beta_s(&sigma, &data.period));
+        let [column_x, column_e] = matrix.weighted_columns(&p_x, &p_e);
+        conditions.push(Condition::less("C3", "A p_x + beta_s b_qx p_e < p_x", column_x, p_x));
+        conditions.push(Condition::less("C3b", "B p_x + beta_s b_qe p_e < p_e", column_e, p_e));
+
+        let [dist_x, dist_e, dist_z] = distances(data, &witness.set, [&periodic.x_per, &periodic.e_per, &z]);
+        let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
+        conditions.push(Condition::less(
+            "C4",
+            "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}",
+            start,
+            exit,
+        ));
+        conditions.push(Condition::less(
+            "C5",
+            "(h/mu) k_x^2 < 4 w_x (alpha - gam)",
+            decay.coupling.clone(),
+            decay.curvature.clone(),
+        ));
+        conditions.push(Condition::less(
+            "C5b",
+            "threshold of the quadratic form < sigma",
+            decay.sigma_threshold.clone(),
+            sigma.clone(),
+        ));
+        SharpEvaluation { sigma, bounds, periodic, kappa_0, kappa_1, z, error_box, decay, conditions }
+    }
+
+    /// The truth of all conditions together.
+    #[must_use]
+    pub fn truth(&self) -> Truth {
+        condition::all(&self.conditions)
+    }
+}
+
+/// dX = X_0 + x_per, dE = E_0 + e_per, dZ = Z_0 + Nbar E_0 + Z: how far the initial set is from the periodic solution.
+#[must_use]
+pub fn distances(data: &Data<'_>, set: &ClaimedSet, periodic: [&Enclosure; 3]) -> [Enclosure; 3] {
+    let [x_per, e_per, z] = periodic;
+    let (x0, e0, z0) = (data.rational(&set.x0), data.rational(&set.e0), data.rational(&set.z0));
+    [x0 + x_per, &e0 + e_per, z0 + &data.n_bar * &e0 + z]
+}
+
+/// The signs of the witness that the derivation needs, reported only where one is wrong.
+fn positivity(witness: &SharpWitness, data: &Data<'_>) -> Vec<Condition> {
+    let named = [
+        ("sigma", &witness.sigma),
+        ("X_p", &witness.x_p),
+        ("E_p", &witness.e_p),
+        ("D_x", &witness.d_x),
+        ("D_e", &witness.d_e),
+        ("p_x", &witness.p_x),
+        ("p_e", &witness.p_e),
+        ("w_x", &witness.w_x),
+        ("h", &witness.h),
+        ("k1", &witness.k1),
+    ];
+    named
+        .iter()
+        .filter(|(_, value)| **value <= 0)
+        .map(|(name, value)| Condition::less("sign", format!("0 < {name}"), data.zero(), data.rational(value)))
+        .collect()
+}
+
+/// The claimed set must cover what the specification asks for.
+fn set_conditions(data: &Data<'_>, witness: &SharpWitness, z: &Enclosure) -> Vec<Condition> {
+    super::required_set(data, &data.rational(&witness.x_p), &data.rational(&witness.e_p), z)
+        .into_iter()
+        .zip([("X0", &witness.set.x0), ("E0", &witness.set.e0), ("Z0", &witness.set.z0)])
+        .map(|(required, (name, claimed))| {
+            Condition::at_most("set", format!("the required {name} <= the claimed {name}"), required, data.rational(claimed))
+        })
+        .collect()
+}

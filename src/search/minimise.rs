@@ -1,0 +1,71 @@
+//! Local minimisation by the simplex method of Nelder and Mead (library `argmin`).
+
+use argmin::core::{CostFunction, Error, Executor, State};
+use argmin::solver::neldermead::NelderMead;
+
+struct Cost<F>(F);
+
+impl<F: Fn(&[f64]) -> Option<f64>> CostFunction for Cost<F> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, parameters: &Vec<f64>) -> Result<f64, Error> {
+        // A large finite cost keeps infeasible points out without spoiling the method's arithmetic.
+        Ok((self.0)(parameters).filter(|cost| cost.is_finite()).unwrap_or(1e9))
+    }
+}
+
+/// Minimises `cost` from `start` with initial steps `steps`; `None` marks an infeasible point. Returns the best
+/// parameters found and their cost, or `None` if every point tried was infeasible.
+///
+/// Deterministic. The method is restarted from its result with smaller steps until that no longer helps, because a
+/// simplex can collapse against the boundary of the feasible set.
+pub fn minimise(
+    cost: impl Fn(&[f64]) -> Option<f64>,
+    start: &[f64],
+    steps: &[f64],
+    restarts: usize,
+) -> Option<(Vec<f64>, f64)> {
+    let mut best = (start.to_vec(), cost(start).filter(|c| c.is_finite())?);
+    let mut scale = 1.0;
+    for _ in 0..=restarts {
+        let mut simplex = vec![best.0.clone()];
+        for (index, step) in steps.iter().enumerate() {
+            let mut vertex = best.0.clone();
+            vertex[index] += step * scale;
+            simplex.push(vertex);
+        }
+        let solver = NelderMead::new(simplex).with_sd_tolerance(1e-11).ok()?;
+        let run = Executor::new(Cost(&cost), solver).configure(|state| state.max_iters(400)).run().ok()?;
+        let found = run.state().get_best_param().cloned().zip(Some(run.state().get_best_cost()));
+        match found {
+            Some((parameters, value)) if value < best.1 - 1e-9 => best = (parameters, value),
+            Some((parameters, value)) if value < best.1 => {
+                best = (parameters, value);
+                break;
+            }
+            _ if scale < 0.05 => break,
+            _ => {}
+        }
+        scale *= -0.4;
+    }
+    Some(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_a_constrained_minimum() {
+        let cost = |p: &[f64]| (p[0] + p[1] >= 1.0).then(|| p[0] * p[0] + 2.0 * p[1] * p[1]);
+        let (parameters, value) = minimise(cost, &[3.0, 2.0], &[0.5, 0.5], 12).unwrap();
+        assert!((value - 2.0 / 3.0).abs() < 1e-4, "{value}");
+        assert!((parameters[0] - 2.0 / 3.0).abs() < 1e-2);
+    }
+
+    #[test]
+    fn an_infeasible_start_is_reported() {
+        assert_eq!(minimise(|_| None, &[0.0], &[1.0], 3), None);
+    }
+}

@@ -1,0 +1,20 @@
+//! The search for the free numbers, in floating point. It proposes; `certify` decides.
+//!
+//! Everything here is deterministic: candidates are generated in a fixed order, evaluated in parallel, and compared in
+//! that order, so that the number of threads does not change the result.
+
+mod candidate;
+mod exact;
+mod minimise;
+mod model;
+mod printed;
+mod repaired;
+mod scan;
+mod sharp;
+
+pub use candidate::{AtSigma, Existence, Obstacle, SharpParameters};
+pub use exact::search_exact;
+pub use model::{Datum, FloatModel};
+pub use printed::{PrintedProposal, search_printed};
+pub use repaired::{RepairedProposal, search_repaired};
+pub use sharp::{SharpProposal, at_sigma, search_sharp, sensitivities};

@@ -1,0 +1,50 @@
+//! The coarse scan that precedes local minimisation: many orders of magnitude in X and E.
+
+use rayon::prelude::*;
+
+/// Steps of the scanned logarithm of X: a third of a decade over 80 decades.
+const X_EXPONENTS: std::ops::RangeInclusive<i32> = -120..=120;
+
+/// How far E_p is below the largest value that C1 and C3 allow, as a natural logarithm.
+const E_DEPTHS: [f64; 26] = [
+    1e-3, 0.05, 0.15, 0.35, 0.7, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0, 20.0, 25.0, 30.0, 36.0, 42.0, 50.0, 58.0,
+    66.0, 75.0, 85.0, 95.0, 105.0, 115.0,
+];
+
+/// The scanned values of X that lie inside the domain, the domain's own scale included.
+pub fn x_values(limit: f64) -> Vec<f64> {
+    let mut values: Vec<f64> = X_EXPONENTS.map(|k| 10f64.powf(f64::from(k) / 3.0)).filter(|x| *x < limit).collect();
+    if limit.is_finite() {
+        values.extend([0.003, 0.01, 0.03, 0.1, 0.2, 0.4].map(|share| share * limit));
+    }
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// E depths for the scan.
+pub fn e_depths() -> &'static [f64] {
+    &E_DEPTHS
+}
+
+/// The largest E <= limit with `admissible(E)`, for a property that holds below a threshold: by bisection of the
+/// logarithm over 80 decades; `None` if it fails at the smallest.
+pub fn largest(admissible: impl Fn(f64) -> bool, limit: f64) -> Option<f64> {
+    let cap = limit.min(1e40);
+    if admissible(cap) {
+        return Some(cap);
+    }
+    let (mut low, mut high) = ((cap * 1e-80).ln(), cap.ln());
+    if !admissible(low.exp()) {
+        return None;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if admissible(middle.exp()) { low = middle } else { high = middle }
+    }
+    Some(low.exp())
+}
+
+/// Evaluates `f` on all items in parallel, results in the order of the items.
+pub fn evaluate_all<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    items.par_iter().map(f).collect()
+}

@@ -1,0 +1,173 @@
+//! The search of the sharp derivation: X_p, E_p, rho, eta that make sigma* small.
+
+use super::candidate::{AtSigma, Existence, Obstacle, SharpParameters};
+use super::minimise::minimise;
+use super::model::{Datum, FloatModel};
+use super::scan;
+use crate::constants::data::Bound;
+
+/// The best candidate of a search.
+#[derive(Clone, Copy, Debug)]
+pub struct SharpProposal {
+    /// The four free numbers.
+    pub parameters: SharpParameters,
+    /// The smallest sigma found for them.
+    pub sigma: f64,
+    /// Which condition sets sigma.
+    pub binding: &'static str,
+}
+
+/// Starting values of (rho, eta) for the scan.
+const SHAPES: [(f64, f64); 6] = [(1.4, 1.0), (1.08, 0.05), (1.08, 20.0), (4.0, 0.05), (4.0, 20.0), (1.005, 1e-4)];
+
+/// How many scanned candidates are refined.
+const REFINED: usize = 10;
+
+/// Searches for the smallest sigma.
+///
+/// # Errors
+/// The obstacle of the candidate that came closest, when none is feasible.
+pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
+    let xs = scan::x_values(model.domain.0);
+    let columns = scan::evaluate_all(&xs, |&x_p| scan_column(model, x_p));
+    let mut closest = Obstacle::NotFinite;
+    let mut found: Vec<(f64, SharpParameters)> = Vec::new();
+    for column in columns {
+        match column {
+            Ok(candidates) => found.extend(candidates),
+            Err(obstacle) => closest = closest.max(obstacle),
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let starts = spread(&found);
+    let refined = scan::evaluate_all(&starts, |start| refine(model, start, 6));
+    let best = refined.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(closest)?;
+    let best = refine(model, &best.0, 12).filter(|again| again.1 < best.1).unwrap_or(best);
+    proposal(model, best.0)
+}
+
+/// Good candidates that differ from each other, best first.
+fn spread(found: &[(f64, SharpParameters)]) -> Vec<SharpParameters> {
+    let mut starts: Vec<SharpParameters> = Vec::new();
+    for (_, candidate) in found {
+        let near = |other: &SharpParameters| {
+            (candidate.x_p / other.x_p).ln().abs() < 0.1
+                && (candidate.e_p / other.e_p).ln().abs() < 0.3
+                && candidate.rho == other.rho
+                && candidate.eta == other.eta
+        };
+        if !starts.iter().any(near) {
+            starts.push(*candidate);
+        }
+        if starts.len() == REFINED {
+            break;
+        }
+    }
+    starts
+}
+
+/// The largest E_p with C1 and A < 1 at X_p.
+fn largest_e(model: &FloatModel, x_p: f64) -> Option<f64> {
+    let gain = model.c() / model.alpha;
+    let f_xx = model.bound(Bound::Fxx, x_p, 0.0);
+    let admissible = |e: f64| {
+        gain * (model.bound(Bound::Fe, x_p, e) * e + f_xx * x_p * x_p / 2.0) <= x_p
+            && gain * (model.bound(Bound::Fex, x_p, e) * e + f_xx * x_p) < 1.0
+            && gain * f_xx * x_p / 2.0 < 1.0
+    };
+    scan::largest(admissible, model.domain.1)
+}
+
+/// The best candidates for one X_p, or the closest obstacle.
+fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters)>, Obstacle> {
+    let e_max = largest_e(model, x_p).ok_or(Obstacle::Existence)?;
+    let mut closest = Obstacle::Existence;
+    let mut found = Vec::new();
+    for depth in scan::e_depths() {
+        let existence = match Existence::new(model, x_p, e_max * (-depth).exp()) {
+            Ok(existence) => existence,
+            Err(obstacle) => {
+                closest = closest.max(obstacle);
+                continue;
+            }
+        };
+        let mut best: Option<(f64, SharpParameters)> = None;
+        for (rho, eta) in SHAPES {
+            match existence.sigma(model, rho, eta, 1e-2) {
+                Ok(sigma) => {
+                    if best.is_none_or(|(least, _)| sigma < least) {
+                        best = Some((sigma, SharpParameters { x_p, e_p: existence.e_p, rho, eta }));
+                    }
+                }
+                Err(obstacle) => closest = closest.max(obstacle),
+            }
+        }
+        found.extend(best);
+    }
+    if found.is_empty() { Err(closest) } else { Ok(found) }
+}
+
+/// A depth below the largest E_p from an unbounded parameter: logarithmic near 0, linear beyond 1.
+pub(super) fn depth_of(parameter: f64) -> f64 {
+    if parameter < 0.0 { parameter.exp() } else { 1.0 + parameter }
+}
+
+/// The inverse of [`depth_of`].
+pub(super) fn parameter_of(depth: f64) -> f64 {
+    if depth < 1.0 { depth.ln() } else { depth - 1.0 }
+}
+
+/// Minimises ln sigma over (ln X_p, ln of E_p's depth, ln(rho - 1), ln eta) from a start.
+fn refine(model: &FloatModel, start: &SharpParameters, restarts: usize) -> Option<(SharpParameters, f64)> {
+    let decode = |p: &[f64]| {
+        let x_p = p[0].exp();
+        let e_p = largest_e(model, x_p)? * (-depth_of(p[1])).exp();
+        Some(SharpParameters { x_p, e_p, rho: 1.0 + p[2].exp(), eta: p[3].exp() })
+    };
+    let cost = |p: &[f64]| {
+        let parameters = decode(p)?;
+        let existence = Existence::new(model, parameters.x_p, parameters.e_p).ok()?;
+        existence.sigma(model, parameters.rho, parameters.eta, 1e-12).ok().map(f64::ln)
+    };
+    let depth = (largest_e(model, start.x_p)? / start.e_p).ln().max(1e-9);
+    let first = [start.x_p.ln(), parameter_of(depth), (start.rho - 1.0).ln(), start.eta.ln()];
+    let (best, value) = minimise(cost, &first, &[0.3, 0.5, 0.5, 0.5], restarts)?;
+    Some((decode(&best)?, value))
+}
+
+fn proposal(model: &FloatModel, parameters: SharpParameters) -> Result<SharpProposal, Obstacle> {
+    let existence = Existence::new(model, parameters.x_p, parameters.e_p)?;
+    let sigma = existence.sigma(model, parameters.rho, parameters.eta, 1e-13)?;
+    let binding = if sigma > existence.sigma_least * (1.0 + 1e-6) {
+        "C5 (decay in the error box)"
+    } else if existence.bound_by_size(model) {
+        "C2 and C5 (size of the periodic error, decay in the error box)"
+    } else {
+        "C3 and C5 (contraction, decay in the error box)"
+    };
+    Ok(SharpProposal { parameters, sigma, binding })
+}
+
+/// The error box of a proposal at a (slightly larger) sigma.
+///
+/// # Errors
+/// The obstacle, when the candidate is not feasible there.
+pub fn at_sigma(
+    model: &FloatModel,
+    parameters: &SharpParameters,
+    sigma: f64,
+) -> Result<(Existence, AtSigma), Obstacle> {
+    let existence = Existence::new(model, parameters.x_p, parameters.e_p)?;
+    existence.at_sigma(model, parameters.rho, parameters.eta, sigma).map(|at| (existence, at))
+}
+
+/// By how much (relatively) sigma* falls when one datum improves by 1 %, for every datum, in the order of
+/// [`Datum::ALL`]; floating point, a local re-optimisation from the proposal.
+#[must_use]
+pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum, f64)> {
+    scan::evaluate_all(&Datum::ALL, |&datum| {
+        let improved = model.improved(datum, 0.01);
+        let gain = refine(&improved, &proposal.parameters, 1).map_or(0.0, |(_, ln)| 1.0 - ln.exp() / proposal.sigma);
+        (datum, gain.max(0.0))
+    })
+}
