@@ -1,0 +1,479 @@
+//! The whole run: prove the bounding functions, search, round, decide, in each derivation.
+
+use super::bounding::{BoundingProblem, prove_bounds};
+use super::decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
+use super::read::WitnessFile;
+use super::round::{exact_claim, round_repaired, round_sharp};
+use super::verdict::Verdict;
+use crate::constants::condition::Condition;
+use crate::constants::data::Data;
+use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness};
+use crate::constants::printed::{Infeasible, PrintedEvaluation, level_condition};
+use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
+use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
+use crate::constants::table::{Row, TableInput, table};
+use crate::enclosure::Enclosure;
+use crate::number::{Direction, round_f64};
+use crate::search::{
+    Datum, FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, search_sharp, sensitivities,
+};
+use crate::spec::model::Specification;
+use crate::transfer::TradeOff;
+use rug::Rational;
+
+/// The derivation on which a claim rests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Derivation {
+    /// Sections 2-6 of the derivation.
+    #[default]
+    Sharp,
+    /// The paper's architecture, repaired.
+    Repaired,
+    /// The paper to the letter: never certifies.
+    Printed,
+}
+
+impl Derivation {
+    /// The word in certificates.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Derivation::Sharp => "sharp",
+            Derivation::Repaired => "repaired",
+            Derivation::Printed => "printed",
+        }
+    }
+}
+
+/// Which constants of the transfer bound the sharp derivation uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum TransferChoice {
+    /// Matched where the specification says so, the closed form otherwise.
+    #[default]
+    Best,
+    /// The closed form of derivation section 2, valid for every base frequency.
+    ClosedForm,
+}
+
+/// What a run does; every field has a default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The derivation that the verdict is about (default: sharp).
+    pub derivation: Derivation,
+    /// The transfer constants of the sharp derivation (default: the best available).
+    pub transfer: TransferChoice,
+    /// The working precisions (default: 128 to 1024 bits).
+    pub ladder: Ladder,
+    /// Whether the other derivations are worked out too, for comparison (default: yes).
+    pub compare: bool,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            derivation: Derivation::default(),
+            transfer: TransferChoice::default(),
+            ladder: Ladder::default(),
+            compare: true,
+        }
+    }
+}
+
+/// A sharp witness and what was decided about it.
+#[derive(Clone, Debug)]
+pub struct SharpProof {
+    /// The free numbers.
+    pub witness: SharpWitness,
+    /// The evaluation at the precision that decided.
+    pub evaluation: SharpEvaluation,
+    /// That precision in bits.
+    pub precision: u32,
+}
+
+/// A repaired witness and what was decided about it.
+#[derive(Clone, Debug)]
+pub struct RepairedProof {
+    /// The free numbers.
+    pub witness: RepairedWitness,
+    /// The evaluation at the precision that decided.
+    pub evaluation: RepairedEvaluation,
+    /// That precision in bits.
+    pub precision: u32,
+}
+
+/// What the printed formulas say about the data.
+#[derive(Clone, Debug)]
+pub struct PrintedFigure {
+    /// Why P:eq:boundx_bounde_1 has no solution.
+    pub refutation: Option<Infeasible>,
+    /// The constants at the free numbers that are best without that condition, when there are any.
+    pub evaluation: Option<PrintedEvaluation>,
+    /// The figure that the other conditions would give: max(sigma_p*, sigma_a*).
+    pub sigma: Option<Enclosure>,
+}
+
+/// The exact-regulation claim.
+#[derive(Clone, Debug)]
+pub struct ExactClaim {
+    /// The free numbers.
+    pub witness: ExactWitness,
+    /// The evaluation.
+    pub evaluation: ExactEvaluation,
+}
+
+/// One derivation's outcome.
+#[derive(Clone, Debug)]
+pub enum Outcome<P> {
+    /// Proved.
+    Proved(Box<P>),
+    /// A witness was found (or given), and these conditions are not proved.
+    NotProved {
+        /// The witness and its evaluation.
+        proof: Box<P>,
+        /// The conditions that are not proved.
+        failing: Vec<Condition>,
+    },
+    /// No candidate was found.
+    NotFound(Obstacle),
+    /// Not asked for.
+    Skipped,
+}
+
+impl<P> Outcome<P> {
+    /// The proof, if there is one.
+    #[must_use]
+    pub fn proved(&self) -> Option<&P> {
+        match self {
+            Outcome::Proved(proof) => Some(proof),
+            _ => None,
+        }
+    }
+}
+
+/// Everything a run found out.
+#[derive(Clone, Debug)]
+pub struct Certification<'s> {
+    /// The specification.
+    pub spec: &'s Specification,
+    /// The options of the run.
+    pub options: Options,
+    /// The verdict on the chosen derivation.
+    pub verdict: Verdict,
+    /// The sharp derivation.
+    pub sharp: Outcome<SharpProof>,
+    /// The repaired derivation.
+    pub repaired: Outcome<RepairedProof>,
+    /// The printed derivation.
+    pub printed: PrintedFigure,
+    /// Exact regulation, when the base frequency is matched and a claim was proved.
+    pub exact: Option<ExactClaim>,
+    /// Which condition sets sigma*, according to the search.
+    pub binding: Option<&'static str>,
+    /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.
+    pub sensitivities: Vec<(Datum, f64)>,
+    /// Bounding functions that were neither proved nor refuted.
+    pub unproved_bounds: Vec<BoundingProblem>,
+    /// Every constant in the three derivations.
+    pub constants: Vec<Row>,
+    /// The working precision of the table.
+    pub precision: u32,
+}
+
+/// Certifies a specification: search, then rigorous decision.
+///
+/// Guarantee: the verdict is `Certified` only if the bounding functions are proved on every argument used and every
+/// condition of the chosen derivation is proved for the witness.
+///
+/// # Errors
+/// Bounding functions that are *refuted* (bad input), with their counterexamples.
+pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Vec<BoundingProblem>> {
+    let data = Data::new(spec, options.ladder.start.max(53));
+    let mut unproved = if spec.domain.is_some() { undecided_or_error(prove_bounds(spec, None))? } else { Vec::new() };
+
+    let matched = spec.internal_model.matched && options.transfer == TransferChoice::Best;
+    let trade_off = if matched { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
+    let sharp_model = FloatModel::new(&data, trade_off);
+    let paper_model = FloatModel::new(&data, TradeOff::closed_form(&data));
+
+    let wanted = |derivation| options.compare || options.derivation == derivation;
+    let proposal = if wanted(Derivation::Sharp) { Some(search_sharp(&sharp_model)) } else { None };
+    let sharp = match &proposal {
+        None => Outcome::Skipped,
+        Some(Err(obstacle)) => Outcome::NotFound(*obstacle),
+        Some(Ok(proposal)) => sharp_outcome(round_sharp(&data, &sharp_model, proposal, matched, options.ladder)),
+    };
+    let repaired = if wanted(Derivation::Repaired) {
+        match search_repaired(&paper_model) {
+            Err(obstacle) => Outcome::NotFound(obstacle),
+            Ok(proposal) => repaired_outcome(round_repaired(&data, &proposal, options.ladder)),
+        }
+    } else {
+        Outcome::Skipped
+    };
+    if spec.domain.is_none() {
+        unproved = undecided_or_error(prove_up_to_arguments(spec, &sharp, &repaired))?;
+    }
+    let printed = printed_figure(&data, &paper_model);
+    let exact = match (&sharp, spec.internal_model.matched) {
+        (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
+            .map(|(witness, evaluation, _)| ExactClaim { witness, evaluation }),
+        _ => None,
+    };
+    let proposal = proposal.and_then(Result::ok);
+    Ok(assemble(spec, options, &data, Parts { sharp, repaired, printed, exact, unproved, proposal }, &sharp_model))
+}
+
+/// Decides the witness of a certificate again, without any search.
+///
+/// # Errors
+/// Bounding functions that are *refuted* (bad input), with their counterexamples.
+pub fn recheck<'s>(
+    spec: &'s Specification,
+    file: &WitnessFile,
+    options: Options,
+) -> Result<Certification<'s>, Vec<BoundingProblem>> {
+    let data = Data::new(spec, options.ladder.start.max(53));
+    let (sharp, repaired) = match file {
+        WitnessFile::Sharp { witness, .. } => {
+            let (evaluation, precision) = decide_sharp(spec, witness, options.ladder);
+            (sharp_outcome(Some((witness.clone(), evaluation, precision))), Outcome::Skipped)
+        }
+        WitnessFile::Repaired { witness } => {
+            let (evaluation, precision) = decide_repaired(spec, witness, options.ladder);
+            (Outcome::Skipped, repaired_outcome(Some((witness.clone(), evaluation, precision))))
+        }
+    };
+    let exact = match file {
+        WitnessFile::Sharp { witness, exact: Some(exact) } => {
+            let (evaluation, _) = decide_exact(spec, &witness.set, exact, options.ladder);
+            evaluation.truth().is_true().then(|| ExactClaim { witness: exact.clone(), evaluation })
+        }
+        _ => None,
+    };
+    let unproved = undecided_or_error(prove_up_to_arguments(spec, &sharp, &repaired))?;
+    let derivation = match file {
+        WitnessFile::Sharp { .. } => Derivation::Sharp,
+        WitnessFile::Repaired { .. } => Derivation::Repaired,
+    };
+    let printed = PrintedFigure { refutation: level_condition(&data).err(), evaluation: None, sigma: None };
+    let model = FloatModel::new(&data, TradeOff::closed_form(&data));
+    let parts = Parts { sharp, repaired, printed, exact, unproved, proposal: None };
+    Ok(assemble(spec, Options { derivation, ..options }, &data, parts, &model))
+}
+
+/// What the stages of a run produced.
+struct Parts {
+    sharp: Outcome<SharpProof>,
+    repaired: Outcome<RepairedProof>,
+    printed: PrintedFigure,
+    exact: Option<ExactClaim>,
+    unproved: Vec<BoundingProblem>,
+    proposal: Option<SharpProposal>,
+}
+
+fn assemble<'s>(
+    spec: &'s Specification,
+    options: Options,
+    data: &Data<'_>,
+    parts: Parts,
+    model: &FloatModel,
+) -> Certification<'s> {
+    let Parts { sharp, repaired, printed, exact, unproved, proposal } = parts;
+    let claimed = |proved: bool| {
+        if proved && unproved.is_empty() { Verdict::Certified } else { Verdict::Undecided }
+    };
+    let verdict = match options.derivation {
+        Derivation::Sharp => claimed(sharp.proved().is_some()),
+        Derivation::Repaired => claimed(repaired.proved().is_some()),
+        // Printed can be refuted (E1), never certified.
+        Derivation::Printed if printed.refutation.is_some() => Verdict::Refuted,
+        Derivation::Printed => Verdict::Undecided,
+    };
+    let constants = constants(data, &sharp, &repaired, &printed, exact.as_ref());
+    let mut sensitivities = match (&sharp, &proposal) {
+        (Outcome::Proved(_), Some(proposal)) => sensitivities(model, proposal),
+        _ => Vec::new(),
+    };
+    sensitivities.retain(|(_, gain)| *gain > 0.0);
+    sensitivities.sort_by(|a, b| b.1.total_cmp(&a.1));
+    Certification {
+        spec,
+        options,
+        verdict,
+        binding: proposal.map(|proposal| proposal.binding),
+        precision: data.precision,
+        sharp,
+        repaired,
+        printed,
+        exact,
+        sensitivities,
+        unproved_bounds: unproved,
+        constants,
+    }
+}
+
+/// Splits failures of the bounding functions: refuted ones are errors, undecided ones keep a claim from being made.
+fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Vec<BoundingProblem>> {
+    let problems = result.err().unwrap_or_default();
+    let (refuted, undecided): (Vec<_>, Vec<_>) =
+        problems.into_iter().partition(|problem| problem.failure.is_refuted());
+    if refuted.is_empty() { Ok(undecided) } else { Err(refuted) }
+}
+
+/// Proves the bounding functions up to the largest arguments of the witnesses (or on the domain, where there is one).
+fn prove_up_to_arguments(
+    spec: &Specification,
+    sharp: &Outcome<SharpProof>,
+    repaired: &Outcome<RepairedProof>,
+) -> Result<(), Vec<BoundingProblem>> {
+    let mut arguments: Vec<(Rational, Rational)> = Vec::new();
+    if let Outcome::Proved(proof) | Outcome::NotProved { proof, .. } = sharp {
+        let (bounds, error_box) = (&proof.evaluation.bounds, &proof.evaluation.error_box);
+        let x = bounds.x_p.max(&error_box.x_b).upper_rational();
+        arguments.extend(x.zip(bounds.e_p.max(&error_box.e_b).upper_rational()));
+    }
+    if let Outcome::Proved(proof) | Outcome::NotProved { proof, .. } = repaired {
+        let point = &proof.evaluation.point;
+        arguments.extend(point.x_b.upper_rational().zip(point.e_b.upper_rational()));
+    }
+    let x = arguments.iter().map(|(x, _)| x).max();
+    let e = arguments.iter().map(|(_, e)| e).max();
+    prove_bounds(spec, x.zip(e))
+}
+
+fn failing(conditions: &[Condition]) -> Vec<Condition> {
+    conditions.iter().filter(|condition| !condition.truth().is_true()).cloned().collect()
+}
+
+fn sharp_outcome(result: Option<(SharpWitness, SharpEvaluation, u32)>) -> Outcome<SharpProof> {
+    let Some((witness, evaluation, precision)) = result else {
+        return Outcome::NotFound(Obstacle::NotFinite);
+    };
+    let failing = failing(&evaluation.conditions);
+    let proof = Box::new(SharpProof { witness, evaluation, precision });
+    if failing.is_empty() { Outcome::Proved(proof) } else { Outcome::NotProved { proof, failing } }
+}
+
+fn repaired_outcome(result: Option<(RepairedWitness, RepairedEvaluation, u32)>) -> Outcome<RepairedProof> {
+    let Some((witness, evaluation, precision)) = result else {
+        return Outcome::NotFound(Obstacle::NotFinite);
+    };
+    let failing = failing(&evaluation.conditions);
+    let proof = Box::new(RepairedProof { witness, evaluation, precision });
+    if failing.is_empty() { Outcome::Proved(proof) } else { Outcome::NotProved { proof, failing } }
+}
+
+fn printed_figure(data: &Data<'_>, model: &FloatModel) -> PrintedFigure {
+    let refutation = level_condition(data).err();
+    let evaluation = search_printed(data, model).and_then(|proposal| {
+        let short = |value: f64| round_f64(value, 8, Direction::Nearest);
+        let (x_a, e_a) = (short(proposal.x_a)?, round_f64(proposal.e_a, 8, Direction::Down)?);
+        let h = data.rational(&round_f64(proposal.h, 8, Direction::Down)?);
+        Some(PrintedEvaluation::new(data, &data.rational(&x_a), &data.rational(&e_a), Some(&h)))
+    });
+    let sigma = evaluation
+        .as_ref()
+        .and_then(|evaluation| Some(evaluation.sigma_p.as_ref().ok()?.max(evaluation.sigma_a.as_ref().ok()?)));
+    PrintedFigure { refutation, evaluation, sigma: sigma.filter(Enclosure::is_bounded) }
+}
+
+/// The table, at the witness of the sharp derivation or, failing that, of the repaired one.
+fn constants(
+    data: &Data<'_>,
+    sharp: &Outcome<SharpProof>,
+    repaired: &Outcome<RepairedProof>,
+    printed: &PrintedFigure,
+    exact: Option<&ExactClaim>,
+) -> Vec<Row> {
+    let (sharp, repaired) = (sharp.proved(), repaired.proved());
+    let common = match (sharp, repaired) {
+        (Some(proof), _) => {
+            let w = &proof.witness;
+            Some(([w.x_p.clone(), w.e_p.clone(), w.sigma.clone()], (w.k0.clone(), w.k1.clone())))
+        }
+        (None, Some(proof)) => {
+            let w = &proof.witness;
+            Some(([w.x.clone(), w.e.clone(), w.sigma.clone()], (w.k0.clone(), w.k1.clone())))
+        }
+        (None, None) => None,
+    };
+    let Some((common, sharp_pair)) = common else { return Vec::new() };
+    table(&TableInput {
+        data,
+        common,
+        sharp_pair,
+        sharp: sharp.map(|proof| &proof.evaluation),
+        sharp_free: sharp.map(|proof| {
+            let w = &proof.witness;
+            [w.h.clone(), w.w_x.clone(), w.d_x.clone(), w.d_e.clone()]
+        }),
+        repaired: repaired.map(|proof| &proof.evaluation),
+        printed: printed.evaluation.as_ref(),
+        sigmas: [
+            printed.sigma.clone(),
+            repaired.map(|proof| data.rational(&proof.witness.sigma)),
+            sharp.map(|proof| data.rational(&proof.witness.sigma)),
+        ],
+        sigma_exact: exact.map(|claim| claim.witness.sigma.clone()),
+    })
+}
+
+/// The claimed set of a proof, whichever derivation it is from.
+impl Certification<'_> {
+    /// The claimed gain of the chosen derivation, if certified.
+    #[must_use]
+    pub fn sigma_star(&self) -> Option<&Rational> {
+        match (self.verdict, self.options.derivation) {
+            (Verdict::Certified, Derivation::Sharp) => self.sharp.proved().map(|proof| &proof.witness.sigma),
+            (Verdict::Certified, Derivation::Repaired) => self.repaired.proved().map(|proof| &proof.witness.sigma),
+            _ => None,
+        }
+    }
+
+    /// The claimed initial set of the chosen derivation, if certified.
+    #[must_use]
+    pub fn claimed_set(&self) -> Option<&ClaimedSet> {
+        match (self.verdict, self.options.derivation) {
+            (Verdict::Certified, Derivation::Sharp) => self.sharp.proved().map(|proof| &proof.witness.set),
+            (Verdict::Certified, Derivation::Repaired) => self.repaired.proved().map(|proof| &proof.witness.set),
+            _ => None,
+        }
+    }
+
+    /// The conditions of the chosen derivation, proved or not.
+    #[must_use]
+    pub fn conditions(&self) -> &[Condition] {
+        fn of<P>(outcome: &Outcome<P>, conditions: impl Fn(&P) -> &[Condition]) -> &[Condition] {
+            match outcome {
+                Outcome::Proved(proof) | Outcome::NotProved { proof, .. } => conditions(proof),
+                Outcome::NotFound(_) | Outcome::Skipped => &[],
+            }
+        }
+        match self.options.derivation {
+            Derivation::Sharp => of(&self.sharp, |proof| &proof.evaluation.conditions),
+            Derivation::Repaired => of(&self.repaired, |proof| &proof.evaluation.conditions),
+            Derivation::Printed => &[],
+        }
+    }
+
+    /// Upper bounds of the periodic solution, |x|, |e|, |zeta|_N and |z|_N, of the chosen derivation, if certified.
+    #[must_use]
+    pub fn periodic_solution(&self) -> Option<[Enclosure; 4]> {
+        let (x, e, zeta, precision) = match (self.verdict, self.options.derivation) {
+            (Verdict::Certified, Derivation::Sharp) => {
+                let proof = self.sharp.proved()?;
+                let periodic = &proof.evaluation.periodic;
+                (periodic.x_per.clone(), periodic.e_per.clone(), proof.evaluation.z.clone(), proof.precision)
+            }
+            (Verdict::Certified, Derivation::Repaired) => {
+                let proof = self.repaired.proved()?;
+                let bounds = &proof.evaluation.bounds;
+                (bounds.x_p.clone(), bounds.e_p.clone(), proof.evaluation.z.clone(), proof.precision)
+            }
+            _ => return None,
+        };
+        let n_bar = Data::new(self.spec, precision).n_bar;
+        let z = &zeta + n_bar * &e;
+        Some([x, e, zeta, z])
+    }
+}
