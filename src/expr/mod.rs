@@ -1,8 +1,96 @@
-//! stub
-use crate::enclosure::Enclosure;
+//! Expressions in X and E: parsing, exact and rigorous evaluation, slopes, and the proof that an expression is a
+//! bounding function.
+//!
+//! An expression is a real function of X and E on the set where every operation in it is applied inside its domain:
+//! no division by 0, no square root of a negative number, no logarithm of a number that is not positive, no tangent
+//! at a pole. `u^n` with an exponent that is an integer constant (recognised exactly) is the integer power, defined
+//! for every base if n >= 0 (`0^0 = 1`) and for nonzero bases if n < 0; every other `u^v` is the real power, defined
+//! for u > 0, and for u = 0 with v > 0 where it is 0. On that set every expression is continuous.
+//!
+//! Expressions come from strangers' files. Every limit that keeps them harmless is a public constant here; parsing
+//! and evaluation take time and memory linear in the number of nodes, apart from the arithmetic itself.
 
+mod enclose;
+mod error;
+mod exact;
+mod failure;
+mod float;
+mod jet;
+mod lex;
+mod names;
+mod parse;
+mod point;
+mod prove;
+mod refute;
+mod slope;
+mod syntax;
+
+pub use error::{ExprError, ExprErrorKind};
+pub use failure::{BoundingFailure, Counterexample, DomainBox, Evaluation, Property, Reason};
+pub use float::FloatExpr;
+pub use prove::{ProofSettings, prove_bounding};
+pub use slope::Slopes;
+
+use std::fmt;
+use std::sync::Arc;
+use syntax::Node;
+
+/// The longest expression read, in bytes.
+pub const MAX_TEXT: usize = 10_000;
+
+/// How deep parentheses, function calls and exponents may be nested.
+pub const MAX_NESTING: usize = 100;
+
+/// The largest number of numbers, variables and operations in an expression.
+pub const MAX_NODES: usize = 5_000;
+
+/// The largest magnitude of a constant integer exponent.
+pub const MAX_EXPONENT: i32 = 1_000;
+
+/// Which variables an expression may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variables {
+    /// None: a constant expression.
+    None,
+    /// X and E.
+    XAndE,
+}
+
+/// A parsed expression with its source text.
+///
+/// Cheap to clone and safe to share between threads. Two expressions are displayed as they were written.
 #[derive(Clone, Debug)]
-pub struct Expr;
+pub struct Expr {
+    text: Arc<str>,
+    /// The operations in postfix order, as [`syntax::evaluate`] requires.
+    nodes: Arc<[Node]>,
+}
+
 impl Expr {
-    pub fn enclose_constant(&self, precision: u32) -> Enclosure { Enclosure::undefined(precision) }
+    /// Reads an expression.
+    ///
+    /// `+ - * /` associate to the left, `^` to the right; `^` binds tighter than a sign on its left, and its exponent
+    /// may carry signs (`-2^2 = -4`, `2^3^2 = 512`, `2^-1 = 1/2`). Numbers are exact decimals. There is no implicit
+    /// multiplication.
+    ///
+    /// # Errors
+    /// [`ExprError`] with the place, what was expected there and, where there is one, a suggestion; also when one of
+    /// the limits [`MAX_TEXT`], [`MAX_NESTING`], [`MAX_NODES`], [`MAX_EXPONENT`] or those of
+    /// [`crate::number::parse_decimal`] is exceeded. Never panics.
+    pub fn parse(text: &str, variables: Variables) -> Result<Expr, ExprError> {
+        let nodes = parse::parse(text, variables)?;
+        Ok(Expr { text: text.into(), nodes: nodes.into() })
+    }
+
+    /// The source text, exactly as it was parsed.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+impl fmt::Display for Expr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
 }

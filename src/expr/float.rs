@@ -1,0 +1,186 @@
+//! Fast evaluation in double precision, for searches only.
+
+use super::Expr;
+use super::syntax::{Algebra, Binary, Unary, evaluate};
+use crate::enclosure::Enclosure;
+use rug::Rational;
+
+/// Precision at which constants are enclosed before they are rounded to doubles.
+const CONSTANT_PRECISION: u32 = 64;
+
+/// Values that an ordinary expression keeps waiting; deeper ones use [`DEEPEST`].
+const SHALLOW: usize = 16;
+
+/// Values that any expression keeps waiting. A level of nesting keeps at most one left operand of a sum, one of a
+/// product and one base or first argument, so with at most 100 levels there are fewer than 512.
+const DEEPEST: usize = 512;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Instruction {
+    Number(f64),
+    X,
+    E,
+    Unary(Unary),
+    Binary(Binary),
+    Power(i32),
+}
+
+/// An expression compiled for evaluation in double precision, with constant parts folded.
+///
+/// Nothing is guaranteed about rounding: it serves searches, never claims. An undefined value is NaN or, where
+/// floating point has a limit for it (1/0), an infinity.
+#[derive(Clone, Debug)]
+pub struct FloatExpr {
+    program: Box<[Instruction]>,
+    shallow: bool,
+}
+
+fn unary(operation: Unary, a: f64) -> f64 {
+    match operation {
+        Unary::Neg => -a,
+        Unary::Sqrt => a.sqrt(),
+        Unary::Exp => a.exp(),
+        Unary::Log => a.ln(),
+        Unary::Sin => a.sin(),
+        Unary::Cos => a.cos(),
+        Unary::Tan => a.tan(),
+        Unary::Atan => a.atan(),
+        Unary::Tanh => a.tanh(),
+        Unary::Abs => a.abs(),
+    }
+}
+
+fn binary(operation: Binary, a: f64, b: f64) -> f64 {
+    match operation {
+        Binary::Add => a + b,
+        Binary::Sub => a - b,
+        Binary::Mul => a * b,
+        Binary::Div => a / b,
+        // The real power is undefined for negative bases even where `powf` knows a value.
+        Binary::Pow if a > 0.0 || (a == 0.0 && b > 0.0) => a.powf(b),
+        Binary::Pow => f64::NAN,
+        // Unlike `f64::min`, an undefined operand makes the result undefined.
+        Binary::Min if a <= b => a,
+        Binary::Min if b < a => b,
+        Binary::Max if a >= b => a,
+        Binary::Max if b > a => b,
+        Binary::Min | Binary::Max => f64::NAN,
+    }
+}
+
+impl FloatExpr {
+    /// The value at a point, approximately; takes no memory from the heap.
+    #[must_use]
+    pub fn eval(&self, x: f64, e: f64) -> f64 {
+        if self.shallow { self.run::<SHALLOW>(x, e) } else { self.run::<DEEPEST>(x, e) }
+    }
+
+    /// Runs the program with the topmost value held apart and the `N` values below it on a stack.
+    #[inline]
+    fn run<const N: usize>(&self, x: f64, e: f64) -> f64 {
+        let mut stack = [0.0; N];
+        let mut height = 0;
+        let mut top = f64::NAN;
+        for instruction in &self.program {
+            match *instruction {
+                Instruction::Unary(operation) => top = unary(operation, top),
+                Instruction::Power(exponent) => top = top.powi(exponent),
+                Instruction::Binary(operation) => {
+                    height -= 1;
+                    top = binary(operation, stack[height], top);
+                }
+                Instruction::Number(_) | Instruction::X | Instruction::E => {
+                    stack[height] = top;
+                    height += 1;
+                    top = match *instruction {
+                        Instruction::Number(value) => value,
+                        Instruction::X => x,
+                        _ => e,
+                    };
+                }
+            }
+        }
+        top
+    }
+}
+
+/// Emits the program; the value of a node is whether it is a constant, which then is the last instruction.
+struct Compiler {
+    program: Vec<Instruction>,
+    height: usize,
+    highest: usize,
+}
+
+impl Compiler {
+    fn operand(&mut self, instruction: Instruction) {
+        self.program.push(instruction);
+        self.height += 1;
+        self.highest = self.highest.max(self.height);
+    }
+
+    fn constant(&mut self, value: &Enclosure) -> bool {
+        self.operand(Instruction::Number(value.midpoint_f64()));
+        true
+    }
+}
+
+impl Algebra for Compiler {
+    type Value = bool;
+
+    fn number(&mut self, value: &Rational) -> bool {
+        self.constant(&Enclosure::from_rational(value, CONSTANT_PRECISION))
+    }
+
+    fn pi(&mut self) -> bool {
+        self.constant(&Enclosure::pi(CONSTANT_PRECISION))
+    }
+
+    fn x(&mut self) -> bool {
+        self.operand(Instruction::X);
+        false
+    }
+
+    fn e(&mut self) -> bool {
+        self.operand(Instruction::E);
+        false
+    }
+
+    fn unary(&mut self, operation: Unary, constant: bool) -> bool {
+        match self.program.last_mut() {
+            Some(Instruction::Number(value)) if constant => *value = unary(operation, *value),
+            _ => self.program.push(Instruction::Unary(operation)),
+        }
+        constant
+    }
+
+    fn binary(&mut self, operation: Binary, a: bool, b: bool) -> bool {
+        self.height -= 1;
+        if a && b
+            && let [.., Instruction::Number(left), Instruction::Number(right)] = self.program[..]
+        {
+            self.program.truncate(self.program.len() - 2);
+            self.program.push(Instruction::Number(binary(operation, left, right)));
+            return true;
+        }
+        self.program.push(Instruction::Binary(operation));
+        false
+    }
+
+    fn power(&mut self, constant: bool, exponent: i32) -> bool {
+        match self.program.last_mut() {
+            Some(Instruction::Number(value)) if constant => *value = value.powi(exponent),
+            _ => self.program.push(Instruction::Power(exponent)),
+        }
+        constant
+    }
+}
+
+impl Expr {
+    /// Compiles the expression for fast, unverified evaluation.
+    #[must_use]
+    pub fn to_float(&self) -> FloatExpr {
+        let mut compiler = Compiler { program: Vec::new(), height: 0, highest: 0 };
+        evaluate(&self.nodes, &mut compiler);
+        FloatExpr { program: compiler.program.into(), shallow: compiler.highest <= SHALLOW }
+    }
+}

@@ -1,0 +1,203 @@
+//! First and second partial derivatives over a box.
+//!
+//! Slopes decide monotonicity except where a derivative touches 0 inside terms of both signs, as that of X^2/(1 + X)
+//! does at X = 0. There the second derivatives help: they bound the first ones by their values on a face.
+
+use super::Expr;
+use super::enclose::{binary, power, unary};
+use super::slope::quotients;
+use super::syntax::{Algebra, Binary, Unary, evaluate};
+use crate::enclosure::Enclosure;
+use rug::Rational;
+
+/// A value with its derivatives over a box. An undefined derivative says that it may fail to exist somewhere in the
+/// box, and is contagious; defined ones prove that the function is twice continuously differentiable on the box
+/// (one-sidedly on its boundary) and contain the derivatives at each of its points.
+#[derive(Clone, Debug)]
+pub(super) struct Jet {
+    pub(super) value: Enclosure,
+    /// In X and in E.
+    pub(super) first: [Enclosure; 2],
+    /// In XX, XE and EE.
+    pub(super) second: [Enclosure; 3],
+}
+
+/// The two first derivatives that belong to each second one.
+const PAIRS: [(usize, usize); 3] = [(0, 0), (0, 1), (1, 1)];
+
+impl Jet {
+    fn constant(value: Enclosure) -> Jet {
+        let zero = Enclosure::zero(value.precision());
+        Jet { value, first: [zero.clone(), zero.clone()], second: [zero.clone(), zero.clone(), zero] }
+    }
+
+    fn variable(value: &Enclosure, index: usize) -> Jet {
+        let mut jet = Jet::constant(value.clone());
+        jet.first[index] = Enclosure::one(value.precision());
+        jet
+    }
+
+    /// The value without usable derivatives.
+    fn rough(value: Enclosure) -> Jet {
+        let none = Enclosure::undefined(value.precision());
+        Jet { value, first: [none.clone(), none.clone()], second: [none.clone(), none.clone(), none] }
+    }
+
+    /// f(u) from f' and f'' on the range of u.
+    fn chain(value: Enclosure, once: &Enclosure, twice: &Enclosure, u: &Jet) -> Jet {
+        let first = [0, 1].map(|i| once * &u.first[i]);
+        let second = [0, 1, 2].map(|k| {
+            let (i, j) = PAIRS[k];
+            let product = if i == j { u.first[i].sqr() } else { &u.first[i] * &u.first[j] };
+            twice * product + once * &u.second[k]
+        });
+        Jet { value, first, second }
+    }
+
+    fn combine(value: Enclosure, a: &Jet, b: &Jet, rule: impl Fn(&Enclosure, &Enclosure) -> Enclosure) -> Jet {
+        Jet {
+            value,
+            first: [0, 1].map(|i| rule(&a.first[i], &b.first[i])),
+            second: [0, 1, 2].map(|k| rule(&a.second[k], &b.second[k])),
+        }
+    }
+
+    fn product(value: Enclosure, u: &Jet, v: &Jet) -> Jet {
+        let first = [0, 1].map(|i| &u.first[i] * &v.value + &u.value * &v.first[i]);
+        let second = [0, 1, 2].map(|k| {
+            let (i, j) = PAIRS[k];
+            let crossed = &u.first[i] * &v.first[j] + &u.first[j] * &v.first[i];
+            &u.second[k] * &v.value + crossed + &u.value * &v.second[k]
+        });
+        Jet { value, first, second }
+    }
+
+    /// q = u/v, by differentiating q v = u.
+    fn quotient(q: Enclosure, u: &Jet, v: &Jet) -> Jet {
+        let first = [0, 1].map(|i| (&u.first[i] - &q * &v.first[i]) / &v.value);
+        let second = [0, 1, 2].map(|k| {
+            let (i, j) = PAIRS[k];
+            let crossed = &first[i] * &v.first[j] + &first[j] * &v.first[i];
+            (&u.second[k] - crossed - &q * &v.second[k]) / &v.value
+        });
+        Jet { value: q, first, second }
+    }
+
+    fn is_constant(&self) -> bool {
+        self.first.iter().chain(&self.second).all(|derivative| derivative.is_exact() && derivative.contains_zero())
+    }
+}
+
+/// f'' on U, given f(U) and f'(U).
+fn second_derivative(operation: Unary, range: &Enclosure, value: &Enclosure, once: &Enclosure) -> Enclosure {
+    match operation {
+        Unary::Neg | Unary::Abs => Enclosure::zero(range.precision()),
+        Unary::Sqrt => once.negate() / (range * 2),
+        Unary::Exp => value.clone(),
+        Unary::Log => once.sqr().negate(),
+        Unary::Sin | Unary::Cos => value.negate(),
+        Unary::Tan => value * once * 2,
+        Unary::Atan => range * once.sqr() * -2,
+        Unary::Tanh => value * once * -2,
+    }
+}
+
+struct JetAlgebra<'a> {
+    x: &'a Enclosure,
+    e: &'a Enclosure,
+    precision: u32,
+}
+
+impl Algebra for JetAlgebra<'_> {
+    type Value = Jet;
+
+    fn number(&mut self, value: &Rational) -> Jet {
+        Jet::constant(Enclosure::from_rational(value, self.precision))
+    }
+
+    fn pi(&mut self) -> Jet {
+        Jet::constant(Enclosure::pi(self.precision))
+    }
+
+    fn x(&mut self) -> Jet {
+        Jet::variable(self.x, 0)
+    }
+
+    fn e(&mut self) -> Jet {
+        Jet::variable(self.e, 1)
+    }
+
+    fn unary(&mut self, operation: Unary, a: Jet) -> Jet {
+        let value = unary(operation, &a.value);
+        // abs has a derivative only away from 0, and so does sqrt, whose quotients reach infinity at 0.
+        let smooth = match operation {
+            Unary::Abs | Unary::Sqrt => !a.value.contains_zero(),
+            _ => true,
+        };
+        if !value.is_defined() || !smooth {
+            return Jet::rough(value);
+        }
+        // On a differentiable function the enclosure of its difference quotients is one of its derivative on U.
+        let once = quotients(operation, &a.value, &value);
+        let twice = second_derivative(operation, &a.value, &value, &once);
+        Jet::chain(value, &once, &twice, &a)
+    }
+
+    fn binary(&mut self, operation: Binary, a: Jet, b: Jet) -> Jet {
+        let value = binary(operation, &a.value, &b.value);
+        if !value.is_defined() {
+            return Jet::rough(value);
+        }
+        match operation {
+            Binary::Add => Jet::combine(value, &a, &b, |s, t| s + t),
+            Binary::Sub => Jet::combine(value, &a, &b, |s, t| s - t),
+            Binary::Mul => Jet::product(value, &a, &b),
+            Binary::Div => Jet::quotient(value, &a, &b),
+            Binary::Pow if b.is_constant() => {
+                let less = &b.value - 1;
+                let once = &b.value * a.value.pow(&less);
+                let twice = &b.value * &less * a.value.pow(&(&less - 1));
+                Jet::chain(value, &once, &twice, &a)
+            }
+            // u^v = exp(v log u)
+            Binary::Pow => {
+                let log = self.unary(Unary::Log, a);
+                let exponent = Jet::product(&b.value * &log.value, &b, &log);
+                let mut power = self.unary(Unary::Exp, exponent);
+                power.value = value;
+                power
+            }
+            Binary::Min | Binary::Max => {
+                let (above, below) = if operation == Binary::Max { (a, b) } else { (b, a) };
+                // Certain dominance leaves one branch; otherwise there may be an edge where they cross.
+                if above.value.ge(&below.value).is_true() {
+                    if operation == Binary::Max { above } else { below }
+                } else if below.value.ge(&above.value).is_true() {
+                    if operation == Binary::Max { below } else { above }
+                } else {
+                    Jet::rough(value)
+                }
+            }
+        }
+    }
+
+    fn power(&mut self, base: Jet, exponent: i32) -> Jet {
+        let value = power(&base.value, exponent);
+        let n = i64::from(exponent);
+        let derivative = |order: i32, factor: i64| {
+            if factor == 0 {
+                Enclosure::zero(base.value.precision())
+            } else {
+                power(&base.value, exponent - order) * factor
+            }
+        };
+        Jet::chain(value, &derivative(1, n), &derivative(2, n * (n - 1)), &base)
+    }
+}
+
+impl Expr {
+    /// The value and the first and second derivatives over the box `x` times `e`.
+    pub(super) fn enclose_jet(&self, x: &Enclosure, e: &Enclosure) -> Jet {
+        evaluate(&self.nodes, &mut JetAlgebra { x, e, precision: x.precision().max(e.precision()) })
+    }
+}

@@ -1,0 +1,335 @@
+//! The grammar.
+//!
+//! ```text
+//! sum     = product (("+" | "-") product)*
+//! product = signed (("*" | "/") signed)*
+//! signed  = ("-" | "+")* power
+//! power   = primary ("^" signed)?
+//! primary = numeral | "pi" | "X" | "E" | name "(" sum ("," sum)* ")" | "(" sum ")"
+//! ```
+
+use super::exact::Exact;
+use super::lex::{Token, TokenKind, tokens};
+use super::names::{FOLDED, UNARY, spelled_out, suggest};
+use super::syntax::{Binary, Node, NodeKind, Unary, step};
+use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT, Variables};
+use crate::number::{Monomial, parse_decimal};
+use std::ops::Range;
+
+const OPERAND: &str = "a number, X, E, pi, a function or an opening parenthesis";
+const CONSTANT_OPERAND: &str = "a number, pi, a function or an opening parenthesis";
+const OPERATOR: &str = "an operator or the end";
+
+/// The nodes of the expression, in postfix order.
+pub(super) fn parse(text: &str, variables: Variables) -> Result<Vec<Node>, ExprError> {
+    if text.len() > MAX_TEXT {
+        // The limit may fall inside a character; the span must not.
+        let start = (0..=MAX_TEXT).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+        let kind = ExprErrorKind::TooLong { length: text.len() };
+        return Err(ExprError { kind, span: start..text.len(), expected: None, help: None });
+    }
+    let tokens = tokens(text);
+    if tokens.is_empty() {
+        let expected = Some(operand_words(variables));
+        return Err(ExprError { kind: ExprErrorKind::Empty, span: text.len()..text.len(), expected, help: None });
+    }
+    let mut parser = Parser { text, tokens, at: 0, depth: 0, variables, nodes: Vec::new(), exact: Vec::new() };
+    parser.sum()?;
+    match parser.peek() {
+        None => Ok(parser.nodes),
+        Some(token) => Err(parser.unexpected_after_operand(&token)),
+    }
+}
+
+fn operand_words(variables: Variables) -> &'static str {
+    match variables {
+        Variables::None => CONSTANT_OPERAND,
+        Variables::XAndE => OPERAND,
+    }
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    tokens: Vec<Token>,
+    at: usize,
+    depth: usize,
+    variables: Variables,
+    nodes: Vec<Node>,
+    /// The exact values of the operands that wait for their operation, to recognise constant integer exponents.
+    exact: Vec<Option<Monomial>>,
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> Option<Token> {
+        self.tokens.get(self.at).cloned()
+    }
+
+    fn peek_symbol(&self) -> Option<char> {
+        match self.tokens.get(self.at)?.kind {
+            TokenKind::Symbol(symbol) => Some(symbol),
+            _ => None,
+        }
+    }
+
+    /// Consumes the symbol if it comes next.
+    fn accept(&mut self, symbol: char) -> bool {
+        let found = self.peek_symbol() == Some(symbol);
+        self.at += usize::from(found);
+        found
+    }
+
+    /// Where the token before the current one ends.
+    fn end(&self) -> usize {
+        self.at.checked_sub(1).and_then(|at| self.tokens.get(at)).map_or(0, |token| token.span.end)
+    }
+
+    /// Where the current token starts.
+    fn start(&self) -> usize {
+        self.tokens.get(self.at).map_or(self.text.len(), |token| token.span.start)
+    }
+
+    fn push(&mut self, kind: NodeKind, span: Range<usize>) -> Result<(), ExprError> {
+        if self.nodes.len() >= MAX_NODES {
+            return Err(ExprError { kind: ExprErrorKind::TooManyNodes, span, expected: None, help: None });
+        }
+        let node = Node { kind, span };
+        step(&node, &mut self.exact, &mut Exact { x: None, e: None });
+        self.nodes.push(node);
+        Ok(())
+    }
+
+    /// Runs a part of the grammar one level deeper.
+    fn nested(&mut self, part: fn(&mut Self) -> Result<(), ExprError>) -> Result<(), ExprError> {
+        if self.depth >= MAX_NESTING {
+            let span = self.tokens.get(self.at).map_or(self.text.len()..self.text.len(), |token| token.span.clone());
+            return Err(ExprError { kind: ExprErrorKind::TooDeep, span, expected: None, help: None });
+        }
+        self.depth += 1;
+        let result = part(self);
+        self.depth -= 1;
+        result
+    }
+
+    fn left_associative(
+        &mut self,
+        operators: [(char, Binary); 2],
+        operand: fn(&mut Self) -> Result<(), ExprError>,
+    ) -> Result<(), ExprError> {
+        let start = self.start();
+        operand(self)?;
+        while let Some(symbol) = self.peek_symbol() {
+            let Some((_, operation)) = operators.iter().find(|(operator, _)| *operator == symbol) else { break };
+            self.at += 1;
+            operand(self)?;
+            self.push(NodeKind::Binary(*operation), start..self.end())?;
+        }
+        Ok(())
+    }
+
+    fn sum(&mut self) -> Result<(), ExprError> {
+        self.left_associative([('+', Binary::Add), ('-', Binary::Sub)], Self::product)
+    }
+
+    fn product(&mut self) -> Result<(), ExprError> {
+        self.left_associative([('*', Binary::Mul), ('/', Binary::Div)], Self::signed)
+    }
+
+    fn signed(&mut self) -> Result<(), ExprError> {
+        let mut minuses = Vec::new();
+        while let Some(symbol @ ('+' | '-')) = self.peek_symbol() {
+            if symbol == '-' {
+                minuses.push(self.start());
+            }
+            self.at += 1;
+        }
+        self.power()?;
+        for start in minuses.into_iter().rev() {
+            self.push(NodeKind::Unary(Unary::Neg), start..self.end())?;
+        }
+        Ok(())
+    }
+
+    fn power(&mut self) -> Result<(), ExprError> {
+        let start = self.start();
+        self.primary()?;
+        if !self.accept('^') {
+            return Ok(());
+        }
+        let (exponent_node, exponent_start) = (self.nodes.len(), self.start());
+        self.nested(Self::signed)?;
+        let integer = match self.exact.last() {
+            Some(Some(value)) => {
+                value.as_rational().filter(|value| value.is_integer()).map(|value| value.numer().clone())
+            }
+            _ => None,
+        };
+        let span = start..self.end();
+        let Some(integer) = integer else {
+            return self.push(NodeKind::Binary(Binary::Pow), span);
+        };
+        let Some(exponent) = integer.to_i32().filter(|n| n.unsigned_abs() <= MAX_EXPONENT.unsigned_abs()) else {
+            let span = exponent_start..self.end();
+            return Err(ExprError { kind: ExprErrorKind::ExponentTooLarge, span, expected: None, help: None });
+        };
+        // The exponent's nodes are the last ones, and its value the last one: the power replaces both.
+        self.nodes.truncate(exponent_node);
+        self.exact.pop();
+        self.push(NodeKind::Power(exponent), span)
+    }
+
+    fn primary(&mut self) -> Result<(), ExprError> {
+        let Some(token) = self.peek() else {
+            return Err(self.end_of_text(operand_words(self.variables)));
+        };
+        self.at += 1;
+        match token.kind {
+            TokenKind::Numeral => {
+                let value = parse_decimal(&self.text[token.span.clone()]).map_err(|error| ExprError {
+                    kind: error.into(),
+                    span: token.span.clone(),
+                    expected: None,
+                    help: None,
+                })?;
+                self.push(NodeKind::Number(value), token.span)
+            }
+            TokenKind::Name => self.name(&token.span),
+            TokenKind::Symbol('(') => {
+                self.nested(Self::sum)?;
+                self.close(&token.span)
+            }
+            TokenKind::Symbol(symbol) => {
+                self.at -= 1;
+                Err(self.misplaced(symbol, token.span, operand_words(self.variables)))
+            }
+        }
+    }
+
+    fn name(&mut self, span: &Range<usize>) -> Result<(), ExprError> {
+        let name = &self.text[span.clone()];
+        match name {
+            "pi" => return self.push(NodeKind::Pi, span.clone()),
+            "X" | "E" if self.variables == Variables::None => {
+                let help = (name == "E").then(|| "Euler's number is exp(1)".to_owned());
+                let kind = ExprErrorKind::VariableInConstant { name: name.to_owned() };
+                return Err(ExprError { kind, span: span.clone(), expected: Some(CONSTANT_OPERAND), help });
+            }
+            "X" => return self.push(NodeKind::X, span.clone()),
+            "E" => return self.push(NodeKind::E, span.clone()),
+            _ => {}
+        }
+        let unary = UNARY.iter().find(|f| f.0 == name).map(|f| f.1);
+        let folded = FOLDED.iter().find(|f| f.0 == name).map(|f| f.1);
+        if unary.is_none() && folded.is_none() {
+            let kind = ExprErrorKind::UnknownName { name: shortened(name) };
+            let (expected, help) = (Some(operand_words(self.variables)), suggest(name, self.variables));
+            return Err(ExprError { kind, span: span.clone(), expected, help });
+        }
+        let open = self.start()..self.start() + 1;
+        if !self.accept('(') {
+            let kind = ExprErrorKind::FunctionWithoutArgument { name: name.to_owned() };
+            let help = Some(format!("write {name}(...)"));
+            return Err(ExprError { kind, span: span.clone(), expected: Some("an opening parenthesis"), help });
+        }
+        let mut arguments = 0;
+        if self.peek_symbol() != Some(')') {
+            loop {
+                self.nested(Self::sum)?;
+                arguments += 1;
+                if let Some(operation) = folded
+                    && arguments > 1
+                {
+                    self.push(NodeKind::Binary(operation), span.start..self.end())?;
+                }
+                if !self.accept(',') {
+                    break;
+                }
+            }
+        }
+        self.close(&open)?;
+        let whole = span.start..self.end();
+        let wrong_count = |needed| {
+            let kind = ExprErrorKind::ArgumentCount { name: name.to_owned(), needed, found: arguments };
+            Err(ExprError { kind, span: whole.clone(), expected: None, help: None })
+        };
+        match unary {
+            Some(operation) if arguments == 1 => self.push(NodeKind::Unary(operation), whole),
+            Some(_) => wrong_count("one argument"),
+            None if arguments < 2 => wrong_count("at least two arguments"),
+            None => {
+                // The last fold is the value of the call: let it be shown as the whole call.
+                if let Some(node) = self.nodes.last_mut() {
+                    node.span = whole;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// The closing parenthesis that belongs to the opening one.
+    fn close(&mut self, open: &Range<usize>) -> Result<(), ExprError> {
+        if self.accept(')') {
+            return Ok(());
+        }
+        match self.peek() {
+            None => Err(ExprError {
+                kind: ExprErrorKind::Unclosed,
+                span: open.clone(),
+                expected: Some("an operator or a closing parenthesis"),
+                help: Some("add the missing `)`".to_owned()),
+            }),
+            Some(token) => Err(self.unexpected_after_operand(&token)),
+        }
+    }
+
+    fn end_of_text(&self, expected: &'static str) -> ExprError {
+        let end = self.text.len();
+        ExprError { kind: ExprErrorKind::UnexpectedEnd, span: end..end, expected: Some(expected), help: None }
+    }
+
+    /// A symbol that cannot stand here; characters that never can are told apart.
+    fn misplaced(&self, symbol: char, span: Range<usize>, expected: &'static str) -> ExprError {
+        let help = match symbol {
+            '×' | '·' | '⋅' => Some("write *"),
+            '÷' => Some("write /"),
+            '−' | '–' => Some("write - (the ASCII minus)"),
+            '*' if self.at > 0 && self.tokens[self.at - 1].kind == TokenKind::Symbol('*') => {
+                Some("write a power as u^v")
+            }
+            '[' | '{' => Some("write ("),
+            ']' | '}' => Some("write )"),
+            '|' => Some("write abs(...)"),
+            '√' => Some("write sqrt(...)"),
+            '²' => Some("write ^2"),
+            '³' => Some("write ^3"),
+            _ => None,
+        };
+        let known = matches!(symbol, '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',');
+        let kind = if known {
+            ExprErrorKind::Unexpected { found: symbol.to_string() }
+        } else {
+            ExprErrorKind::UnexpectedCharacter { character: symbol }
+        };
+        ExprError { kind, span, expected: Some(expected), help: help.map(str::to_owned) }
+    }
+
+    /// What follows a complete operand and is neither an operator nor the end.
+    fn unexpected_after_operand(&self, token: &Token) -> ExprError {
+        let text = |span: &Range<usize>| shortened(&self.text[span.clone()]);
+        let right = text(&token.span);
+        match token.kind {
+            TokenKind::Numeral | TokenKind::Name | TokenKind::Symbol('(') => {
+                let left = self.at.checked_sub(1).map_or_else(String::new, |at| text(&self.tokens[at].span));
+                let factor = if token.kind == TokenKind::Name { spelled_out(&right) } else { right.clone() };
+                let help = Some(format!("write {left}*{factor}"));
+                let kind = ExprErrorKind::MissingOperator { left, right };
+                ExprError { kind, span: token.span.clone(), expected: Some(OPERATOR), help }
+            }
+            TokenKind::Symbol(symbol) => self.misplaced(symbol, token.span.clone(), OPERATOR),
+        }
+    }
+}
+
+/// A piece of a stranger's text, short enough for a message.
+fn shortened(text: &str) -> String {
+    if text.chars().count() <= 40 { text.to_owned() } else { text.chars().take(37).collect::<String>() + "..." }
+}

@@ -1,0 +1,125 @@
+//! Rigorous evaluation at one exact point, which can also prove that the expression is undefined there.
+
+use super::Expr;
+use super::enclose::{binary, power, unary};
+use super::exact::{Exact, sign};
+use super::syntax::{Algebra, Binary, Node, Unary, evaluate};
+use crate::enclosure::Enclosure;
+use crate::number::Monomial;
+use rug::Rational;
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// A value at an exact point: exactly where possible, and enclosed.
+pub(super) struct PointValue {
+    pub(super) exact: Option<Monomial>,
+    pub(super) value: Enclosure,
+}
+
+impl PointValue {
+    fn is_zero(&self) -> bool {
+        self.value.is_exact() && self.value.contains_zero()
+    }
+
+    fn is_negative(&self) -> bool {
+        self.value.is_nonnegative().is_false()
+    }
+
+    fn is_not_positive(&self) -> bool {
+        self.value.is_positive().is_false()
+    }
+
+    /// The sign, where it is certain.
+    pub(super) fn sign(&self) -> Option<Ordering> {
+        if self.is_negative() {
+            Some(Ordering::Less)
+        } else if self.value.is_positive().is_true() {
+            Some(Ordering::Greater)
+        } else {
+            self.exact.as_ref().and_then(sign)
+        }
+    }
+}
+
+struct PointAlgebra {
+    exact: Exact,
+    precision: u32,
+    /// Whether the operation just evaluated is certainly outside its domain.
+    outside: bool,
+    undefined: Option<Range<usize>>,
+}
+
+impl PointAlgebra {
+    /// Prefers the exact value, whose enclosure is the tightest there is; it only exists where the operation is
+    /// defined.
+    fn settle(&self, exact: Option<Monomial>, value: impl FnOnce() -> Enclosure) -> PointValue {
+        let value = exact.as_ref().map_or_else(value, |exact| exact.enclose(self.precision));
+        PointValue { exact, value }
+    }
+}
+
+impl Algebra for PointAlgebra {
+    type Value = PointValue;
+
+    fn number(&mut self, value: &Rational) -> PointValue {
+        let exact = self.exact.number(value);
+        self.settle(exact, || Enclosure::from_rational(value, self.precision))
+    }
+
+    fn pi(&mut self) -> PointValue {
+        let exact = self.exact.pi();
+        self.settle(exact, || Enclosure::pi(self.precision))
+    }
+
+    fn x(&mut self) -> PointValue {
+        let exact = self.exact.x();
+        self.settle(exact, || Enclosure::undefined(self.precision))
+    }
+
+    fn e(&mut self) -> PointValue {
+        let exact = self.exact.e();
+        self.settle(exact, || Enclosure::undefined(self.precision))
+    }
+
+    fn unary(&mut self, operation: Unary, a: PointValue) -> PointValue {
+        self.outside = match operation {
+            Unary::Sqrt => a.is_negative(),
+            Unary::Log => a.is_not_positive(),
+            _ => false,
+        };
+        let exact = self.exact.unary(operation, a.exact);
+        self.settle(exact, || unary(operation, &a.value))
+    }
+
+    fn binary(&mut self, operation: Binary, a: PointValue, b: PointValue) -> PointValue {
+        self.outside = match operation {
+            Binary::Div => b.is_zero(),
+            Binary::Pow => a.is_negative() || (a.is_zero() && b.is_not_positive()),
+            _ => false,
+        };
+        let exact = self.exact.binary(operation, a.exact, b.exact);
+        self.settle(exact, || binary(operation, &a.value, &b.value))
+    }
+
+    fn power(&mut self, base: PointValue, exponent: i32) -> PointValue {
+        self.outside = exponent < 0 && base.is_zero();
+        let exact = self.exact.power(base.exact, exponent);
+        self.settle(exact, || power(&base.value, exponent))
+    }
+
+    fn note(&mut self, node: &Node, _value: &PointValue) {
+        if std::mem::take(&mut self.outside) && self.undefined.is_none() {
+            self.undefined = Some(node.span.clone());
+        }
+    }
+}
+
+impl Expr {
+    /// The value at an exact point, and the bytes of the first operation that is certainly undefined there, if any.
+    pub(super) fn at_point(&self, x: &Rational, e: &Rational, precision: u32) -> (PointValue, Option<Range<usize>>) {
+        let exact = Exact { x: Some(Monomial::rational(x.clone())), e: Some(Monomial::rational(e.clone())) };
+        let mut algebra = PointAlgebra { exact, precision, outside: false, undefined: None };
+        let value = evaluate(&self.nodes, &mut algebra);
+        (value, algebra.undefined)
+    }
+}

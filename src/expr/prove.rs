@@ -1,0 +1,265 @@
+//! The proof that an expression is a bounding function on a box: finite, nonnegative, nondecreasing.
+//!
+//! The box is bisected until, on every piece, the expression is proved to be defined and its slopes in X and in E to
+//! be nonnegative. The pieces are closed and cover the box, so a segment parallel to an axis runs through finitely
+//! many of them, on each of which the expression is nondecreasing: it is nondecreasing along the segment. A defined
+//! expression is continuous, so it is bounded on the compact box. A nondecreasing expression has its least value at
+//! (0, 0), so its sign there settles nonnegativity.
+
+use super::Expr;
+use super::failure::{BoundingFailure, DomainBox, Property, Reason};
+use super::jet::Jet;
+use super::refute::{Refuter, sides};
+use crate::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION};
+use rug::Rational;
+use std::cmp::Ordering;
+use std::collections::VecDeque;
+use std::ops::Range;
+
+/// How much work a proof may take.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProofSettings {
+    /// Boxes examined before giving up.
+    pub max_boxes: usize,
+    /// Bisections that may lead to one box.
+    pub max_depth: u32,
+    /// Bits of the first attempts.
+    pub precision: u32,
+    /// Bits of the last attempts, on boxes that stay undecided.
+    pub max_precision: u32,
+}
+
+impl Default for ProofSettings {
+    fn default() -> ProofSettings {
+        ProofSettings { max_boxes: 20_000, max_depth: 160, precision: DEFAULT_PRECISION, max_precision: MAX_PRECISION }
+    }
+}
+
+/// Bisections after which the working precision is raised by as many bits as they may have cost.
+const RAISE_EVERY: u32 = 16;
+
+/// Undecided boxes at which counterexamples are sought when the search ends.
+const LAST_ATTEMPTS: usize = 64;
+
+/// How much longer (relative to the domain, as a power of 2) one side of a box may become than the other.
+const MAX_IMBALANCE: i32 = 24;
+
+struct Piece {
+    region: DomainBox,
+    depth: u32,
+    /// How often each side was bisected.
+    cuts: [i32; 2],
+    /// Whether being nondecreasing in X and in E is already proved; on a piece it then holds on every part.
+    monotone: [bool; 2],
+}
+
+/// What keeps a piece from being settled.
+struct Obstacle {
+    property: Property,
+    span: Option<Range<usize>>,
+    /// How much each side contributes to it, as far as is known.
+    influence: [f64; 2],
+}
+
+/// Proves that the expression is a bounding function on `[0, x_max]` times `[0, e_max]`: defined and bounded,
+/// nonnegative, and nondecreasing in X and in E.
+///
+/// `Ok` is a proof, and so is [`BoundingFailure::Refuted`]; [`BoundingFailure::Undecided`] claims nothing. The result
+/// depends on the arguments only. At most `max_boxes` boxes are examined, each with a fixed number of evaluations
+/// of the expression.
+///
+/// # Errors
+/// [`BoundingFailure`]: refuted, with exact points that prove it; or undecided, with the box where the proof got
+/// stuck. A domain with a negative end is undecided.
+pub fn prove_bounding(
+    expr: &Expr,
+    x_max: &Rational,
+    e_max: &Rational,
+    settings: &ProofSettings,
+) -> Result<(), BoundingFailure> {
+    let domain = DomainBox { x: [Rational::new(), x_max.clone()], e: [Rational::new(), e_max.clone()] };
+    if *x_max < 0 || *e_max < 0 {
+        let (property, reason) = (Property::Finite, Reason::Empty);
+        return Err(BoundingFailure::Undecided { property, region: domain, span: None, reason });
+    }
+    let refuter = Refuter::new(expr, settings);
+    let at_origin = nonnegative_at_origin(expr, &refuter, settings);
+    if let Err(BoundingFailure::Refuted { .. }) = at_origin {
+        return at_origin;
+    }
+    refuter.grid(&domain)?;
+    subdivide(expr, &refuter, domain, settings)?;
+    at_origin
+}
+
+/// Decides the sign at (0, 0), raising the precision as needed.
+fn nonnegative_at_origin(expr: &Expr, refuter: &Refuter<'_>, settings: &ProofSettings) -> Result<(), BoundingFailure> {
+    let zero = Rational::new();
+    let mut precision = settings.precision;
+    loop {
+        refuter.evaluate(&zero, &zero, precision)?;
+        let (at, _) = expr.at_point(&zero, &zero, precision);
+        if at.value.is_nonnegative().is_true() || matches!(at.sign(), Some(Ordering::Equal | Ordering::Greater)) {
+            return Ok(());
+        }
+        if precision >= settings.max_precision {
+            let region = DomainBox { x: [zero.clone(), zero.clone()], e: [zero.clone(), zero] };
+            let (property, reason) = (Property::Nonnegative, Reason::Precision(precision));
+            return Err(BoundingFailure::Undecided { property, region, span: None, reason });
+        }
+        precision = (precision.saturating_mul(2)).min(settings.max_precision);
+    }
+}
+
+/// Proves the expression defined and nondecreasing on the domain.
+fn subdivide(
+    expr: &Expr,
+    refuter: &Refuter<'_>,
+    domain: DomainBox,
+    settings: &ProofSettings,
+) -> Result<(), BoundingFailure> {
+    // A side that is a single point has nothing to be monotone along.
+    let monotone = [domain.x[0] == domain.x[1], domain.e[0] == domain.e[1]];
+    // First in, first out: the widest boxes come first, so that a limit is met with evenly small ones.
+    let mut queue = VecDeque::from([Piece { region: domain, depth: 0, cuts: [0, 0], monotone }]);
+    let mut stuck: Vec<(Piece, Obstacle)> = Vec::new();
+    let mut examined = 0;
+    while let Some(mut piece) = queue.pop_front() {
+        let precision = precision_at(piece.depth, settings);
+        let Some(obstacle) = examine(expr, &mut piece, precision) else { continue };
+        if refuter.is_suspicious(&piece.region) {
+            refuter.corners(&piece.region, precision)?;
+        }
+        examined += 1;
+        if examined >= settings.max_boxes {
+            let reason = Reason::Boxes(settings.max_boxes);
+            stuck.push((piece, obstacle));
+            return Err(give_up(refuter, stuck, reason, settings));
+        }
+        match bisect(&piece, &obstacle, settings) {
+            Some(halves) => queue.extend(halves),
+            None => stuck.push((piece, obstacle)),
+        }
+        if stuck.len() >= LAST_ATTEMPTS {
+            break;
+        }
+    }
+    if stuck.is_empty() { Ok(()) } else { Err(give_up(refuter, stuck, Reason::Depth, settings)) }
+}
+
+fn precision_at(depth: u32, settings: &ProofSettings) -> u32 {
+    (settings.precision + 2 * RAISE_EVERY * (depth / RAISE_EVERY)).min(settings.max_precision.max(settings.precision))
+}
+
+/// The last attempt: counterexamples at the boxes where the proof got stuck, at the highest precision.
+fn give_up(
+    refuter: &Refuter<'_>,
+    mut stuck: Vec<(Piece, Obstacle)>,
+    reason: Reason,
+    settings: &ProofSettings,
+) -> BoundingFailure {
+    for (piece, _) in &stuck {
+        if let Err(refuted) = refuter.corners(&piece.region, settings.max_precision) {
+            return refuted;
+        }
+    }
+    let (piece, obstacle) = stuck.swap_remove(0);
+    BoundingFailure::Undecided { property: obstacle.property, region: piece.region, span: obstacle.span, reason }
+}
+
+fn is_nonnegative(value: &Enclosure) -> bool {
+    value.is_nonnegative().is_true()
+}
+
+/// Tries to settle a piece; records what is proved, and returns what is not.
+fn examine(expr: &Expr, piece: &mut Piece, precision: u32) -> Option<Obstacle> {
+    let [x, e] = sides(&piece.region, precision);
+    let slopes = expr.enclose_slopes(&x, &e);
+    if !slopes.value.is_defined() {
+        let (_, span) = expr.enclose_blaming(&x, &e);
+        return Some(Obstacle { property: Property::Finite, span, influence: [f64::NAN; 2] });
+    }
+    piece.monotone[0] |= is_nonnegative(&slopes.slope_x);
+    piece.monotone[1] |= is_nonnegative(&slopes.slope_e);
+    if piece.monotone == [true, true] {
+        return None;
+    }
+    let jet = expr.enclose_jet(&x, &e);
+    for side in [0, 1] {
+        if !piece.monotone[side] {
+            piece.monotone[side] = derivative_is_nonnegative(expr, [&x, &e], &jet, side);
+        }
+    }
+    let side = piece.monotone.iter().position(|proved| !proved)?;
+    let property = [Property::NondecreasingInX, Property::NondecreasingInE][side];
+    let influence = [0, 1].map(|along| {
+        let [rate, width] =
+            [&jet.second[side + along], [&x, &e][along]].map(|range| range.upper_f64() - range.lower_f64());
+        let rate = rate.max(jet.second[side + along].abs().upper_f64());
+        rate * width
+    });
+    Some(Obstacle { property, span: None, influence })
+}
+
+/// Proves a first derivative nonnegative on a box from the second derivatives there: going from any point along an
+/// axis to a face or to the middle of the box changes it by a value of a second derivative times the distance.
+fn derivative_is_nonnegative(expr: &Expr, sides: [&Enclosure; 2], jet: &Jet, of: usize) -> bool {
+    if is_nonnegative(&jet.first[of]) {
+        return true;
+    }
+    // The second derivatives of the first derivative in question, in X and in E.
+    let rates = [&jet.second[of], &jet.second[of + 1]];
+    // Where the derivative is least as far as its own derivative tells, else the middle.
+    let centre = [0, 1].map(|along| {
+        let ends = [sides[along].lower().clone(), sides[along].upper().clone()];
+        let [lower, upper] = ends.map(|end| Enclosure::new(end.clone(), end));
+        if is_nonnegative(rates[along]) {
+            lower
+        } else if is_nonnegative(&rates[along].negate()) {
+            upper
+        } else {
+            let middle = (lower + &upper) / 2;
+            middle.ceiling()
+        }
+    });
+    [[true, false], [false, true], [true, true]].into_iter().any(|moved| {
+        let face = [0, 1].map(|along| if moved[along] { &centre[along] } else { sides[along] });
+        let mut derivative = expr.enclose_jet(face[0], face[1]).first[of].clone();
+        for along in [0, 1] {
+            if moved[along] {
+                derivative = derivative + rates[along] * (sides[along] - &centre[along]);
+            }
+        }
+        is_nonnegative(&derivative)
+    })
+}
+
+/// Halves the side with the larger influence; `None` when the piece may not be divided further.
+fn bisect(piece: &Piece, obstacle: &Obstacle, settings: &ProofSettings) -> Option<[Piece; 2]> {
+    if piece.depth >= settings.max_depth {
+        return None;
+    }
+    let divisible = [piece.region.x[0] != piece.region.x[1], piece.region.e[0] != piece.region.e[1]];
+    let balance = piece.cuts[0] - piece.cuts[1];
+    let along = match divisible {
+        [false, false] => return None,
+        [true, false] => 0,
+        [false, true] => 1,
+        [true, true] if balance.abs() >= MAX_IMBALANCE => usize::from(balance > 0),
+        [true, true] if obstacle.influence.iter().all(|rate| rate.is_finite()) => {
+            usize::from(obstacle.influence[1] > obstacle.influence[0])
+        }
+        [true, true] => usize::from(balance > 0),
+    };
+    let ends = if along == 0 { &piece.region.x } else { &piece.region.e };
+    let middle = Rational::from(&ends[0] + &ends[1]) / 2u32;
+    let half = |from: &Rational, to: &Rational| {
+        let mut region = piece.region.clone();
+        let side = if along == 0 { &mut region.x } else { &mut region.e };
+        *side = [from.clone(), to.clone()];
+        let mut cuts = piece.cuts;
+        cuts[along] += 1;
+        Piece { region, depth: piece.depth + 1, cuts, monotone: piece.monotone }
+    };
+    Some([half(&ends[0], &middle), half(&middle, &ends[1])])
+}

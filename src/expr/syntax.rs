@@ -1,0 +1,105 @@
+//! The operations of an expression in postfix order, and how an algebra evaluates them.
+
+use rug::Rational;
+use std::ops::Range;
+
+/// One operation and the bytes of the text it was read from.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) kind: NodeKind,
+    pub(super) span: Range<usize>,
+}
+
+/// What a node does with the values before it.
+#[derive(Clone, Debug)]
+pub(super) enum NodeKind {
+    Number(Rational),
+    Pi,
+    X,
+    E,
+    Unary(Unary),
+    Binary(Binary),
+    /// The power with a constant integer exponent.
+    Power(i32),
+}
+
+/// Operations on one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unary {
+    Neg,
+    Sqrt,
+    Exp,
+    Log,
+    Sin,
+    Cos,
+    Tan,
+    Atan,
+    Tanh,
+    Abs,
+}
+
+/// Operations on two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Binary {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    /// The real power.
+    Pow,
+    Min,
+    Max,
+}
+
+/// A meaning of the operations: numbers, enclosures, slopes, machine code, ...
+pub(super) trait Algebra {
+    type Value;
+    fn number(&mut self, value: &Rational) -> Self::Value;
+    fn pi(&mut self) -> Self::Value;
+    fn x(&mut self) -> Self::Value;
+    fn e(&mut self) -> Self::Value;
+    fn unary(&mut self, operation: Unary, a: Self::Value) -> Self::Value;
+    fn binary(&mut self, operation: Binary, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn power(&mut self, base: Self::Value, exponent: i32) -> Self::Value;
+    /// Called with the value of every node, in postfix order.
+    fn note(&mut self, _node: &Node, _value: &Self::Value) {}
+}
+
+/// Applies one node to the values on the stack.
+pub(super) fn step<A: Algebra>(node: &Node, stack: &mut Vec<A::Value>, algebra: &mut A) {
+    // The parser pushes a node only after its operands, so the stack holds at least `arity` values here.
+    let mut pop = || stack.pop().expect("operands precede their operation");
+    let value = match &node.kind {
+        NodeKind::Number(number) => algebra.number(number),
+        NodeKind::Pi => algebra.pi(),
+        NodeKind::X => algebra.x(),
+        NodeKind::E => algebra.e(),
+        NodeKind::Unary(operation) => {
+            let a = pop();
+            algebra.unary(*operation, a)
+        }
+        NodeKind::Binary(operation) => {
+            let b = pop();
+            let a = pop();
+            algebra.binary(*operation, a, b)
+        }
+        NodeKind::Power(exponent) => {
+            let base = pop();
+            algebra.power(base, *exponent)
+        }
+    };
+    algebra.note(node, &value);
+    stack.push(value);
+}
+
+/// The value of a whole expression: a loop over the postfix order, so that no depth of nesting can overflow the
+/// call stack.
+pub(super) fn evaluate<A: Algebra>(nodes: &[Node], algebra: &mut A) -> A::Value {
+    let mut stack = Vec::with_capacity(16);
+    for node in nodes {
+        step(node, &mut stack, algebra);
+    }
+    // Every parsed expression leaves exactly one value: each operand pushes one, each operation of arity n replaces
+    // n by one, and the grammar combines all of them.
+    stack.pop().expect("an expression has one value")
+}
