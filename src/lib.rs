@@ -1,5 +1,21 @@
-//! scratch
+//! `sigmastar`: from bounding functions of a plant to a gain that provably works for every number of oscillators.
+//!
+//! The stages, in the order in which data flows through them:
+//!
+//! - [`spec`]: a bounding specification is read strictly, every number exact;
+//! - [`expr`], [`number`], [`enclosure`]: bounding functions, exact numbers, rigorous interval arithmetic over MPFR;
+//! - [`constants`], [`transfer`]: the constants and conditions of the paper in three derivations;
+//! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
+//! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
+//! - `report`, `errata`: what a person reads.
+//!
+//! Nothing below the command line knows it, and every arrow goes one way.
+
+pub mod certificate;
+pub mod constants;
 pub mod enclosure;
 pub mod expr;
 pub mod number;
+pub mod search;
 pub mod spec;
+pub mod transfer;

@@ -14,6 +14,5 @@ pub use produce::{
     Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RepairedProof, SharpProof, TransferChoice,
     certify, recheck,
 };
-pub use read::{WitnessError, WitnessFile, read_witness};
+pub use read::WitnessFile;
 pub use verdict::Verdict;
-pub use write::{certificate_json, constants_json, conditions_json};

@@ -13,6 +13,7 @@ use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::constants::table::{Row, TableInput, table};
 use crate::enclosure::Enclosure;
+use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
 use crate::search::{
     Datum, FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, search_sharp, sensitivities,
@@ -205,7 +206,7 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     let repaired = if wanted(Derivation::Repaired) {
         match search_repaired(&paper_model) {
             Err(obstacle) => Outcome::NotFound(obstacle),
-            Ok(proposal) => repaired_outcome(round_repaired(&data, &proposal, options.ladder)),
+            Ok(proposal) => repaired_outcome(round_repaired(&data, &paper_model, &proposal, options.ladder)),
         }
     } else {
         Outcome::Skipped
@@ -316,7 +317,7 @@ fn assemble<'s>(
 fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Vec<BoundingProblem>> {
     let problems = result.err().unwrap_or_default();
     let (refuted, undecided): (Vec<_>, Vec<_>) =
-        problems.into_iter().partition(|problem| problem.failure.is_refuted());
+        problems.into_iter().partition(|problem| matches!(problem.failure, BoundingFailure::Refuted { .. }));
     if refuted.is_empty() { Ok(undecided) } else { Err(refuted) }
 }
 
@@ -418,7 +419,6 @@ fn constants(
     })
 }
 
-/// The claimed set of a proof, whichever derivation it is from.
 impl Certification<'_> {
     /// The claimed gain of the chosen derivation, if certified.
     #[must_use]

@@ -11,7 +11,9 @@ use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness, distances};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
-use crate::search::{FloatModel, RepairedProposal, SharpParameters, SharpProposal, at_sigma, search_exact};
+use crate::search::{
+    FloatModel, RepairedProposal, SharpParameters, SharpProposal, at_sigma, largest_e, largest_e_repaired, search_exact,
+};
 use crate::spec::model::InitialSet;
 use crate::transfer::{TransferProof, closed_form_pair};
 use rug::Rational;
@@ -99,8 +101,9 @@ fn sharp_witness(
 ) -> Option<SharpWitness> {
     let sigma = rounded_sigma(proposal.sigma, slack)?;
     let x_p = nearest(proposal.parameters.x_p, SHORT_DIGITS)?;
-    // E_p down: C1 is active at its largest value, and C2 has the slack of sigma.
-    let e_p = round_f64(proposal.parameters.e_p, SHORT_DIGITS, Direction::Down)?;
+    // E_p down, below what C1 allows at the rounded X_p; C2 has the slack of sigma.
+    let e_p = proposal.parameters.e_p.min(largest_e(model, x_p.to_f64())?);
+    let e_p = round_f64(e_p, SHORT_DIGITS, Direction::Down)?;
     let parameters = SharpParameters { x_p: x_p.to_f64(), e_p: e_p.to_f64(), ..proposal.parameters };
     let (existence, at) = at_sigma(model, &parameters, sigma.to_f64()).ok()?;
     let (k0, k1, transfer) = transfer_pair(data, existence.pair, matched)?;
@@ -161,12 +164,13 @@ fn rounded_box(
 /// Rounds a repaired proposal and decides it; the first attempt that is proved, or the last one.
 pub(super) fn round_repaired(
     data: &Data<'_>,
+    model: &FloatModel,
     proposal: &RepairedProposal,
     ladder: Ladder,
 ) -> Option<(RepairedWitness, RepairedEvaluation, u32)> {
     let mut last = None;
     for slack in SLACKS {
-        let Some(witness) = repaired_witness(data, proposal, slack) else { continue };
+        let Some(witness) = repaired_witness(data, model, proposal, slack) else { continue };
         let (evaluation, precision) = decide_repaired(data.spec, &witness, ladder);
         let proved = evaluation.truth().is_true();
         last = Some((witness, evaluation, precision));
@@ -177,9 +181,14 @@ pub(super) fn round_repaired(
     last
 }
 
-fn repaired_witness(data: &Data<'_>, proposal: &RepairedProposal, slack: f64) -> Option<RepairedWitness> {
+fn repaired_witness(
+    data: &Data<'_>,
+    model: &FloatModel,
+    proposal: &RepairedProposal,
+    slack: f64,
+) -> Option<RepairedWitness> {
     let x = nearest(proposal.x, SHORT_DIGITS)?;
-    let e = round_f64(proposal.e, SHORT_DIGITS, Direction::Down)?;
+    let e = round_f64(proposal.e.min(largest_e_repaired(model, x.to_f64())?), SHORT_DIGITS, Direction::Down)?;
     let (k0, k1, transfer) = transfer_pair(data, (0.0, 0.0, 0), false)?;
     let bounds = PeriodicBounds::new(data, data.rational(&x), data.rational(&e));
     let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));

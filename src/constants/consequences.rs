@@ -27,11 +27,7 @@ impl Psi {
     pub fn new(data: &Data<'_>, bounds: &PeriodicBounds) -> Psi {
         let psi_1 = &data.period * &bounds.q_rate_rms / Enclosure::from_integer(12, data.precision).sqrt();
         let omega = fundamental(data);
-        Psi {
-            psi_x: x_per_gain(data, bounds) * &psi_1,
-            psi_1,
-            psi_2: &data.period * bounds.q_rms.sqr() / omega.sqr(),
-        }
+        Psi { psi_x: x_per_gain(data, bounds) * &psi_1, psi_1, psi_2: &data.period * bounds.q_rms.sqr() / omega.sqr() }
     }
 }
 
@@ -72,9 +68,7 @@ pub fn error_bounds(
     let modulus = (first.sqr() + sigma.sqr()).sqrt();
     let rms = e_per.min(&(&bounds.q_rms / &modulus)).min(&(&bounds.q_rate_rms / (first * modulus)));
     let [by_size, by_rate] = tail_sums(data, sigma, n_o);
-    let sup = e_per
-        .min(&(&bounds.q_rms * (2 * by_size).sqrt()))
-        .min(&(&bounds.q_rate_rms * (2 * by_rate).sqrt()));
+    let sup = e_per.min(&(&bounds.q_rms * (2 * by_size).sqrt())).min(&(&bounds.q_rate_rms * (2 * by_rate).sqrt()));
     ErrorBounds { rms: rms.ceiling(), sup: sup.ceiling() }
 }
 
@@ -94,8 +88,7 @@ fn tail_sums(data: &Data<'_>, sigma: &Enclosure, n_o: u64) -> [Enclosure; 2] {
     }
     let size_tail = (sigma / (integer(last) * &omega)).atan() / (&omega * sigma);
     let next = integer(last + 1);
-    let rate_tail =
-        (next.sqr().recip() + next.recip()) / (omega.sqr() * ((&next * &omega).sqr() + sigma.sqr()));
+    let rate_tail = (next.sqr().recip() + next.recip()) / (omega.sqr() * ((&next * &omega).sqr() + sigma.sqr()));
     [(by_size + size_tail).ceiling(), (by_rate + rate_tail).ceiling()]
 }
 

@@ -81,7 +81,12 @@ impl ExactEvaluation {
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
         conditions.push(Condition::less("C5", "(h/mu) k_x^2 < 4 w_x (alpha - gam)", decay.coupling, decay.curvature));
-        conditions.push(Condition::less("C5b", "threshold of the quadratic form < sigma", decay.sigma_threshold, sigma));
+        conditions.push(Condition::less(
+            "C5b",
+            "threshold of the quadratic form < sigma",
+            decay.sigma_threshold,
+            sigma,
+        ));
         ExactEvaluation { z, conditions }
     }
 

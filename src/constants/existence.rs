@@ -84,7 +84,13 @@ impl PeriodicBounds {
     /// The contraction matrix with gain k (c or K_alpha), `factor` 1 (sharp) or 2 (P:eq:def_ypsilon) in front of
     /// b_fxx X_p, and `error_gain` beta_s(sigma) or beta(sigma).
     #[must_use]
-    pub fn contraction(&self, data: &Data<'_>, k: &Enclosure, factor: i64, error_gain: &Enclosure) -> ContractionMatrix {
+    pub fn contraction(
+        &self,
+        data: &Data<'_>,
+        k: &Enclosure,
+        factor: i64,
+        error_gain: &Enclosure,
+    ) -> ContractionMatrix {
         let gain = k / &data.alpha;
         ContractionMatrix {
             xx: &gain * (&self.f_ex * &self.e_p + factor * (&self.f_xx * &self.x_p)),

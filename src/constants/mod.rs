@@ -4,33 +4,64 @@
 //! architecture with the smallest sound repair of each formula; *sharp*: sections 2-6 of the derivation.
 
 pub mod condition;
+pub mod consequences;
 pub mod contraction;
 pub mod data;
+pub mod exact_regulation;
 pub mod existence;
 pub mod gains;
-pub mod relative_degree;
+pub mod printed;
+pub mod repaired;
+
 pub mod sharp;
 pub mod stability;
+pub mod table;
 
 use crate::enclosure::Enclosure;
-use crate::spec::model::InitialSet;
+use crate::spec::model::{Constant, InitialSet};
 use condition::Condition;
 use data::Data;
+use rug::Rational;
+use sharp::ClaimedSet;
 
-/// The initial set (X_0, E_0, Z_0) that the specification asks for, given X_p, E_p and Z.
+/// The claimed set must cover what the specification asks for: X_0, E_0, Z_0 at least
+/// `paper`: 2 X_p, 2 E_p, 2 (Z + Nbar E_p); `at-rest`: the user's X_0, E_0 or 2 X_p, 2 E_p, and 0; `box`: the user's.
 ///
-/// `paper`: 2 X_p, 2 E_p, 2 (Z + Nbar E_p); `at-rest`: the user's X_0, E_0 or 2 X_p, 2 E_p, and Z_0 = 0; `box`: the
-/// user's numbers.
+/// Each condition is written "required - claimed <= 0", with the difference of rationals taken exactly, so that
+/// equality is decided.
 #[must_use]
-pub fn required_set(data: &Data<'_>, x_p: &Enclosure, e_p: &Enclosure, z: &Enclosure) -> [Enclosure; 3] {
-    let user = |constant: &crate::spec::model::Constant| constant.enclose(data.precision);
-    match &data.spec.initial_set {
-        InitialSet::Paper => [2 * x_p, 2 * e_p, 2 * (z + &data.n_bar * e_p)],
-        InitialSet::AtRest { x0, e0 } => {
-            [x0.as_ref().map_or_else(|| 2 * x_p, user), e0.as_ref().map_or_else(|| 2 * e_p, user), data.zero()]
+pub fn set_conditions(
+    data: &Data<'_>,
+    set: &ClaimedSet,
+    x_p: &Rational,
+    e_p: &Rational,
+    z: &Enclosure,
+) -> Vec<Condition> {
+    let exact = |required: &Rational, claimed: &Rational| data.rational(&Rational::from(required - claimed));
+    let user = |constant: &Constant, claimed: &Rational| match constant.as_rational() {
+        Some(required) => exact(required, claimed),
+        None => constant.enclose(data.precision) - data.rational(claimed),
+    };
+    let twice = |value: &Rational| Rational::from(value * 2u32);
+    let excess = match &data.spec.initial_set {
+        InitialSet::Paper => {
+            let z0 = 2 * (z + &data.n_bar * data.rational(e_p));
+            [exact(&twice(x_p), &set.x0), exact(&twice(e_p), &set.e0), z0 - data.rational(&set.z0)]
         }
-        InitialSet::Box { x0, e0, z0 } => [user(x0), user(e0), user(z0)],
-    }
+        InitialSet::AtRest { x0, e0 } => [
+            x0.as_ref().map_or_else(|| exact(&twice(x_p), &set.x0), |x0| user(x0, &set.x0)),
+            e0.as_ref().map_or_else(|| exact(&twice(e_p), &set.e0), |e0| user(e0, &set.e0)),
+            exact(&Rational::new(), &set.z0),
+        ],
+        InitialSet::Box { x0, e0, z0 } => [user(x0, &set.x0), user(e0, &set.e0), user(z0, &set.z0)],
+    };
+    ["X0", "E0", "Z0"]
+        .iter()
+        .zip(excess)
+        .map(|(name, excess)| {
+            Condition::at_most("set", format!("the required {name} - the claimed {name} <= 0"), excess, data.zero())
+        })
+        .collect()
 }
 
 /// (X, E) <= the domain of the specification; none where the bounding functions hold everywhere.

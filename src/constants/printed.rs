@@ -26,7 +26,9 @@ pub enum Infeasible {
         reached: String,
     },
     /// P:eq:bound_xe_inf (erratum E2).
-    #[error("P:eq:bound_xe_inf has no solution: it needs P_up/P_low <= (6 + 4 sqrt(2))/9 = 1.2952, here at least {ratio} (E2)")]
+    #[error(
+        "P:eq:bound_xe_inf has no solution: it needs P_up/P_low <= (6 + 4 sqrt(2))/9 = 1.2952, here at least {ratio} (E2)"
+    )]
     LevelConditionInfinite {
         /// Lower end of P_up/P_low.
         ratio: String,

@@ -2,10 +2,10 @@
 
 use super::condition::{self, Condition};
 use super::data::{Bound, Data};
-use super::domain_conditions;
 use super::existence::{PeriodicBounds, kappas};
 use super::gains;
 use super::sharp::ClaimedSet;
+use super::{domain_conditions, set_conditions};
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
 use rug::Rational;
@@ -166,13 +166,7 @@ impl RepairedEvaluation {
         let lyapunov = LyapunovMatrix::new(data, &point, false);
 
         let mut conditions = positivity(witness, data);
-        let required = super::required_set(data, &x, &e, &z);
-        for (required, (name, claimed)) in
-            required.into_iter().zip([("X0", &witness.set.x0), ("E0", &witness.set.e0), ("Z0", &witness.set.z0)])
-        {
-            let what = format!("the required {name} <= the claimed {name}");
-            conditions.push(Condition::at_most("set", what, required, number(claimed)));
-        }
+        conditions.extend(set_conditions(data, &witness.set, &witness.x, &witness.e, &z));
         conditions.extend(domain_conditions(data, point.x_b.clone(), point.e_b.clone()));
         let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, witness.transfer);
         let what = format!("transfer bound, {}: {}", witness.transfer.name(), step.what);
@@ -195,7 +189,12 @@ impl RepairedEvaluation {
             &data.p_up * dist_x.sqr() + dist_e.sqr() + &h * dist_z.sqr(),
             level,
         ));
-        conditions.push(Condition::less("C5", "rho_11 < alpha P_low", lyapunov.rho_11.clone(), &data.alpha * &data.p_low));
+        conditions.push(Condition::less(
+            "C5",
+            "rho_11 < alpha P_low",
+            lyapunov.rho_11.clone(),
+            &data.alpha * &data.p_low,
+        ));
         conditions.push(Condition::less("C5b", "sigma_a < sigma", lyapunov.sigma_a.clone(), sigma.clone()));
         RepairedEvaluation { sigma, bounds, kappa_0, kappa_1, z, point, lyapunov, conditions }
     }

@@ -5,7 +5,7 @@ use super::data::Data;
 use super::existence::{PeriodicBounds, PeriodicSolution, kappas};
 use super::gains;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
-use super::domain_conditions;
+use super::{domain_conditions, set_conditions};
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
 use rug::Rational;
@@ -98,12 +98,8 @@ impl SharpEvaluation {
         let decay = DecayCondition::new(data, &error_box, &w_x, &h);
 
         let mut conditions = positivity(witness, data);
-        conditions.extend(set_conditions(data, witness, &z));
-        conditions.extend(domain_conditions(
-            data,
-            bounds.x_p.max(&error_box.x_b),
-            bounds.e_p.max(&error_box.e_b),
-        ));
+        conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
+        conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
         let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, witness.transfer);
         conditions.push(Condition::at_most(
             "T",
@@ -191,16 +187,5 @@ fn positivity(witness: &SharpWitness, data: &Data<'_>) -> Vec<Condition> {
         .iter()
         .filter(|(_, value)| **value <= 0)
         .map(|(name, value)| Condition::less("sign", format!("0 < {name}"), data.zero(), data.rational(value)))
-        .collect()
-}
-
-/// The claimed set must cover what the specification asks for.
-fn set_conditions(data: &Data<'_>, witness: &SharpWitness, z: &Enclosure) -> Vec<Condition> {
-    super::required_set(data, &data.rational(&witness.x_p), &data.rational(&witness.e_p), z)
-        .into_iter()
-        .zip([("X0", &witness.set.x0), ("E0", &witness.set.e0), ("Z0", &witness.set.z0)])
-        .map(|(required, (name, claimed))| {
-            Condition::at_most("set", format!("the required {name} <= the claimed {name}"), required, data.rational(claimed))
-        })
         .collect()
 }

@@ -71,11 +71,8 @@ impl DecayCondition {
         let cross = w_x * data.p_up.sqrt() * k_f + k_x * &one_plus / 2;
         let margin = &curvature - &coupling;
         // Where the margin is not proved positive the threshold has no meaning; undefined keeps it from being used.
-        let share = if margin.is_positive().is_true() {
-            cross.sqr() / margin
-        } else {
-            Enclosure::undefined(data.precision)
-        };
+        let share =
+            if margin.is_positive().is_true() { cross.sqr() / margin } else { Enclosure::undefined(data.precision) };
         let sigma_threshold = one_plus.sqr() / (4 * &h_over_mu) + share;
         DecayCondition { coupling, curvature, sigma_threshold }
     }

@@ -386,9 +386,7 @@ fn threshold(
 /// The X with `gain b_fxx(X,0) X = alpha`: x_p* with gain 2 K_alpha (paper) or c (sharp).
 fn largest_x(data: &Data<'_>, gain: &Enclosure, factor: i64) -> Option<Value> {
     let limit = data.spec.domain.as_ref().and_then(|domain| domain.x.as_rational().cloned());
-    threshold(data, limit, |x| {
-        (factor * (gain * data.bound(Bound::Fxx, x, &data.zero()) * x)).lt(&data.alpha)
-    })
+    threshold(data, limit, |x| (factor * (gain * data.bound(Bound::Fxx, x, &data.zero()) * x)).lt(&data.alpha))
 }
 
 /// The largest E with the two conditions of e_p*(X_p); factor 2 (paper) or 1 (sharp) in front of b_fxx X_p.
@@ -398,9 +396,7 @@ fn largest_e(data: &Data<'_>, gain: &Enclosure, factor: i64, bounds: &PeriodicBo
     let invariance = &data.alpha / gain * x_p - &bounds.f_xx * x_p.sqr() / 2;
     let contraction = &data.alpha / gain - factor * (&bounds.f_xx * x_p);
     threshold(data, limit, |e| {
-        (e * data.bound(Bound::Fe, x_p, e))
-            .le(&invariance)
-            .and((e * data.bound(Bound::Fex, x_p, e)).lt(&contraction))
+        (e * data.bound(Bound::Fe, x_p, e)).le(&invariance).and((e * data.bound(Bound::Fex, x_p, e)).lt(&contraction))
     })
 }
 
@@ -411,18 +407,15 @@ fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
     let level = level_condition(data).err();
     let from_level = |source| level.as_ref().and_then(|reason| infeasible(reason, source));
     rows.push(row("x_a, e_a of P:eq:boundx_bounde_1", At::Own, from_level("P:eq:boundx_bounde_1"), None, None));
-    let sharp_value = |of: &dyn Fn(&SharpEvaluation) -> Enclosure, source| {
-        input.sharp.and_then(|sharp| sound(of(sharp), source))
-    };
+    let sharp_value =
+        |of: &dyn Fn(&SharpEvaluation) -> Enclosure, source| input.sharp.and_then(|sharp| sound(of(sharp), source));
     let paper_value = |of: &dyn Fn(&PrintedEvaluation) -> Enclosure, source| {
         input.printed.and_then(|p| number(of(p), Status::PrintedUnsound, source))
     };
-    let repaired_value = |of: &dyn Fn(&RepairedEvaluation) -> Enclosure, source| {
-        input.repaired.and_then(|r| sound(of(r), source))
-    };
-    let sharp_free = |index: usize| {
-        input.sharp_free.as_ref().and_then(|free| sound(data.rational(&free[index]), "section 5, free"))
-    };
+    let repaired_value =
+        |of: &dyn Fn(&RepairedEvaluation) -> Enclosure, source| input.repaired.and_then(|r| sound(of(r), source));
+    let sharp_free =
+        |index: usize| input.sharp_free.as_ref().and_then(|free| sound(data.rational(&free[index]), "section 5, free"));
     rows.push(row(
         "X_b",
         At::Own,
@@ -465,13 +458,7 @@ fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         repaired_value(&|r| r.lyapunov.rho_22.clone(), label),
         None,
     ));
-    rows.push(row(
-        "gam",
-        At::Own,
-        None,
-        None,
-        sharp_value(&|s| s.error_box.gamma.clone(), "section 5, C5"),
-    ));
+    rows.push(row("gam", At::Own, None, None, sharp_value(&|s| s.error_box.gamma.clone(), "section 5, C5")));
     rows.push(row(
         "h",
         At::Own,
@@ -501,13 +488,7 @@ fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         Ok(value) => number(value.clone(), Status::PrintedUnsound, source),
         Err(reason) => infeasible(reason, source),
     };
-    rows.push(row(
-        "sigma_p*",
-        At::Own,
-        input.printed.and_then(|p| result(&p.sigma_p, "P:19")),
-        None,
-        None,
-    ));
+    rows.push(row("sigma_p*", At::Own, input.printed.and_then(|p| result(&p.sigma_p, "P:19")), None, None));
     rows.push(row(
         "sigma_a*",
         At::Own,

@@ -96,18 +96,8 @@ pub struct FloatModel {
     bounds: Vec<ScaledBound>,
 }
 
-const ORDER: [Bound; 10] = [
-    Bound::F,
-    Bound::Fe,
-    Bound::Fxx,
-    Bound::Fex,
-    Bound::Q,
-    Bound::Qe,
-    Bound::Qx,
-    Bound::Qt,
-    Bound::QRms,
-    Bound::QtRms,
-];
+const ORDER: [Bound; 10] =
+    [Bound::F, Bound::Fe, Bound::Fxx, Bound::Fex, Bound::Q, Bound::Qe, Bound::Qx, Bound::Qt, Bound::QRms, Bound::QtRms];
 
 impl FloatModel {
     /// Converts the data; `trade_off` says which pairs (k0, k1) may be proposed.

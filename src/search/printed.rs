@@ -94,14 +94,12 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
         scan::e_depths()
             .iter()
             .flat_map(|depth| [1.0, 0.1].map(|share| (depth, share)))
-            .filter_map(|(depth, share)| {
-                Some((evaluate(model, kappas, x, e_max * (-depth).exp(), share)?, share))
-            })
+            .filter_map(|(depth, share)| Some((evaluate(model, kappas, x, e_max * (-depth).exp(), share)?, share)))
             .min_by(|a, b| a.0.sigma.total_cmp(&b.0.sigma))
     });
     let (start, share) = columns.into_iter().flatten().min_by(|a, b| a.0.sigma.total_cmp(&b.0.sigma))?;
     let decode = |p: &[f64]| {
-        let x = p[0].exp();
+        let x = scan::in_range(p[0].exp())?;
         let e = largest_e(x)? * (-depth_of(p[1])).exp();
         // A share slightly below 1 keeps h inside its closed interval after rounding.
         evaluate(model, kappas, x, e, (1.0 - 1e-9) * (-p[2] * p[2]).exp())

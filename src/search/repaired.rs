@@ -64,8 +64,8 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     if e_b > model.domain.1 * (1.0 - 1e-7) {
         return Err(Obstacle::DomainE);
     }
-    let rho_0 = model.p_up
-        * (model.bound(Bound::Fxx, x, e) * x + f_ex * e + model.bound(Bound::Fxx, x_b, e) * (x_b + x) / 2.0);
+    let rho_0 =
+        model.p_up * (model.bound(Bound::Fxx, x, e) * x + f_ex * e + model.bound(Bound::Fxx, x_b, e) * (x_b + x) / 2.0);
     let (q_x_b, q_e_b) = (model.bound(Bound::Qx, x_b, e_b), model.bound(Bound::Qe, x_b, e_b));
     let curvature = model.alpha * model.p_low - rho_0 - h / model.mu * q_x_b * q_x_b;
     if curvature.is_nan() || curvature <= 0.0 {
@@ -85,7 +85,8 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
 }
 
 /// The largest E with C1 and the first diagonal entry of the contraction matrix below 1.
-fn largest_e(model: &FloatModel, x: f64) -> Option<f64> {
+#[must_use]
+pub fn largest_e_repaired(model: &FloatModel, x: f64) -> Option<f64> {
     let gain = k_alpha(model) / model.alpha;
     let f_xx = model.bound(Bound::Fxx, x, 0.0);
     let admissible = |e: f64| {
@@ -105,7 +106,7 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
     let columns = scan::evaluate_all(&xs, |&x| {
         let mut closest = Obstacle::Existence;
         let mut best: Option<(RepairedProposal, f64)> = None;
-        let e_max = largest_e(model, x).ok_or(closest)?;
+        let e_max = largest_e_repaired(model, x).ok_or(closest)?;
         for depth in scan::e_depths() {
             for eta in ETAS {
                 match evaluate(model, x, e_max * (-depth).exp(), eta) {
@@ -129,11 +130,11 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
     found.truncate(4);
     let refined = scan::evaluate_all(&found, |(start, eta)| {
         let decode = |p: &[f64]| {
-            let x = p[0].exp();
-            let e = largest_e(model, x)? * (-depth_of(p[1])).exp();
+            let x = scan::in_range(p[0].exp())?;
+            let e = largest_e_repaired(model, x)? * (-depth_of(p[1])).exp();
             evaluate(model, x, e, p[2].exp()).ok()
         };
-        let depth = (largest_e(model, start.x)? / start.e).ln().max(1e-9);
+        let depth = (largest_e_repaired(model, start.x)? / start.e).ln().max(1e-9);
         let first = [start.x.ln(), parameter_of(depth), eta.ln()];
         let (best, _) = minimise(|p| decode(p).map(|f| f.sigma.ln()), &first, &[0.3, 0.5, 0.5], 6)?;
         decode(&best)

@@ -21,6 +21,11 @@ pub fn x_values(limit: f64) -> Vec<f64> {
     values
 }
 
+/// The value itself, if it lies in the scanned range of X.
+pub fn in_range(x: f64) -> Option<f64> {
+    (1e-40..=1e40).contains(&x).then_some(x)
+}
+
 /// E depths for the scan.
 pub fn e_depths() -> &'static [f64] {
     &E_DEPTHS
@@ -45,6 +50,6 @@ pub fn largest(admissible: impl Fn(f64) -> bool, limit: f64) -> Option<f64> {
 }
 
 /// Evaluates `f` on all items in parallel, results in the order of the items.
-pub fn evaluate_all<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
+pub fn evaluate_all<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
     items.par_iter().map(f).collect()
 }

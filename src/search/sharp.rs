@@ -38,7 +38,9 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
             Err(obstacle) => closest = closest.max(obstacle),
         }
     }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Where X does not matter, prefer ordinary numbers.
+    let unusual = |p: &SharpParameters| p.x_p.ln().abs();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0).then(unusual(&a.1).total_cmp(&unusual(&b.1))));
     let starts = spread(&found);
     let refined = scan::evaluate_all(&starts, |start| refine(model, start, 6));
     let best = refined.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(closest)?;
@@ -67,7 +69,8 @@ fn spread(found: &[(f64, SharpParameters)]) -> Vec<SharpParameters> {
 }
 
 /// The largest E_p with C1 and A < 1 at X_p.
-fn largest_e(model: &FloatModel, x_p: f64) -> Option<f64> {
+#[must_use]
+pub fn largest_e(model: &FloatModel, x_p: f64) -> Option<f64> {
     let gain = model.c() / model.alpha;
     let f_xx = model.bound(Bound::Fxx, x_p, 0.0);
     let admissible = |e: f64| {
@@ -120,7 +123,7 @@ pub(super) fn parameter_of(depth: f64) -> f64 {
 /// Minimises ln sigma over (ln X_p, ln of E_p's depth, ln(rho - 1), ln eta) from a start.
 fn refine(model: &FloatModel, start: &SharpParameters, restarts: usize) -> Option<(SharpParameters, f64)> {
     let decode = |p: &[f64]| {
-        let x_p = p[0].exp();
+        let x_p = scan::in_range(p[0].exp())?;
         let e_p = largest_e(model, x_p)? * (-depth_of(p[1])).exp();
         Some(SharpParameters { x_p, e_p, rho: 1.0 + p[2].exp(), eta: p[3].exp() })
     };

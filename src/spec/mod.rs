@@ -1,3 +1,35 @@
-//! The specification
+//! Bounding specifications: reading them strictly, and the numbers in them.
+//!
+//! A document comes from a stranger, and a claim rests on every number in it. So nothing is guessed and nothing is
+//! rounded: [`Document`] reads JSON strictly and keeps numbers as written, [`Object`] refuses unknown fields,
+//! constants become exact numbers or enclosures, ranges and the conditions on the [`Weights`] are proved, and every
+//! error names its place ([`SpecError`]). What cannot be decided at the highest precision is an error of its own kind
+//! and no answer. [`Specification::from_json`] does all of it; the reader of documents serves certificates and
+//! witness files as well.
+
+mod constant;
+mod document;
+mod error;
+mod initial_set;
+mod json;
+mod limits;
 pub mod model;
+mod object;
+mod power_tail;
+mod quantity;
+mod read;
+mod render;
 pub mod weights;
+mod weights_proof;
+mod weights_read;
+
+pub use constant::{any_constant, nonnegative_constant, positive_constant};
+pub use document::{Document, Value};
+pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
+pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
+pub use model::{Bounds, Constant, Domain, InitialSet, InternalModel, Lyapunov, RelativeDegree, Specification};
+pub use object::Object;
+pub use power_tail::power_tail;
+pub use read::{FORMAT, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
+pub use weights::Weights;
+pub use weights_read::MAX_WEIGHTS;

@@ -5,6 +5,7 @@ use crate::expr::Expr;
 use crate::number::Monomial;
 use rug::Rational;
 
+use super::document::Document;
 use super::weights::Weights;
 
 /// A checked specification: fields present, numbers exact and in range, weights proved to satisfy W1-W3.
@@ -31,11 +32,18 @@ pub struct Specification {
     pub initial_set: InitialSet,
     /// The relative-degree filter, when e is a combination of xi_1, ..., xi_r.
     pub relative_degree: Option<RelativeDegree>,
-    /// The document as it was read.
+    /// The document as it was read: key order and the text of numbers as written.
+    ///
+    /// Move it where it is needed. Converting it once more (`serde_json::to_value`, `json!`) rewrites exponents, after
+    /// which the digest below need not fit.
     pub document: serde_json::Value,
     /// SHA-256, in hexadecimal, of the canonical form of the document (keys sorted, no white space, numbers as
     /// written).
     pub sha256: String,
+    /// The document with its places, for errors that are found after reading.
+    pub source: Document,
+    /// The JSON pointer of the specification in `source`; empty when it is the whole document.
+    pub pointer: String,
 }
 
 /// A real constant: its text, and its exact form where it has one.
@@ -129,7 +137,7 @@ impl Bounds {
     }
 }
 
-/// The box X <= x, E <= e on which the bounding functions hold; both positive.
+/// The box |x| <= X, |e| <= E on which the bounding functions hold; both positive.
 #[derive(Clone, Debug)]
 pub struct Domain {
     /// The largest |x|.
@@ -174,7 +182,8 @@ pub enum InitialSet {
     },
 }
 
-/// The coefficients a_1, ..., a_{r-1} of e = xi_r + sum a_i xi_i (derivation, section 6).
+/// The coefficients a_1, ..., a_{r-1} of e = xi_r + sum a_i xi_i: 1 to 20 rational numbers. That the polynomial
+/// s^{r-1} + a_{r-1} s^{r-2} + ... + a_1 is Hurwitz is not checked here.
 #[derive(Clone, Debug)]
 pub struct RelativeDegree {
     /// a_1, ..., a_{r-1}; not empty.

@@ -28,8 +28,11 @@ impl MatchedProof {
         let weights = &data.spec.internal_model.weights;
         let inverse_nu_squared = data.nu.sqr().recip();
         let tail = u64::from(self.first_of_tail);
-        let at_zero =
-            TransferStep { what: "k = 0: 1/(nu^2 n_0) <= k0".to_owned(), lhs: &inverse_nu_squared / &data.n_0, rhs: k0.clone() };
+        let at_zero = TransferStep {
+            what: "k = 0: 1/(nu^2 n_0) <= k0".to_owned(),
+            lhs: &inverse_nu_squared / &data.n_0,
+            rhs: k0.clone(),
+        };
         if !data.spec.internal_model.matched || !(1..=MAX_HARMONICS).contains(&self.first_of_tail) {
             let step = TransferStep {
                 what: format!("a matched proof needs base_frequency = 2 pi / period and 1 <= K <= {MAX_HARMONICS}"),
@@ -53,10 +56,7 @@ impl MatchedProof {
             rhs: k1.clone(),
         };
         let one_by_one = (1..tail).map(harmonic);
-        decide_steps(
-            std::iter::once(at_zero.clone()).chain(one_by_one).chain(std::iter::once(all_others)),
-            at_zero,
-        )
+        decide_steps(std::iter::once(at_zero.clone()).chain(one_by_one).chain(std::iter::once(all_others)), at_zero)
     }
 }
 
@@ -110,10 +110,10 @@ impl TradeOff {
     #[must_use]
     pub fn best(&self, a: f64, b: f64) -> (f64, f64, u32) {
         let cost = |pair: &(f64, f64, u32)| pair.0 * a + pair.1 * b;
-        self.candidates
-            .iter()
-            .copied()
-            .min_by(|p, q| cost(p).total_cmp(&cost(q)))
-            .unwrap_or((f64::INFINITY, f64::INFINITY, 1))
+        self.candidates.iter().copied().min_by(|p, q| cost(p).total_cmp(&cost(q))).unwrap_or((
+            f64::INFINITY,
+            f64::INFINITY,
+            1,
+        ))
     }
 }

@@ -1,0 +1,381 @@
+//! A document and its values, each with its place.
+
+use super::error::{ErrorKind, Errors, Reported, SpecError, SpecErrors};
+use super::json::{self, Content, Node};
+use super::limits::{self, MAX_BYTES};
+use super::object::Object;
+use crate::expr::ExprError;
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
+use std::io::Read;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The text of a document and the name under which errors show it.
+#[derive(Debug)]
+pub(super) struct Source {
+    pub(super) label: String,
+    pub(super) text: String,
+}
+
+impl Source {
+    /// Line and column (in characters) of a byte, both from 1.
+    pub(super) fn line_and_column(&self, at: usize) -> (usize, usize) {
+        let before = self.text.get(..at).unwrap_or(&self.text);
+        let line = 1 + before.matches('\n').count();
+        let column = 1 + before.rsplit('\n').next().map_or(0, |line| line.chars().count());
+        (line, column)
+    }
+}
+
+/// A JSON document that was read strictly: RFC 8259, no duplicate keys, within the limits of this module
+/// ([`MAX_BYTES`], [`MAX_NESTING`](super::MAX_NESTING), [`MAX_VALUES`](super::MAX_VALUES)), with numbers kept as
+/// written. Specifications, certificates and witness files are all read through it. Cheap to clone.
+#[derive(Clone, Debug)]
+pub struct Document {
+    source: Arc<Source>,
+    root: Arc<Node>,
+}
+
+impl Document {
+    /// Reads a document from its text; `label` is what errors call it, usually its path.
+    ///
+    /// # Errors
+    /// What is wrong with the text as JSON: a limit exceeded, a byte order mark, a syntax error, a duplicate key.
+    pub fn parse(label: &str, text: &str) -> Result<Document, SpecErrors> {
+        if text.len() > MAX_BYTES {
+            return Err(SpecErrors::single(source(label, ""), limits::too_large()));
+        }
+        let source = source(label, text);
+        match json::parse(text) {
+            Ok(root) => Ok(Document { source, root: Arc::new(root) }),
+            Err(error) => Err(SpecErrors::single(source, error)),
+        }
+    }
+
+    /// Reads a document from bytes.
+    ///
+    /// # Errors
+    /// Bytes that are not UTF-8, and those of [`Document::parse`].
+    pub fn from_bytes(label: &str, bytes: &[u8]) -> Result<Document, SpecErrors> {
+        if bytes.len() > MAX_BYTES {
+            return Err(SpecErrors::single(source(label, ""), limits::too_large()));
+        }
+        match std::str::from_utf8(bytes) {
+            Ok(text) => Document::parse(label, text),
+            Err(error) => {
+                let at = error.valid_up_to();
+                // The valid part serves to show where the trouble starts.
+                let valid = String::from_utf8_lossy(&bytes[..at]);
+                let message = format!("byte {at} (0x{:02x}) is not UTF-8", bytes[at]);
+                let error = SpecError::new(ErrorKind::Encoding, "", at..at, message).help("save the file as UTF-8");
+                Err(SpecErrors::single(source(label, &valid), error))
+            }
+        }
+    }
+
+    /// Reads a document from a file, of which never more than [`MAX_BYTES`] and one bytes are read.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and those of [`Document::from_bytes`].
+    pub fn load(path: &Path) -> Result<Document, SpecErrors> {
+        let label = path.display().to_string();
+        let mut bytes = Vec::new();
+        let read = std::fs::File::open(path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes));
+        match read {
+            Ok(_) => Document::from_bytes(&label, &bytes),
+            Err(error) => {
+                let error = SpecError::new(ErrorKind::Unreadable, "", 0..0, format!("cannot be read: {error}"));
+                Err(SpecErrors::single(source(&label, ""), error))
+            }
+        }
+    }
+
+    /// The name under which errors show the document.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        &self.source.label
+    }
+
+    /// The text of the document.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    /// The value that is the whole document.
+    #[must_use]
+    pub fn root(&self) -> Value<'_> {
+        Value { document: self, node: &self.root, pointer: String::new(), key: None }
+    }
+
+    /// The value at a JSON pointer (RFC 6901), if there is one.
+    #[must_use]
+    pub fn at(&self, pointer: &str) -> Option<Value<'_>> {
+        let mut value = self.root();
+        if pointer.is_empty() {
+            return Some(value);
+        }
+        for step in pointer.strip_prefix('/')?.split('/') {
+            let step = step.replace("~1", "/").replace("~0", "~");
+            value = match &value.node.content {
+                Content::Object(_) => value.member(&step)?,
+                Content::Array(_) => value.element(step.parse().ok()?)?,
+                _ => return None,
+            };
+        }
+        Some(value)
+    }
+
+    pub(super) fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+}
+
+fn source(label: &str, text: &str) -> Arc<Source> {
+    Arc::new(Source { label: label.to_owned(), text: text.to_owned() })
+}
+
+/// A value in a document: it knows its JSON pointer and its place.
+#[derive(Clone, Debug)]
+pub struct Value<'d> {
+    document: &'d Document,
+    node: &'d Node,
+    pointer: String,
+    key: Option<Range<usize>>,
+}
+
+impl<'d> Value<'d> {
+    /// The JSON pointer (RFC 6901) of the value.
+    #[must_use]
+    pub fn pointer(&self) -> &str {
+        &self.pointer
+    }
+
+    /// The bytes of the document that the value takes, quotes and brackets included.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.node.span.clone()
+    }
+
+    /// The document that the value stands in.
+    #[must_use]
+    pub fn document(&self) -> &'d Document {
+        self.document
+    }
+
+    /// The text of a JSON number, as written; `None` for other values.
+    #[must_use]
+    pub fn numeral(&self) -> Option<&'d str> {
+        match &self.node.content {
+            Content::Number(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The decoded text of a JSON string; `None` for other values.
+    #[must_use]
+    pub fn text(&self) -> Option<&'d str> {
+        match &self.node.content {
+            Content::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// An error about this value; it points at the value, or at the opening bracket of an array or object.
+    #[must_use]
+    pub fn error(&self, kind: ErrorKind, message: impl Into<String>) -> SpecError {
+        SpecError::new(kind, self.pointer.clone(), self.anchor(), message)
+    }
+
+    /// An error about a part of the text in this value: `part` is in bytes of the decoded string or of the numeral,
+    /// and is mapped back through the escapes of the literal.
+    #[must_use]
+    pub fn error_in(&self, kind: ErrorKind, part: &Range<usize>, message: impl Into<String>) -> SpecError {
+        let span = match &self.node.content {
+            Content::Text(_) => json::locate(&self.document.source.text, &self.node.span, part),
+            Content::Number(_) => {
+                let within = |offset: usize| (self.node.span.start + offset).min(self.node.span.end);
+                within(part.start)..within(part.end.max(part.start))
+            }
+            _ => self.anchor(),
+        };
+        SpecError::new(kind, self.pointer.clone(), span, message)
+    }
+
+    /// The error of an expression in this value, in its place.
+    #[must_use]
+    pub fn expression_error(&self, error: &ExprError) -> SpecError {
+        let located = self.error_in(ErrorKind::Expression, &error.span, error.to_string());
+        let located = match &error.expected {
+            Some(expected) => located.expected(format!("expected {expected}")),
+            None => located,
+        };
+        match &error.help {
+            Some(help) => located.help(help),
+            None => located,
+        }
+    }
+
+    /// What the value is, for messages.
+    #[must_use]
+    pub fn type_name(&self) -> &'static str {
+        match self.node.content {
+            Content::Null => "null",
+            Content::Boolean(_) => "a boolean",
+            Content::Number(_) => "a number",
+            Content::Text(_) => "a string",
+            Content::Array(_) => "an array",
+            Content::Object(_) => "an object",
+        }
+    }
+
+    /// Reports that the value has the wrong JSON type.
+    pub fn wrong_type(&self, expected: &str, errors: &mut Errors) -> Reported {
+        let message = format!("{} is {}", self.name(), self.type_name());
+        errors.report(self.error(ErrorKind::Type, message).expected(format!("expected {expected}")))
+    }
+
+    /// The members of an object, to be read field by field.
+    ///
+    /// # Errors
+    /// Reports a value that is not an object.
+    pub fn object(&self, errors: &mut Errors) -> Result<Object<'d>, Reported> {
+        match self.node.content {
+            Content::Object(_) => Ok(Object::new(self.clone())),
+            _ => Err(self.wrong_type("an object", errors)),
+        }
+    }
+
+    /// The elements of an array.
+    ///
+    /// # Errors
+    /// Reports a value that is not an array.
+    pub fn array(&self, errors: &mut Errors) -> Result<Vec<Value<'d>>, Reported> {
+        match self.node.content {
+            Content::Array(_) => Ok(self.elements()),
+            _ => Err(self.wrong_type("an array", errors)),
+        }
+    }
+
+    /// The text of a string.
+    ///
+    /// # Errors
+    /// Reports a value that is not a string.
+    pub fn string(&self, errors: &mut Errors) -> Result<&'d str, Reported> {
+        self.text().ok_or_else(|| self.wrong_type("a string", errors))
+    }
+
+    /// A boolean.
+    ///
+    /// # Errors
+    /// Reports a value that is neither `true` nor `false`.
+    pub fn boolean(&self, errors: &mut Errors) -> Result<bool, Reported> {
+        match self.node.content {
+            Content::Boolean(value) => Ok(value),
+            _ => Err(self.wrong_type("true or false", errors)),
+        }
+    }
+
+    /// A whole number of at least 0 that is written with digits only.
+    ///
+    /// # Errors
+    /// Reports anything else, and numbers beyond `u64`.
+    pub fn integer(&self, errors: &mut Errors) -> Result<u64, Reported> {
+        self.numeral().and_then(|numeral| numeral.parse().ok()).ok_or_else(|| self.wrong_type("a whole number", errors))
+    }
+
+    /// The canonical form: keys sorted by their UTF-8 bytes, no white space, numbers as written, strings with the
+    /// escapes `\"`, `\\`, `\b`, `\t`, `\n`, `\f`, `\r` and lower-case `\u00xx` for the other characters below
+    /// U+0020 and nothing else escaped (as `serde_json` writes them).
+    #[must_use]
+    pub fn canonical(&self) -> String {
+        let mut output = String::new();
+        self.node.write_canonical(&mut output);
+        output
+    }
+
+    /// SHA-256 of the [canonical form](Value::canonical), in lower-case hexadecimal.
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        Sha256::digest(self.canonical()).iter().fold(String::with_capacity(64), |mut hex, byte| {
+            // Writing to a string cannot fail.
+            let _ = write!(hex, "{byte:02x}");
+            hex
+        })
+    }
+
+    /// The value for `serde_json`, with key order and the text of numbers as in the document.
+    ///
+    /// Writing it gives the numbers as written. Converting it once more (`serde_json::to_value`, `json!`) does not:
+    /// `serde_json` then rewrites exponents, and the digest of what comes out may differ. Move it instead.
+    #[must_use]
+    pub fn to_json(&self) -> serde_json::Value {
+        self.node.to_json()
+    }
+
+    /// The member of an object, if the value is one and has it.
+    pub(super) fn member(&self, name: &str) -> Option<Value<'d>> {
+        self.members().find(|(key, _)| *key == name).map(|(_, value)| value)
+    }
+
+    /// The element of an array, if the value is one and has it.
+    pub(super) fn element(&self, index: usize) -> Option<Value<'d>> {
+        self.elements().into_iter().nth(index)
+    }
+
+    /// The members of an object in the order of the document; none for other values.
+    pub(super) fn members(&self) -> impl Iterator<Item = (&'d str, Value<'d>)> + '_ {
+        let members = match &self.node.content {
+            Content::Object(members) => members.as_slice(),
+            _ => &[],
+        };
+        members.iter().map(|member| {
+            let value = Value {
+                document: self.document,
+                node: &member.value,
+                pointer: format!("{}/{}", self.pointer, json::escape_pointer(&member.key)),
+                key: Some(member.key_span.clone()),
+            };
+            (member.key.as_str(), value)
+        })
+    }
+
+    /// Where an error about a field that this object lacks should point: at its key, or its opening bracket.
+    pub(super) fn key_span(&self) -> Range<usize> {
+        self.key.clone().unwrap_or_else(|| self.anchor())
+    }
+
+    /// What messages call the value: its last key or index, or "the document".
+    pub(super) fn name(&self) -> String {
+        match self.pointer.rsplit('/').next() {
+            None | Some("") => "the document".to_owned(),
+            Some(name) => format!("`{}`", super::error::shown(name)),
+        }
+    }
+
+    fn elements(&self) -> Vec<Value<'d>> {
+        let elements = match &self.node.content {
+            Content::Array(elements) => elements.as_slice(),
+            _ => &[],
+        };
+        elements
+            .iter()
+            .enumerate()
+            .map(|(index, node)| Value {
+                document: self.document,
+                node,
+                pointer: format!("{}/{index}", self.pointer),
+                key: None,
+            })
+            .collect()
+    }
+
+    fn anchor(&self) -> Range<usize> {
+        match self.node.content {
+            Content::Array(_) | Content::Object(_) => self.node.span.start..self.node.span.start + 1,
+            _ => self.node.span.clone(),
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! JSON as it is written: strict, with the place of every key and value, numbers as text.
+
+use super::error::{ErrorKind, SpecError, shown};
+use super::limits;
+use jsonc_parser::ast;
+use jsonc_parser::common::Ranged;
+use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+use std::collections::HashSet;
+use std::fmt::Write;
+use std::ops::Range;
+
+/// A value and where it stands, in bytes.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) span: Range<usize>,
+    pub(super) content: Content,
+}
+
+/// What a value is; numbers keep the text that is written.
+#[derive(Clone, Debug)]
+pub(super) enum Content {
+    Null,
+    Boolean(bool),
+    Number(String),
+    Text(String),
+    Array(Vec<Node>),
+    Object(Vec<Member>),
+}
+
+/// A member of an object, in the order of the document.
+#[derive(Clone, Debug)]
+pub(super) struct Member {
+    pub(super) key: String,
+    pub(super) key_span: Range<usize>,
+    pub(super) value: Node,
+}
+
+/// Reads a document: first the limits, then strict validation, then the tree with its places.
+///
+/// Two libraries share the work: `serde_json` decides what is JSON (RFC 8259, nothing more), `jsonc-parser` says
+/// where everything is. Neither sees a document before its nesting is known to be small, since both recurse.
+///
+/// # Errors
+/// The first thing that is wrong with the document as JSON.
+pub(super) fn parse(text: &str) -> Result<Node, SpecError> {
+    if text.starts_with('\u{feff}') {
+        return Err(SpecError::new(ErrorKind::Encoding, "", 0..3, "the document starts with a byte order mark")
+            .help("save it as UTF-8 without a byte order mark"));
+    }
+    if text.trim().is_empty() {
+        return Err(SpecError::new(ErrorKind::Syntax, "", 0..0, "the document is empty").help("expected a JSON object"));
+    }
+    limits::check(text)?;
+    if let Err(error) = serde_json::from_str::<serde::de::IgnoredAny>(text) {
+        return Err(syntax_error(text, &error));
+    }
+    let strict = ParseOptions {
+        allow_comments: false,
+        allow_loose_object_property_names: false,
+        allow_trailing_commas: false,
+        allow_missing_commas: false,
+        allow_single_quoted_strings: false,
+        allow_hexadecimal_numbers: false,
+        allow_unary_plus_numbers: false,
+        allow_bare_decimal_point_numbers: false,
+        allow_non_finite_numbers: false,
+        allow_extended_string_escapes: false,
+    };
+    // What the first reader lets pass and the second refuses is the escape of half a surrogate pair.
+    let tree = parse_to_ast(text, &CollectOptions::default(), &strict).map_err(|error| {
+        let range = error.range();
+        SpecError::new(ErrorKind::Syntax, "", range.start..range.end, format!("not valid JSON: {}", error.kind()))
+    })?;
+    match tree.value {
+        Some(value) => node(value, &mut Vec::new()),
+        None => {
+            Err(SpecError::new(ErrorKind::Syntax, "", 0..0, "the document is empty").help("expected a JSON object"))
+        }
+    }
+}
+
+/// The parser's complaint, in its place.
+fn syntax_error(text: &str, error: &serde_json::Error) -> SpecError {
+    let line_start = match error.line() {
+        0 | 1 => 0,
+        line => text.match_indices('\n').nth(line - 2).map_or(text.len(), |(position, _)| position + 1),
+    };
+    // The column counts bytes from 1; at the end of the document it points past the last one.
+    let at = (line_start + error.column().saturating_sub(1)).min(text.len());
+    let end = text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
+    let full = error.to_string();
+    let suffix = format!(" at line {} column {}", error.line(), error.column());
+    let message = full.strip_suffix(&suffix).unwrap_or(&full);
+    let located = SpecError::new(ErrorKind::Syntax, "", at..end, format!("not valid JSON: {message}"));
+    match &text[at..end] {
+        "/" | "#" => located.help("JSON has no comments; put remarks in `description`"),
+        "'" => located.help("strings stand in double quotes"),
+        "}" | "]" if text[..at].trim_end().ends_with(',') => located.help("remove the comma in front of it"),
+        _ => located,
+    }
+}
+
+/// Takes over a value; `path` leads to it and is spelled out only for an error, since keys may be long.
+fn node(value: ast::Value<'_>, path: &mut Vec<String>) -> Result<Node, SpecError> {
+    let range = value.range();
+    let content = match value {
+        ast::Value::NullKeyword(_) => Content::Null,
+        ast::Value::BooleanLit(literal) => Content::Boolean(literal.value),
+        ast::Value::NumberLit(literal) => Content::Number(literal.value.to_owned()),
+        ast::Value::StringLit(literal) => Content::Text(literal.value.into_owned()),
+        ast::Value::Array(array) => {
+            let mut elements = Vec::with_capacity(array.elements.len());
+            for (index, element) in array.elements.into_iter().enumerate() {
+                path.push(index.to_string());
+                elements.push(node(element, path)?);
+                path.pop();
+            }
+            Content::Array(elements)
+        }
+        ast::Value::Object(object) => Content::Object(members(object, path)?),
+    };
+    Ok(Node { span: range.start..range.end, content })
+}
+
+fn members(object: ast::Object<'_>, path: &mut Vec<String>) -> Result<Vec<Member>, SpecError> {
+    let mut members = Vec::with_capacity(object.properties.len());
+    let mut seen = HashSet::with_capacity(object.properties.len());
+    for property in object.properties {
+        let range = property.name.range();
+        let key_span = range.start..range.end;
+        let key = match property.name {
+            ast::ObjectPropName::String(literal) => literal.value.into_owned(),
+            ast::ObjectPropName::Word(word) => word.value.to_owned(),
+        };
+        path.push(key.clone());
+        if !seen.insert(key.clone()) {
+            let pointer: String = path.iter().map(|step| format!("/{}", escape_pointer(step))).collect();
+            let message = format!("the field `{}` is given twice", shown(&key));
+            return Err(SpecError::new(ErrorKind::DuplicateKey, pointer, key_span, message)
+                .expected("the second time")
+                .help("readers disagree on which of the two counts; remove one"));
+        }
+        members.push(Member { value: node(property.value, path)?, key, key_span });
+        path.pop();
+    }
+    Ok(members)
+}
+
+/// A key as a part of a JSON pointer (RFC 6901).
+pub(super) fn escape_pointer(key: &str) -> String {
+    key.replace('~', "~0").replace('/', "~1")
+}
+
+impl Node {
+    /// The canonical form: keys sorted by their UTF-8 bytes, no white space, numbers as written, strings as
+    /// `serde_json` writes them (`\"`, `\\`, `\b`, `\t`, `\n`, `\f`, `\r`, other characters below U+0020 as
+    /// lower-case `\u00xx`, everything else as itself).
+    pub(super) fn write_canonical(&self, output: &mut String) {
+        match &self.content {
+            Content::Null => output.push_str("null"),
+            Content::Boolean(value) => output.push_str(if *value { "true" } else { "false" }),
+            Content::Number(text) => output.push_str(text),
+            Content::Text(text) => write_string(text, output),
+            Content::Array(elements) => {
+                output.push('[');
+                for (index, element) in elements.iter().enumerate() {
+                    if index > 0 {
+                        output.push(',');
+                    }
+                    element.write_canonical(output);
+                }
+                output.push(']');
+            }
+            Content::Object(members) => {
+                let mut sorted: Vec<&Member> = members.iter().collect();
+                sorted.sort_by(|a, b| a.key.cmp(&b.key));
+                output.push('{');
+                for (index, member) in sorted.into_iter().enumerate() {
+                    if index > 0 {
+                        output.push(',');
+                    }
+                    write_string(&member.key, output);
+                    output.push(':');
+                    member.value.write_canonical(output);
+                }
+                output.push('}');
+            }
+        }
+    }
+
+    /// The same value for `serde_json`: key order and the text of numbers as in the document.
+    pub(super) fn to_json(&self) -> serde_json::Value {
+        match &self.content {
+            Content::Null => serde_json::Value::Null,
+            Content::Boolean(value) => serde_json::Value::Bool(*value),
+            // Parsing would rewrite exponents (1E2 as 1e+2), and the digest is over numbers as written. The text is
+            // a JSON number: both readers took it as one.
+            Content::Number(text) => serde_json::Value::Number(serde_json::Number::from_string_unchecked(text.clone())),
+            Content::Text(text) => serde_json::Value::String(text.clone()),
+            Content::Array(elements) => serde_json::Value::Array(elements.iter().map(Node::to_json).collect()),
+            Content::Object(members) => serde_json::Value::Object(
+                members.iter().map(|member| (member.key.clone(), member.value.to_json())).collect(),
+            ),
+        }
+    }
+}
+
+fn write_string(text: &str, output: &mut String) {
+    output.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => output.push_str("\\\""),
+            '\\' => output.push_str("\\\\"),
+            '\u{8}' => output.push_str("\\b"),
+            '\t' => output.push_str("\\t"),
+            '\n' => output.push_str("\\n"),
+            '\u{c}' => output.push_str("\\f"),
+            '\r' => output.push_str("\\r"),
+            c if c < ' ' => {
+                // Writing to a string cannot fail.
+                let _ = write!(output, "\\u{:04x}", u32::from(c));
+            }
+            c => output.push(c),
+        }
+    }
+    output.push('"');
+}
+
+/// Where the bytes `range` of a decoded string stand in the document, given the span of its literal (with quotes).
+pub(super) fn locate(text: &str, literal: &Range<usize>, range: &Range<usize>) -> Range<usize> {
+    let inside = literal.start + 1..literal.end.saturating_sub(1).max(literal.start + 1);
+    let Some(raw) = text.get(inside.clone()) else { return literal.clone() };
+    let mut decoded = 0;
+    let mut start = None;
+    let mut at = 0;
+    while let Some(c) = raw[at..].chars().next() {
+        let (raw_length, decoded_length) =
+            if c == '\\' { escape_lengths(&raw[at..]) } else { (c.len_utf8(), c.len_utf8()) };
+        let next = decoded + decoded_length;
+        if start.is_none() && range.start < next {
+            start = Some(inside.start + at);
+        }
+        if range.end <= next && (range.end > range.start || start.is_some()) {
+            let begin = start.unwrap_or(inside.start + at);
+            // An empty range is a place between two characters.
+            let end = if range.is_empty() { begin } else { inside.start + at + raw_length };
+            return begin..end;
+        }
+        decoded = next;
+        at += raw_length;
+    }
+    start.unwrap_or(inside.end)..inside.end
+}
+
+/// How many bytes an escape takes in the document, and how many its character takes in the string.
+fn escape_lengths(raw: &str) -> (usize, usize) {
+    let unit = |at: usize| raw.get(at + 2..at + 6).and_then(|digits| u32::from_str_radix(digits, 16).ok());
+    if !raw.starts_with("\\u") {
+        return (2.min(raw.len()), 1);
+    }
+    match unit(0) {
+        // A surrogate pair: two escapes for one character of four bytes.
+        Some(0xD800..=0xDBFF) => (12.min(raw.len()), 4),
+        Some(code) => (6, char::from_u32(code).map_or(1, char::len_utf8)),
+        None => (raw.len(), 1),
+    }
+}

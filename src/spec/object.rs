@@ -1,0 +1,126 @@
+//! Strict objects: every field is known, required ones are there, and the header says what the file is.
+
+use super::document::Value;
+use super::error::{ErrorKind, Errors, Reported, SpecError, list, nearest, shown};
+
+/// An object that is read field by field. Every field that is asked for counts as known; [`Object::finish`] refuses
+/// the others, so a misspelt field can never be silently ignored.
+#[derive(Debug)]
+#[must_use = "`finish` refuses unknown fields"]
+pub struct Object<'d> {
+    value: Value<'d>,
+    known: Vec<&'static str>,
+}
+
+impl<'d> Object<'d> {
+    pub(super) fn new(value: Value<'d>) -> Object<'d> {
+        Object { value, known: Vec::new() }
+    }
+
+    /// The object as a value.
+    #[must_use]
+    pub fn value(&self) -> &Value<'d> {
+        &self.value
+    }
+
+    /// A field that may be absent.
+    pub fn optional(&mut self, name: &'static str) -> Option<Value<'d>> {
+        self.known.push(name);
+        self.value.member(name)
+    }
+
+    /// A field that must be there.
+    ///
+    /// # Errors
+    /// Reports a missing field.
+    pub fn required(&mut self, name: &'static str, errors: &mut Errors) -> Result<Value<'d>, Reported> {
+        self.optional(name).ok_or_else(|| {
+            errors.report(
+                SpecError::new(
+                    ErrorKind::MissingField,
+                    format!("{}/{name}", self.value.pointer()),
+                    self.value.key_span(),
+                    format!("the field `{name}` is missing"),
+                )
+                .expected(format!("expected `{name}` in this object")),
+            )
+        })
+    }
+
+    /// Reads `format` and `version`, which open every file of the tool.
+    ///
+    /// # Errors
+    /// Reports a missing field, another format, and a version that is not in `versions`. A caller stops at that:
+    /// what follows in a file of another kind means something else.
+    pub fn header(&mut self, format: &str, versions: &[u64], errors: &mut Errors) -> Result<u64, Reported> {
+        let found = self.required("format", errors).and_then(|value| {
+            let found = value.string(errors)?;
+            if found == format {
+                return Ok(());
+            }
+            let message = format!("this is a file of format `{}`", shown(found));
+            Err(errors.report(value.error(ErrorKind::Format, message).expected(format!("expected `{format}`"))))
+        });
+        let version = self.required("version", errors).and_then(|value| {
+            let version = value.integer(errors)?;
+            if versions.contains(&version) {
+                return Ok(version);
+            }
+            let read: Vec<String> = versions.iter().map(u64::to_string).collect();
+            let read: Vec<&str> = read.iter().map(String::as_str).collect();
+            let plural = if read.len() == 1 { "version" } else { "versions" };
+            let error = value
+                .error(ErrorKind::Version, format!("version {version} of `{format}` is not read"))
+                .expected(format!("{plural} {} can be read", list(&read)));
+            Err(errors.report(error))
+        });
+        found.and(version)
+    }
+
+    /// Refuses the fields that were not asked for, each with its nearest known neighbour.
+    pub fn finish(self, errors: &mut Errors) {
+        self.finish_as("here", errors);
+    }
+
+    /// The same, where the known fields depend on something: `place` completes "the fields known ...".
+    pub fn finish_as(self, place: &str, errors: &mut Errors) {
+        for (key, value) in self.value.members() {
+            if self.known.contains(&key) {
+                continue;
+            }
+            let error = SpecError::new(
+                ErrorKind::UnknownField,
+                value.pointer(),
+                value.key_span(),
+                format!("unknown field `{}`", shown(key)),
+            );
+            // A field that is there already is less likely to be what was meant.
+            let absent = self.known.iter().copied().filter(|name| self.value.member(name).is_none());
+            let near = nearest(key, absent).or_else(|| nearest(key, self.known.iter().copied()));
+            errors.report(match near {
+                Some(name) => error.expected(format!("did you mean `{name}`?")),
+                None => error.help(format!("the fields known {place} are {}", list(&self.known))),
+            });
+        }
+    }
+}
+
+/// The name of a kind or family, out of those that are known.
+///
+/// # Errors
+/// Reports any other name with the nearest that is known.
+pub(super) fn choose(
+    value: &Value<'_>,
+    what: &str,
+    known: &[&'static str],
+    errors: &mut Errors,
+) -> Result<&'static str, Reported> {
+    let name = value.string(errors)?;
+    known.iter().copied().find(|candidate| *candidate == name).ok_or_else(|| {
+        let error = value.error(ErrorKind::UnknownName, format!("unknown {what} `{}`", shown(name)));
+        errors.report(match nearest(name, known.iter().copied()) {
+            Some(near) => error.expected(format!("did you mean `{near}`?")),
+            None => error.help(format!("the known ones are {}", list(known))),
+        })
+    })
+}

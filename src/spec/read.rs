@@ -1,0 +1,276 @@
+//! From a document to a specification.
+
+use super::constant::{any_constant, expression, positive_constant, whole};
+use super::document::{Document, Value};
+use super::error::{ErrorKind, Errors, Reported, SpecErrors};
+use super::initial_set;
+use super::model::{Bounds, Constant, Domain, InternalModel, Lyapunov, RelativeDegree, Specification};
+use super::object::Object;
+use super::quantity::Quantity;
+use super::weights_read;
+use crate::enclosure::{MAX_PRECISION, Truth};
+use crate::expr::{Expr, Variables};
+use crate::number::{Monomial, write_exact};
+use rug::Rational;
+use std::ops::Range;
+use std::path::Path;
+
+/// The `format` of a specification.
+pub const FORMAT: &str = "sigmastar/bounding-spec";
+
+/// The versions of it that are read.
+pub const VERSIONS: [u64; 1] = [1];
+
+/// The most coefficients that `relative_degree` may list.
+pub const MAX_RELATIVE_DEGREE_COEFFICIENTS: usize = 20;
+
+impl Specification {
+    /// Reads a specification from the text of its file; `label` is what errors call it, usually its path.
+    ///
+    /// Guarantee: every number is exact or can be enclosed, and is proved to lie in its range; the weights are proved
+    /// to satisfy W1-W3; `matched`, where asserted, is proved. Nothing is said about the bounding functions beyond
+    /// that they can be read. Never panics, whatever the text.
+    ///
+    /// # Errors
+    /// Everything that was found wrong, in file order. Where nothing is wrong but something could not be decided,
+    /// [`SpecErrors::is_undecided`] holds.
+    pub fn from_json(label: &str, text: &str) -> Result<Specification, SpecErrors> {
+        Document::parse(label, text).and_then(|document| Specification::from_value(&document.root()))
+    }
+
+    /// Reads a specification from its file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and those of [`Specification::from_json`].
+    pub fn load(path: &Path) -> Result<Specification, SpecErrors> {
+        Document::load(path).and_then(|document| Specification::from_value(&document.root()))
+    }
+
+    /// Reads a specification that is a value of a document, such as the copy in a certificate; pointers and places
+    /// are those of the whole document, the digest is that of the value.
+    ///
+    /// # Errors
+    /// Those of [`Specification::from_json`].
+    pub fn from_value(value: &Value<'_>) -> Result<Specification, SpecErrors> {
+        let mut errors = Errors::new();
+        let outcome = read(value, &mut errors);
+        errors.conclude(value.document(), outcome)
+    }
+
+    /// Errors found after reading, in a string of the specification: `field` is its pointer inside the specification
+    /// (`/bounds/q`), `part` the bytes of the decoded text at fault.
+    #[must_use]
+    pub fn errors_at(
+        &self,
+        field: &str,
+        part: &Range<usize>,
+        kind: ErrorKind,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SpecErrors {
+        let pointer = format!("{}{field}", self.pointer);
+        let value = self.source.at(&pointer).unwrap_or_else(|| self.source.root());
+        let mut error = value.error_in(kind, part, message);
+        error.help = help;
+        SpecErrors::single(self.source.source().clone(), error)
+    }
+}
+
+fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reported> {
+    let mut object = value.object(errors)?;
+    object.header(FORMAT, &VERSIONS, errors)?;
+    let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
+    let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
+    let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
+    let lyapunov = object.required("lyapunov", errors).and_then(|value| read_lyapunov(&value, errors));
+    let bounds = object.required("bounds", errors).and_then(|value| read_bounds(&value, errors));
+    let domain = object.optional("domain").map(|value| read_domain(&value, errors)).transpose();
+    let internal_model = object
+        .required("internal_model", errors)
+        .and_then(|value| read_internal_model(&value, period.as_ref().ok(), errors));
+    let initial_set = object.required("initial_set", errors).and_then(|value| initial_set::read(&value, errors));
+    let relative_degree =
+        object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
+    object.finish(errors);
+    Ok(Specification {
+        name: name?,
+        description: description?,
+        period: period?,
+        lyapunov: lyapunov?,
+        bounds: bounds?,
+        domain: domain?,
+        internal_model: internal_model?,
+        initial_set: initial_set?,
+        relative_degree: relative_degree?,
+        document: value.to_json(),
+        sha256: value.sha256(),
+        source: value.document().clone(),
+        pointer: value.pointer().to_owned(),
+    })
+}
+
+fn read_lyapunov(value: &Value<'_>, errors: &mut Errors) -> Result<Lyapunov, Reported> {
+    let mut object = value.object(errors)?;
+    if let Some(jacobian) = value.member("jacobian") {
+        let error = jacobian
+            .error(ErrorKind::Unsupported, "`jacobian` is not read by this version")
+            .expected("not read yet")
+            .help(
+                "give the triple instead: \"lyapunov\": { \"p_low\": ..., \"p_up\": ..., \"alpha\": ... } with \
+                 p_low I <= P_x <= p_up I and P_x' + P_x F + F'P_x <= -2 alpha P_x",
+            );
+        return Err(errors.report(error));
+    }
+    let p_low = positive_field(&mut object, "p_low", errors);
+    let p_up = object.required("p_up", errors).and_then(|value| {
+        let p_up = positive_constant(&value, errors)?;
+        if let Ok(p_low) = &p_low {
+            in_order(p_low, &p_up, &value, errors)?;
+        }
+        Ok(p_up)
+    });
+    let alpha = positive_field(&mut object, "alpha", errors);
+    object.finish(errors);
+    Ok(Lyapunov { p_low: p_low?, p_up: p_up?, alpha: alpha? })
+}
+
+fn in_order(p_low: &Constant, p_up: &Constant, value: &Value<'_>, errors: &mut Errors) -> Result<(), Reported> {
+    let (low, up) = (Quantity::constant(p_low), Quantity::constant(p_up));
+    let (kind, message) = match low.le(&up) {
+        Truth::True => return Ok(()),
+        Truth::False => {
+            let (low, up) = low.shown_apart(&up);
+            (ErrorKind::Range, format!("p_low <= p_up fails: p_low = {low} and p_up = {up}"))
+        }
+        Truth::Undecided => {
+            (ErrorKind::Undecided, format!("cannot be decided at {MAX_PRECISION} bits whether p_low <= p_up"))
+        }
+    };
+    let error = whole(value, kind, message).expected(format!("expected at least {}", low.shown()));
+    Err(errors.report(error))
+}
+
+fn read_bounds(value: &Value<'_>, errors: &mut Errors) -> Result<Bounds, Reported> {
+    let mut object = value.object(errors)?;
+    let mut required =
+        |name, errors: &mut Errors| object.required(name, errors).and_then(|value| bounding_function(&value, errors));
+    let f = required("f", errors);
+    let f_e = required("f_e", errors);
+    let f_xx = required("f_xx", errors);
+    let f_ex = required("f_ex", errors);
+    let q = required("q", errors);
+    let q_e = required("q_e", errors);
+    let q_x = required("q_x", errors);
+    let q_t = required("q_t", errors);
+    let q_rms = object.optional("q_rms").map(|value| bounding_function(&value, errors)).transpose();
+    let q_t_rms = object.optional("q_t_rms").map(|value| bounding_function(&value, errors)).transpose();
+    object.finish(errors);
+    Ok(Bounds {
+        f: f?,
+        f_e: f_e?,
+        f_xx: f_xx?,
+        f_ex: f_ex?,
+        q: q?,
+        q_e: q_e?,
+        q_x: q_x?,
+        q_t: q_t?,
+        q_rms: q_rms?,
+        q_t_rms: q_t_rms?,
+    })
+}
+
+fn bounding_function(value: &Value<'_>, errors: &mut Errors) -> Result<Expr, Reported> {
+    expression(value, Variables::XAndE, "a number or a string with an expression in X and E", errors)
+}
+
+fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reported> {
+    let mut object = value.object(errors)?;
+    let x = positive_field(&mut object, "X", errors);
+    let e = positive_field(&mut object, "E", errors);
+    object.finish(errors);
+    Ok(Domain { x: x?, e: e? })
+}
+
+fn read_internal_model(
+    value: &Value<'_>,
+    period: Option<&Constant>,
+    errors: &mut Errors,
+) -> Result<InternalModel, Reported> {
+    let mut object = value.object(errors)?;
+    let mu = positive_field(&mut object, "mu", errors);
+    let frequency_value = object.required("base_frequency", errors);
+    let base_frequency = frequency_value.clone().and_then(|value| positive_constant(&value, errors));
+    let matched = match object.optional("matched") {
+        Some(value) => value.boolean(errors),
+        None => Ok(false),
+    };
+    let weights = object.required("weights", errors).and_then(|value| weights_read::read(&value, errors));
+    object.finish(errors);
+    if let (Ok(true), Some(period), Ok(value), Ok(frequency)) = (matched, period, &frequency_value, &base_frequency) {
+        prove_matched(period, frequency, value, errors)?;
+    }
+    Ok(InternalModel { mu: mu?, base_frequency: base_frequency?, matched: matched?, weights: weights? })
+}
+
+/// Proves base_frequency * period = 2 pi. Close is not enough: the consequences of a matched frequency (vanishing
+/// harmonics, exact regulation) fail for every other one.
+fn prove_matched(
+    period: &Constant,
+    frequency: &Constant,
+    value: &Value<'_>,
+    errors: &mut Errors,
+) -> Result<(), Reported> {
+    let product = Quantity::constant(frequency).times(Quantity::constant(period));
+    let two_pi = Quantity::exact(Monomial::pi()).times(Quantity::rational(2));
+    let right = match period.as_rational().map(|period| Rational::from(2) / period) {
+        Some(ratio) if ratio == 1 => "pi".to_owned(),
+        Some(ratio) => format!("{}*pi", write_exact(&ratio)),
+        None => format!("2*pi/({})", period.text),
+    };
+    let error = match product.equals(&two_pi) {
+        Truth::True => return Ok(()),
+        Truth::False => {
+            let (product, two_pi) = product.shown_apart(&two_pi);
+            let message = format!(
+                "`matched` asserts base_frequency = 2 pi / period, but base_frequency * period = {product} and \
+                 2 pi = {two_pi}"
+            );
+            whole(value, ErrorKind::Matched, message).expected(format!("`{right}` would be right"))
+        }
+        Truth::Undecided => {
+            let message = "`matched` asserts base_frequency = 2 pi / period, which cannot be proved exactly";
+            whole(value, ErrorKind::Undecided, message).expected(format!("write it in multiples of pi, as `{right}`"))
+        }
+    };
+    Err(errors.report(error.help("or set `matched` to false: the gain does not need it")))
+}
+
+fn read_relative_degree(value: &Value<'_>, errors: &mut Errors) -> Result<RelativeDegree, Reported> {
+    let mut object = value.object(errors)?;
+    let a = object.required("a", errors).and_then(|value| {
+        let elements = value.array(errors)?;
+        if elements.is_empty() || elements.len() > MAX_RELATIVE_DEGREE_COEFFICIENTS {
+            let message = format!("`a` lists {} coefficients", elements.len());
+            let expected = format!("expected 1 to {MAX_RELATIVE_DEGREE_COEFFICIENTS} coefficients a_1, ..., a_(r-1)");
+            return Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)));
+        }
+        let read: Vec<Result<_, Reported>> = elements.iter().map(|value| rational(value, errors)).collect();
+        read.into_iter().collect()
+    });
+    object.finish(errors);
+    Ok(RelativeDegree { a: a? })
+}
+
+fn rational(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
+    let constant = any_constant(value, errors)?;
+    if constant.as_rational().is_some() {
+        return Ok(constant);
+    }
+    let error = whole(value, ErrorKind::Range, "this coefficient is not known to be rational")
+        .expected("expected a rational number, as in \"3/7\" or 0.5");
+    Err(errors.report(error))
+}
+
+fn positive_field(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Constant, Reported> {
+    object.required(name, errors).and_then(|value| positive_constant(&value, errors))
+}
