@@ -14,5 +14,6 @@ pub use produce::{
     Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RepairedProof, SharpProof, TransferChoice,
     certify, recheck,
 };
-pub use read::WitnessFile;
+pub use read::{WitnessFile, read_witness};
 pub use verdict::Verdict;
+pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, statement};

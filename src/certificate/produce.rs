@@ -237,11 +237,11 @@ pub fn recheck<'s>(
     let (sharp, repaired) = match file {
         WitnessFile::Sharp { witness, .. } => {
             let (evaluation, precision) = decide_sharp(spec, witness, options.ladder);
-            (sharp_outcome(Some((witness.clone(), evaluation, precision))), Outcome::Skipped)
+            (sharp_outcome(Some((witness.as_ref().clone(), evaluation, precision))), Outcome::Skipped)
         }
         WitnessFile::Repaired { witness } => {
             let (evaluation, precision) = decide_repaired(spec, witness, options.ladder);
-            (Outcome::Skipped, repaired_outcome(Some((witness.clone(), evaluation, precision))))
+            (Outcome::Skipped, repaired_outcome(Some((witness.as_ref().clone(), evaluation, precision))))
         }
     };
     let exact = match file {

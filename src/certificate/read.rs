@@ -1,8 +1,12 @@
-//! Reading the witness of a certificate.
+//! Reading the witness of a certificate, to decide it again without any search.
 
+use super::write::{FORMAT, VERSION};
 use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::repaired::RepairedWitness;
-use crate::constants::sharp::SharpWitness;
+use crate::constants::sharp::{ClaimedSet, SharpWitness};
+use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
+use crate::transfer::TransferProof;
+use rug::Rational;
 
 /// A witness as read from a certificate.
 #[derive(Clone, Debug)]
@@ -10,13 +14,163 @@ pub enum WitnessFile {
     /// Of the sharp derivation, with the exact-regulation part where it is there.
     Sharp {
         /// The free numbers.
-        witness: SharpWitness,
+        witness: Box<SharpWitness>,
         /// Exact regulation.
         exact: Option<ExactWitness>,
     },
     /// Of the repaired derivation.
     Repaired {
         /// The free numbers.
-        witness: RepairedWitness,
+        witness: Box<RepairedWitness>,
     },
+}
+
+/// Reads the claim's numbers and the witness of a certificate file. Everything else in it (the embedded
+/// specification, the printed conditions and constants) is known and not used: it is computed again.
+///
+/// # Errors
+/// Every field that is missing, unknown or not an exact rational, with its place.
+pub fn read_witness(document: &Document) -> Result<WitnessFile, SpecErrors> {
+    let mut errors = Errors::new();
+    let outcome = read(&document.root(), &mut errors);
+    errors.conclude(document, outcome)
+}
+
+fn read(root: &Value<'_>, errors: &mut Errors) -> Result<WitnessFile, Reported> {
+    let mut file = root.object(errors)?;
+    file.header(FORMAT, &[VERSION], errors)?;
+    for unused in ["tool", "precision_bits", "specification", "specification_sha256", "conditions", "constants"] {
+        let _ = file.optional(unused);
+    }
+    let claim = file.required("claim", errors).and_then(|value| read_claim(&value, errors));
+    let witness = file.required("witness", errors);
+    file.finish(errors);
+    let (claim, witness) = (claim?, witness?);
+    let mut fields = witness.object(errors)?;
+    let result =
+        if claim.repaired { read_repaired(&mut fields, claim, errors) } else { read_sharp(&mut fields, claim, errors) };
+    fields.finish(errors);
+    result
+}
+
+/// What the claim contributes to the witness.
+struct Claim {
+    repaired: bool,
+    sigma: Rational,
+    set: ClaimedSet,
+}
+
+fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported> {
+    let mut claim = value.object(errors)?;
+    for unused in ["verdict", "n_o", "mu", "periodic_solution", "statement"] {
+        let _ = claim.optional(unused);
+    }
+    let derivation = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {
+        "sharp" => Ok(false),
+        "repaired" => Ok(true),
+        other => {
+            let message = format!("no witness is read for the derivation `{other}`");
+            Err(errors.report(value.error(ErrorKind::UnknownName, message).expected("expected `sharp` or `repaired`")))
+        }
+    });
+    let sigma = rational(&mut claim, "sigma_star", errors);
+    let set = claim.required("initial_set", errors).and_then(|value| {
+        let mut set = value.object(errors)?;
+        let _ = set.optional("kind");
+        let (x0, e0, z0) =
+            (rational(&mut set, "X0", errors), rational(&mut set, "E0", errors), rational(&mut set, "Z0", errors));
+        set.finish(errors);
+        Ok(ClaimedSet { x0: x0?, e0: e0?, z0: z0? })
+    });
+    claim.finish(errors);
+    Ok(Claim { repaired: derivation?, sigma: sigma?, set: set? })
+}
+
+/// A field that holds an exact rational number.
+fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Rational, Reported> {
+    let value = object.required(name, errors)?;
+    let constant = any_constant(&value, errors)?;
+    constant.as_rational().cloned().ok_or_else(|| {
+        let message = format!("`{name}` is not a rational number");
+        errors.report(
+            value.error(ErrorKind::Range, message).expected("expected an exact rational, as \"487/10\" or \"48.7\""),
+        )
+    })
+}
+
+fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<TransferProof, Reported> {
+    let value = fields.required("transfer", errors)?;
+    let mut transfer = value.object(errors)?;
+    let proof = transfer.required("proof", errors).and_then(|value| match value.string(errors)? {
+        "closed-form" => Ok(TransferProof::ClosedForm),
+        "matched" => {
+            let first = transfer.required("K", errors)?;
+            let k = first.integer(errors)?;
+            let k = u32::try_from(k).map_err(|_| {
+                errors
+                    .report(first.error(ErrorKind::Range, "`K` is too large").expected("expected a small whole number"))
+            })?;
+            Ok(TransferProof::Matched { k })
+        }
+        other => {
+            let message = format!("no transfer proof `{other}` is read");
+            Err(errors
+                .report(value.error(ErrorKind::UnknownName, message).expected("expected `closed-form` or `matched`")))
+        }
+    });
+    transfer.finish(errors);
+    proof
+}
+
+fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {
+    let names = ["X_p", "E_p", "D_x", "D_e", "p_x", "p_e", "w_x", "h", "k0", "k1"];
+    let numbers = names.map(|name| rational(fields, name, errors));
+    let transfer = read_transfer(fields, errors);
+    let _ = fields.optional("lmi");
+    let exact = fields.optional("exact_regulation").map(|value| read_exact(&value, errors)).transpose();
+    let [x_p, e_p, d_x, d_e, p_x, p_e, w_x, h, k0, k1] = numbers;
+    let witness = SharpWitness {
+        sigma: claim.sigma,
+        x_p: x_p?,
+        e_p: e_p?,
+        d_x: d_x?,
+        d_e: d_e?,
+        p_x: p_x?,
+        p_e: p_e?,
+        w_x: w_x?,
+        h: h?,
+        k0: k0?,
+        k1: k1?,
+        transfer: transfer?,
+        set: claim.set,
+    };
+    Ok(WitnessFile::Sharp { witness: Box::new(witness), exact: exact? })
+}
+
+fn read_exact(value: &Value<'_>, errors: &mut Errors) -> Result<ExactWitness, Reported> {
+    let mut fields = value.object(errors)?;
+    let [sigma, d_x, d_e, w_x, h] =
+        ["sigma_star_oo", "D_x", "D_e", "w_x", "h"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    Ok(ExactWitness { sigma: sigma?, d_x: d_x?, d_e: d_e?, w_x: w_x?, h: h? })
+}
+
+fn read_repaired(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {
+    let numbers = ["X", "E", "L", "h", "p_x", "p_e", "k0", "k1"].map(|name| rational(fields, name, errors));
+    let transfer = read_transfer(fields, errors);
+    let [x, e, level, h, p_x, p_e, k0, k1] = numbers;
+    let witness = RepairedWitness {
+        sigma: claim.sigma,
+        x: x?,
+        e: e?,
+        level: level?,
+        h: h?,
+        p_x: p_x?,
+        p_e: p_e?,
+        k0: k0?,
+        k1: k1?,
+        transfer: transfer?,
+        set: claim.set,
+    };
+    Ok(WitnessFile::Repaired { witness: Box::new(witness) })
 }

@@ -1,1 +1,214 @@
-//! stub
+//! The certificate file: self-contained, the same bytes for the same input.
+
+use super::produce::{Certification, Derivation};
+use crate::constants::condition::Condition;
+use crate::constants::exact_regulation::ExactWitness;
+use crate::constants::repaired::RepairedWitness;
+use crate::constants::sharp::{ClaimedSet, SharpWitness};
+use crate::constants::table::{Entry, Row, Value as Cell};
+use crate::enclosure::Enclosure;
+use crate::number::{Direction, round_rational, write_exact};
+use crate::spec::model::InitialSet;
+use crate::transfer::TransferProof;
+use rug::Rational;
+use serde_json::{Map, Value};
+
+/// The format of a certificate file.
+pub const FORMAT: &str = "sigmastar/certificate";
+/// The version that is written and read.
+pub const VERSION: u64 = 1;
+
+/// Significant digits of the upper ends in a claim.
+const CLAIM_DIGITS: u32 = 12;
+
+/// An object from pairs, in their order.
+fn object<const N: usize>(fields: [(&str, Value); N]) -> Value {
+    Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+}
+
+fn text(value: impl Into<String>) -> Value {
+    Value::String(value.into())
+}
+
+fn exact(value: &Rational) -> Value {
+    text(write_exact(value))
+}
+
+fn interval(value: &Enclosure) -> Value {
+    Value::Array(value.decimals().into_iter().map(Value::String).collect())
+}
+
+/// An upper end, rounded up; the text "inf" when there is none.
+fn upper_end(value: &Enclosure) -> Value {
+    match value.upper_rational() {
+        Some(upper) => exact(&round_rational(&upper, CLAIM_DIGITS, Direction::Up)),
+        None => text("inf"),
+    }
+}
+
+/// The certificate of a certified run; `None` when nothing was certified.
+///
+/// It embeds the specification as read, its digest, and the rational witness from which every condition can be decided
+/// again without any search. No time stamps and no paths.
+#[must_use]
+pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
+    let sigma = run.sigma_star()?;
+    let set = run.claimed_set()?;
+    let [x, e, zeta, z] = run.periodic_solution()?;
+    let spec = run.spec;
+    let mu = &spec.internal_model.mu;
+    let claim = object([
+        ("verdict", text(run.verdict.to_string())),
+        ("derivation", text(run.options.derivation.name())),
+        ("sigma_star", exact(sigma)),
+        ("n_o", text("every n_o >= 0")),
+        ("mu", text(mu.as_rational().map_or_else(|| mu.text.clone(), write_exact))),
+        ("initial_set", set_json(&spec.initial_set, set)),
+        (
+            "periodic_solution",
+            object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
+        ),
+        ("statement", text(statement(run, sigma, set))),
+    ]);
+    let (witness, precision) = match run.options.derivation {
+        Derivation::Sharp => {
+            let proof = run.sharp.proved()?;
+            (sharp_json(&proof.witness, run.exact.as_ref().map(|claim| &claim.witness)), proof.precision)
+        }
+        Derivation::Repaired => {
+            let proof = run.repaired.proved()?;
+            (repaired_json(&proof.witness), proof.precision)
+        }
+        Derivation::Printed => return None,
+    };
+    Some(object([
+        ("format", text(FORMAT)),
+        ("version", Value::from(VERSION)),
+        ("tool", object([("name", text(env!("CARGO_PKG_NAME"))), ("version", text(env!("CARGO_PKG_VERSION")))])),
+        ("precision_bits", Value::from(precision)),
+        ("specification", spec.document.clone()),
+        ("specification_sha256", text(spec.sha256.clone())),
+        ("claim", claim),
+        ("witness", witness),
+        ("conditions", conditions_json(run.conditions())),
+        ("constants", constants_json(&run.constants)),
+    ]))
+}
+
+/// The claim in words.
+#[must_use]
+pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) -> String {
+    let model = &run.spec.internal_model;
+    let reach =
+        if model.matched { String::new() } else { " (the base frequency need not match the period)".to_owned() };
+    format!(
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with mu = {} and base frequency {}{reach}, \
+         every plant within the bounding functions has a periodic solution of the closed loop to which every solution \
+         from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, at any initial time, converges exponentially.",
+        write_exact(sigma),
+        model.mu.text,
+        model.base_frequency.text,
+        write_exact(&set.x0),
+        write_exact(&set.e0),
+        write_exact(&set.z0),
+    )
+}
+
+fn set_json(asked: &InitialSet, set: &ClaimedSet) -> Value {
+    let kind = match asked {
+        InitialSet::Paper => "paper",
+        InitialSet::AtRest { .. } => "at-rest",
+        InitialSet::Box { .. } => "box",
+    };
+    object([("kind", text(kind)), ("X0", exact(&set.x0)), ("E0", exact(&set.e0)), ("Z0", exact(&set.z0))])
+}
+
+fn transfer_json(proof: TransferProof) -> Value {
+    match proof {
+        TransferProof::ClosedForm => object([("proof", text(proof.name()))]),
+        TransferProof::Matched { k } => object([("proof", text(proof.name())), ("K", Value::from(k))]),
+    }
+}
+
+fn sharp_json(witness: &SharpWitness, regulation: Option<&ExactWitness>) -> Value {
+    let mut fields = Map::new();
+    let numbers = [
+        ("X_p", &witness.x_p),
+        ("E_p", &witness.e_p),
+        ("D_x", &witness.d_x),
+        ("D_e", &witness.d_e),
+        ("p_x", &witness.p_x),
+        ("p_e", &witness.p_e),
+        ("w_x", &witness.w_x),
+        ("h", &witness.h),
+        ("k0", &witness.k0),
+        ("k1", &witness.k1),
+    ];
+    fields.extend(numbers.map(|(name, value)| (name.to_owned(), exact(value))));
+    fields.insert("transfer".to_owned(), transfer_json(witness.transfer));
+    if let Some(regulation) = regulation {
+        let part = object([
+            ("sigma_star_oo", exact(&regulation.sigma)),
+            ("D_x", exact(&regulation.d_x)),
+            ("D_e", exact(&regulation.d_e)),
+            ("w_x", exact(&regulation.w_x)),
+            ("h", exact(&regulation.h)),
+        ]);
+        fields.insert("exact_regulation".to_owned(), part);
+    }
+    Value::Object(fields)
+}
+
+fn repaired_json(witness: &RepairedWitness) -> Value {
+    object([
+        ("X", exact(&witness.x)),
+        ("E", exact(&witness.e)),
+        ("L", exact(&witness.level)),
+        ("h", exact(&witness.h)),
+        ("p_x", exact(&witness.p_x)),
+        ("p_e", exact(&witness.p_e)),
+        ("k0", exact(&witness.k0)),
+        ("k1", exact(&witness.k1)),
+        ("transfer", transfer_json(witness.transfer)),
+    ])
+}
+
+/// Conditions with outward-rounded sides, and the margin rounded down.
+#[must_use]
+pub fn conditions_json(conditions: &[Condition]) -> Value {
+    let one = |condition: &Condition| {
+        object([
+            ("id", text(condition.id)),
+            ("what", text(condition.what.clone())),
+            ("relation", text(condition.relation.to_string())),
+            ("lhs", interval(&condition.lhs)),
+            ("rhs", interval(&condition.rhs)),
+            ("margin", text(condition.margin().lower_decimal(crate::enclosure::DIGITS))),
+        ])
+    };
+    Value::Array(conditions.iter().map(one).collect())
+}
+
+/// The table of constants: one object a constant, one entry a derivation.
+#[must_use]
+pub fn constants_json(rows: &[Row]) -> Value {
+    let one = |row: &Row| {
+        let mut fields = Map::new();
+        fields.insert("evaluated_at".to_owned(), text(row.at.name()));
+        for (name, entry) in [("printed", &row.printed), ("repaired", &row.repaired), ("sharp", &row.sharp)] {
+            if let Some(entry) = entry {
+                fields.insert(name.to_owned(), entry_json(entry));
+            }
+        }
+        (row.name.clone(), Value::Object(fields))
+    };
+    Value::Object(rows.iter().map(one).collect())
+}
+
+fn entry_json(entry: &Entry) -> Value {
+    let (name, value) = match &entry.value {
+        Cell::Number(value) => ("value", interval(value)),
+        Cell::Infeasible(reason) | Cell::Unavailable(reason) => ("reason", text(reason.clone())),
+    };
+    object([(name, value), ("status", text(entry.status.name())), ("source", text(entry.source))])
+}

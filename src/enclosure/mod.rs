@@ -17,6 +17,7 @@ mod tests;
 mod trigonometric;
 mod truth;
 
+pub use decimal::DIGITS;
 pub use truth::Truth;
 
 use rug::float::{Round, Special};

@@ -136,7 +136,8 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
         };
         let depth = (largest_e_repaired(model, start.x)? / start.e).ln().max(1e-9);
         let first = [start.x.ln(), parameter_of(depth), eta.ln()];
-        let (best, _) = minimise(|p| decode(p).map(|f| f.sigma.ln()), &first, &[0.3, 0.5, 0.5], 6)?;
+        let (best, _) =
+            minimise(|p| decode(p).map(|f| f.sigma.ln() + scan::preference(f.x)), &first, &[0.3, 0.5, 0.5], 6)?;
         decode(&best)
     });
     refined.into_iter().flatten().min_by(|a, b| a.sigma.total_cmp(&b.sigma)).ok_or(closest)

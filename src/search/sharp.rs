@@ -130,7 +130,8 @@ fn refine(model: &FloatModel, start: &SharpParameters, restarts: usize) -> Optio
     let cost = |p: &[f64]| {
         let parameters = decode(p)?;
         let existence = Existence::new(model, parameters.x_p, parameters.e_p).ok()?;
-        existence.sigma(model, parameters.rho, parameters.eta, 1e-12).ok().map(f64::ln)
+        let sigma = existence.sigma(model, parameters.rho, parameters.eta, 1e-12).ok()?;
+        Some(sigma.ln() + scan::preference(parameters.x_p))
     };
     let depth = (largest_e(model, start.x_p)? / start.e_p).ln().max(1e-9);
     let first = [start.x_p.ln(), parameter_of(depth), (start.rho - 1.0).ln(), start.eta.ln()];
