@@ -160,8 +160,7 @@ fn undecided_says_where_and_why() {
     }
     let settings = ProofSettings { max_boxes: 10, ..ProofSettings::default() };
     let ten = Rational::from(10);
-    let limited =
-        prove_bounding(&Expr::parse("X^3 - 3*X^2 + 3.001*X", Variables::XAndE).unwrap(), &ten, &ten, &settings);
+    let limited = prove_bounding(&Expr::parse("X^3 - 3*X^2 + 3*X", Variables::XAndE).unwrap(), &ten, &ten, &settings);
     assert!(matches!(limited, Err(BoundingFailure::Undecided { reason: Reason::Boxes(10), .. })), "{limited:?}");
     assert!(prove("X^3 - 3*X^2 + 3.001*X", "10", "10").is_ok());
     assert!(matches!(
