@@ -110,6 +110,7 @@ fn refutations_name_property_point_and_place() {
         ("abs(X - E)", Property::NondecreasingInE, None),
         ("X - 1e-40", Property::Nonnegative, None),
         ("X - 1", Property::Nonnegative, None),
+        ("min(X, -X)", Property::Nonnegative, None),
         ("sqrt(2)*sqrt(2) - 2 - 1e-300*cos(X)", Property::Nonnegative, None),
         ("1 + 1/X", Property::Finite, Some("1/X")),
         ("1 + X/(X - 5)^2", Property::Finite, Some("X/(X - 5)^2")),

@@ -169,10 +169,11 @@ impl Algebra for JetAlgebra<'_> {
             }
             Binary::Min | Binary::Max => {
                 let (above, below) = if operation == Binary::Max { (a, b) } else { (b, a) };
-                // Certain dominance leaves one branch; otherwise there may be an edge where they cross.
-                if above.value.ge(&below.value).is_true() {
+                // Strict dominance leaves one branch, in a neighbourhood too. Equality does not: on a face of a box the
+                // branches may meet although the other one prevails beside it.
+                if above.value.gt(&below.value).is_true() {
                     if operation == Binary::Max { above } else { below }
-                } else if below.value.ge(&above.value).is_true() {
+                } else if below.value.gt(&above.value).is_true() {
                     if operation == Binary::Max { below } else { above }
                 } else {
                     Jet::rough(value)
@@ -273,6 +274,10 @@ mod tests {
         for text in ["abs(X - 1)", "max(X, 1)", "min(X, E)", "sqrt(X - 1/2)", "0*abs(X - 1)", "(X - 1/2)^(1/2)"] {
             let jet = jet(text, [4, 12], [4, 12]);
             assert!(jet.value.is_defined() && !jet.first[0].is_defined() && !jet.second[0].is_defined(), "{text}");
+        }
+        // Where the branches meet on a face, neither has the derivative.
+        for text in ["min(X - 1, 1 - X)", "max(X, 1)"] {
+            assert!(!jet(text, [8, 8], [4, 12]).first[0].is_defined(), "{text}");
         }
         assert!(!jet("1/(X - 1)", [4, 12], [4, 12]).value.is_defined());
     }
