@@ -130,6 +130,32 @@ fn hostile_documents_are_answered_at_once() {
 }
 
 #[test]
+fn hostile_expressions_are_answered_in_time() {
+    let example = include_str!("../specs/paper-example.json");
+    let weights = |value: &str, count: usize| {
+        let values = vec![format!("\"{value}\""); count].join(",");
+        let list = format!(
+            "{{\"family\": \"explicit\", \"values\": [{values}], \"tail\": {{\"coefficient\": 1, \"exponent\": 2}}}}"
+        );
+        let family = "{ \"family\": \"power\", \"n0\": \"2\", \"epsilon\": \"1/2\" }";
+        example.replace(family, &list)
+    };
+    for text in [
+        weights(&vec!["sin(1e1200)"; 80].join("+"), 100),
+        weights(&"exp(".repeat(90), 1000),
+        weights(&format!("{}1{}", "exp(".repeat(90), ")".repeat(90)), 1000),
+        weights("(1+1e-300)^1000", 1000),
+        example.replace("\"mu\": \"1\"", &format!("\"mu\": \"{}\"", vec!["sin(1e1200)"; 800].join("*"))),
+        example.replace("\"mu\": \"1\"", "\"mu\": \"2^1000^2^1000\""),
+    ] {
+        assert_ne!(text, example);
+        let started = Instant::now();
+        let _ = Specification::from_json("x", &text);
+        assert!(started.elapsed() < Duration::from_secs(20), "{:?} {}", started.elapsed(), &text[..80]);
+    }
+}
+
+#[test]
 fn a_large_file_is_not_read_to_its_end() {
     let file = tempfile::NamedTempFile::new().expect("a temporary file");
     file.as_file().set_len(1 << 40).expect("a sparse file");

@@ -160,7 +160,7 @@ mod tests {
         let family = power("2", "1/2");
         assert_eq!(family.weight(0, 64).decimals(), ["2", "2"]);
         assert_eq!(family.weight(1, 64).decimals(), ["1", "1"]);
-        assert_eq!(family.weight(9, 128).intersect(&(Enclosure::one(128) / 27)).is_defined(), true);
+        assert!(family.weight(9, 128).intersect(&(Enclosure::one(128) / 27)).is_defined());
         let list = explicit(&["2", "1", "1/3"], "5", "2");
         assert_eq!(list.weight(2, 64).decimals(), ["0.33333333333333333", "0.33333333333333334"]);
         // Exact in the tail: 5/100.
