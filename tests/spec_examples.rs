@@ -31,6 +31,9 @@ fn valid_examples_are_read() {
     }
 }
 
+/// Kind, pointer and the text at the span of an error.
+type Found<'t> = (ErrorKind, &'t str, &'t str);
+
 /// These are read: what is wrong with them is for the proof of the bounding functions to find.
 const READ_FINE: [&str; 2] = ["decreasing-bound", "negative-bound"];
 
@@ -38,7 +41,7 @@ const READ_FINE: [&str; 2] = ["decreasing-bound", "negative-bound"];
 fn invalid_examples_are_refused_where_they_are_wrong() {
     use ErrorKind::*;
     // File; for each error in file order: kind, pointer, text at the span.
-    let expected: &[(&str, &[(ErrorKind, &str, &str)])] = &[
+    let expected: &[(&str, &[Found<'_>])] = &[
         ("bad-expression", &[(Expression, "/bounds/q", ")")]),
         ("bad-family", &[(UnknownName, "/internal_model/weights/family", "\"geometric\"")]),
         ("bad-kind", &[(UnknownName, "/initial_set/kind", "\"at_rest\"")]),
@@ -100,7 +103,7 @@ fn invalid_examples_are_refused_where_they_are_wrong() {
         let errors = outcome.expect_err(&name);
         let (_, wanted) =
             expected.iter().find(|(file, _)| *file == name).unwrap_or_else(|| panic!("{name} is not listed"));
-        let found: Vec<(ErrorKind, &str, &str)> = errors
+        let found: Vec<Found<'_>> = errors
             .errors()
             .iter()
             .map(|error| (error.kind, error.pointer.as_str(), &text[error.span.clone()]))
