@@ -1,4 +1,5 @@
 //! scratch
+pub mod constants;
 pub mod enclosure;
 pub mod expr;
 pub mod number;

@@ -1,0 +1,3 @@
+//! Constants of a certificate.
+
+pub mod relative_degree;
