@@ -13,13 +13,11 @@
 //! So errors only add up along the flow, whatever the stiffness, and squaring exp(S h) doubles its error at most.
 
 use super::Routh;
+use super::ranges::{NORM_PRECISION, Ranges, dot, factor, norm, point_norm, scale, split};
 use crate::enclosure::Enclosure;
 use rug::Float;
 use rug::float::Round;
 use rug::ops::{AddAssignRound, AssignRound, DivAssignRound, SubAssignRound};
-
-/// Precision of norms and error bounds.
-pub(super) const NORM_PRECISION: u32 = 64;
 
 /// A point vector y~ with |y - y~| <= error.
 #[derive(Clone, Debug)]
@@ -44,73 +42,6 @@ pub(super) struct Flow {
     damping: Enclosure,
     precision: u32,
     pub(super) blocks: Vec<Block>,
-}
-
-/// Enclosures of the entries of a vector, end by end (updated in place: the inner loops live on these).
-#[derive(Clone, Debug)]
-pub(super) struct Ranges {
-    lower: Vec<Float>,
-    upper: Vec<Float>,
-}
-
-impl Ranges {
-    fn zero(n: usize, precision: u32) -> Ranges {
-        Ranges { lower: vec![Float::new(precision); n], upper: vec![Float::new(precision); n] }
-    }
-
-    /// The entry k.
-    pub(super) fn get(&self, k: usize) -> Enclosure {
-        Enclosure::new(self.lower[k].clone(), self.upper[k].clone())
-    }
-
-    /// An upper bound of the Euclidean norm.
-    pub(super) fn norm(&self) -> Enclosure {
-        let entries: Vec<Enclosure> = (0..self.lower.len()).map(|k| self.get(k)).collect();
-        norm(entries.iter())
-    }
-}
-
-/// The end of a positive factor that makes its product with x extreme in the given direction.
-fn factor<'a>(positive: &'a Enclosure, x: &Float, direction: Round) -> &'a Float {
-    if (*x >= 0) == (direction == Round::Up) { positive.upper() } else { positive.lower() }
-}
-
-/// The exact scalar product of point vectors, enclosed: both accumulators are rounded outward at every step.
-fn dot<'a>(x: impl Iterator<Item = &'a Float>, y: impl Iterator<Item = &'a Float>, precision: u32) -> Enclosure {
-    let (mut lower, mut upper) = (Float::new(precision), Float::new(precision));
-    for (a, b) in x.zip(y) {
-        lower.add_assign_round(a * b, Round::Down);
-        upper.add_assign_round(a * b, Round::Up);
-    }
-    Enclosure::new(lower, upper)
-}
-
-/// The enclosure at another precision, rounded outward.
-pub(super) fn rounded(x: &Enclosure, precision: u32) -> Enclosure {
-    Enclosure::new(
-        Float::with_val_round(precision, x.lower(), Round::Down).0,
-        Float::with_val_round(precision, x.upper(), Round::Up).0,
-    )
-}
-
-/// The Euclidean norm of enclosed numbers, as an upper bound of it.
-fn norm<'a>(entries: impl Iterator<Item = &'a Enclosure>) -> Enclosure {
-    let zero = Enclosure::zero(NORM_PRECISION);
-    entries.fold(zero, |sum, x| sum + rounded(x, NORM_PRECISION).sqr()).sqrt().ceiling()
-}
-
-/// The Euclidean norm of point entries, as an upper bound of it.
-fn point_norm(entries: &[Float]) -> Enclosure {
-    dot(entries.iter(), entries.iter(), NORM_PRECISION).max(&Enclosure::zero(NORM_PRECISION)).sqrt().ceiling()
-}
-
-/// Midpoints and a bound of the norm of what they leave out.
-fn split(entries: &[Enclosure], precision: u32) -> (Vec<Float>, Enclosure) {
-    let middles: Vec<Float> = entries.iter().map(|x| Float::with_val(precision, x.lower() + x.upper()) / 2).collect();
-    let rest: Vec<Enclosure> =
-        entries.iter().zip(&middles).map(|(x, m)| x - Enclosure::new(m.clone(), m.clone())).collect();
-    let error = norm(rest.iter());
-    (middles, error)
 }
 
 impl Flow {
@@ -305,9 +236,4 @@ impl Block {
         let root = (0..5).fold(norm(power.iter()), |x, _| x.sqrt());
         (root + &self.error).ceiling().min(&self.frobenius())
     }
-}
-
-/// x 2^exponent, exactly.
-pub(super) fn scale(x: &Enclosure, exponent: i32) -> Enclosure {
-    Enclosure::new(x.lower().clone() << exponent, x.upper().clone() << exponent)
 }

@@ -1,7 +1,8 @@
 //! The L1 norm k_inf of the impulse response of 1/p.
 
-use super::flow::{Flow, NORM_PRECISION, State, rounded, scale};
+use super::flow::{Flow, State};
 use super::negative_part::{Perturbed, Tolerance};
+use super::ranges::{NORM_PRECISION, rounded, scale};
 use super::real_roots::all_real;
 use super::{RelativeDegreeError, Routh, Undecided};
 use crate::enclosure::{Enclosure, MAX_PRECISION};

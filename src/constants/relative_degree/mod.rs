@@ -30,6 +30,7 @@ mod flow;
 mod impulse;
 mod negative_part;
 mod peak;
+mod ranges;
 mod real_roots;
 mod routh;
 #[cfg(test)]
