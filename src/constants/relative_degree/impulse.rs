@@ -57,7 +57,7 @@ pub fn k_infinity(a: &[Rational], precision: u32) -> Result<Enclosure, RelativeD
         return Ok(Enclosure::from_rational(&integral, output));
     }
     let undecided = RelativeDegreeError::Undecided(Undecided::TimeScales);
-    let negative = Response::new(&routh, &a[0], output).and_then(|response| response.negative_part());
+    let negative = Response::new(&routh, &a[0], output).and_then(|response| response.negative_part(MAX_WORK));
     let Some(negative) = negative else { return Err(undecided) };
     let working = negative.precision().max(output);
     let result = Enclosure::from_rational(&integral, working) + negative * 2;
@@ -70,11 +70,11 @@ fn exponent(x: &Enclosure) -> i64 {
     x.upper().get_exp().map_or(0, i64::from)
 }
 
-struct Response {
-    flow: Flow,
+pub(super) struct Response {
+    pub(super) flow: Flow,
     n: usize,
     /// sqrt(P_1)
-    weight: Enclosure,
+    pub(super) weight: Enclosure,
     /// Block lengths with upper bounds of |exp(S h)|, all below 1.
     contractions: Vec<(Enclosure, Enclosure)>,
     /// The total error aimed at, for the integral of y_1.
@@ -88,7 +88,7 @@ struct Response {
 }
 
 impl Response {
-    fn new(routh: &Routh, a_1: &Rational, output: u32) -> Option<Response> {
+    pub(super) fn new(routh: &Routh, a_1: &Rational, output: u32) -> Option<Response> {
         let n = routh.b.len();
         let weight = routh.b[1..]
             .iter()
@@ -120,8 +120,8 @@ impl Response {
         Some(Response { flow, n, weight, contractions, goal, horizon, order, polynomial_bits })
     }
 
-    /// An enclosure of the integral of max(-g, 0) over t >= 0.
-    fn negative_part(&self) -> Option<Enclosure> {
+    /// An enclosure of the integral of max(-g, 0) over t >= 0, with steps up to about `effort`.
+    pub(super) fn negative_part(&self, effort: u64) -> Option<Enclosure> {
         let rate = scale(&self.goal, -self.horizon);
         let allowed = scale(&rate, -4);
         let mut total = Enclosure::zero(self.polynomial_bits);
@@ -131,7 +131,7 @@ impl Response {
             * u64::from(self.flow.precision() / 256 + 1);
         loop {
             let tail = self.tail(&state)?;
-            if work >= MAX_WORK || tail.le(&self.goal).is_true() {
+            if work >= effort || tail.le(&self.goal).is_true() {
                 // Twice the negative part is |y_1| - y_1: integrate, with 0 <= integral of |y_1| <= tail.
                 let zero = Enclosure::zero(self.polynomial_bits);
                 let twice = zero.hull(&tail) + state.project(&self.flow.inverse_row());
@@ -147,7 +147,7 @@ impl Response {
     }
 
     /// An upper bound of the integral of |y_1| from the state on: the least over the contracting blocks.
-    fn tail(&self, state: &State) -> Option<Enclosure> {
+    pub(super) fn tail(&self, state: &State) -> Option<Enclosure> {
         let size = state.norm();
         let one = Enclosure::one(NORM_PRECISION);
         let bounds = self.contractions.iter().map(|(h, q)| (h * &size / (&one - q)).ceiling());

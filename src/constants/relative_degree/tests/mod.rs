@@ -278,6 +278,22 @@ fn error_bounds_cover_a_coarse_flow() {
     }
 }
 
+/// Whenever the effort ends, the tail counts once: from time 0 on the bound of k_inf is that of the tail itself.
+#[test]
+fn any_effort_is_sound() {
+    let z = ratio(1, 10);
+    let a = from_factors(&[(ratio(1, 1), z.clone())], &[]);
+    let response = impulse::Response::new(&Routh::new(&a).unwrap(), &a[0], 128).unwrap();
+    let bound = |effort| response.negative_part(effort).unwrap() * 2 + 1;
+    let tail = response.tail(&response.flow.start()).unwrap() / &response.weight;
+    assert!(bound(0).upper_f64() <= tail.upper_f64() * (1.0 + 1e-12), "{:?} {tail:?}", bound(0));
+    let exact = underdamped(&z);
+    for effort in [0, 1, 2_000, 5_000, 10_000, 50_000] {
+        let k = bound(effort);
+        assert!(k.lower() <= exact.lower() && k.upper() >= exact.upper(), "{effort} {k:?}");
+    }
+}
+
 #[test]
 fn hostile_sizes_end_quickly() {
     let (huge, tiny): (Rational, Rational) = (ratio(10, 1).pow(4000), ratio(10, 1).pow(-4000));
