@@ -150,7 +150,7 @@ fn rounded_box(
     slack: f64,
 ) -> Option<RoundedBox> {
     let d_x = nearest(d_x, LONG_DIGITS)?;
-    let enlarged = 1.0 + (0.1 * slack).max(1e-11);
+    let enlarged = 1.0 + (0.1 * slack).clamp(1e-11, 1e-3);
     let level = (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho)) * enlarged;
     let width = d_x.to_f64();
     Some(RoundedBox {
@@ -197,7 +197,7 @@ fn repaired_witness(
     let h = nearest(proposal.h, LONG_DIGITS)?;
     let [dist_x, dist_e, dist_z] = distances(data, &set, [&data.rational(&x), &data.rational(&e), &z]);
     let start = &data.p_up * dist_x.sqr() + dist_e.sqr() + data.rational(&h) * dist_z.sqr();
-    let level = start.upper_rational()? * Rational::from_f64(1.0 + (0.1 * slack).max(1e-11))?;
+    let level = start.upper_rational()? * Rational::from_f64(1.0 + (0.1 * slack).clamp(1e-11, 1e-3))?;
     let scale = proposal.weights.0.max(proposal.weights.1);
     Some(RepairedWitness {
         sigma: rounded_sigma(proposal.sigma, slack)?,
