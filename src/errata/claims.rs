@@ -56,9 +56,9 @@ pub(super) fn e15(data: Option<&Data<'_>>) -> Erratum {
         ),
         Evidence::cited(
             "in the paper's second table, 0.95 * 2 pi, the same happens: rms for n_o = 3 against n_o = 2",
-            (982, 10_000),
+            ratio(982, 10_000),
             Relation::Greater,
-            (980, 10_000),
+            ratio(980, 10_000),
         ),
     ];
     Erratum {
@@ -84,7 +84,7 @@ fn e15_for_data(data: &Data<'_>) -> ForData {
         (Bearing::Depends, "w is not 2 pi/T: the L2 norm may increase with n_o; the bound of z depends on w")
     };
     ForData::new(bearing, summary)
-        .figure("w", data.base_frequency.clone())
+        .figure("w", &data.spec.internal_model.base_frequency)
         .figure("T_N(0)/w^2", value_at_zero(data) / data.base_frequency.sqr())
 }
 
@@ -124,9 +124,9 @@ pub(super) fn e16(data: Option<&Data<'_>>) -> Erratum {
         Evidence::rigorous("T/mu against T/(2 mu) in P:pf:L2_zeta: the quotient", 2, Relation::Greater, 1),
         Evidence::rigorous(
             "2 against 4 in the denominator of P:eq:ineq_bounds_sigma: rho_12^2/2 against rho_12^2/4 at rho_12 = 1",
-            (1, 2),
+            ratio(1, 2),
             Relation::Greater,
-            (1, 4),
+            ratio(1, 4),
         ),
     ];
     let for_data = data.map(|data| {

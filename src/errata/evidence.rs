@@ -2,6 +2,7 @@
 
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure, Truth};
 use crate::number::write_exact;
+use crate::spec::Constant;
 use rug::Rational;
 use std::cmp::Ordering;
 use std::fmt;
@@ -53,10 +54,13 @@ impl From<i64> for Side {
     }
 }
 
-/// The quotient of two integers; the second must not be 0.
-impl From<(i64, i64)> for Side {
-    fn from(value: (i64, i64)) -> Side {
-        Side::Exact(Rational::from(value))
+/// The exact value of a constant of a specification, where it is rational.
+impl From<&Constant> for Side {
+    fn from(constant: &Constant) -> Side {
+        match constant.as_rational() {
+            Some(value) => Side::Exact(value.clone()),
+            None => Side::Enclosed(constant.enclose(DEFAULT_PRECISION)),
+        }
     }
 }
 

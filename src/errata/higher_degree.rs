@@ -23,7 +23,7 @@ fn is_hurwitz(coefficients: &[Rational]) -> bool {
         let factor = upper.first().map_or_else(Rational::new, |first| Rational::from(first / &pivot));
         let next = (1..upper.len()).map(|j| {
             let below = lower.get(j).map_or_else(Rational::new, |entry| Rational::from(entry * &factor));
-            Rational::from(&upper[j] - below)
+            &upper[j] - below
         });
         let next = next.collect();
         upper = std::mem::replace(&mut lower, next);

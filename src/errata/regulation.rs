@@ -29,13 +29,14 @@ pub(super) fn e10(data: Option<&Data<'_>>) -> Erratum {
     let supremum = square_wave::scaled_supremum();
     // |mu n_0 zeta| <= sup|q| = 1, so sqrt(zeta N zeta) <= sqrt(n_0)/(mu n_0).
     let state = root(2) / 20;
-    let by_n_0 = 1 + root(2) * &state;
+    // sqrt(n_0) sqrt(n_0)/(mu n_0) = 1/mu.
+    let by_n_0 = ratio(1, 1) + ratio(1, 10);
     let n_bar = (2 + power_tail(1, &quotient(3, 2), PRECISION)).sqrt();
     let kappa_0 = PrintedKappa::of_the_example().kappa_0;
     let evidence = vec![
         Evidence::rigorous(
             "n_o = 0, n_0 = 2, mu = 10, T = 4, sigma = 4000, q = tanh(2000 sin(pi t/2)): sigma sup|e_p| against sup|q| + \
-             Nbar sup sqrt(zeta'N zeta), with the actual sup sqrt(zeta'N zeta) <= sqrt(2)/20 and Nbar = sqrt(n_0)",
+             Nbar sup sqrt(zeta'N zeta), with the actual sup sqrt(zeta'N zeta) <= sqrt(2)/20 and Nbar = sqrt(n_0): 1 + 1/mu",
             supremum.clone(),
             Relation::Greater,
             by_n_0,
@@ -63,7 +64,7 @@ pub(super) fn e10(data: Option<&Data<'_>>) -> Erratum {
             Some(Ordering::Less) => (Bearing::Costs, "mu < 1: the printed r_e is larger than it need be"),
             None => (Bearing::Depends, "mu is too close to 1 to tell"),
         };
-        ForData::new(bearing, summary).figure("mu", data.mu.clone())
+        ForData::new(bearing, summary).figure("mu", &data.spec.internal_model.mu)
     });
     Erratum {
         id: "E10",
@@ -112,7 +113,7 @@ pub(super) fn e11(data: Option<&Data<'_>>) -> Erratum {
             Some(Ordering::Less) => (Bearing::Costs, "T < 1: the printed psi_2 is larger than it need be by 1/T"),
             None => (Bearing::Depends, "T is too close to 1 to tell"),
         };
-        ForData::new(bearing, summary).figure("T", data.period.clone())
+        ForData::new(bearing, summary).figure("T", &data.spec.period)
     });
     Erratum {
         id: "E11",
@@ -153,7 +154,7 @@ pub(super) fn e12(data: Option<&Data<'_>>) -> Erratum {
             None => (Bearing::Depends, "T is too close to 1 to tell"),
         };
         ForData::new(bearing, summary)
-            .figure("T", data.period.clone())
+            .figure("T", &data.spec.period)
             .figure("printed K_{alpha,2}", gains::k_alpha_2_printed(&k_alpha, &data.alpha, &data.period))
             .figure("without the factor T", gains::k_alpha_2(&k_alpha, &data.alpha, &data.period))
     });

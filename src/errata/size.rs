@@ -24,7 +24,7 @@ pub(super) fn e1(data: Option<&Data<'_>>) -> Erratum {
             "second member: 9 P_up x_a^2 <= ((6-1)^2/2 - 9) e_a^2, with the factor",
             left_of_e,
             Relation::Equal,
-            (7, 2),
+            ratio(7, 2),
         ),
         Evidence::rigorous(
             "first member: P_low (3 sqrt(2) c + 1)^2/2 = 9 P_up + 3 sqrt(2) sqrt(P_up P_low) + P_low/2, so that \
@@ -82,9 +82,9 @@ pub(super) fn e2(data: Option<&Data<'_>>) -> Erratum {
             "its root sqrt(k) = (sqrt(2) + 2)/3, that is k = (6 + 4 sqrt(2))/9, is above",
             largest_ratio(),
             Relation::Greater,
-            (12_952, 10_000),
+            ratio(12_952, 10_000),
         ),
-        Evidence::rigorous("and below", largest_ratio(), Relation::Less, (12_953, 10_000)),
+        Evidence::rigorous("and below", largest_ratio(), Relation::Less, ratio(12_953, 10_000)),
     ];
     let for_data = data.map(|data| {
         let ratio = &data.p_up / &data.p_low;

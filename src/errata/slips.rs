@@ -51,7 +51,7 @@ pub(super) fn e17() -> Erratum {
         Evidence::rigorous(
             "the interval [varpi/m, 1/5] for lambda: only its left end is proved to be below lambda_b >= (1/16)/((a+2)(2m+1)); \
              at a = 1, m = 1 its right end 1/5 is above that bound",
-            (1, 5),
+            ratio(1, 5),
             Relation::Greater,
             ratio(1, 16) / 9u32,
         ),
@@ -65,7 +65,7 @@ pub(super) fn e17() -> Erratum {
             "and the bound 7/2 of the corrected sum at m = 1, 0 + 1 + 13/25 + 3/5, stands",
             Rational::from(1) + ratio(13, 25) + ratio(3, 5),
             Relation::LessOrEqual,
-            (7, 2),
+            ratio(7, 2),
         ),
         Evidence::rigorous(
             "the trace of Phi - mu M M'N is -mu (n_0 + ...), not mu (1 + ...): n_o = 0, mu = 1, n_0 = 2",
@@ -75,9 +75,9 @@ pub(super) fn e17() -> Erratum {
         ),
         Evidence::rigorous(
             "r/sqrt(sigma) for r/sigma in P:eq:boundx_item2: r = 1, sigma = 4",
-            (1, 2),
+            ratio(1, 2),
             Relation::Greater,
-            (1, 4),
+            ratio(1, 4),
         ),
         Evidence::rigorous("5 e_b for e_b - e_a = 5 e_a: with e_b = 6 e_a, e_a = 1", 5 * 6, Relation::Different, 6 - 1),
         Evidence::rigorous(
@@ -91,12 +91,12 @@ pub(super) fn e17() -> Erratum {
             "Fourier sums from k = 0 for sums over all integers: q = cos has |q_1|^2 + |q_-1|^2, the mean of q^2,",
             ratio(1, 4) + ratio(1, 4),
             Relation::Greater,
-            (1, 4),
+            ratio(1, 4),
         ),
     ];
     Erratum {
         id: "E17",
-        place: "P:def:ypsilon (K_phi), P:76, z_a, P:lambda_b, P:eq:ineq_lambda, P:boundFno0, Q_m, trace before \
+        place: "P:eq:def_ypsilon (K_phi), P:76, z_a, P:lambda_b, P:eq:ineq_lambda, P:boundFno0, Q_m, trace before \
                 P:lemma:hurwitzPhiM, P:eq:boundx_item2, P:eq:temp_cond_xe_O, P:eq:R-lyap1_inf, P:sec:infinite, \
                 P:pf_lemma_eq1",
         class: Class::C,

@@ -43,7 +43,7 @@ pub(super) fn e3(data: Option<&Data<'_>>) -> Erratum {
     let (p, alpha) = (Rational::from(2), Rational::from(1));
     // k e_a, with b_fex = k and |phi| <= 1.
     let product = ratio(4, 3);
-    let printed_rho = Rational::from(&p / (Rational::from(&p * 2))) * &product;
+    let printed_rho = &p / Rational::from(&p * 2) * &product;
     let true_rho = Rational::from(&p * &product);
     let allowed = Rational::from(&alpha * &p) / 3u32;
     let polynomial = flat_polynomial();
@@ -70,7 +70,7 @@ pub(super) fn e3(data: Option<&Data<'_>>) -> Erratum {
             Relation::Equal,
             1,
         ),
-        Evidence::rigorous("the mean of psi^2", mean, Relation::Greater, (3, 4)),
+        Evidence::rigorous("the mean of psi^2", mean, Relation::Greater, ratio(3, 4)),
         Evidence::rigorous(
             "with x_p = 0 and e_p = e_a psi(t) (zero mean: for n_o = 0, or without resonance, the periodic solution \
              for a suitable q(t)) the zero dynamics are x' = (-1 + (4/3) psi^2) x; their Floquet exponent",
@@ -82,6 +82,7 @@ pub(super) fn e3(data: Option<&Data<'_>>) -> Erratum {
     ];
     let for_data = data.map(|data| {
         let too_small_by = 2 * &data.p_low;
+        let exact = data.spec.lyapunov.p_low.as_rational().map(|p_low| Side::Exact(Rational::from(p_low * 2u32)));
         let (bearing, summary) = if vanishes(data, Bound::Fxx) && vanishes(data, Bound::Fex) {
             (Bearing::Harmless, "b_fxx = b_fex = 0, so rho_0 = 0 either way")
         } else {
@@ -93,7 +94,7 @@ pub(super) fn e3(data: Option<&Data<'_>>) -> Erratum {
                 Truth::Undecided => (Bearing::Depends, "2 P_low is too close to 1 to tell"),
             }
         };
-        ForData::new(bearing, summary).figure("2 P_low", too_small_by)
+        ForData::new(bearing, summary).figure("2 P_low", exact.unwrap_or(Side::Enclosed(too_small_by)))
     });
     Erratum {
         id: "E3",
@@ -160,9 +161,9 @@ pub(super) fn e4(data: Option<&Data<'_>>) -> Erratum {
         let d = growth(&x);
         evidence.push(Evidence::rigorous(
             format!(
-                "X = {name}: the nonlinear term is radial, so the angle is that of exp(F t) = e^-t [[1,10t],[0,1]] and |x| is \
-                 at least that of the linear flow; from (0, 2X) at t = 1 |x|^2 - 4X^2 >= d = 4X^2 (101 e^-2 - 1), and \
-                 5 d^3, which increases in X,"
+                "X = {name}: the nonlinear term is radial, so the angle is that of exp(F t) = e^-t [[1,10t],[0,1]] and |x| is at \
+                 least that of the linear flow; from (0, 2X) at t = 1 |x|^2 - 4X^2 >= d = 4X^2 (101 e^-2 - 1); 5 d^3 \
+                 (increasing in X)"
             ),
             5 * (d.sqr() * &d),
             Relation::Greater,
@@ -175,7 +176,7 @@ pub(super) fn e4(data: Option<&Data<'_>>) -> Erratum {
             ),
             time_to_infinity(&x),
             Relation::Less,
-            (1, 100),
+            ratio(1, 100),
         ));
     }
     Erratum {

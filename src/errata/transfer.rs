@@ -56,7 +56,7 @@ fn e6_for_data(data: &Data<'_>) -> ForData {
         _ => (Bearing::Depends, "w is not 1, and the printed constants are neither proved nor refuted here"),
     };
     ForData::new(bearing, summary)
-        .figure("w", data.base_frequency.clone())
+        .figure("w", &data.spec.internal_model.base_frequency)
         .figure("nu = mu/w", data.nu.clone())
         .figure("missing factor 1/w^2 of kappa_0", data.base_frequency.sqr().recip())
         .figure("missing factor 1/w^4 of kappa_1", data.base_frequency.sqr().sqr().recip())
@@ -66,7 +66,7 @@ fn e6_for_data(data: &Data<'_>) -> ForData {
 pub(super) fn e7(data: Option<&Data<'_>>) -> Erratum {
     // n_o = 0: T(x) = n_0/(x^2 + mu^2 n_0^2), so T(0) = 1/(mu^2 n_0); mu = 1, n_0 = 2.
     let n_0 = Rational::from(2);
-    let at_zero = Rational::from(&n_0 / Rational::from(n_0.square_ref()));
+    let at_zero = &n_0 / Rational::from(n_0.square_ref());
     let k0 = Rational::from(&n_0 * 7) / 2u32;
     let nu = (2 * pi()).recip();
     let slow = (nu.sqr() * rational(&n_0)).recip();
@@ -92,7 +92,7 @@ pub(super) fn e7(data: Option<&Data<'_>>) -> Erratum {
         ),
         Evidence::rigorous(
             "k0 fails for nu < sqrt(2/7)/n_0, where T(0) = 1/(nu^2 n_0) passes it: at equality T(0)",
-            Rational::from(threshold_squared * &n_0).recip(),
+            (threshold_squared * &n_0).recip(),
             Relation::Equal,
             k0.clone(),
         ),
@@ -107,7 +107,9 @@ pub(super) fn e7(data: Option<&Data<'_>>) -> Erratum {
         let k0 = 7 * &data.n_0 / 2;
         let at_zero = value_at_zero(data);
         let (bearing, summary) = match at_zero.gt(&k0) {
-            Truth::True => (Bearing::Bites, "after the correction E6 the printed k0 is below the transfer at 0"),
+            Truth::True => {
+                (Bearing::Bites, "with the correction E6, kappa_0 = k0/w^2, the printed k0 is below the transfer at 0")
+            }
             Truth::False => (Bearing::Harmless, "the printed k0 is not below the transfer at 0"),
             Truth::Undecided => (Bearing::Depends, "the transfer at 0 is too close to the printed k0 to tell"),
         };
@@ -180,9 +182,9 @@ pub(super) fn e9(data: Option<&Data<'_>>) -> Erratum {
     let square = Rational::from(ratio(827, 1000).square_ref());
     let needed = (transfer(&[Rational::from(2), Rational::from(1)], &Rational::from(1), &square) - 7u32) / square;
     let evidence = vec![
-        Evidence::rigorous("the example's weights: S", printed.s.clone(), Relation::Less, (7_220, 1000)),
-        Evidence::rigorous("a = (2 + sqrt(2)) S", printed.a.clone(), Relation::Less, (24_650, 1000)),
-        Evidence::rigorous("varpi = 1/(48 (a + 2))", printed.varpi.clone(), Relation::Less, (782, 1_000_000)),
+        Evidence::rigorous("the example's weights: S", printed.s.clone(), Relation::Less, ratio(7_220, 1000)),
+        Evidence::rigorous("a = (2 + sqrt(2)) S", printed.a.clone(), Relation::Less, ratio(24_650, 1000)),
+        Evidence::rigorous("varpi = 1/(48 (a + 2))", printed.varpi.clone(), Relation::Less, ratio(782, 1_000_000)),
         Evidence::rigorous("the printed kappa_1", printed.kappa_1.clone(), Relation::Greater, 13_000_000),
         Evidence::rigorous(
             "the closed form k1 at nu = 1, proved for every n_o; the printed value divided by it",
@@ -194,11 +196,11 @@ pub(super) fn e9(data: Option<&Data<'_>>) -> Erratum {
             "with k0 = 7 no k1 below 17.59 will do: (T_1(x) - 7)/x^2 at n_o = 1, x = 0.827, nu = 1",
             needed.clone(),
             Relation::Greater,
-            (1759, 100),
+            ratio(1759, 100),
         ),
         Evidence::cited(
             "and about 17.6 is enough (grid search over n_o and x)",
-            (176, 10),
+            ratio(176, 10),
             Relation::GreaterOrEqual,
             needed,
         ),
