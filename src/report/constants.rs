@@ -1,0 +1,94 @@
+//! The constants of the three derivations side by side.
+
+use super::blocks::{Block, Table};
+use super::number::{compact, estimate};
+use crate::certificate::Certification;
+use crate::constants::table::{At, Entry, Row, Status, Value};
+
+/// The tables, one for each place of evaluation, with notes and sources.
+pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+    let rows = &run.constants;
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let mut blocks = vec![
+        Block::Heading("Constants in the three derivations".to_owned()),
+        Block::says(
+            "Enclosed values: the upper end rounded up, or [lower, upper] where the two differ in the digits shown. \
+             (!) marks a printed value that is not sound, (none) one whose defining condition has no solution. The last \
+             two columns are quotients to the sharp value (estimates).",
+        ),
+    ];
+    let mut notes = Vec::new();
+    for at in [At::Data, At::Common, At::Own] {
+        let mut table = Table::new(&["<", "printed", "repaired", "sharp", "printed/sharp", "repaired/sharp"]);
+        for row in rows.iter().filter(|row| row.at == at) {
+            table.push(cells(row, &mut notes));
+        }
+        if !table.rows.is_empty() {
+            blocks.push(Block::Subheading(heading(at).to_owned()));
+            blocks.push(Block::Table(table));
+        }
+    }
+    if !notes.is_empty() {
+        blocks.push(Block::Subheading("Without a value".to_owned()));
+        blocks.push(Block::List(notes));
+    }
+    blocks.push(Block::Subheading("Sources (P: labels of the paper; sections of the derivation)".to_owned()));
+    blocks.push(Block::List(rows.iter().map(sources).collect()));
+    blocks
+}
+
+fn heading(at: At) -> &'static str {
+    match at {
+        At::Data => "From the specification alone",
+        At::Common => "At X_p, E_p, sigma of the certificate, so that only the formulas differ",
+        At::Own => "At the free numbers that each derivation finds best",
+    }
+}
+
+fn cells(row: &Row, notes: &mut Vec<String>) -> [String; 6] {
+    let mut cell = |derivation: &str, entry: &Option<Entry>| match entry {
+        None => "-".to_owned(),
+        Some(Entry { value: Value::Number(value), status, .. }) => {
+            let mark = if *status == Status::Sound { "" } else { " (!)" };
+            format!("{}{mark}", compact(value))
+        }
+        Some(Entry { value: Value::Infeasible(reason) | Value::Unavailable(reason), .. }) => {
+            notes.push(format!("{}, {derivation}: {reason}", row.name));
+            "(none)".to_owned()
+        }
+    };
+    [
+        row.name.clone(),
+        cell("printed", &row.printed),
+        cell("repaired", &row.repaired),
+        cell("sharp", &row.sharp),
+        factor(&row.printed, &row.sharp).map_or_else(|| "-".to_owned(), estimate),
+        factor(&row.repaired, &row.sharp).map_or_else(|| "-".to_owned(), estimate),
+    ]
+}
+
+/// The quotient of two values in floating point, where both are positive numbers.
+pub(super) fn factor(entry: &Option<Entry>, reference: &Option<Entry>) -> Option<f64> {
+    let number = |entry: &Option<Entry>| match entry {
+        Some(Entry { value: Value::Number(value), .. }) => Some(value.midpoint_f64()).filter(|v| *v > 0.0),
+        _ => None,
+    };
+    Some(number(entry)? / number(reference)?).filter(|factor| factor.is_finite())
+}
+
+fn sources(row: &Row) -> String {
+    let entries = [("printed", &row.printed), ("repaired", &row.repaired), ("sharp", &row.sharp)];
+    let mut parts: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (derivation, entry) in entries {
+        let Some(entry) = entry else { continue };
+        match parts.iter_mut().find(|(source, _)| *source == entry.source) {
+            Some((_, derivations)) => derivations.push(derivation),
+            None => parts.push((entry.source, vec![derivation])),
+        }
+    }
+    let parts: Vec<String> =
+        parts.iter().map(|(source, derivations)| format!("{source} ({})", derivations.join(", "))).collect();
+    format!("{}: {}", row.name, parts.join("; "))
+}
