@@ -14,14 +14,15 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let mut blocks = vec![
         Block::Heading("Constants in the three derivations".to_owned()),
         Block::says(
-            "Enclosed values: the upper end rounded up, or [lower, upper] where the two differ in the digits shown. \
-             (!) marks a printed value that is not sound, (none) one whose defining condition has no solution. The last \
-             two columns are quotients to the sharp value (estimates).",
+            "Rounded to the nearest digits shown; [lower, upper] where the enclosure is wider than these. The full \
+             enclosures are in the certificate and in the JSON report. (!) marks a printed value that is not sound, \
+             (none) one whose defining condition has no solution. p/s is printed/sharp and r/s is repaired/sharp, both \
+             estimates.",
         ),
     ];
     let mut notes = Vec::new();
     for at in [At::Data, At::Common, At::Own] {
-        let mut table = Table::new(&["<", "printed", "repaired", "sharp", "printed/sharp", "repaired/sharp"]);
+        let mut table = Table::new(&["<", "printed", "repaired", "sharp", "p/s", "r/s"]);
         for row in rows.iter().filter(|row| row.at == at) {
             table.push(cells(row, &mut notes));
         }
@@ -32,10 +33,14 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     if !notes.is_empty() {
         blocks.push(Block::Subheading("Without a value".to_owned()));
-        blocks.push(Block::List(notes));
+        blocks.push(listed(notes));
     }
     blocks.push(Block::Subheading("Sources (P: labels of the paper; sections of the derivation)".to_owned()));
-    blocks.push(Block::List(rows.iter().map(sources).collect()));
+    let mut sources = Vec::new();
+    for row in rows {
+        collect(&mut sources, &source(row), row.name.clone());
+    }
+    blocks.push(listed(sources));
     blocks
 }
 
@@ -47,7 +52,7 @@ fn heading(at: At) -> &'static str {
     }
 }
 
-fn cells(row: &Row, notes: &mut Vec<String>) -> [String; 6] {
+fn cells(row: &Row, notes: &mut Vec<(String, Vec<String>)>) -> [String; 6] {
     let mut cell = |derivation: &str, entry: &Option<Entry>| match entry {
         None => "-".to_owned(),
         Some(Entry { value: Value::Number(value), status, .. }) => {
@@ -55,22 +60,41 @@ fn cells(row: &Row, notes: &mut Vec<String>) -> [String; 6] {
             format!("{}{mark}", compact(value))
         }
         Some(Entry { value: Value::Infeasible(reason) | Value::Unavailable(reason), .. }) => {
-            notes.push(format!("{}, {derivation}: {reason}", row.name));
+            collect(notes, reason, format!("{} ({derivation})", row.name));
             "(none)".to_owned()
         }
+    };
+    // Free numbers of different derivations have no meaningful quotient.
+    let comparable = row.at != At::Own || row.name.starts_with("sigma");
+    let quotient = |entry| {
+        let factor = if comparable { factor(entry, &row.sharp) } else { None };
+        factor.map_or_else(|| "-".to_owned(), estimate)
     };
     [
         row.name.clone(),
         cell("printed", &row.printed),
         cell("repaired", &row.repaired),
         cell("sharp", &row.sharp),
-        factor(&row.printed, &row.sharp).map_or_else(|| "-".to_owned(), estimate),
-        factor(&row.repaired, &row.sharp).map_or_else(|| "-".to_owned(), estimate),
+        quotient(&row.printed),
+        quotient(&row.repaired),
     ]
 }
 
+/// Adds a name to those that share a text.
+fn collect(lists: &mut Vec<(String, Vec<String>)>, text: &str, name: String) {
+    match lists.iter_mut().find(|(known, _)| known == text) {
+        Some((_, names)) => names.push(name),
+        None => lists.push((text.to_owned(), vec![name])),
+    }
+}
+
+/// "a, b: text" for each text.
+fn listed(lists: Vec<(String, Vec<String>)>) -> Block {
+    Block::List(lists.into_iter().map(|(text, names)| format!("{}: {text}", names.join(", "))).collect())
+}
+
 /// The quotient of two values in floating point, where both are positive numbers.
-pub(super) fn factor(entry: &Option<Entry>, reference: &Option<Entry>) -> Option<f64> {
+fn factor(entry: &Option<Entry>, reference: &Option<Entry>) -> Option<f64> {
     let number = |entry: &Option<Entry>| match entry {
         Some(Entry { value: Value::Number(value), .. }) => Some(value.midpoint_f64()).filter(|v| *v > 0.0),
         _ => None,
@@ -78,7 +102,7 @@ pub(super) fn factor(entry: &Option<Entry>, reference: &Option<Entry>) -> Option
     Some(number(entry)? / number(reference)?).filter(|factor| factor.is_finite())
 }
 
-fn sources(row: &Row) -> String {
+fn source(row: &Row) -> String {
     let entries = [("printed", &row.printed), ("repaired", &row.repaired), ("sharp", &row.sharp)];
     let mut parts: Vec<(&str, Vec<&str>)> = Vec::new();
     for (derivation, entry) in entries {
@@ -90,5 +114,5 @@ fn sources(row: &Row) -> String {
     }
     let parts: Vec<String> =
         parts.iter().map(|(source, derivations)| format!("{source} ({})", derivations.join(", "))).collect();
-    format!("{}: {}", row.name, parts.join("; "))
+    parts.join("; ")
 }

@@ -36,6 +36,7 @@ pub struct Report<'r> {
     consequences: Option<Consequences>,
     relative_degree: Option<RelativeDegreeBounds>,
     rechecked: bool,
+    unanswered: bool,
 }
 
 impl<'r> Report<'r> {
@@ -45,7 +46,9 @@ impl<'r> Report<'r> {
     /// claim there are none.
     #[must_use]
     pub fn new(run: &'r Certification<'r>, targets: &[Target]) -> Report<'r> {
-        Report { run, consequences: Consequences::new(run, targets), relative_degree: None, rechecked: false }
+        let consequences = Consequences::new(run, targets);
+        let unanswered = consequences.is_none() && !targets.is_empty();
+        Report { run, consequences, relative_degree: None, rechecked: false, unanswered }
     }
 
     /// The same report, of a run that decided a given witness again and searched for nothing.
@@ -68,6 +71,9 @@ impl<'r> Report<'r> {
         let run = self.run;
         let mut blocks = vec![Block::Title(format!("{}: {}", clean(&run.spec.name), run.verdict))];
         blocks.extend(verdict::section(run));
+        if self.unanswered {
+            blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
+        }
         blocks.extend(sets::section(run));
         blocks.extend(conditions::section(run));
         blocks.extend(constants::section(run));

@@ -5,7 +5,10 @@ use crate::number::{Direction, round_f64, round_rational, write_exact};
 use rug::Rational;
 
 /// Significant digits of a number in a report.
-pub const DIGITS: usize = 6;
+const DIGITS: usize = 6;
+
+/// Significant digits of both ends of an enclosure: one more, so that a short rational shows between them.
+const PAIR_DIGITS: usize = 7;
 
 /// An upper bound, rounded up.
 #[must_use]
@@ -22,16 +25,36 @@ pub fn margin(value: &Enclosure) -> String {
 /// An enclosure, rounded outward; one number when that is exact.
 #[must_use]
 pub fn pair(value: &Enclosure) -> String {
-    let (lower, upper) = (value.lower_decimal(DIGITS), value.upper_decimal(DIGITS));
+    let (lower, upper) = (value.lower_decimal(PAIR_DIGITS), value.upper_decimal(PAIR_DIGITS));
     if lower == upper { lower } else { format!("[{lower}, {upper}]") }
 }
 
-/// One number, the upper end rounded up, where the enclosure is narrower than the digits printed; else the enclosure.
+/// The nearest number of few digits, where the enclosure is far narrower than these digits; else the enclosure.
 #[must_use]
 pub fn compact(value: &Enclosure) -> String {
     let width = value.upper_f64() - value.lower_f64();
-    let narrow = width <= 1e-8 * value.midpoint_f64().abs();
-    if narrow { upper(value) } else { pair(value) }
+    let middle = value.midpoint_f64();
+    if width > 1e-12 * middle.abs() || !middle.is_finite() {
+        return pair(value);
+    }
+    match round_f64(middle, DIGITS as u32, Direction::Nearest) {
+        Some(rounded) => short(&rounded, middle, DIGITS),
+        None => pair(value),
+    }
+}
+
+/// A rounded number as a decimal, with an exponent where the plain form would be long.
+fn short(rounded: &Rational, value: f64, digits: usize) -> String {
+    if value == 0.0 || (1e-4..1e7).contains(&value.abs()) {
+        return write_exact(rounded);
+    }
+    let text = format!("{value:.*e}", digits - 1);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if mantissa.contains('.') => {
+            format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
+        }
+        _ => text,
+    }
 }
 
 /// A rational exactly where that is short, else rounded in the given direction.
@@ -45,10 +68,8 @@ pub fn exact(value: &Rational, direction: Direction) -> String {
 /// A floating-point estimate to three digits.
 #[must_use]
 pub fn estimate(value: f64) -> String {
-    let size = value.abs();
     match round_f64(value, 3, Direction::Nearest) {
-        Some(rounded) if size == 0.0 || (1e-4..1e6).contains(&size) => write_exact(&rounded),
-        Some(_) => format!("{value:.2e}"),
+        Some(rounded) => short(&rounded, value, 3),
         None => "unknown".to_owned(),
     }
 }
@@ -62,8 +83,11 @@ mod tests {
         let third = Enclosure::from_rational(&Rational::from((1, 3)), 128);
         assert_eq!(upper(&third), "0.333334");
         assert_eq!(margin(&third), "0.333");
-        assert_eq!(pair(&third), "[0.333333, 0.333334]");
-        assert_eq!(compact(&third), "0.333334");
+        assert_eq!(pair(&third), "[0.3333333, 0.3333334]");
+        assert_eq!(compact(&third), "0.333333");
+        assert_eq!(compact(&third.hull(&Enclosure::one(128))), "[0.3333333, 1]");
+        assert_eq!(compact(&Enclosure::from_rational(&Rational::from((472_233, 10_000)), 128)), "47.2233");
+        assert_eq!(compact(&Enclosure::from_integer(1_499_714_004_546, 64)), "1.49971e12");
         assert_eq!(compact(&Enclosure::from_integer(2, 64)), "2");
         assert_eq!(compact(&Enclosure::undefined(64)), "undefined");
         assert_eq!(exact(&Rational::from((1, 3)), Direction::Down), "1/3");

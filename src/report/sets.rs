@@ -1,7 +1,7 @@
 //! sigma* and the sets of the claim.
 
 use super::blocks::{Block, Table};
-use super::number::{exact, margin, upper};
+use super::number::{exact, upper};
 use super::verdict::largest_arguments;
 use crate::certificate::{Certification, Derivation};
 use crate::enclosure::Enclosure;
@@ -52,15 +52,12 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     if let Some([x, e]) = largest_arguments(run) {
         table.push(["bounding functions used up to".to_owned(), x, e, none(), none()]);
     }
-    let slowest = 1 / Enclosure::from_rational(sigma, 128);
     vec![
         Block::Heading(format!("sigma* = {} and the sets", write_exact(sigma))),
         Block::Table(table),
-        Block::says(format!(
+        Block::says(
             "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
-             depends on n_o and is not part of the claim; sigma* and the sets do not depend on n_o. sigma is in 1/time \
-             (1/sigma* is about {}).",
-            margin(&slowest)
-        )),
+             depends on n_o and is not part of the claim; sigma* and the sets do not depend on n_o. sigma is in 1/time.",
+        ),
     ]
 }

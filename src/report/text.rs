@@ -34,7 +34,7 @@ fn underlined(output: &mut String, title: &str, line: &str) {
 fn wrap(output: &mut String, text: &str, first: &str, rest: &str) {
     let mut line = first.to_owned();
     let mut empty = true;
-    for word in text.split_whitespace() {
+    for word in glued(text) {
         if !empty && line.chars().count() + 1 + word.chars().count() > WIDTH {
             output.push_str(line.trim_end());
             output.push('\n');
@@ -44,11 +44,31 @@ fn wrap(output: &mut String, text: &str, first: &str, rest: &str) {
         if !empty {
             line.push(' ');
         }
-        line.push_str(word);
+        line.push_str(&word);
         empty = false;
     }
     output.push_str(line.trim_end());
     output.push('\n');
+}
+
+/// The words of a text, with a relation and its two sides as one word.
+fn glued(text: &str) -> Vec<String> {
+    const RELATIONS: [&str; 4] = ["<=", ">=", "<", "="];
+    let mut words: Vec<String> = Vec::new();
+    let mut open = false;
+    for word in text.split_whitespace() {
+        let relation = RELATIONS.contains(&word);
+        match words.last_mut() {
+            // A chain of relations is left to break somewhere.
+            Some(last) if (relation || open) && last.len() + word.len() < WIDTH / 2 => {
+                last.push(' ');
+                last.push_str(word);
+            }
+            _ => words.push(word.to_owned()),
+        }
+        open = relation;
+    }
+    words
 }
 
 fn render_table(output: &mut String, table: &Table) {
