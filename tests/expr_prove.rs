@@ -1,91 +1,81 @@
 //! Proofs and refutations of bounding functions, through the public interface.
 
 use rug::Rational;
-use sigmastar::expr::{BoundingFailure, Expr, ProofSettings, Variables, prove_bounding};
+use sigmastar::expr::{
+    BoundingFailure, Counterexample, Expr, ProofSettings, Property, Reason, Variables, prove_bounding,
+};
+use sigmastar::number::parse_decimal;
 
 fn prove(text: &str, x_max: &str, e_max: &str) -> Result<(), BoundingFailure> {
     let expr = Expr::parse(text, Variables::XAndE).unwrap();
-    let number = |text: &str| sigmastar::number::parse_decimal(text).unwrap();
-    let start = std::time::Instant::now();
-    let r = prove_bounding(&expr, &number(x_max), &number(e_max), &ProofSettings::default());
-    println!(
-        "{text} {x_max} {e_max}: {:?} {}",
-        start.elapsed(),
-        match &r {
-            Ok(()) => "ok".into(),
-            Err(e) => e.to_string(),
+    let [x_max, e_max] = [x_max, e_max].map(|text| parse_decimal(text).unwrap());
+    prove_bounding(&expr, &x_max, &e_max, &ProofSettings::default())
+}
+
+fn refuted(text: &str, x_max: &str, e_max: &str) -> (Property, Counterexample, Option<String>) {
+    match prove(text, x_max, e_max) {
+        Err(BoundingFailure::Refuted { property, counterexample, span }) => {
+            (property, *counterexample, span.map(|span| text[span].to_owned()))
         }
-    );
-    r
+        other => panic!("{text}: {other:?}"),
+    }
 }
 
 #[test]
-fn look() {
+fn bounding_functions_are_proved() {
     for text in [
         "0",
+        "7",
         "X^2",
         "sqrt(E)",
         "E*X",
-        "X*E^2+0*X",
-        "abs(X)",
-        "sqrt(X^2+E^2)",
-        "max(X, E)",
-        "1/(1+X)",
-        "X^2/(1+X)",
-        "X/(1+X)",
-        "exp(X)-1",
-        "X - sin(X)",
-        "tanh(X)",
-        "log(1+X)",
-        "atan(E*(X+0.189))",
-        "(X-1)^2",
-        "4.822 + X + atan(E*(X + 0.189))",
-        "1/(X-5)",
-        "1/(X-pi)",
-        "X*E/(1+X)",
-        "E*X^2/(1+X)",
-        "X^(1/2)",
-        "X^(3/2)*E",
-        "X^E",
-        "(1+X)^E",
-        "min(X,E)",
-        "X^3-3*X^2+3*X",
-        "sqrt(2)*sqrt(2)-2+X",
-        "1-1/(1+X)",
-        "X^2/(1+X^2)",
-        "sqrt(1+X^2)-1",
-        "X*exp(E)",
-        "log(1+X*E)",
-        "1+X*cos(X/100)",
-        "X+sin(X)",
-        "2*X+sin(X)*cos(E)",
-        "X*E-E+E",
-        "sqrt(X*E)",
-        "abs(X-E)",
-        "X^2-X*E+E^2+X*E",
-        "tan(X)",
-        "sqrt(X)/(1+sqrt(X))",
-        "X+E/(1+X+E)",
-        "(X+E)^2/(1+X+E)",
-        "sqrt(X^2+0.01)-0.1",
-        "1e-40-1e-40*X",
-        "atan(X)-X/(1+X^2)",
+        "X*E^2 + 0*X",
         "-0*X",
+        "1 + X - X",
+        "abs(X)",
+        "abs(X - 1) + X",
+        "1 + (X - 1)^3",
+        "sqrt(X^2 + E^2)",
+        "sqrt(X*E)",
+        "sqrt(X^2 + 0.01) - 0.1",
+        "sqrt(2)*sqrt(2) - 2 + X",
+        "max(X, E)",
+        "min(X, E)",
+        "max(X - 1, 0)^2",
+        "X^2/(1 + X)",
+        "E*X^2/(1 + X)",
+        "X/(1 + X)",
+        "X*E/(1 + X + E)",
+        "X/sqrt(1 + X^2)",
+        "(X + E)^2/(1 + X + E)",
+        "X + E/(1 + X + E)",
+        "sqrt(X)/(1 + sqrt(X))",
+        "1 - 1/(1 + X)",
+        "exp(X) - 1",
         "exp(X^2)",
         "exp(exp(X))",
-        "max(X-1,0)^2",
-        "abs(X-1)+X",
-        "1+(X-1)^3",
-        "sinh",
-        "X*tanh(X)",
-        "X*atan(X)",
-        "sqrt(1+E^2)*X + 0.2237*X^2",
+        "X - sin(X)",
+        "X + sin(X)",
+        "1 - cos(X/10)",
+        "tanh(X)",
+        "X*tanh(E)",
+        "log(1 + X)",
+        "log(1 + X*E)",
+        "tan(X/10)",
+        "atan(E*(X + 0.189))",
+        "4.822 + X + atan(E*(X + 0.189))",
+        "sqrt(1 + E^2)*X + 0.2237*X^2",
+        "X^(1/2)",
+        "X^(3/2)*E",
+        "(1 + X)^E",
+        "2^X",
     ] {
-        if Expr::parse(text, Variables::XAndE).is_err() {
-            continue;
-        }
-        let _ = prove(text, "10", "10");
+        prove(text, "10", "10").unwrap_or_else(|failure| panic!("{text}: {failure}"));
     }
+}
+
+#[test]
+fn any_size_of_domain() {
     for text in [
         "X^2",
         "sqrt(E)",
@@ -97,11 +87,109 @@ fn look() {
         "atan(E*(X+0.189))",
         "sqrt(X^2+E^2)",
         "exp(X)-1",
-        "1+X-X",
-        "(X+E)*(X+E)/(1+X+E)",
     ] {
-        for (a, b) in [("0", "0"), ("0", "1e12"), ("1e12", "0"), ("1e12", "1e12"), ("1e-12", "1e-12")] {
-            let _ = prove(text, a, b);
+        for (x_max, e_max) in
+            [("0", "0"), ("0", "1e12"), ("1e12", "0"), ("1e12", "1e12"), ("1e-12", "1e-12"), ("1e300", "3")]
+        {
+            prove(text, x_max, e_max).unwrap_or_else(|failure| panic!("{text} on {x_max}, {e_max}: {failure}"));
         }
+    }
+    // What fails only elsewhere does not count.
+    prove("1 - X", "0", "10").unwrap();
+    prove("X - X^2", "0.5", "10").unwrap();
+    prove("sqrt(2 - X) + 2*X", "1", "0").unwrap();
+}
+
+#[test]
+fn refutations_name_property_point_and_place() {
+    for (text, property, place) in [
+        ("1/(1 + X)", Property::NondecreasingInX, None),
+        ("(X - 1)^2", Property::NondecreasingInX, None),
+        ("2 + X + cos(E)", Property::NondecreasingInE, None),
+        ("50 + X - E", Property::NondecreasingInE, None),
+        ("abs(X - E)", Property::NondecreasingInE, None),
+        ("X - 1e-40", Property::Nonnegative, None),
+        ("X - 1", Property::Nonnegative, None),
+        ("min(X, -X)", Property::Nonnegative, None),
+        ("sqrt(2)*sqrt(2) - 2 - 1e-300*cos(X)", Property::Nonnegative, None),
+        ("1 + 1/X", Property::Finite, Some("1/X")),
+        ("1 + X/(X - 5)^2", Property::Finite, Some("X/(X - 5)^2")),
+        ("X + log(E)", Property::Finite, Some("log(E)")),
+        ("X^E", Property::Finite, Some("X^E")),
+        ("X + sqrt(10 - E)", Property::NondecreasingInE, None),
+        ("X + 2*sqrt(X - E)", Property::Finite, Some("sqrt(X - E)")),
+        ("1 + E + X*E^-2", Property::Finite, Some("E^-2")),
+    ] {
+        let (found, _, span) = refuted(text, "10", "10");
+        assert_eq!((found, span.as_deref()), (property, place), "{text}");
+    }
+}
+
+#[test]
+fn narrow_dips_are_found() {
+    // Decreasing only on a small part of the domain, between the points of any coarse grid.
+    let (property, counterexample, _) = refuted("10 + X + sin(50*X)/49", "10", "1");
+    assert_eq!(property, Property::NondecreasingInX);
+    let Counterexample::Decrease { from, to } = counterexample else { panic!("{counterexample:?}") };
+    assert!(from.x < to.x && from.e == to.e && to.value.lt(&from.value).is_true());
+    assert_eq!(refuted("1 + X - 0.01*exp(-(1000*(X - 3.3))^2)", "10", "0").0, Property::NondecreasingInX);
+}
+
+#[test]
+fn undecided_says_where_and_why() {
+    // The derivative touches 0 at X = 1, where no box ends.
+    match prove("X^3 - 3*X^2 + 3*X", "10", "10") {
+        Err(BoundingFailure::Undecided { property, region, reason, .. }) => {
+            assert_eq!((property, reason), (Property::NondecreasingInX, Reason::Depth));
+            assert!(region.x[0] <= 1 && region.x[1] >= 1);
+        }
+        other => panic!("{other:?}"),
+    }
+    // 0 at the origin, which no precision can tell.
+    match prove("log(exp(2)) - 2 + X", "1", "1") {
+        Err(BoundingFailure::Undecided { property, reason: Reason::Precision(1024), .. }) => {
+            assert_eq!(property, Property::Nonnegative);
+        }
+        other => panic!("{other:?}"),
+    }
+    // Defined up to X = 1, the end of the domain, where rounding makes the root's argument negative.
+    match prove("1 + X - sqrt(1 - X/3 - X/3 - X/3)^4", "1", "0") {
+        Err(BoundingFailure::Undecided { property: Property::Finite, span, .. }) => {
+            assert_eq!(span, Some(8..33));
+        }
+        other => panic!("{other:?}"),
+    }
+    let settings = ProofSettings { max_boxes: 10, ..ProofSettings::default() };
+    let ten = Rational::from(10);
+    let limited = prove_bounding(&Expr::parse("X^3 - 3*X^2 + 3*X", Variables::XAndE).unwrap(), &ten, &ten, &settings);
+    assert!(matches!(limited, Err(BoundingFailure::Undecided { reason: Reason::Boxes(10), .. })), "{limited:?}");
+    assert!(prove("X^3 - 3*X^2 + 3.001*X", "10", "10").is_ok());
+    assert!(matches!(
+        prove("X", "-1", "1"),
+        Err(BoundingFailure::Undecided { property: Property::Finite, reason: Reason::Empty, .. })
+    ));
+}
+
+#[test]
+fn failures_are_sentences() {
+    assert_eq!(
+        prove("X - 1", "2", "2").unwrap_err().to_string(),
+        "the expression is not nonnegative: its value at X = 0, E = 0 lies in [-1, -1]"
+    );
+    assert_eq!(
+        prove("1/X", "2", "2").unwrap_err().to_string(),
+        "the expression is not finite: it is undefined at X = 0, E = 0"
+    );
+    assert_eq!(
+        prove("2 - E", "2", "1").unwrap_err().to_string(),
+        "the expression is not nondecreasing in E: its value at X = 0, E = 0 lies in [2, 2], \
+         and its value at X = 0, E = 0.125 lies in [1.875, 1.875]"
+    );
+}
+
+#[test]
+fn the_answer_is_always_the_same() {
+    for text in ["X^3 - 3*X^2 + 3*X", "10 + X + sin(50*X)/49", "X + E"] {
+        assert_eq!(prove(text, "10", "1"), prove(text, "10", "1"), "{text}");
     }
 }

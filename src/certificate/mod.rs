@@ -5,15 +5,17 @@ mod decide;
 mod produce;
 mod read;
 mod round;
+mod run;
 mod verdict;
 mod write;
 
 pub use bounding::{BoundingProblem, prove_bounds};
 pub use decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
-pub use produce::{
-    Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RepairedProof, SharpProof, TransferChoice,
-    certify, recheck,
-};
+pub use produce::{certify, recheck};
 pub use read::{WitnessFile, read_witness};
+pub use run::{
+    Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RelativeDegreeGains, RepairedProof,
+    SharpProof, TransferChoice,
+};
 pub use verdict::Verdict;
 pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, statement};

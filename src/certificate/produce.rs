@@ -1,184 +1,30 @@
 //! The whole run: prove the bounding functions, search, round, decide, in each derivation.
 
 use super::bounding::{BoundingProblem, prove_bounds};
-use super::decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
+use super::decide::{decide_exact, decide_repaired, decide_sharp};
 use super::read::WitnessFile;
 use super::round::{exact_claim, round_repaired, round_sharp};
+use super::run::{
+    Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RelativeDegreeGains, RepairedProof,
+    SharpProof, TransferChoice,
+};
 use super::verdict::Verdict;
 use crate::constants::condition::Condition;
 use crate::constants::data::Data;
-use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness};
-use crate::constants::printed::{Infeasible, PrintedEvaluation, level_condition};
+use crate::constants::printed::{PrintedEvaluation, level_condition};
+use crate::constants::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
+use crate::constants::sharp::{SharpEvaluation, SharpWitness};
 use crate::constants::table::{Row, TableInput, table};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
 use crate::search::{
-    Datum, FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, search_sharp, sensitivities,
+    FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, search_sharp, sensitivities,
 };
 use crate::spec::model::Specification;
 use crate::transfer::TradeOff;
 use rug::Rational;
-
-/// The derivation on which a claim rests.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Derivation {
-    /// Sections 2-6 of the derivation.
-    #[default]
-    Sharp,
-    /// The paper's architecture, repaired.
-    Repaired,
-    /// The paper to the letter: never certifies.
-    Printed,
-}
-
-impl Derivation {
-    /// The word in certificates.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Derivation::Sharp => "sharp",
-            Derivation::Repaired => "repaired",
-            Derivation::Printed => "printed",
-        }
-    }
-}
-
-/// Which constants of the transfer bound the sharp derivation uses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum TransferChoice {
-    /// Matched where the specification says so, the closed form otherwise.
-    #[default]
-    Best,
-    /// The closed form of derivation section 2, valid for every base frequency.
-    ClosedForm,
-}
-
-/// What a run does; every field has a default.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// The derivation that the verdict is about (default: sharp).
-    pub derivation: Derivation,
-    /// The transfer constants of the sharp derivation (default: the best available).
-    pub transfer: TransferChoice,
-    /// The working precisions (default: 128 to 1024 bits).
-    pub ladder: Ladder,
-    /// Whether the other derivations are worked out too, for comparison (default: yes).
-    pub compare: bool,
-}
-
-impl Default for Options {
-    fn default() -> Options {
-        Options {
-            derivation: Derivation::default(),
-            transfer: TransferChoice::default(),
-            ladder: Ladder::default(),
-            compare: true,
-        }
-    }
-}
-
-/// A sharp witness and what was decided about it.
-#[derive(Clone, Debug)]
-pub struct SharpProof {
-    /// The free numbers.
-    pub witness: SharpWitness,
-    /// The evaluation at the precision that decided.
-    pub evaluation: SharpEvaluation,
-    /// That precision in bits.
-    pub precision: u32,
-}
-
-/// A repaired witness and what was decided about it.
-#[derive(Clone, Debug)]
-pub struct RepairedProof {
-    /// The free numbers.
-    pub witness: RepairedWitness,
-    /// The evaluation at the precision that decided.
-    pub evaluation: RepairedEvaluation,
-    /// That precision in bits.
-    pub precision: u32,
-}
-
-/// What the printed formulas say about the data.
-#[derive(Clone, Debug)]
-pub struct PrintedFigure {
-    /// Why P:eq:boundx_bounde_1 has no solution.
-    pub refutation: Option<Infeasible>,
-    /// The constants at the free numbers that are best without that condition, when there are any.
-    pub evaluation: Option<PrintedEvaluation>,
-    /// The figure that the other conditions would give: max(sigma_p*, sigma_a*).
-    pub sigma: Option<Enclosure>,
-}
-
-/// The exact-regulation claim.
-#[derive(Clone, Debug)]
-pub struct ExactClaim {
-    /// The free numbers.
-    pub witness: ExactWitness,
-    /// The evaluation.
-    pub evaluation: ExactEvaluation,
-}
-
-/// One derivation's outcome.
-#[derive(Clone, Debug)]
-pub enum Outcome<P> {
-    /// Proved.
-    Proved(Box<P>),
-    /// A witness was found (or given), and these conditions are not proved.
-    NotProved {
-        /// The witness and its evaluation.
-        proof: Box<P>,
-        /// The conditions that are not proved.
-        failing: Vec<Condition>,
-    },
-    /// No candidate was found.
-    NotFound(Obstacle),
-    /// Not asked for.
-    Skipped,
-}
-
-impl<P> Outcome<P> {
-    /// The proof, if there is one.
-    #[must_use]
-    pub fn proved(&self) -> Option<&P> {
-        match self {
-            Outcome::Proved(proof) => Some(proof),
-            _ => None,
-        }
-    }
-}
-
-/// Everything a run found out.
-#[derive(Clone, Debug)]
-pub struct Certification<'s> {
-    /// The specification.
-    pub spec: &'s Specification,
-    /// The options of the run.
-    pub options: Options,
-    /// The verdict on the chosen derivation.
-    pub verdict: Verdict,
-    /// The sharp derivation.
-    pub sharp: Outcome<SharpProof>,
-    /// The repaired derivation.
-    pub repaired: Outcome<RepairedProof>,
-    /// The printed derivation.
-    pub printed: PrintedFigure,
-    /// Exact regulation, when the base frequency is matched and a claim was proved.
-    pub exact: Option<ExactClaim>,
-    /// Which condition sets sigma*, according to the search.
-    pub binding: Option<&'static str>,
-    /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.
-    pub sensitivities: Vec<(Datum, f64)>,
-    /// Bounding functions that were neither proved nor refuted.
-    pub unproved_bounds: Vec<BoundingProblem>,
-    /// Every constant in the three derivations.
-    pub constants: Vec<Row>,
-    /// The working precision of the table.
-    pub precision: u32,
-}
 
 /// Certifies a specification: search, then rigorous decision.
 ///
@@ -280,10 +126,13 @@ fn assemble<'s>(
     model: &FloatModel,
 ) -> Certification<'s> {
     let Parts { sharp, repaired, printed, exact, unproved, proposal } = parts;
+    let relative_degree = relative_degree_gains(spec, data.precision);
     let claimed = |proved: bool| {
         if proved && unproved.is_empty() { Verdict::Certified } else { Verdict::Undecided }
     };
     let verdict = match options.derivation {
+        // The filter must be stable: otherwise the plant is not what the specification says.
+        _ if matches!(relative_degree, Some(Err(RelativeDegreeError::NotHurwitz(_)))) => Verdict::BadInput,
         Derivation::Sharp => claimed(sharp.proved().is_some()),
         Derivation::Repaired => claimed(repaired.proved().is_some()),
         // Printed can be refuted (E1), never certified.
@@ -306,11 +155,24 @@ fn assemble<'s>(
         sharp,
         repaired,
         printed,
+        relative_degree,
         exact,
         sensitivities,
         unproved_bounds: unproved,
         constants,
     }
+}
+
+/// k_inf and k_2 of the specification's filter, if it has one.
+fn relative_degree_gains(
+    spec: &Specification,
+    precision: u32,
+) -> Option<Result<RelativeDegreeGains, RelativeDegreeError>> {
+    let filter = spec.relative_degree.as_ref()?;
+    // The reader has refused irrational coefficients.
+    let a: Option<Vec<Rational>> = filter.a.iter().map(|a| a.as_rational().cloned()).collect();
+    let a = a?;
+    Some(k_infinity(&a, precision).and_then(|k_inf| Ok(RelativeDegreeGains { k_inf, k_2: k_2(&a, precision)? })))
 }
 
 /// Splits failures of the bounding functions: refuted ones are errors, undecided ones keep a claim from being made.
@@ -417,63 +279,4 @@ fn constants(
         ],
         sigma_exact: exact.map(|claim| claim.witness.sigma.clone()),
     })
-}
-
-impl Certification<'_> {
-    /// The claimed gain of the chosen derivation, if certified.
-    #[must_use]
-    pub fn sigma_star(&self) -> Option<&Rational> {
-        match (self.verdict, self.options.derivation) {
-            (Verdict::Certified, Derivation::Sharp) => self.sharp.proved().map(|proof| &proof.witness.sigma),
-            (Verdict::Certified, Derivation::Repaired) => self.repaired.proved().map(|proof| &proof.witness.sigma),
-            _ => None,
-        }
-    }
-
-    /// The claimed initial set of the chosen derivation, if certified.
-    #[must_use]
-    pub fn claimed_set(&self) -> Option<&ClaimedSet> {
-        match (self.verdict, self.options.derivation) {
-            (Verdict::Certified, Derivation::Sharp) => self.sharp.proved().map(|proof| &proof.witness.set),
-            (Verdict::Certified, Derivation::Repaired) => self.repaired.proved().map(|proof| &proof.witness.set),
-            _ => None,
-        }
-    }
-
-    /// The conditions of the chosen derivation, proved or not.
-    #[must_use]
-    pub fn conditions(&self) -> &[Condition] {
-        fn of<P>(outcome: &Outcome<P>, conditions: impl Fn(&P) -> &[Condition]) -> &[Condition] {
-            match outcome {
-                Outcome::Proved(proof) | Outcome::NotProved { proof, .. } => conditions(proof),
-                Outcome::NotFound(_) | Outcome::Skipped => &[],
-            }
-        }
-        match self.options.derivation {
-            Derivation::Sharp => of(&self.sharp, |proof| &proof.evaluation.conditions),
-            Derivation::Repaired => of(&self.repaired, |proof| &proof.evaluation.conditions),
-            Derivation::Printed => &[],
-        }
-    }
-
-    /// Upper bounds of the periodic solution, |x|, |e|, |zeta|_N and |z|_N, of the chosen derivation, if certified.
-    #[must_use]
-    pub fn periodic_solution(&self) -> Option<[Enclosure; 4]> {
-        let (x, e, zeta, precision) = match (self.verdict, self.options.derivation) {
-            (Verdict::Certified, Derivation::Sharp) => {
-                let proof = self.sharp.proved()?;
-                let periodic = &proof.evaluation.periodic;
-                (periodic.x_per.clone(), periodic.e_per.clone(), proof.evaluation.z.clone(), proof.precision)
-            }
-            (Verdict::Certified, Derivation::Repaired) => {
-                let proof = self.repaired.proved()?;
-                let bounds = &proof.evaluation.bounds;
-                (bounds.x_p.clone(), bounds.e_p.clone(), proof.evaluation.z.clone(), proof.precision)
-            }
-            _ => return None,
-        };
-        let n_bar = Data::new(self.spec, precision).n_bar;
-        let z = &zeta + n_bar * &e;
-        Some([x, e, zeta, z])
-    }
 }

@@ -1,6 +1,6 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
-use super::produce::{Certification, Derivation};
+use super::run::{Certification, Derivation};
 use crate::constants::condition::Condition;
 use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::repaired::RepairedWitness;

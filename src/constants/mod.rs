@@ -11,6 +11,7 @@ pub mod exact_regulation;
 pub mod existence;
 pub mod gains;
 pub mod printed;
+pub mod relative_degree;
 pub mod repaired;
 
 pub mod sharp;

@@ -125,7 +125,7 @@ pub enum BoundingFailure {
         /// The property that fails.
         property: Property,
         /// The proof that it fails.
-        counterexample: Counterexample,
+        counterexample: Box<Counterexample>,
         /// The bytes of the operation responsible, where there is one.
         span: Option<Range<usize>>,
     },
@@ -135,7 +135,7 @@ pub enum BoundingFailure {
         /// The property that was not decided.
         property: Property,
         /// Where the proof got stuck.
-        region: DomainBox,
+        region: Box<DomainBox>,
         /// The bytes of the operation responsible, where there is one.
         span: Option<Range<usize>>,
         /// Why it got stuck.

@@ -184,3 +184,56 @@ impl Expr {
         FloatExpr { program: compiler.program.into(), shallow: compiler.highest <= SHALLOW }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Variables;
+
+    fn compile(text: &str) -> FloatExpr {
+        Expr::parse(text, Variables::XAndE).unwrap().to_float()
+    }
+
+    #[test]
+    fn values() {
+        for (text, value) in [
+            ("X - E", -1.0),
+            ("E/X", 1.5),
+            ("X^E", 8.0),
+            ("E^X", 9.0),
+            ("-X^-2", -0.25),
+            ("min(X, E, 5)", 2.0),
+            ("max(X, E, 2.5)", 3.0),
+            ("abs(X - E)*sqrt(16)", 4.0),
+            ("1/3*X", 2.0 / 3.0),
+            ("2*pi + 0*X", std::f64::consts::TAU),
+        ] {
+            assert!((compile(text).eval(2.0, 3.0) - value).abs() < 1e-14, "{text}");
+        }
+    }
+
+    #[test]
+    fn undefined_is_not_a_number() {
+        for text in
+            ["sqrt(-X)", "log(-X)", "(-X)^E", "0^(X - 2)", "max(1, sqrt(-X))", "max(sqrt(-X), 1)", "min(sqrt(-X), 1)"]
+        {
+            assert!(compile(text).eval(2.0, 2.0).is_nan(), "{text}");
+        }
+    }
+
+    #[test]
+    fn constants_are_folded() {
+        assert_eq!(*compile("sqrt(2*8)^2 - pi/pi").program, [Instruction::Number(15.0)]);
+        assert_eq!(compile("X*(1 + 2)").program.len(), 3);
+        assert_eq!(compile("max(1, 2) + min(X, 3)").program.len(), 5);
+    }
+
+    #[test]
+    fn deep_expressions_have_room() {
+        let n = crate::expr::MAX_NESTING;
+        let value = compile(&("X + 2*3^(".repeat(n / 2) + "X" + &")".repeat(n / 2))).eval(0.0, 0.0);
+        assert!(value.is_infinite());
+        let value = compile(&("X + E*max(X, ".repeat(n) + "X" + &")".repeat(n))).eval(0.5, 0.5);
+        assert!((value - 1.0).abs() < 1e-9);
+    }
+}

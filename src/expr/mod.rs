@@ -15,6 +15,7 @@ mod error;
 mod exact;
 mod failure;
 mod float;
+mod growth;
 mod jet;
 mod lex;
 mod names;

@@ -70,7 +70,7 @@ pub(super) fn suggest(name: &str, variables: Variables) -> Option<String> {
         .filter(|known| known.len() > 1)
         .map(|known| (strsim::osa_distance(&lower, known), known))
         .filter(|(edits, known)| *edits <= MAX_EDITS && *edits < known.len() && *edits < name.chars().count())
-        .min_by_key(|(edits, _)| *edits)
+        .min_by_key(|(edits, known)| (*edits, known.len().abs_diff(lower.len())))
         .map(|(_, known)| format!("did you mean {known}?"))
 }
 

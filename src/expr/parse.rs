@@ -333,3 +333,150 @@ impl Parser<'_> {
 fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 { text.to_owned() } else { text.chars().take(37).collect::<String>() + "..." }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Expr;
+    use super::*;
+    use rug::Rational;
+
+    fn value(text: &str) -> Rational {
+        let exact = Expr::parse(text, Variables::None).unwrap_or_else(|error| panic!("{text}: {error}")).exact();
+        exact.and_then(|exact| exact.as_rational().cloned()).unwrap_or_else(|| panic!("{text} is not rational"))
+    }
+
+    fn error(text: &str) -> ExprError {
+        Expr::parse(text, Variables::XAndE).map(|_| ()).expect_err(text)
+    }
+
+    #[test]
+    fn precedence_and_associativity() {
+        for (text, expected) in [
+            ("1 + 2*3", (7, 1)),
+            ("(1 + 2)*3", (9, 1)),
+            ("7 - 2 - 1", (4, 1)),
+            ("8/4/2", (1, 1)),
+            ("8/4*2", (4, 1)),
+            ("2*3^2", (18, 1)),
+            ("-2^2", (-4, 1)),
+            ("(-2)^2", (4, 1)),
+            ("2^3^2", (512, 1)),
+            ("(2^3)^2", (64, 1)),
+            ("2^-1", (1, 2)),
+            ("2^-2^2", (1, 16)),
+            ("2^+3", (8, 1)),
+            ("2^--3", (8, 1)),
+            ("2*-3", (-6, 1)),
+            ("2--3", (5, 1)),
+            ("2-+-3", (5, 1)),
+            ("-3-2", (-5, 1)),
+            ("-2*-3", (6, 1)),
+            ("+4", (4, 1)),
+            ("2E3", (2000, 1)),
+            ("2e-1*5", (1, 1)),
+            (" 1\t+\n2 ", (3, 1)),
+            ("min(5, 3+1, 2*4)", (4, 1)),
+            ("max(1,2)-1", (1, 1)),
+            ("sqrt(4)^2", (4, 1)),
+            ("3^(1-1)", (1, 1)),
+            ("2^1000/2^999", (2, 1)),
+        ] {
+            assert_eq!(value(text), Rational::from(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn errors_say_what_where_and_what_to_do() {
+        use ExprErrorKind as Kind;
+        let missing = |left: &str, right: &str| Kind::MissingOperator { left: left.into(), right: right.into() };
+        let unexpected = |found: &str| Kind::Unexpected { found: found.into() };
+        let unknown = |name: &str| Kind::UnknownName { name: name.into() };
+        for (text, kind, span, help) in [
+            ("2X", missing("2", "X"), 1..2, Some("write 2*X")),
+            ("2E", missing("2", "E"), 1..2, Some("write 2*E")),
+            ("2XE", missing("2", "XE"), 1..3, Some("write 2*X*E")),
+            ("2E3X", missing("2E3", "X"), 3..4, Some("write 2E3*X")),
+            ("X E", missing("X", "E"), 2..3, Some("write X*E")),
+            ("X(E)", missing("X", "("), 1..2, Some("write X*(")),
+            ("(X)E", missing(")", "E"), 3..4, Some("write )*E")),
+            ("(2 3)", missing("2", "3"), 3..4, Some("write 2*3")),
+            ("sqr(X)", unknown("sqr"), 0..3, Some("did you mean sqrt?")),
+            ("1 + x", unknown("x"), 4..5, Some("write X")),
+            ("ln(X)", unknown("ln"), 0..2, Some("write log")),
+            ("arctan(X)", unknown("arctan"), 0..6, Some("write atan")),
+            ("π", unknown("π"), 0..2, Some("write pi")),
+            ("", Kind::Empty, 0..0, None),
+            (" \n", Kind::Empty, 2..2, None),
+            ("1 +", Kind::UnexpectedEnd, 3..3, None),
+            ("-", Kind::UnexpectedEnd, 1..1, None),
+            ("2^", Kind::UnexpectedEnd, 2..2, None),
+            ("(1", Kind::Unclosed, 0..1, Some("add the missing `)`")),
+            ("max(1, 2", Kind::Unclosed, 3..4, Some("add the missing `)`")),
+            ("1)", unexpected(")"), 1..2, None),
+            ("()", unexpected(")"), 1..2, None),
+            ("(1, 2)", unexpected(","), 2..3, None),
+            ("1 * / 2", unexpected("/"), 4..5, None),
+            ("X**2", unexpected("*"), 2..3, Some("write a power as u^v")),
+            ("X×E", Kind::UnexpectedCharacter { character: '×' }, 1..3, Some("write *")),
+            ("|X|", Kind::UnexpectedCharacter { character: '|' }, 0..1, Some("write abs(...)")),
+            ("1\u{0}", Kind::UnexpectedCharacter { character: '\u{0}' }, 1..2, None),
+            ("1 + sin X", Kind::FunctionWithoutArgument { name: "sin".into() }, 4..7, Some("write sin(...)")),
+            ("max", Kind::FunctionWithoutArgument { name: "max".into() }, 0..3, Some("write max(...)")),
+            ("X^1001", Kind::ExponentTooLarge, 2..6, None),
+            ("X^-(2000/2+1)", Kind::ExponentTooLarge, 2..13, None),
+            ("2^2^2^2^2", Kind::ExponentTooLarge, 2..9, None),
+        ] {
+            let found = error(text);
+            assert_eq!((found.kind, found.span, found.help.as_deref()), (kind, span, help), "{text}");
+        }
+        for (text, needed, found) in
+            [("sin()", "one argument", 0), ("sin(1, 2)", "one argument", 2), ("max(1)", "at least two arguments", 1)]
+        {
+            let name = text[..3].to_owned();
+            assert_eq!(error(text).kind, Kind::ArgumentCount { name, needed, found }, "{text}");
+        }
+        assert!(matches!(error("1.2.3").kind, Kind::Number(_)));
+        assert!(matches!(error("1e5000").kind, Kind::Number(_)));
+        assert_eq!(error("2X").to_string(), "an operator is missing between `2` and `X`");
+        assert_eq!(error("2X").expected, Some(OPERATOR));
+        assert_eq!(error("2+").expected, Some(OPERAND));
+    }
+
+    #[test]
+    fn constants_have_no_variables() {
+        for text in ["X", "1 + E"] {
+            let error = Expr::parse(text, Variables::None).map(|_| ()).unwrap_err();
+            assert!(matches!(error.kind, ExprErrorKind::VariableInConstant { .. }), "{text}");
+        }
+        assert!(Expr::parse("2*pi", Variables::None).is_ok());
+    }
+
+    #[test]
+    fn limits() {
+        let parse = |text: String| Expr::parse(&text, Variables::XAndE).map(|_| ()).map_err(|error| error.kind);
+        let nested = |n: usize, open: &str, close: &str| parse(open.repeat(n) + "X" + &close.repeat(n));
+        for (open, close) in [("(", ")"), ("sin(", ")"), ("max(1,", ")"), ("2^", "")] {
+            assert_eq!(nested(MAX_NESTING, open, close), Ok(()), "{open}");
+            assert_eq!(nested(MAX_NESTING + 1, open, close), Err(ExprErrorKind::TooDeep), "{open}");
+        }
+        assert_eq!(parse("-".repeat(MAX_NODES - 1) + "X"), Ok(()));
+        assert_eq!(parse("-".repeat(MAX_NODES) + "X"), Err(ExprErrorKind::TooManyNodes));
+        assert_eq!(parse("X+".repeat(MAX_NODES / 2 - 1) + "X"), Ok(()));
+        assert_eq!(parse("(".repeat(MAX_TEXT)), Err(ExprErrorKind::TooDeep));
+        assert_eq!(parse(" ".repeat(MAX_TEXT - 1) + "X"), Ok(()));
+        assert_eq!(parse(" ".repeat(MAX_TEXT) + "X"), Err(ExprErrorKind::TooLong { length: MAX_TEXT + 1 }));
+        let wide = Expr::parse(&("x".to_owned() + &"×".repeat(MAX_TEXT)), Variables::XAndE).map(|_| ()).unwrap_err();
+        assert_eq!(wide.span.start, MAX_TEXT - 1);
+        assert_eq!(parse("X^1000 + X^-1000".to_owned()), Ok(()));
+    }
+
+    #[test]
+    fn spans_cover_the_operation() {
+        let text = "1 + -max(X, E, 2)^(1/3)";
+        let nodes = parse(text, Variables::XAndE).unwrap();
+        let spans: Vec<&str> = nodes.iter().map(|node| &text[node.span.clone()]).collect();
+        let expected = ["1", "X", "E", "max(X, E", "2", "max(X, E, 2)", "1", "3", "1/3", "max(X, E, 2)^(1/3)"];
+        assert_eq!(spans[..10], expected);
+        assert_eq!(spans[10..], ["-max(X, E, 2)^(1/3)", text]);
+    }
+}

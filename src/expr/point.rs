@@ -10,6 +10,10 @@ use rug::Rational;
 use std::cmp::Ordering;
 use std::ops::Range;
 
+/// Bits of a rational beyond which exact evaluation is given up: many points are evaluated, and enclosures decide
+/// nearly all of them.
+const MAX_BITS: u32 = 1 << 13;
+
 /// A value at an exact point: exactly where possible, and enclosed.
 pub(super) struct PointValue {
     pub(super) exact: Option<Monomial>,
@@ -53,6 +57,8 @@ impl PointAlgebra {
     /// Prefers the exact value, whose enclosure is the tightest there is; it only exists where the operation is
     /// defined.
     fn settle(&self, exact: Option<Monomial>, value: impl FnOnce() -> Enclosure) -> PointValue {
+        let bits = |r: &Rational| r.numer().significant_bits().max(r.denom().significant_bits());
+        let exact = exact.filter(|exact| exact.as_rational().is_none_or(|rational| bits(rational) <= MAX_BITS));
         let value = exact.as_ref().map_or_else(value, |exact| exact.enclose(self.precision));
         PointValue { exact, value }
     }
@@ -121,5 +127,56 @@ impl Expr {
         let mut algebra = PointAlgebra { exact, precision, outside: false, undefined: None };
         let value = evaluate(&self.nodes, &mut algebra);
         (value, algebra.undefined)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Variables;
+
+    fn at(text: &str, x: (i32, i32), e: (i32, i32)) -> (PointValue, Option<&str>) {
+        let expr = Expr::parse(text, Variables::XAndE).unwrap();
+        let (value, span) = expr.at_point(&Rational::from(x), &Rational::from(e), 128);
+        (value, span.map(|span| &text[span]))
+    }
+
+    #[test]
+    fn certainly_undefined() {
+        for (text, blamed) in [
+            ("1 + 1/(X - 1/3)", "1/(X - 1/3)"),
+            ("0*sqrt(X - 1)", "sqrt(X - 1)"),
+            ("log(3*X - 1)", "log(3*X - 1)"),
+            ("log(-X)", "log(-X)"),
+            ("(3*X - 1)^-1", "(3*X - 1)^-1"),
+            ("(X - 1)^(1/2)", "(X - 1)^(1/2)"),
+            ("(3*X - 1)^(E - 2)", "(3*X - 1)^(E - 2)"),
+            ("1/(sqrt(2)*sqrt(8) - 4)", "1/(sqrt(2)*sqrt(8) - 4)"),
+            ("1/sin(0)", "1/sin(0)"),
+        ] {
+            let (value, span) = at(text, (1, 3), (2, 1));
+            assert_eq!((span, value.value.is_defined()), (Some(blamed), false), "{text}");
+        }
+    }
+
+    #[test]
+    fn not_certainly_undefined() {
+        // The last ones are undefined, but no enclosure can tell them from their neighbours.
+        for text in ["1/X", "sqrt(3*X - 1)", "(3*X - 1)^E", "X^-1", "tan(pi/2)", "log(exp(1) - exp(1))"] {
+            assert_eq!(at(text, (1, 3), (2, 1)).1, None, "{text}");
+        }
+    }
+
+    #[test]
+    fn signs_are_exact_where_the_value_is() {
+        for (text, sign) in [
+            ("X - 1/3", Some(Ordering::Equal)),
+            ("X*sqrt(2)*sqrt(2) - 2/3", Some(Ordering::Equal)),
+            ("exp(X) - 1", Some(Ordering::Greater)),
+            ("sin(X) - 1", Some(Ordering::Less)),
+            ("log(exp(X)) - X", None),
+        ] {
+            assert_eq!(at(text, (1, 3), (2, 1)).0.sign(), sign, "{text}");
+        }
     }
 }

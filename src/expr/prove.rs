@@ -10,6 +10,8 @@ use super::Expr;
 use super::failure::{BoundingFailure, DomainBox, Property, Reason};
 use super::jet::Jet;
 use super::refute::{Refuter, sides};
+use super::slope::is_zero;
+use super::syntax::NodeKind;
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION};
 use rug::Rational;
 use std::cmp::Ordering;
@@ -19,7 +21,7 @@ use std::ops::Range;
 /// How much work a proof may take.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProofSettings {
-    /// Boxes examined before giving up.
+    /// Boxes left undecided before giving up; fewer for expressions of more than 200 operations.
     pub max_boxes: usize,
     /// Bisections that may lead to one box.
     pub max_depth: u32,
@@ -37,6 +39,10 @@ impl Default for ProofSettings {
 
 /// Bisections after which the working precision is raised by as many bits as they may have cost.
 const RAISE_EVERY: u32 = 16;
+
+/// Boxes times operations in the expression that a proof may take: fewer boxes for expressions of more than 200
+/// operations, so that hostile ones end within seconds too.
+const MAX_WORK: usize = 4_000_000;
 
 /// Undecided boxes at which counterexamples are sought when the search ends.
 const LAST_ATTEMPTS: usize = 64;
@@ -59,14 +65,16 @@ struct Obstacle {
     span: Option<Range<usize>>,
     /// How much each side contributes to it, as far as is known.
     influence: [f64; 2],
+    /// Whether the expression is proved not to depend on the side, so that cutting it would not help.
+    constant: [bool; 2],
 }
 
 /// Proves that the expression is a bounding function on `[0, x_max]` times `[0, e_max]`: defined and bounded,
 /// nonnegative, and nondecreasing in X and in E.
 ///
 /// `Ok` is a proof, and so is [`BoundingFailure::Refuted`]; [`BoundingFailure::Undecided`] claims nothing. The result
-/// depends on the arguments only. At most `max_boxes` boxes are examined, each with a fixed number of evaluations
-/// of the expression.
+/// depends on the arguments only. At most `max_boxes` boxes are examined (fewer for expressions of more than 200
+/// operations), each with a bounded number of evaluations of the expression.
 ///
 /// # Errors
 /// [`BoundingFailure`]: refuted, with exact points that prove it; or undecided, with the box where the proof got
@@ -80,14 +88,13 @@ pub fn prove_bounding(
     let domain = DomainBox { x: [Rational::new(), x_max.clone()], e: [Rational::new(), e_max.clone()] };
     if *x_max < 0 || *e_max < 0 {
         let (property, reason) = (Property::Finite, Reason::Empty);
-        return Err(BoundingFailure::Undecided { property, region: domain, span: None, reason });
+        return Err(BoundingFailure::Undecided { property, region: Box::new(domain), span: None, reason });
     }
     let refuter = Refuter::new(expr, settings);
     let at_origin = nonnegative_at_origin(expr, &refuter, settings);
     if let Err(BoundingFailure::Refuted { .. }) = at_origin {
         return at_origin;
     }
-    refuter.grid(&domain)?;
     subdivide(expr, &refuter, domain, settings)?;
     at_origin
 }
@@ -103,7 +110,7 @@ fn nonnegative_at_origin(expr: &Expr, refuter: &Refuter<'_>, settings: &ProofSet
             return Ok(());
         }
         if precision >= settings.max_precision {
-            let region = DomainBox { x: [zero.clone(), zero.clone()], e: [zero.clone(), zero] };
+            let region = Box::new(DomainBox { x: [zero.clone(), zero.clone()], e: [zero.clone(), zero] });
             let (property, reason) = (Property::Nonnegative, Reason::Precision(precision));
             return Err(BoundingFailure::Undecided { property, region, span: None, reason });
         }
@@ -123,22 +130,30 @@ fn subdivide(
     // First in, first out: the widest boxes come first, so that a limit is met with evenly small ones.
     let mut queue = VecDeque::from([Piece { region: domain, depth: 0, cuts: [0, 0], monotone }]);
     let mut stuck: Vec<(Piece, Obstacle)> = Vec::new();
+    let max_boxes = settings.max_boxes.min(MAX_WORK / expr.nodes.len().max(1));
     let mut examined = 0;
     while let Some(mut piece) = queue.pop_front() {
         let precision = precision_at(piece.depth, settings);
         let Some(obstacle) = examine(expr, &mut piece, precision) else { continue };
-        if refuter.is_suspicious(&piece.region) {
+        if piece.depth == 0 {
+            refuter.grid(&piece.region)?;
+        } else if refuter.is_suspicious(&piece.region) {
             refuter.corners(&piece.region, precision)?;
         }
         examined += 1;
-        if examined >= settings.max_boxes {
-            let reason = Reason::Boxes(settings.max_boxes);
+        if examined >= max_boxes {
+            let reason = Reason::Boxes(max_boxes);
             stuck.push((piece, obstacle));
             return Err(give_up(refuter, stuck, reason, settings));
         }
         match bisect(&piece, &obstacle, settings) {
             Some(halves) => queue.extend(halves),
-            None => stuck.push((piece, obstacle)),
+            None => {
+                // The last resort of a piece that is not divided is the highest precision.
+                if let Some(obstacle) = examine(expr, &mut piece, settings.max_precision) {
+                    stuck.push((piece, obstacle));
+                }
+            }
         }
         if stuck.len() >= LAST_ATTEMPTS {
             break;
@@ -164,7 +179,12 @@ fn give_up(
         }
     }
     let (piece, obstacle) = stuck.swap_remove(0);
-    BoundingFailure::Undecided { property: obstacle.property, region: piece.region, span: obstacle.span, reason }
+    BoundingFailure::Undecided {
+        property: obstacle.property,
+        region: Box::new(piece.region),
+        span: obstacle.span,
+        reason,
+    }
 }
 
 fn is_nonnegative(value: &Enclosure) -> bool {
@@ -177,7 +197,9 @@ fn examine(expr: &Expr, piece: &mut Piece, precision: u32) -> Option<Obstacle> {
     let slopes = expr.enclose_slopes(&x, &e);
     if !slopes.value.is_defined() {
         let (_, span) = expr.enclose_blaming(&x, &e);
-        return Some(Obstacle { property: Property::Finite, span, influence: [f64::NAN; 2] });
+        let constant =
+            [!expr.mentions(|kind| matches!(kind, NodeKind::X)), !expr.mentions(|kind| matches!(kind, NodeKind::E))];
+        return Some(Obstacle { property: Property::Finite, span, influence: [f64::NAN; 2], constant });
     }
     piece.monotone[0] |= is_nonnegative(&slopes.slope_x);
     piece.monotone[1] |= is_nonnegative(&slopes.slope_e);
@@ -198,7 +220,8 @@ fn examine(expr: &Expr, piece: &mut Piece, precision: u32) -> Option<Obstacle> {
         let rate = rate.max(jet.second[side + along].abs().upper_f64());
         rate * width
     });
-    Some(Obstacle { property, span: None, influence })
+    let constant = [is_zero(&slopes.slope_x), is_zero(&slopes.slope_e)];
+    Some(Obstacle { property, span: None, influence, constant })
 }
 
 /// Proves a first derivative nonnegative on a box from the second derivatives there: going from any point along an
@@ -239,7 +262,8 @@ fn bisect(piece: &Piece, obstacle: &Obstacle, settings: &ProofSettings) -> Optio
     if piece.depth >= settings.max_depth {
         return None;
     }
-    let divisible = [piece.region.x[0] != piece.region.x[1], piece.region.e[0] != piece.region.e[1]];
+    let divisible = [&piece.region.x, &piece.region.e].map(|ends| ends[0] != ends[1]);
+    let divisible = [0, 1].map(|along| divisible[along] && !obstacle.constant[along]);
     let balance = piece.cuts[0] - piece.cuts[1];
     let along = match divisible {
         [false, false] => return None,
@@ -262,4 +286,10 @@ fn bisect(piece: &Piece, obstacle: &Obstacle, settings: &ProofSettings) -> Optio
         Piece { region, depth: piece.depth + 1, cuts, monotone: piece.monotone }
     };
     Some([half(&ends[0], &middle), half(&middle, &ends[1])])
+}
+
+impl Expr {
+    fn mentions(&self, kind: fn(&NodeKind) -> bool) -> bool {
+        self.nodes.iter().any(|node| kind(&node.kind))
+    }
 }

@@ -96,7 +96,7 @@ impl<'a> Refuter<'a> {
 }
 
 fn refuted(property: Property, counterexample: Counterexample, span: Option<Range<usize>>) -> BoundingFailure {
-    BoundingFailure::Refuted { property, counterexample, span }
+    BoundingFailure::Refuted { property, counterexample: Box::new(counterexample), span }
 }
 
 /// The point as degenerate enclosures.

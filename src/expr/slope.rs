@@ -15,6 +15,7 @@
 
 use super::Expr;
 use super::enclose::{binary, power, unary};
+use super::growth;
 use super::syntax::{Algebra, Binary, Unary, evaluate};
 use crate::enclosure::Enclosure;
 use rug::float::Special;
@@ -159,7 +160,7 @@ fn quotient_rule(value: &Enclosure, a: &Enclosure, b: &Enclosure, denominator: &
     (a - value * b) / denominator
 }
 
-/// Slopes of the smaller (`sign` = -1) or larger (`sign` = 1) of u and v.
+/// Slopes of the smaller or larger of u and v.
 ///
 /// Say max(u, v) is u at b and v at a. Then v(b) - v(a) <= u(b) - v(a) <= u(b) - u(a); so the increment of the
 /// maximum lies between those of u and v, in this and in every other case, and the hull of the slopes contains it.
@@ -175,46 +176,84 @@ fn extreme(operation: Binary, value: Enclosure, a: &Slopes, b: &Slopes) -> Slope
     Slopes::new(value, a.slope_x.hull(&b.slope_x), a.slope_e.hull(&b.slope_e))
 }
 
+/// Slopes with the growth exponents in X and in E, which decide signs that the slope rules lose.
+struct Item {
+    slopes: Slopes,
+    growth: [Enclosure; 2],
+}
+
 struct SlopeAlgebra<'a> {
-    x: &'a Enclosure,
-    e: &'a Enclosure,
+    sides: [&'a Enclosure; 2],
     precision: u32,
 }
 
-impl Algebra for SlopeAlgebra<'_> {
-    type Value = Slopes;
-
-    fn number(&mut self, value: &Rational) -> Slopes {
-        Slopes::constant(Enclosure::from_rational(value, self.precision))
-    }
-
-    fn pi(&mut self) -> Slopes {
-        Slopes::constant(Enclosure::pi(self.precision))
-    }
-
-    fn x(&mut self) -> Slopes {
-        Slopes::new(self.x.clone(), Enclosure::one(self.precision), Enclosure::zero(self.precision))
-    }
-
-    fn e(&mut self) -> Slopes {
-        Slopes::new(self.e.clone(), Enclosure::zero(self.precision), Enclosure::one(self.precision))
-    }
-
-    fn unary(&mut self, operation: Unary, a: Slopes) -> Slopes {
-        let value = unary(operation, &a.value);
-        if !value.is_defined() {
-            return Slopes::constant(value);
+impl SlopeAlgebra<'_> {
+    /// Joins what the rules say about slopes with what they say about growth.
+    fn close(&self, mut slopes: Slopes, rule: [Enclosure; 2]) -> Item {
+        let nonnegative = slopes.value.is_nonnegative().is_true();
+        let mut growth = rule;
+        for (along, growth) in growth.iter_mut().enumerate() {
+            let side = self.sides[along];
+            if !nonnegative || !side.is_nonnegative().is_true() {
+                *growth = Enclosure::undefined(self.precision);
+                continue;
+            }
+            let slope = if along == 0 { &mut slopes.slope_x } else { &mut slopes.slope_e };
+            *growth = growth::either(growth, &growth::from_slope(side, &slopes.value, slope));
+            *slope = growth::tightened(slope.clone(), growth);
         }
-        let quotients = quotients(operation, &a.value, &value);
-        Slopes::chain(value, &quotients, &a)
+        Item { slopes, growth }
     }
 
-    fn binary(&mut self, operation: Binary, a: Slopes, b: Slopes) -> Slopes {
+    fn constant(&self, value: Enclosure) -> Item {
+        self.close(Slopes::constant(value), [Enclosure::zero(self.precision), Enclosure::zero(self.precision)])
+    }
+
+    fn variable(&self, along: usize) -> Item {
+        let mut unit = [Enclosure::zero(self.precision), Enclosure::zero(self.precision)];
+        unit[along] = Enclosure::one(self.precision);
+        let [slope_x, slope_e] = unit.clone();
+        self.close(Slopes::new(self.sides[along].clone(), slope_x, slope_e), unit)
+    }
+}
+
+impl Algebra for SlopeAlgebra<'_> {
+    type Value = Item;
+
+    fn number(&mut self, value: &Rational) -> Item {
+        self.constant(Enclosure::from_rational(value, self.precision))
+    }
+
+    fn pi(&mut self) -> Item {
+        self.constant(Enclosure::pi(self.precision))
+    }
+
+    fn x(&mut self) -> Item {
+        self.variable(0)
+    }
+
+    fn e(&mut self) -> Item {
+        self.variable(1)
+    }
+
+    fn unary(&mut self, operation: Unary, a: Item) -> Item {
+        let value = unary(operation, &a.slopes.value);
+        if !value.is_defined() {
+            return self.constant(value);
+        }
+        let quotients = quotients(operation, &a.slopes.value, &value);
+        let growth = a.growth.map(|growth| growth::unary(operation, &growth));
+        self.close(Slopes::chain(value, &quotients, &a.slopes), growth)
+    }
+
+    fn binary(&mut self, operation: Binary, a: Item, b: Item) -> Item {
+        let mut growth = [0, 1].map(|along| growth::binary(operation, &a.growth[along], &b.growth[along]));
+        let (a_growth, a, b) = (a.growth, a.slopes, b.slopes);
         let value = binary(operation, &a.value, &b.value);
         if !value.is_defined() {
-            return Slopes::constant(value);
+            return self.constant(value);
         }
-        match operation {
+        let slopes = match operation {
             Binary::Add => Slopes::new(value, a.slope_x + &b.slope_x, a.slope_e + &b.slope_e),
             Binary::Sub => Slopes::new(value, a.slope_x - &b.slope_x, a.slope_e - &b.slope_e),
             // u(b) v(b) - u(a) v(a) = u(b) (v(b) - v(a)) + v(a) (u(b) - u(a))
@@ -229,23 +268,33 @@ impl Algebra for SlopeAlgebra<'_> {
             }
             // u(b)^v(b) - u(a)^v(a) = (u(b)^v(b) - u(a)^v(b)) + (u(a)^v(b) - u(a)^v(a))
             Binary::Pow => {
+                if is_zero(&b.slope_x) && is_zero(&b.slope_e) {
+                    growth = a_growth.map(|growth| growth * &b.value);
+                }
                 let by_base = base_quotients(&a.value, &b.value);
                 let by_exponent = exponent_quotients(&a.value, &b.value, &value);
                 let rule = |s: &Enclosure, t: &Enclosure| &by_base * s + &by_exponent * t;
                 Slopes::new(value, rule(&a.slope_x, &b.slope_x), rule(&a.slope_e, &b.slope_e))
             }
             Binary::Min | Binary::Max => extreme(operation, value, &a, &b),
-        }
+        };
+        self.close(slopes, growth)
     }
 
-    fn power(&mut self, base: Slopes, exponent: i32) -> Slopes {
-        let value = power(&base.value, exponent);
+    fn power(&mut self, base: Item, exponent: i32) -> Item {
+        let value = power(&base.slopes.value, exponent);
         if !value.is_defined() {
-            return Slopes::constant(value);
+            return self.constant(value);
         }
-        let quotients = power_quotients(&base.value, exponent);
-        Slopes::chain(value, &quotients, &base)
+        let quotients = power_quotients(&base.slopes.value, exponent);
+        let growth = base.growth.map(|growth| growth * i64::from(exponent));
+        self.close(Slopes::chain(value, &quotients, &base.slopes), growth)
     }
+}
+
+/// Whether an enclosure is exactly 0.
+pub(super) fn is_zero(value: &Enclosure) -> bool {
+    value.is_exact() && value.contains_zero()
 }
 
 impl Expr {
@@ -258,6 +307,110 @@ impl Expr {
     /// about the slope along it.
     #[must_use]
     pub fn enclose_slopes(&self, x: &Enclosure, e: &Enclosure) -> Slopes {
-        evaluate(&self.nodes, &mut SlopeAlgebra { x, e, precision: x.precision().max(e.precision()) })
+        let precision = x.precision().max(e.precision());
+        evaluate(&self.nodes, &mut SlopeAlgebra { sides: [x, e], precision }).slopes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Variables;
+    use crate::number::parse_decimal;
+
+    fn slopes(text: &str, x: [&str; 2], e: [&str; 2]) -> Slopes {
+        let side = |[lower, upper]: [&str; 2]| {
+            Enclosure::between(&parse_decimal(lower).unwrap(), &parse_decimal(upper).unwrap(), 96)
+        };
+        Expr::parse(text, Variables::XAndE).unwrap().enclose_slopes(&side(x), &side(e))
+    }
+
+    #[test]
+    fn slopes_in_x_over_a_box() {
+        let inf = f64::INFINITY;
+        for (text, x, lower, upper) in [
+            ("X", ["0", "1"], 1.0, 1.0),
+            ("3*X - X", ["0", "1"], 2.0, 2.0),
+            ("-X^2", ["1", "2"], -4.0, -2.0),
+            ("X^3", ["-1", "2"], 0.0, 12.0),
+            ("X^0", ["-1", "2"], 0.0, 0.0),
+            ("X^-2", ["1", "2"], -2.0, -0.25),
+            ("sqrt(X)", ["0", "4"], 0.25, inf),
+            ("sqrt(X)", ["1", "4"], 0.25, 0.5),
+            ("1 - sqrt(X)", ["0", "4"], -inf, -0.25),
+            ("sqrt(X)*0", ["0", "4"], 0.0, 0.0),
+            ("sqrt(X^2)", ["0", "4"], 0.0, inf),
+            ("abs(X)", ["-1", "2"], -1.0, 1.0),
+            ("abs(X)", ["-2", "-1"], -1.0, -1.0),
+            ("max(X, 1)", ["0", "2"], 0.0, 1.0),
+            ("max(X, 1)", ["2", "3"], 1.0, 1.0),
+            ("min(X, 1)", ["2", "3"], 0.0, 0.0),
+            ("min(X, 1)", ["0", "1"], 1.0, 1.0),
+            ("1/X", ["1", "2"], -1.0, -0.25),
+            ("X^(1/2)", ["0", "4"], 0.25, inf),
+            ("X^(3/2)", ["0", "4"], 0.0, 3.0),
+            ("X^E", ["1", "4"], 1.0, 8.0),
+            ("X^(E/2)", ["0", "4"], 0.25, inf),
+            ("X^(E - 1/2)", ["0", "4"], 0.0, inf),
+            ("1 - cos(X)", ["0", "0.5"], 0.0, 0.4794255386042031),
+            ("X - sin(X)", ["0", "0.5"], 0.0, 0.1224174381096273),
+            ("exp(X)", ["0", "1"], 1.0, std::f64::consts::E),
+            ("log(X)", ["1", "2"], 0.5, 1.0),
+            ("atan(X)", ["-1", "2"], 0.2, 1.0),
+            ("tan(X)", ["-0.5", "0.5"], 1.0, 1.298446410409525),
+            ("tanh(X)", ["0", "0.5"], 0.7864477329659274, 1.0),
+        ] {
+            let slope = slopes(text, x, ["1", "2"]).slope_x;
+            let close = |a: f64, b: f64| a == b || (a - b).abs() < 1e-12;
+            let found = (slope.lower_f64(), slope.upper_f64());
+            assert!(close(found.0, lower) && close(found.1, upper), "{text}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn slopes_in_e_follow_the_same_rules() {
+        for (text, lower, upper) in
+            [("X*E^2", 2.0, 16.0), ("X - 2*E", -2.0, -2.0), ("3^E", 3.2958, 9.8876), ("0^E", 0.0, 0.0)]
+        {
+            let slope = slopes(text, ["1", "4"], ["1", "2"]).slope_e;
+            assert!((slope.lower_f64() - lower).abs() < 1e-4 && (slope.upper_f64() - upper).abs() < 1e-4, "{text}");
+        }
+        // X^E log X has its least value -1/(e E) inside, and X log X -> 0 at 0.
+        let slope = slopes("X^E", ["0", "2"], ["1", "2"]).slope_e;
+        assert!(slope.lower_f64() <= -0.3678 && slope.lower_f64() > -0.37);
+        assert!(slope.upper_f64() >= 4.0 * 2_f64.ln() && slope.upper_f64() < 2.8);
+    }
+
+    #[test]
+    fn an_undefined_value_leaves_nothing_defined() {
+        for text in ["1/X", "sqrt(X)", "log(X)", "X^(1/2)", "0*(1/X)", "X^-1", "max(5, log(X))", "tan(2*X)"] {
+            let slopes = slopes(text, ["-1", "1"], ["0", "1"]);
+            assert!(
+                !slopes.value.is_defined() && !slopes.slope_x.is_defined() && !slopes.slope_e.is_defined(),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn growth_decides_where_slopes_lose() {
+        for text in
+            ["X/(1 + X)", "X^2/(1 + X)", "E*X^2/(1 + X)", "X/sqrt(1 + X^2)", "sqrt(X)/(1 + sqrt(X))", "X*E/(1 + X + E)"]
+        {
+            let slopes = slopes(text, ["0", "1e12"], ["0", "1e12"]);
+            assert!(slopes.slope_x.is_nonnegative().is_true() && slopes.slope_e.negate().upper_f64() >= 0.0, "{text}");
+        }
+        for text in [
+            "X/(1 + X^2)",
+            "X^2/(1 + X^3)",
+            "1/(1 + X)",
+            "(1 + X)/(1 + 2*X)",
+            "X*exp(-X)",
+            "X/exp(X)",
+            "X/log(2 + X)^9",
+        ] {
+            let slopes = slopes(text, ["0", "1e12"], ["0", "1e12"]);
+            assert!(!slopes.slope_x.is_nonnegative().is_true(), "{text}");
+        }
     }
 }

@@ -198,8 +198,8 @@ impl FloatModel {
             return 0.0;
         }
         // Logarithmic bisection over everything a double can hold that makes sense as sigma T.
-        let (mut low, mut high) = (-280.0_f64, 280.0_f64);
-        let sigma = |exponent: f64| 10f64.powf(exponent) / self.period;
+        let (mut low, mut high) = (-640.0_f64, 640.0_f64);
+        let sigma = |exponent: f64| exponent.exp() / self.period;
         if gain(sigma(high)) > level {
             return f64::INFINITY;
         }

@@ -196,7 +196,7 @@ impl<'d> Value<'d> {
         let span = match &self.node.content {
             Content::Text(_) => json::locate(&self.document.source.text, &self.node.span, part),
             Content::Number(_) => {
-                let within = |offset: usize| (self.node.span.start + offset).min(self.node.span.end);
+                let within = |offset: usize| self.node.span.start.saturating_add(offset).min(self.node.span.end);
                 within(part.start)..within(part.end.max(part.start))
             }
             _ => self.anchor(),

@@ -86,7 +86,7 @@ fn syntax_error(text: &str, error: &serde_json::Error) -> SpecError {
         line => text.match_indices('\n').nth(line - 2).map_or(text.len(), |(position, _)| position + 1),
     };
     // The column counts bytes from 1; at the end of the document it points past the last one.
-    let at = (line_start + error.column().saturating_sub(1)).min(text.len());
+    let at = floor_boundary(text, line_start + error.column().saturating_sub(1));
     let end = text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
     let full = error.to_string();
     let suffix = format!(" at line {} column {}", error.line(), error.column());
@@ -264,4 +264,14 @@ fn escape_lengths(raw: &str) -> (usize, usize) {
         Some(code) => (6, char::from_u32(code).map_or(1, char::len_utf8)),
         None => (raw.len(), 1),
     }
+}
+
+/// The largest character boundary of the text that is not beyond `index`.
+pub(super) fn floor_boundary(text: &str, index: usize) -> usize {
+    let mut index = index.min(text.len());
+    // 0 is a boundary.
+    while !text.is_char_boundary(index) {
+        index -= 1;
+    }
+    index
 }

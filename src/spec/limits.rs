@@ -33,6 +33,10 @@ pub(super) fn check(text: &str) -> Result<(), SpecError> {
         let byte = bytes[at];
         let start = at;
         at += 1;
+        // An array or object has one value more than it has commas, unless it is empty.
+        if matches!(previous, b'[' | b'{') && !byte.is_ascii_whitespace() && !matches!(byte, b']' | b'}') {
+            values += 1;
+        }
         match byte {
             b'"' => {
                 while at < bytes.len() && bytes[at] != b'"' {
@@ -42,7 +46,6 @@ pub(super) fn check(text: &str) -> Result<(), SpecError> {
             }
             b'[' | b'{' => {
                 depth += 1;
-                values += 1;
                 if depth > MAX_NESTING {
                     return Err(SpecError::new(
                         ErrorKind::Limit,
@@ -53,13 +56,7 @@ pub(super) fn check(text: &str) -> Result<(), SpecError> {
                     .expected(format!("at most {MAX_NESTING} levels are read")));
                 }
             }
-            b']' | b'}' => {
-                depth = depth.saturating_sub(1);
-                // An array or object has one value more than it has commas, unless it is empty.
-                if previous == b'[' || previous == b'{' {
-                    values -= 1;
-                }
-            }
+            b']' | b'}' => depth = depth.saturating_sub(1),
             b',' => values += 1,
             b'-' | b'0'..=b'9' => {
                 while at < bytes.len() && matches!(bytes[at], b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E') {

@@ -11,7 +11,7 @@ use super::weights::Weights;
 /// A checked specification: fields present, numbers exact and in range, weights proved to satisfy W1-W3.
 ///
 /// What is *not* checked here, because it depends on the arguments that a certificate uses: that the bounding
-/// functions are finite, nonnegative and nondecreasing (see `expr::prove`).
+/// functions are finite, nonnegative and nondecreasing (see [`crate::expr::prove_bounding`]).
 #[derive(Clone, Debug)]
 pub struct Specification {
     /// The name of the plant, for reports.

@@ -5,6 +5,22 @@ use super::error::{ErrorKind, Errors, Reported, SpecError, list, nearest, shown}
 
 /// An object that is read field by field. Every field that is asked for counts as known; [`Object::finish`] refuses
 /// the others, so a misspelt field can never be silently ignored.
+///
+/// ```
+/// use sigmastar::spec::{Document, Errors, SpecErrors, positive_constant};
+///
+/// let text = r#"{ "format": "sigmastar/witness", "version": 1, "sigma_star": "97/2" }"#;
+/// let document = Document::parse("witness.json", text)?;
+/// let mut errors = Errors::new();
+/// let outcome = document.root().object(&mut errors).and_then(|mut object| {
+///     object.header("sigmastar/witness", &[1], &mut errors)?;
+///     let sigma = object.required("sigma_star", &mut errors).and_then(|value| positive_constant(&value, &mut errors));
+///     object.finish(&mut errors);
+///     sigma
+/// });
+/// assert_eq!(errors.conclude(&document, outcome)?.to_f64(), 48.5);
+/// # Ok::<(), SpecErrors>(())
+/// ```
 #[derive(Debug)]
 #[must_use = "`finish` refuses unknown fields"]
 pub struct Object<'d> {

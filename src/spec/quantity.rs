@@ -67,19 +67,14 @@ impl<'a> Quantity<'a> {
         }
     }
 
-    /// Whether the two numbers are equal. Without exact forms this is refuted by disjoint enclosures and proved only
-    /// by single points.
+    /// Whether the two numbers are equal. Without exact forms that can be refuted, by disjoint enclosures, but not
+    /// proved.
     pub(super) fn equals(&self, other: &Quantity<'_>) -> Truth {
         match (&self.exact, &other.exact) {
             (Some(a), Some(b)) => a.equals(b),
             _ => decide(|precision| {
                 let (a, b) = ((self.enclose)(precision), (other.enclose)(precision));
-                match a.lt(&b).or(b.lt(&a)) {
-                    Truth::True => Truth::False,
-                    // a >= b and b >= a.
-                    Truth::False => Truth::True,
-                    Truth::Undecided => Truth::Undecided,
-                }
+                if a.lt(&b).or(b.lt(&a)).is_true() { Truth::False } else { Truth::Undecided }
             }),
         }
     }

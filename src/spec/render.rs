@@ -1,6 +1,7 @@
 //! Errors shown in their source.
 
 use super::error::{SpecError, SpecErrors};
+use super::json::floor_boundary;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
 use std::ops::Range;
 
@@ -96,13 +97,4 @@ impl<'t> Window<'t> {
         let line = 1 + text[..start].bytes().filter(|byte| *byte == b'\n').count();
         Some(Window { text: &text[start..end], line, span: at - start..until - start })
     }
-}
-
-/// The largest character boundary not beyond `index`.
-fn floor_boundary(text: &str, index: usize) -> usize {
-    let mut index = index.min(text.len());
-    while !text.is_char_boundary(index) {
-        index -= 1;
-    }
-    index
 }

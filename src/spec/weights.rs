@@ -127,3 +127,95 @@ fn round_outward(value: &Enclosure, precision: u32) -> Enclosure {
         Float::with_val_round(precision, value.upper(), Round::Up).0,
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Expr, Variables};
+
+    fn constant(text: &str) -> Constant {
+        let expr = Expr::parse(text, Variables::None).unwrap();
+        Constant { text: text.to_owned(), exact: expr.exact(), expr }
+    }
+
+    fn power(n0: &str, epsilon: &str) -> Weights {
+        Weights::Power { n0: constant(n0), epsilon: constant(epsilon) }
+    }
+
+    fn explicit(values: &[&str], coefficient: &str, exponent: &str) -> Weights {
+        Weights::Explicit {
+            values: values.iter().map(|text| constant(text)).collect(),
+            coefficient: constant(coefficient),
+            exponent: constant(exponent),
+        }
+    }
+
+    fn relative_width(x: &Enclosure) -> f64 {
+        let width = Float::with_val_round(64, x.upper() - x.lower(), Round::Up).0;
+        Float::with_val_round(64, &width / x.lower(), Round::Up).0.to_f64()
+    }
+
+    #[test]
+    fn weights_are_what_the_family_says() {
+        let family = power("2", "1/2");
+        assert_eq!(family.weight(0, 64).decimals(), ["2", "2"]);
+        assert_eq!(family.weight(1, 64).decimals(), ["1", "1"]);
+        assert!(family.weight(9, 128).intersect(&(Enclosure::one(128) / 27)).is_defined());
+        let list = explicit(&["2", "1", "1/3"], "5", "2");
+        assert_eq!(list.weight(2, 64).decimals(), ["0.33333333333333333", "0.33333333333333334"]);
+        // Exact in the tail: 5/100.
+        let tenth = list.weight(10, 64);
+        assert!(tenth.contains(&Rational::from((1, 20))) && relative_width(&tenth) < 2f64.powi(-62));
+        assert!(list.exact_tail(10).is_some_and(|n| n.as_rational() == Some(&Rational::from((1, 20)))));
+        // 7 * 4^-(3/2) = 7/8 and 2^-(3/2) = sqrt(2)/4.
+        let halves = explicit(&["2"], "7", "3/2");
+        assert!(halves.exact_tail(4).is_some_and(|n| n.as_rational() == Some(&Rational::from((7, 8)))));
+        assert!(halves.exact_tail(2).is_some() && explicit(&["2"], "7", "4/3").exact_tail(2).is_none());
+        assert!(
+            explicit(&["2"], "7", "4/3").exact_tail(1).is_some_and(|n| n.as_rational() == Some(&Rational::from(7)))
+        );
+    }
+
+    #[test]
+    fn doubles_lie_in_the_enclosures() {
+        for family in [power("2", "1/2"), power("pi", "1"), explicit(&["2", "1", "0.3"], "1.1", "5/3")] {
+            for l in [0, 1, 2, 3, 4, 100, 1_000_000, u64::MAX] {
+                let (value, double) = (family.weight(l, 64), family.weight_f64(l));
+                assert!((value.lower_f64() / double - 1.0).abs() < 1e-13, "{l}");
+                assert!(relative_width(&value) < 2f64.powi(-61));
+            }
+        }
+    }
+
+    #[test]
+    fn totals_are_narrow_for_every_allowed_exponent() {
+        for epsilon in ["1/2", "1e-6", "1", "0.05", "pi - 3", "1e-12"] {
+            let total = power("2", epsilon).total(128);
+            assert!(relative_width(&total) < 1e-36, "{epsilon} {}", relative_width(&total));
+            let zeta = |round| {
+                let p = constant(epsilon).enclose(256) + 1;
+                Float::with_val_round(192, p.lower().zeta_ref(), round).0 + 2u32
+            };
+            assert!(*total.lower() <= zeta(Round::Up) && *total.upper() >= zeta(Round::Down), "{epsilon}");
+        }
+        // n_0 + zeta(2) = 2 + pi^2/6.
+        let total = power("2", "1").total(128);
+        let expected = Enclosure::pi(300).sqr() / 6 + 2;
+        assert!(total.lower() <= expected.lower() && expected.upper() <= total.upper());
+    }
+
+    #[test]
+    fn a_listed_prefix_of_the_family_changes_nothing() {
+        let family = power("2", "1/2").total(128);
+        for values in [&["2"][..], &["2", "1"], &["2", "1", "1/sqrt(8)"], &["2", "1", "1/sqrt(8)", "1/sqrt(27)"]] {
+            let list = explicit(values, "1", "3/2");
+            assert!(list.prove().is_ok());
+            let total = list.total(128);
+            assert!(total.intersect(&family).is_defined() && relative_width(&total) < 1e-36, "{values:?}");
+        }
+        let scaled = explicit(&["3", "2", "1"], "2", "2").total(128);
+        // 6 + 2 (pi^2/6 - 1 - 1/4).
+        let expected = Enclosure::pi(300).sqr() / 3 + Enclosure::from_rational(&Rational::from((7, 2)), 300);
+        assert!(scaled.lower() <= expected.lower() && expected.upper() <= scaled.upper());
+    }
+}

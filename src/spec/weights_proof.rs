@@ -166,3 +166,129 @@ fn require(holds: Truth, culprit: Culprit, state: impl FnOnce() -> Statement) ->
         Failure { culprit, refuted: false, message, help }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::Constant;
+    use super::*;
+    use crate::expr::{Expr, Variables};
+
+    fn constant(text: &str) -> Constant {
+        let expr = Expr::parse(text, Variables::None).unwrap();
+        Constant { text: text.to_owned(), exact: expr.exact(), expr }
+    }
+
+    fn power(n0: &str, epsilon: &str) -> Weights {
+        Weights::Power { n0: constant(n0), epsilon: constant(epsilon) }
+    }
+
+    fn explicit(values: &[&str], coefficient: &str, exponent: &str) -> Weights {
+        Weights::Explicit {
+            values: values.iter().map(|text| constant(text)).collect(),
+            coefficient: constant(coefficient),
+            exponent: constant(exponent),
+        }
+    }
+
+    /// Whether it was refuted, whom to blame, and how the message starts.
+    fn fails(weights: &Weights) -> (bool, Culprit, String) {
+        let failure = weights.prove().unwrap_err();
+        (failure.refuted, failure.culprit, failure.message)
+    }
+
+    #[test]
+    fn power_family_on_both_sides_of_its_limits() {
+        for (n0, epsilon) in [("2", "1/2"), ("1.0000000001", "1"), ("100", "1e-6"), ("pi", "pi - 3"), ("2", "exp(-1)")]
+        {
+            assert!(power(n0, epsilon).prove().is_ok(), "{n0} {epsilon}");
+        }
+        for (n0, epsilon, culprit, start) in [
+            ("1", "1/2", "n0", "n_0 > n_1 fails"),
+            ("0.5", "1/2", "n0", "n_0 > n_1 fails"),
+            ("2", "0", "epsilon", "W1"),
+            ("2", "-1/2", "epsilon", "W1"),
+            ("2", "1.0000000001", "epsilon", "W3 at l = 1"),
+            ("2", "pi - 2", "epsilon", "W3 at l = 1"),
+        ] {
+            let (refuted, blamed, message) = fails(&power(n0, epsilon));
+            assert!(refuted && blamed == Culprit::Field(culprit) && message.starts_with(start), "{message}");
+        }
+        let (refuted, blamed, message) = fails(&power("2", "exp(log(2)) - 1"));
+        assert!(!refuted && blamed == Culprit::Field("epsilon") && message.contains("cannot be decided"), "{message}");
+    }
+
+    #[test]
+    fn lists_on_both_sides_of_their_limits() {
+        // Each pair differs in one number, which the accepted one has at its limit where W2 and W3 allow equality.
+        type Case = (&'static [&'static str], &'static str, &'static str);
+        let pairs: [(Case, Case, Culprit, &str); 10] = [
+            // W2 inside: 2 n_2 <= n_1.
+            (
+                (&["2", "1", "1/2", "2/9"], "1", "3/2"),
+                (&["2", "1", "0.5000000001", "2/9"], "1", "3/2"),
+                Culprit::Listed(2),
+                "W2 at l = 1",
+            ),
+            // W3 inside: 4 n_2 >= n_1.
+            (
+                (&["2", "1", "1/4", "1/9"], "1", "2"),
+                (&["2", "1", "0.2499999999", "1/9"], "1", "2"),
+                Culprit::Listed(2),
+                "W3 at l = 1",
+            ),
+            // W2 at the junction: 3 c 3^-(3/2) <= 2 n_2 with irrational equality c = sqrt(3), n_2 = 1/2.
+            (
+                (&["2", "1", "1/2"], "sqrt(3)", "3/2"),
+                (&["2", "1", "1/2"], "sqrt(3) + 1e-30", "3/2"),
+                Culprit::Listed(2),
+                "W2 at l = 2",
+            ),
+            // W3 at the junction: 4 n_2 <= c.
+            (
+                (&["2", "1", "1/4"], "1", "2"),
+                (&["2", "1", "1/4"], "0.9999999999", "2"),
+                Culprit::Listed(2),
+                "W3 at l = 2",
+            ),
+            // A list of one: the tail begins at l = 1.
+            ((&["2"], "1.9999999999", "3/2"), (&["2"], "2", "3/2"), Culprit::Listed(0), "n_0 > n_1"),
+            ((&["2", "1.9999999999"], "2", "3/2"), (&["2", "2"], "2", "3/2"), Culprit::Listed(0), "n_0 > n_1"),
+            ((&["2", "1"], "1", "2"), (&["2", "1"], "1", "2.0000000001"), Culprit::Field("exponent"), "W3"),
+            ((&["2", "1"], "1", "1.0000000001"), (&["2", "1"], "1", "1"), Culprit::Field("exponent"), "W1"),
+            ((&["2", "1"], "1", "3/2"), (&["2", "1"], "0", "3/2"), Culprit::Field("coefficient"), "coefficient > 0"),
+            ((&["2", "1"], "1", "3/2"), (&["2", "0"], "1", "3/2"), Culprit::Listed(1), "n_1 > 0"),
+        ];
+        for (good, bad, culprit, start) in pairs {
+            let accepted = explicit(good.0, good.1, good.2).prove();
+            assert!(accepted.is_ok(), "{good:?} {accepted:?}");
+            let (refuted, blamed, message) = fails(&explicit(bad.0, bad.1, bad.2));
+            assert!(refuted && blamed == culprit && message.starts_with(start), "{bad:?} {blamed:?} {message}");
+        }
+    }
+
+    #[test]
+    fn messages_carry_both_numbers() {
+        let message = |weights: &Weights| fails(weights).2;
+        assert_eq!(
+            message(&explicit(&["2", "1", "0.6"], "1", "3/2")),
+            "W2 at l = 1 (l n_l does not increase) fails: 1 n_1 = 1 and 2 n_2 = 1.2"
+        );
+        assert_eq!(
+            message(&explicit(&["2", "1", "0.3"], "1/3", "3/2")),
+            "W3 at l = 2 (l^2 n_l does not decrease) fails: 2^2 n_2 = 1.2 and 3^2 n_3 = 0.5773502691... (from the tail)"
+        );
+        let help = explicit(&["2", "1", "0.6"], "1", "3/2").prove().unwrap_err().help;
+        assert_eq!(help, "with this n_1, n_2 must lie between 0.25 and 0.5");
+    }
+
+    #[test]
+    fn an_equality_without_exact_form_is_not_decided() {
+        let weights = explicit(&["2", "exp(log(2))/2", "1/2"], "1", "3/2");
+        let (refuted, blamed, message) = fails(&weights);
+        assert!(!refuted && blamed == Culprit::Listed(2), "{message}");
+        assert!(message.contains("cannot be decided at 1024 bits"));
+        // With a margin it is decided, exact form or not.
+        assert!(explicit(&["2", "exp(log(2))/2", "0.4"], "1", "3/2").prove().is_ok());
+        assert!(explicit(&["exp(1)", "exp(0.5)", "exp(-0.5)"], "1.5", "7/5").prove().is_ok());
+    }
+}

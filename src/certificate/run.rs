@@ -1,0 +1,246 @@
+//! What a run is asked for and what it found out.
+
+use super::bounding::BoundingProblem;
+use super::decide::Ladder;
+use super::verdict::Verdict;
+use crate::constants::condition::Condition;
+use crate::constants::data::Data;
+use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness};
+use crate::constants::printed::{Infeasible, PrintedEvaluation};
+use crate::constants::relative_degree::RelativeDegreeError;
+use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
+use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
+use crate::constants::table::Row;
+use crate::enclosure::Enclosure;
+use crate::search::{Datum, Obstacle};
+use crate::spec::model::Specification;
+use rug::Rational;
+
+/// The derivation on which a claim rests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Derivation {
+    /// Sections 2-6 of the derivation.
+    #[default]
+    Sharp,
+    /// The paper's architecture, repaired.
+    Repaired,
+    /// The paper to the letter: never certifies.
+    Printed,
+}
+
+impl Derivation {
+    /// The word in certificates.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Derivation::Sharp => "sharp",
+            Derivation::Repaired => "repaired",
+            Derivation::Printed => "printed",
+        }
+    }
+}
+
+/// Which constants of the transfer bound the sharp derivation uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum TransferChoice {
+    /// Matched where the specification says so, the closed form otherwise.
+    #[default]
+    Best,
+    /// The closed form of derivation section 2, valid for every base frequency.
+    ClosedForm,
+}
+
+/// What a run does; every field has a default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The derivation that the verdict is about (default: sharp).
+    pub derivation: Derivation,
+    /// The transfer constants of the sharp derivation (default: the best available).
+    pub transfer: TransferChoice,
+    /// The working precisions (default: 128 to 1024 bits).
+    pub ladder: Ladder,
+    /// Whether the other derivations are worked out too, for comparison (default: yes).
+    pub compare: bool,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            derivation: Derivation::default(),
+            transfer: TransferChoice::default(),
+            ladder: Ladder::default(),
+            compare: true,
+        }
+    }
+}
+
+/// A sharp witness and what was decided about it.
+#[derive(Clone, Debug)]
+pub struct SharpProof {
+    /// The free numbers.
+    pub witness: SharpWitness,
+    /// The evaluation at the precision that decided.
+    pub evaluation: SharpEvaluation,
+    /// That precision in bits.
+    pub precision: u32,
+}
+
+/// A repaired witness and what was decided about it.
+#[derive(Clone, Debug)]
+pub struct RepairedProof {
+    /// The free numbers.
+    pub witness: RepairedWitness,
+    /// The evaluation at the precision that decided.
+    pub evaluation: RepairedEvaluation,
+    /// That precision in bits.
+    pub precision: u32,
+}
+
+/// What the printed formulas say about the data.
+#[derive(Clone, Debug)]
+pub struct PrintedFigure {
+    /// Why P:eq:boundx_bounde_1 has no solution.
+    pub refutation: Option<Infeasible>,
+    /// The constants at the free numbers that are best without that condition, when there are any.
+    pub evaluation: Option<PrintedEvaluation>,
+    /// The figure that the other conditions would give: max(sigma_p*, sigma_a*).
+    pub sigma: Option<Enclosure>,
+}
+
+/// The exact-regulation claim.
+#[derive(Clone, Debug)]
+pub struct ExactClaim {
+    /// The free numbers.
+    pub witness: ExactWitness,
+    /// The evaluation.
+    pub evaluation: ExactEvaluation,
+}
+
+/// The gains from e to xi_1 (derivation, section 6): limsup|xi_1| <= k_inf limsup|e| and, over a period,
+/// the integral of xi_1^2 is at most k_2 times that of e^2.
+#[derive(Clone, Debug)]
+pub struct RelativeDegreeGains {
+    /// k_inf, in units of time^(r-1).
+    pub k_inf: Enclosure,
+    /// k_2, in units of time^(2r-2).
+    pub k_2: Enclosure,
+}
+
+/// One derivation's outcome.
+#[derive(Clone, Debug)]
+pub enum Outcome<P> {
+    /// Proved.
+    Proved(Box<P>),
+    /// A witness was found (or given), and these conditions are not proved.
+    NotProved {
+        /// The witness and its evaluation.
+        proof: Box<P>,
+        /// The conditions that are not proved.
+        failing: Vec<Condition>,
+    },
+    /// No candidate was found.
+    NotFound(Obstacle),
+    /// Not asked for.
+    Skipped,
+}
+
+impl<P> Outcome<P> {
+    /// The proof, if there is one.
+    #[must_use]
+    pub fn proved(&self) -> Option<&P> {
+        match self {
+            Outcome::Proved(proof) => Some(proof),
+            _ => None,
+        }
+    }
+}
+
+/// Everything a run found out.
+#[derive(Clone, Debug)]
+pub struct Certification<'s> {
+    /// The specification.
+    pub spec: &'s Specification,
+    /// The options of the run.
+    pub options: Options,
+    /// The verdict on the chosen derivation.
+    pub verdict: Verdict,
+    /// The sharp derivation.
+    pub sharp: Outcome<SharpProof>,
+    /// The repaired derivation.
+    pub repaired: Outcome<RepairedProof>,
+    /// The printed derivation.
+    pub printed: PrintedFigure,
+    /// k_inf and k_2, when the specification has a relative degree, or why there are none.
+    pub relative_degree: Option<Result<RelativeDegreeGains, RelativeDegreeError>>,
+    /// Exact regulation, when the base frequency is matched and a claim was proved.
+    pub exact: Option<ExactClaim>,
+    /// Which condition sets sigma*, according to the search.
+    pub binding: Option<&'static str>,
+    /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.
+    pub sensitivities: Vec<(Datum, f64)>,
+    /// Bounding functions that were neither proved nor refuted.
+    pub unproved_bounds: Vec<BoundingProblem>,
+    /// Every constant in the three derivations.
+    pub constants: Vec<Row>,
+    /// The working precision of the table.
+    pub precision: u32,
+}
+
+impl Certification<'_> {
+    /// The claimed gain of the chosen derivation, if certified.
+    #[must_use]
+    pub fn sigma_star(&self) -> Option<&Rational> {
+        match (self.verdict, self.options.derivation) {
+            (Verdict::Certified, Derivation::Sharp) => self.sharp.proved().map(|proof| &proof.witness.sigma),
+            (Verdict::Certified, Derivation::Repaired) => self.repaired.proved().map(|proof| &proof.witness.sigma),
+            _ => None,
+        }
+    }
+
+    /// The claimed initial set of the chosen derivation, if certified.
+    #[must_use]
+    pub fn claimed_set(&self) -> Option<&ClaimedSet> {
+        match (self.verdict, self.options.derivation) {
+            (Verdict::Certified, Derivation::Sharp) => self.sharp.proved().map(|proof| &proof.witness.set),
+            (Verdict::Certified, Derivation::Repaired) => self.repaired.proved().map(|proof| &proof.witness.set),
+            _ => None,
+        }
+    }
+
+    /// The conditions of the chosen derivation, proved or not.
+    #[must_use]
+    pub fn conditions(&self) -> &[Condition] {
+        fn of<P>(outcome: &Outcome<P>, conditions: impl Fn(&P) -> &[Condition]) -> &[Condition] {
+            match outcome {
+                Outcome::Proved(proof) | Outcome::NotProved { proof, .. } => conditions(proof),
+                Outcome::NotFound(_) | Outcome::Skipped => &[],
+            }
+        }
+        match self.options.derivation {
+            Derivation::Sharp => of(&self.sharp, |proof| &proof.evaluation.conditions),
+            Derivation::Repaired => of(&self.repaired, |proof| &proof.evaluation.conditions),
+            Derivation::Printed => &[],
+        }
+    }
+
+    /// Upper bounds of the periodic solution, |x|, |e|, |zeta|_N and |z|_N, of the chosen derivation, if certified.
+    #[must_use]
+    pub fn periodic_solution(&self) -> Option<[Enclosure; 4]> {
+        let (x, e, zeta, precision) = match (self.verdict, self.options.derivation) {
+            (Verdict::Certified, Derivation::Sharp) => {
+                let proof = self.sharp.proved()?;
+                let periodic = &proof.evaluation.periodic;
+                (periodic.x_per.clone(), periodic.e_per.clone(), proof.evaluation.z.clone(), proof.precision)
+            }
+            (Verdict::Certified, Derivation::Repaired) => {
+                let proof = self.repaired.proved()?;
+                let bounds = &proof.evaluation.bounds;
+                (bounds.x_p.clone(), bounds.e_p.clone(), proof.evaluation.z.clone(), proof.precision)
+            }
+            _ => return None,
+        };
+        let n_bar = Data::new(self.spec, precision).n_bar;
+        let z = &zeta + n_bar * &e;
+        Some([x, e, zeta, z])
+    }
+}

@@ -1,0 +1,88 @@
+//! The limits x_p* and e_p*(X_p) below which the existence proof works.
+
+use super::common::Common;
+use super::{At, Entry, Row, Status, Value, row};
+use crate::constants::data::{Bound, Data};
+use crate::constants::existence::PeriodicBounds;
+use crate::enclosure::{Enclosure, Truth};
+use rug::Rational;
+
+pub(super) fn size_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
+    let k = &common.k_alpha;
+    let limit = |gain: &Enclosure, factor: i64| largest_x(data, gain, factor);
+    let double = |gain: &Enclosure| gain * 2;
+    let mut rows = vec![row(
+        "x_p*",
+        At::Data,
+        limit(&double(k), 1).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" }),
+        limit(&double(k), 1).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" }),
+        limit(&data.c, 1).map(|value| Entry { value, status: Status::Sound, source: "section 4, C3" }),
+    )];
+    let e_limit = |gain: &Enclosure, factor: i64| largest_e(data, gain, factor, &common.bounds);
+    rows.push(row(
+        "e_p*(X_p)",
+        At::Common,
+        e_limit(k, 2).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" }),
+        e_limit(k, 2).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" }),
+        e_limit(&data.c, 1).map(|value| Entry { value, status: Status::Sound, source: "section 4, C1 and C3" }),
+    ));
+    rows
+}
+
+/// Encloses the largest argument below `limit` with `holds`, for a property that is true below a threshold, by
+/// bisection on certain answers; `None` if it does not certainly hold near 0.
+fn threshold(data: &Data<'_>, limit: Option<Rational>, holds: impl Fn(&Enclosure) -> Truth) -> Option<Value> {
+    let at = |value: &Rational| holds(&data.rational(value));
+    let mut high = limit.clone().unwrap_or_else(|| Rational::from(1) << 200);
+    if at(&high).is_true() {
+        return Some(Value::Unavailable(if limit.is_some() {
+            "the whole domain".to_owned()
+        } else {
+            "unbounded".to_owned()
+        }));
+    }
+    let mut low = Rational::from(&high >> 400);
+    if !at(&low).is_true() {
+        return Some(Value::Unavailable("no positive value".to_owned()));
+    }
+    // First in the exponent, then in the mantissa: 60 + 60 halvings.
+    while high > Rational::from(&low * 2u32) {
+        let exponent = |q: &Rational| i64::from(q.numer().significant_bits()) - i64::from(q.denom().significant_bits());
+        let shift = ((exponent(&high) - exponent(&low)) / 2).clamp(1, 400) as u32;
+        let middle = Rational::from(&low << shift);
+        if middle >= high {
+            break;
+        }
+        match at(&middle) {
+            Truth::True => low = middle,
+            Truth::False => high = middle,
+            Truth::Undecided => break,
+        }
+    }
+    for _ in 0..60 {
+        let middle = Rational::from(&low + &high) / 2u32;
+        match at(&middle) {
+            Truth::True => low = middle,
+            Truth::False => high = middle,
+            Truth::Undecided => break,
+        }
+    }
+    Some(Value::Number(Enclosure::between(&low, &high, data.precision)))
+}
+
+/// The X with `gain b_fxx(X,0) X = alpha`: x_p* with gain 2 K_alpha (paper) or c (sharp).
+fn largest_x(data: &Data<'_>, gain: &Enclosure, factor: i64) -> Option<Value> {
+    let limit = data.spec.domain.as_ref().and_then(|domain| domain.x.as_rational().cloned());
+    threshold(data, limit, |x| (factor * (gain * data.bound(Bound::Fxx, x, &data.zero()) * x)).lt(&data.alpha))
+}
+
+/// The largest E with the two conditions of e_p*(X_p); factor 2 (paper) or 1 (sharp) in front of b_fxx X_p.
+fn largest_e(data: &Data<'_>, gain: &Enclosure, factor: i64, bounds: &PeriodicBounds) -> Option<Value> {
+    let limit = data.spec.domain.as_ref().and_then(|domain| domain.e.as_rational().cloned());
+    let x_p = &bounds.x_p;
+    let invariance = &data.alpha / gain * x_p - &bounds.f_xx * x_p.sqr() / 2;
+    let contraction = &data.alpha / gain - factor * (&bounds.f_xx * x_p);
+    threshold(data, limit, |e| {
+        (e * data.bound(Bound::Fe, x_p, e)).le(&invariance).and((e * data.bound(Bound::Fex, x_p, e)).lt(&contraction))
+    })
+}

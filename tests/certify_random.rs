@@ -1,0 +1,68 @@
+//! Random valid specifications over many orders of magnitude: every one with the paper's set, or at rest without the
+//! user's X_0, E_0, certifies.
+
+use proptest::prelude::*;
+use sigmastar::certificate::{Derivation, Options, Verdict, certify};
+use sigmastar::spec::Specification;
+
+/// A decimal with a random exponent: the orders of magnitude are what is tested.
+fn magnitude(span: i32) -> impl Strategy<Value = String> {
+    (1..10_u32, 0..100_u32, -span..=span).prop_map(|(a, b, exponent)| format!("{a}.{b:02}e{exponent}"))
+}
+
+/// Zero now and then: bounding functions that vanish are corners of every formula.
+fn coefficient() -> impl Strategy<Value = String> {
+    prop_oneof![1 => Just("0".to_owned()), 5 => magnitude(6)]
+}
+
+prop_compose! {
+    fn specification()(
+        period in magnitude(6),
+        p_low in magnitude(3),
+        ratio in prop_oneof![Just("1".to_owned()), Just("1e4".to_owned()), (10..900_u32).prop_map(|r| format!("{}.{:02}", r / 10, r))],
+        alpha in magnitude(6),
+        mu in magnitude(6),
+        f in [coefficient(), coefficient(), coefficient(), coefficient()],
+        q in [coefficient(), coefficient(), coefficient(), coefficient(), coefficient()],
+        epsilon in prop_oneof![Just("1/1000"), Just("1/2"), Just("1")],
+        n0 in prop_oneof![Just("1.001"), Just("2"), Just("1000")],
+        frequency in prop_oneof![Just(None), magnitude(6).prop_map(Some)],
+        kind in prop_oneof![Just("paper"), Just("at-rest")],
+    ) -> String {
+        let [fx, fe, fxx, fex] = f;
+        let [q0, qx, qe, qt, curved] = q;
+        let matched = frequency.is_none();
+        let frequency = frequency.unwrap_or_else(|| format!("2*pi/({period})"));
+        format!(
+            r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "random", "period": "{period}",
+            "lyapunov": {{"p_low": "{p_low}", "p_up": "{p_low}*{ratio}", "alpha": "{alpha}"}},
+            "bounds": {{"f": "({fx})*X + ({fxx})*X^2/2 + (({fe}) + ({fex})*X)*E", "f_e": "({fe}) + ({fex})*X",
+              "f_xx": "{fxx}", "f_ex": "{fex}", "q": "({q0}) + ({qx})*X + ({qe})*E + ({curved})*E*X^2",
+              "q_e": "({qe}) + ({curved})*X^2", "q_x": "({qx}) + 2*({curved})*E*X", "q_t": "{qt}"}},
+            "internal_model": {{"mu": "{mu}", "base_frequency": "{frequency}", "matched": {matched},
+              "weights": {{"family": "power", "n0": "{n0}", "epsilon": "{epsilon}"}}}},
+            "initial_set": {{"kind": "{kind}"}}}}"#
+        )
+    }
+}
+
+fn verdict(text: &str, derivation: Derivation) -> Result<Verdict, TestCaseError> {
+    let spec = Specification::from_json("random", text).map_err(|e| TestCaseError::fail(format!("{e:?}\n{text}")))?;
+    let options = Options { derivation, compare: false, ..Options::default() };
+    let run = certify(&spec, options).map_err(|e| TestCaseError::fail(format!("{e:?}\n{text}")))?;
+    Ok(run.verdict)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, max_shrink_iters: 40, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_sharp_derivation_certifies(text in specification()) {
+        prop_assert_eq!(verdict(&text, Derivation::Sharp)?, Verdict::Certified, "{}", text);
+    }
+
+    #[test]
+    fn the_repaired_derivation_certifies(text in specification()) {
+        prop_assert_eq!(verdict(&text, Derivation::Repaired)?, Verdict::Certified, "{}", text);
+    }
+}
