@@ -6,13 +6,15 @@ use sigmastar::certificate::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use std::path::PathBuf;
 
-const EXIT_CODES: &str = "Exit codes:
+/// The exit codes, as help and manual page tell them.
+pub const EXIT_CODES: &str = "Exit codes:
   0  certified  the claim is proved
   1  refuted    it is proved not to hold
   2  bad-input  the input or the call is wrong; nothing was written
   3  undecided  nothing is claimed either way, and why is said";
 
-const CERTIFY_EXAMPLES: &str = "Examples:
+/// Examples of the main command.
+pub const CERTIFY_EXAMPLES: &str = "Examples:
   sigmastar certify plant.json
   sigmastar certify plant.json -o plant.certificate.json
   sigmastar certify plant.json --target-rms 1e-3

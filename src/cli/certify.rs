@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::input;
 use super::output::{self, OutputFile};
 use sigmastar::certificate::{Certification, certificate_json, certify, read_witness, recheck};
-use sigmastar::report::{Report, TargetKind, bounding_errors};
+use sigmastar::report::{Report, TargetKind, bounding_errors, filter_errors};
 use sigmastar::spec::{SpecErrors, Specification};
 
 /// Runs the command and returns the exit code.
@@ -35,6 +35,9 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let run = run.map_err(|problems| {
         Failure::Documents(problems.iter().map(|problem| bounding_errors(&spec, problem)).collect())
     })?;
+    if let Some(errors) = filter_errors(&run) {
+        return Err(errors.into());
+    }
     let report = Report::new(&run, &targets).rechecked(args.witness.is_some());
     let text = match args.format {
         Format::Text => report.text(),

@@ -41,9 +41,10 @@ pub fn document(path: &Path) -> Result<Document, Failure> {
 /// # Errors
 /// What is wrong with the constant, in its place.
 pub fn target(kind: TargetKind, flag: &str, text: &str) -> Result<Target, Failure> {
-    let quoted = serde_json::Value::from(text).to_string();
-    let document = Document::parse(flag, &quoted)?;
+    let quoted = serde_json::json!({ flag: text }).to_string();
+    let document = Document::parse("<command line>", &quoted)?;
     let mut errors = Errors::new();
-    let value = positive_constant(&document.root(), &mut errors);
+    let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
+    let value = positive_constant(&place, &mut errors);
     Ok(Target { kind, value: errors.conclude(&document, value)? })
 }

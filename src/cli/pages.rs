@@ -1,9 +1,11 @@
 //! Completion scripts and the manual page, made from the table of flags.
 
-use super::args::Cli;
+use super::args::{CERTIFY_EXAMPLES, Cli, EXIT_CODES};
 use super::output;
 use clap::CommandFactory;
 use clap_complete::Shell;
+use clap_mangen::Man;
+use sigmastar::certificate::Verdict;
 
 /// Writes the completion script of a shell; returns the exit code.
 pub fn completions(shell: Shell) -> u8 {
@@ -12,18 +14,41 @@ pub fn completions(shell: Shell) -> u8 {
     write(&script)
 }
 
-/// Writes the manual page, with a part for each command; returns the exit code.
+/// Writes the manual page, one for all commands; returns the exit code.
 pub fn man() -> u8 {
+    match page() {
+        Ok(page) => write(&page),
+        // Writing to memory does not fail.
+        Err(_) => Verdict::BadInput.exit_code(),
+    }
+}
+
+/// The manual page: the command itself, then a section for each of its commands.
+fn page() -> std::io::Result<Vec<u8>> {
     let mut command = Cli::command();
     command.build();
+    let main = Man::new(command.clone());
     let mut page = Vec::new();
-    // Writing to memory cannot fail; an error would leave the page incomplete, which the exit code says.
-    let mut complete = clap_mangen::Man::new(command.clone()).render(&mut page).is_ok();
+    main.render_title(&mut page)?;
+    main.render_name_section(&mut page)?;
+    main.render_synopsis_section(&mut page)?;
+    main.render_options_section(&mut page)?;
     for part in command.get_subcommands().filter(|part| part.get_name() != "help") {
-        complete &= clap_mangen::Man::new(part.clone()).render(&mut page).is_ok();
+        let man = Man::new(part.clone());
+        let mut section = Vec::new();
+        man.render_synopsis_section(&mut section)?;
+        man.render_description_section(&mut section)?;
+        man.render_options_section(&mut section)?;
+        page.extend(format!(".SH COMMAND {}\n", part.get_name().to_uppercase()).bytes());
+        // Its sections are parts of one section here.
+        page.extend(String::from_utf8_lossy(&section).replace(".SH ", ".SS ").bytes());
     }
-    let code = write(&page);
-    if complete { code } else { 2 }
+    page.extend(b".SH EXAMPLES\n.nf\n");
+    page.extend(CERTIFY_EXAMPLES.replace('-', "\\-").lines().skip(1).flat_map(|line| format!("{line}\n").into_bytes()));
+    page.extend(b".fi\n.SH EXIT STATUS\n.nf\n");
+    page.extend(EXIT_CODES.replace('-', "\\-").lines().skip(1).flat_map(|line| format!("{line}\n").into_bytes()));
+    page.extend(b".fi\n");
+    Ok(page)
 }
 
 fn write(bytes: &[u8]) -> u8 {

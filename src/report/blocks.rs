@@ -75,14 +75,18 @@ impl Block {
 }
 
 /// Text of a stranger as it may stand in a report: on one line, without control characters or changes of the writing
-/// direction, and of bounded length.
+/// direction or backticks, and of bounded length.
 #[must_use]
 pub fn clean(text: &str) -> String {
     const LONGEST: usize = 80;
     let visible = |c: char| {
         let moves =
             matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
-        if c.is_control() || moves { ' ' } else { c }
+        match c {
+            '`' => '\'',
+            c if c.is_control() || moves => ' ',
+            c => c,
+        }
     };
     let line: String = text.chars().map(visible).collect();
     let words: Vec<&str> = line.split_whitespace().collect();
@@ -100,7 +104,7 @@ mod tests {
     #[test]
     fn strangers_text_stays_on_its_line() {
         assert_eq!(clean("a\tb\n\u{1b}[31mc"), "a b [31mc");
-        assert_eq!(clean("x\u{202e}y"), "x y");
+        assert_eq!(clean("x\u{202e}y`"), "x y'");
         assert_eq!(clean(&"long ".repeat(100)).chars().count(), 80);
         assert_eq!(clean(""), "");
     }

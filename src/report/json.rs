@@ -4,6 +4,7 @@ use super::Report;
 use super::consequences::{Consequences, TargetKind, TargetOutcome, full};
 use super::failures::{bounding_errors, errors_json};
 use super::number::estimate;
+use super::relative_degree::gains_json;
 use super::sets::Sets;
 use super::verdict::{basis, largest_arguments, sentence};
 use crate::certificate::{Certification, Outcome, conditions_json, constants_json};
@@ -58,14 +59,7 @@ pub(super) fn report(report: &Report<'_>) -> Value {
     set("sensitivities", sensitivities(run));
     set("consequences", report.consequences.as_ref().map_or(Value::Null, consequences));
     set("exact_regulation", exact_regulation(run));
-    let relative = report.relative_degree.as_ref();
-    set(
-        "relative_degree",
-        relative.map_or(
-            Value::Null,
-            |bounds| json!({ "k_infinity": interval(&bounds.k_infinity), "k_2": interval(&bounds.k_2) }),
-        ),
-    );
+    set("relative_degree", gains_json(run));
     Value::Object(fields)
 }
 

@@ -11,8 +11,8 @@ pub fn render(blocks: &[Block]) -> String {
             Block::Title(title) => format!("# {}\n", escape(title)),
             Block::Heading(title) => format!("## {}\n", escape(title)),
             Block::Subheading(title) => format!("### {}\n", escape(title)),
-            Block::Paragraph(text) => format!("{}\n", escape(text)),
-            Block::List(items) => items.iter().map(|item| format!("- {}\n", escape(item))).collect(),
+            Block::Paragraph(text) => format!("{}\n", escape_line(text)),
+            Block::List(items) => items.iter().map(|item| format!("- {}\n", escape_line(item))).collect(),
             Block::Table(table) => render_table(table),
         })
         .collect();
@@ -35,19 +35,28 @@ fn render_table(table: &Table) -> String {
     output
 }
 
-/// Text with the characters escaped that could start markup: an underscore between letters or digits cannot.
+/// Text at the start of a line, where a few more characters are markup.
+fn escape_line(text: &str) -> String {
+    let inside = escape(text);
+    if inside.starts_with(['#', '>', '-', '+']) { format!("\\{inside}") } else { inside }
+}
+
+/// Text with the characters escaped that could start markup: an underscore between letters or digits cannot. What
+/// stands between backticks is code and stays as it is (strangers' texts have no backticks, see `clean`).
 fn escape(text: &str) -> String {
     let characters: Vec<char> = text.chars().collect();
     let is_word = |index: Option<usize>| index.and_then(|i| characters.get(i)).is_some_and(|c| c.is_alphanumeric());
     let mut output = String::with_capacity(text.len());
+    let mut code = false;
     for (index, &character) in characters.iter().enumerate() {
+        code ^= character == '`';
         let markup = match character {
-            '\\' | '`' | '*' | '<' | '|' | '~' => true,
+            '|' => true,
+            _ if code || character == '`' => false,
+            '\\' | '*' | '<' | '~' | '&' => true,
             '_' => !(is_word(index.checked_sub(1)) && is_word(Some(index + 1))),
             // A link needs a parenthesis or a second bracket after the first.
             ']' => matches!(characters.get(index + 1), Some('(' | '[' | ':')),
-            '#' | '>' | '-' | '+' => index == 0,
-            '&' => true,
             _ => false,
         };
         if markup {
@@ -66,7 +75,8 @@ mod tests {
     fn markup_is_escaped_and_names_stay_readable() {
         assert_eq!(escape("K_alpha <= |z|_N, x_p*, sigma*_oo"), "K_alpha \\<= \\|z\\|\\_N, x_p\\*, sigma\\*\\_oo");
         assert_eq!(escape("[1, 2] [a](b)"), "[1, 2] [a\\](b)");
-        assert_eq!(escape("# no heading"), "\\# no heading");
+        assert_eq!(escape_line("# no heading"), "\\# no heading");
+        assert_eq!(escape("`a_b*` * `c`"), "`a_b*` \\* `c`");
     }
 
     #[test]

@@ -24,7 +24,7 @@ mod verdict;
 pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
 pub use failures::{bounding_errors, failure_json};
 pub use json::{FORMAT, VERSION};
-pub use relative_degree::RelativeDegreeBounds;
+pub use relative_degree::filter_errors;
 pub use verdict::sentence;
 
 use crate::certificate::Certification;
@@ -34,7 +34,6 @@ use blocks::{Block, clean};
 pub struct Report<'r> {
     run: &'r Certification<'r>,
     consequences: Option<Consequences>,
-    relative_degree: Option<RelativeDegreeBounds>,
     rechecked: bool,
     unanswered: bool,
 }
@@ -48,20 +47,13 @@ impl<'r> Report<'r> {
     pub fn new(run: &'r Certification<'r>, targets: &[Target]) -> Report<'r> {
         let consequences = Consequences::new(run, targets);
         let unanswered = consequences.is_none() && !targets.is_empty();
-        Report { run, consequences, relative_degree: None, rechecked: false, unanswered }
+        Report { run, consequences, rechecked: false, unanswered }
     }
 
     /// The same report, of a run that decided a given witness again and searched for nothing.
     #[must_use]
     pub fn rechecked(mut self, rechecked: bool) -> Report<'r> {
         self.rechecked = rechecked;
-        self
-    }
-
-    /// The same report, with the constants of the relative-degree filter.
-    #[must_use]
-    pub fn relative_degree(mut self, bounds: Option<RelativeDegreeBounds>) -> Report<'r> {
-        self.relative_degree = bounds;
         self
     }
 
@@ -81,7 +73,7 @@ impl<'r> Report<'r> {
         blocks.extend(sensitivity::section(run));
         blocks.extend(self.consequences.iter().flat_map(Consequences::section));
         blocks.extend(exact_regulation::section(run, self.rechecked));
-        blocks.extend(self.relative_degree.iter().flat_map(RelativeDegreeBounds::section));
+        blocks.extend(relative_degree::section(run));
         blocks
     }
 

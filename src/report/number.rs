@@ -10,22 +10,33 @@ const DIGITS: usize = 6;
 /// Significant digits of both ends of an enclosure: one more, so that a short rational shows between them.
 const PAIR_DIGITS: usize = 7;
 
+/// The same decimal with an exponent, where it starts with many zeros.
+fn shorter(text: String) -> String {
+    let (sign, size) = text.strip_prefix('-').map_or(("", text.as_str()), |size| ("-", size));
+    let Some(fraction) = size.strip_prefix("0.000") else { return text };
+    let digits = fraction.trim_start_matches('0');
+    let exponent = 4 + fraction.len() - digits.len();
+    let Some(first) = digits.get(..1) else { return text };
+    let dot = if digits.len() > 1 { "." } else { "" };
+    format!("{sign}{first}{dot}{}e-{exponent}", &digits[1..])
+}
+
 /// An upper bound, rounded up.
 #[must_use]
 pub fn upper(value: &Enclosure) -> String {
-    value.upper_decimal(DIGITS)
+    shorter(value.upper_decimal(DIGITS))
 }
 
 /// A lower bound, rounded down, in few digits.
 #[must_use]
 pub fn margin(value: &Enclosure) -> String {
-    value.lower_decimal(3)
+    shorter(value.lower_decimal(3))
 }
 
 /// An enclosure, rounded outward; one number when that is exact.
 #[must_use]
 pub fn pair(value: &Enclosure) -> String {
-    let (lower, upper) = (value.lower_decimal(PAIR_DIGITS), value.upper_decimal(PAIR_DIGITS));
+    let (lower, upper) = (shorter(value.lower_decimal(PAIR_DIGITS)), shorter(value.upper_decimal(PAIR_DIGITS)));
     if lower == upper { lower } else { format!("[{lower}, {upper}]") }
 }
 
@@ -45,7 +56,7 @@ pub fn compact(value: &Enclosure) -> String {
 
 /// A rounded number as a decimal, with an exponent where the plain form would be long.
 fn short(rounded: &Rational, value: f64, digits: usize) -> String {
-    if value == 0.0 || (1e-4..1e7).contains(&value.abs()) {
+    if value == 0.0 || (1e-3..1e7).contains(&value.abs()) {
         return write_exact(rounded);
     }
     let text = format!("{value:.*e}", digits - 1);
@@ -94,6 +105,20 @@ mod tests {
         let long = Rational::from((1_000_000_007, 3_000_000_019_i64));
         assert_eq!(exact(&long, Direction::Down), "0.333333333");
         assert_eq!(exact(&long, Direction::Up), "0.333333334");
+    }
+
+    #[test]
+    fn many_zeros_become_an_exponent() {
+        for (plain, short) in [
+            ("0.00006897218", "6.897218e-5"),
+            ("-0.0002", "-2e-4"),
+            ("0.00123", "0.00123"),
+            ("0.000", "0.000"),
+            ("1.000001", "1.000001"),
+            ("undefined", "undefined"),
+        ] {
+            assert_eq!(shorter(plain.to_owned()), short);
+        }
     }
 
     #[test]
