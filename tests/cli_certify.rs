@@ -179,6 +179,9 @@ fn the_certificate_is_written_and_its_witness_decided_again() {
     let again = certify(&[EXAMPLE, "--witness", name, "--format", "json"]).assert().code(0);
     assert_eq!(json(&again.get_output().stdout)["sigma_star"], certificate["claim"]["sigma_star"]);
 
+    let other = certify(&["specs/paper-example-rms.json", "--witness", name]).assert();
+    other.stderr(contains("made for another specification"));
+
     // A smaller sigma than the certified one is not believed.
     let sigma = certificate["claim"]["sigma_star"].as_str().expect("a string").to_owned();
     fs::write(&path, text.replace(&format!("\"sigma_star\": \"{sigma}\""), "\"sigma_star\": \"1\"")).expect("written");
@@ -239,6 +242,18 @@ fn a_closed_pipe_is_no_failure() {
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    use std::process::Command as Process;
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+    let mut process = Process::new(assert_cmd::cargo::cargo_bin("sigmastar"));
+    let process = process.current_dir(ROOT).args(["certify", EXAMPLE, "--no-compare"]).stdout(full);
+    let output = process.output().expect("the program runs");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no space is left"));
 }
 
 #[test]

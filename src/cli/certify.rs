@@ -30,7 +30,15 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
 
     let run = match &args.witness {
         None => certify(&spec, args.options()),
-        Some(path) => recheck(&spec, &read_witness(&input::document(path)?)?, args.options()),
+        Some(path) => {
+            let document = input::document(path)?;
+            let witness = read_witness(&document)?;
+            let made_for = document.at("/specification_sha256");
+            if made_for.is_some_and(|digest| digest.text() != Some(&spec.sha256)) && !args.quiet {
+                output::remark("the certificate was made for another specification; its witness is tried on this one");
+            }
+            recheck(&spec, &witness, args.options())
+        }
     };
     let run = run.map_err(|problems| {
         Failure::Documents(problems.iter().map(|problem| bounding_errors(&spec, problem)).collect())

@@ -7,7 +7,8 @@ use crate::constants::table::{At, Entry, Row, Status, Value};
 
 /// The tables, one for each place of evaluation, with notes and sources.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let rows = &run.constants;
+    let has_entry = |row: &&Row| [&row.printed, &row.repaired, &row.sharp].iter().any(|entry| entry.is_some());
+    let rows: Vec<&Row> = run.constants.iter().filter(has_entry).collect();
     if rows.is_empty() {
         return Vec::new();
     }
@@ -37,7 +38,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     blocks.push(Block::Subheading("Sources (P: labels of the paper; sections of the derivation)".to_owned()));
     let mut sources = Vec::new();
-    for row in rows {
+    for row in &rows {
         collect(&mut sources, &source(row), row.name.clone());
     }
     blocks.push(listed(sources));

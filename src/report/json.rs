@@ -44,7 +44,7 @@ pub(super) fn report(report: &Report<'_>) -> Value {
         let [x, e] = sets.error_box.each_ref().map(full);
         set("error_box", json!({ "D_x": x, "D_e": e }));
     }
-    if let Some([x, e]) = largest_arguments(run) {
+    if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(full)) {
         set("largest_arguments", json!({ "X": x, "E": e }));
     }
     if !run.unproved_bounds.is_empty() {

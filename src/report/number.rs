@@ -56,7 +56,9 @@ pub fn compact(value: &Enclosure) -> String {
 
 /// A rounded number as a decimal, with an exponent where the plain form would be long.
 fn short(rounded: &Rational, value: f64, digits: usize) -> String {
-    if value == 0.0 || (1e-3..1e7).contains(&value.abs()) {
+    // Beyond this, plain digits would claim more than the significant ones.
+    let largest = 10f64.powi(digits as i32 + 1);
+    if value == 0.0 || (1e-3..largest).contains(&value.abs()) {
         return write_exact(rounded);
     }
     let text = format!("{value:.*e}", digits - 1);

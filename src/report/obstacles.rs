@@ -1,7 +1,7 @@
 //! Why nothing was certified, and what to try.
 
 use super::blocks::{Block, clean};
-use super::number::pair;
+use super::number::{pair, upper};
 use super::verdict::largest_arguments;
 use crate::certificate::{Certification, Derivation, Outcome, Verdict};
 use crate::constants::condition::Condition;
@@ -164,7 +164,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         }
         Obstacle::Coupling => add("a smaller initial set, or smaller q_x, f_e"),
     }
-    if let Some([x, e]) = largest_arguments(run) {
+    if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper)) {
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
     }
 }

@@ -23,10 +23,12 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
             compact(sigma)
         ));
     } else if let Some(evaluation) = &printed.evaluation {
-        items.push("Without that condition, the other printed conditions give no sigma* either:".to_owned());
-        for (name, value) in [("sigma_p*", &evaluation.sigma_p), ("sigma_a*", &evaluation.sigma_a)] {
-            items.extend(value.as_ref().err().map(|reason| format!("{name}: {reason}.")));
-        }
+        let reasons: Vec<String> = [("sigma_p*", &evaluation.sigma_p), ("sigma_a*", &evaluation.sigma_a)]
+            .into_iter()
+            .filter_map(|(name, value)| value.as_ref().err().map(|reason| format!("{name}: {reason}")))
+            .collect();
+        let reasons = if reasons.is_empty() { "their figures are not finite".to_owned() } else { reasons.join("; ") };
+        items.push(format!("Without that condition, the other printed conditions give no sigma* either ({reasons})."));
     } else if rechecked {
         items
             .push("Its other conditions were not searched: the witness of a certificate was decided again.".to_owned());

@@ -49,7 +49,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     // The box is where solutions stay, so its radii are upper bounds.
     let [d_x, d_e] = sets.error_box.each_ref().map(upper);
     table.push(["error box around it (radii)".to_owned(), d_x, d_e, none(), none()]);
-    if let Some([x, e]) = largest_arguments(run) {
+    if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper)) {
         table.push(["bounding functions used up to".to_owned(), x, e, none(), none()]);
     }
     vec![

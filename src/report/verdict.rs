@@ -4,6 +4,7 @@ use super::blocks::{Block, clean};
 use super::number::{exact, upper};
 use super::obstacles;
 use crate::certificate::{Certification, Derivation, Outcome, Verdict};
+use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
 use crate::transfer::TransferProof;
 
@@ -50,7 +51,7 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         Derivation::Printed => "Derivation: printed (the paper to the letter).",
     };
     let mut items = vec![derivation.to_owned()];
-    let used = largest_arguments(run);
+    let used = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper));
     items.push(format!(
         "Assumed of the plant: the Lyapunov triple (p_low, p_up, alpha), and that the bounding functions bound the \
          plant{}.",
@@ -79,8 +80,8 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
     items
 }
 
-/// The largest X and E at which a bounding function is used, rounded up.
-pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[String; 2]> {
+/// The largest X and E at which a bounding function is used; upper bounds.
+pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2]> {
     let [x, e] = match run.options.derivation {
         Derivation::Sharp => {
             let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.sharp else { return None };
@@ -93,5 +94,5 @@ pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[String; 2]> 
         }
         Derivation::Printed => return None,
     };
-    Some([upper(&x), upper(&e)])
+    Some([x, e])
 }
