@@ -168,6 +168,12 @@ impl SpecErrors {
         &self.origin.text
     }
 
+    /// Line and column (in characters) at which one of these errors starts, both from 1.
+    #[must_use]
+    pub fn place(&self, error: &SpecError) -> (usize, usize) {
+        self.origin.line_and_column(error.span.start)
+    }
+
     /// Whether nothing was found to be wrong and something could not be decided: then the answer is "undecided"
     /// (exit code 3), not "bad input".
     #[must_use]

@@ -1,0 +1,160 @@
+//! The one table of commands and flags: help, completions and the manual page are made from it.
+
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+use sigmastar::certificate::{Derivation, Ladder, Options, TransferChoice};
+use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use std::path::PathBuf;
+
+/// The exit codes, as help and manual page tell them.
+pub const EXIT_CODES: &str = "Exit codes:
+  0  certified  the claim is proved
+  1  refuted    it is proved not to hold
+  2  bad-input  the input or the call is wrong; nothing was written
+  3  undecided  nothing is claimed either way, and why is said";
+
+/// Examples of the main command.
+pub const CERTIFY_EXAMPLES: &str = "Examples:
+  sigmastar certify plant.json
+  sigmastar certify plant.json -o plant.certificate.json
+  sigmastar certify plant.json --target-rms 1e-3
+  sigmastar certify plant.json --witness plant.certificate.json
+  sigmastar certify - --format json < plant.json";
+
+/// Certified gains for output regulation: from bounding functions of a plant to a gain that provably works for every
+/// number of oscillators.
+#[derive(Debug, Parser)]
+#[command(name = "sigmastar", version, after_long_help = EXIT_CODES, max_term_width = 100)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Certify a gain for a bounding specification
+    ///
+    /// Searches for the smallest gain sigma*, decides every condition in rigorous arithmetic, and reports what is
+    /// proved. The report goes to standard output, remarks and errors to standard error.
+    #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Certify(Box<CertifyArgs>),
+    /// Write a completion script for a shell to standard output
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL")]
+        shell: Shell,
+    },
+    /// Write the manual page (roff) to standard output
+    Man,
+}
+
+/// The flags of `certify`.
+#[derive(Args, Debug)]
+pub struct CertifyArgs {
+    /// Bounding specification (JSON), or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Derivation that the verdict is about
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = DerivationArg::Sharp)]
+    pub derivation: DerivationArg,
+
+    /// Transfer constants of the sharp derivation
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = TransferArg::Best)]
+    pub transfer: TransferArg,
+
+    /// Decide the witness of this certificate again instead of searching
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["derivation", "transfer"])]
+    pub witness: Option<PathBuf>,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// Write the certificate (JSON) to this file, if certified
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+
+    /// Find the smallest n_o that certifies sup|e| <= V, an exact constant such as `1e-3` or `1/1000`
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub target_sup: Option<String>,
+
+    /// Find the smallest n_o that certifies rms(e) <= V, an exact constant such as `1e-3` or `1/1000`
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub target_rms: Option<String>,
+
+    /// Highest working precision in bits, 128 to 4096
+    #[arg(long, value_name = "BITS", default_value_t = MAX_PRECISION,
+          value_parser = clap::value_parser!(u32).range(i64::from(DEFAULT_PRECISION)..=4096))]
+    pub precision_limit: u32,
+
+    /// Do not work out the other derivations for comparison
+    #[arg(long)]
+    pub no_compare: bool,
+
+    /// No remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl CertifyArgs {
+    /// The options of the run.
+    pub fn options(&self) -> Options {
+        Options {
+            derivation: match self.derivation {
+                DerivationArg::Sharp => Derivation::Sharp,
+                DerivationArg::Repaired => Derivation::Repaired,
+                DerivationArg::Printed => Derivation::Printed,
+            },
+            transfer: match self.transfer {
+                TransferArg::Best => TransferChoice::Best,
+                TransferArg::ClosedForm => TransferChoice::ClosedForm,
+            },
+            ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
+            compare: !self.no_compare,
+        }
+    }
+}
+
+/// A derivation.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum DerivationArg {
+    /// The tightest bounds
+    Sharp,
+    /// The paper's architecture, each formula repaired
+    Repaired,
+    /// The paper to the letter; never certifies
+    Printed,
+}
+
+/// A choice of transfer constants.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum TransferArg {
+    /// Those of a matched base frequency where the specification asserts it, else the closed form
+    Best,
+    /// The closed form, valid for every base frequency
+    ClosedForm,
+}
+
+/// A format of the report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Plain text for a terminal
+    Text,
+    /// GitHub-flavoured Markdown
+    Markdown,
+    /// JSON, also for failures
+    Json,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_table_of_flags_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,81 @@
+//! `sigmastar certify`.
+
+use super::args::{CertifyArgs, Format};
+use super::failure::Failure;
+use super::input;
+use super::output::{self, OutputFile};
+use sigmastar::certificate::{Certification, certificate_json, certify, read_witness, recheck};
+use sigmastar::report::{Report, TargetKind, bounding_errors, filter_errors};
+use sigmastar::spec::{SpecErrors, Specification};
+
+/// Runs the command and returns the exit code.
+pub fn run(args: &CertifyArgs) -> u8 {
+    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
+}
+
+fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
+    // What is wrong with the call is said before any work is done.
+    let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.spec)).transpose()?;
+    let flags =
+        [(TargetKind::Sup, "--target-sup", &args.target_sup), (TargetKind::Rms, "--target-rms", &args.target_rms)];
+    let targets = flags
+        .into_iter()
+        .filter_map(|(kind, flag, text)| text.as_ref().map(|text| input::target(kind, flag, text)))
+        .collect::<Result<Vec<_>, _>>()?;
+    if args.spec == args.witness.clone().unwrap_or_default() {
+        let message = "the specification and the witness cannot be the same file";
+        return Err(Failure::call(message, "--witness names a certificate written with -o"));
+    }
+    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+
+    let run = match &args.witness {
+        None => certify(&spec, args.options()),
+        Some(path) => {
+            let document = input::document(path)?;
+            let witness = read_witness(&document)?;
+            let made_for = document.at("/specification_sha256");
+            if made_for.is_some_and(|digest| digest.text() != Some(&spec.sha256)) && !args.quiet {
+                output::remark("the certificate was made for another specification; its witness is tried on this one");
+            }
+            recheck(&spec, &witness, args.options())
+        }
+    };
+    let run = run.map_err(|problems| {
+        Failure::Documents(problems.iter().map(|problem| bounding_errors(&spec, problem)).collect())
+    })?;
+    if let Some(errors) = filter_errors(&run) {
+        return Err(errors.into());
+    }
+    let report = Report::new(&run, &targets).rechecked(args.witness.is_some());
+    let text = match args.format {
+        Format::Text => report.text(),
+        Format::Markdown => report.markdown(),
+        Format::Json => output::json_text(&report.json()),
+    };
+    if let Some(file) = &output {
+        write_certificate(&run, file, args.quiet)?;
+    }
+    if let Err(code) = output::data(&text) {
+        return Ok(code);
+    }
+    let unproved: Vec<SpecErrors> = run.unproved_bounds.iter().map(|problem| bounding_errors(&spec, problem)).collect();
+    if !unproved.is_empty() && args.format != Format::Json {
+        output::diagnostics(&unproved);
+    }
+    Ok(run.verdict.exit_code())
+}
+
+/// Writes the certificate, or says why there is none.
+fn write_certificate(run: &Certification<'_>, file: &OutputFile, quiet: bool) -> Result<(), Failure> {
+    let name = file.name();
+    match certificate_json(run) {
+        Some(certificate) => {
+            file.write(&output::json_text(&certificate))?;
+            if !quiet {
+                output::remark(&format!("the certificate is in `{name}`"));
+            }
+        }
+        None => output::remark(&format!("`{name}` was not written: the verdict is {}", run.verdict)),
+    }
+    Ok(())
+}

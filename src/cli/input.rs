@@ -1,0 +1,50 @@
+//! Documents from files and standard input, and constants from flags.
+
+use super::failure::Failure;
+use super::output::{reason, shown};
+use sigmastar::report::{Target, TargetKind};
+use sigmastar::spec::{Document, Errors, MAX_BYTES, positive_constant};
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+/// Reads a document from a file, or from standard input for `-`; never more than the limit on documents.
+///
+/// # Errors
+/// A file that cannot be read, and what is wrong with the document as JSON.
+pub fn document(path: &Path) -> Result<Document, Failure> {
+    let limit = MAX_BYTES as u64 + 1;
+    let mut bytes = Vec::new();
+    if path == Path::new("-") {
+        let read = io::stdin().lock().take(limit).read_to_end(&mut bytes);
+        read.map_err(|error| {
+            let message = format!("cannot read standard input: {}", reason(&error));
+            Failure::call(message, "name a file instead of `-`")
+        })?;
+        return Ok(Document::from_bytes("<stdin>", &bytes)?);
+    }
+    let name = shown(path);
+    File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes)).map_err(|error| {
+        let help = match error.kind() {
+            ErrorKind::NotFound => "check the spelling and the current folder",
+            ErrorKind::IsADirectory => "name a JSON file in it",
+            ErrorKind::PermissionDenied => "check the permissions of the file",
+            _ => "check the file, or pass its content through standard input with `-`",
+        };
+        Failure::call(format!("cannot read `{name}`: {}", reason(&error)), help)
+    })?;
+    Ok(Document::from_bytes(&name, &bytes)?)
+}
+
+/// Reads the value of a target flag: an exact positive constant, as in a specification.
+///
+/// # Errors
+/// What is wrong with the constant, in its place.
+pub fn target(kind: TargetKind, flag: &str, text: &str) -> Result<Target, Failure> {
+    let quoted = serde_json::json!({ flag: text }).to_string();
+    let document = Document::parse("<command line>", &quoted)?;
+    let mut errors = Errors::new();
+    let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
+    let value = positive_constant(&place, &mut errors);
+    Ok(Target { kind, value: errors.conclude(&document, value)? })
+}

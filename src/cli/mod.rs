@@ -1,0 +1,32 @@
+//! The command line: flags, files, streams and exit codes. Everything else is the library's.
+
+mod args;
+mod certify;
+mod failure;
+mod input;
+mod output;
+mod pages;
+
+use args::{Cli, Command};
+use clap::Parser;
+use sigmastar::certificate::Verdict;
+use std::process::ExitCode;
+
+/// Runs the command of the process's arguments and returns its exit code.
+pub fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // A closed stream is no reason to fail differently.
+            let _ = error.print();
+            let asked = !error.use_stderr();
+            return ExitCode::from(if asked { 0 } else { Verdict::BadInput.exit_code() });
+        }
+    };
+    let code = match cli.command {
+        Command::Certify(args) => certify::run(&args),
+        Command::Completions { shell } => pages::completions(shell),
+        Command::Man => pages::man(),
+    };
+    ExitCode::from(code)
+}

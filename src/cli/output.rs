@@ -1,0 +1,148 @@
+//! Data on standard output, remarks on standard error, and files that appear whole or not at all.
+
+use super::failure::Failure;
+use sigmastar::certificate::Verdict;
+use sigmastar::spec::SpecErrors;
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes a report to standard output. A reader that has seen enough (`| head`) is no failure; any other error is
+/// told on standard error and returned as an exit code.
+pub fn data(text: &str) -> Result<(), u8> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Err(failure) => {
+            error(
+                &format!("standard output cannot be written: {}", reason(&failure)),
+                "check where it is redirected to, and the space left there",
+            );
+            Err(Verdict::BadInput.exit_code())
+        }
+    }
+}
+
+/// JSON as it is written: indented, ending in a line feed.
+pub fn json_text(value: &serde_json::Value) -> String {
+    // The alternate form of a JSON value is its indented text.
+    format!("{value:#}\n")
+}
+
+/// Writes to standard error; when that is closed there is nobody to tell.
+fn tell(text: &str) {
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// A remark: one line on standard error.
+pub fn remark(text: &str) {
+    tell(&format!("sigmastar: {text}\n"));
+}
+
+/// An error without a place in a document.
+pub fn error(message: &str, help: &str) {
+    let [red, cyan, bold, plain] =
+        if colour() { ["\u{1b}[1;31m", "\u{1b}[1;36m", "\u{1b}[1m", "\u{1b}[0m"] } else { [""; 4] };
+    tell(&format!("{red}error{plain}{bold}: {message}{plain}\n  {cyan}={plain} {bold}help{plain}: {help}\n"));
+}
+
+/// Errors in their source.
+pub fn diagnostics(all: &[SpecErrors]) {
+    let rendered: Vec<String> = all.iter().map(|errors| errors.render(colour())).collect();
+    tell(&rendered.join("\n"));
+}
+
+/// Whether standard error wants colour: a terminal that can show it, and `NO_COLOR` is unset or empty.
+fn colour() -> bool {
+    let set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+    io::stderr().is_terminal() && set("NO_COLOR").is_none() && set("TERM").is_none_or(|term| term != "dumb")
+}
+
+/// Why a file operation failed, in words.
+pub fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => "there is no such file".to_owned(),
+        ErrorKind::PermissionDenied => "permission is denied".to_owned(),
+        ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        ErrorKind::StorageFull => "no space is left".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// A path as messages show it: control characters would move the cursor.
+pub fn shown(path: &Path) -> String {
+    path.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// A file that is to be written, checked before the work starts.
+#[derive(Debug)]
+pub struct OutputFile {
+    typed: PathBuf,
+    target: PathBuf,
+    folder: PathBuf,
+}
+
+impl OutputFile {
+    /// Checks that the file can be meant: its folder exists, it is no folder or device itself, and it is not `input`.
+    ///
+    /// # Errors
+    /// The call is wrong; nothing was touched.
+    pub fn new(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
+        let name = shown(path);
+        if path == Path::new("-") {
+            let help = "name a file; for the report as JSON on standard output, use --format json";
+            return Err(Failure::call("the certificate cannot go to standard output", help));
+        }
+        // An existing file is written through its links, so that a link stays one.
+        let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        if let Ok(metadata) = target.metadata() {
+            if !metadata.is_file() {
+                let what = if metadata.is_dir() { "a folder" } else { "not a regular file" };
+                return Err(Failure::call(format!("cannot write `{name}`: it is {what}"), "name a file"));
+            }
+            if input.canonicalize().is_ok_and(|input| input == target) {
+                let message = format!("cannot write `{name}`: it is the specification itself");
+                return Err(Failure::call(message, "name another file"));
+            }
+        }
+        let (Some(parent), Some(_)) = (target.parent(), target.file_name()) else {
+            return Err(Failure::call(format!("cannot write `{name}`: it is not the name of a file"), "name a file"));
+        };
+        let folder = if parent.as_os_str().is_empty() { Path::new(".") } else { parent }.to_path_buf();
+        if !folder.is_dir() {
+            let message = format!("cannot write `{name}`: there is no folder `{}`", shown(&folder));
+            return Err(Failure::call(message, "create the folder, or name another file"));
+        }
+        Ok(OutputFile { typed: path.to_path_buf(), target, folder })
+    }
+
+    /// The path as it was typed.
+    pub fn name(&self) -> String {
+        shown(&self.typed)
+    }
+
+    /// Writes the file through a temporary one in the same folder: it appears whole or not at all.
+    ///
+    /// # Errors
+    /// The file system's reason.
+    pub fn write(&self, text: &str) -> Result<(), Failure> {
+        let write = || {
+            let mut builder = tempfile::Builder::new();
+            #[cfg(unix)]
+            {
+                use std::os::unix::fs::PermissionsExt;
+                // As for any new file, the user's mask applies.
+                builder.permissions(std::fs::Permissions::from_mode(0o666));
+            }
+            let mut file = builder.prefix(".sigmastar-").tempfile_in(&self.folder)?;
+            file.write_all(text.as_bytes())?;
+            file.as_file().sync_all()?;
+            file.persist(&self.target).map_err(|error| error.error)?;
+            Ok(())
+        };
+        write().map_err(|error: io::Error| {
+            let message = format!("cannot write `{}`: {}", self.name(), reason(&error));
+            Failure::call(message, "check the permissions of the folder and the space left there")
+        })
+    }
+}

@@ -1,0 +1,121 @@
+//! The document model that the text and the Markdown renderer share.
+
+/// How the cells of a column are placed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Align {
+    /// Against the left edge: words.
+    Left,
+    /// Against the right edge: numbers.
+    Right,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Its title.
+    pub title: String,
+    /// Where its cells go.
+    pub align: Align,
+}
+
+/// A table. Every row has as many cells as there are columns.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The rows.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// An empty table: a column for each title, words to the left where the title starts with `<`.
+    #[must_use]
+    pub fn new(titles: &[&str]) -> Table {
+        let columns = titles
+            .iter()
+            .map(|title| match title.strip_prefix('<') {
+                Some(title) => Column { title: title.to_owned(), align: Align::Left },
+                None => Column { title: (*title).to_owned(), align: Align::Right },
+            })
+            .collect();
+        Table { columns, rows: Vec::new() }
+    }
+
+    /// Appends a row; cells that are missing are empty, and surplus ones are dropped.
+    pub fn push(&mut self, cells: impl IntoIterator<Item = String>) {
+        let mut row: Vec<String> = cells.into_iter().take(self.columns.len()).collect();
+        row.resize(self.columns.len(), String::new());
+        self.rows.push(row);
+    }
+}
+
+/// A part of a report.
+#[derive(Clone, Debug)]
+pub enum Block {
+    /// The title of the report.
+    Title(String),
+    /// The title of a section.
+    Heading(String),
+    /// The title of a part of a section.
+    Subheading(String),
+    /// One or more sentences.
+    Paragraph(String),
+    /// Items of one line or a few.
+    List(Vec<String>),
+    /// A table.
+    Table(Table),
+}
+
+impl Block {
+    /// A paragraph.
+    #[must_use]
+    pub fn says(text: impl Into<String>) -> Block {
+        Block::Paragraph(text.into())
+    }
+}
+
+/// Text of a stranger as it may stand in a report: on one line, without control characters or changes of the writing
+/// direction or backticks, and of bounded length.
+#[must_use]
+pub fn clean(text: &str) -> String {
+    const LONGEST: usize = 80;
+    let visible = |c: char| {
+        let moves =
+            matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
+        match c {
+            '`' => '\'',
+            c if c.is_control() || moves => ' ',
+            c => c,
+        }
+    };
+    let line: String = text.chars().map(visible).collect();
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let line = words.join(" ");
+    if line.chars().count() <= LONGEST {
+        return line;
+    }
+    line.chars().take(LONGEST - 3).chain("...".chars()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strangers_text_stays_on_its_line() {
+        assert_eq!(clean("a\tb\n\u{1b}[31mc"), "a b [31mc");
+        assert_eq!(clean("x\u{202e}y`"), "x y'");
+        assert_eq!(clean(&"long ".repeat(100)).chars().count(), 80);
+        assert_eq!(clean(""), "");
+    }
+
+    #[test]
+    fn rows_have_the_width_of_the_table() {
+        let mut table = Table::new(&["<a", "b"]);
+        table.push(["1".to_owned()]);
+        table.push(["1", "2", "3"].map(str::to_owned));
+        assert_eq!(table.rows, [vec!["1".to_owned(), String::new()], vec!["1".to_owned(), "2".to_owned()]]);
+        assert_eq!(table.columns[0].align, Align::Left);
+        assert_eq!(table.columns[1].align, Align::Right);
+    }
+}

@@ -1,0 +1,40 @@
+//! The decided conditions with both sides.
+
+use super::blocks::{Block, Table};
+use super::number::{estimate, margin, pair};
+use crate::certificate::Certification;
+
+/// The conditions of the chosen derivation.
+pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+    let conditions = run.conditions();
+    if conditions.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new(&["<", "left side", "<", "right side", "margin", "relative", "<"]);
+    let mut legend = Vec::new();
+    let mut previous = "";
+    for condition in conditions {
+        // Several conditions may share an identifier (the three of the set); the legend then follows their order.
+        let id = if condition.id == previous { String::new() } else { condition.id.to_owned() };
+        previous = condition.id;
+        table.push([
+            id,
+            pair(&condition.lhs),
+            condition.relation.to_string(),
+            pair(&condition.rhs),
+            margin(&condition.margin()),
+            estimate(condition.relative_margin()),
+            condition.truth().to_string(),
+        ]);
+        legend.push(format!("{}: {}", condition.id, condition.what));
+    }
+    vec![
+        Block::Heading(format!("Conditions of the {} derivation", run.options.derivation.name())),
+        Block::says(
+            "Both sides are enclosed, rounded outward; the margin is right minus left, rounded down; the relative margin \
+             is an estimate. A margin near 0 is no weakness: at the smallest sigma some conditions are active.",
+        ),
+        Block::Table(table),
+        Block::List(legend),
+    ]
+}

@@ -1,0 +1,33 @@
+//! Exact regulation with infinitely many oscillators.
+
+use super::blocks::Block;
+use super::number::exact;
+use crate::certificate::{Certification, Verdict};
+use crate::number::{Direction, write_exact};
+
+/// sigma*_oo and what it means; why there is none where there is none.
+pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
+    if run.verdict != Verdict::Certified {
+        return Vec::new();
+    }
+    let said = match (&run.exact, run.sharp.proved()) {
+        (Some(claim), Some(proof)) => {
+            let set = &proof.witness.set;
+            format!(
+                "sigma*_oo = {}: with infinitely many oscillators and any sigma >= sigma*_oo, every solution from |x| <= {}, \
+                 |e| <= {}, |z|_N <= {} is bounded, and x and e tend to 0. No rate is claimed, and nothing about z.",
+                write_exact(&claim.witness.sigma),
+                exact(&set.x0, Direction::Down),
+                exact(&set.e0, Direction::Down),
+                exact(&set.z0, Direction::Down)
+            )
+        }
+        _ if !run.spec.internal_model.matched => {
+            "Not claimed: it needs a base frequency of exactly 2 pi / period (`\"matched\": true`).".to_owned()
+        }
+        _ if rechecked => "Not part of the certificate whose witness was decided again.".to_owned(),
+        _ if run.sharp.proved().is_none() => "Not worked out: it belongs to the sharp derivation.".to_owned(),
+        _ => "Nothing was proved about exact regulation.".to_owned(),
+    };
+    vec![Block::Heading("Exact regulation (n_o infinite)".to_owned()), Block::says(said)]
+}

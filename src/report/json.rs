@@ -1,0 +1,156 @@
+//! Reports as JSON.
+
+use super::Report;
+use super::consequences::{Consequences, TargetKind, TargetOutcome, full};
+use super::failures::{bounding_errors, errors_json};
+use super::number::estimate;
+use super::relative_degree::gains_json;
+use super::sets::Sets;
+use super::verdict::{basis, largest_arguments, sentence};
+use crate::certificate::{Certification, Outcome, conditions_json, constants_json};
+use crate::constants::condition::Condition;
+use crate::enclosure::Enclosure;
+use crate::number::write_exact;
+use rug::Rational;
+use serde_json::{Map, Value, json};
+
+/// The format of a report.
+pub const FORMAT: &str = "sigmastar/report";
+/// Its version.
+pub const VERSION: u64 = 1;
+
+fn interval(value: &Enclosure) -> Value {
+    json!(value.decimals())
+}
+
+/// The whole report: the same content as the text.
+pub(super) fn report(report: &Report<'_>) -> Value {
+    let run = report.run;
+    let mut fields = Map::new();
+    let mut set = |name: &str, value: Value| fields.insert(name.to_owned(), value);
+    set("format", json!(FORMAT));
+    set("version", json!(VERSION));
+    set("verdict", json!(run.verdict.to_string()));
+    set("statement", json!(sentence(run)));
+    set("derivation", json!(run.options.derivation.name()));
+    set("specification", json!({ "name": run.spec.name, "sha256": run.spec.sha256 }));
+    if let (Some(sigma), Some(claimed), Some(sets)) = (run.sigma_star(), run.claimed_set(), Sets::new(run)) {
+        set("sigma_star", json!(write_exact(sigma)));
+        set("basis", json!(basis(run)));
+        let [x0, e0, z0] = [&claimed.x0, &claimed.e0, &claimed.z0].map(write_exact);
+        set("initial_set", json!({ "X0": x0, "E0": e0, "Z0": z0 }));
+        let [x, e, zeta, z] = sets.periodic.each_ref().map(full);
+        set("periodic_solution", json!({ "x": x, "e": e, "zeta": zeta, "z": z }));
+        let [x, e] = sets.error_box.each_ref().map(full);
+        set("error_box", json!({ "D_x": x, "D_e": e }));
+    }
+    if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(full)) {
+        set("largest_arguments", json!({ "X": x, "E": e }));
+    }
+    if !run.unproved_bounds.is_empty() {
+        let errors: Vec<_> = run.unproved_bounds.iter().map(|problem| bounding_errors(run.spec, problem)).collect();
+        set("errors", errors_json(&errors));
+    }
+    set("conditions", conditions_with_truth(run.conditions()));
+    set("derivations", derivations(run));
+    set("constants", constants_json(&run.constants));
+    set("printed", printed(run));
+    set("binding", json!(run.binding));
+    set("sensitivities", sensitivities(run));
+    set("consequences", report.consequences.as_ref().map_or(Value::Null, consequences));
+    set("exact_regulation", exact_regulation(run));
+    set("relative_degree", gains_json(run));
+    Value::Object(fields)
+}
+
+/// The conditions as in a certificate, with the truth of each.
+fn conditions_with_truth(conditions: &[Condition]) -> Value {
+    let mut list = conditions_json(conditions);
+    for (item, condition) in list.as_array_mut().into_iter().flatten().zip(conditions) {
+        if let Value::Object(fields) = item {
+            fields.insert("truth".to_owned(), json!(condition.truth().to_string()));
+        }
+    }
+    list
+}
+
+/// What came of each derivation.
+fn derivations(run: &Certification<'_>) -> Value {
+    fn of<P>(outcome: &Outcome<P>, sigma: impl Fn(&P) -> &Rational) -> Value {
+        match outcome {
+            Outcome::Proved(proof) => json!({ "outcome": "proved", "sigma": write_exact(sigma(proof)) }),
+            Outcome::NotProved { failing, .. } => {
+                json!({ "outcome": "not proved", "failing": conditions_with_truth(failing) })
+            }
+            Outcome::NotFound(obstacle) => json!({ "outcome": "not found", "obstacle": obstacle.describe() }),
+            Outcome::Skipped => json!({ "outcome": "skipped" }),
+        }
+    }
+    json!({
+        "sharp": of(&run.sharp, |proof| &proof.witness.sigma),
+        "repaired": of(&run.repaired, |proof| &proof.witness.sigma),
+    })
+}
+
+fn printed(run: &Certification<'_>) -> Value {
+    let printed = &run.printed;
+    let reasons: Vec<String> = printed
+        .evaluation
+        .iter()
+        .flat_map(|evaluation| [&evaluation.sigma_p, &evaluation.sigma_a])
+        .filter_map(|value| value.as_ref().err().map(ToString::to_string))
+        .collect();
+    json!({
+        "refutation": printed.refutation.as_ref().map(ToString::to_string),
+        "sigma_without_it": printed.sigma.as_ref().map(interval),
+        "reasons": reasons,
+    })
+}
+
+/// Relative falls of sigma* for 1 %; floating-point estimates.
+fn sensitivities(run: &Certification<'_>) -> Value {
+    let one =
+        |(datum, gain): &(crate::search::Datum, f64)| json!({ "datum": datum.name(), "estimate": estimate(*gain) });
+    Value::Array(run.sensitivities.iter().map(one).collect())
+}
+
+fn consequences(consequences: &Consequences) -> Value {
+    let rows: Vec<Value> = consequences
+        .by_n_o
+        .iter()
+        .map(|(n_o, bounds)| json!({ "n_o": n_o, "rms": full(&bounds.rms), "sup": full(&bounds.sup) }))
+        .collect();
+    let targets: Vec<Value> = consequences
+        .targets
+        .iter()
+        .map(|(target, outcome)| {
+            let norm = match target.kind {
+                TargetKind::Sup => "sup",
+                TargetKind::Rms => "rms",
+            };
+            let (answer, n_o) = match outcome {
+                TargetOutcome::Reached(n_o) => ("reached", Some(n_o)),
+                TargetOutcome::NotReached => ("not reached", None),
+                TargetOutcome::NotMatched => ("not matched", None),
+            };
+            json!({ "norm": norm, "target": target.value.text, "answer": answer, "n_o": n_o })
+        })
+        .collect();
+    let psi = &consequences.psi;
+    // psi_2 speaks about matched base frequencies only.
+    let psi_2 = if consequences.by_n_o.is_empty() { Value::Null } else { json!(full(&psi.psi_2)) };
+    json!({
+        "psi_1": full(&psi.psi_1), "psi_x": full(&psi.psi_x), "psi_2": psi_2,
+        "error_bounds": rows, "targets": targets,
+    })
+}
+
+fn exact_regulation(run: &Certification<'_>) -> Value {
+    match (&run.exact, run.sigma_star()) {
+        (Some(claim), Some(_)) => json!({
+            "sigma_star_oo": write_exact(&claim.witness.sigma),
+            "conditions": conditions_with_truth(&claim.evaluation.conditions),
+        }),
+        _ => Value::Null,
+    }
+}

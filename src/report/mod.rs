@@ -1,0 +1,97 @@
+//! What a person, or a script, reads about a run: text, Markdown and JSON with the same content.
+//!
+//! A [`Report`] is made of a [`Certification`] and of what follows from it. The sections make [`blocks`] that the two
+//! renderers share; JSON is written from the same figures. Numbers that are claims are rounded outward; what is only
+//! an estimate says so.
+
+pub mod blocks;
+mod conditions;
+mod consequences;
+mod constants;
+mod exact_regulation;
+mod failures;
+mod json;
+mod markdown;
+mod number;
+mod obstacles;
+mod printed;
+mod relative_degree;
+mod sensitivity;
+mod sets;
+mod text;
+mod verdict;
+
+pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
+pub use failures::{bounding_errors, failure_json};
+pub use json::{FORMAT, VERSION};
+pub use relative_degree::filter_errors;
+pub use verdict::sentence;
+
+use crate::certificate::Certification;
+use blocks::{Block, clean};
+
+/// Everything that a report is made from.
+pub struct Report<'r> {
+    run: &'r Certification<'r>,
+    consequences: Option<Consequences>,
+    rechecked: bool,
+    unanswered: bool,
+}
+
+impl<'r> Report<'r> {
+    /// The report of a run, with answers to the targets.
+    ///
+    /// Guarantee: the certified figures in it follow from the conditions that the run proved; without a certified
+    /// claim there are none.
+    #[must_use]
+    pub fn new(run: &'r Certification<'r>, targets: &[Target]) -> Report<'r> {
+        let consequences = Consequences::new(run, targets);
+        let unanswered = consequences.is_none() && !targets.is_empty();
+        Report { run, consequences, rechecked: false, unanswered }
+    }
+
+    /// The same report, of a run that decided a given witness again and searched for nothing.
+    #[must_use]
+    pub fn rechecked(mut self, rechecked: bool) -> Report<'r> {
+        self.rechecked = rechecked;
+        self
+    }
+
+    /// The document that the renderers share.
+    #[must_use]
+    pub fn blocks(&self) -> Vec<Block> {
+        let run = self.run;
+        let mut blocks = vec![Block::Title(format!("{}: {}", clean(&run.spec.name), run.verdict))];
+        blocks.extend(verdict::section(run));
+        if self.unanswered {
+            blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
+        }
+        blocks.extend(sets::section(run));
+        blocks.extend(conditions::section(run));
+        blocks.extend(constants::section(run));
+        blocks.extend(printed::section(run, self.rechecked));
+        blocks.extend(sensitivity::section(run));
+        blocks.extend(self.consequences.iter().flat_map(Consequences::section));
+        blocks.extend(exact_regulation::section(run, self.rechecked));
+        blocks.extend(relative_degree::section(run));
+        blocks
+    }
+
+    /// As plain text, readable without colour at 100 columns.
+    #[must_use]
+    pub fn text(&self) -> String {
+        text::render(&self.blocks())
+    }
+
+    /// As GitHub-flavoured Markdown.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        markdown::render(&self.blocks())
+    }
+
+    /// As JSON: numbers are strings, enclosures `["lo", "hi"]`.
+    #[must_use]
+    pub fn json(&self) -> serde_json::Value {
+        json::report(self)
+    }
+}

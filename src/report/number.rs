@@ -1,0 +1,134 @@
+//! Numbers as they are printed: claims rounded outward, estimates marked as such by their section.
+
+use crate::enclosure::Enclosure;
+use crate::number::{Direction, round_f64, round_rational, write_exact};
+use rug::Rational;
+
+/// Significant digits of a number in a report.
+const DIGITS: usize = 6;
+
+/// Significant digits of both ends of an enclosure: one more, so that a short rational shows between them.
+const PAIR_DIGITS: usize = 7;
+
+/// The same decimal with an exponent, where it starts with many zeros.
+fn shorter(text: String) -> String {
+    let (sign, size) = text.strip_prefix('-').map_or(("", text.as_str()), |size| ("-", size));
+    let Some(fraction) = size.strip_prefix("0.000") else { return text };
+    let digits = fraction.trim_start_matches('0');
+    let exponent = 4 + fraction.len() - digits.len();
+    let Some(first) = digits.get(..1) else { return text };
+    let dot = if digits.len() > 1 { "." } else { "" };
+    format!("{sign}{first}{dot}{}e-{exponent}", &digits[1..])
+}
+
+/// An upper bound, rounded up.
+#[must_use]
+pub fn upper(value: &Enclosure) -> String {
+    shorter(value.upper_decimal(DIGITS))
+}
+
+/// A lower bound, rounded down, in few digits.
+#[must_use]
+pub fn margin(value: &Enclosure) -> String {
+    shorter(value.lower_decimal(3))
+}
+
+/// An enclosure, rounded outward; one number when that is exact.
+#[must_use]
+pub fn pair(value: &Enclosure) -> String {
+    let (lower, upper) = (shorter(value.lower_decimal(PAIR_DIGITS)), shorter(value.upper_decimal(PAIR_DIGITS)));
+    if lower == upper { lower } else { format!("[{lower}, {upper}]") }
+}
+
+/// The nearest number of few digits, where the enclosure is far narrower than these digits; else the enclosure.
+#[must_use]
+pub fn compact(value: &Enclosure) -> String {
+    let width = value.upper_f64() - value.lower_f64();
+    let middle = value.midpoint_f64();
+    if width > 1e-12 * middle.abs() || !middle.is_finite() {
+        return pair(value);
+    }
+    match round_f64(middle, DIGITS as u32, Direction::Nearest) {
+        Some(rounded) => short(&rounded, middle, DIGITS),
+        None => pair(value),
+    }
+}
+
+/// A rounded number as a decimal, with an exponent where the plain form would be long.
+fn short(rounded: &Rational, value: f64, digits: usize) -> String {
+    // Beyond this, plain digits would claim more than the significant ones.
+    let largest = 10f64.powi(digits as i32 + 1);
+    if value == 0.0 || (1e-3..largest).contains(&value.abs()) {
+        return write_exact(rounded);
+    }
+    let text = format!("{value:.*e}", digits - 1);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if mantissa.contains('.') => {
+            format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
+        }
+        _ => text,
+    }
+}
+
+/// A rational exactly where that is short, else rounded in the given direction.
+#[must_use]
+pub fn exact(value: &Rational, direction: Direction) -> String {
+    const LONGEST: usize = 16;
+    let written = write_exact(value);
+    if written.len() <= LONGEST { written } else { write_exact(&round_rational(value, 9, direction)) }
+}
+
+/// A floating-point estimate to three digits.
+#[must_use]
+pub fn estimate(value: f64) -> String {
+    match round_f64(value, 3, Direction::Nearest) {
+        Some(rounded) => short(&rounded, value, 3),
+        None => "unknown".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn claims_are_rounded_outward() {
+        let third = Enclosure::from_rational(&Rational::from((1, 3)), 128);
+        assert_eq!(upper(&third), "0.333334");
+        assert_eq!(margin(&third), "0.333");
+        assert_eq!(pair(&third), "[0.3333333, 0.3333334]");
+        assert_eq!(compact(&third), "0.333333");
+        assert_eq!(compact(&third.hull(&Enclosure::one(128))), "[0.3333333, 1]");
+        assert_eq!(compact(&Enclosure::from_rational(&Rational::from((472_233, 10_000)), 128)), "47.2233");
+        assert_eq!(compact(&Enclosure::from_integer(1_499_714_004_546, 64)), "1.49971e12");
+        assert_eq!(compact(&Enclosure::from_integer(2, 64)), "2");
+        assert_eq!(compact(&Enclosure::undefined(64)), "undefined");
+        assert_eq!(exact(&Rational::from((1, 3)), Direction::Down), "1/3");
+        let long = Rational::from((1_000_000_007, 3_000_000_019_i64));
+        assert_eq!(exact(&long, Direction::Down), "0.333333333");
+        assert_eq!(exact(&long, Direction::Up), "0.333333334");
+    }
+
+    #[test]
+    fn many_zeros_become_an_exponent() {
+        for (plain, short) in [
+            ("0.00006897218", "6.897218e-5"),
+            ("-0.0002", "-2e-4"),
+            ("0.00123", "0.00123"),
+            ("0.000", "0.000"),
+            ("1.000001", "1.000001"),
+            ("undefined", "undefined"),
+        ] {
+            assert_eq!(shorter(plain.to_owned()), short);
+        }
+    }
+
+    #[test]
+    fn estimates_are_short() {
+        for (value, text) in
+            [(0.0, "0"), (45.26789, "45.3"), (3.17e10, "3.17e10"), (1.2345e-9, "1.23e-9"), (f64::NAN, "unknown")]
+        {
+            assert_eq!(estimate(value), text);
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Why nothing was certified, and what to try.
+
+use super::blocks::{Block, clean};
+use super::number::{pair, upper};
+use super::verdict::largest_arguments;
+use crate::certificate::{Certification, Derivation, Outcome, Verdict};
+use crate::constants::condition::Condition;
+use crate::enclosure::Truth;
+use crate::expr::BoundingFailure;
+use crate::number::write_exact;
+use crate::search::Obstacle;
+
+/// The outcome of one derivation, without its type.
+enum Status<'r> {
+    Proved,
+    Failing(&'r [Condition]),
+    NotFound(Obstacle),
+    Skipped,
+}
+
+fn status<P>(outcome: &Outcome<P>) -> Status<'_> {
+    match outcome {
+        Outcome::Proved(_) => Status::Proved,
+        Outcome::NotProved { failing, .. } => Status::Failing(failing),
+        Outcome::NotFound(obstacle) => Status::NotFound(*obstacle),
+        Outcome::Skipped => Status::Skipped,
+    }
+}
+
+fn chosen<'r>(run: &'r Certification<'_>) -> Status<'r> {
+    match run.options.derivation {
+        Derivation::Sharp => status(&run.sharp),
+        Derivation::Repaired => status(&run.repaired),
+        Derivation::Printed => Status::Skipped,
+    }
+}
+
+/// One sentence: what failed.
+pub(super) fn sentence(run: &Certification<'_>) -> String {
+    let name = run.options.derivation.name();
+    if run.options.derivation == Derivation::Printed {
+        return match (&run.printed.refutation, run.verdict) {
+            (Some(reason), Verdict::Refuted) => {
+                format!("Refuted: the printed derivation certifies no sigma for these data. {reason}.")
+            }
+            _ => "Undecided: the printed derivation was not refuted for these data, and it never certifies.".to_owned(),
+        };
+    }
+    let what = match chosen(run) {
+        Status::Proved => match run.unproved_bounds.first() {
+            Some(problem) => {
+                format!("the bounding function {} could not be proved: {}", problem.field, problem.failure)
+            }
+            None => "the claim was not proved".to_owned(),
+        },
+        Status::Failing(conditions) => match conditions.first() {
+            Some(condition) => format!("condition {} is {}", condition.id, truth(condition)),
+            None => "the conditions were not proved".to_owned(),
+        },
+        Status::NotFound(obstacle) => format!("no candidate was found. {}", obstacle.describe()),
+        Status::Skipped => "this derivation was not worked out".to_owned(),
+    };
+    let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };
+    format!(
+        "{word}: the {name} derivation certifies no sigma here; {what}. Nothing is claimed about the plant either way."
+    )
+}
+
+/// The figures of what failed, and what to try.
+pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let unproved: Vec<String> =
+        run.unproved_bounds.iter().map(|problem| format!("{}: {}", problem.field, problem.failure)).collect();
+    if !unproved.is_empty() {
+        blocks.push(Block::says("Bounding functions that were neither proved nor refuted:"));
+        blocks.push(Block::List(unproved));
+    }
+    if let Status::Failing(conditions) = chosen(run) {
+        blocks.push(Block::says("Conditions that are not proved:"));
+        blocks.push(Block::List(conditions.iter().map(describe).collect()));
+    }
+    let advice = advice(run);
+    if !advice.is_empty() {
+        blocks.push(Block::says("What to try:"));
+        blocks.push(Block::List(advice));
+    }
+    blocks
+}
+
+fn truth(condition: &Condition) -> &'static str {
+    match condition.truth() {
+        Truth::True => "proved",
+        Truth::False => "refuted for this witness",
+        Truth::Undecided => "not decided within the precision",
+    }
+}
+
+fn describe(condition: &Condition) -> String {
+    format!(
+        "{} ({}): {} {} {} is {}",
+        condition.id,
+        condition.what,
+        pair(&condition.lhs),
+        condition.relation,
+        pair(&condition.rhs),
+        truth(condition)
+    )
+}
+
+fn advice(run: &Certification<'_>) -> Vec<String> {
+    let mut items: Vec<String> = Vec::new();
+    let mut add = |text: &str| items.push(text.to_owned());
+    match chosen(run) {
+        Status::Proved => {
+            let at_the_edge = run
+                .unproved_bounds
+                .iter()
+                .any(|problem| matches!(&problem.failure, BoundingFailure::Undecided { span, .. } if span.is_some()));
+            add("rewrite the bounding function as sums, products and compositions of nondecreasing functions");
+            if at_the_edge {
+                add("see the place in the expression that is shown with this report");
+            }
+        }
+        Status::Failing(conditions) if conditions.iter().any(|condition| condition.truth().is_undecided()) => {
+            add("raise --precision-limit");
+        }
+        Status::Failing(_) => add("search again (without --witness): another witness may exist"),
+        Status::NotFound(obstacle) => obstacle_advice(run, obstacle, &mut add),
+        Status::Skipped => {}
+    }
+    if run.options.derivation == Derivation::Printed || run.options.derivation == Derivation::Repaired {
+        let sharp = run.sharp.proved().map(|proof| write_exact(&proof.witness.sigma));
+        let repaired = run.repaired.proved().map(|proof| write_exact(&proof.witness.sigma));
+        if run.options.derivation == Derivation::Printed {
+            items.extend(repaired.map(|sigma| format!("`--derivation repaired` proves sigma = {sigma}")));
+        }
+        items.extend(sharp.map(|sigma| format!("`--derivation sharp` proves sigma = {sigma}")));
+    }
+    items
+}
+
+fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn FnMut(&str)) {
+    let domain = run.spec.domain.as_ref();
+    match obstacle {
+        Obstacle::NotFinite => {
+            add("check the bounding functions and the magnitude of the data: no finite values were found")
+        }
+        Obstacle::Existence => {
+            add(
+                "a larger alpha, a smaller p_up/p_low, or smaller f_e, f_xx, f_ex: C1 and C3 do not contain sigma there",
+            );
+        }
+        Obstacle::DomainX | Obstacle::DomainE => {
+            if let Some(domain) = domain {
+                let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));
+                add(&format!("a larger domain than X = {x}, E = {e}, if the bounding functions hold there"));
+            }
+            add("a smaller initial set, for example `\"kind\": \"at-rest\"`");
+        }
+        Obstacle::Curvature => {
+            add(
+                "a smaller initial set, a larger alpha, or smaller f_xx and f_ex: the nonlinearity is too strong for it",
+            );
+        }
+        Obstacle::Coupling => add("a smaller initial set, or smaller q_x, f_e"),
+    }
+    if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper)) {
+        add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
+    }
+}

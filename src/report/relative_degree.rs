@@ -1,0 +1,43 @@
+//! A relative degree above 1: from the filtered error to the regulated output.
+
+use super::blocks::Block;
+use super::number::upper;
+use crate::certificate::Certification;
+use crate::constants::relative_degree::RelativeDegreeError;
+use crate::spec::{ErrorKind, SpecErrors};
+use serde_json::{Value, json};
+
+/// The gains of the filter e = xi_r + a_{r-1} xi_{r-1} + ... + a_1 xi_1; nothing where the specification has none.
+pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+    let Some(gains) = &run.relative_degree else { return Vec::new() };
+    let body = match gains {
+        Ok(gains) => Block::List(vec![
+            format!("limsup|xi_1| <= k_inf limsup|e| with k_inf = {}", upper(&gains.k_inf)),
+            format!(
+                "in the steady state the integral of xi_1^2 over a period is at most k_2 times that of e^2 with k_2 = {}",
+                upper(&gains.k_2)
+            ),
+        ]),
+        Err(error) => Block::says(format!("No bound of xi_1: {error}.")),
+    };
+    vec![Block::Heading("Relative degree (from e to xi_1)".to_owned()), body]
+}
+
+/// The gains for JSON.
+pub(super) fn gains_json(run: &Certification<'_>) -> Value {
+    match &run.relative_degree {
+        None => Value::Null,
+        Some(Ok(gains)) => json!({ "k_inf": gains.k_inf.decimals(), "k_2": gains.k_2.decimals() }),
+        Some(Err(error)) => json!({ "reason": error.to_string() }),
+    }
+}
+
+/// The error of a filter that is proved to be unstable, at its place in the specification.
+#[must_use]
+pub fn filter_errors(run: &Certification<'_>) -> Option<SpecErrors> {
+    let Some(Err(error @ RelativeDegreeError::NotHurwitz(_))) = &run.relative_degree else { return None };
+    let help = "the coefficients a_1, ..., a_(r-1) must make s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 stable; mind their \
+                order";
+    let message = error.to_string();
+    Some(run.spec.errors_at("/relative_degree/a", &(0..0), ErrorKind::Range, message, Some(help.to_owned())))
+}

@@ -1,0 +1,98 @@
+//! The verdict in one sentence, and what it rests on.
+
+use super::blocks::{Block, clean};
+use super::number::{exact, upper};
+use super::obstacles;
+use crate::certificate::{Certification, Derivation, Outcome, Verdict};
+use crate::enclosure::Enclosure;
+use crate::number::{Direction, write_exact};
+use crate::transfer::TransferProof;
+
+/// The verdict in one sentence that a control engineer understands.
+#[must_use]
+pub fn sentence(run: &Certification<'_>) -> String {
+    let spec = run.spec;
+    match (run.sigma_star(), run.claimed_set()) {
+        (Some(sigma), Some(set)) => format!(
+            "Certified: with sigma = {} (or any larger), mu = {} and base frequency {}, for every number of oscillators \
+             n_o >= 0, every solution that starts, at any time, from |x| <= {}, |e| <= {}, |z|_N <= {} converges \
+             exponentially to a T-periodic solution, T = {}.",
+            write_exact(sigma),
+            clean(&spec.internal_model.mu.text),
+            clean(&spec.internal_model.base_frequency.text),
+            exact(&set.x0, Direction::Down),
+            exact(&set.e0, Direction::Down),
+            exact(&set.z0, Direction::Down),
+            clean(&spec.period.text),
+        ),
+        _ => obstacles::sentence(run),
+    }
+}
+
+/// The sentence, the derivation and the assumptions; without a certificate, what failed and what to try.
+pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+    let mut blocks = vec![Block::says(sentence(run))];
+    if run.verdict == Verdict::Certified {
+        blocks.push(Block::says(
+            "Here |z|_N = sqrt(z'Nz). The same sigma serves every plant that the bounding functions describe.",
+        ));
+        blocks.push(Block::List(basis(run)));
+    } else {
+        blocks.extend(obstacles::section(run));
+    }
+    blocks
+}
+
+/// What the claim rests on: derivation, assumptions about the plant, the transfer constants.
+pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
+    let derivation = match run.options.derivation {
+        Derivation::Sharp => "Derivation: sharp (sections 2 to 5 of the derivation).",
+        Derivation::Repaired => "Derivation: repaired (the architecture of the paper, each formula repaired).",
+        Derivation::Printed => "Derivation: printed (the paper to the letter).",
+    };
+    let mut items = vec![derivation.to_owned()];
+    let used = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper));
+    items.push(format!(
+        "Assumed of the plant: the Lyapunov triple (p_low, p_up, alpha), and that the bounding functions bound the \
+         plant{}.",
+        used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments"))
+    ));
+    items.push(
+        "Proved of the bounding functions: finite, nonnegative and nondecreasing there. Proved of the weights: W1 to \
+         W3."
+        .to_owned(),
+    );
+    let proof = match run.options.derivation {
+        Derivation::Sharp => run.sharp.proved().map(|proof| proof.witness.transfer),
+        Derivation::Repaired => run.repaired.proved().map(|proof| proof.witness.transfer),
+        Derivation::Printed => None,
+    };
+    items.extend(proof.map(|proof| {
+        match proof {
+            TransferProof::Matched { .. } => {
+                "Used: the base frequency is exactly 2 pi / period (proved of the numbers given). `--transfer closed-form` \
+                 does without."
+            }
+            TransferProof::ClosedForm => "Not used: that the base frequency fits the period.",
+        }
+        .to_owned()
+    }));
+    items
+}
+
+/// The largest X and E at which a bounding function is used; upper bounds.
+pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2]> {
+    let [x, e] = match run.options.derivation {
+        Derivation::Sharp => {
+            let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.sharp else { return None };
+            let evaluation = &proof.evaluation;
+            [evaluation.bounds.x_p.max(&evaluation.error_box.x_b), evaluation.bounds.e_p.max(&evaluation.error_box.e_b)]
+        }
+        Derivation::Repaired => {
+            let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.repaired else { return None };
+            [proof.evaluation.point.x_b.clone(), proof.evaluation.point.e_b.clone()]
+        }
+        Derivation::Printed => return None,
+    };
+    Some([x, e])
+}
