@@ -61,7 +61,7 @@ pub(super) fn scaled_supremum() -> Enclosure {
     let mut largest = w.clone();
     for ends in nodes.windows(2) {
         let q = ends[0].hull(&ends[1]);
-        // Z stays between its value at the left end and what it would be at the right end, as Z > 0 >= -q.
+        // Within the step Z is a mean of Z at the left end and of -q, with a weight of Z between `z_decay` and 1.
         let z_next = &z_decay * &z - (1 - &z_decay) * &q;
         let y = &q + z.hull(&z_next);
         let w_next = &w_decay * &w + (1 - &w_decay) * y;
