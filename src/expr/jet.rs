@@ -241,8 +241,8 @@ mod tests {
             let expr = Expr::parse(text, Variables::XAndE).unwrap();
             let h = Rational::from((1, 1 << 20));
             let at = |i: i32, k: i32| {
-                let x = Rational::from((9, 8)) + Rational::from(&h * Rational::from(i));
-                let e = Rational::from((13, 8)) + Rational::from(&h * Rational::from(k));
+                let x = Rational::from((9, 8)) + (&h * Rational::from(i));
+                let e = Rational::from((13, 8)) + (&h * Rational::from(k));
                 expr.at_point(&x, &e, 256).0.value
             };
             let h = Enclosure::from_rational(&h, 256);

@@ -97,11 +97,7 @@ impl Monomial {
             return None;
         }
         let ratio = rational_sqrt(&Rational::from(&other.radicand / &self.radicand))?;
-        Monomial::normalised(
-            Rational::from(&self.coefficient + ratio * &other.coefficient),
-            self.radicand.clone(),
-            self.pi_power,
-        )
+        Monomial::normalised(&self.coefficient + ratio * &other.coefficient, self.radicand.clone(), self.pi_power)
     }
 
     /// The opposite.

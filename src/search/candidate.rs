@@ -159,10 +159,10 @@ impl Existence {
         let needed = |sigma: f64| self.at_sigma(model, rho, eta, sigma).map(|at| at.threshold.max(self.sigma_least));
         // Positive even where C2 and C3 hold for every sigma.
         let mut low = self.sigma_least.max(1e-12 / model.period);
-        if let Ok(threshold) = needed(low) {
-            if threshold <= low {
-                return Ok(low);
-            }
+        if let Ok(threshold) = needed(low)
+            && threshold <= low
+        {
+            return Ok(low);
         }
         let mut high = low;
         loop {
