@@ -61,8 +61,10 @@ impl<'r> Report<'r> {
     #[must_use]
     pub fn blocks(&self) -> Vec<Block> {
         let run = self.run;
-        let mut blocks = vec![Block::Title(format!("{}: {}", clean(&run.spec.name), run.verdict))];
-        blocks.extend(verdict::section(run));
+        let name = clean(&run.spec.name);
+        let name = if name.is_empty() { "(no name)" } else { &name };
+        let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict))];
+        blocks.extend(verdict::section(run, self.rechecked));
         if self.unanswered {
             blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
         }
