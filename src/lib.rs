@@ -14,6 +14,7 @@
 pub mod certificate;
 pub mod constants;
 pub mod enclosure;
+pub mod errata;
 pub mod expr;
 pub mod number;
 pub mod report;

@@ -39,6 +39,15 @@ fn rounded_sigma(sigma: f64, slack: f64) -> Option<Rational> {
     round_f64(sigma * (1.0 + slack), SIGMA_DIGITS, Direction::Up)
 }
 
+/// E_p rounded up, which helps C2, unless C1 (at the rounded X_p) allows no more than `largest`; then down.
+fn rounded_e(e_p: f64, largest: f64) -> Option<Rational> {
+    let up = round_f64(e_p, SHORT_DIGITS, Direction::Up)?;
+    if up.to_f64() < largest * (1.0 - 1e-12) {
+        return Some(up);
+    }
+    round_f64(e_p.min(largest), SHORT_DIGITS, Direction::Down)
+}
+
 /// The claimed set for X_p, E_p and Z: what the specification requires, rounded up where it is not a short rational.
 fn claimed_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -> Option<ClaimedSet> {
     let user = |constant: &crate::spec::model::Constant| match constant.as_rational() {
@@ -101,9 +110,7 @@ fn sharp_witness(
 ) -> Option<SharpWitness> {
     let sigma = rounded_sigma(proposal.sigma, slack)?;
     let x_p = nearest(proposal.parameters.x_p, SHORT_DIGITS)?;
-    // E_p down, below what C1 allows at the rounded X_p; C2 has the slack of sigma.
-    let e_p = proposal.parameters.e_p.min(largest_e(model, x_p.to_f64())?);
-    let e_p = round_f64(e_p, SHORT_DIGITS, Direction::Down)?;
+    let e_p = rounded_e(proposal.parameters.e_p, largest_e(model, x_p.to_f64())?)?;
     let parameters = SharpParameters { x_p: x_p.to_f64(), e_p: e_p.to_f64(), ..proposal.parameters };
     let (existence, at) = at_sigma(model, &parameters, sigma.to_f64()).ok()?;
     let (k0, k1, transfer) = transfer_pair(data, existence.pair, matched)?;
@@ -150,7 +157,7 @@ fn rounded_box(
     slack: f64,
 ) -> Option<RoundedBox> {
     let d_x = nearest(d_x, LONG_DIGITS)?;
-    let enlarged = 1.0 + (0.1 * slack).max(1e-11);
+    let enlarged = 1.0 + (0.1 * slack).clamp(1e-11, 1e-3);
     let level = (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho)) * enlarged;
     let width = d_x.to_f64();
     Some(RoundedBox {
@@ -188,7 +195,7 @@ fn repaired_witness(
     slack: f64,
 ) -> Option<RepairedWitness> {
     let x = nearest(proposal.x, SHORT_DIGITS)?;
-    let e = round_f64(proposal.e.min(largest_e_repaired(model, x.to_f64())?), SHORT_DIGITS, Direction::Down)?;
+    let e = rounded_e(proposal.e, largest_e_repaired(model, x.to_f64())?)?;
     let (k0, k1, transfer) = transfer_pair(data, (0.0, 0.0, 0), false)?;
     let bounds = PeriodicBounds::new(data, data.rational(&x), data.rational(&e));
     let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));
@@ -197,7 +204,7 @@ fn repaired_witness(
     let h = nearest(proposal.h, LONG_DIGITS)?;
     let [dist_x, dist_e, dist_z] = distances(data, &set, [&data.rational(&x), &data.rational(&e), &z]);
     let start = &data.p_up * dist_x.sqr() + dist_e.sqr() + data.rational(&h) * dist_z.sqr();
-    let level = start.upper_rational()? * Rational::from_f64(1.0 + (0.1 * slack).max(1e-11))?;
+    let level = start.upper_rational()? * Rational::from_f64(1.0 + (0.1 * slack).clamp(1e-11, 1e-3))?;
     let scale = proposal.weights.0.max(proposal.weights.1);
     Some(RepairedWitness {
         sigma: rounded_sigma(proposal.sigma, slack)?,

@@ -16,6 +16,10 @@ pub struct SharpParameters {
     pub eta: f64,
 }
 
+/// Strict inequalities that do not involve sigma are proposed with this much room, so that rounding to short rationals
+/// cannot destroy them.
+pub(super) const BELOW_ONE: f64 = 1.0 - 1e-6;
+
 /// What stands in the way of a candidate; later ones come closer to a certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Obstacle {
@@ -98,7 +102,7 @@ impl Existence {
         let share = gain * f_xx * x_p / 2.0;
         let (a, b) = (gain * (f_ex * e_p + f_xx * x_p), gain * f_e);
         let invariant = gain * (f_e * e_p + f_xx * x_p * x_p / 2.0) <= x_p && share < 1.0;
-        if !invariant || a >= 1.0 {
+        if !invariant || a >= BELOW_ONE {
             return Err(Obstacle::Existence);
         }
         let w2 = model.base_frequency * model.base_frequency;
@@ -153,7 +157,8 @@ impl Existence {
     /// The smallest sigma for given rho and eta, to the relative tolerance.
     pub fn sigma(&self, model: &FloatModel, rho: f64, eta: f64, tolerance: f64) -> Result<f64, Obstacle> {
         let needed = |sigma: f64| self.at_sigma(model, rho, eta, sigma).map(|at| at.threshold.max(self.sigma_least));
-        let mut low = self.sigma_least;
+        // Positive even where C2 and C3 hold for every sigma.
+        let mut low = self.sigma_least.max(1e-12 / model.period);
         if let Ok(threshold) = needed(low) {
             if threshold <= low {
                 return Ok(low);
@@ -213,13 +218,13 @@ pub fn error_box(
     if ![gamma, k_x, k_e, k_f].iter().all(|v| v.is_finite()) {
         return Err(Obstacle::NotFinite);
     }
-    if gamma >= model.alpha {
+    if gamma >= model.alpha * BELOW_ONE {
         return Err(Obstacle::Curvature);
     }
     let w_x = level / (model.p_low * d_x * d_x);
     let h_over_mu = eta * dist_e * dist_e / (dist_z * dist_z * model.mu);
     let margin = 4.0 * w_x * (model.alpha - gamma) - h_over_mu * k_x * k_x;
-    if margin.is_nan() || margin <= 0.0 {
+    if margin.is_nan() || margin <= (1.0 - BELOW_ONE) * 4.0 * w_x * model.alpha {
         return Err(Obstacle::Coupling);
     }
     let one_plus = 1.0 + h_over_mu * k_e;

@@ -25,7 +25,7 @@ pub fn search_exact(model: &FloatModel, distances: [f64; 3]) -> Result<AtSigma, 
         }
     }
     let start = best.ok_or(closest)?;
-    let decode = |p: &[f64]| evaluate(1.0 + p[0].exp(), p[1].exp()).ok();
+    let decode = |p: &[f64]| evaluate(1.0 + p[0].exp().max(1e-6), p[1].exp()).ok();
     let first = [(start.rho - 1.0).ln(), start.eta.ln()];
     let refined = minimise(|p| decode(p).map(|at| at.threshold.ln()), &first, &[0.4, 0.4], 8);
     Ok(refined.and_then(|(best, _)| decode(&best)).filter(|at| at.threshold <= start.threshold).unwrap_or(start))

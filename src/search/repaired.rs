@@ -1,6 +1,6 @@
 //! The search of the repaired derivation: X, E, L, h that make sigma* small.
 
-use super::candidate::Obstacle;
+use super::candidate::{BELOW_ONE, Obstacle};
 use super::minimise::minimise;
 use super::model::FloatModel;
 use super::scan;
@@ -38,7 +38,7 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     let (f, f_e, f_ex) = (at(Bound::F), at(Bound::Fe), at(Bound::Fex));
     let (q, q_e, q_x, q_t) = (at(Bound::Q), at(Bound::Qe), at(Bound::Qx), at(Bound::Qt));
     let (a, b) = (gain * (f_ex * e + 2.0 * f_xx * x), gain * f_e);
-    if gain * (f_e * e + f_xx * x * x / 2.0) > x || a >= 1.0 {
+    if gain * (f_e * e + f_xx * x * x / 2.0) > x || a >= BELOW_ONE {
         return Err(Obstacle::Existence);
     }
     let w2 = model.base_frequency * model.base_frequency;
@@ -68,7 +68,7 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
         model.p_up * (model.bound(Bound::Fxx, x, e) * x + f_ex * e + model.bound(Bound::Fxx, x_b, e) * (x_b + x) / 2.0);
     let (q_x_b, q_e_b) = (model.bound(Bound::Qx, x_b, e_b), model.bound(Bound::Qe, x_b, e_b));
     let curvature = model.alpha * model.p_low - rho_0 - h / model.mu * q_x_b * q_x_b;
-    if curvature.is_nan() || curvature <= 0.0 {
+    if curvature.is_nan() || curvature <= (1.0 - BELOW_ONE) * model.alpha * model.p_low {
         return Err(Obstacle::Curvature);
     }
     let rho_12 = model.p_up * model.bound(Bound::Fe, x_b, e_b) + q_x_b;
@@ -91,7 +91,7 @@ pub fn largest_e_repaired(model: &FloatModel, x: f64) -> Option<f64> {
     let f_xx = model.bound(Bound::Fxx, x, 0.0);
     let admissible = |e: f64| {
         gain * (model.bound(Bound::Fe, x, e) * e + f_xx * x * x / 2.0) <= x
-            && gain * (model.bound(Bound::Fex, x, e) * e + 2.0 * f_xx * x) < 1.0
+            && gain * (model.bound(Bound::Fex, x, e) * e + 2.0 * f_xx * x) < BELOW_ONE
     };
     scan::largest(admissible, model.domain.1)
 }
@@ -136,8 +136,12 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
         };
         let depth = (largest_e_repaired(model, start.x)? / start.e).ln().max(1e-9);
         let first = [start.x.ln(), parameter_of(depth), eta.ln()];
-        let (best, _) =
-            minimise(|p| decode(p).map(|f| f.sigma.ln() + scan::preference(f.x)), &first, &[0.3, 0.5, 0.5], 6)?;
+        let (best, _) = minimise(
+            |p| decode(p).map(|f| f.sigma.ln() + scan::preference(f.x) + scan::preference(f.e)),
+            &first,
+            &[0.3, 0.5, 0.5],
+            6,
+        )?;
         decode(&best)
     });
     refined.into_iter().flatten().min_by(|a, b| a.sigma.total_cmp(&b.sigma)).ok_or(closest)

@@ -26,9 +26,10 @@ pub fn in_range(x: f64) -> Option<f64> {
     (1e-40..=1e40).contains(&x).then_some(x)
 }
 
-/// A cost too small to matter where X does (it moves ln sigma by at most 1e-7), which keeps X near 1 where it does not.
-pub fn preference(x: f64) -> f64 {
-    1e-11 * x.ln().powi(2)
+/// A cost too small to matter where an argument does (it moves ln sigma by at most 1e-7), which keeps the argument near
+/// 1 where it does not.
+pub fn preference(argument: f64) -> f64 {
+    1e-11 * argument.ln().powi(2)
 }
 
 /// E depths for the scan.

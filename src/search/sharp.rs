@@ -1,6 +1,6 @@
 //! The search of the sharp derivation: X_p, E_p, rho, eta that make sigma* small.
 
-use super::candidate::{AtSigma, Existence, Obstacle, SharpParameters};
+use super::candidate::{AtSigma, BELOW_ONE, Existence, Obstacle, SharpParameters};
 use super::minimise::minimise;
 use super::model::{Datum, FloatModel};
 use super::scan;
@@ -75,8 +75,7 @@ pub fn largest_e(model: &FloatModel, x_p: f64) -> Option<f64> {
     let f_xx = model.bound(Bound::Fxx, x_p, 0.0);
     let admissible = |e: f64| {
         gain * (model.bound(Bound::Fe, x_p, e) * e + f_xx * x_p * x_p / 2.0) <= x_p
-            && gain * (model.bound(Bound::Fex, x_p, e) * e + f_xx * x_p) < 1.0
-            && gain * f_xx * x_p / 2.0 < 1.0
+            && gain * (model.bound(Bound::Fex, x_p, e) * e + f_xx * x_p) < BELOW_ONE
     };
     scan::largest(admissible, model.domain.1)
 }
@@ -125,13 +124,15 @@ fn refine(model: &FloatModel, start: &SharpParameters, restarts: usize) -> Optio
     let decode = |p: &[f64]| {
         let x_p = scan::in_range(p[0].exp())?;
         let e_p = largest_e(model, x_p)? * (-depth_of(p[1])).exp();
-        Some(SharpParameters { x_p, e_p, rho: 1.0 + p[2].exp(), eta: p[3].exp() })
+        // rho too close to 1 would leave no room between the two members of C4.
+        let excess = p[2].exp().max(1e-6);
+        Some(SharpParameters { x_p, e_p, rho: 1.0 + excess, eta: p[3].exp() })
     };
     let cost = |p: &[f64]| {
         let parameters = decode(p)?;
         let existence = Existence::new(model, parameters.x_p, parameters.e_p).ok()?;
         let sigma = existence.sigma(model, parameters.rho, parameters.eta, 1e-12).ok()?;
-        Some(sigma.ln() + scan::preference(parameters.x_p))
+        Some(sigma.ln() + scan::preference(parameters.x_p) + scan::preference(parameters.e_p))
     };
     let depth = (largest_e(model, start.x_p)? / start.e_p).ln().max(1e-9);
     let first = [start.x_p.ln(), parameter_of(depth), (start.rho - 1.0).ln(), start.eta.ln()];
