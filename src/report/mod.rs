@@ -8,6 +8,7 @@ pub mod blocks;
 mod conditions;
 mod consequences;
 mod constants;
+mod errata;
 mod exact_regulation;
 mod failures;
 mod json;
@@ -22,6 +23,7 @@ mod text;
 mod verdict;
 
 pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
+pub use errata::ErrataReport;
 pub use failures::{bounding_errors, failure_json};
 pub use json::{FORMAT, VERSION};
 pub use relative_degree::filter_errors;
