@@ -7,7 +7,7 @@
 //! - [`constants`], [`transfer`]: the constants and conditions of the paper in three derivations;
 //! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
 //! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
-//! - [`report`], `errata`: what a person reads.
+//! - [`report`], [`errata`]: what a person reads.
 //!
 //! Nothing below the command line knows it, and every arrow goes one way.
 

@@ -257,6 +257,14 @@ fn a_full_disk_is_told() {
 }
 
 #[test]
+fn errata_are_listed() {
+    sigmastar().arg("errata").assert().code(0).stdout(contains("E1 [A]")).stderr(is_empty());
+    let assert = sigmastar().args(["errata", EXAMPLE, "--format", "json"]).assert().code(0);
+    assert!(json(&assert.get_output().stdout)["errata"][0]["for_data"].is_object());
+    sigmastar().args(["errata", "specs/invalid/empty.json"]).assert().code(2).stdout(is_empty());
+}
+
+#[test]
 fn pages_are_made_from_the_flags() {
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = sigmastar().args(["completions", shell]).assert().code(0).stderr(is_empty());

@@ -39,6 +39,10 @@ pub enum Command {
     /// proved. The report goes to standard output, remarks and errors to standard error.
     #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
     Certify(Box<CertifyArgs>),
+    /// List what is wrong in the paper, with evidence
+    ///
+    /// With a specification, also says what each item means for it.
+    Errata(ErrataArgs),
     /// Write a completion script for a shell to standard output
     Completions {
         /// The shell
@@ -115,6 +119,18 @@ impl CertifyArgs {
             compare: !self.no_compare,
         }
     }
+}
+
+/// The flags of `errata`.
+#[derive(Args, Debug)]
+pub struct ErrataArgs {
+    /// Bounding specification (JSON) to look at each item from, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: Option<PathBuf>,
+
+    /// Format of the list
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
 }
 
 /// A derivation.

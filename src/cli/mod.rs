@@ -2,6 +2,7 @@
 
 mod args;
 mod certify;
+mod errata;
 mod failure;
 mod input;
 mod output;
@@ -25,6 +26,7 @@ pub fn run() -> ExitCode {
     };
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
+        Command::Errata(args) => errata::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),
     };

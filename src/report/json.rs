@@ -19,7 +19,8 @@ pub const FORMAT: &str = "sigmastar/report";
 /// Its version.
 pub const VERSION: u64 = 1;
 
-fn interval(value: &Enclosure) -> Value {
+/// Both ends, rounded outward.
+pub(super) fn interval(value: &Enclosure) -> Value {
     json!(value.decimals())
 }
 

@@ -8,6 +8,7 @@ pub mod blocks;
 mod conditions;
 mod consequences;
 mod constants;
+mod errata;
 mod exact_regulation;
 mod failures;
 mod json;
@@ -22,6 +23,7 @@ mod text;
 mod verdict;
 
 pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
+pub use errata::ErrataReport;
 pub use failures::{bounding_errors, failure_json};
 pub use json::{FORMAT, VERSION};
 pub use relative_degree::filter_errors;
@@ -61,8 +63,10 @@ impl<'r> Report<'r> {
     #[must_use]
     pub fn blocks(&self) -> Vec<Block> {
         let run = self.run;
-        let mut blocks = vec![Block::Title(format!("{}: {}", clean(&run.spec.name), run.verdict))];
-        blocks.extend(verdict::section(run));
+        let name = clean(&run.spec.name);
+        let name = if name.is_empty() { "(no name)" } else { &name };
+        let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict))];
+        blocks.extend(verdict::section(run, self.rechecked));
         if self.unanswered {
             blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
         }

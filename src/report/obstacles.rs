@@ -67,7 +67,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
 }
 
 /// The figures of what failed, and what to try.
-pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     let mut blocks = Vec::new();
     let unproved: Vec<String> =
         run.unproved_bounds.iter().map(|problem| format!("{}: {}", problem.field, problem.failure)).collect();
@@ -79,7 +79,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         blocks.push(Block::says("Conditions that are not proved:"));
         blocks.push(Block::List(conditions.iter().map(describe).collect()));
     }
-    let advice = advice(run);
+    let advice = advice(run, rechecked);
     if !advice.is_empty() {
         blocks.push(Block::says("What to try:"));
         blocks.push(Block::List(advice));
@@ -107,7 +107,7 @@ fn describe(condition: &Condition) -> String {
     )
 }
 
-fn advice(run: &Certification<'_>) -> Vec<String> {
+fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
     let mut items: Vec<String> = Vec::new();
     let mut add = |text: &str| items.push(text.to_owned());
     match chosen(run) {
@@ -123,6 +123,9 @@ fn advice(run: &Certification<'_>) -> Vec<String> {
         }
         Status::Failing(conditions) if conditions.iter().any(|condition| condition.truth().is_undecided()) => {
             add("raise --precision-limit");
+        }
+        Status::Failing(_) if !rechecked => {
+            add("other units of time, x and e, in which the data have ordinary magnitudes");
         }
         Status::Failing(_) => add("search again (without --witness): another witness may exist"),
         Status::NotFound(obstacle) => obstacle_advice(run, obstacle, &mut add),

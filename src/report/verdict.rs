@@ -30,7 +30,7 @@ pub fn sentence(run: &Certification<'_>) -> String {
 }
 
 /// The sentence, the derivation and the assumptions; without a certificate, what failed and what to try.
-pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     let mut blocks = vec![Block::says(sentence(run))];
     if run.verdict == Verdict::Certified {
         blocks.push(Block::says(
@@ -38,7 +38,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         ));
         blocks.push(Block::List(basis(run)));
     } else {
-        blocks.extend(obstacles::section(run));
+        blocks.extend(obstacles::section(run, rechecked));
     }
     blocks
 }

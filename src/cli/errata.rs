@@ -1,0 +1,26 @@
+//! `sigmastar errata`.
+
+use super::args::{ErrataArgs, Format};
+use super::failure::Failure;
+use super::{input, output};
+use sigmastar::report::ErrataReport;
+use sigmastar::spec::Specification;
+
+/// Runs the command and returns the exit code.
+pub fn run(args: &ErrataArgs) -> u8 {
+    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, false))
+}
+
+fn attempt(args: &ErrataArgs) -> Result<u8, Failure> {
+    let spec = match &args.spec {
+        Some(path) => Some(Specification::from_value(&input::document(path)?.root())?),
+        None => None,
+    };
+    let report = ErrataReport::new(spec.as_ref());
+    let text = match args.format {
+        Format::Text => report.text(),
+        Format::Markdown => report.markdown(),
+        Format::Json => output::json_text(&report.json()),
+    };
+    Ok(output::data(&text).map_or_else(|code| code, |()| 0))
+}

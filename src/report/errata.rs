@@ -1,0 +1,93 @@
+//! The list of errata as a report.
+
+use super::blocks::{Block, clean};
+use super::{json, markdown, text};
+use crate::errata::{Erratum, Side, errata};
+use crate::spec::Specification;
+use serde_json::{Value, json as object};
+
+/// The list of errata, with what each item means for a specification where one is given.
+pub struct ErrataReport {
+    name: Option<String>,
+    items: Vec<Erratum>,
+}
+
+impl ErrataReport {
+    /// Works the list out.
+    #[must_use]
+    pub fn new(spec: Option<&Specification>) -> ErrataReport {
+        ErrataReport { name: spec.map(|spec| clean(&spec.name)), items: errata(spec) }
+    }
+
+    fn blocks(&self) -> Vec<Block> {
+        let title = match &self.name {
+            Some(name) => format!("Errata of the paper, seen from {name}"),
+            None => "Errata of the paper".to_owned(),
+        };
+        let mut blocks = vec![
+            Block::Title(title),
+            Block::says(
+                "Class A makes the printed chain unsound or empty, B is sound but needlessly large, C has no effect. \
+                 Rigorous evidence was decided by this run; cited evidence was not.",
+            ),
+        ];
+        for item in &self.items {
+            blocks.push(Block::Heading(format!("{} [{}]", item.id, item.class)));
+            let mut lines = vec![
+                format!("place: {}", item.place),
+                format!("printed: {}", item.printed),
+                format!("instead: {}", item.instead),
+            ];
+            lines.extend(item.evidence.iter().map(|evidence| format!("evidence: {evidence}")));
+            lines.extend(item.for_data.iter().map(|for_data| format!("for this specification: {for_data}")));
+            blocks.push(Block::List(lines));
+        }
+        blocks
+    }
+
+    /// As plain text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        text::render(&self.blocks())
+    }
+
+    /// As GitHub-flavoured Markdown.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        markdown::render(&self.blocks())
+    }
+
+    /// As JSON: `{"format": "sigmastar/errata", "version": 1, "errata": [...]}`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let items: Vec<Value> = self.items.iter().map(item_json).collect();
+        object!({ "format": "sigmastar/errata", "version": 1, "specification": self.name, "errata": items })
+    }
+}
+
+fn item_json(item: &Erratum) -> Value {
+    let side = |side: &Side| json::interval(&side.enclosure());
+    let evidence: Vec<Value> = item
+        .evidence
+        .iter()
+        .map(|evidence| {
+            object!({
+                "kind": evidence.kind.to_string(), "statement": evidence.statement,
+                "lhs": side(&evidence.lhs), "relation": evidence.relation.to_string(), "rhs": side(&evidence.rhs),
+                "truth": evidence.truth.to_string(),
+            })
+        })
+        .collect();
+    let for_data = item.for_data.as_ref().map(|for_data| {
+        let figures: Vec<Value> = for_data
+            .figures
+            .iter()
+            .map(|figure| object!({ "name": figure.name, "value": side(&figure.value) }))
+            .collect();
+        object!({ "bearing": for_data.bearing.to_string(), "summary": for_data.summary, "figures": figures })
+    });
+    object!({
+        "id": item.id, "class": item.class.to_string(), "place": item.place, "printed": item.printed,
+        "instead": item.instead, "proved": item.is_proved(), "evidence": evidence, "for_data": for_data,
+    })
+}
