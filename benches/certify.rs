@@ -46,7 +46,8 @@ fn expressions(criterion: &mut Criterion) {
 
     let mut group = criterion.benchmark_group("4.822 + X + atan(E*(X + 0.189))");
     group.bench_function("double", |b| b.iter(|| float.eval(black_box(0.3), black_box(0.7))));
-    group.bench_function("enclosure at 128 bits", |b| b.iter(|| expr.enclose(black_box(&x_point), black_box(&e_point))));
+    group
+        .bench_function("enclosure at 128 bits", |b| b.iter(|| expr.enclose(black_box(&x_point), black_box(&e_point))));
     group.bench_function("enclosure with slopes", |b| {
         b.iter(|| expr.enclose_slopes(black_box(&x_point), black_box(&e_point)));
     });

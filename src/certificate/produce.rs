@@ -57,9 +57,15 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     } else {
         Outcome::Skipped
     };
-    if spec.domain.is_none() {
-        unproved = undecided_or_error(prove_up_to_arguments(spec, &sharp, &repaired))?;
-    }
+    let (sharp, repaired) = if spec.domain.is_none() {
+        let chosen = options.derivation;
+        let sharp = proved_up_to_arguments(spec, sharp, chosen == Derivation::Sharp, &mut unproved, sharp_arguments)?;
+        let repaired =
+            proved_up_to_arguments(spec, repaired, chosen == Derivation::Repaired, &mut unproved, repaired_arguments)?;
+        (sharp, repaired)
+    } else {
+        (sharp, repaired)
+    };
     let printed = printed_figure(&data, &paper_model);
     let exact = match (&sharp, spec.internal_model.matched) {
         (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
@@ -71,6 +77,8 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
 }
 
 /// Decides the witness of a certificate again, without any search.
+///
+/// The verdict is `Refuted` when a condition is proved not to hold for the witness (another witness may still do).
 ///
 /// # Errors
 /// Bounding functions that are *refuted* (bad input), with their counterexamples.
@@ -97,7 +105,13 @@ pub fn recheck<'s>(
         }
         _ => None,
     };
-    let unproved = undecided_or_error(prove_up_to_arguments(spec, &sharp, &repaired))?;
+    let mut unproved = undecided_or_error(if spec.domain.is_some() { prove_bounds(spec, None) } else { Ok(()) })?;
+    let (sharp, repaired) = if spec.domain.is_none() {
+        let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved, sharp_arguments)?;
+        (sharp, proved_up_to_arguments(spec, repaired, true, &mut unproved, repaired_arguments)?)
+    } else {
+        (sharp, repaired)
+    };
     let derivation = match file {
         WitnessFile::Sharp { .. } => Derivation::Sharp,
         WitnessFile::Repaired { .. } => Derivation::Repaired,
@@ -105,7 +119,12 @@ pub fn recheck<'s>(
     let printed = PrintedFigure { refutation: level_condition(&data).err(), evaluation: None, sigma: None };
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
     let parts = Parts { sharp, repaired, printed, exact, unproved, proposal: None };
-    Ok(assemble(spec, Options { derivation, ..options }, &data, parts, &model))
+    let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model);
+    // A given witness that breaks a condition is refuted; a search that ends with one has merely found nothing.
+    if run.verdict == Verdict::Undecided && run.conditions().iter().any(|condition| condition.truth().is_false()) {
+        run.verdict = Verdict::Refuted;
+    }
+    Ok(run)
 }
 
 /// What the stages of a run produced.
@@ -183,25 +202,38 @@ fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<Bo
     if refuted.is_empty() { Ok(undecided) } else { Err(refuted) }
 }
 
-/// Proves the bounding functions up to the largest arguments of the witnesses (or on the domain, where there is one).
-fn prove_up_to_arguments(
+/// Without a domain, the bounding functions are proved up to the arguments that a proof uses.
+///
+/// For the derivation the verdict is about, refuted ones are an error and undecided ones go to `unproved`; for the
+/// other, either takes its proof away.
+fn proved_up_to_arguments<P>(
     spec: &Specification,
-    sharp: &Outcome<SharpProof>,
-    repaired: &Outcome<RepairedProof>,
-) -> Result<(), Vec<BoundingProblem>> {
-    let mut arguments: Vec<(Rational, Rational)> = Vec::new();
-    if let Outcome::Proved(proof) | Outcome::NotProved { proof, .. } = sharp {
-        let (bounds, error_box) = (&proof.evaluation.bounds, &proof.evaluation.error_box);
-        let x = bounds.x_p.max(&error_box.x_b).upper_rational();
-        arguments.extend(x.zip(bounds.e_p.max(&error_box.e_b).upper_rational()));
+    outcome: Outcome<P>,
+    chosen: bool,
+    unproved: &mut Vec<BoundingProblem>,
+    arguments: impl Fn(&P) -> Option<(Rational, Rational)>,
+) -> Result<Outcome<P>, Vec<BoundingProblem>> {
+    let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &outcome else { return Ok(outcome) };
+    let Some((x, e)) = arguments(proof) else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
+    let result = prove_bounds(spec, Some((&x, &e)));
+    if chosen {
+        unproved.extend(undecided_or_error(result)?);
+        return Ok(outcome);
     }
-    if let Outcome::Proved(proof) | Outcome::NotProved { proof, .. } = repaired {
-        let point = &proof.evaluation.point;
-        arguments.extend(point.x_b.upper_rational().zip(point.e_b.upper_rational()));
-    }
-    let x = arguments.iter().map(|(x, _)| x).max();
-    let e = arguments.iter().map(|(_, e)| e).max();
-    prove_bounds(spec, x.zip(e))
+    Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Obstacle::Bounds) })
+}
+
+/// (max{X_p, X_b}, max{E_p, E_b}), rounded up.
+fn sharp_arguments(proof: &SharpProof) -> Option<(Rational, Rational)> {
+    let (bounds, error_box) = (&proof.evaluation.bounds, &proof.evaluation.error_box);
+    let x = bounds.x_p.max(&error_box.x_b).upper_rational();
+    x.zip(bounds.e_p.max(&error_box.e_b).upper_rational())
+}
+
+/// (X_b, E_b), rounded up; X <= X_b and E <= E_b.
+fn repaired_arguments(proof: &RepairedProof) -> Option<(Rational, Rational)> {
+    let point = &proof.evaluation.point;
+    point.x_b.upper_rational().zip(point.e_b.upper_rational())
 }
 
 fn failing(conditions: &[Condition]) -> Vec<Condition> {

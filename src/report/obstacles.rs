@@ -166,6 +166,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
             );
         }
         Obstacle::Coupling => add("a smaller initial set, or smaller q_x, f_e"),
+        Obstacle::Bounds => add("a `domain` on which the bounding functions are valid"),
     }
     if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper)) {
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));

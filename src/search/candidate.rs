@@ -35,6 +35,8 @@ pub enum Obstacle {
     Curvature,
     /// (h/mu) k_x^2 >= 4 w_x (alpha - gam).
     Coupling,
+    /// A proof was found, but the bounding functions are not proved up to its arguments.
+    Bounds,
 }
 
 impl Obstacle {
@@ -48,6 +50,7 @@ impl Obstacle {
             Obstacle::DomainE => "domain E: the error box around the initial set leaves it",
             Obstacle::Curvature => "C5: gam >= alpha, the nonlinearity over the error box takes all of the decay rate",
             Obstacle::Coupling => "C5: (h/mu) k_x^2 >= 4 w_x (alpha - gam)",
+            Obstacle::Bounds => "the bounding functions are not proved up to the arguments of the proof that was found",
         }
     }
 }

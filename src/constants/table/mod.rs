@@ -150,5 +150,7 @@ pub fn table(input: &TableInput<'_>) -> Vec<Row> {
     rows.extend(common::transfer_rows(data, &common));
     rows.extend(limits::size_rows(data, &common));
     rows.extend(own::own_rows(input));
+    // A derivation that found nothing leaves some rows without any entry.
+    rows.retain(|row| row.printed.is_some() || row.repaired.is_some() || row.sharp.is_some());
     rows
 }
