@@ -14,7 +14,7 @@ use crate::constants::data::Data;
 use crate::constants::printed::{PrintedEvaluation, level_condition};
 use crate::constants::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::constants::sharp::{SharpEvaluation, SharpWitness};
+use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::constants::table::{Row, TableInput, table};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
@@ -293,6 +293,7 @@ fn constants(
         (None, None) => None,
     };
     let Some((common, sharp_pair)) = common else { return Vec::new() };
+    let numbers = |set: &ClaimedSet| [set.x0.clone(), set.e0.clone(), set.z0.clone()];
     table(&TableInput {
         data,
         common,
@@ -302,6 +303,7 @@ fn constants(
             let w = &proof.witness;
             [w.h.clone(), w.w_x.clone(), w.d_x.clone(), w.d_e.clone()]
         }),
+        sets: [repaired.map(|proof| numbers(&proof.witness.set)), sharp.map(|proof| numbers(&proof.witness.set))],
         repaired: repaired.map(|proof| &proof.evaluation),
         printed: printed.evaluation.as_ref(),
         sigmas: [

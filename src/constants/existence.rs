@@ -156,3 +156,44 @@ pub fn x_per_gain(data: &Data<'_>, bounds: &PeriodicBounds) -> Enclosure {
     let k = gains::k_alpha_sharp(&data.c);
     &k / &data.alpha * &bounds.f_e / (1 - bounds.quadratic_share(data, &k))
 }
+
+/// The level below which the error gain (beta_s or beta) makes the contraction matrix a contraction:
+/// `(1 - A) / ((1 - A) b_qe + B b_qx)` (from 1 - tr + det > 0 with A < 1); `None` where every gain does.
+fn contraction_level(matrix_at_unit_gain: &ContractionMatrix) -> Option<Enclosure> {
+    let free = 1 - &matrix_at_unit_gain.xx;
+    let demand = &free * &matrix_at_unit_gain.ee + &matrix_at_unit_gain.xe * &matrix_at_unit_gain.ex;
+    (demand != Enclosure::zero(2)).then(|| free / demand)
+}
+
+/// sigma_p* of the sharp derivation: the infimum of the sigma with C2 and C3 at (X_p, E_p),
+/// `max{ min{beta_s^-1(E_p/qr), tau^-1(E_p/q1)}, beta_s^-1((1-A)/((1-A) b_qe + B b_qx)) }`.
+///
+/// Hypotheses: C1 and A < 1. Undefined where a level is not certainly positive.
+#[must_use]
+pub fn sigma_p_sharp(data: &Data<'_>, bounds: &PeriodicBounds) -> Enclosure {
+    let zero = Enclosure::zero(2);
+    let (qr, q1) = (&bounds.q_rms, &bounds.q_rate_rms);
+    let by_size = if *qr == zero { data.zero() } else { gains::beta_s_inverse(&(&bounds.e_p / qr), &data.period) };
+    let by_rate = if *q1 == zero { data.zero() } else { gains::tau_inverse(&(&bounds.e_p / q1), &data.period) };
+    let unit = bounds.contraction(data, &gains::k_alpha_sharp(&data.c), 1, &Enclosure::one(data.precision));
+    let by_contraction =
+        contraction_level(&unit).map_or_else(|| data.zero(), |level| gains::beta_s_inverse(&level, &data.period));
+    by_size.min(&by_rate).max(&by_contraction)
+}
+
+/// sigma_p* of the repaired derivation: the infimum of the sigma with `beta(sigma) b_q <= E` and a contraction.
+///
+/// Hypotheses: C1 with K_alpha and Y_xx < 1. Undefined where a level is not certainly positive.
+#[must_use]
+pub fn sigma_p_repaired(data: &Data<'_>, bounds: &PeriodicBounds) -> Enclosure {
+    let by_size = if bounds.q == Enclosure::zero(2) {
+        data.zero()
+    } else {
+        gains::beta_inverse(&(&bounds.e_p / &bounds.q), &data.period)
+    };
+    let k = gains::k_alpha(&data.c, &data.alpha, &data.period);
+    let unit = bounds.contraction(data, &k, 2, &Enclosure::one(data.precision));
+    let by_contraction =
+        contraction_level(&unit).map_or_else(|| data.zero(), |level| gains::beta_inverse(&level, &data.period));
+    by_size.max(&by_contraction)
+}

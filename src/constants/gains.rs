@@ -1,6 +1,6 @@
 //! The gains of linear periodic systems: K_alpha, K_{alpha,2}, beta, beta_s, tau, and their inverses in sigma.
 
-use crate::enclosure::Enclosure;
+use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 
 /// `K_alpha = c (e^{alpha T} - 1 + c) e^{-alpha T}` (P:app:Kalpha1), a pure number.
@@ -116,6 +116,33 @@ pub fn beta_inverse(level: &Enclosure, period: &Enclosure) -> Enclosure {
     beta_s_inverse(&(level / 2), period)
 }
 
+/// The smallest sigma with `tau(sigma) <= level`, enclosed; the inverse of [`tau`], and 0 where the level is at least
+/// its supremum T^2/sqrt(720).
+///
+/// Hypotheses: level, T > 0. Undefined when the level is not certainly positive, or cannot be told from the supremum.
+#[must_use]
+pub fn tau_inverse(level: &Enclosure, period: &Enclosure) -> Enclosure {
+    let p = level.precision().max(period.precision());
+    if !level.is_positive().is_true() {
+        return Enclosure::undefined(p);
+    }
+    // In units of the period: tau = T^2 t(y), y = sigma T, and t(y) <= 1/(sqrt(12) y).
+    let target = level / period.sqr();
+    let supremum = Enclosure::from_integer(720, p).sqrt().recip();
+    match target.lt(&supremum) {
+        Truth::False => Enclosure::zero(p),
+        Truth::Undecided => Enclosure::undefined(p),
+        Truth::True => {
+            let last = (Enclosure::from_integer(12, p).sqrt() * &target).recip();
+            // For y < 2 pi the series alternates: (t(y)/t(0))^2 >= 1 - y^2/42 (42 = 30240/720), and sqrt(1-z) >= 1-z,
+            // so the root has y^2 >= 42 (1 - target/t(0)), at most 6.5^2; half of that y is below every root, those
+            // beyond 2 pi included, and leaves room for rounding.
+            let first = ((1 - &target / supremum) * 42).max(&Enclosure::zero(p)).sqrt() / 2;
+            decreasing_root(&first, &last, |y| tau(y, &Enclosure::one(p)), &target) / period
+        }
+    }
+}
+
 /// Encloses the root of `f(u) = target` for a decreasing f on `[first, last]`, where f(first) >= target >= f(last),
 /// by bisection: a half is dropped only on a certain comparison.
 fn decreasing_root(
@@ -160,6 +187,12 @@ mod tests {
         Enclosure::from_rational(&Rational::from_f64(value).unwrap(), 128)
     }
 
+    fn relative_width(value: &Enclosure) -> f64 {
+        let ends = Enclosure::new(value.upper().clone(), value.upper().clone())
+            - Enclosure::new(value.lower().clone(), value.lower().clone());
+        (ends / value).upper_f64()
+    }
+
     fn close(value: &Enclosure, expected: f64, relative: f64) -> bool {
         (value.midpoint_f64() - expected).abs() <= relative * expected.abs()
     }
@@ -182,10 +215,11 @@ mod tests {
         assert!(close(&k_alpha(&number(1.0), &number(0.1), &number(3.0)), 1.0, 1e-30));
     }
 
-    /// tau^2 by its defining series with an integral bound on the remainder.
+    /// tau by its defining series; the terms left out are below 1e-12 of the sum.
     fn tau_direct(sigma: f64, period: f64) -> f64 {
         let om = |j: f64| 2.0 * std::f64::consts::PI * j / period;
-        let sum: f64 = (1..20_000).map(|j| 1.0 / (om(j.into()).powi(2) * (sigma * sigma + om(j.into()).powi(2)))).sum();
+        let sum: f64 =
+            (1..400_000_u32).map(|j| 1.0 / (om(j.into()).powi(2) * (sigma * sigma + om(j.into()).powi(2)))).sum();
         (2.0 * sum).sqrt()
     }
 
@@ -193,9 +227,9 @@ mod tests {
     fn tau_matches_its_series_for_all_sizes_of_sigma_t() {
         for sigma in [1e-12, 1e-6, 1e-3, 0.1, 0.9, 1.1, 10.0, 1e3] {
             let value = tau(&number(sigma), &number(1.5));
-            assert!(close(&value, tau_direct(sigma, 1.5), 1e-10), "sigma = {sigma}: {:?}", value.decimals());
-            let width = value.upper_f64() / value.lower_f64() - 1.0;
-            assert!(width < 1e-12, "sigma = {sigma}: relative width {width:e}");
+            assert!(close(&value, tau_direct(sigma, 1.5), 1e-11), "sigma = {sigma}: {:?}", value.decimals());
+            let width = relative_width(&value);
+            assert!(width < 1e-15, "sigma = {sigma}: relative width {width:e}");
         }
     }
 
@@ -212,9 +246,20 @@ mod tests {
             let (sigma, period) = (number(10f64.powf(exponent)), number(10f64.powf(period)));
             let back = beta_s_inverse(&beta_s(&sigma, &period), &period);
             prop_assert!(back.lower() <= sigma.lower() && back.upper() >= sigma.upper());
-            prop_assert!(back.upper_f64() / back.lower_f64() - 1.0 < 1e-25);
+            prop_assert!(relative_width(&back) < 1e-25);
             let doubled = beta_inverse(&beta(&sigma, &period), &period);
             prop_assert!(doubled.lower() <= sigma.lower() && doubled.upper() >= sigma.upper());
+        }
+
+        #[test]
+        fn tau_inverts(exponent in -2.0_f64..9.0, period in -6.0_f64..6.0) {
+            let period = number(10f64.powf(period));
+            let sigma = number(10f64.powf(exponent)) / &period;
+            let back = tau_inverse(&tau(&sigma, &period), &period);
+            prop_assert!(back.lower() <= sigma.lower() && back.upper() >= sigma.upper());
+            prop_assert!(relative_width(&back) < 1e-8);
+            let supremum = period.sqr() / Enclosure::from_integer(720, 128).sqrt();
+            prop_assert_eq!(tau_inverse(&(supremum * 2), &period), Enclosure::zero(128));
         }
 
         #[test]

@@ -1,9 +1,11 @@
 //! A relative degree above 1: from the filtered error to the regulated output.
 
 use super::blocks::Block;
+use super::consequences::full;
 use super::number::upper;
-use crate::certificate::Certification;
+use crate::certificate::{Certification, RelativeDegreeGains};
 use crate::constants::relative_degree::RelativeDegreeError;
+use crate::enclosure::Enclosure;
 use crate::spec::{ErrorKind, SpecErrors};
 use serde_json::{Value, json};
 
@@ -11,23 +13,47 @@ use serde_json::{Value, json};
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let Some(gains) = &run.relative_degree else { return Vec::new() };
     let body = match gains {
-        Ok(gains) => Block::List(vec![
-            format!("limsup|xi_1| <= k_inf limsup|e| with k_inf = {}", upper(&gains.k_inf)),
-            format!(
-                "in the steady state the integral of xi_1^2 over a period is at most k_2 times that of e^2 with k_2 = {}",
-                upper(&gains.k_2)
-            ),
-        ]),
+        Ok(gains) => {
+            let mut items = vec![
+                format!("limsup|xi_1| <= k_inf limsup|e| with k_inf = {}", upper(&gains.k_inf)),
+                format!(
+                    "in the steady state the integral of xi_1^2 over a period is at most k_2 times that of e^2 with \
+                     k_2 = {}",
+                    upper(&gains.k_2)
+                ),
+            ];
+            if let Some([sup, rms]) = steady_state(run, gains) {
+                items.push(format!(
+                    "so, for every n_o and every sigma from sigma* on, sup|xi_1| <= {} and rms(xi_1) <= {} along the \
+                     periodic solution; the bounds of e for a given n_o carry over by the factors k_inf and sqrt(k_2) = {}",
+                    upper(&sup),
+                    upper(&rms),
+                    upper(&gains.k_2.sqrt())
+                ));
+            }
+            Block::List(items)
+        }
         Err(error) => Block::says(format!("No bound of xi_1: {error}.")),
     };
     vec![Block::Heading("Relative degree (from e to xi_1)".to_owned()), body]
+}
+
+/// Upper bounds of sup|xi_1| and rms(xi_1) along the periodic solution, for every n_o: k_inf and sqrt(k_2) times the
+/// certified bound of sup|e|, which also bounds rms(e). `None` without a certified claim.
+fn steady_state(run: &Certification<'_>, gains: &RelativeDegreeGains) -> Option<[Enclosure; 2]> {
+    let [_, e, _, _] = run.periodic_solution()?;
+    Some([&gains.k_inf * &e, gains.k_2.sqrt() * e])
 }
 
 /// The gains for JSON.
 pub(super) fn gains_json(run: &Certification<'_>) -> Value {
     match &run.relative_degree {
         None => Value::Null,
-        Some(Ok(gains)) => json!({ "k_inf": gains.k_inf.decimals(), "k_2": gains.k_2.decimals() }),
+        Some(Ok(gains)) => {
+            let bounds = steady_state(run, gains).map(|bounds| bounds.map(|bound| full(&bound)));
+            let [sup, rms] = bounds.map_or([None, None], |[sup, rms]| [Some(sup), Some(rms)]);
+            json!({ "k_inf": gains.k_inf.decimals(), "k_2": gains.k_2.decimals(), "sup_xi_1": sup, "rms_xi_1": rms })
+        }
         Some(Err(error)) => json!({ "reason": error.to_string() }),
     }
 }

@@ -107,6 +107,8 @@ pub struct TableInput<'a> {
     pub sharp: Option<&'a SharpEvaluation>,
     /// h, w_x, D_x, D_e of the sharp witness.
     pub sharp_free: Option<[Rational; 4]>,
+    /// X_0, E_0, Z_0 claimed by the repaired and the sharp derivation.
+    pub sets: [Option<[Rational; 3]>; 2],
     /// The repaired evaluation, when there is one.
     pub repaired: Option<&'a RepairedEvaluation>,
     /// The printed evaluation at its own free numbers, when some were found.

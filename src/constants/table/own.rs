@@ -1,10 +1,12 @@
 //! The rows in which each derivation is evaluated at the free numbers that suit it best.
 
 use super::{At, Row, Status, TableInput, infeasible, number, printed, row, sound};
+use crate::constants::existence::{sigma_p_repaired, sigma_p_sharp};
 use crate::constants::printed::{Infeasible, PrintedEvaluation, level_condition, level_condition_infinite};
 use crate::constants::repaired::{LyapunovMatrix, RepairedEvaluation};
 use crate::constants::sharp::SharpEvaluation;
 use crate::enclosure::Enclosure;
+use rug::Rational;
 
 /// The rows in which each derivation has its own free numbers.
 pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
@@ -94,7 +96,13 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         Ok(value) => number(value.clone(), Status::PrintedUnsound, source),
         Err(reason) => infeasible(reason, source),
     };
-    rows.push(row("sigma_p*", At::Own, input.printed.and_then(|p| result(&p.sigma_p, "P:19")), None, None));
+    rows.push(row(
+        "sigma_p*",
+        At::Own,
+        input.printed.and_then(|p| result(&p.sigma_p, "P:19")),
+        repaired_value(&|r| sigma_p_repaired(data, &r.bounds), "section 4, C2 and C3 with beta, K_alpha"),
+        sharp_value(&|s| sigma_p_sharp(data, &s.bounds), "section 4, C2 and C3"),
+    ));
     rows.push(row(
         "sigma_a*",
         At::Own,
@@ -102,6 +110,13 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         repaired_value(&|r| r.lyapunov.sigma_a.clone(), "section 5"),
         sharp_value(&|s| s.decay.sigma_threshold.clone(), "section 5, C5"),
     ));
+    for (index, name) in ["X0", "E0", "Z0"].into_iter().enumerate() {
+        let claimed = |set: &Option<[Rational; 3]>| {
+            set.as_ref().and_then(|set| sound(data.rational(&set[index]), "section 5, the set that is covered"))
+        };
+        rows.push(row(name, At::Own, None, claimed(&input.sets[0]), claimed(&input.sets[1])));
+    }
+    rows.push(row("zeta_a", At::Own, paper_value(&|p| p.zeta_a.clone(), "P:eq:boundzeta_item1"), None, None));
     let [figure, repaired, sharp] = input.sigmas.clone();
     let printed_sigma = from_level("P:thm1");
     rows.push(row(
