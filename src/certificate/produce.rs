@@ -3,7 +3,7 @@
 use super::bounding::{BoundingProblem, prove_bounds};
 use super::decide::{decide_exact, decide_repaired, decide_sharp};
 use super::read::WitnessFile;
-use super::round::{exact_claim, round_repaired, round_sharp};
+use super::round::{TransferKind, exact_claim, round_repaired, round_sharp};
 use super::run::{
     Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RelativeDegreeGains, RepairedProof,
     SharpProof, TransferChoice,
@@ -37,18 +37,38 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     let data = Data::new(spec, options.ladder.start.max(53));
     let mut unproved = if spec.domain.is_some() { undecided_or_error(prove_bounds(spec, None))? } else { Vec::new() };
 
-    let matched = spec.internal_model.matched && options.transfer == TransferChoice::Best;
-    let trade_off = if matched { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
-    let sharp_model = FloatModel::new(&data, trade_off);
-    let paper_model = FloatModel::new(&data, TradeOff::closed_form(&data));
-
-    let wanted = |derivation| options.compare || options.derivation == derivation;
-    let proposal = if wanted(Derivation::Sharp) { Some(search_sharp(&sharp_model)) } else { None };
-    let sharp = match &proposal {
-        None => Outcome::Skipped,
-        Some(Err(obstacle)) => Outcome::NotFound(*obstacle),
-        Some(Ok(proposal)) => sharp_outcome(round_sharp(&data, &sharp_model, proposal, matched, options.ladder)),
+    let kind = match options.transfer {
+        TransferChoice::Best if spec.internal_model.matched => TransferKind::Matched,
+        TransferChoice::Best | TransferChoice::Boxes => TransferKind::Boxes,
+        TransferChoice::ClosedForm => TransferKind::ClosedForm,
     };
+    let model_for = |kind| {
+        let trade_off = match kind {
+            TransferKind::Matched => TradeOff::matched(&data),
+            TransferKind::Boxes => TradeOff::curve(&data),
+            TransferKind::ClosedForm => TradeOff::closed_form(&data),
+        };
+        FloatModel::new(&data, trade_off)
+    };
+    let search = |kind| {
+        let model = model_for(kind);
+        let proposal = search_sharp(&model);
+        let outcome = match &proposal {
+            Err(obstacle) => Outcome::NotFound(*obstacle),
+            Ok(proposal) => sharp_outcome(round_sharp(&data, &model, proposal, kind, options.ladder)),
+        };
+        (model, proposal.ok(), outcome)
+    };
+    let wanted = |derivation| options.compare || options.derivation == derivation;
+    let (sharp_model, proposal, sharp) = if wanted(Derivation::Sharp) {
+        let first = search(kind);
+        // Where no proof by boxes is found within its effort, the closed form still proves something.
+        let fall_back = kind == TransferKind::Boxes && first.2.proved().is_none();
+        if fall_back { search(TransferKind::ClosedForm) } else { first }
+    } else {
+        (model_for(TransferKind::ClosedForm), None, Outcome::Skipped)
+    };
+    let paper_model = FloatModel::new(&data, TradeOff::closed_form(&data));
     let repaired = if wanted(Derivation::Repaired) {
         match search_repaired(&paper_model) {
             Err(obstacle) => Outcome::NotFound(obstacle),
@@ -72,7 +92,6 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
             .map(|(witness, evaluation, _)| ExactClaim { witness, evaluation }),
         _ => None,
     };
-    let proposal = proposal.and_then(Result::ok);
     Ok(assemble(spec, options, &data, Parts { sharp, repaired, printed, exact, unproved, proposal }, &sharp_model))
 }
 

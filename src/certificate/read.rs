@@ -5,7 +5,7 @@ use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::repaired::RepairedWitness;
 use crate::constants::sharp::{ClaimedSet, SharpWitness};
 use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
-use crate::transfer::TransferProof;
+use crate::transfer::{BoxProof, TransferProof};
 use rug::Rational;
 
 /// A witness as read from a certificate.
@@ -89,12 +89,16 @@ fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported>
 /// A field that holds an exact rational number.
 fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Rational, Reported> {
     let value = object.required(name, errors)?;
-    let constant = any_constant(&value, errors)?;
+    exact_rational(&value, &format!("`{name}`"), errors)
+}
+
+/// A value that is an exact rational number.
+fn exact_rational(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Rational, Reported> {
+    let constant = any_constant(value, errors)?;
     constant.as_rational().cloned().ok_or_else(|| {
-        let message = format!("`{name}` is not a rational number");
-        errors.report(
-            value.error(ErrorKind::Range, message).expected("expected an exact rational, as \"487/10\" or \"48.7\""),
-        )
+        let message = format!("{what} is not a rational number");
+        let expected = "expected an exact rational, as \"487/10\" or \"48.7\"";
+        errors.report(value.error(ErrorKind::Range, message).expected(expected))
     })
 }
 
@@ -103,23 +107,43 @@ fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<Transfe
     let mut transfer = value.object(errors)?;
     let proof = transfer.required("proof", errors).and_then(|value| match value.string(errors)? {
         "closed-form" => Ok(TransferProof::ClosedForm),
-        "matched" => {
-            let first = transfer.required("K", errors)?;
-            let k = first.integer(errors)?;
-            let k = u32::try_from(k).map_err(|_| {
-                errors
-                    .report(first.error(ErrorKind::Range, "`K` is too large").expected("expected a small whole number"))
-            })?;
-            Ok(TransferProof::Matched { k })
+        "matched" => Ok(TransferProof::Matched { k: small_integer(&mut transfer, "K", errors)? }),
+        "boxes" => {
+            let (m0, n0) = (small_integer(&mut transfer, "m0", errors), small_integer(&mut transfer, "N0", errors));
+            let breaks = transfer.required("boxes", errors).and_then(|value| read_breaks(&value, errors));
+            Ok(TransferProof::Boxes(BoxProof { m0: m0?, n0: n0?, breaks: breaks? }))
         }
         other => {
             let message = format!("no transfer proof `{other}` is read");
-            Err(errors
-                .report(value.error(ErrorKind::UnknownName, message).expected("expected `closed-form` or `matched`")))
+            let expected = "expected `closed-form`, `matched` or `boxes`";
+            Err(errors.report(value.error(ErrorKind::UnknownName, message).expected(expected)))
         }
     });
     transfer.finish(errors);
     proof
+}
+
+/// A field that holds a whole number below 2^32.
+fn small_integer(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<u32, Reported> {
+    let value = object.required(name, errors)?;
+    let number = value.integer(errors)?;
+    u32::try_from(number).map_err(|_| {
+        let message = format!("`{name}` is too large");
+        errors.report(value.error(ErrorKind::Range, message).expected("expected a small whole number"))
+    })
+}
+
+/// The break points of a proof by boxes: lists of exact rationals.
+fn read_breaks(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
+    let mut lists = Vec::new();
+    for list in value.array(errors)? {
+        let mut breaks = Vec::new();
+        for point in list.array(errors)? {
+            breaks.push(exact_rational(&point, "a break point", errors)?);
+        }
+        lists.push(breaks);
+    }
+    Ok(lists)
 }
 
 fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {

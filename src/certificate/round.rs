@@ -15,7 +15,7 @@ use crate::search::{
     FloatModel, RepairedProposal, SharpParameters, SharpProposal, at_sigma, largest_e, largest_e_repaired, search_exact,
 };
 use crate::spec::model::InitialSet;
-use crate::transfer::{TransferProof, closed_form_pair};
+use crate::transfer::{BoxProof, TransferProof, closed_form_pair};
 use rug::Rational;
 
 /// Significant digits of sigma*.
@@ -70,14 +70,37 @@ fn claimed_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -
     })
 }
 
+/// Which proof of the transfer bound the sharp derivation uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TransferKind {
+    ClosedForm,
+    Matched,
+    Boxes,
+}
+
 /// The transfer constants proposed by the trade-off, rounded up, with their proof.
-fn transfer_pair(data: &Data<'_>, pair: (f64, f64, u32), matched: bool) -> Option<(Rational, Rational, TransferProof)> {
-    if matched {
-        let up = |value: f64| round_f64(value * (1.0 + 1e-12), SHORT_DIGITS, Direction::Up);
-        return Some((up(pair.0)?, up(pair.1)?, TransferProof::Matched { k: pair.2 }));
+fn transfer_pair(
+    data: &Data<'_>,
+    pair: (f64, f64, u32),
+    kind: TransferKind,
+) -> Option<(Rational, Rational, TransferProof)> {
+    let up = |value: f64| round_f64(value * (1.0 + 1e-12), SHORT_DIGITS, Direction::Up);
+    match kind {
+        TransferKind::ClosedForm => {
+            let (k0, k1) = closed_form_pair(data);
+            Some((upper(&k0, SHORT_DIGITS)?, upper(&k1, SHORT_DIGITS)?, TransferProof::ClosedForm))
+        }
+        TransferKind::Matched => Some((up(pair.0)?, up(pair.1)?, TransferProof::Matched { k: pair.2 })),
+        TransferKind::Boxes => {
+            let k0 = up(pair.0)?;
+            // The sampled curve may be a little low: take the first k1 that can be proved.
+            [1.0, 1.005, 1.03, 1.2].into_iter().find_map(|factor| {
+                let k1 = up(pair.1 * factor)?;
+                let proof = BoxProof::find(data, &k0, &k1)?;
+                Some((k0.clone(), k1, TransferProof::Boxes(proof)))
+            })
+        }
     }
-    let (k0, k1) = closed_form_pair(data);
-    Some((upper(&k0, SHORT_DIGITS)?, upper(&k1, SHORT_DIGITS)?, TransferProof::ClosedForm))
 }
 
 /// Rounds a sharp proposal and decides it; the first attempt that is proved, or the last one.
@@ -85,12 +108,12 @@ pub(super) fn round_sharp(
     data: &Data<'_>,
     model: &FloatModel,
     proposal: &SharpProposal,
-    matched: bool,
+    kind: TransferKind,
     ladder: Ladder,
 ) -> Option<(SharpWitness, SharpEvaluation, u32)> {
     let mut last = None;
     for slack in SLACKS {
-        let Some(witness) = sharp_witness(data, model, proposal, matched, slack) else { continue };
+        let Some(witness) = sharp_witness(data, model, proposal, kind, slack) else { continue };
         let (evaluation, precision) = decide_sharp(data.spec, &witness, ladder);
         let proved = evaluation.truth().is_true();
         last = Some((witness, evaluation, precision));
@@ -105,7 +128,7 @@ fn sharp_witness(
     data: &Data<'_>,
     model: &FloatModel,
     proposal: &SharpProposal,
-    matched: bool,
+    kind: TransferKind,
     slack: f64,
 ) -> Option<SharpWitness> {
     let sigma = rounded_sigma(proposal.sigma, slack)?;
@@ -113,7 +136,7 @@ fn sharp_witness(
     let e_p = rounded_e(proposal.parameters.e_p, largest_e(model, x_p.to_f64())?)?;
     let parameters = SharpParameters { x_p: x_p.to_f64(), e_p: e_p.to_f64(), ..proposal.parameters };
     let (existence, at) = at_sigma(model, &parameters, sigma.to_f64()).ok()?;
-    let (k0, k1, transfer) = transfer_pair(data, existence.pair, matched)?;
+    let (k0, k1, transfer) = transfer_pair(data, existence.pair, kind)?;
 
     let bounds = PeriodicBounds::new(data, data.rational(&x_p), data.rational(&e_p));
     let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));
@@ -196,7 +219,7 @@ fn repaired_witness(
 ) -> Option<RepairedWitness> {
     let x = nearest(proposal.x, SHORT_DIGITS)?;
     let e = rounded_e(proposal.e, largest_e_repaired(model, x.to_f64())?)?;
-    let (k0, k1, transfer) = transfer_pair(data, (0.0, 0.0, 0), false)?;
+    let (k0, k1, transfer) = transfer_pair(data, (0.0, 0.0, 0), TransferKind::ClosedForm)?;
     let bounds = PeriodicBounds::new(data, data.rational(&x), data.rational(&e));
     let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));
     let z = bounds.z_squared_printed(data, &kappa_0, &kappa_1).sqrt();

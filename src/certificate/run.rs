@@ -43,9 +43,11 @@ impl Derivation {
 /// Which constants of the transfer bound the sharp derivation uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum TransferChoice {
-    /// Matched where the specification says so, the closed form otherwise.
+    /// Matched where the specification says so, boxes otherwise.
     #[default]
     Best,
+    /// A proof by boxes, valid for every base frequency.
+    Boxes,
     /// The closed form of derivation section 2, valid for every base frequency.
     ClosedForm,
 }

@@ -123,10 +123,19 @@ fn set_json(asked: &InitialSet, set: &ClaimedSet) -> Value {
     object([("kind", text(kind)), ("X0", exact(&set.x0)), ("E0", exact(&set.e0)), ("Z0", exact(&set.z0))])
 }
 
-fn transfer_json(proof: TransferProof) -> Value {
+fn transfer_json(proof: &TransferProof) -> Value {
     match proof {
         TransferProof::ClosedForm => object([("proof", text(proof.name()))]),
-        TransferProof::Matched { k } => object([("proof", text(proof.name())), ("K", Value::from(k))]),
+        TransferProof::Matched { k } => object([("proof", text(proof.name())), ("K", Value::from(*k))]),
+        TransferProof::Boxes(boxes) => {
+            let list = |breaks: &Vec<Rational>| Value::Array(breaks.iter().map(exact).collect());
+            object([
+                ("proof", text(proof.name())),
+                ("m0", Value::from(boxes.m0)),
+                ("N0", Value::from(boxes.n0)),
+                ("boxes", Value::Array(boxes.breaks.iter().map(list).collect())),
+            ])
+        }
     }
 }
 
@@ -145,7 +154,7 @@ fn sharp_json(witness: &SharpWitness, regulation: Option<&ExactWitness>) -> Valu
         ("k1", &witness.k1),
     ];
     fields.extend(numbers.map(|(name, value)| (name.to_owned(), exact(value))));
-    fields.insert("transfer".to_owned(), transfer_json(witness.transfer));
+    fields.insert("transfer".to_owned(), transfer_json(&witness.transfer));
     if let Some(regulation) = regulation {
         let part = object([
             ("sigma_star_oo", exact(&regulation.sigma)),
@@ -169,7 +178,7 @@ fn repaired_json(witness: &RepairedWitness) -> Value {
         ("p_e", exact(&witness.p_e)),
         ("k0", exact(&witness.k0)),
         ("k1", exact(&witness.k1)),
-        ("transfer", transfer_json(witness.transfer)),
+        ("transfer", transfer_json(&witness.transfer)),
     ])
 }
 

@@ -113,6 +113,7 @@ impl CertifyArgs {
             },
             transfer: match self.transfer {
                 TransferArg::Best => TransferChoice::Best,
+                TransferArg::Boxes => TransferChoice::Boxes,
                 TransferArg::ClosedForm => TransferChoice::ClosedForm,
             },
             ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
@@ -147,9 +148,11 @@ pub enum DerivationArg {
 /// A choice of transfer constants.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum TransferArg {
-    /// Those of a matched base frequency where the specification asserts it, else the closed form
+    /// Those of a matched base frequency where the specification asserts it, else boxes
     Best,
-    /// The closed form, valid for every base frequency
+    /// Proved by boxes, valid for every base frequency
+    Boxes,
+    /// The closed form, valid for every base frequency, larger
     ClosedForm,
 }
 

@@ -100,7 +100,7 @@ impl SharpEvaluation {
         let mut conditions = positivity(witness, data);
         conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
         conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
-        let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, witness.transfer);
+        let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer);
         conditions.push(Condition::at_most(
             "T",
             format!("transfer bound, {}: {}", witness.transfer.name(), step.what),

@@ -63,17 +63,17 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         .to_owned(),
     );
     let proof = match run.options.derivation {
-        Derivation::Sharp => run.sharp.proved().map(|proof| proof.witness.transfer),
-        Derivation::Repaired => run.repaired.proved().map(|proof| proof.witness.transfer),
+        Derivation::Sharp => run.sharp.proved().map(|proof| &proof.witness.transfer),
+        Derivation::Repaired => run.repaired.proved().map(|proof| &proof.witness.transfer),
         Derivation::Printed => None,
     };
     items.extend(proof.map(|proof| {
         match proof {
             TransferProof::Matched { .. } => {
-                "Used: the base frequency is exactly 2 pi / period (proved of the numbers given). `--transfer closed-form` \
-                 does without."
+                "Used: the base frequency is exactly 2 pi / period (proved of the numbers given). `--transfer boxes` does \
+                 without."
             }
-            TransferProof::ClosedForm => "Not used: that the base frequency fits the period.",
+            TransferProof::ClosedForm | TransferProof::Boxes(_) => "Not used: that the base frequency fits the period.",
         }
         .to_owned()
     }));

@@ -4,10 +4,14 @@
 //! T_N = g_N' / (1 + nu^2 g_N^2), nu = mu/w. A pair (k0, k1) is *admissible* when T_N(x) <= k0 + k1 x^2 for every N
 //! and every x that occurs: every x >= 0, or only the integers when the base frequency is exactly 2 pi / T.
 
+mod boxes;
 mod closed_form;
+mod curve;
+mod lorentz;
 mod matched;
 mod printed;
 
+pub use boxes::{BoxProof, MAX_BOXES, MAX_N0};
 pub use closed_form::closed_form_pair;
 pub use matched::{MatchedProof, TradeOff};
 pub use printed::{PrintedTransfer, lambda_interval, printed_transfer};
@@ -17,7 +21,7 @@ use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 
 /// How a pair (k0, k1) is proved admissible.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TransferProof {
     /// It dominates the closed-form constants of derivation section 2; valid for every x >= 0.
     ClosedForm,
@@ -26,15 +30,18 @@ pub enum TransferProof {
         /// The first harmonic covered by the tail inequality.
         k: u32,
     },
+    /// Boxes over x in [0, m0 - 1/2] and a scalar test beyond; valid for every x >= 0.
+    Boxes(BoxProof),
 }
 
 impl TransferProof {
     /// The name in certificates.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self {
             TransferProof::ClosedForm => "closed-form",
             TransferProof::Matched { .. } => "matched",
+            TransferProof::Boxes(_) => "boxes",
         }
     }
 }
@@ -51,27 +58,33 @@ pub struct TransferStep {
 }
 
 /// Decides whether (k0, k1) is admissible by the given proof; with it, the comparison that decides (the first that
-/// is not proved, or the last).
+/// is not proved, or the tightest).
 ///
-/// Guarantee: `True` means T_N(x) <= k0 + k1 x^2 for every N >= 0, at every x >= 0 (`ClosedForm`) or every integer
+/// Guarantee: `True` means T_N(x) <= k0 + k1 x^2 for every N >= 0, at every x >= 0 (`ClosedForm`, `Boxes`) or every integer
 /// x >= 0 (`Matched`). `False` means that this proof refutes itself, not that the pair is inadmissible.
 #[must_use]
-pub fn decide(data: &Data<'_>, k0: &Rational, k1: &Rational, proof: TransferProof) -> (Truth, TransferStep) {
+pub fn decide(data: &Data<'_>, k0: &Rational, k1: &Rational, proof: &TransferProof) -> (Truth, TransferStep) {
     match proof {
         TransferProof::ClosedForm => closed_form::decide(data, k0, k1),
-        TransferProof::Matched { k } => MatchedProof { first_of_tail: k }.decide(data, k0, k1),
+        TransferProof::Matched { k } => MatchedProof { first_of_tail: *k }.decide(data, k0, k1),
+        TransferProof::Boxes(proof) => proof.decide(data, k0, k1),
     }
 }
 
-/// Decides a list of comparisons in order: the truth of their conjunction, and the step that decides it.
+/// Decides a list of comparisons: the truth of their conjunction, with the first one that is not proved or, if all are,
+/// the one with the smallest relative margin (which is only shown).
 fn decide_steps(steps: impl IntoIterator<Item = TransferStep>, otherwise: TransferStep) -> (Truth, TransferStep) {
-    let mut last = otherwise;
+    let relative_margin = |step: &TransferStep| (&step.rhs - &step.lhs).midpoint_f64() / step.rhs.midpoint_f64().abs();
+    let mut tightest = (relative_margin(&otherwise), otherwise);
     for step in steps {
         let truth = step.lhs.le(&step.rhs);
         if !truth.is_true() {
             return (truth, step);
         }
-        last = step;
+        let margin = relative_margin(&step);
+        if margin < tightest.0 {
+            tightest = (margin, step);
+        }
     }
-    (Truth::True, last)
+    (Truth::True, tightest.1)
 }

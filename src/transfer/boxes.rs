@@ -1,0 +1,274 @@
+//! A proof by boxes of T_N(x) <= k0 + k1 x^2 for every N and every x >= 0 (derivation, section 2, "certified").
+
+use super::lorentz::{LorentzSums, Oscillators, weight_tail};
+use super::{TransferStep, decide_steps};
+use crate::constants::data::Data;
+use crate::enclosure::{Enclosure, Truth};
+use rug::Rational;
+use std::cmp::Ordering;
+
+/// The largest N0 that is tried or accepted.
+pub const MAX_N0: u32 = 256;
+/// The largest m0 that is tried.
+pub const MAX_M0: u32 = 64;
+/// The most boxes that a proof may have.
+pub const MAX_BOXES: usize = 20_000;
+/// Bisections of a box before a proof is given up.
+const MAX_DEPTH: u32 = 64;
+
+/// The proof as data: the region [0, m0 - 1/2] is covered by consecutive boxes for each N = 1, ..., N0 - 1 and for all
+/// N >= N0 together, and one scalar test settles x >= m0 - 1/2.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BoxProof {
+    /// m0 >= 1.
+    pub m0: u32,
+    /// N0 >= m0.
+    pub n0: u32,
+    /// N0 lists of increasing break points from 0 to m0 - 1/2: for N = 1, ..., N0 - 1, then for N >= N0.
+    pub breaks: Vec<Vec<Rational>>,
+}
+
+/// m0 - 1/2.
+fn edge(m0: u32) -> Rational {
+    Rational::from((2 * i64::from(m0) - 1, 2))
+}
+
+/// Which oscillators the list with this index is about.
+fn group(data: &Data<'_>, n0: u32, index: usize) -> Oscillators {
+    if index + 1 == n0 as usize {
+        Oscillators::AtLeast { first: n0, tail: weight_tail(data, n0) }
+    } else {
+        Oscillators::Exactly(index as u32 + 1)
+    }
+}
+
+/// The two sides on one box: the supremum of T over it, and k0 + k1 a^2 at its left end a.
+fn sides(
+    data: &Data<'_>,
+    sums: &LorentzSums,
+    oscillators: &Oscillators,
+    [a, b]: [&Rational; 2],
+    pair: [&Enclosure; 2],
+) -> (Enclosure, Enclosure) {
+    // The nearest integer of the middle; the box must not reach beyond its half-integers.
+    let middle = Rational::from(a + b) / 2u32;
+    let nearest = Rational::from(&middle + Rational::from((1, 2))).floor();
+    let half = Rational::from((1, 2));
+    let fits = Rational::from(&nearest - &half) <= *a && *b <= Rational::from(&nearest + &half);
+    let value = match (fits, nearest.numer().to_u32()) {
+        (true, Some(nearest)) => sums.enclose(&Enclosure::between(a, b, data.precision), nearest, oscillators),
+        _ => Enclosure::undefined(data.precision),
+    };
+    (value.ceiling(), pair[0] + pair[1] * data.rational(a).sqr())
+}
+
+impl BoxProof {
+    /// The number of boxes.
+    #[must_use]
+    pub fn boxes(&self) -> usize {
+        self.breaks.iter().map(|breaks| breaks.len().saturating_sub(1)).sum()
+    }
+
+    /// Decides the proof: coverage without gaps, every box, the scalar test, and k0 >= T_N(0).
+    ///
+    /// Hypotheses: W1-W3. Guarantee: `True` means T_N(x) <= k0 + k1 x^2 for every N >= 0 and every x >= 0.
+    #[must_use]
+    pub fn decide(&self, data: &Data<'_>, k0: &Rational, k1: &Rational) -> (Truth, TransferStep) {
+        let zero = data.zero();
+        let refuse = |what: &str| {
+            let step = TransferStep { what: what.to_owned(), lhs: Enclosure::one(data.precision), rhs: zero.clone() };
+            (Truth::False, step)
+        };
+        if !(1..=self.n0).contains(&self.m0) || self.n0 > MAX_N0 || self.boxes() > MAX_BOXES || *k1 <= 0 {
+            return refuse("a proof by boxes needs 1 <= m0 <= N0, k1 > 0, and bounded numbers of poles and boxes");
+        }
+        let covered = |breaks: &Vec<Rational>| {
+            breaks.first().is_some_and(|first| first.cmp0() == Ordering::Equal)
+                && breaks.last() == Some(&edge(self.m0))
+                && breaks.windows(2).all(|pair| pair[0] < pair[1])
+        };
+        if self.breaks.len() != self.n0 as usize || !self.breaks.iter().all(covered) {
+            return refuse("the boxes must cover [0, m0 - 1/2] in order, once for each N < N0 and once for N >= N0");
+        }
+        let sums = LorentzSums::new(data, self.n0);
+        let (k0, k1) = (data.rational(k0), data.rational(k1));
+        let at_zero = TransferStep {
+            what: "T_N(0) = 1/(nu^2 n_0) <= k0".to_owned(),
+            lhs: (data.nu.sqr() * &data.n_0).recip(),
+            rhs: k0.clone(),
+        };
+        let boxes = self.breaks.iter().enumerate().flat_map(|(index, breaks)| {
+            let oscillators = group(data, self.n0, index);
+            let (sums, k0, k1) = (&sums, &k0, &k1);
+            breaks.windows(2).map(move |pair| {
+                let (lhs, rhs) = sides(data, sums, &oscillators, [&pair[0], &pair[1]], [k0, k1]);
+                let relation = if index + 1 == self.n0 as usize { "N >=" } else { "N =" };
+                let what = format!("box [{}, {}], {relation} {}", pair[0], pair[1], index + 1);
+                TransferStep { what, lhs, rhs }
+            })
+        });
+        let scalar = scalar_test(data, &k0, &k1, self.m0);
+        decide_steps(std::iter::once(at_zero.clone()).chain(scalar).chain(boxes), at_zero)
+    }
+
+    /// Finds a proof for a pair, or `None` within the stated effort. The result is decided afresh by
+    /// [`BoxProof::decide`]; nothing rests on how it was found.
+    #[must_use]
+    pub fn find(data: &Data<'_>, k0: &Rational, k1: &Rational) -> Option<BoxProof> {
+        let (k0, k1) = (data.rational(k0), data.rational(k1));
+        let holds = |m0: &u32| scalar_test(data, &k0, &k1, *m0).iter().all(|step| step.lhs.le(&step.rhs).is_true());
+        let m0 = (1..=MAX_M0).find(holds)?;
+        // The interval of the tail sums must be narrow enough for all N >= N0 at once.
+        [m0.max(4), m0.max(4) + 4, m0 + 12, m0 + 28, m0 + 60, m0 + 124]
+            .into_iter()
+            .filter(|n0| *n0 <= MAX_N0)
+            .find_map(|n0| BoxProof::cover(data, [&k0, &k1], m0, n0))
+    }
+
+    /// Covers the region for every group of oscillators by bisection, the hardest group first.
+    fn cover(data: &Data<'_>, pair: [&Enclosure; 2], m0: u32, n0: u32) -> Option<BoxProof> {
+        let sums = LorentzSums::new(data, n0);
+        let mut breaks = Vec::with_capacity(n0 as usize);
+        for index in (0..n0 as usize).rev() {
+            let oscillators = group(data, n0, index);
+            let mut points = vec![Rational::new()];
+            // Half-integers are always break points: the nearest pole changes there.
+            for segment in 0..m0 {
+                let left = if segment == 0 { Rational::new() } else { edge(segment) };
+                let mut stack = vec![(left, edge(segment + 1), 0)];
+                while let Some((a, b, depth)) = stack.pop() {
+                    let (lhs, rhs) = sides(data, &sums, &oscillators, [&a, &b], pair);
+                    if lhs.le(&rhs).is_true() {
+                        points.push(b);
+                    } else if depth == MAX_DEPTH || points.len() + stack.len() > MAX_BOXES / n0 as usize {
+                        return None;
+                    } else {
+                        let middle = Rational::from(&a + &b) / 2u32;
+                        stack.push((middle.clone(), b, depth + 1));
+                        stack.push((a, middle, depth + 1));
+                    }
+                }
+            }
+            breaks.push(points);
+        }
+        breaks.reverse();
+        Some(BoxProof { m0, n0, breaks })
+    }
+}
+
+/// The scalar test for x >= m0 - 1/2 and any N, as comparisons (derivation, section 2, (ii)): with a = m0^2 n_m0,
+/// b = m0 n_m0, s = max(A_m0 - k0, 0) and d = sqrt(b/(2 m0 [k1 (m0-1/2)^2 - s])),
+/// `s < k1 (m0-1/2)^2`, `d <= 1/2` and `(2/a)(1/nu^2 + Rh^2) + s/m0^2 <= k1 (1 - d/m0)^2`.
+fn scalar_test(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure, m0: u32) -> Vec<TransferStep> {
+    let p = data.precision;
+    let ratio =
+        |numerator: i64, denominator: i64| Enclosure::from_rational(&Rational::from((numerator, denominator)), p);
+    let (n_0, n_1) = (&data.n_0, &data.n_1);
+    let m = Enclosure::from_integer(i64::from(m0), p);
+    let left = data.rational(&edge(m0));
+    let weight = data.spec.internal_model.weights.weight(u64::from(m0), p);
+    let (a, b) = (m.sqr() * &weight, &m * weight);
+    let pi_term = (Enclosure::pi(p).sqr() - 4) / 2 * n_1;
+    let slope_bound = pi_term + (n_0 - n_1 / 2) / left.sqr();
+    let sum_bound = (n_0 + n_1 * (ratio(47, 20) + ratio(3, 2) * m.log())) / &left + n_1 / (&m * (4 * &m - 1));
+    let s = (slope_bound - k0).max(&data.zero());
+    let room = k1 * left.sqr() - &s;
+    let d = (b / (2 * (&m * &room))).sqrt();
+    let step =
+        |what: &str, lhs: Enclosure, rhs: Enclosure| TransferStep { what: format!("{what}, m0 = {m0}"), lhs, rhs };
+    vec![
+        // `room` > 0 is implied by d being defined; 2 d <= 1 is the second condition.
+        step("scalar test, twice the distance from the pole", 2 * &d, Enclosure::one(p)),
+        step(
+            "scalar test, at the pole",
+            2 / a * (data.nu.sqr().recip() + sum_bound.sqr()) + s / m.sqr(),
+            k1 * (1 - d / m).sqr(),
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::Specification;
+    use crate::transfer::TradeOff;
+
+    fn specification(n0: &str, epsilon: &str, mu: &str) -> Specification {
+        let text = format!(
+            r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
+            "lyapunov": {{"p_low": "1", "p_up": "1", "alpha": "1"}},
+            "bounds": {{"f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "0", "q_x": "0", "q_t": "1"}},
+            "internal_model": {{"mu": "{mu}", "base_frequency": "1",
+              "weights": {{"family": "power", "n0": "{n0}", "epsilon": "{epsilon}"}}}},
+            "initial_set": {{"kind": "paper"}}}}"#
+        );
+        Specification::from_json("test", &text).unwrap()
+    }
+
+    fn decimal(text: &str) -> Rational {
+        crate::number::parse_decimal(text).unwrap()
+    }
+
+    #[test]
+    fn near_optimal_pairs_are_proved_and_smaller_ones_refused() {
+        // nu = 1, n_0 = 2: the smallest k1 with k0 = 7 is about 17.6, with k0 = 1/2 (= T(0)) about 27.1. At k0 = T(0)
+        // itself no box that contains x = 0 can be proved in this form.
+        let spec = specification("2", "1/2", "1");
+        let data = Data::new(&spec, 128);
+        for (k0, k1) in [("7", "17.7"), ("0.501", "27.3")] {
+            let (k0, k1) = (decimal(k0), decimal(k1));
+            let proof = BoxProof::find(&data, &k0, &k1).expect("near-optimal pairs have a proof");
+            assert_eq!(proof.decide(&data, &k0, &k1).0, Truth::True);
+            let lower = Rational::from(&k1 * Rational::from((98, 100)));
+            assert_ne!(proof.decide(&data, &k0, &lower).0, Truth::True);
+            assert_eq!(BoxProof::find(&data, &k0, &lower), None);
+            let small = Rational::from(&k0 * Rational::from((1, 20)));
+            assert_ne!(proof.decide(&data, &small, &k1).0, Truth::True, "k0 below T(0)");
+        }
+    }
+
+    #[test]
+    fn the_proposed_curve_can_be_proved() {
+        for (n0, epsilon, mu) in [("2", "1/2", "1"), ("2", "1", "0.159"), ("1.5", "1/10", "10"), ("5", "1/2", "0.01")] {
+            let spec = specification(n0, epsilon, mu);
+            let data = Data::new(&spec, 128);
+            let curve = TradeOff::curve(&data);
+            for (k0, k1, _) in curve.candidates.iter().step_by(30) {
+                let (k0, k1) = (Rational::from_f64(*k0).unwrap(), Rational::from_f64(k1 * 1.02).unwrap());
+                let proof = BoxProof::find(&data, &k0, &k1);
+                let proof = proof.unwrap_or_else(|| panic!("n0 {n0}, eps {epsilon}, mu {mu}, k0 {k0}, k1 {k1}"));
+                assert_eq!(proof.decide(&data, &k0, &k1).0, Truth::True);
+            }
+        }
+    }
+
+    #[test]
+    fn damaged_proofs_are_refused() {
+        let spec = specification("2", "1/2", "1");
+        let data = Data::new(&spec, 128);
+        let (k0, k1) = (decimal("7"), decimal("18"));
+        let proof = BoxProof::find(&data, &k0, &k1).unwrap();
+        let damaged: Vec<(&str, BoxProof)> = {
+            let change = |what, f: &dyn Fn(&mut BoxProof)| {
+                let mut other = proof.clone();
+                f(&mut other);
+                (what, other)
+            };
+            vec![
+                change("one wide box", &|p| p.breaks[0] = vec![Rational::new(), edge(p.m0)]),
+                change("a missing group", &|p| drop(p.breaks.pop())),
+                change("a missing end", &|p| drop(p.breaks[1].pop())),
+                change("a late start", &|p| p.breaks[1][0] = Rational::from((1, 100))),
+                change("a reversal", &|p| p.breaks[1].swap(1, 2)),
+                change("an empty list", &|p| p.breaks[0].clear()),
+                change("N0 below m0", &|p| p.n0 = p.m0 - 1),
+                change("m0 = 0", &|p| p.m0 = 0),
+                change("too many groups", &|p| p.n0 = u32::MAX),
+            ]
+        };
+        for (what, other) in damaged {
+            assert_ne!(other.decide(&data, &k0, &k1).0, Truth::True, "{what}");
+        }
+        assert_eq!(proof.decide(&data, &k0, &Rational::from(-1)).0, Truth::False);
+    }
+}

@@ -1,0 +1,175 @@
+//! T_N(x) on an interval of x: the sums with the nearest pole taken out (derivation, section 2).
+
+use crate::constants::data::Data;
+use crate::enclosure::Enclosure;
+use crate::spec::Weights;
+
+/// The weights n_0, ..., n_L, nu^2, and what is needed of the weights beyond.
+#[derive(Clone, Debug)]
+pub struct LorentzSums {
+    /// n_0, n_1, ...
+    weights: Vec<Enclosure>,
+    nu_squared: Enclosure,
+    precision: u32,
+}
+
+/// Which numbers of oscillators an evaluation covers.
+#[derive(Clone, Debug)]
+pub enum Oscillators {
+    /// Exactly N.
+    Exactly(u32),
+    /// Every N >= N0; `tail` bounds sum_{l >= N0} n_l/l^2.
+    AtLeast {
+        /// N0.
+        first: u32,
+        /// An upper bound of sum_{l >= N0} n_l / l^2.
+        tail: Enclosure,
+    },
+}
+
+impl LorentzSums {
+    /// Prepares the weights up to `last`.
+    #[must_use]
+    pub fn new(data: &Data<'_>, last: u32) -> LorentzSums {
+        let weights = &data.spec.internal_model.weights;
+        LorentzSums {
+            weights: (0..=u64::from(last)).map(|l| weights.weight(l, data.precision)).collect(),
+            nu_squared: data.nu.sqr(),
+            precision: data.precision,
+        }
+    }
+
+    /// An enclosure containing T_N(x) for every x in the interval and every N covered.
+    ///
+    /// `nearest` is an integer m with |x - m| <= 1/2 on the interval, x >= 0. With d = x - m and the pole m <= N taken
+    /// out, T = (c_m + R' d^2)/(d^2 + nu^2 (c_m - R d)^2); where N < m, T = g'/(1 + nu^2 g^2). For every N >= N0 the
+    /// sums beyond N0 - 1 lie in [0, x th/(1-(x/N0)^2)] and [0, 2 th/(1-(x/N0)^2)^2]; this needs m <= N0 - 1.
+    /// Undefined when a hypothesis fails or the interval is too wide.
+    #[must_use]
+    pub fn enclose(&self, x: &Enclosure, nearest: u32, oscillators: &Oscillators) -> Enclosure {
+        let last = match oscillators {
+            Oscillators::Exactly(n) => *n,
+            Oscillators::AtLeast { first, .. } if *first > nearest => first - 1,
+            Oscillators::AtLeast { .. } => return Enclosure::undefined(self.precision),
+        };
+        if self.weights.len() <= last as usize {
+            return Enclosure::undefined(self.precision);
+        }
+        let has_pole = nearest <= last;
+        let (mut sum, mut derivative) = (Enclosure::zero(self.precision), Enclosure::zero(self.precision));
+        if !(has_pole && nearest == 0) {
+            sum = sum - &self.weights[0] / x;
+            derivative = derivative + &self.weights[0] / x.sqr();
+        }
+        for (l, weight) in self.weights.iter().enumerate().take(last as usize + 1).skip(1) {
+            let half = weight / 2;
+            let (behind, ahead) = (l as i64 + x, l as i64 - x);
+            sum = sum - &half / &behind;
+            derivative = derivative + &half / behind.sqr();
+            if l != nearest as usize {
+                sum = sum + &half / &ahead;
+                derivative = derivative + half / ahead.sqr();
+            }
+        }
+        if let Oscillators::AtLeast { first, tail } = oscillators {
+            let gap = 1 - (x / i64::from(*first)).sqr();
+            let zero = Enclosure::zero(self.precision);
+            sum = sum + zero.hull(&(x * tail / &gap));
+            derivative = derivative + zero.hull(&(2 * tail / gap.sqr()));
+        }
+        if !has_pole {
+            return derivative / (1 + &self.nu_squared * sum.sqr());
+        }
+        let residue = if nearest == 0 { self.weights[0].clone() } else { &self.weights[nearest as usize] / 2 };
+        let d = x - i64::from(nearest);
+        let slope = &residue - sum * &d;
+        (residue + derivative * d.sqr()) / (d.sqr() + &self.nu_squared * slope.sqr())
+    }
+}
+
+/// An upper bound of th = sum_{l >= first} n_l/l^2, first >= 1: `first^-(2+eps)/(2+eps) + first^-(3+eps)` for the power
+/// family (an integral), and by W2 `n_first (1/(2 first) + 1/first^2)` otherwise.
+#[must_use]
+pub fn weight_tail(data: &Data<'_>, first: u32) -> Enclosure {
+    let weights = &data.spec.internal_model.weights;
+    let n = Enclosure::from_integer(i64::from(first), data.precision);
+    match weights {
+        Weights::Power { epsilon, .. } => {
+            let exponent = 2 + epsilon.enclose(data.precision);
+            let power = n.pow(&exponent).recip();
+            (&power / exponent + power / n).ceiling()
+        }
+        Weights::Explicit { .. } => {
+            let per = (2 * &n).recip() + n.sqr().recip();
+            (weights.weight(u64::from(first), data.precision) * per).ceiling()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::Specification;
+    use rug::Rational;
+    use std::path::Path;
+
+    fn paper_example() -> Specification {
+        Specification::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json")).unwrap()
+    }
+
+    /// T_N(x) from its definition, in doubles: good to 1e-9 away from the poles.
+    fn direct(x: f64, n: u32, nu: f64) -> f64 {
+        let (mut g, mut slope) = (-2.0 / x, 2.0 / (x * x));
+        for l in 1..=n {
+            let (l, weight) = (f64::from(l), f64::from(l).powf(-1.5) / 2.0);
+            g += weight * (1.0 / (l - x) - 1.0 / (l + x));
+            slope += weight * (1.0 / (l - x).powi(2) + 1.0 / (l + x).powi(2));
+        }
+        slope / (1.0 + nu * nu * g * g)
+    }
+
+    #[test]
+    fn agrees_with_the_definition_and_covers_larger_n() {
+        let spec = paper_example();
+        let data = Data::new(&spec, 128);
+        let sums = LorentzSums::new(&data, 40);
+        let nu = data.nu.midpoint_f64();
+        let later = Oscillators::AtLeast { first: 8, tail: weight_tail(&data, 8) };
+        for (numerator, nearest) in [(13, 0), (45, 0), (55, 1), (103, 1), (149, 1), (151, 2), (249, 2), (312, 3)] {
+            let x = Enclosure::from_rational(&Rational::from((numerator, 100)), 128);
+            let value = f64::from(numerator) / 100.0;
+            for n in [1, 2, 3, 7, 8, 20, 40] {
+                let exact = sums.enclose(&x, nearest, &Oscillators::Exactly(n));
+                let expected = direct(value, n, nu);
+                assert!((exact.midpoint_f64() / expected - 1.0).abs() < 1e-9, "x = {value}, N = {n}");
+                if n >= 8 {
+                    let all = sums.enclose(&x, nearest, &later);
+                    assert!(all.lower() <= exact.upper() && all.upper() >= exact.lower());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_poles_are_removable() {
+        let spec = paper_example();
+        let data = Data::new(&spec, 128);
+        let sums = LorentzSums::new(&data, 5);
+        let inverse = data.nu.sqr().recip();
+        let at = |m: u32| sums.enclose(&Enclosure::from_integer(i64::from(m), 128), m, &Oscillators::Exactly(5));
+        assert!((at(0) / (&inverse / &data.n_0)).contains(&Rational::from(1)));
+        let two = 2 * &inverse / spec.internal_model.weights.weight(2, 128);
+        assert!((at(2) / two).contains(&Rational::from(1)));
+    }
+
+    #[test]
+    fn hypotheses_are_checked() {
+        let spec = paper_example();
+        let data = Data::new(&spec, 128);
+        let sums = LorentzSums::new(&data, 5);
+        let x = Enclosure::from_integer(3, 128);
+        assert!(!sums.enclose(&x, 3, &Oscillators::Exactly(6)).is_defined());
+        let tail = weight_tail(&data, 3);
+        assert!(!sums.enclose(&x, 3, &Oscillators::AtLeast { first: 3, tail }).is_defined());
+    }
+}
