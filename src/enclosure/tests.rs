@@ -210,7 +210,7 @@ proptest! {
         for x in &a.members {
             let outside = n < 0 && x.is_zero();
             let reference = |x: &Float, round| if outside { None } else { rounded(Pow::pow(x, &n), round) };
-            prop_assert!(holds(&found, |x, round| reference(x, round), x), "{:?}^{} is {:?}, not so at {:?}", a.enclosure, n, found, x);
+            prop_assert!(holds(&found, reference, x), "{:?}^{} is {:?}, not so at {:?}", a.enclosure, n, found, x);
         }
     }
 
@@ -301,6 +301,8 @@ proptest! {
         let found = Enclosure::from_rational(&value, p);
         prop_assert!(found.contains(&value) && is_tight(&found) && found.precision() == p);
         prop_assert_eq!(found.is_exact(), found.lower_rational() == Some(value.clone()));
+        let [below, above] = [found.lower_f64(), found.upper_f64()].map(Rational::from_f64);
+        prop_assert!(below.is_none_or(|below| below <= value) && above.is_none_or(|above| above >= value));
         let integer = Enclosure::from_integer(n, p);
         prop_assert!(integer.contains(&Rational::from(n)) && is_tight(&integer));
         let wide = Enclosure::between(&value, &(value.clone() + 1u32), p);
