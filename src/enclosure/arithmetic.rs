@@ -39,6 +39,17 @@ fn div(a: &Float, b: &Float, precision: u32, round: Round) -> Float {
     Float::with_val_round(precision, a / b, round).0
 }
 
+/// The smaller of two end points, exactly: the precision is at least that of either. (`Float::min` rounds to nearest at
+/// the precision of its receiver, which need not be outward.)
+pub(super) fn smaller(a: &Float, b: &Float, precision: u32) -> Float {
+    Float::with_val(precision, if a <= b { a } else { b })
+}
+
+/// The larger of two end points, exactly, in the same way.
+pub(super) fn larger(a: &Float, b: &Float, precision: u32) -> Float {
+    Float::with_val(precision, if a >= b { a } else { b })
+}
+
 impl Enclosure {
     fn add_enclosure(&self, other: &Enclosure) -> Enclosure {
         let p = self.precision().max(other.precision());
@@ -97,7 +108,7 @@ impl Enclosure {
         } else if *b2 <= 0 {
             (down(a2, b1), up(a1, b1))
         } else {
-            (down(a1, b2).min(&down(a2, b1)), up(a1, b1).max(&up(a2, b2)))
+            (smaller(&down(a1, b2), &down(a2, b1), p), larger(&up(a1, b1), &up(a2, b2), p))
         };
         Enclosure { lower, upper }
     }
@@ -154,27 +165,29 @@ impl Enclosure {
         } else if self.upper <= 0 {
             self.negate()
         } else {
-            let opposite = self.negate();
-            Enclosure { lower: Float::new(self.precision()), upper: self.upper.clone().max(&opposite.upper) }
+            let (p, opposite) = (self.precision(), self.negate());
+            Enclosure { lower: Float::new(p), upper: larger(&self.upper, &opposite.upper, p) }
         }
     }
 
     /// The smaller of two quantities.
     #[must_use]
     pub fn min(&self, other: &Enclosure) -> Enclosure {
+        let p = self.precision().max(other.precision());
         if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(self.precision().max(other.precision()));
+            return Enclosure::undefined(p);
         }
-        Enclosure { lower: self.lower.clone().min(&other.lower), upper: self.upper.clone().min(&other.upper) }
+        Enclosure { lower: smaller(&self.lower, &other.lower, p), upper: smaller(&self.upper, &other.upper, p) }
     }
 
     /// The larger of two quantities.
     #[must_use]
     pub fn max(&self, other: &Enclosure) -> Enclosure {
+        let p = self.precision().max(other.precision());
         if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(self.precision().max(other.precision()));
+            return Enclosure::undefined(p);
         }
-        Enclosure { lower: self.lower.clone().max(&other.lower), upper: self.upper.clone().max(&other.upper) }
+        Enclosure { lower: larger(&self.lower, &other.lower, p), upper: larger(&self.upper, &other.upper, p) }
     }
 }
 

@@ -20,6 +20,7 @@ mod truth;
 pub use decimal::DIGITS;
 pub use truth::Truth;
 
+use arithmetic::{larger, smaller};
 use rug::float::{Round, Special};
 use rug::{Float, Integer, Rational};
 
@@ -171,13 +172,11 @@ impl Enclosure {
     /// The smallest interval containing both; undefined if one of them is.
     #[must_use]
     pub fn hull(&self, other: &Enclosure) -> Enclosure {
+        let p = self.precision().max(other.precision());
         if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(self.precision().max(other.precision()));
+            return Enclosure::undefined(p);
         }
-        Enclosure {
-            lower: if self.lower <= other.lower { self.lower.clone() } else { other.lower.clone() },
-            upper: if self.upper >= other.upper { self.upper.clone() } else { other.upper.clone() },
-        }
+        Enclosure { lower: smaller(&self.lower, &other.lower, p), upper: larger(&self.upper, &other.upper, p) }
     }
 
     /// The common part of two enclosures of the *same* quantity.
@@ -185,13 +184,11 @@ impl Enclosure {
     /// Undefined if either is undefined or if they are disjoint (which would mean that one of them is wrong).
     #[must_use]
     pub fn intersect(&self, other: &Enclosure) -> Enclosure {
-        let lower = if self.lower >= other.lower { self.lower.clone() } else { other.lower.clone() };
-        let upper = if self.upper <= other.upper { self.upper.clone() } else { other.upper.clone() };
-        if self.is_defined() && other.is_defined() {
-            Enclosure::new(lower, upper)
-        } else {
-            Enclosure::undefined(self.precision().max(other.precision()))
+        let p = self.precision().max(other.precision());
+        if !self.is_defined() || !other.is_defined() {
+            return Enclosure::undefined(p);
         }
+        Enclosure::new(larger(&self.lower, &other.lower, p), smaller(&self.upper, &other.upper, p))
     }
 
     /// The upper end as a degenerate enclosure: for quantities of which only an upper bound is used.

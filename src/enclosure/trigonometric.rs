@@ -1,12 +1,14 @@
 //! Pi, sine, cosine, tangent and arc tangent.
 
 use super::Enclosure;
+use super::arithmetic::{larger, smaller};
 use rug::Float;
 use rug::float::{Constant, Round};
 
 /// Arguments beyond this binary exponent are not reduced modulo pi (that would need as many bits); the trivial
-/// enclosure is returned instead, which keeps hostile arguments cheap.
-const MAX_REDUCED_EXPONENT: i32 = 1 << 12;
+/// enclosure is returned instead. Up to it a reduction costs no more than the function itself at the highest
+/// precision, so that huge arguments are no dearer than small ones.
+const MAX_REDUCED_EXPONENT: i32 = 1 << 8;
 
 impl Enclosure {
     /// The constant pi.
@@ -47,8 +49,12 @@ impl Enclosure {
         let crest = self.may_contain_phase(1, 4);
         let trough = self.may_contain_phase(-1, 4);
         Enclosure {
-            lower: if trough { full.lower } else { at(&self.lower, Round::Down).min(&at(&self.upper, Round::Down)) },
-            upper: if crest { full.upper } else { at(&self.lower, Round::Up).max(&at(&self.upper, Round::Up)) },
+            lower: if trough {
+                full.lower
+            } else {
+                smaller(&at(&self.lower, Round::Down), &at(&self.upper, Round::Down), p)
+            },
+            upper: if crest { full.upper } else { larger(&at(&self.lower, Round::Up), &at(&self.upper, Round::Up), p) },
         }
     }
 
@@ -67,8 +73,12 @@ impl Enclosure {
         let crest = self.may_contain_phase(0, 4);
         let trough = self.may_contain_phase(2, 4);
         Enclosure {
-            lower: if trough { full.lower } else { at(&self.lower, Round::Down).min(&at(&self.upper, Round::Down)) },
-            upper: if crest { full.upper } else { at(&self.lower, Round::Up).max(&at(&self.upper, Round::Up)) },
+            lower: if trough {
+                full.lower
+            } else {
+                smaller(&at(&self.lower, Round::Down), &at(&self.upper, Round::Down), p)
+            },
+            upper: if crest { full.upper } else { larger(&at(&self.lower, Round::Up), &at(&self.upper, Round::Up), p) },
         }
     }
 

@@ -172,6 +172,7 @@ impl Monomial {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn rational(numerator: i32, denominator: i32) -> Monomial {
         Monomial::rational(Rational::from((numerator, denominator)))
@@ -219,5 +220,39 @@ mod tests {
         assert!(e.upper_f64() < -6.66 && e.lower_f64() > -6.67);
         assert!(e.lower() < e.upper());
         assert_eq!(rational(1, 4).enclose(64).lower_f64(), 0.25);
+    }
+
+    /// Monomials with many coincidences: equal radicands up to squares, equal powers of pi, both signs, zero.
+    fn monomial() -> impl Strategy<Value = Monomial> {
+        (-6_i32..7, 1_i32..5, 1_i32..13, 1_i32..4, -2_i32..3).prop_map(|(n, d, r, s, k)| {
+            let root = rational(r, s).sqrt().expect("a positive number has a root");
+            let product = rational(n, d).mul(&root).expect("small numbers");
+            product.mul(&Monomial::pi().pow(k).expect("a small power")).expect("small numbers")
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn exact_operations_agree_with_enclosures(a in monomial(), b in monomial(), n in -4_i32..5) {
+            let (x, y) = (a.enclose(128), b.enclose(128));
+            let agrees = |exact: Option<Monomial>, value: Enclosure| match exact {
+                Some(exact) => exact.enclose(200).intersect(&value).is_defined(),
+                None => true,
+            };
+            prop_assert!(agrees(a.mul(&b), &x * &y) && agrees(a.add(&b), &x + &y) && agrees(Some(a.neg()), x.negate()));
+            prop_assert!(agrees(a.div(&b), &x / &y) && agrees(a.pow(n), x.pow_integer(&Integer::from(n))));
+            prop_assert!(agrees(a.sqrt(), x.sqrt()) || a.coefficient.is_zero());
+            // Different numbers of these sizes are told apart at 128 bits.
+            let apart = x.lt(&y).or(y.lt(&x)).is_true();
+            prop_assert_eq!(a.equals(&b), Truth::exact(!apart));
+            match a.compare(&b) {
+                Some(Ordering::Less) => prop_assert!(x.lt(&y).is_true()),
+                Some(Ordering::Equal) => prop_assert!(!apart),
+                Some(Ordering::Greater) => prop_assert!(y.lt(&x).is_true()),
+                None => prop_assert!(apart && a.pi_power != b.pi_power),
+            }
+            prop_assert_eq!(a.as_rational().is_some(), a.pi_power == 0 && rational_sqrt(&a.radicand).is_some());
+            prop_assert!(a.as_rational().is_none_or(|r| x.contains(r)));
+        }
     }
 }

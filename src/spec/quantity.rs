@@ -105,8 +105,10 @@ impl<'a> Quantity<'a> {
         }
         // A digit takes three bits and a third.
         let value = (self.enclose)(DEFAULT_PRECISION + 4 * digits as u32);
-        let (lower, upper) = (value.lower_decimal(digits), value.ceiling().lower_decimal(digits));
-        if lower == upper { format!("{lower}{CUT}") } else { format!("about {upper}") }
+        // Digits are cut off towards 0, so that those shown are those of the number.
+        let (sign, size) = if value.is_nonnegative().is_false() { ("-", value.negate()) } else { ("", value) };
+        let (lower, upper) = (size.lower_decimal(digits), size.ceiling().lower_decimal(digits));
+        if lower == upper { format!("{sign}{lower}{CUT}") } else { format!("about {sign}{upper}") }
     }
 
     fn compare(&self, other: &Quantity<'_>) -> Option<Ordering> {
@@ -133,4 +135,25 @@ pub(super) fn decide(ask: impl Fn(u32) -> Truth) -> Truth {
         precision *= 2;
     }
     ask(MAX_PRECISION)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Expr, Variables};
+
+    #[test]
+    fn the_digits_shown_are_those_of_the_number() {
+        for (text, shown) in [
+            ("1/sqrt(3)", "0.5773502691..."),
+            ("-1/sqrt(3)", "-0.5773502691..."),
+            ("2 - exp(1)", "-0.7182818284..."),
+            ("-1/3", "-1/3"),
+            ("-0.25", "-0.25"),
+        ] {
+            let expr = Expr::parse(text, Variables::None).unwrap();
+            let constant = Constant { text: text.to_owned(), exact: expr.exact(), expr };
+            assert_eq!(Quantity::constant(&constant).shown(), shown, "{text}");
+        }
+    }
 }
