@@ -11,6 +11,7 @@ use super::run::{
 use super::verdict::Verdict;
 use crate::constants::condition::Condition;
 use crate::constants::data::Data;
+use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::printed::{PrintedEvaluation, level_condition};
 use crate::constants::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
@@ -58,19 +59,24 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
         Outcome::Skipped
     };
     if spec.domain.is_none() {
-        unproved = undecided_or_error(prove_up_to_arguments(spec, &sharp, &repaired))?;
+        unproved = undecided_or_error(prove_up_to_arguments(spec, &sharp, &repaired, None))?;
     }
     let printed = printed_figure(&data, &paper_model);
     let exact = match (&sharp, spec.internal_model.matched) {
         (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
-            .map(|(witness, evaluation, _)| ExactClaim { witness, evaluation }),
+            .map(|(witness, evaluation, _)| ExactClaim { witness, evaluation })
+            // Its error box has its own size, and may reach beyond the arguments of the other derivations.
+            .filter(|claim| spec.domain.is_some() || prove_up_to(spec, &claim.witness)),
         _ => None,
     };
     let proposal = proposal.and_then(Result::ok);
-    Ok(assemble(spec, options, &data, Parts { sharp, repaired, printed, exact, unproved, proposal }, &sharp_model))
+    let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
+    Ok(assemble(spec, options, &data, parts, &sharp_model))
 }
 
 /// Decides the witness of a certificate again, without any search.
+///
+/// Guarantee: as for [`certify`]; and a file that claims exact regulation is `Certified` only if that claim is proved too.
 ///
 /// # Errors
 /// Bounding functions that are *refuted* (bad input), with their counterexamples.
@@ -90,21 +96,23 @@ pub fn recheck<'s>(
             (Outcome::Skipped, repaired_outcome(Some((witness.as_ref().clone(), evaluation, precision))))
         }
     };
-    let exact = match file {
+    let claimed = match file {
         WitnessFile::Sharp { witness, exact: Some(exact) } => {
             let (evaluation, _) = decide_exact(spec, &witness.set, exact, options.ladder);
-            evaluation.truth().is_true().then(|| ExactClaim { witness: exact.clone(), evaluation })
+            Some(ExactClaim { witness: exact.clone(), evaluation })
         }
         _ => None,
     };
-    let unproved = undecided_or_error(prove_up_to_arguments(spec, &sharp, &repaired))?;
+    let unproved = undecided_or_error(prove_up_to_arguments(spec, &sharp, &repaired, claimed.as_ref()))?;
+    let exact_failing = claimed.as_ref().map_or_else(Vec::new, |claim| failing(&claim.evaluation.conditions));
+    let exact = claimed.filter(|_| exact_failing.is_empty());
     let derivation = match file {
         WitnessFile::Sharp { .. } => Derivation::Sharp,
         WitnessFile::Repaired { .. } => Derivation::Repaired,
     };
     let printed = PrintedFigure { refutation: level_condition(&data).err(), evaluation: None, sigma: None };
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
-    let parts = Parts { sharp, repaired, printed, exact, unproved, proposal: None };
+    let parts = Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal: None };
     Ok(assemble(spec, Options { derivation, ..options }, &data, parts, &model))
 }
 
@@ -114,6 +122,7 @@ struct Parts {
     repaired: Outcome<RepairedProof>,
     printed: PrintedFigure,
     exact: Option<ExactClaim>,
+    exact_failing: Vec<Condition>,
     unproved: Vec<BoundingProblem>,
     proposal: Option<SharpProposal>,
 }
@@ -125,10 +134,10 @@ fn assemble<'s>(
     parts: Parts,
     model: &FloatModel,
 ) -> Certification<'s> {
-    let Parts { sharp, repaired, printed, exact, unproved, proposal } = parts;
+    let Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal } = parts;
     let relative_degree = relative_degree_gains(spec, data.precision);
     let claimed = |proved: bool| {
-        if proved && unproved.is_empty() { Verdict::Certified } else { Verdict::Undecided }
+        if proved && unproved.is_empty() && exact_failing.is_empty() { Verdict::Certified } else { Verdict::Undecided }
     };
     let verdict = match options.derivation {
         // The filter must be stable: otherwise the plant is not what the specification says.
@@ -157,6 +166,7 @@ fn assemble<'s>(
         printed,
         relative_degree,
         exact,
+        exact_failing,
         sensitivities,
         unproved_bounds: unproved,
         constants,
@@ -188,6 +198,7 @@ fn prove_up_to_arguments(
     spec: &Specification,
     sharp: &Outcome<SharpProof>,
     repaired: &Outcome<RepairedProof>,
+    exact: Option<&ExactClaim>,
 ) -> Result<(), Vec<BoundingProblem>> {
     let mut arguments: Vec<(Rational, Rational)> = Vec::new();
     if let Outcome::Proved(proof) | Outcome::NotProved { proof, .. } = sharp {
@@ -199,9 +210,15 @@ fn prove_up_to_arguments(
         let point = &proof.evaluation.point;
         arguments.extend(point.x_b.upper_rational().zip(point.e_b.upper_rational()));
     }
+    arguments.extend(exact.map(|claim| (claim.witness.d_x.clone(), claim.witness.d_e.clone())));
     let x = arguments.iter().map(|(x, _)| x).max();
     let e = arguments.iter().map(|(_, e)| e).max();
     prove_bounds(spec, x.zip(e))
+}
+
+/// Whether the bounding functions are proved on the error box of exact regulation.
+fn prove_up_to(spec: &Specification, exact: &ExactWitness) -> bool {
+    prove_bounds(spec, Some((&exact.d_x, &exact.d_e))).is_ok()
 }
 
 fn failing(conditions: &[Condition]) -> Vec<Condition> {

@@ -39,6 +39,16 @@ fn div(a: &Float, b: &Float, precision: u32, round: Round) -> Float {
     Float::with_val_round(precision, a / b, round).0
 }
 
+/// The smaller of two end points. `Float::min` would round the other one to nearest, at its own precision.
+fn least(a: &Float, b: &Float, precision: u32, round: Round) -> Float {
+    Float::with_val_round(precision, if a <= b { a } else { b }, round).0
+}
+
+/// The larger of two end points.
+fn greatest(a: &Float, b: &Float, precision: u32, round: Round) -> Float {
+    Float::with_val_round(precision, if a >= b { a } else { b }, round).0
+}
+
 impl Enclosure {
     fn add_enclosure(&self, other: &Enclosure) -> Enclosure {
         let p = self.precision().max(other.precision());
@@ -154,27 +164,38 @@ impl Enclosure {
         } else if self.upper <= 0 {
             self.negate()
         } else {
-            let opposite = self.negate();
-            Enclosure { lower: Float::new(self.precision()), upper: self.upper.clone().max(&opposite.upper) }
+            let p = self.precision();
+            Enclosure {
+                lower: Float::new(p),
+                upper: greatest(&self.upper, &Float::with_val(self.lower.prec(), -&self.lower), p, Round::Up),
+            }
         }
     }
 
     /// The smaller of two quantities.
     #[must_use]
     pub fn min(&self, other: &Enclosure) -> Enclosure {
+        let p = self.precision().max(other.precision());
         if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(self.precision().max(other.precision()));
+            return Enclosure::undefined(p);
         }
-        Enclosure { lower: self.lower.clone().min(&other.lower), upper: self.upper.clone().min(&other.upper) }
+        Enclosure {
+            lower: least(&self.lower, &other.lower, p, Round::Down),
+            upper: least(&self.upper, &other.upper, p, Round::Up),
+        }
     }
 
     /// The larger of two quantities.
     #[must_use]
     pub fn max(&self, other: &Enclosure) -> Enclosure {
+        let p = self.precision().max(other.precision());
         if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(self.precision().max(other.precision()));
+            return Enclosure::undefined(p);
         }
-        Enclosure { lower: self.lower.clone().max(&other.lower), upper: self.upper.clone().max(&other.upper) }
+        Enclosure {
+            lower: greatest(&self.lower, &other.lower, p, Round::Down),
+            upper: greatest(&self.upper, &other.upper, p, Round::Up),
+        }
     }
 }
 
