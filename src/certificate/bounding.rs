@@ -13,25 +13,35 @@ pub struct BoundingProblem {
     pub failure: BoundingFailure,
 }
 
-/// Proves every bounding function on the domain, or, in a direction without a domain, up to `used`.
+/// Proves every bounding function on the domain of the specification; where there is none, nothing is to be proved here
+/// and [`prove_up_to`] is due for the arguments that are used.
 ///
-/// Guarantee: `Ok` means that each is finite, nonnegative and nondecreasing in X and in E on the closed box, so that its
-/// value at (X, E) bounds its values at smaller arguments.
+/// Guarantee: with a domain, `Ok` means that each is finite, nonnegative and nondecreasing in X and in E on it, so that
+/// its value at (X, E) bounds its values at smaller arguments.
 ///
 /// # Errors
 /// All bounding functions that fail, in the order of the fields.
-pub fn prove_bounds(spec: &Specification, used: Option<(&Rational, &Rational)>) -> Result<(), Vec<BoundingProblem>> {
+pub fn prove_on_domain(spec: &Specification) -> Result<(), Vec<BoundingProblem>> {
     const PRECISION: u32 = 128;
+    let Some(domain) = &spec.domain else { return Ok(()) };
     let edge = |constant: &crate::spec::model::Constant| constant.enclose(PRECISION).upper_rational();
-    let from_domain = spec.domain.as_ref().and_then(|domain| edge(&domain.x).zip(edge(&domain.e)));
-    let Some((x, e)) = from_domain.or_else(|| used.map(|(x, e)| (x.clone(), e.clone()))) else {
-        return Ok(());
+    // The reader has refused constants without a bounded enclosure; were one to slip through, nothing is proved.
+    let (Some(x), Some(e)) = (edge(&domain.x), edge(&domain.e)) else {
+        return prove_up_to(spec, &Rational::from(-1), &Rational::from(-1));
     };
+    prove_up_to(spec, &x, &e)
+}
+
+/// Proves every bounding function on [0, x] x [0, e], with the guarantee of [`prove_on_domain`].
+///
+/// # Errors
+/// All bounding functions that fail, in the order of the fields; all of them where x or e is negative.
+pub fn prove_up_to(spec: &Specification, x: &Rational, e: &Rational) -> Result<(), Vec<BoundingProblem>> {
     let problems: Vec<BoundingProblem> = spec
         .bounds
         .named()
         .filter_map(|(field, expr)| {
-            let failure = prove_bounding(expr, &x, &e, &ProofSettings::default()).err()?;
+            let failure = prove_bounding(expr, x, e, &ProofSettings::default()).err()?;
             Some(BoundingProblem { field, failure })
         })
         .collect();

@@ -9,7 +9,7 @@ mod run;
 mod verdict;
 mod write;
 
-pub use bounding::{BoundingProblem, prove_bounds};
+pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 pub use decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
 pub use produce::{certify, recheck};
 pub use read::{WitnessFile, read_witness};

@@ -1,6 +1,6 @@
 //! The whole run: prove the bounding functions, search, round, decide, in each derivation.
 
-use super::bounding::{BoundingProblem, prove_bounds};
+use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::{decide_exact, decide_repaired, decide_sharp};
 use super::read::WitnessFile;
 use super::round::{TransferKind, exact_claim, round_repaired, round_sharp};
@@ -11,6 +11,7 @@ use super::run::{
 use super::verdict::Verdict;
 use crate::constants::condition::Condition;
 use crate::constants::data::Data;
+use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::printed::{PrintedEvaluation, level_condition};
 use crate::constants::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
@@ -35,7 +36,7 @@ use rug::Rational;
 /// Bounding functions that are *refuted* (bad input), with their counterexamples.
 pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Vec<BoundingProblem>> {
     let data = Data::new(spec, options.ladder.start.max(53));
-    let mut unproved = if spec.domain.is_some() { undecided_or_error(prove_bounds(spec, None))? } else { Vec::new() };
+    let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
     let kind = match options.transfer {
         TransferChoice::Best if spec.internal_model.matched => TransferKind::Matched,
@@ -89,14 +90,21 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     let printed = printed_figure(&data, &paper_model);
     let exact = match (&sharp, spec.internal_model.matched) {
         (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
-            .map(|(witness, evaluation, _)| ExactClaim { witness, evaluation }),
+            .map(|(witness, evaluation, _)| ExactClaim { witness, evaluation })
+            // Its error box has its own size, and may reach beyond the arguments of the other derivations.
+            .filter(|claim| {
+                let ExactWitness { d_x, d_e, .. } = &claim.witness;
+                spec.domain.is_some() || prove_up_to(spec, d_x, d_e).is_ok()
+            }),
         _ => None,
     };
-    Ok(assemble(spec, options, &data, Parts { sharp, repaired, printed, exact, unproved, proposal }, &sharp_model))
+    let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
+    Ok(assemble(spec, options, &data, parts, &sharp_model))
 }
 
 /// Decides the witness of a certificate again, without any search.
 ///
+/// Guarantee: as for [`certify`]; and a file that claims exact regulation is `Certified` only if that claim is proved too.
 /// The verdict is `Refuted` when a condition is proved not to hold for the witness (another witness may still do).
 ///
 /// # Errors
@@ -117,30 +125,36 @@ pub fn recheck<'s>(
             (Outcome::Skipped, repaired_outcome(Some((witness.as_ref().clone(), evaluation, precision))))
         }
     };
-    let exact = match file {
+    let claimed = match file {
         WitnessFile::Sharp { witness, exact: Some(exact) } => {
             let (evaluation, _) = decide_exact(spec, &witness.set, exact, options.ladder);
-            evaluation.truth().is_true().then(|| ExactClaim { witness: exact.clone(), evaluation })
+            Some(ExactClaim { witness: exact.clone(), evaluation })
         }
         _ => None,
     };
-    let mut unproved = undecided_or_error(if spec.domain.is_some() { prove_bounds(spec, None) } else { Ok(()) })?;
+    let mut unproved = undecided_or_error(prove_on_domain(spec))?;
     let (sharp, repaired) = if spec.domain.is_none() {
         let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved, sharp_arguments)?;
+        if let Some(claim) = &claimed {
+            unproved.extend(undecided_or_error(prove_up_to(spec, &claim.witness.d_x, &claim.witness.d_e))?);
+        }
         (sharp, proved_up_to_arguments(spec, repaired, true, &mut unproved, repaired_arguments)?)
     } else {
         (sharp, repaired)
     };
+    let exact_failing = claimed.as_ref().map_or_else(Vec::new, |claim| failing(&claim.evaluation.conditions));
+    let exact = claimed.filter(|_| exact_failing.is_empty());
     let derivation = match file {
         WitnessFile::Sharp { .. } => Derivation::Sharp,
         WitnessFile::Repaired { .. } => Derivation::Repaired,
     };
     let printed = PrintedFigure { refutation: level_condition(&data).err(), evaluation: None, sigma: None };
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
-    let parts = Parts { sharp, repaired, printed, exact, unproved, proposal: None };
+    let parts = Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal: None };
     let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model);
     // A given witness that breaks a condition is refuted; a search that ends with one has merely found nothing.
-    if run.verdict == Verdict::Undecided && run.conditions().iter().any(|condition| condition.truth().is_false()) {
+    let mut conditions = run.conditions().iter().chain(&run.exact_failing);
+    if run.verdict == Verdict::Undecided && conditions.any(|condition| condition.truth().is_false()) {
         run.verdict = Verdict::Refuted;
     }
     Ok(run)
@@ -152,6 +166,7 @@ struct Parts {
     repaired: Outcome<RepairedProof>,
     printed: PrintedFigure,
     exact: Option<ExactClaim>,
+    exact_failing: Vec<Condition>,
     unproved: Vec<BoundingProblem>,
     proposal: Option<SharpProposal>,
 }
@@ -163,10 +178,10 @@ fn assemble<'s>(
     parts: Parts,
     model: &FloatModel,
 ) -> Certification<'s> {
-    let Parts { sharp, repaired, printed, exact, unproved, proposal } = parts;
+    let Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal } = parts;
     let relative_degree = relative_degree_gains(spec, data.precision);
     let claimed = |proved: bool| {
-        if proved && unproved.is_empty() { Verdict::Certified } else { Verdict::Undecided }
+        if proved && unproved.is_empty() && exact_failing.is_empty() { Verdict::Certified } else { Verdict::Undecided }
     };
     let verdict = match options.derivation {
         // The filter must be stable: otherwise the plant is not what the specification says.
@@ -195,6 +210,7 @@ fn assemble<'s>(
         printed,
         relative_degree,
         exact,
+        exact_failing,
         sensitivities,
         unproved_bounds: unproved,
         constants,
@@ -234,7 +250,7 @@ fn proved_up_to_arguments<P>(
 ) -> Result<Outcome<P>, Vec<BoundingProblem>> {
     let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &outcome else { return Ok(outcome) };
     let Some((x, e)) = arguments(proof) else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
-    let result = prove_bounds(spec, Some((&x, &e)));
+    let result = prove_up_to(spec, &x, &e);
     if chosen {
         unproved.extend(undecided_or_error(result)?);
         return Ok(outcome);

@@ -176,6 +176,8 @@ pub struct Certification<'s> {
     pub relative_degree: Option<Result<RelativeDegreeGains, RelativeDegreeError>>,
     /// Exact regulation, when the base frequency is matched and a claim was proved.
     pub exact: Option<ExactClaim>,
+    /// The conditions that are not proved of an exact-regulation claim that was given to be decided again.
+    pub exact_failing: Vec<Condition>,
     /// Which condition sets sigma*, according to the search.
     pub binding: Option<&'static str>,
     /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.

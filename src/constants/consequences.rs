@@ -3,9 +3,10 @@
 use super::data::Data;
 use super::existence::{PeriodicBounds, x_per_gain};
 use crate::enclosure::Enclosure;
+use rug::Rational;
 
 /// Terms of the infinite sums that are added one by one before the tail is bounded.
-const PARTIAL_TERMS: u64 = 64;
+const PARTIAL_TERMS: u128 = 64;
 
 /// The largest number of oscillators that a target search considers.
 pub const MAX_OSCILLATORS: u64 = 1 << 40;
@@ -64,7 +65,7 @@ pub fn error_bounds(
     n_o: u64,
 ) -> ErrorBounds {
     let omega = fundamental(data);
-    let first = Enclosure::from_integer(n_o as i64 + 1, data.precision.max(64)) * &omega;
+    let first = harmonic(data, u128::from(n_o) + 1) * &omega;
     let modulus = (first.sqr() + sigma.sqr()).sqrt();
     let rms = e_per.min(&(&bounds.q_rms / &modulus)).min(&(&bounds.q_rate_rms / (first * modulus)));
     let [by_size, by_rate] = tail_sums(data, sigma, n_o);
@@ -72,13 +73,19 @@ pub fn error_bounds(
     ErrorBounds { rms: rms.ceiling(), sup: sup.ceiling() }
 }
 
+/// The number of a harmonic, enclosed; wider than `u64`, because sums run past the last one.
+fn harmonic(data: &Data<'_>, k: u128) -> Enclosure {
+    data.rational(&Rational::from(k))
+}
+
 /// Upper bounds of S_0 and S_1: a partial sum and the tails
 /// `sum_{k>n} 1/((k Om)^2 + sigma^2) <= arctan(sigma/(n Om))/(Om sigma)` and
 /// `sum_{k>n} 1/((k Om)^2((k Om)^2 + sigma^2)) <= (1/(n+1)^2 + 1/(n+1))/(Om^2 (((n+1) Om)^2 + sigma^2))`.
 fn tail_sums(data: &Data<'_>, sigma: &Enclosure, n_o: u64) -> [Enclosure; 2] {
     let omega = fundamental(data);
-    let integer = |k: u64| Enclosure::from_integer(k as i64, data.precision.max(64));
+    let integer = |k: u128| harmonic(data, k);
     let (mut by_size, mut by_rate) = (data.zero(), data.zero());
+    let n_o = u128::from(n_o);
     let last = n_o + PARTIAL_TERMS;
     for k in n_o + 1..=last {
         let square = (integer(k) * &omega).sqr();
@@ -102,7 +109,7 @@ pub fn smallest_n_o(target: &Enclosure, of: impl Fn(u64) -> Enclosure) -> Option
     if reaches(0) {
         return Some(0);
     }
-    let mut high = 1;
+    let mut high: u64 = 1;
     while !reaches(high) {
         high *= 2;
         if high > MAX_OSCILLATORS {

@@ -79,11 +79,16 @@ impl ExactEvaluation {
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
         let [dist_x, dist_e, dist_z] = super::sharp::distances(data, set, [&data.zero(), &data.zero(), &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
-        conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
-        conditions.push(Condition::less("C5", "(h/mu) k_x^2 < 4 w_x (alpha - gam)", decay.coupling, decay.curvature));
+        conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));
+        conditions.push(Condition::less(
+            "C5",
+            "exact regulation: (h/mu) k_x^2 < 4 w_x (alpha - gam)",
+            decay.coupling,
+            decay.curvature,
+        ));
         conditions.push(Condition::less(
             "C5b",
-            "threshold of the quadratic form < sigma",
+            "exact regulation: threshold of the quadratic form < sigma",
             decay.sigma_threshold,
             sigma,
         ));

@@ -29,6 +29,10 @@ fn status<P>(outcome: &Outcome<P>) -> Status<'_> {
 
 fn chosen<'r>(run: &'r Certification<'_>) -> Status<'r> {
     match run.options.derivation {
+        // The claim itself is proved, and what the certificate says beyond it is not.
+        Derivation::Sharp if run.sharp.proved().is_some() && !run.exact_failing.is_empty() => {
+            Status::Failing(&run.exact_failing)
+        }
         Derivation::Sharp => status(&run.sharp),
         Derivation::Repaired => status(&run.repaired),
         Derivation::Printed => Status::Skipped,

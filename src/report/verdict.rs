@@ -86,7 +86,15 @@ pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2
         Derivation::Sharp => {
             let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.sharp else { return None };
             let evaluation = &proof.evaluation;
-            [evaluation.bounds.x_p.max(&evaluation.error_box.x_b), evaluation.bounds.e_p.max(&evaluation.error_box.e_b)]
+            let (x, e) = (&evaluation.error_box.x_b, &evaluation.error_box.e_b);
+            let [x, e] = [evaluation.bounds.x_p.max(x), evaluation.bounds.e_p.max(e)];
+            match &run.exact {
+                None => [x, e],
+                Some(claim) => {
+                    let number = |value| Enclosure::from_rational(value, proof.precision);
+                    [x.max(&number(&claim.witness.d_x)), e.max(&number(&claim.witness.d_e))]
+                }
+            }
         }
         Derivation::Repaired => {
             let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.repaired else { return None };

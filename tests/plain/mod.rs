@@ -1,0 +1,447 @@
+//! Every condition computed a second way: plain 400-bit arithmetic, without enclosures and without the tool's formulas.
+//!
+//! C5 is decided by the determinant of the quadratic form itself, Nbar by MPFR's zeta function.
+
+use rug::ops::Pow;
+use rug::{Float, Rational};
+use serde_json::Value;
+use sigmastar::enclosure::Enclosure;
+use sigmastar::expr::Expr;
+use sigmastar::spec::{Constant, InitialSet, Specification, Weights};
+use std::ops::{Add, Div, Mul, Sub};
+
+/// Working precision in bits.
+pub const BITS: u32 = 400;
+
+/// A real number to 400 bits.
+#[derive(Clone, Debug, PartialEq, PartialOrd)]
+pub struct R(pub Float);
+
+macro_rules! operator {
+    ($trait:ident, $method:ident) => {
+        impl $trait<&R> for &R {
+            type Output = R;
+            fn $method(self, other: &R) -> R {
+                R(Float::with_val(BITS, $trait::$method(&self.0, &other.0)))
+            }
+        }
+        impl $trait<R> for &R {
+            type Output = R;
+            fn $method(self, other: R) -> R {
+                $trait::$method(self, &other)
+            }
+        }
+        impl $trait<&R> for R {
+            type Output = R;
+            fn $method(self, other: &R) -> R {
+                $trait::$method(&self, other)
+            }
+        }
+        impl $trait<R> for R {
+            type Output = R;
+            fn $method(self, other: R) -> R {
+                $trait::$method(&self, &other)
+            }
+        }
+    };
+}
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);
+
+pub fn r(value: f64) -> R {
+    R(Float::with_val(BITS, value))
+}
+
+impl R {
+    pub fn rational(value: &Rational) -> R {
+        R(Float::with_val(BITS, value))
+    }
+    pub fn sqrt(&self) -> R {
+        R(Float::with_val(BITS, self.0.sqrt_ref()))
+    }
+    pub fn sq(&self) -> R {
+        self * self
+    }
+    /// NaN if either is, so that nothing undefined is believed.
+    pub fn min(&self, other: &R) -> R {
+        if self <= other {
+            self.clone()
+        } else if other < self {
+            other.clone()
+        } else {
+            r(f64::NAN)
+        }
+    }
+    pub fn max(&self, other: &R) -> R {
+        if self >= other {
+            self.clone()
+        } else if other > self {
+            other.clone()
+        } else {
+            r(f64::NAN)
+        }
+    }
+}
+
+/// One condition: its identifier, both sides, and whether it holds.
+pub struct Plain {
+    pub id: &'static str,
+    pub lhs: R,
+    pub rhs: R,
+    pub holds: bool,
+}
+
+fn less(id: &'static str, lhs: R, rhs: R) -> Plain {
+    let holds = lhs < rhs;
+    Plain { id, lhs, rhs, holds }
+}
+
+fn at_most(id: &'static str, lhs: R, rhs: R) -> Plain {
+    let holds = lhs <= rhs;
+    Plain { id, lhs, rhs, holds }
+}
+
+/// The decimal or fraction in a certificate.
+pub fn parse(text: &str) -> Rational {
+    if text.contains('/') {
+        return text.parse().expect("a fraction");
+    }
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let (whole, part) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: Rational = format!("{whole}{part}").parse().expect("digits");
+    let exponent: i32 = exponent.parse::<i32>().expect("an exponent") - part.len() as i32;
+    digits * Rational::from(10).pow(exponent)
+}
+
+/// The numbers of a specification.
+pub struct Spec<'s> {
+    spec: &'s Specification,
+    t: R,
+    p_low: R,
+    p_up: R,
+    alpha: R,
+    mu: R,
+    w: R,
+    c: R,
+    n_bar: R,
+}
+
+fn constant(value: &Constant) -> R {
+    R(Float::with_val(BITS, value.enclose(BITS).lower()))
+}
+
+/// n_l by the definition of the family.
+pub fn weight(weights: &Weights, l: u64) -> R {
+    let power = |exponent: R| R(Float::with_val(BITS, l).pow(-exponent.0));
+    match weights {
+        Weights::Power { n0, .. } if l == 0 => constant(n0),
+        Weights::Power { epsilon, .. } => power(r(1.0) + constant(epsilon)),
+        Weights::Explicit { values, coefficient, exponent } => match values.get(l as usize) {
+            Some(value) => constant(value),
+            None => constant(coefficient) * power(constant(exponent)),
+        },
+    }
+}
+
+/// Nbar^2 by the zeta function.
+fn total(weights: &Weights) -> R {
+    let zeta = |p: R| R(p.0.zeta());
+    match weights {
+        Weights::Power { n0, epsilon } => constant(n0) + zeta(r(1.0) + constant(epsilon)),
+        Weights::Explicit { values, coefficient, exponent } => {
+            let listed = values.iter().fold(r(0.0), |sum, value| sum + constant(value));
+            let skipped = (1..values.len() as u64)
+                .fold(r(0.0), |sum, l| sum + R(Float::with_val(BITS, l).pow(-constant(exponent).0)));
+            listed + constant(coefficient) * (zeta(constant(exponent)) - skipped)
+        }
+    }
+}
+
+/// The bounding functions at one point.
+struct At {
+    f: R,
+    fe: R,
+    fxx: R,
+    fex: R,
+    q: R,
+    qe: R,
+    qx: R,
+    qt: R,
+    qr: R,
+    qtr: R,
+}
+
+impl<'s> Spec<'s> {
+    pub fn new(spec: &'s Specification) -> Spec<'s> {
+        let (p_low, p_up) = (constant(&spec.lyapunov.p_low), constant(&spec.lyapunov.p_up));
+        Spec {
+            spec,
+            t: constant(&spec.period),
+            c: (&p_up / &p_low).sqrt(),
+            p_low,
+            p_up,
+            alpha: constant(&spec.lyapunov.alpha),
+            mu: constant(&spec.internal_model.mu),
+            w: constant(&spec.internal_model.base_frequency),
+            n_bar: total(&spec.internal_model.weights).sqrt(),
+        }
+    }
+
+    fn at(&self, x: &R, e: &R) -> At {
+        let point = |v: &R| Enclosure::new(v.0.clone(), v.0.clone());
+        let value = |expr: &Expr| {
+            let value = expr.enclose(&point(x), &point(e));
+            if value.is_bounded() { R(Float::with_val(BITS, value.lower())) } else { r(f64::NAN) }
+        };
+        let b = &self.spec.bounds;
+        At {
+            f: value(&b.f),
+            fe: value(&b.f_e),
+            fxx: value(&b.f_xx),
+            fex: value(&b.f_ex),
+            q: value(&b.q),
+            qe: value(&b.q_e),
+            qx: value(&b.q_x),
+            qt: value(&b.q_t),
+            qr: value(b.q_rms.as_ref().unwrap_or(&b.q)),
+            qtr: value(b.q_t_rms.as_ref().unwrap_or(&b.q_t)),
+        }
+    }
+
+    /// sqrt(sum over all j of 1/(sigma^2 + om_j^2)).
+    fn beta(&self, sigma: &R) -> R {
+        let q = R(Float::with_val(BITS, -(sigma * &self.t).0).exp());
+        let coth = (r(1.0) + &q) / (r(1.0) - &q);
+        (&self.t * coth / (r(2.0) * sigma)).sqrt()
+    }
+
+    /// tau = sqrt(T^2/12 - beta^2 + 1/sigma^2)/sigma; 400 bits absorb the cancellation for the sigma of these tests.
+    fn tau(&self, sigma: &R) -> R {
+        let sum = self.t.sq() / r(12.0) - self.beta(sigma).sq() + r(1.0) / sigma.sq();
+        sum.sqrt() / sigma
+    }
+
+    fn k_alpha(&self) -> R {
+        let grown = R((&self.alpha * &self.t).0.exp());
+        &self.c * (&grown - r(1.0) + &self.c) / grown
+    }
+
+    /// Whether the pair is admissible and its proof allowed.
+    fn transfer(&self, witness: &Value, k0: &R, k1: &R) -> Plain {
+        let model = &self.spec.internal_model;
+        let weights = &model.weights;
+        let nu = &self.mu / &self.w;
+        let inverse = r(1.0) / nu.sq();
+        let (n_0, n_1) = (weight(weights, 0), weight(weights, 1));
+        let needed = |k: u64| match k {
+            0 => &inverse / &n_0,
+            _ => r(2.0) * &inverse / weight(weights, k),
+        };
+        let square = |k: u64| r(k as f64).sq();
+        let holds = match witness["transfer"]["proof"].as_str() {
+            Some("closed-form") => {
+                let pi = R(Float::with_val(BITS, rug::float::Constant::Pi));
+                let first = (&inverse + n_1.sq()) / &n_0;
+                let second = r(4.0) * &n_0 - r(2.0) * &n_1;
+                let least_0 = (pi.sq() - r(4.0)) * &n_1 / r(2.0) + first.max(&second);
+                let least_1 = r(8.0) * (&inverse + (r(2.0) * &n_0 + &n_1 / r(3.0)).sq()) / &n_1;
+                least_0 <= *k0 && least_1 <= *k1
+            }
+            _ => {
+                let k = witness["transfer"]["K"].as_u64().unwrap();
+                model.matched
+                    && (1..=4096).contains(&k)
+                    && (0..k).all(|k| needed(k) <= k0 + k1 * square(k))
+                    && needed(k) <= k1 * square(k)
+                    // What the proof is for.
+                    && (0..200).all(|k| needed(k) <= k0 + k1 * square(k))
+            }
+        };
+        Plain { id: "T", lhs: r(0.0), rhs: r(0.0), holds }
+    }
+
+    fn set(&self, claim: &Value, x_p: &R, e_p: &R, z: &R) -> Vec<Plain> {
+        let two = r(2.0);
+        let required = match &self.spec.initial_set {
+            InitialSet::Paper => [&two * x_p, &two * e_p, &two * (z + &self.n_bar * e_p)],
+            InitialSet::AtRest { x0, e0 } => {
+                [x0.as_ref().map_or(&two * x_p, constant), e0.as_ref().map_or(&two * e_p, constant), r(0.0)]
+            }
+            InitialSet::Box { x0, e0, z0 } => [constant(x0), constant(e0), constant(z0)],
+        };
+        let claimed = set_of(claim);
+        required.into_iter().zip(claimed).map(|(a, b)| at_most("set", a - b, r(0.0))).collect()
+    }
+
+    fn domain(&self, x: &R, e: &R) -> Vec<Plain> {
+        self.spec.domain.as_ref().map_or_else(Vec::new, |domain| {
+            vec![at_most("domain", x.clone(), constant(&domain.x)), at_most("domain", e.clone(), constant(&domain.e))]
+        })
+    }
+
+    /// C4 and C5 around a periodic solution of the given size.
+    fn stability(&self, [x_per, e_per]: [&R; 2], distances: &[R; 3], part: &Value, sigma: &R) -> (Vec<Plain>, [R; 2]) {
+        let [d_x, d_e, w_x, h] = numbers(part, ["D_x", "D_e", "w_x", "h"]);
+        let (x_b, e_b) = (x_per + &d_x, e_per + &d_e);
+        let edge = self.at(&x_b, &e_b);
+        let gamma = &self.c
+            * (self.at(x_per, &r(0.0)).fxx * x_per
+                + self.at(x_per, e_per).fex * e_per
+                + self.at(&x_b, e_per).fxx * &d_x / r(2.0));
+        let (k_x, k_e, k_f) = (edge.qx / self.p_low.sqrt(), edge.qe, edge.fe);
+        let [a, b, c] = distances;
+        let start = &w_x * &self.p_up * a.sq() + b.sq() + &h * c.sq();
+        let exit = (&w_x * &self.p_low * d_x.sq()).min(&d_e.sq());
+        // -U' as a form in (s, xi, et), with u = k_x xi + k_e et at its worst sign and phi = k_f et.
+        let corner = r(2.0) * &w_x * (&self.alpha - &gamma);
+        let coupled = &h * &k_x;
+        let mixed = &h * &k_e - &self.mu;
+        let cross = r(0.0) - &w_x * self.p_up.sqrt() * &k_f - &k_x;
+        let first = r(2.0) * &h * &self.mu;
+        let second = &first * &corner - coupled.sq();
+        let determinant = |sigma: &R| {
+            let last = r(2.0) * (sigma - &k_e);
+            &first * (&corner * &last - cross.sq()) - &coupled * (&coupled * &last - &cross * &mixed)
+                + &mixed * (&coupled * &cross - &corner * &mixed)
+        };
+        // The determinant is affine in sigma, with twice the second minor as its slope.
+        let threshold = r(0.0) - determinant(&r(0.0)) / (r(2.0) * &second);
+        let definite = first > r(0.0) && second > r(0.0) && determinant(sigma) > r(0.0);
+        let conditions = vec![
+            less("C4", start, exit),
+            less("C5", &h / &self.mu * k_x.sq(), r(4.0) * &w_x * (&self.alpha - &gamma)),
+            Plain { id: "C5b", lhs: threshold, rhs: sigma.clone(), holds: definite },
+        ];
+        (conditions, [x_b, e_b])
+    }
+
+    /// All conditions of a sharp certificate.
+    pub fn sharp(&self, certificate: &Value) -> Vec<Plain> {
+        let (witness, claim) = (&certificate["witness"], &certificate["claim"]);
+        let sigma = number(&claim["sigma_star"]);
+        let [x_p, e_p, p_x, p_e, k0, k1] = numbers(witness, ["X_p", "E_p", "p_x", "p_e", "k0", "k1"]);
+        let at = self.at(&x_p, &e_p);
+        let fxx = self.at(&x_p, &r(0.0)).fxx;
+        let x1 = self.at(&x_p, &r(0.0)).f + &fxx * x_p.sq() + &at.fe * &e_p;
+        let q1 = &at.qtr + &at.qx * x1 + &at.qe * &at.qr;
+        let w2 = self.w.sq();
+        let z = ((&self.t / (r(2.0) * &self.mu) + &k0 / &w2) * at.qr.sq() + &k1 / w2.sq() * q1.sq()).sqrt();
+        let gain = &self.c / &self.alpha;
+        let share = &gain * &fxx * &x_p / r(2.0);
+        let (by_size, by_rate) = (self.beta(&sigma) * &at.qr, self.tau(&sigma) * &q1);
+        let e_per = e_p.min(&by_size).min(&by_rate);
+        let x_per = x_p.min(&(&gain * &at.fe * &e_per / (r(1.0) - &share)));
+        let mut all = signs(certificate, &["X_p", "E_p", "D_x", "D_e", "p_x", "p_e", "w_x", "h", "k1"]);
+        all.extend(self.set(claim, &x_p, &e_p, &z));
+        let claimed = set_of(claim);
+        let distances = [&claimed[0] + &x_per, &claimed[1] + &e_per, &claimed[2] + &self.n_bar * &claimed[1] + &z];
+        let (stability, [x_b, e_b]) = self.stability([&x_per, &e_per], &distances, witness, &sigma);
+        all.extend(self.domain(&x_p.max(&x_b), &e_p.max(&e_b)));
+        all.push(self.transfer(witness, &k0, &k1));
+        all.push(at_most("C1", &gain * (&at.fe * &e_p + &fxx * x_p.sq() / r(2.0)), x_p.clone()));
+        all.push(less("C1b", share, r(1.0)));
+        all.push(at_most("C2", by_size.min(&by_rate), e_p.clone()));
+        let beta = self.beta(&sigma);
+        let (a, b) = (&gain * (&at.fex * &e_p + &fxx * &x_p), &gain * &at.fe);
+        all.push(less("C3", &a * &p_x + &beta * &at.qx * &p_e, p_x.clone()));
+        all.push(less("C3b", &b * &p_x + &beta * &at.qe * &p_e, p_e.clone()));
+        all.extend(stability);
+        all
+    }
+
+    /// The conditions of the exact-regulation part, if there is one.
+    pub fn exact(&self, certificate: &Value) -> Vec<Plain> {
+        let part = &certificate["witness"]["exact_regulation"];
+        if part.is_null() {
+            return Vec::new();
+        }
+        let sigma = number(&part["sigma_star_oo"]);
+        let origin = self.at(&r(0.0), &r(0.0));
+        let weights = &self.spec.internal_model.weights;
+        let pi = R(Float::with_val(BITS, rug::float::Constant::Pi));
+        let turn = &self.t / (r(2.0) * pi);
+        let z = (origin.q.sq() / weight(weights, 0) + r(2.0) * turn.sq() * origin.qt.sq() / weight(weights, 1)).sqrt()
+            / &self.mu;
+        let claimed = set_of(&certificate["claim"]);
+        let far = &claimed[2] + &self.n_bar * &claimed[1] + z;
+        let zero = r(0.0);
+        let distances = [claimed[0].clone(), claimed[1].clone(), far];
+        let (stability, [x_b, e_b]) = self.stability([&zero, &zero], &distances, part, &sigma);
+        let mut all = Vec::new();
+        for value in numbers(part, ["sigma_star_oo", "D_x", "D_e", "w_x", "h"]) {
+            all.push(less("sign", r(0.0), value));
+        }
+        all.extend(self.domain(&x_b, &e_b));
+        all.extend(stability);
+        all
+    }
+
+    /// All conditions of a repaired certificate.
+    pub fn repaired(&self, certificate: &Value) -> Vec<Plain> {
+        let (witness, claim) = (&certificate["witness"], &certificate["claim"]);
+        let sigma = number(&claim["sigma_star"]);
+        let [x, e, level, h, p_x, p_e, k0, k1] = numbers(witness, ["X", "E", "L", "h", "p_x", "p_e", "k0", "k1"]);
+        let at = self.at(&x, &e);
+        let fxx = self.at(&x, &r(0.0)).fxx;
+        let w2 = self.w.sq();
+        let (kappa_0, kappa_1) = (&k0 / &w2, &k1 / w2.sq());
+        let z = ((&self.t / &self.mu + kappa_0 + r(54.0) * &kappa_1 * at.qe.sq()) * at.q.sq()
+            + r(3.0) * kappa_1 * (at.qt.sq() + at.qx.sq() * at.f.sq()))
+        .sqrt();
+        let mut all = signs(certificate, &["X", "E", "L", "h", "p_x", "p_e", "k1"]);
+        all.extend(self.set(claim, &x, &e, &z));
+        let (x_b, e_b) = (&x + (&level / &self.p_low).sqrt(), &e + level.sqrt());
+        all.extend(self.domain(&x_b, &e_b));
+        all.push(self.transfer(witness, &k0, &k1));
+        let gain = self.k_alpha() / &self.alpha;
+        let beta = r(2.0) * self.beta(&sigma);
+        all.push(at_most("C1", &gain * (&at.fe * &e + &fxx * x.sq() / r(2.0)), x.clone()));
+        all.push(at_most("C2", &beta * &at.q, e.clone()));
+        let (a, b) = (&gain * (&at.fex * &e + r(2.0) * &fxx * &x), &gain * &at.fe);
+        all.push(less("C3", &a * &p_x + &beta * &at.qx * &p_e, p_x.clone()));
+        all.push(less("C3b", &b * &p_x + &beta * &at.qe * &p_e, p_e.clone()));
+        let claimed = set_of(claim);
+        let far = &claimed[2] + &self.n_bar * &claimed[1] + &z;
+        let start = &self.p_up * (&claimed[0] + &x).sq() + (&claimed[1] + &e).sq() + &h * far.sq();
+        all.push(less("C4", start, level));
+        let edge = self.at(&x_b, &e_b);
+        let rho_0 =
+            &self.p_up * (&at.fxx * &x + &at.fex * &e) + &self.p_up / r(2.0) * self.at(&x_b, &e).fxx * (&x_b + &x);
+        let rho_11 = rho_0 + &h / &self.mu * edge.qx.sq();
+        let rho_12 = &self.p_up * &edge.fe + &edge.qx;
+        let rho_22 = &edge.qe + &h / &self.mu * edge.qe.sq();
+        let room = &self.alpha * &self.p_low - &rho_11;
+        // R itself, by its determinant expanded along the last row; affine in sigma.
+        let first = r(2.0) * &room;
+        let determinant = |sigma: &R| {
+            let middle = r(2.0) * (sigma - &rho_22);
+            &self.mu * &h * (&first * &middle - rho_12.sq()) - self.mu.sq() * &first
+        };
+        let threshold = r(0.0) - determinant(&r(0.0)) / (r(2.0) * &self.mu * &h * &first);
+        let definite = first > r(0.0) && h > r(0.0) && determinant(&sigma) > r(0.0);
+        all.push(less("C5", rho_11, &self.alpha * &self.p_low));
+        all.push(Plain { id: "C5b", lhs: threshold, rhs: sigma, holds: definite });
+        all
+    }
+}
+
+/// X_0, E_0, Z_0 of a claim.
+fn set_of(claim: &Value) -> [R; 3] {
+    numbers(&claim["initial_set"], ["X0", "E0", "Z0"])
+}
+
+fn number(value: &Value) -> R {
+    R::rational(&parse(value.as_str().unwrap()))
+}
+
+fn numbers<const N: usize>(object: &Value, names: [&str; N]) -> [R; N] {
+    names.map(|name| number(&object[name]))
+}
+
+fn signs(certificate: &Value, names: &[&str]) -> Vec<Plain> {
+    let sigma = number(&certificate["claim"]["sigma_star"]);
+    let values = names.iter().map(|name| number(&certificate["witness"][name]));
+    std::iter::once(sigma).chain(values).map(|value| less("sign", r(0.0), value)).collect()
+}

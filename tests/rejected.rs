@@ -1,0 +1,251 @@
+//! Each condition refused by itself: a witness with room in every condition, and one number changed.
+
+use rug::Rational;
+use sigmastar::certificate::{Ladder, decide_exact, decide_repaired, decide_sharp};
+use sigmastar::constants::consequences::{error_bounds, smallest_n_o};
+use sigmastar::constants::data::Data;
+use sigmastar::constants::exact_regulation::ExactWitness;
+use sigmastar::constants::repaired::RepairedWitness;
+use sigmastar::constants::sharp::{ClaimedSet, SharpWitness};
+use sigmastar::enclosure::{Enclosure, Truth};
+use sigmastar::spec::Specification;
+use sigmastar::transfer::TransferProof;
+use std::collections::BTreeSet;
+
+const TEXT: &str = r#"{"format": "sigmastar/bounding-spec", "version": 1, "name": "roomy", "period": "1",
+    "lyapunov": {"p_low": 1, "p_up": 4, "alpha": 1},
+    "bounds": {"f": "X + E", "f_e": "1", "f_xx": "0.0001", "f_ex": "0.0001", "q": "1 + X/100 + E/100", "q_e": "0.01",
+      "q_x": "0.01", "q_t": "1"},
+    "domain": {"X": "DOMAIN", "E": "DOMAIN"},
+    "internal_model": {"mu": "1", "base_frequency": "2*pi", "matched": true,
+      "weights": {"family": "power", "n0": "2", "epsilon": "1/2"}},
+    "initial_set": {"kind": "box", "X0": "1", "E0": "1", "Z0": "0"}}"#;
+
+fn roomy(domain: &str) -> Specification {
+    Specification::from_json("roomy", &TEXT.replace("DOMAIN", domain)).unwrap()
+}
+
+fn q(n: i64, d: i64) -> Rational {
+    Rational::from((n, d))
+}
+
+fn witness() -> SharpWitness {
+    SharpWitness {
+        sigma: q(100_000, 1),
+        x_p: q(10, 1),
+        e_p: q(1, 1),
+        d_x: q(10, 1),
+        d_e: q(10, 1),
+        p_x: q(1, 4),
+        p_e: q(1, 1),
+        w_x: q(1, 1),
+        h: q(1, 100),
+        k0: q(100, 1),
+        k1: q(1000, 1),
+        transfer: TransferProof::Matched { k: 1 },
+        set: ClaimedSet { x0: q(1, 1), e0: q(1, 1), z0: q(0, 1) },
+    }
+}
+
+fn broken(domain: &str, change: impl Fn(&mut SharpWitness)) -> BTreeSet<&'static str> {
+    let mut witness = witness();
+    change(&mut witness);
+    let (evaluation, _) = decide_sharp(&roomy(domain), &witness, Ladder::default());
+    let failing: BTreeSet<_> = evaluation.conditions.iter().filter(|c| !c.truth().is_true()).map(|c| c.id).collect();
+    assert_eq!(failing.is_empty(), evaluation.truth().is_true());
+    failing
+}
+
+#[test]
+fn every_sharp_condition_is_refused_by_itself() {
+    let set = |ids: &[&'static str]| ids.iter().copied().collect::<BTreeSet<_>>();
+    let far = "1e9";
+    assert_eq!(broken(far, |_| ()), set(&[]));
+    assert_eq!(broken(far, |w| w.e_p = q(6, 1)), set(&["C1"]));
+    assert!(broken(far, |w| w.x_p = q(10_001, 1)).contains("C1b"));
+    assert_eq!(broken(far, |w| w.e_p = q(1, 1_000_000)), set(&["C2"]));
+    assert_eq!(broken(far, |w| w.p_x = q(1, 1_000_000)), set(&["C3"]));
+    assert_eq!(broken(far, |w| w.p_x = q(10, 1)), set(&["C3b"]));
+    assert_eq!(broken(far, |w| w.d_e = q(2, 1)), set(&["C4"]));
+    assert_eq!(broken(far, |w| w.set.z0 = q(1000, 1)), set(&["C4"]));
+    assert_eq!(broken(far, |w| w.d_x = q(11_000, 1)), set(&["C5", "C5b"]));
+    assert_eq!(broken(far, |w| w.sigma = q(25, 1)), set(&["C5b"]));
+    assert_eq!(broken(far, |w| w.k0 = q(19, 1)), set(&["T"]));
+    assert_eq!(broken(far, |w| w.k1 = q(78, 1)), set(&["T"]));
+    assert_eq!(broken(far, |w| (w.transfer, w.k1) = (TransferProof::ClosedForm, q(400, 1))), set(&["T"]));
+    assert_eq!(broken(far, |w| w.set.x0 = q(999, 1000)), set(&["set"]));
+    assert_eq!(broken(far, |w| w.set.e0 = q(999, 1000)), set(&["set"]));
+    assert_eq!(broken(far, |w| w.set.z0 = q(-1, 1000)), set(&["set"]));
+    assert_eq!(broken("10", |_| ()), set(&["domain"]));
+    // X_p and E_p count too, not only the error box.
+    assert_eq!(broken("19", |w| w.x_p = q(20, 1)), set(&["domain"]));
+    let signs: [fn(&mut SharpWitness) -> &mut Rational; 10] = [
+        |w| &mut w.sigma,
+        |w| &mut w.x_p,
+        |w| &mut w.e_p,
+        |w| &mut w.d_x,
+        |w| &mut w.d_e,
+        |w| &mut w.p_x,
+        |w| &mut w.p_e,
+        |w| &mut w.w_x,
+        |w| &mut w.h,
+        |w| &mut w.k1,
+    ];
+    for number in signs {
+        for factor in [0, -1] {
+            assert!(broken(far, |w| *number(w) *= factor).contains("sign"));
+        }
+    }
+    // Both negative, their conditions would hold after a division by -1.
+    assert!(broken(far, |w| (w.p_x, w.p_e) = (q(-1, 4), q(-1, 1))).contains("sign"));
+    assert_eq!(broken(far, |w| w.d_x = q(-10, 1)), set(&["sign"]));
+}
+
+#[test]
+fn every_condition_of_exact_regulation_is_refused_by_itself() {
+    let base = ExactWitness { sigma: q(100_000, 1), d_x: q(10, 1), d_e: q(10, 1), w_x: q(1, 1), h: q(1, 100) };
+    let decided = |domain: &str, matched: bool, change: &dyn Fn(&mut ExactWitness)| {
+        let mut witness = base.clone();
+        change(&mut witness);
+        let text = TEXT.replace("DOMAIN", domain).replace("\"matched\": true", &format!("\"matched\": {matched}"));
+        let spec = Specification::from_json("roomy", &text).unwrap();
+        let (evaluation, _) = decide_exact(&spec, &self::witness().set, &witness, Ladder::default());
+        let failing = evaluation.conditions.iter().filter(|c| !c.truth().is_true()).map(|c| c.id);
+        failing.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>()
+    };
+    assert!(decided("1e9", true, &|_| ()).is_empty());
+    assert_eq!(decided("1e9", false, &|_| ()), ["matched"]);
+    assert_eq!(decided("9", true, &|_| ()), ["domain"]);
+    assert_eq!(decided("1e9", true, &|w| w.d_e = q(1, 1)), ["C4"]);
+    assert_eq!(decided("1e9", true, &|w| w.d_x = q(11_000, 1)), ["C5", "C5b"]);
+    assert_eq!(decided("1e9", true, &|w| w.sigma = q(25, 1)), ["C5b"]);
+    assert_eq!(decided("1e9", true, &|w| w.d_e = q(-10, 1)), ["sign"]);
+}
+
+fn repaired() -> RepairedWitness {
+    RepairedWitness {
+        sigma: q(1_000_000, 1),
+        x: q(40, 1),
+        e: q(1, 1),
+        level: q(10_000, 1),
+        h: q(1, 1000),
+        p_x: q(1, 4),
+        p_e: q(1, 1),
+        k0: q(100, 1),
+        k1: q(1000, 1),
+        transfer: TransferProof::Matched { k: 1 },
+        set: ClaimedSet { x0: q(1, 1), e0: q(1, 1), z0: q(0, 1) },
+    }
+}
+
+#[test]
+fn every_repaired_condition_is_refused_by_itself() {
+    let decided = |domain: &str, change: &dyn Fn(&mut RepairedWitness)| {
+        let mut witness = repaired();
+        change(&mut witness);
+        let (evaluation, _) = decide_repaired(&roomy(domain), &witness, Ladder::default());
+        let failing = evaluation.conditions.iter().filter(|c| !c.truth().is_true()).map(|c| c.id);
+        failing.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>()
+    };
+    let far = "1e9";
+    assert!(decided(far, &|_| ()).is_empty());
+    assert_eq!(decided(far, &|w| w.e = q(39, 1)), ["C1"]);
+    assert_eq!(decided(far, &|w| w.e = q(1, 1_000_000)), ["C2"]);
+    assert_eq!(decided(far, &|w| w.p_x = q(1, 10_000_000)), ["C3"]);
+    assert_eq!(decided(far, &|w| w.p_x = q(10, 1)), ["C3b"]);
+    assert_eq!(decided(far, &|w| w.set.z0 = q(100_000, 1)), ["C4"]);
+    assert_eq!(decided(far, &|w| w.level = q(100_000_000, 1)), ["C5", "C5b"]);
+    assert_eq!(decided(far, &|w| w.sigma = q(400, 1)), ["C5b"]);
+    assert_eq!(decided(far, &|w| w.k1 = q(78, 1)), ["T"]);
+    assert_eq!(decided(far, &|w| w.set.x0 = q(1, 2)), ["set"]);
+    assert_eq!(decided("100", &|_| ()), ["domain"]);
+    assert!(decided(far, &|w| w.level = q(-10_000, 1)).contains(&"sign"));
+}
+
+/// R > 0 by its determinant, and by sigma > sigma_a.
+#[test]
+fn the_minors_of_r_are_its_minors_and_sigma_a_is_their_zero() {
+    let spec = roomy("1e9");
+    let (evaluation, _) = decide_repaired(&spec, &repaired(), Ladder::default());
+    let data = Data::new(&spec, 128);
+    let lyapunov = &evaluation.lyapunov;
+    let plain = |value: &Enclosure| value.lower_rational().unwrap();
+    let (mu, h) = (plain(&data.mu), q(1, 1000));
+    let sigma_a = plain(&lyapunov.sigma_a);
+    for (factor, above) in
+        [((1, 100), false), ((999_999, 1_000_000), false), ((1_000_001, 1_000_000), true), ((9, 1), true)]
+    {
+        let sigma = Rational::from(&sigma_a * Rational::from(factor));
+        let minors = lyapunov.leading_minors(&data, &data.rational(&sigma), &data.rational(&h));
+        let a = (plain(&data.alpha) * plain(&data.p_low) - plain(&lyapunov.rho_11)) * 2u32;
+        let b = -plain(&lyapunov.rho_12);
+        let d = (sigma - plain(&lyapunov.rho_22)) * 2u32;
+        let (e, f) = (-mu.clone(), Rational::from(&mu * &h));
+        // [[a, b, 0], [b, d, e], [0, e, f]] by the rule of Sarrus.
+        let two = Rational::from(&a * &d) - Rational::from(&b * &b);
+        let three = Rational::from(&a * &d) * &f - Rational::from(&e * &e) * &a - Rational::from(&b * &b) * &f;
+        for (minor, expected) in minors.iter().zip([a, two, three]) {
+            let expected = expected.to_f64();
+            assert!((minor.midpoint_f64() - expected).abs() <= 1e-12 * expected.abs(), "{factor:?}");
+        }
+        let definite = minors.iter().all(|minor| minor.is_positive().is_true());
+        assert_eq!(definite, above, "{factor:?}");
+    }
+    assert!(lyapunov.sigma_a.lt(&lyapunov.sigma_a_printed).is_true());
+}
+
+/// The bounds of the regulated error against direct sums over the harmonics.
+#[test]
+fn error_bounds_are_above_the_direct_sums_and_close() {
+    let spec = roomy("1e9");
+    let (evaluation, _) = decide_sharp(&spec, &witness(), Ladder::default());
+    let data = Data::new(&spec, 128);
+    let bounds = &evaluation.bounds;
+    let (qr, q1) = (bounds.q_rms.midpoint_f64(), bounds.q_rate_rms.midpoint_f64());
+    let omega = 2.0 * std::f64::consts::PI;
+    let huge = Enclosure::from_integer(1 << 40, 128);
+    for sigma in [0.01, 3.0, 500.0] {
+        let exact = Enclosure::from_rational(&Rational::from_f64(sigma).unwrap(), 128);
+        for n_o in [0_u64, 1, 5, 63, 200] {
+            let (mut size, mut rate) = (0.0_f64, 0.0_f64);
+            let last = 400_000_u64;
+            for k in (n_o + 1..=last).rev() {
+                let square = (k as f64 * omega).powi(2);
+                size += 1.0 / (square + sigma * sigma);
+                rate += 1.0 / (square * (square + sigma * sigma));
+            }
+            // The rest of the first sum, from its integral.
+            size += 1.0 / (omega * omega * (last as f64 + 0.5));
+            let a = (n_o + 1) as f64 * omega;
+            let modulus = a.hypot(sigma);
+            let (sup, rms) =
+                ((qr * (2.0 * size).sqrt()).min(q1 * (2.0 * rate).sqrt()), (qr / modulus).min(q1 / (a * modulus)));
+            let found = error_bounds(&data, bounds, &exact, &huge, n_o);
+            for (bound, direct) in [(found.sup.upper_f64(), sup), (found.rms.upper_f64(), rms)] {
+                assert!(bound >= direct * (1.0 - 1e-10) && bound <= direct * 1.5, "{sigma} {n_o}: {bound} {direct}");
+            }
+            // A smaller bound of the periodic error is kept.
+            let tiny = Enclosure::from_rational(&q(1, 1 << 40), 128);
+            let kept = error_bounds(&data, bounds, &exact, &tiny, n_o);
+            assert!(kept.sup == tiny && kept.rms == tiny);
+        }
+        // Beyond every i64 the bounds are still positive and small.
+        for n_o in [i64::MAX as u64, u64::MAX] {
+            let found = error_bounds(&data, bounds, &exact, &huge, n_o);
+            assert!(found.sup.is_positive().is_true() && found.rms.is_positive().is_true(), "{n_o}");
+            assert!(found.rms.upper_f64() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn the_smallest_number_of_oscillators_is_the_smallest() {
+    let falling = |n_o: u64| Enclosure::one(64) / Enclosure::from_rational(&Rational::from(n_o + 1), 64);
+    for wanted in [1_i64, 2, 3, 17, 1000, 65_537] {
+        let target = Enclosure::one(64) / wanted;
+        let found = smallest_n_o(&target, |n_o| falling(n_o).ceiling()).unwrap();
+        assert!(found == wanted as u64 - 1 || found == wanted as u64, "{wanted}: {found}");
+        assert_eq!(falling(found).ceiling().le(&target), Truth::True);
+    }
+    assert_eq!(smallest_n_o(&Enclosure::zero(64), falling), None);
+}
