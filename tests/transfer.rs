@@ -87,12 +87,12 @@ fn the_closed_form_is_above_the_definition() {
             let data = Data::new(&spec, 128);
             let (k0, k1) = closed_form_pair(&data);
             let (k0, k1) = (up(&k0), up(&k1));
-            assert_eq!(decide(&data, &k0, &k1, TransferProof::ClosedForm).0, Truth::True);
+            assert_eq!(decide(&data, &k0, &k1, &TransferProof::ClosedForm).0, Truth::True);
             for (k0, k1) in [
                 (Rational::from(&k0 * Rational::from((98, 100))), k1.clone()),
                 (k0.clone(), Rational::from(&k1 * Rational::from((98, 100)))),
             ] {
-                assert_ne!(decide(&data, &k0, &k1, TransferProof::ClosedForm).0, Truth::True);
+                assert_ne!(decide(&data, &k0, &k1, &TransferProof::ClosedForm).0, Truth::True);
             }
             let nu = Float::with_val(BITS, Float::parse(mu).unwrap());
             for poles in [0, 1, 2, 3, 7, 20] {
@@ -128,9 +128,9 @@ fn matched_pairs_are_above_the_definition_at_integers_and_tight() {
                 let slightly_up = |v: f64| Rational::from_f64(v * (1.0 + 1e-10)).unwrap();
                 let (k0, k1) = (slightly_up(k0), slightly_up(k1));
                 let proof = TransferProof::Matched { k };
-                assert_eq!(decide(&data, &k0, &k1, proof).0, Truth::True, "{json} {mu} {index}");
+                assert_eq!(decide(&data, &k0, &k1, &proof).0, Truth::True, "{json} {mu} {index}");
                 let lower = Rational::from(&k1 * Rational::from((98, 100)));
-                assert_eq!(decide(&data, &k0, &lower, proof).0, Truth::False, "{json} {mu} {index}");
+                assert_eq!(decide(&data, &k0, &lower, &proof).0, Truth::False, "{json} {mu} {index}");
                 if index % 8 != 0 {
                     continue;
                 }
@@ -154,11 +154,11 @@ fn matched_proofs_need_a_matched_frequency_and_a_moderate_k() {
     let (large, proof) = (Rational::from(1_000_000_000), |k| TransferProof::Matched { k });
     let matched = specification("1", true, &json);
     let data = Data::new(&matched, 128);
-    assert_eq!(decide(&data, &large, &large, proof(1)).0, Truth::True);
-    assert_eq!(decide(&data, &large, &large, proof(4096)).0, Truth::True);
+    assert_eq!(decide(&data, &large, &large, &proof(1)).0, Truth::True);
+    assert_eq!(decide(&data, &large, &large, &proof(4096)).0, Truth::True);
     for k in [0, 4097, 65_536, u32::MAX] {
-        assert_eq!(decide(&data, &large, &large, proof(k)).0, Truth::False, "{k}");
+        assert_eq!(decide(&data, &large, &large, &proof(k)).0, Truth::False, "{k}");
     }
     let unmatched = specification("1", false, &json);
-    assert_eq!(decide(&Data::new(&unmatched, 128), &large, &large, proof(1)).0, Truth::False);
+    assert_eq!(decide(&Data::new(&unmatched, 128), &large, &large, &proof(1)).0, Truth::False);
 }

@@ -107,7 +107,7 @@ pub(super) fn e20() -> Erratum {
     ];
     Erratum {
         id: "E20",
-        place: "P:table:high-gain, P:table:example-norms, internal-model rows; P:eq:nzk",
+        place: "P:table:example-norms, internal-model rows; P:eq:nzk",
         class: Class::C,
         printed: "n_z0 = 2",
         instead: "the entries were computed with n_z0 = 1, against P:27; a floating-point simulation shows it, which the \

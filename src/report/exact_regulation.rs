@@ -15,11 +15,14 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
             let set = &proof.witness.set;
             format!(
                 "sigma*_oo = {}: with infinitely many oscillators and any sigma >= sigma*_oo, every solution from |x| <= {}, \
-                 |e| <= {}, |z|_N <= {} is bounded, and x and e tend to 0. No rate is claimed, and nothing about z.",
+                 |e| <= {}, |z|_N <= {} is bounded, and x and e tend to 0. No rate is claimed, and nothing about z. This uses \
+                 the bounding functions up to X = {}, E = {}.",
                 write_exact(&claim.witness.sigma),
                 exact(&set.x0, Direction::Down),
                 exact(&set.e0, Direction::Down),
-                exact(&set.z0, Direction::Down)
+                exact(&set.z0, Direction::Down),
+                exact(&claim.witness.d_x, Direction::Up),
+                exact(&claim.witness.d_e, Direction::Up)
             )
         }
         _ if !run.spec.internal_model.matched => {

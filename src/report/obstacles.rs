@@ -125,7 +125,10 @@ fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
                 add("see the place in the expression that is shown with this report");
             }
         }
-        Status::Failing(conditions) if conditions.iter().any(|condition| condition.truth().is_undecided()) => {
+        Status::Failing(conditions)
+            if conditions.iter().any(|condition| condition.truth().is_undecided())
+                && !conditions.iter().any(|condition| condition.truth().is_false()) =>
+        {
             add("raise --precision-limit");
         }
         Status::Failing(_) if !rechecked => {
