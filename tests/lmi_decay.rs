@@ -228,6 +228,7 @@ fn what_cannot_be_solved_is_said() {
     for odd in [
         DecayData { rate: Rational::from(-1), ..ones() },
         DecayData { rate: Rational::new(), ..ones() },
+        DecayData { rate: Rational::new(), k_x: Rational::new(), k_f: Rational::new(), ..ones() },
         DecayData { h: Rational::from(-1), ..ones() },
         DecayData { mu: [Rational::new(), Rational::from(1)], ..ones() },
         DecayData { k_x: Rational::from(-1), ..ones() },
