@@ -5,6 +5,7 @@
 //! - [`spec`]: a bounding specification is read strictly, every number exact;
 //! - [`expr`], [`number`], [`enclosure`]: bounding functions, exact numbers, rigorous interval arithmetic over MPFR;
 //! - [`constants`], [`transfer`]: the constants and conditions of the paper in three derivations;
+//! - [`lmi`]: C5 as a linear matrix inequality, proposed by a solver and verified exactly;
 //! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
 //! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
 //! - [`report`], [`errata`]: what a person reads.
@@ -16,6 +17,7 @@ pub mod constants;
 pub mod enclosure;
 pub mod errata;
 pub mod expr;
+pub mod lmi;
 pub mod number;
 pub mod report;
 pub mod search;

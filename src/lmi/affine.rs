@@ -1,0 +1,223 @@
+//! Symmetric matrices that are affine in decision variables: `C + x_1 A_1 + ... + x_k A_k`.
+
+use rug::Rational;
+use std::f64::consts::SQRT_2;
+
+/// The positions (row, column), row <= column, of the upper triangle, column by column: Clarabel's order.
+///
+/// This is the only place that knows the order; everything else stores and reads entries through it.
+fn triangle(order: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..order).flat_map(|column| (0..=column).map(move |row| (row, column)))
+}
+
+/// A symmetric matrix, stored as its upper triangle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Symmetric<T> {
+    order: usize,
+    entries: Vec<T>,
+}
+
+impl<T> Symmetric<T> {
+    /// The matrix with these entries; `entry(row, column)` is asked for row <= column only.
+    #[must_use]
+    pub fn from_fn(order: usize, entry: impl Fn(usize, usize) -> T) -> Symmetric<T> {
+        Symmetric { order, entries: triangle(order).map(|(row, column)| entry(row, column)).collect() }
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// The entries of the upper triangle.
+    #[must_use]
+    pub fn entries(&self) -> &[T] {
+        &self.entries
+    }
+
+    /// The matrix whose entries are functions of position and entry.
+    fn map<U>(&self, image: impl Fn(usize, usize, &T) -> U) -> Symmetric<U> {
+        let entries = triangle(self.order).zip(&self.entries).map(|((row, column), value)| image(row, column, value));
+        Symmetric { order: self.order, entries: entries.collect() }
+    }
+}
+
+impl Symmetric<Rational> {
+    /// All rows in full.
+    #[must_use]
+    pub fn rows(&self) -> Vec<Vec<Rational>> {
+        let mut rows = vec![vec![Rational::new(); self.order]; self.order];
+        for ((row, column), value) in triangle(self.order).zip(&self.entries) {
+            rows[row][column].clone_from(value);
+            rows[column][row].clone_from(value);
+        }
+        rows
+    }
+}
+
+impl Symmetric<f64> {
+    /// The vector of Clarabel's cone of positive semidefinite matrices: the upper triangle, off-diagonal entries
+    /// times the root of 2, so that inner products of vectors are those of matrices.
+    #[must_use]
+    pub fn cone_vector(&self) -> Vec<f64> {
+        self.map(|row, column, value| if row == column { *value } else { SQRT_2 * value }).entries
+    }
+}
+
+/// `C + x_1 A_1 + ... + x_k A_k` with symmetric matrices of one order.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AffineMatrix<T> {
+    constant: Symmetric<T>,
+    terms: Vec<Symmetric<T>>,
+}
+
+impl<T> AffineMatrix<T> {
+    /// The matrix with the constant `constant(row, column)` and the coefficients `term(variable, row, column)`, each
+    /// asked for row <= column only.
+    #[must_use]
+    pub fn from_fn(
+        order: usize,
+        variables: usize,
+        constant: impl Fn(usize, usize) -> T,
+        term: impl Fn(usize, usize, usize) -> T,
+    ) -> AffineMatrix<T> {
+        AffineMatrix {
+            constant: Symmetric::from_fn(order, constant),
+            terms: (0..variables)
+                .map(|variable| Symmetric::from_fn(order, |row, column| term(variable, row, column)))
+                .collect(),
+        }
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.constant.order
+    }
+
+    /// C.
+    #[must_use]
+    pub fn constant(&self) -> &Symmetric<T> {
+        &self.constant
+    }
+
+    /// The A_k, one per variable.
+    #[must_use]
+    pub fn terms(&self) -> &[Symmetric<T>] {
+        &self.terms
+    }
+}
+
+impl AffineMatrix<Rational> {
+    /// Substitutes numbers for the leading variables; the rest stay. Numbers in excess of the variables are ignored.
+    #[must_use]
+    pub fn substitute(&self, values: &[Rational]) -> AffineMatrix<Rational> {
+        let mut constant = self.constant.clone();
+        for (value, term) in values.iter().zip(&self.terms) {
+            for (entry, coefficient) in constant.entries.iter_mut().zip(&term.entries) {
+                *entry += Rational::from(value * coefficient);
+            }
+        }
+        AffineMatrix { constant, terms: self.terms.iter().skip(values.len()).cloned().collect() }
+    }
+
+    /// `D M(x) D` with D = diag(1/roots) and x_k = units_k y_k, as a matrix affine in y, in floating point.
+    ///
+    /// A congruence with D > 0 does not change definiteness. Rounding errors are of the order of one unit in the last
+    /// place of each entry; entries beyond the range of doubles become infinite, which the solver refuses.
+    /// Precondition: one root per row and one unit per variable; what is missing counts as NaN and is refused too.
+    #[must_use]
+    pub fn scaled(&self, roots: &[f64], units: &[f64]) -> AffineMatrix<f64> {
+        let root = |index: usize| roots.get(index).copied().unwrap_or(f64::NAN);
+        let scale = |matrix: &Symmetric<Rational>, unit: f64| {
+            matrix.map(|row, column, value| match value.to_f64() {
+                // An exact zero stays one, whatever the scales.
+                0.0 => 0.0,
+                value => value / root(row) * unit / root(column),
+            })
+        };
+        let units = units.iter().copied().chain(std::iter::repeat(f64::NAN));
+        AffineMatrix {
+            constant: scale(&self.constant, 1.0),
+            terms: self.terms.iter().zip(units).map(|(term, unit)| scale(term, unit)).collect(),
+        }
+    }
+}
+
+impl AffineMatrix<f64> {
+    /// `M(x) - t I` with t as a further, last variable.
+    #[must_use]
+    pub fn minus_identity(mut self) -> AffineMatrix<f64> {
+        self.terms.push(Symmetric::from_fn(self.order(), |row, column| if row == column { -1.0 } else { 0.0 }));
+        self
+    }
+
+    /// `M(x) - epsilon I`.
+    #[must_use]
+    pub fn with_margin(mut self, epsilon: f64) -> AffineMatrix<f64> {
+        self.constant = self.constant.map(|row, column, value| if row == column { value - epsilon } else { *value });
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// [[1, 2, 4], [2, 3, 5], [4, 5, 6]]: in Clarabel's order the entries count up.
+    fn by_hand() -> Symmetric<f64> {
+        let entries = [[1.0, 2.0, 4.0], [2.0, 3.0, 5.0], [4.0, 5.0, 6.0]];
+        Symmetric::from_fn(3, |row, column| entries[row][column])
+    }
+
+    fn rational(value: i32) -> Rational {
+        Rational::from(value)
+    }
+
+    #[test]
+    fn the_cone_vector_of_a_matrix_made_by_hand() {
+        assert_eq!(by_hand().entries(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        assert_eq!(by_hand().cone_vector(), [1.0, 2.0 * SQRT_2, 3.0, 4.0 * SQRT_2, 5.0 * SQRT_2, 6.0]);
+    }
+
+    #[test]
+    fn rows_are_both_triangles() {
+        let rows = Symmetric::from_fn(2, |row, column| rational((1 + row + 2 * column) as i32)).rows();
+        assert_eq!(rows, [[rational(1), rational(3)], [rational(3), rational(4)]]);
+    }
+
+    /// [[1, 2], [2, 5]] + x [[1, 0], [0, 0]] + y [[0, 1], [1, 3]].
+    fn two_terms() -> AffineMatrix<Rational> {
+        let constant = [[1, 2], [2, 5]];
+        let terms = [[[1, 0], [0, 0]], [[0, 1], [1, 3]]];
+        AffineMatrix::from_fn(2, 2, |i, j| rational(constant[i][j]), |k, i, j| rational(terms[k][i][j]))
+    }
+
+    #[test]
+    fn substitution_leaves_the_other_variables() {
+        let partly = two_terms().substitute(&[rational(10)]);
+        assert_eq!(partly.constant().rows(), [[rational(11), rational(2)], [rational(2), rational(5)]]);
+        assert_eq!(partly.terms(), &two_terms().terms()[1..]);
+        let fully = two_terms().substitute(&[rational(10), rational(-2)]);
+        assert_eq!(fully.constant().rows(), [[rational(11), rational(0)], [rational(0), rational(-1)]]);
+        assert!(fully.terms().is_empty());
+    }
+
+    #[test]
+    fn scaling_divides_rows_and_columns_and_multiplies_units() {
+        let scaled = two_terms().scaled(&[2.0, 4.0], &[8.0, 16.0]);
+        assert_eq!(scaled.constant().entries(), [0.25, 0.25, 0.3125]);
+        assert_eq!(scaled.terms()[0].entries(), [2.0, 0.0, 0.0]);
+        assert_eq!(scaled.terms()[1].entries(), [0.0, 2.0, 3.0]);
+        assert!(two_terms().scaled(&[2.0], &[8.0, 16.0]).constant().entries()[1].is_nan());
+        assert!(two_terms().scaled(&[2.0, 4.0], &[8.0]).terms()[1].entries()[2].is_nan());
+    }
+
+    #[test]
+    fn the_margin_and_the_identity_are_taken_from_the_diagonal() {
+        let plain = two_terms().scaled(&[1.0, 1.0], &[1.0, 1.0]);
+        assert_eq!(plain.clone().with_margin(0.5).constant().entries(), [0.5, 2.0, 4.5]);
+        assert_eq!(plain.minus_identity().terms()[2].entries(), [-1.0, 0.0, -1.0]);
+    }
+}

@@ -1,0 +1,149 @@
+//! The matrix of C5: defined once, in exact numbers, and decided exactly.
+
+use super::affine::AffineMatrix;
+use super::ldl::is_positive_definite;
+use crate::constants::data::Data;
+use crate::constants::stability::ErrorBox;
+use crate::enclosure::Enclosure;
+use rug::Rational;
+
+/// The numbers of C5, each an exact bound in the direction in which C5 is harder (see [`verify_decay`]).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DecayData {
+    /// w_x > 0.
+    pub w_x: Rational,
+    /// h > 0.
+    pub h: Rational,
+    /// Bounds of mu from below and from above, in 1/time; equal where mu is rational.
+    pub mu: [Rational; 2],
+    /// A lower bound of alpha - gam, in 1/time.
+    pub rate: Rational,
+    /// An upper bound of sqrt(P_up).
+    pub root_p_up: Rational,
+    /// An upper bound of k_x; 0 says that u_x vanishes.
+    pub k_x: Rational,
+    /// An upper bound of k_e; 0 says that u_e vanishes.
+    pub k_e: Rational,
+    /// An upper bound of k_f; 0 says that phi vanishes.
+    pub k_f: Rational,
+}
+
+/// The signals of the quadratic form, in the order of the matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Signal {
+    /// xi = sqrt(xt'P_x xt).
+    X,
+    /// et.
+    E,
+    /// s = M'N zt.
+    S,
+    /// u_x, |u_x| <= k_x xi.
+    Ux,
+    /// u_e, |u_e| <= k_e |et|.
+    Ue,
+    /// phi, |phi| <= k_f |et|.
+    Phi,
+}
+
+impl DecayData {
+    /// The bounds of C5 on an error box; `None` if one of them is not bounded.
+    #[must_use]
+    pub fn new(data: &Data<'_>, error_box: &ErrorBox, w_x: &Rational, h: &Rational) -> Option<DecayData> {
+        let upper = Enclosure::upper_rational;
+        Some(DecayData {
+            w_x: w_x.clone(),
+            h: h.clone(),
+            mu: [data.mu.lower_rational()?, upper(&data.mu)?],
+            rate: (&data.alpha - &error_box.gamma).lower_rational()?,
+            root_p_up: upper(&data.p_up.sqrt())?,
+            k_x: upper(&error_box.k_x)?,
+            k_e: upper(&error_box.k_e)?,
+            k_f: upper(&error_box.k_f)?,
+        })
+    }
+
+    /// k_x, k_e, k_f with the signals they bound, in the order of the multipliers.
+    fn sectors(&self) -> [(Signal, Signal, &Rational); 3] {
+        use Signal::{E, Phi, Ue, Ux, X};
+        [(Ux, X, &self.k_x), (Ue, E, &self.k_e), (Phi, E, &self.k_f)]
+    }
+
+    /// Which of u_x, u_e, phi are rows of the matrix: those whose k is not 0. (The multiplier of a signal that
+    /// vanishes would run to infinity.)
+    #[must_use]
+    pub fn present(&self) -> [bool; 3] {
+        self.sectors().map(|(_, _, k)| *k != 0)
+    }
+
+    /// The symmetric matrix of
+    /// `2 w_x (alpha - gam) xi^2 - 2 w_x sqrt(P_up) xi phi + 2 sigma et^2 - 2 et (u_x + u_e) - 2 mu et s + 2 h mu s^2
+    /// + 2 h s (u_x + u_e) + l_x (u_x^2 - k_x^2 xi^2) + l_e (u_e^2 - k_e^2 et^2) + l_f (phi^2 - k_f^2 et^2)`
+    /// in (xi, et, s, u_x, u_e, phi), affine in (sigma, l_x, l_e, l_f); rows and multipliers that are not
+    /// [`DecayData::present`] are left out.
+    #[must_use]
+    pub fn matrix(&self, mu: &Rational) -> AffineMatrix<Rational> {
+        let sectors: Vec<_> = self.sectors().into_iter().filter(|(_, _, k)| **k != 0).collect();
+        let mut signals = vec![Signal::X, Signal::E, Signal::S];
+        signals.extend(sectors.iter().map(|(signal, _, _)| *signal));
+        let term = |variable: usize, row: usize, column: usize| {
+            let signal = signals[row];
+            match variable.checked_sub(1).map(|sector| sectors[sector]) {
+                _ if row != column => Rational::new(),
+                None if signal == Signal::E => Rational::from(2),
+                Some((bounded, _, _)) if signal == bounded => Rational::from(1),
+                Some((_, by, k)) if signal == by => -Rational::from(k * k),
+                _ => Rational::new(),
+            }
+        };
+        let constant = |row: usize, column: usize| self.constant(mu, signals[row], signals[column]);
+        AffineMatrix::from_fn(signals.len(), 1 + sectors.len(), constant, term)
+    }
+
+    /// The entry of the matrix that does not depend on the unknowns, for `row` not after `column` in the order.
+    fn constant(&self, mu: &Rational, row: Signal, column: Signal) -> Rational {
+        use Signal::{E, Phi, S, Ue, Ux, X};
+        match (row, column) {
+            (X, X) => Rational::from(&self.w_x * &self.rate) * 2u32,
+            (X, Phi) => -Rational::from(&self.w_x * &self.root_p_up),
+            (E, S) => -mu.clone(),
+            (E, Ux | Ue) => Rational::from(-1),
+            (S, S) => Rational::from(&self.h * mu) * 2u32,
+            (S, Ux | Ue) => self.h.clone(),
+            _ => Rational::new(),
+        }
+    }
+}
+
+/// Whether sigma and the multipliers (l_x, l_e, l_f) prove C5, decided exactly; those not present are ignored.
+///
+/// Guarantee: if true, then for every sigma' >= sigma, every mu in the interval, every alpha - gam at least `rate`, and
+/// every sqrt(P_up), k_x, k_e, k_f between 0 and their bounds, the form of C5 is at least rho (xi^2 + et^2 + s^2) with one
+/// rho > 0, for all signals with |u_x| <= k_x |xi|, |u_e| <= k_e |et|, |phi| <= k_f |et|.
+///
+/// Proof. Let M be the matrix at the bounds, positive definite; its diagonal has l_x, l_e, l_f, so they are positive.
+/// - alpha - gam and sigma: raising them adds 2 w_x (..) >= 0 and 2 (..) >= 0 to the diagonal.
+/// - k_x, k_e, k_f: they occur as -l k^2 on the diagonal with l > 0; lowering k to k' >= 0 adds l (k^2 - k'^2) >= 0 there,
+///   with the same multipliers. So a larger k only weakens. (Where the bound is 0 the signal is 0 and its row is left out.)
+/// - sqrt(P_up) =: p occurs only in the entry (xi, phi), as -w_x p, and phi has no other off-diagonal entry. Changing the
+///   sign of phi is a congruence that replaces p by -p, so M(-p) is positive definite as well; M is affine in p and the
+///   positive definite matrices are convex, so M(p') is positive definite for |p'| <= p.
+/// - mu: M is affine in mu, so positive definite at both ends gives it between them.
+///
+/// These changes combine: what is added to the diagonal does not depend on p and mu.
+/// The set of all these parameters with sigma' = sigma and alpha - gam = rate is compact, so the least eigenvalue of the
+/// matrices has a minimum rho > 0 there, and what is added for larger ones is nonnegative. The form of C5 is v'M v minus
+/// l_x (u_x^2 - k_x^2 xi^2) and its like, each of which is <= 0 on the signals allowed; hence it is >= rho |v|^2. QED
+#[must_use]
+pub fn verify_decay(data: &DecayData, sigma: &Rational, multipliers: &[Rational; 3]) -> bool {
+    let [mu_low, mu_up] = &data.mu;
+    let positive = [&data.w_x, &data.h, mu_low].iter().all(|value| **value > 0) && mu_low <= mu_up;
+    let nonnegative = [&data.root_p_up, &data.k_x, &data.k_e, &data.k_f].iter().all(|value| **value >= 0);
+    if !positive || !nonnegative {
+        return false;
+    }
+    let mut unknowns = vec![sigma.clone()];
+    let present = multipliers.iter().zip(data.present()).filter(|(_, present)| *present);
+    unknowns.extend(present.map(|(multiplier, _)| multiplier.clone()));
+    let definite = |mu: &Rational| is_positive_definite(&data.matrix(mu).substitute(&unknowns).constant().rows());
+    definite(mu_low) && (mu_low == mu_up || definite(mu_up))
+}

@@ -1,0 +1,112 @@
+//! Floating-point proposals for C5: the smallest sigma, and multipliers for a given sigma.
+
+use super::decay::DecayData;
+use super::solve::{SolverFailure, minimise};
+use rug::Rational;
+
+/// What the solver proposes for C5.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DecayProposal {
+    /// sigma, in 1/time: proposed by [`propose_sigma`], given to [`propose_multipliers`].
+    pub sigma: f64,
+    /// (l_x, l_e, l_f), 0 for a signal that is not present.
+    pub multipliers: [f64; 3],
+    /// The smallest eigenvalue of the scaled matrix, in the solver's opinion.
+    pub margin: f64,
+}
+
+impl DecayProposal {
+    /// The multipliers as the exact rationals that the doubles are; `None` if one is not finite.
+    #[must_use]
+    pub fn exact_multipliers(&self) -> Option<[Rational; 3]> {
+        let [l_x, l_e, l_f] = self.multipliers.map(Rational::from_f64);
+        Some([l_x?, l_e?, l_f?])
+    }
+}
+
+/// The margin that the smallest sigma leaves in the scaled matrix: small against the six digits that are compared.
+const MARGIN: f64 = 1e-9;
+
+/// The smallest sigma for which there are multipliers such that the scaled matrix is at least `MARGIN`.
+///
+/// Guarantee: none, a proposal. Where mu is not exactly known its lower bound is taken.
+///
+/// # Errors
+/// What the solver did instead of solving; [`SolverFailure::Unusable`] where w_x, h, mu or alpha - gam is not positive, or a
+/// number is out of range, in doubles.
+pub fn propose_sigma(data: &DecayData) -> Result<DecayProposal, SolverFailure> {
+    let scale = Scale::new(data, None)?;
+    let matrix = data.matrix(&data.mu[0]).scaled(&scale.roots, &scale.units).with_margin(MARGIN);
+    let mut cost = vec![0.0; scale.units.len()];
+    // Minimise sigma in units of its expected value.
+    cost[0] = 1.0;
+    let solution = minimise(&cost, &[matrix])?;
+    let sigma = solution[0] * scale.units[0];
+    Ok(DecayProposal { sigma, multipliers: scale.multipliers(data, &solution[1..]), margin: MARGIN })
+}
+
+/// The multipliers that make the smallest eigenvalue of the scaled matrix largest, for a given sigma.
+///
+/// Guarantee: none, a proposal; a margin below 0 suggests that there are no multipliers for this sigma. These multipliers
+/// stand in the middle of the admissible ones, so that they survive rounding for a sigma just above the smallest, where
+/// those of [`propose_sigma`] often do not.
+///
+/// # Errors
+/// As for [`propose_sigma`].
+pub fn propose_multipliers(data: &DecayData, sigma: &Rational) -> Result<DecayProposal, SolverFailure> {
+    let scale = Scale::new(data, Some(sigma))?;
+    let matrix = data.matrix(&data.mu[0]).substitute(std::slice::from_ref(sigma));
+    let matrix = matrix.scaled(&scale.roots, &scale.units[1..]).minus_identity();
+    let mut cost = vec![0.0; scale.units.len()];
+    let last = cost.len() - 1;
+    // Maximise the eigenvalue, the last unknown.
+    cost[last] = -1.0;
+    let solution = minimise(&cost, &[matrix])?;
+    let multipliers = scale.multipliers(data, &solution[..last]);
+    Ok(DecayProposal { sigma: sigma.to_f64(), multipliers, margin: solution[last] })
+}
+
+/// The scales of rows and unknowns for which the solution is expected to have ones on the diagonal.
+struct Scale {
+    /// The root of the expected (positive part of the) diagonal entry, per row.
+    roots: Vec<f64>,
+    /// The expected value of sigma and of the multipliers that are present.
+    units: Vec<f64>,
+}
+
+impl Scale {
+    /// The closed form of C5 gives the scale. With ht = h/mu, A = w_x (alpha - gam), p = sqrt(P_up), et = 1, the worst
+    /// signals are u_x = k_x xi, u_e = k_e, phi = k_f, s = (1/ht - u)/(2 mu), and
+    /// `xi = 2 C/(4A - ht k_x^2)`, `C = w_x p k_f + k_x (1 + ht k_e)/2`, `sigma = (1 + ht k_e)^2/(4 ht) + C xi/2`.
+    /// They are the null vector of the matrix at the threshold, and its rows u_x, u_e, phi then give
+    /// `l_x = (1 + ht u)/(2 k_x xi)`, `l_e = (1 + ht u)/(2 k_e)`, `l_f = w_x p xi/k_f`, `u = k_x xi + k_e`.
+    ///
+    /// Only the scale depends on this: the solver sees the whole matrix.
+    fn new(data: &DecayData, sigma: Option<&Rational>) -> Result<Scale, SolverFailure> {
+        let [w_x, h, mu, rate] = [&data.w_x, &data.h, &data.mu[0], &data.rate].map(Rational::to_f64);
+        let [p, k_x, k_e, k_f] = [&data.root_p_up, &data.k_x, &data.k_e, &data.k_f].map(Rational::to_f64);
+        let h_over_mu = h / mu;
+        let a = w_x * rate;
+        let coupling = h_over_mu * k_x * k_x;
+        // Where the closed form has no solution, the scale is that of a neighbour that has one.
+        let margin = if coupling < 4.0 * a { 4.0 * a - coupling } else { coupling };
+        let cross = w_x * p * k_f + k_x * (1.0 + h_over_mu * k_e) / 2.0;
+        let xi = 2.0 * cross / margin;
+        let expected = (1.0 + h_over_mu * k_e).powi(2) / (4.0 * h_over_mu) + cross * xi / 2.0;
+        let sigma = sigma.map_or(expected, Rational::to_f64);
+        let one_plus = 1.0 + h_over_mu * (k_x * xi + k_e);
+        let multipliers = [one_plus / (2.0 * k_x * xi), one_plus / (2.0 * k_e), w_x * p * xi / k_f];
+        let present = multipliers.into_iter().zip(data.present()).filter_map(|(unit, present)| present.then_some(unit));
+        let units: Vec<f64> = std::iter::once(sigma).chain(present).collect();
+        let diagonal = [2.0 * a, 2.0 * sigma, 2.0 * h * mu].into_iter().chain(units.iter().skip(1).copied());
+        let roots: Vec<f64> = diagonal.map(f64::sqrt).collect();
+        let usable = |value: &f64| value.is_finite() && *value > 0.0;
+        if roots.iter().chain(&units).all(usable) { Ok(Scale { roots, units }) } else { Err(SolverFailure::Unusable) }
+    }
+
+    /// The multipliers in their own units, with 0 for the signals that are not present.
+    fn multipliers(&self, data: &DecayData, solution: &[f64]) -> [f64; 3] {
+        let mut scaled = solution.iter().zip(&self.units[1..]).map(|(value, unit)| value * unit);
+        data.present().map(|present| if present { scaled.next().unwrap_or(f64::NAN) } else { 0.0 })
+    }
+}

@@ -1,0 +1,40 @@
+//! C5 as a matrix inequality against its closed form, on the certificate of every shipped specification.
+
+use rug::Rational;
+use sigmastar::certificate::{Options, certify};
+use sigmastar::constants::data::Data;
+use sigmastar::constants::sharp::SharpWitness;
+use sigmastar::lmi::cross_check;
+use sigmastar::spec::Specification;
+use std::path::{Path, PathBuf};
+
+fn specifications() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(root)
+        .expect("the directory is part of the repository")
+        .map(|entry| entry.expect("a directory entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "json"))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn the_matrix_inequality_confirms_every_certificate() {
+    let files = specifications();
+    assert!(files.len() >= 10);
+    for path in files {
+        let spec = Specification::load(&path).unwrap_or_else(|e| panic!("{}", e.render(false)));
+        let run = certify(&spec, Options { compare: false, ..Options::default() }).expect("not refuted");
+        let proof = run.sharp.proved().expect("certified");
+        let data = Data::new(&spec, proof.precision);
+        let check = cross_check(&proof.evaluation, &proof.witness, &data).expect("solved");
+        assert!(check.relative_difference <= 1e-6, "{}: {check:?}", path.display());
+        assert!(check.verified_at_sigma, "{}: {check:?}", path.display());
+        // Below the threshold nothing is verified.
+        let below = check.closed_form.lower_rational().expect("bounded") * Rational::from((999_999, 1_000_000));
+        let tampered = SharpWitness { sigma: below, ..proof.witness.clone() };
+        let check = cross_check(&proof.evaluation, &tampered, &data).expect("solved");
+        assert!(!check.verified_at_sigma, "{}: {check:?}", path.display());
+    }
+}
