@@ -6,7 +6,7 @@ use sigmastar::constants::data::Data;
 use sigmastar::enclosure::Truth;
 use sigmastar::number::{Direction, round_rational};
 use sigmastar::spec::Specification;
-use sigmastar::transfer::{TradeOff, TransferProof, closed_form_pair, decide};
+use sigmastar::transfer::{BoxProof, TradeOff, TransferProof, closed_form_pair, decide};
 
 const BITS: u32 = 200;
 
@@ -161,4 +161,37 @@ fn matched_proofs_need_a_matched_frequency_and_a_moderate_k() {
     }
     let unmatched = specification("1", false, &json);
     assert_eq!(decide(&Data::new(&unmatched, 128), &large, &large, &proof(1)).0, Truth::False);
+}
+
+#[test]
+fn proofs_by_boxes_are_above_the_definition() {
+    for (json, n) in families() {
+        for mu in ["0.05", "1", "30"] {
+            let spec = specification(mu, false, &json);
+            let data = Data::new(&spec, 128);
+            let nu = Float::with_val(BITS, Float::parse(mu).unwrap());
+            let candidates = TradeOff::curve(&data).candidates;
+            for (k0, k1, _) in candidates.into_iter().skip(20).step_by(25).take(2) {
+                let (k0, k1) = (Rational::from_f64(k0).unwrap(), Rational::from_f64(k1 * 1.03).unwrap());
+                let proof = BoxProof::find(&data, &k0, &k1);
+                let proof = TransferProof::Boxes(proof.unwrap_or_else(|| panic!("{json} mu = {mu}: no proof")));
+                assert_eq!(decide(&data, &k0, &k1, &proof).0, Truth::True);
+                for poles in [0, 1, 2, 3, 7, 40] {
+                    for m in [0_u32, 1, 2, 3, 5, 20, 40, 41] {
+                        for j in 1..14 {
+                            for sign in [-1.0, 1.0] {
+                                let x: Float = float(f64::from(m)) + float(sign * 0.49) * float(2.0).pow(1 - j);
+                                if x < 0 {
+                                    continue;
+                                }
+                                let bound = Float::with_val(BITS, x.square_ref()) * &k1 + &k0;
+                                let value = transfer(&*n, poles, &x, &nu);
+                                assert!(value <= bound, "{json} mu = {mu} N = {poles} x = {x}: {value} > {bound}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
 }
