@@ -54,7 +54,7 @@ fn verdict(text: &str, derivation: Derivation) -> Result<Verdict, TestCaseError>
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, max_shrink_iters: 40, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, max_shrink_iters: 40, ..ProptestConfig::default() })]
 
     #[test]
     fn the_sharp_derivation_certifies(text in specification()) {

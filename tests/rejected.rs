@@ -2,7 +2,7 @@
 
 use rug::Rational;
 use sigmastar::certificate::{Ladder, decide_exact, decide_repaired, decide_sharp};
-use sigmastar::constants::consequences::{error_bounds, smallest_n_o};
+use sigmastar::constants::consequences::{Psi, error_bounds, smallest_n_o};
 use sigmastar::constants::data::Data;
 use sigmastar::constants::exact_regulation::ExactWitness;
 use sigmastar::constants::repaired::RepairedWitness;
@@ -175,7 +175,7 @@ fn the_minors_of_r_are_its_minors_and_sigma_a_is_their_zero() {
     for (factor, above) in
         [((1, 100), false), ((999_999, 1_000_000), false), ((1_000_001, 1_000_000), true), ((9, 1), true)]
     {
-        let sigma = Rational::from(&sigma_a * Rational::from(factor));
+        let sigma = &sigma_a * Rational::from(factor);
         let minors = lyapunov.leading_minors(&data, &data.rational(&sigma), &data.rational(&h));
         let a = (plain(&data.alpha) * plain(&data.p_low) - plain(&lyapunov.rho_11)) * 2u32;
         let b = -plain(&lyapunov.rho_12);
@@ -224,11 +224,20 @@ fn error_bounds_are_above_the_direct_sums_and_close() {
             for (bound, direct) in [(found.sup.upper_f64(), sup), (found.rms.upper_f64(), rms)] {
                 assert!(bound >= direct * (1.0 - 1e-10) && bound <= direct * 1.5, "{sigma} {n_o}: {bound} {direct}");
             }
+            // Each sum by itself: the other bound made useless.
+            let mut only_size = bounds.clone();
+            only_size.q_rate_rms = huge.clone();
+            let by_size = error_bounds(&data, &only_size, &exact, &huge, n_o).sup.upper_f64();
+            let direct = qr * (2.0 * size).sqrt();
+            assert!(by_size >= direct * (1.0 - 1e-9) && by_size <= direct * 1.01, "{sigma} {n_o}: {by_size} {direct}");
             // A smaller bound of the periodic error is kept.
             let tiny = Enclosure::from_rational(&q(1, 1 << 40), 128);
             let kept = error_bounds(&data, bounds, &exact, &tiny, n_o);
             assert!(kept.sup == tiny && kept.rms == tiny);
         }
+        let all = Psi::new(&data, bounds);
+        assert!((all.psi_1.midpoint_f64() / (q1 / 12.0_f64.sqrt()) - 1.0).abs() < 1e-12);
+        assert!((all.psi_2.midpoint_f64() / (qr / omega).powi(2) - 1.0).abs() < 1e-12);
         // Beyond every i64 the bounds are still positive and small.
         for n_o in [i64::MAX as u64, u64::MAX] {
             let found = error_bounds(&data, bounds, &exact, &huge, n_o);

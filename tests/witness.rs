@@ -305,7 +305,7 @@ fn a_wrong_exact_regulation_claim_spoils_the_certificate() {
     let Shipped { spec, certificate: good, .. } = find("paper-example", Derivation::Sharp);
     let lower = scaled(good, "/witness/exact_regulation/sigma_star_oo", (1, 2));
     let run = decide(spec, &lower).unwrap();
-    assert_eq!(run.verdict, Verdict::Undecided);
+    assert_eq!(run.verdict, Verdict::Refuted);
     assert!(run.exact.is_none());
     assert_eq!(run.exact_failing.iter().map(|c| c.id).collect::<Vec<_>>(), ["C5b"]);
     assert!(certificate_json(&run).is_none());
