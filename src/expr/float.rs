@@ -39,13 +39,13 @@ fn unary(operation: Unary, a: f64) -> f64 {
     match operation {
         Unary::Neg => -a,
         Unary::Sqrt => a.sqrt(),
-        Unary::Exp => a.exp(),
-        Unary::Log => a.ln(),
-        Unary::Sin => a.sin(),
-        Unary::Cos => a.cos(),
-        Unary::Tan => a.tan(),
-        Unary::Atan => a.atan(),
-        Unary::Tanh => a.tanh(),
+        Unary::Exp => libm::exp(a),
+        Unary::Log => libm::log(a),
+        Unary::Sin => libm::sin(a),
+        Unary::Cos => libm::cos(a),
+        Unary::Tan => libm::tan(a),
+        Unary::Atan => libm::atan(a),
+        Unary::Tanh => libm::tanh(a),
         Unary::Abs => a.abs(),
     }
 }
@@ -57,7 +57,7 @@ fn binary(operation: Binary, a: f64, b: f64) -> f64 {
         Binary::Mul => a * b,
         Binary::Div => a / b,
         // The real power is undefined for negative bases even where `powf` knows a value.
-        Binary::Pow if a > 0.0 || (a == 0.0 && b > 0.0) => a.powf(b),
+        Binary::Pow if a > 0.0 || (a == 0.0 && b > 0.0) => libm::pow(a, b),
         Binary::Pow => f64::NAN,
         // Unlike `f64::min`, an undefined operand makes the result undefined.
         Binary::Min if a <= b => a,

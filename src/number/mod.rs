@@ -6,8 +6,10 @@
 
 mod constant;
 mod decimal;
+mod portable;
 mod short;
 
 pub use constant::Monomial;
 pub use decimal::{DecimalError, MAX_EXPONENT, MAX_LENGTH, parse_decimal, write_exact};
+pub use portable::Portable;
 pub use short::{Direction, round_f64, round_rational};

@@ -3,6 +3,7 @@
 use super::candidate::{AtSigma, Obstacle, error_box};
 use super::minimise::minimise;
 use super::model::FloatModel;
+use crate::number::Portable;
 
 /// The error box of exact regulation in floating point, with its sigma as `threshold`.
 ///
@@ -16,7 +17,7 @@ pub fn search_exact(model: &FloatModel, distances: [f64; 3]) -> Result<AtSigma, 
     let mut best: Option<AtSigma> = None;
     for rho_exponent in -10..=4 {
         for eta_exponent in -24..=12 {
-            let (rho, eta) = (1.0 + 2f64.powi(rho_exponent), 10f64.powf(f64::from(eta_exponent) / 2.0));
+            let (rho, eta) = (1.0 + 2f64.powi(rho_exponent), 10f64.portable_pow(f64::from(eta_exponent) / 2.0));
             match evaluate(rho, eta) {
                 Ok(at) if best.is_none_or(|b| at.threshold < b.threshold) => best = Some(at),
                 Ok(_) => {}
@@ -25,8 +26,8 @@ pub fn search_exact(model: &FloatModel, distances: [f64; 3]) -> Result<AtSigma, 
         }
     }
     let start = best.ok_or(closest)?;
-    let decode = |p: &[f64]| evaluate(1.0 + p[0].exp().max(1e-6), p[1].exp()).ok();
-    let first = [(start.rho - 1.0).ln(), start.eta.ln()];
-    let refined = minimise(|p| decode(p).map(|at| at.threshold.ln()), &first, &[0.4, 0.4], 8);
+    let decode = |p: &[f64]| evaluate(1.0 + p[0].portable_exp().max(1e-6), p[1].portable_exp()).ok();
+    let first = [(start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
+    let refined = minimise(|p| decode(p).map(|at| at.threshold.portable_ln()), &first, &[0.4, 0.4], 8);
     Ok(refined.and_then(|(best, _)| decode(&best)).filter(|at| at.threshold <= start.threshold).unwrap_or(start))
 }

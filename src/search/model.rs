@@ -2,6 +2,7 @@
 
 use crate::constants::data::{Bound, Data};
 use crate::expr::FloatExpr;
+use crate::number::Portable;
 use crate::spec::model::InitialSet;
 use crate::transfer::TradeOff;
 
@@ -173,7 +174,7 @@ impl FloatModel {
     /// beta_s(sigma).
     #[must_use]
     pub fn beta_s(&self, sigma: f64) -> f64 {
-        (self.period / (2.0 * sigma) / (sigma * self.period / 2.0).tanh()).sqrt()
+        (self.period / (2.0 * sigma) / (sigma * self.period / 2.0).portable_tanh()).sqrt()
     }
 
     /// tau(sigma).
@@ -183,7 +184,7 @@ impl FloatModel {
         let ratio = if y < 0.1 {
             1.0 / 720.0 - y * y / 30_240.0 + y.powi(4) / 1_209_600.0
         } else {
-            (1.0 / 12.0 - 1.0 / (2.0 * y * (y / 2.0).tanh()) + 1.0 / (y * y)) / (y * y)
+            (1.0 / 12.0 - 1.0 / (2.0 * y * (y / 2.0).portable_tanh()) + 1.0 / (y * y)) / (y * y)
         };
         self.period * self.period * ratio.max(0.0).sqrt()
     }
@@ -199,7 +200,7 @@ impl FloatModel {
         }
         // Logarithmic bisection over everything a double can hold that makes sense as sigma T.
         let (mut low, mut high) = (-640.0_f64, 640.0_f64);
-        let sigma = |exponent: f64| exponent.exp() / self.period;
+        let sigma = |exponent: f64| exponent.portable_exp() / self.period;
         if gain(sigma(high)) > level {
             return f64::INFINITY;
         }

@@ -5,6 +5,7 @@ use super::model::FloatModel;
 use super::scan;
 use super::sharp::{depth_of, parameter_of};
 use crate::constants::data::{Bound, Data};
+use crate::number::Portable;
 use crate::transfer::printed_transfer;
 
 /// x_a, e_a, the share of the largest h, and the figure they give.
@@ -25,7 +26,7 @@ pub struct PrintedProposal {
 fn evaluate(model: &FloatModel, kappas: (f64, f64), x: f64, e: f64, share: f64) -> Option<PrintedProposal> {
     let at = |which| model.bound(which, x, e);
     let c = model.c();
-    let gain = c * (1.0 + (c - 1.0) * (-model.alpha * model.period).exp()) / model.alpha;
+    let gain = c * (1.0 + (c - 1.0) * (-model.alpha * model.period).portable_exp()) / model.alpha;
     let f_xx = model.bound(Bound::Fxx, x, 0.0);
     let (q, q_e, q_x) = (at(Bound::Q), at(Bound::Qe), at(Bound::Qx));
     let bracket = at(Bound::Fex) * e + 2.0 * f_xx * x;
@@ -77,7 +78,7 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
     let kappas = (printed.kappa_0.midpoint_f64(), printed.kappa_1.midpoint_f64());
     let gain = |x: f64| {
         let c = model.c();
-        let k = c * (1.0 + (c - 1.0) * (-model.alpha * model.period).exp()) / model.alpha;
+        let k = c * (1.0 + (c - 1.0) * (-model.alpha * model.period).portable_exp()) / model.alpha;
         (k, model.bound(Bound::Fxx, x, 0.0))
     };
     let largest_e = |x: f64| {
@@ -94,18 +95,20 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
         scan::e_depths()
             .iter()
             .flat_map(|depth| [1.0, 0.1].map(|share| (depth, share)))
-            .filter_map(|(depth, share)| Some((evaluate(model, kappas, x, e_max * (-depth).exp(), share)?, share)))
+            .filter_map(|(depth, share)| {
+                Some((evaluate(model, kappas, x, e_max * (-depth).portable_exp(), share)?, share))
+            })
             .min_by(|a, b| a.0.sigma.total_cmp(&b.0.sigma))
     });
     let (start, share) = columns.into_iter().flatten().min_by(|a, b| a.0.sigma.total_cmp(&b.0.sigma))?;
     let decode = |p: &[f64]| {
-        let x = scan::in_range(p[0].exp())?;
-        let e = largest_e(x)? * (-depth_of(p[1])).exp();
+        let x = scan::in_range(p[0].portable_exp())?;
+        let e = largest_e(x)? * (-depth_of(p[1])).portable_exp();
         // A share slightly below 1 keeps h inside its closed interval after rounding.
-        evaluate(model, kappas, x, e, (1.0 - 1e-9) * (-p[2] * p[2]).exp())
+        evaluate(model, kappas, x, e, (1.0 - 1e-9) * (-p[2] * p[2]).portable_exp())
     };
-    let depth = (largest_e(start.x_a)? / start.e_a).ln().max(1e-9);
-    let first = [start.x_a.ln(), parameter_of(depth), (-share.ln()).sqrt()];
-    let refined = minimise(|p| decode(p).map(|f| f.sigma.ln()), &first, &[0.3, 0.5, 0.3], 6);
+    let depth = (largest_e(start.x_a)? / start.e_a).portable_ln().max(1e-9);
+    let first = [start.x_a.portable_ln(), parameter_of(depth), (-share.portable_ln()).sqrt()];
+    let refined = minimise(|p| decode(p).map(|f| f.sigma.portable_ln()), &first, &[0.3, 0.5, 0.3], 6);
     refined.and_then(|(best, _)| decode(&best)).filter(|best| best.sigma <= start.sigma).or(Some(start))
 }

@@ -6,6 +6,7 @@ use super::model::FloatModel;
 use super::scan;
 use super::sharp::{depth_of, parameter_of};
 use crate::constants::data::Bound;
+use crate::number::Portable;
 
 /// The free numbers of the repaired derivation in floating point.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +28,7 @@ pub struct RepairedProposal {
 /// K_alpha.
 fn k_alpha(model: &FloatModel) -> f64 {
     let c = model.c();
-    c * (1.0 + (c - 1.0) * (-model.alpha * model.period).exp())
+    c * (1.0 + (c - 1.0) * (-model.alpha * model.period).portable_exp())
 }
 
 /// All quantities for given X, E and eta with h dZ^2 = eta dE^2.
@@ -109,7 +110,7 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
         let e_max = largest_e_repaired(model, x).ok_or(closest)?;
         for depth in scan::e_depths() {
             for eta in ETAS {
-                match evaluate(model, x, e_max * (-depth).exp(), eta) {
+                match evaluate(model, x, e_max * (-depth).portable_exp(), eta) {
                     Ok(found) if best.is_none_or(|(least, _)| found.sigma < least.sigma) => best = Some((found, eta)),
                     Ok(_) => {}
                     Err(obstacle) => closest = closest.max(obstacle),
@@ -130,14 +131,14 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
     found.truncate(4);
     let refined = scan::evaluate_all(&found, |(start, eta)| {
         let decode = |p: &[f64]| {
-            let x = scan::in_range(p[0].exp())?;
-            let e = largest_e_repaired(model, x)? * (-depth_of(p[1])).exp();
-            evaluate(model, x, e, p[2].exp()).ok()
+            let x = scan::in_range(p[0].portable_exp())?;
+            let e = largest_e_repaired(model, x)? * (-depth_of(p[1])).portable_exp();
+            evaluate(model, x, e, p[2].portable_exp()).ok()
         };
-        let depth = (largest_e_repaired(model, start.x)? / start.e).ln().max(1e-9);
-        let first = [start.x.ln(), parameter_of(depth), eta.ln()];
+        let depth = (largest_e_repaired(model, start.x)? / start.e).portable_ln().max(1e-9);
+        let first = [start.x.portable_ln(), parameter_of(depth), eta.portable_ln()];
         let (best, _) = minimise(
-            |p| decode(p).map(|f| f.sigma.ln() + scan::preference(f.x) + scan::preference(f.e)),
+            |p| decode(p).map(|f| f.sigma.portable_ln() + scan::preference(f.x) + scan::preference(f.e)),
             &first,
             &[0.3, 0.5, 0.5],
             6,

@@ -1,5 +1,6 @@
 //! The coarse scan that precedes local minimisation: many orders of magnitude in X and E.
 
+use crate::number::Portable;
 use rayon::prelude::*;
 
 /// Steps of the scanned logarithm of X: a third of a decade over 80 decades.
@@ -13,7 +14,8 @@ const E_DEPTHS: [f64; 26] = [
 
 /// The scanned values of X that lie inside the domain, the domain's own scale included.
 pub fn x_values(limit: f64) -> Vec<f64> {
-    let mut values: Vec<f64> = X_EXPONENTS.map(|k| 10f64.powf(f64::from(k) / 3.0)).filter(|x| *x < limit).collect();
+    let mut values: Vec<f64> =
+        X_EXPONENTS.map(|k| 10f64.portable_pow(f64::from(k) / 3.0)).filter(|x| *x < limit).collect();
     if limit.is_finite() {
         values.extend([0.003, 0.01, 0.03, 0.1, 0.2, 0.4].map(|share| share * limit));
     }
@@ -29,7 +31,7 @@ pub fn in_range(x: f64) -> Option<f64> {
 /// A cost too small to matter where an argument does (it moves ln sigma by at most 1e-7), which keeps the argument near
 /// 1 where it does not.
 pub fn preference(argument: f64) -> f64 {
-    1e-11 * argument.ln().powi(2)
+    1e-11 * argument.portable_ln().powi(2)
 }
 
 /// E depths for the scan.
@@ -44,15 +46,15 @@ pub fn largest(admissible: impl Fn(f64) -> bool, limit: f64) -> Option<f64> {
     if admissible(cap) {
         return Some(cap);
     }
-    let (mut low, mut high) = ((cap * 1e-80).ln(), cap.ln());
-    if !admissible(low.exp()) {
+    let (mut low, mut high) = ((cap * 1e-80).portable_ln(), cap.portable_ln());
+    if !admissible(low.portable_exp()) {
         return None;
     }
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if admissible(middle.exp()) { low = middle } else { high = middle }
+        if admissible(middle.portable_exp()) { low = middle } else { high = middle }
     }
-    Some(low.exp())
+    Some(low.portable_exp())
 }
 
 /// Evaluates `f` on all items in parallel, results in the order of the items.

@@ -5,6 +5,7 @@ use super::minimise::minimise;
 use super::model::{Datum, FloatModel};
 use super::scan;
 use crate::constants::data::Bound;
+use crate::number::Portable;
 
 /// The best candidate of a search.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +40,7 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
         }
     }
     // Where X does not matter, prefer ordinary numbers.
-    let unusual = |p: &SharpParameters| p.x_p.ln().abs();
+    let unusual = |p: &SharpParameters| p.x_p.portable_ln().abs();
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(unusual(&a.1).total_cmp(&unusual(&b.1))));
     let starts = spread(&found);
     let refined = scan::evaluate_all(&starts, |start| refine(model, start, 6));
@@ -53,8 +54,8 @@ fn spread(found: &[(f64, SharpParameters)]) -> Vec<SharpParameters> {
     let mut starts: Vec<SharpParameters> = Vec::new();
     for (_, candidate) in found {
         let near = |other: &SharpParameters| {
-            (candidate.x_p / other.x_p).ln().abs() < 0.1
-                && (candidate.e_p / other.e_p).ln().abs() < 0.3
+            (candidate.x_p / other.x_p).portable_ln().abs() < 0.1
+                && (candidate.e_p / other.e_p).portable_ln().abs() < 0.3
                 && candidate.rho == other.rho
                 && candidate.eta == other.eta
         };
@@ -86,7 +87,7 @@ fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters
     let mut closest = Obstacle::Existence;
     let mut found = Vec::new();
     for depth in scan::e_depths() {
-        let existence = match Existence::new(model, x_p, e_max * (-depth).exp()) {
+        let existence = match Existence::new(model, x_p, e_max * (-depth).portable_exp()) {
             Ok(existence) => existence,
             Err(obstacle) => {
                 closest = closest.max(obstacle);
@@ -111,31 +112,32 @@ fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters
 
 /// A depth below the largest E_p from an unbounded parameter: logarithmic near 0, linear beyond 1.
 pub(super) fn depth_of(parameter: f64) -> f64 {
-    if parameter < 0.0 { parameter.exp() } else { 1.0 + parameter }
+    if parameter < 0.0 { parameter.portable_exp() } else { 1.0 + parameter }
 }
 
 /// The inverse of [`depth_of`].
 pub(super) fn parameter_of(depth: f64) -> f64 {
-    if depth < 1.0 { depth.ln() } else { depth - 1.0 }
+    if depth < 1.0 { depth.portable_ln() } else { depth - 1.0 }
 }
 
 /// Minimises ln sigma over (ln X_p, ln of E_p's depth, ln(rho - 1), ln eta) from a start.
 fn refine(model: &FloatModel, start: &SharpParameters, restarts: usize) -> Option<(SharpParameters, f64)> {
     let decode = |p: &[f64]| {
-        let x_p = scan::in_range(p[0].exp())?;
-        let e_p = largest_e(model, x_p)? * (-depth_of(p[1])).exp();
+        let x_p = scan::in_range(p[0].portable_exp())?;
+        let e_p = largest_e(model, x_p)? * (-depth_of(p[1])).portable_exp();
         // rho too close to 1 would leave no room between the two members of C4.
-        let excess = p[2].exp().max(1e-6);
-        Some(SharpParameters { x_p, e_p, rho: 1.0 + excess, eta: p[3].exp() })
+        let excess = p[2].portable_exp().max(1e-6);
+        Some(SharpParameters { x_p, e_p, rho: 1.0 + excess, eta: p[3].portable_exp() })
     };
     let cost = |p: &[f64]| {
         let parameters = decode(p)?;
         let existence = Existence::new(model, parameters.x_p, parameters.e_p).ok()?;
         let sigma = existence.sigma(model, parameters.rho, parameters.eta, 1e-12).ok()?;
-        Some(sigma.ln() + scan::preference(parameters.x_p) + scan::preference(parameters.e_p))
+        Some(sigma.portable_ln() + scan::preference(parameters.x_p) + scan::preference(parameters.e_p))
     };
-    let depth = (largest_e(model, start.x_p)? / start.e_p).ln().max(1e-9);
-    let first = [start.x_p.ln(), parameter_of(depth), (start.rho - 1.0).ln(), start.eta.ln()];
+    let depth = (largest_e(model, start.x_p)? / start.e_p).portable_ln().max(1e-9);
+    let first =
+        [start.x_p.portable_ln(), parameter_of(depth), (start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
     let (best, value) = minimise(cost, &first, &[0.3, 0.5, 0.5, 0.5], restarts)?;
     Some((decode(&best)?, value))
 }
@@ -172,7 +174,8 @@ pub fn at_sigma(
 pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum, f64)> {
     scan::evaluate_all(&Datum::ALL, |&datum| {
         let improved = model.improved(datum, 0.01);
-        let gain = refine(&improved, &proposal.parameters, 1).map_or(0.0, |(_, ln)| 1.0 - ln.exp() / proposal.sigma);
+        let gain =
+            refine(&improved, &proposal.parameters, 1).map_or(0.0, |(_, ln)| 1.0 - ln.portable_exp() / proposal.sigma);
         (datum, gain.max(0.0))
     })
 }

@@ -5,6 +5,7 @@ use super::power_tail::power_tail;
 use super::quantity::Quantity;
 use crate::enclosure::Enclosure;
 use crate::number::Monomial;
+use crate::number::Portable;
 use rug::{Float, Integer, Rational, float::Round};
 
 /// The two families of weights that are read.
@@ -45,7 +46,7 @@ impl Weights {
     /// A double near n_l: for searches and display only.
     #[must_use]
     pub fn weight_f64(&self, l: u64) -> f64 {
-        let power = |exponent: f64| (l as f64).powf(-exponent);
+        let power = |exponent: f64| (l as f64).portable_pow(-exponent);
         match self {
             Weights::Power { n0, .. } if l == 0 => n0.to_f64(),
             Weights::Power { epsilon, .. } => power(1.0 + epsilon.to_f64()),

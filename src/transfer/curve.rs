@@ -3,6 +3,7 @@
 use super::boxes::MAX_M0;
 use super::matched::TradeOff;
 use crate::constants::data::Data;
+use crate::number::Portable;
 
 /// The largest pole and the largest number of oscillators that are sampled.
 const POLES: usize = 48;
@@ -25,7 +26,7 @@ impl TradeOff {
         // No k1 much smaller passes the scalar test at the largest m0 that is tried.
         let m = f64::from(MAX_M0);
         let last = data.spec.internal_model.weights.weight_f64(u64::from(MAX_M0));
-        let sum_bound = (weights[0] + weights[1] * (2.35 + 1.5 * m.ln())) / (m - 0.5);
+        let sum_bound = (weights[0] + weights[1] * (2.35 + 1.5 * m.portable_ln())) / (m - 0.5);
         let floor = 1.1 * 2.0 / (m * m * last) * (1.0 / (nu * nu) + sum_bound * sum_bound);
         let candidates = (0..=120)
             .map(|step| {
