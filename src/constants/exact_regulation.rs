@@ -2,9 +2,9 @@
 
 use super::condition::{self, Condition};
 use super::data::{Bound, Data};
-use super::domain_conditions;
 use super::sharp::ClaimedSet;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
+use super::{domain_conditions, sign_conditions};
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 
@@ -57,17 +57,16 @@ impl ExactEvaluation {
         let (w_x, h, sigma) = (number(&witness.w_x), number(&witness.h), number(&witness.sigma));
         let error_box = ErrorBox::new(data, &data.zero(), &data.zero(), &d_x, &d_e);
         let decay = DecayCondition::new(data, &error_box, &w_x, &h);
-        let mut conditions: Vec<Condition> = [
-            ("sigma", &witness.sigma),
-            ("D_x", &witness.d_x),
-            ("D_e", &witness.d_e),
-            ("w_x", &witness.w_x),
-            ("h", &witness.h),
-        ]
-        .iter()
-        .filter(|(_, value)| **value <= 0)
-        .map(|(name, value)| Condition::less("sign", format!("0 < {name}"), data.zero(), data.rational(value)))
-        .collect();
+        let mut conditions = sign_conditions(
+            data,
+            &[
+                ("sigma", &witness.sigma),
+                ("D_x", &witness.d_x),
+                ("D_e", &witness.d_e),
+                ("w_x", &witness.w_x),
+                ("h", &witness.h),
+            ],
+        );
         if !data.spec.internal_model.matched {
             conditions.push(Condition::less(
                 "matched",

@@ -75,3 +75,13 @@ pub fn domain_conditions(data: &Data<'_>, x: Enclosure, e: Enclosure) -> Vec<Con
         ]
     })
 }
+
+/// The signs that a derivation needs of its witness: one condition "0 < number" for each that is not positive.
+#[must_use]
+pub fn sign_conditions(data: &Data<'_>, named: &[(&str, &Rational)]) -> Vec<Condition> {
+    named
+        .iter()
+        .filter(|(_, value)| **value <= 0)
+        .map(|(name, value)| Condition::less("sign", format!("0 < {name}"), data.zero(), data.rational(value)))
+        .collect()
+}

@@ -5,7 +5,7 @@ use super::data::{Bound, Data};
 use super::existence::{PeriodicBounds, kappas};
 use super::gains;
 use super::sharp::ClaimedSet;
-use super::{domain_conditions, set_conditions};
+use super::{domain_conditions, set_conditions, sign_conditions};
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
 use rug::Rational;
@@ -165,7 +165,19 @@ impl RepairedEvaluation {
         };
         let lyapunov = LyapunovMatrix::new(data, &point, false);
 
-        let mut conditions = positivity(witness, data);
+        let mut conditions = sign_conditions(
+            data,
+            &[
+                ("sigma", &witness.sigma),
+                ("X", &witness.x),
+                ("E", &witness.e),
+                ("L", &witness.level),
+                ("h", &witness.h),
+                ("p_x", &witness.p_x),
+                ("p_e", &witness.p_e),
+                ("k1", &witness.k1),
+            ],
+        );
         conditions.extend(set_conditions(data, &witness.set, &witness.x, &witness.e, &z));
         conditions.extend(domain_conditions(data, point.x_b.clone(), point.e_b.clone()));
         let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer);
@@ -204,23 +216,4 @@ impl RepairedEvaluation {
     pub fn truth(&self) -> Truth {
         condition::all(&self.conditions)
     }
-}
-
-/// The signs of the witness that the derivation needs, reported only where one is wrong.
-fn positivity(witness: &RepairedWitness, data: &Data<'_>) -> Vec<Condition> {
-    let named = [
-        ("sigma", &witness.sigma),
-        ("X", &witness.x),
-        ("E", &witness.e),
-        ("L", &witness.level),
-        ("h", &witness.h),
-        ("p_x", &witness.p_x),
-        ("p_e", &witness.p_e),
-        ("k1", &witness.k1),
-    ];
-    named
-        .iter()
-        .filter(|(_, value)| **value <= 0)
-        .map(|(name, value)| Condition::less("sign", format!("0 < {name}"), data.zero(), data.rational(value)))
-        .collect()
 }

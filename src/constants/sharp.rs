@@ -5,7 +5,7 @@ use super::data::Data;
 use super::existence::{PeriodicBounds, PeriodicSolution, kappas};
 use super::gains;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
-use super::{domain_conditions, set_conditions};
+use super::{domain_conditions, set_conditions, sign_conditions};
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
 use rug::Rational;
@@ -97,7 +97,21 @@ impl SharpEvaluation {
         let error_box = ErrorBox::new(data, &periodic.x_per, &periodic.e_per, &d_x, &d_e);
         let decay = DecayCondition::new(data, &error_box, &w_x, &h);
 
-        let mut conditions = positivity(witness, data);
+        let mut conditions = sign_conditions(
+            data,
+            &[
+                ("sigma", &witness.sigma),
+                ("X_p", &witness.x_p),
+                ("E_p", &witness.e_p),
+                ("D_x", &witness.d_x),
+                ("D_e", &witness.d_e),
+                ("p_x", &witness.p_x),
+                ("p_e", &witness.p_e),
+                ("w_x", &witness.w_x),
+                ("h", &witness.h),
+                ("k1", &witness.k1),
+            ],
+        );
         conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
         conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
         let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer);
@@ -167,25 +181,4 @@ pub fn distances(data: &Data<'_>, set: &ClaimedSet, periodic: [&Enclosure; 3]) -
     let [x_per, e_per, z] = periodic;
     let (x0, e0, z0) = (data.rational(&set.x0), data.rational(&set.e0), data.rational(&set.z0));
     [x0 + x_per, &e0 + e_per, z0 + &data.n_bar * &e0 + z]
-}
-
-/// The signs of the witness that the derivation needs, reported only where one is wrong.
-fn positivity(witness: &SharpWitness, data: &Data<'_>) -> Vec<Condition> {
-    let named = [
-        ("sigma", &witness.sigma),
-        ("X_p", &witness.x_p),
-        ("E_p", &witness.e_p),
-        ("D_x", &witness.d_x),
-        ("D_e", &witness.d_e),
-        ("p_x", &witness.p_x),
-        ("p_e", &witness.p_e),
-        ("w_x", &witness.w_x),
-        ("h", &witness.h),
-        ("k1", &witness.k1),
-    ];
-    named
-        .iter()
-        .filter(|(_, value)| **value <= 0)
-        .map(|(name, value)| Condition::less("sign", format!("0 < {name}"), data.zero(), data.rational(value)))
-        .collect()
 }

@@ -52,7 +52,7 @@ fn sides(
 ) -> (Enclosure, Enclosure) {
     // The nearest integer of the middle; the box must not reach beyond its half-integers.
     let middle = Rational::from(a + b) / 2u32;
-    let nearest = (&middle + Rational::from((1, 2))).floor();
+    let nearest = (middle + Rational::from((1, 2))).floor();
     let half = Rational::from((1, 2));
     let fits = Rational::from(&nearest - &half) <= *a && *b <= Rational::from(&nearest + &half);
     let value = match (fits, nearest.numer().to_u32()) {
@@ -219,10 +219,10 @@ mod tests {
             let (k0, k1) = (decimal(k0), decimal(k1));
             let proof = BoxProof::find(&data, &k0, &k1).expect("near-optimal pairs have a proof");
             assert_eq!(proof.decide(&data, &k0, &k1).0, Truth::True);
-            let lower = (&k1 * Rational::from((98, 100)));
+            let lower = &k1 * Rational::from((98, 100));
             assert_ne!(proof.decide(&data, &k0, &lower).0, Truth::True);
             assert_eq!(BoxProof::find(&data, &k0, &lower), None);
-            let small = (&k0 * Rational::from((1, 20)));
+            let small = &k0 * Rational::from((1, 20));
             assert_ne!(proof.decide(&data, &small, &k1).0, Truth::True, "k0 below T(0)");
         }
     }
