@@ -138,7 +138,8 @@ fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
         Status::NotFound(obstacle) => obstacle_advice(run, obstacle, &mut add),
         Status::Skipped => {}
     }
-    if run.options.derivation == Derivation::Printed || run.options.derivation == Derivation::Repaired {
+    let other = matches!(run.options.derivation, Derivation::Printed | Derivation::Repaired);
+    if other && run.unproved_bounds.is_empty() {
         let sharp = run.sharp.proved().map(|proof| write_exact(&proof.witness.sigma));
         let repaired = run.repaired.proved().map(|proof| write_exact(&proof.witness.sigma));
         if run.options.derivation == Derivation::Printed {
