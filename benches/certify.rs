@@ -5,7 +5,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use rug::Rational;
 use sigmastar::certificate::{Ladder, Options, WitnessFile, certify, decide_sharp, recheck};
-use sigmastar::constants::data::Data;
+use sigmastar::data::Data;
 use sigmastar::enclosure::Enclosure;
 use sigmastar::expr::{Expr, ProofSettings, Variables, prove_bounding};
 use sigmastar::spec::Specification;

@@ -4,8 +4,9 @@
 //!
 //! - [`spec`]: a bounding specification is read strictly, every number exact;
 //! - [`expr`], [`number`], [`enclosure`]: bounding functions, exact numbers, rigorous interval arithmetic over MPFR;
-//! - [`constants`], [`transfer`]: the constants and conditions of the paper in three derivations;
-//! - [`lmi`]: C5 as a linear matrix inequality, proposed by a solver and verified exactly;
+//! - [`data`]: the numbers of a specification, enclosed at one precision;
+//! - [`transfer`], [`constants`]: the transfer bound, then the constants and conditions in three derivations;
+//! - [`lmi`]: the linear matrix inequality of C5, proposed by a solver and verified exactly, as a cross-check;
 //! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
 //! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
 //! - [`report`], [`errata`]: what a person reads.
@@ -14,6 +15,7 @@
 
 pub mod certificate;
 pub mod constants;
+pub mod data;
 pub mod enclosure;
 pub mod errata;
 pub mod expr;

@@ -2,7 +2,7 @@
 
 use rug::ops::Pow;
 use rug::{Float, Rational};
-use sigmastar::constants::data::Data;
+use sigmastar::data::Data;
 use sigmastar::enclosure::Truth;
 use sigmastar::number::{Direction, round_rational};
 use sigmastar::spec::Specification;

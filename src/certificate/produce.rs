@@ -10,13 +10,13 @@ use super::run::{
 };
 use super::verdict::Verdict;
 use crate::constants::condition::Condition;
-use crate::constants::data::Data;
 use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::printed::{PrintedEvaluation, level_condition};
 use crate::constants::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::constants::table::{Row, TableInput, table};
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};

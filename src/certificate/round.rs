@@ -4,11 +4,11 @@
 //! numbers for it, rounds, and asks for a rigorous decision; the first witness that is proved is returned.
 
 use super::decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
-use crate::constants::data::Data;
 use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness, steady_state_norm};
 use crate::constants::existence::{PeriodicBounds, kappas};
 use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness, distances};
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{

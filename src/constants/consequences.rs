@@ -1,7 +1,7 @@
 //! What a certificate says about the regulated error (derivation, section 6).
 
-use super::data::Data;
 use super::existence::{PeriodicBounds, x_per_gain};
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use rug::Rational;
 

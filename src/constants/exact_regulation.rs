@@ -1,10 +1,10 @@
 //! Exact regulation with infinitely many oscillators: sigma*_oo (derivation, section 6; P:thm2 repaired).
 
 use super::condition::{self, Condition};
-use super::data::{Bound, Data};
 use super::sharp::ClaimedSet;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
+use crate::data::{Bound, Data};
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 

@@ -1,8 +1,8 @@
 //! Existence and size of the periodic solution (derivation, section 4).
 
 use super::contraction::ContractionMatrix;
-use super::data::{Bound, Data};
 use super::gains;
+use crate::data::{Bound, Data};
 use crate::enclosure::Enclosure;
 
 /// The bounding functions at (X_p, E_p), b_fxx at (X_p, 0), and the norms of the right sides that follow.

@@ -6,7 +6,6 @@
 pub mod condition;
 pub mod consequences;
 pub mod contraction;
-pub mod data;
 pub mod exact_regulation;
 pub mod existence;
 pub mod gains;
@@ -18,10 +17,10 @@ pub mod sharp;
 pub mod stability;
 pub mod table;
 
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::spec::model::{Constant, InitialSet};
 use condition::Condition;
-use data::Data;
 use rug::Rational;
 use sharp::ClaimedSet;
 

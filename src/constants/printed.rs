@@ -4,10 +4,10 @@
 //! result is a typed [`Infeasible`] with its reason.
 
 use super::contraction::ContractionMatrix;
-use super::data::{Bound, Data};
 use super::existence::PeriodicBounds;
 use super::gains;
 use super::repaired::{LyapunovMatrix, LyapunovPoint};
+use crate::data::{Bound, Data};
 use crate::enclosure::Enclosure;
 use crate::transfer::{PrintedTransfer, printed_transfer};
 use rug::Rational;

@@ -1,11 +1,11 @@
 //! The repaired derivation: the paper's architecture with the smallest sound repair of each formula.
 
 use super::condition::{self, Condition};
-use super::data::{Bound, Data};
 use super::existence::{PeriodicBounds, kappas};
 use super::gains;
 use super::sharp::ClaimedSet;
 use super::{domain_conditions, set_conditions, sign_conditions};
+use crate::data::{Bound, Data};
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
 use rug::Rational;

@@ -1,11 +1,11 @@
 //! The sharp derivation: conditions C1-C5 decided from a rational witness (derivation, sections 4 and 5).
 
 use super::condition::{self, Condition};
-use super::data::Data;
 use super::existence::{PeriodicBounds, PeriodicSolution, kappas};
 use super::gains;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, set_conditions, sign_conditions};
+use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
 use rug::Rational;

@@ -1,6 +1,6 @@
 //! Stability and domain of attraction (derivation, section 5): the quadratic form of C5 and its closed form.
 
-use super::data::{Bound, Data};
+use crate::data::{Bound, Data};
 use crate::enclosure::{Enclosure, Truth};
 
 /// The error box and what the plant's data give on it.

@@ -3,7 +3,7 @@
 use super::evidence::{Evidence, Relation};
 use super::numbers::{PRECISION, integer, ratio};
 use super::{Bearing, Class, Erratum, ForData, Side};
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use rug::Rational;
 

@@ -1,7 +1,7 @@
 //! The transfer T_N itself, and the paper's constants for it.
 
 use super::numbers::{quotient, root};
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{closed_form_pair, printed_transfer};
 use rug::Rational;

@@ -22,7 +22,7 @@ mod transfer;
 
 pub use evidence::{Evidence, Kind, Relation, Side};
 
-use crate::constants::data::{Bound, Data};
+use crate::data::{Bound, Data};
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::spec::Specification;
 use std::fmt;

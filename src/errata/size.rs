@@ -3,7 +3,7 @@
 use super::evidence::{Evidence, Relation};
 use super::numbers::{integer, quotient, ratio, rational, root};
 use super::{Bearing, Class, Erratum, ForData};
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 

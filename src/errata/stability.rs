@@ -3,7 +3,7 @@
 use super::evidence::{Evidence, Relation, Side};
 use super::numbers::{binomial, integer, power, ratio, rational, root};
 use super::{Bearing, Class, Erratum, ForData, vanishes};
-use crate::constants::data::{Bound, Data};
+use crate::data::{Bound, Data};
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 

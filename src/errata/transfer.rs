@@ -4,7 +4,7 @@ use super::evidence::{Evidence, Relation};
 use super::kappa::{ClosedForm, PrintedKappa, pole_sums, printed_pair_holds, proved_kappa_1, transfer, value_at_zero};
 use super::numbers::{integer, pi, quotient, ratio, rational};
 use super::{Bearing, Class, Erratum, ForData};
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::printed_transfer;
 use rug::Rational;

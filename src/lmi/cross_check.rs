@@ -3,8 +3,8 @@
 use super::decay::{DecayData, verify_decay};
 use super::propose::{propose_multipliers, propose_sigma};
 use super::solve::SolverFailure;
-use crate::constants::data::Data;
 use crate::constants::sharp::{SharpEvaluation, SharpWitness};
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use thiserror::Error;
 

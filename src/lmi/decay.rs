@@ -2,8 +2,8 @@
 
 use super::affine::AffineMatrix;
 use super::ldl::is_positive_definite;
-use crate::constants::data::Data;
 use crate::constants::stability::ErrorBox;
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use rug::Rational;
 

@@ -4,8 +4,8 @@ use super::blocks::{Block, Table};
 use super::number::upper;
 use crate::certificate::{Certification, Derivation};
 use crate::constants::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
-use crate::constants::data::Data;
 use crate::constants::existence::PeriodicBounds;
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::spec::Constant;
 

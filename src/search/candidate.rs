@@ -1,7 +1,7 @@
 //! One candidate of the sharp derivation in floating point.
 
 use super::model::FloatModel;
-use crate::constants::data::Bound;
+use crate::data::Bound;
 
 /// The four numbers that remain when C4 is active in both members (derivation, section 5).
 #[derive(Clone, Copy, Debug)]

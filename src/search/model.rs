@@ -1,6 +1,6 @@
 //! The specification in floating point, for searches only.
 
-use crate::constants::data::{Bound, Data};
+use crate::data::{Bound, Data};
 use crate::expr::FloatExpr;
 use crate::number::Portable;
 use crate::spec::model::InitialSet;

@@ -4,7 +4,7 @@ use super::minimise::minimise;
 use super::model::FloatModel;
 use super::scan;
 use super::sharp::{depth_of, parameter_of};
-use crate::constants::data::{Bound, Data};
+use crate::data::{Bound, Data};
 use crate::number::Portable;
 use crate::transfer::printed_transfer;
 

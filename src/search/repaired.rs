@@ -5,7 +5,7 @@ use super::minimise::minimise;
 use super::model::FloatModel;
 use super::scan;
 use super::sharp::{depth_of, parameter_of};
-use crate::constants::data::Bound;
+use crate::data::Bound;
 use crate::number::Portable;
 
 /// The free numbers of the repaired derivation in floating point.

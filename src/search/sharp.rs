@@ -4,7 +4,7 @@ use super::candidate::{AtSigma, BELOW_ONE, Existence, Obstacle, SharpParameters}
 use super::minimise::minimise;
 use super::model::{Datum, FloatModel};
 use super::scan;
-use crate::constants::data::Bound;
+use crate::data::Bound;
 use crate::number::Portable;
 
 /// The best candidate of a search.

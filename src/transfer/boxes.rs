@@ -2,7 +2,7 @@
 
 use super::lorentz::{LorentzSums, Oscillators, weight_tail};
 use super::{TransferStep, decide_steps};
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 use std::cmp::Ordering;

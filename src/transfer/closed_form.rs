@@ -1,7 +1,7 @@
 //! Closed-form constants, valid for every N >= 0, every x >= 0 and every nu > 0.
 
 use super::{TransferStep, decide_steps};
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 

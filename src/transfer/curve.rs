@@ -2,7 +2,7 @@
 
 use super::boxes::MAX_M0;
 use super::matched::TradeOff;
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::number::Portable;
 
 /// The largest pole and the largest number of oscillators that are sampled.

@@ -1,6 +1,6 @@
 //! T_N(x) on an interval of x: the sums with the nearest pole taken out (derivation, section 2).
 
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::spec::Weights;
 

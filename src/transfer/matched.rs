@@ -1,7 +1,7 @@
 //! Constants for a matched base frequency, w = 2 pi / T exactly: only integers x matter.
 
 use super::{TransferStep, decide_steps};
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 

@@ -16,7 +16,7 @@ pub use closed_form::closed_form_pair;
 pub use matched::{MatchedProof, TradeOff};
 pub use printed::{PrintedTransfer, lambda_interval, printed_transfer};
 
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 

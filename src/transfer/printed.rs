@@ -1,6 +1,6 @@
 //! The paper's own constants of the transfer bound, to the letter: compared, never used for a claim.
 
-use crate::constants::data::Data;
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use rug::Rational;
 

@@ -3,9 +3,9 @@
 use super::{At, Row, Status, TableInput, number, printed, row, sound};
 use crate::constants::consequences::Psi;
 use crate::constants::contraction::ContractionMatrix;
-use crate::constants::data::Data;
 use crate::constants::existence::{PeriodicBounds, kappas};
 use crate::constants::gains;
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::transfer::{PrintedTransfer, closed_form_pair, lambda_interval, printed_transfer};
 

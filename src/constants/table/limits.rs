@@ -2,8 +2,8 @@
 
 use super::common::Common;
 use super::{At, Entry, Row, Status, Value, row};
-use crate::constants::data::{Bound, Data};
 use crate::constants::existence::PeriodicBounds;
+use crate::data::{Bound, Data};
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 

@@ -4,10 +4,10 @@ mod common;
 mod limits;
 mod own;
 
-use super::data::Data;
 use super::printed::{Infeasible, PrintedEvaluation};
 use super::repaired::RepairedEvaluation;
 use super::sharp::SharpEvaluation;
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use common::Common;
 use rug::Rational;
