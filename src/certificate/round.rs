@@ -12,7 +12,8 @@ use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{
-    FloatModel, RepairedProposal, SharpParameters, SharpProposal, at_sigma, largest_e, largest_e_repaired, search_exact,
+    FloatModel, RepairedProposal, SharpParameters, SharpProposal, at_sigma, largest_e, largest_e_repaired,
+    perron_repaired, search_exact,
 };
 use crate::spec::model::InitialSet;
 use crate::transfer::{BoxProof, TransferProof, closed_form_pair};
@@ -180,7 +181,8 @@ fn rounded_box(
     slack: f64,
 ) -> Option<RoundedBox> {
     let d_x = nearest(d_x, LONG_DIGITS)?;
-    let enlarged = 1.0 + (0.1 * slack).clamp(1e-11, 1e-3);
+    // Enough for rounding, and well below the room that candidates keep.
+    let enlarged = 1.0 + (0.1 * slack).clamp(1e-11, 1e-7);
     let level = (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho)) * enlarged;
     let width = d_x.to_f64();
     Some(RoundedBox {
@@ -227,14 +229,16 @@ fn repaired_witness(
     let h = nearest(proposal.h, LONG_DIGITS)?;
     let [dist_x, dist_e, dist_z] = distances(data, &set, [&data.rational(&x), &data.rational(&e), &z]);
     let start = &data.p_up * dist_x.sqr() + dist_e.sqr() + data.rational(&h) * dist_z.sqr();
-    let level = start.upper_rational()? * Rational::from_f64(1.0 + (0.1 * slack).clamp(1e-11, 1e-3))?;
-    let scale = proposal.weights.0.max(proposal.weights.1);
+    let level = start.upper_rational()? * Rational::from_f64(1.0 + 1e-11)?;
+    let sigma = rounded_sigma(proposal.sigma, slack)?;
+    let (p_x, p_e) = perron_repaired(model, x.to_f64(), e.to_f64(), sigma.to_f64());
+    let scale = p_x.max(p_e);
     Some(RepairedWitness {
-        sigma: rounded_sigma(proposal.sigma, slack)?,
+        sigma,
         level: round_rational(&level, LONG_DIGITS, Direction::Up),
         h,
-        p_x: nearest(proposal.weights.0 / scale, LONG_DIGITS)?,
-        p_e: nearest(proposal.weights.1 / scale, LONG_DIGITS)?,
+        p_x: nearest(p_x / scale, LONG_DIGITS)?,
+        p_e: nearest(p_e / scale, LONG_DIGITS)?,
         x,
         e,
         k0,

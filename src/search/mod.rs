@@ -16,5 +16,5 @@ pub use candidate::{AtSigma, Existence, Obstacle, SharpParameters};
 pub use exact::search_exact;
 pub use model::{Datum, FloatModel};
 pub use printed::{PrintedProposal, search_printed};
-pub use repaired::{RepairedProposal, largest_e_repaired, search_repaired};
+pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
 pub use sharp::{SharpProposal, at_sigma, largest_e, search_sharp, sensitivities};

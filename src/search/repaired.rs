@@ -15,12 +15,8 @@ pub struct RepairedProposal {
     pub x: f64,
     /// E.
     pub e: f64,
-    /// L.
-    pub level: f64,
     /// h.
     pub h: f64,
-    /// p_x, p_e.
-    pub weights: (f64, f64),
     /// The smallest sigma found.
     pub sigma: f64,
 }
@@ -78,11 +74,7 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     if !sigma.is_finite() {
         return Err(Obstacle::NotFinite);
     }
-    let (c, d) = (beta(sigma) * q_x, beta(sigma) * q_e);
-    let det = (1.0 - a) * (1.0 - d) - b * c;
-    let (u, v) = (1.0 / x, 1.0 / e);
-    let weights = (((1.0 - d) * u + c * v) / det, (b * u + (1.0 - a) * v) / det);
-    Ok(RepairedProposal { x, e, level, h, weights, sigma })
+    Ok(RepairedProposal { x, e, h, sigma })
 }
 
 /// The largest E with C1 and the first diagonal entry of the contraction matrix below 1.
@@ -95,6 +87,19 @@ pub fn largest_e_repaired(model: &FloatModel, x: f64) -> Option<f64> {
             && gain * (model.bound(Bound::Fex, x, e) * e + 2.0 * f_xx * x) < BELOW_ONE
     };
     scan::largest(admissible, model.domain.1)
+}
+
+/// Weights p_x, p_e for C3 at sigma: the solution of (I - Y') p = (1/X, 1/E), positive where Y is a contraction.
+#[must_use]
+pub fn perron_repaired(model: &FloatModel, x: f64, e: f64, sigma: f64) -> (f64, f64) {
+    let at = |which| model.bound(which, x, e);
+    let gain = k_alpha(model) / model.alpha;
+    let beta = 2.0 * model.beta_s(sigma);
+    let a = gain * (at(Bound::Fex) * e + 2.0 * model.bound(Bound::Fxx, x, 0.0) * x);
+    let (b, c, d) = (gain * at(Bound::Fe), beta * at(Bound::Qx), beta * at(Bound::Qe));
+    let det = (1.0 - a) * (1.0 - d) - b * c;
+    let (u, v) = (1.0 / x, 1.0 / e);
+    (((1.0 - d) * u + c * v) / det, (b * u + (1.0 - a) * v) / det)
 }
 
 /// Searches for the smallest sigma of the repaired derivation.
