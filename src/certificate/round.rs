@@ -5,7 +5,7 @@
 
 use super::decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
 use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness, steady_state_norm};
-use crate::constants::existence::{PeriodicBounds, kappas};
+use crate::constants::existence::{PeriodicBounds, PeriodicSolution, kappas};
 use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness, distances};
 use crate::data::Data;
@@ -144,7 +144,13 @@ fn sharp_witness(
     let z = bounds.z_squared_sharp(data, &kappa_0, &kappa_1).sqrt();
     let set = claimed_set(data, &x_p, &e_p, &z)?;
 
-    let error_box = rounded_box(model, at.d_x, at.rho, [at.dist_e, at.dist_z], at.eta, slack)?;
+    // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.
+    let periodic = PeriodicSolution::new(data, &bounds, &data.rational(&sigma));
+    let [dist_x, dist_e, dist_z] =
+        distances(data, &set, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
+    let d_x = at.d_x.max(at.rho * model.c() * dist_x);
+    let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
+    let error_box = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
     let (p_x, p_e) = existence.perron(model, sigma.to_f64());
     let scale = p_x.max(p_e);
     Some(SharpWitness {
