@@ -7,9 +7,9 @@ use rayon::prelude::*;
 const X_EXPONENTS: std::ops::RangeInclusive<i32> = -120..=120;
 
 /// How far E_p is below the largest value that C1 and C3 allow, as a natural logarithm.
-const E_DEPTHS: [f64; 26] = [
+const E_DEPTHS: [f64; 30] = [
     1e-3, 0.05, 0.15, 0.35, 0.7, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0, 20.0, 25.0, 30.0, 36.0, 42.0, 50.0, 58.0,
-    66.0, 75.0, 85.0, 95.0, 105.0, 115.0,
+    66.0, 75.0, 85.0, 95.0, 105.0, 115.0, 125.0, 135.0, 145.0, 155.0,
 ];
 
 /// The scanned values of X that lie inside the domain, the domain's own scale included.
