@@ -16,7 +16,7 @@ use crate::search::{
     perron_repaired, search_exact,
 };
 use crate::spec::model::InitialSet;
-use crate::transfer::{BoxProof, TransferProof, closed_form_pair};
+use crate::transfer::{TransferProof, closed_form_pair, prove_above};
 use rug::Rational;
 
 /// Significant digits of sigma*.
@@ -93,13 +93,9 @@ fn transfer_pair(
         }
         TransferKind::Matched => Some((up(pair.0)?, up(pair.1)?, TransferProof::Matched { k: pair.2 })),
         TransferKind::Boxes => {
-            let k0 = up(pair.0)?;
-            // The sampled curve may be a little low: take the first k1 that can be proved.
-            [1.0, 1.005, 1.03, 1.2].into_iter().find_map(|factor| {
-                let k1 = up(pair.1 * factor)?;
-                let proof = BoxProof::find(data, &k0, &k1)?;
-                Some((k0.clone(), k1, TransferProof::Boxes(proof)))
-            })
+            // The sampled curve may be a little low: take the first pair above it that can be proved.
+            let (k0, k1, proof) = prove_above(data, pair.0, pair.1, SHORT_DIGITS)?;
+            Some((k0, k1, TransferProof::Boxes(proof)))
         }
     }
 }

@@ -9,12 +9,10 @@ use std::cmp::Ordering;
 
 /// The largest N0 that is tried or accepted.
 pub const MAX_N0: u32 = 256;
-/// The largest m0 that is tried.
+/// The largest m0 that is tried or accepted.
 pub const MAX_M0: u32 = 64;
 /// The most boxes that a proof may have.
 pub const MAX_BOXES: usize = 20_000;
-/// Bisections of a box before a proof is given up.
-const MAX_DEPTH: u32 = 64;
 
 /// The proof as data: the region [0, m0 - 1/2] is covered by consecutive boxes for each N = 1, ..., N0 - 1 and for all
 /// N >= N0 together, and one scalar test settles x >= m0 - 1/2.
@@ -29,7 +27,7 @@ pub struct BoxProof {
 }
 
 /// m0 - 1/2.
-fn edge(m0: u32) -> Rational {
+pub(super) fn edge(m0: u32) -> Rational {
     Rational::from((2 * i64::from(m0) - 1, 2))
 }
 
@@ -42,7 +40,8 @@ fn group(data: &Data<'_>, n0: u32, index: usize) -> Oscillators {
     }
 }
 
-/// The two sides on one box: the supremum of T over it, and k0 + k1 a^2 at its left end a.
+/// The two sides on one box: the supremum of T over it, and k0 + k1 a^2 at its left end a; or, for a box that starts
+/// at 0 where these do not prove it, the two sides of the form divided by x^2.
 fn sides(
     data: &Data<'_>,
     sums: &LorentzSums,
@@ -59,7 +58,11 @@ fn sides(
         (true, Some(nearest)) => sums.enclose(&Enclosure::between(a, b, data.precision), nearest, oscillators),
         _ => Enclosure::undefined(data.precision),
     };
-    (value.ceiling(), pair[0] + pair[1] * data.rational(a).sqr())
+    let (lhs, rhs) = (value.ceiling(), pair[0] + pair[1] * data.rational(a).sqr());
+    if a.cmp0() == Ordering::Equal && !lhs.le(&rhs).is_true() {
+        return sums.near_zero(&data.rational(b), oscillators, pair);
+    }
+    (lhs, rhs)
 }
 
 impl BoxProof {
@@ -79,7 +82,12 @@ impl BoxProof {
             let step = TransferStep { what: what.to_owned(), lhs: Enclosure::one(data.precision), rhs: zero.clone() };
             (Truth::False, step)
         };
-        if !(1..=self.n0).contains(&self.m0) || self.n0 > MAX_N0 || self.boxes() > MAX_BOXES || *k1 <= 0 {
+        if !(1..=self.n0).contains(&self.m0)
+            || self.n0 > MAX_N0
+            || self.m0 > MAX_M0
+            || self.boxes() > MAX_BOXES
+            || *k1 <= 0
+        {
             return refuse("a proof by boxes needs 1 <= m0 <= N0, k1 > 0, and bounded numbers of poles and boxes");
         }
         let covered = |breaks: &Vec<Rational>| {
@@ -110,56 +118,12 @@ impl BoxProof {
         let scalar = scalar_test(data, &k0, &k1, self.m0);
         decide_steps(std::iter::once(at_zero.clone()).chain(scalar).chain(boxes), at_zero)
     }
-
-    /// Finds a proof for a pair, or `None` within the stated effort. The result is decided afresh by
-    /// [`BoxProof::decide`]; nothing rests on how it was found.
-    #[must_use]
-    pub fn find(data: &Data<'_>, k0: &Rational, k1: &Rational) -> Option<BoxProof> {
-        let (k0, k1) = (data.rational(k0), data.rational(k1));
-        let holds = |m0: &u32| scalar_test(data, &k0, &k1, *m0).iter().all(|step| step.lhs.le(&step.rhs).is_true());
-        let m0 = (1..=MAX_M0).find(holds)?;
-        // The interval of the tail sums must be narrow enough for all N >= N0 at once.
-        [m0.max(4), m0.max(4) + 4, m0 + 12, m0 + 28, m0 + 60, m0 + 124]
-            .into_iter()
-            .filter(|n0| *n0 <= MAX_N0)
-            .find_map(|n0| BoxProof::cover(data, [&k0, &k1], m0, n0))
-    }
-
-    /// Covers the region for every group of oscillators by bisection, the hardest group first.
-    fn cover(data: &Data<'_>, pair: [&Enclosure; 2], m0: u32, n0: u32) -> Option<BoxProof> {
-        let sums = LorentzSums::new(data, n0);
-        let mut breaks = Vec::with_capacity(n0 as usize);
-        for index in (0..n0 as usize).rev() {
-            let oscillators = group(data, n0, index);
-            let mut points = vec![Rational::new()];
-            // Half-integers are always break points: the nearest pole changes there.
-            for segment in 0..m0 {
-                let left = if segment == 0 { Rational::new() } else { edge(segment) };
-                let mut stack = vec![(left, edge(segment + 1), 0)];
-                while let Some((a, b, depth)) = stack.pop() {
-                    let (lhs, rhs) = sides(data, &sums, &oscillators, [&a, &b], pair);
-                    if lhs.le(&rhs).is_true() {
-                        points.push(b);
-                    } else if depth == MAX_DEPTH || points.len() + stack.len() > MAX_BOXES / n0 as usize {
-                        return None;
-                    } else {
-                        let middle = Rational::from(&a + &b) / 2u32;
-                        stack.push((middle.clone(), b, depth + 1));
-                        stack.push((a, middle, depth + 1));
-                    }
-                }
-            }
-            breaks.push(points);
-        }
-        breaks.reverse();
-        Some(BoxProof { m0, n0, breaks })
-    }
 }
 
 /// The scalar test for x >= m0 - 1/2 and any N, as comparisons (derivation, section 2, (ii)): with a = m0^2 n_m0,
 /// b = m0 n_m0, s = max(A_m0 - k0, 0) and d = sqrt(b/(2 m0 [k1 (m0-1/2)^2 - s])),
 /// `s < k1 (m0-1/2)^2`, `d <= 1/2` and `(2/a)(1/nu^2 + Rh^2) + s/m0^2 <= k1 (1 - d/m0)^2`.
-fn scalar_test(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure, m0: u32) -> Vec<TransferStep> {
+pub(super) fn scalar_test(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure, m0: u32) -> Vec<TransferStep> {
     let p = data.precision;
     let ratio =
         |numerator: i64, denominator: i64| Enclosure::from_rational(&Rational::from((numerator, denominator)), p);

@@ -1,83 +1,171 @@
 //! Where the trade-off curve between k0 and k1 runs for every x >= 0, in floating point: candidates for a proof.
+//!
+//! A pair is admissible when the line k0 + k1 y lies above every point (y, T) = (x^2, sup_N T_N(x)). So the trade-off
+//! is the upper concave hull of these points, its vertices are the lines through consecutive ones, and the smallest k1
+//! for a given k0 is the steepest line from (0, k0).
 
 use super::boxes::MAX_M0;
+use super::float_sums::FloatSums;
 use super::matched::TradeOff;
 use crate::data::Data;
 use crate::number::Portable;
 
-/// The largest pole and the largest number of oscillators that are sampled.
-const POLES: usize = 48;
-/// The largest x that is sampled, as an integer.
-const REACH: usize = 24;
-/// How much k1 lies above the sampled curve, so that boxes of finite size can prove it.
-const ROOM: f64 = 1.003;
+/// The largest number of oscillators that is sampled.
+const POLES: usize = 64;
+/// The largest pole around which T is sampled.
+const REACH: usize = 32;
+/// The room above the sampled curve, relative, in both members, so that boxes of finite size can prove it.
+const ROOM: f64 = 1e-3;
+/// The most candidates that a curve offers.
+const MAX_CANDIDATES: usize = 160;
+
+/// A sampled point of the graph.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    /// x > 0.
+    pub x: f64,
+    /// sup_N T_N(x) over the N sampled.
+    pub value: f64,
+    /// Where it is attained.
+    pub n: usize,
+}
+
+/// sup_N T_N, sampled at and around its peaks, in order of x.
+#[derive(Clone, Debug)]
+pub(super) struct SampledGraph {
+    sums: FloatSums,
+    samples: Vec<Sample>,
+    /// No k1 much smaller passes the scalar test.
+    floor: f64,
+}
+
+impl SampledGraph {
+    pub(super) fn new(data: &Data<'_>) -> SampledGraph {
+        let sums = FloatSums::new(data, POLES);
+        let mut points: Vec<f64> = (1..=REACH * 32).map(|k| k as f64 / 32.0).collect();
+        for m in 0..REACH {
+            let width = sums.nu * sums.residue(m);
+            let at = |centre: f64, width: f64, steps: &[f64]| -> Vec<f64> {
+                let both = steps.iter().flat_map(|step| [centre - width * step, centre + width * step]);
+                both.filter(|x| *x > 1e-12 && (x - centre).abs() <= 0.75).collect()
+            };
+            const NEAR: [f64; 10] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 4.0, 8.0];
+            points.extend(at(m as f64, width, &NEAR));
+            // Between two poles T peaks where g_N vanishes; N far above m behaves like the largest.
+            for n in (m + 1..m + 7).chain([POLES]) {
+                let (x, width) = sums.peak(m, n);
+                points.push(x);
+                points.extend(at(x, width, &NEAR));
+            }
+        }
+        // A box is never proved for less than what the scalar test needs beyond the largest m0.
+        let m = f64::from(MAX_M0);
+        let weights = &data.spec.internal_model.weights;
+        let [n_0, n_1, last] = [0, 1, u64::from(MAX_M0)].map(|l| weights.weight_f64(l));
+        let sum_bound = (n_0 + n_1 * (2.35 + 1.5 * m.portable_ln())) / (m - 0.5);
+        let slope_bound = 3.0 * n_1 + n_0 / (m * m);
+        let floor = 2.0 / (m * m * last) * (1.0 / (sums.nu * sums.nu) + sum_bound * sum_bound) + slope_bound / (m * m);
+        let mut graph = SampledGraph { sums, samples: Vec::new(), floor };
+        graph.add(points);
+        // Refine around the vertices of the hull: only they matter.
+        for _ in 0..2 {
+            let x = |index: usize| graph.samples.get(index).map_or(f64::from(MAX_M0), |sample| sample.x);
+            let mut finer = Vec::new();
+            for index in graph.hull() {
+                let left = if index == 0 { 0.0 } else { x(index - 1) };
+                let right = x(index + 1);
+                finer.extend((1..12).map(|k| left + (right - left) * f64::from(k) / 12.0));
+            }
+            graph.add(finer);
+        }
+        graph
+    }
+
+    fn add(&mut self, points: Vec<f64>) {
+        let sums = &self.sums;
+        let new = points.into_iter().filter(|x| *x > 0.0).map(|x| {
+            let (value, n) = sums.supremum(x);
+            Sample { x, value, n }
+        });
+        self.samples.extend(new.filter(|sample| sample.value.is_finite()));
+        self.samples.sort_by(|p, q| p.x.total_cmp(&q.x));
+        self.samples.dedup_by(|p, q| p.x == q.x);
+    }
+
+    /// The indices of the samples on the upper concave hull that starts at (0, T(0)) and does not fall.
+    fn hull(&self) -> Vec<usize> {
+        let mut hull: Vec<usize> = Vec::new();
+        let point = |index: usize| (self.samples[index].x.powi(2), self.samples[index].value);
+        let start = (0.0, self.sums.at_zero());
+        for index in 0..self.samples.len() {
+            let (y, value) = point(index);
+            loop {
+                let (before, last) = match hull[..] {
+                    [] => break,
+                    [last] => (start, point(last)),
+                    [.., before, last] => (point(before), point(last)),
+                };
+                // The last vertex goes when it does not lie above the chord.
+                if (last.1 - before.1) * (y - before.0) > (value - before.1) * (last.0 - before.0) {
+                    break;
+                }
+                hull.pop();
+            }
+            // A falling end supports no line with k1 > 0.
+            let last = hull.last().map_or(start, |last| point(*last));
+            if value > last.1 {
+                hull.push(index);
+            }
+        }
+        hull
+    }
+
+    /// The smallest k1 for a given k0, and the sample that forces it up the most.
+    pub(super) fn smallest_k1(&self, k0: f64) -> (f64, Option<Sample>) {
+        let needed = |sample: &Sample| (sample.value - k0) / (sample.x * sample.x);
+        let steepest = self.samples.iter().copied().max_by(|p, q| needed(p).total_cmp(&needed(q)));
+        let slope = steepest.as_ref().map_or(0.0, needed);
+        (slope.max(self.floor), steepest)
+    }
+
+    /// Pairs a little above the trade-off, k1 decreasing.
+    pub(super) fn trade_off(&self) -> TradeOff {
+        let vertices = self.vertices();
+        let stride = vertices.len().div_ceil(MAX_CANDIDATES);
+        let candidates = vertices
+            .into_iter()
+            .step_by(stride)
+            .map(|(k0, k1)| (k0 * (1.0 + ROOM), k1 * (1.0 + ROOM), 0))
+            .filter(|(k0, k1, _)| k0.is_finite() && k1.is_finite() && *k0 > 0.0)
+            .collect();
+        TradeOff { candidates }
+    }
+
+    /// The vertices of the trade-off, k1 decreasing, without any room.
+    fn vertices(&self) -> Vec<(f64, f64)> {
+        let mut lines = Vec::new();
+        let mut from = (0.0, self.sums.at_zero());
+        for index in self.hull() {
+            let to = (self.samples[index].x.powi(2), self.samples[index].value);
+            let slope = (to.1 - from.1) / (to.0 - from.0);
+            if slope < self.floor {
+                break;
+            }
+            lines.push((from.1 - slope * from.0, slope));
+            from = to;
+        }
+        // The flattest line that the scalar test allows.
+        lines.push((from.1 - self.floor * from.0, self.floor));
+        lines
+    }
+}
 
 impl TradeOff {
-    /// Pairs just above the trade-off curve, for k0 from just above T(0) to a hundred times that.
+    /// Pairs just above the trade-off curve, from k0 just above T(0) on.
     ///
     /// Floating point and sampled: each pair is to be proved by boxes before it is used.
     #[must_use]
     pub fn curve(data: &Data<'_>) -> TradeOff {
-        let weights: Vec<f64> = (0..=POLES as u64).map(|l| data.spec.internal_model.weights.weight_f64(l)).collect();
-        let nu = data.nu.midpoint_f64();
-        let samples: Vec<(f64, f64)> =
-            sample_points(&weights, nu).into_iter().map(|x| (x, supremum(&weights, nu, x))).collect();
-        let least = 1.0 / (nu * nu * weights[0]);
-        // No k1 much smaller passes the scalar test at the largest m0 that is tried.
-        let m = f64::from(MAX_M0);
-        let last = data.spec.internal_model.weights.weight_f64(u64::from(MAX_M0));
-        let sum_bound = (weights[0] + weights[1] * (2.35 + 1.5 * m.portable_ln())) / (m - 0.5);
-        let floor = 1.1 * 2.0 / (m * m * last) * (1.0 / (nu * nu) + sum_bound * sum_bound);
-        let candidates = (0..=120)
-            .map(|step| {
-                let k0 = least * (1.0 + 3e-3 * 1.091_f64.powi(step));
-                let k1 = samples.iter().map(|(x, value)| (value - k0) / (x * x)).fold(0.0, f64::max);
-                (k0, (k1 * ROOM).max(floor), 0)
-            })
-            .filter(|(k0, k1, _)| k0.is_finite() && k1.is_finite())
-            .collect();
-        TradeOff { candidates }
+        SampledGraph::new(data).trade_off()
     }
-}
-
-/// Points around every pole at the scale of its Lorentzian, whose half width is about nu c_m, and a uniform grid.
-fn sample_points(weights: &[f64], nu: f64) -> Vec<f64> {
-    let mut points: Vec<f64> = (1..=REACH * 40).map(|k| k as f64 / 40.0).collect();
-    for (m, weight) in weights.iter().enumerate().take(REACH) {
-        let width = nu * if m == 0 { *weight } else { weight / 2.0 };
-        let around = (-40..=40).map(|k| m as f64 + width * f64::from(k) / 8.0);
-        points.extend(around.filter(|x| *x > 1e-9 && (x - m as f64).abs() <= 0.5));
-    }
-    points
-}
-
-/// The largest T_N(x) over N = 0, ..., POLES, in the form with the nearest pole taken out.
-fn supremum(weights: &[f64], nu: f64, x: f64) -> f64 {
-    let nearest = x.round() as usize;
-    let d = x - nearest as f64;
-    let (mut sum, mut slope, mut best) = (0.0, 0.0, 0.0_f64);
-    for (l, weight) in weights.iter().enumerate() {
-        let pole = l as f64;
-        if l == 0 {
-            if nearest != 0 {
-                sum -= weight / x;
-                slope += weight / (x * x);
-            }
-        } else {
-            sum -= weight / 2.0 / (pole + x);
-            slope += weight / 2.0 / (pole + x).powi(2);
-            if l != nearest {
-                sum += weight / 2.0 / (pole - x);
-                slope += weight / 2.0 / (pole - x).powi(2);
-            }
-        }
-        let value = if l < nearest {
-            slope / (1.0 + nu * nu * sum * sum)
-        } else {
-            let residue = if nearest == 0 { weights[0] } else { weights[nearest] / 2.0 };
-            (residue + slope * d * d) / (d * d + (nu * (residue - sum * d)).powi(2))
-        };
-        best = best.max(value);
-    }
-    best
 }

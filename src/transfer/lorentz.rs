@@ -39,6 +39,16 @@ impl LorentzSums {
         }
     }
 
+    /// The last pole that is summed one by one, if the weights reach it and the tail, if any, may be used near `nearest`.
+    fn last(&self, nearest: u32, oscillators: &Oscillators) -> Option<u32> {
+        let last = match oscillators {
+            Oscillators::Exactly(n) => *n,
+            Oscillators::AtLeast { first, .. } if *first > nearest => first - 1,
+            Oscillators::AtLeast { .. } => return None,
+        };
+        (self.weights.len() > last as usize).then_some(last)
+    }
+
     /// An enclosure containing T_N(x) for every x in the interval and every N covered.
     ///
     /// `nearest` is an integer m with |x - m| <= 1/2 on the interval, x >= 0. With d = x - m and the pole m <= N taken
@@ -47,44 +57,79 @@ impl LorentzSums {
     /// Undefined when a hypothesis fails or the interval is too wide.
     #[must_use]
     pub fn enclose(&self, x: &Enclosure, nearest: u32, oscillators: &Oscillators) -> Enclosure {
-        let last = match oscillators {
-            Oscillators::Exactly(n) => *n,
-            Oscillators::AtLeast { first, .. } if *first > nearest => first - 1,
-            Oscillators::AtLeast { .. } => return Enclosure::undefined(self.precision),
-        };
-        if self.weights.len() <= last as usize {
-            return Enclosure::undefined(self.precision);
-        }
+        let Some(last) = self.last(nearest, oscillators) else { return Enclosure::undefined(self.precision) };
         let has_pole = nearest <= last;
-        let (mut sum, mut derivative) = (Enclosure::zero(self.precision), Enclosure::zero(self.precision));
+        let (mut sum, mut slope) = (Enclosure::zero(self.precision), Enclosure::zero(self.precision));
+        // Each term is monotone in x where it is used, so a single use of x keeps the sums tight.
+        let mut add = |c: &Enclosure, distance: Enclosure| {
+            let inverse = distance.recip();
+            slope = &slope + c * inverse.sqr();
+            sum = &sum + c * inverse;
+        };
         if !(has_pole && nearest == 0) {
-            sum = sum - &self.weights[0] / x;
-            derivative = derivative + &self.weights[0] / x.sqr();
+            add(&self.weights[0], -x);
         }
         for (l, weight) in self.weights.iter().enumerate().take(last as usize + 1).skip(1) {
             let half = weight / 2;
-            let (behind, ahead) = (l as i64 + x, l as i64 - x);
-            sum = sum - &half / &behind;
-            derivative = derivative + &half / behind.sqr();
+            add(&half, -(l as i64 + x));
             if l != nearest as usize {
-                sum = sum + &half / &ahead;
-                derivative = derivative + half / ahead.sqr();
+                add(&half, l as i64 - x);
             }
         }
         if let Oscillators::AtLeast { first, tail } = oscillators {
-            let gap = 1 - (x / i64::from(*first)).sqr();
-            let zero = Enclosure::zero(self.precision);
-            sum = sum + zero.hull(&(x * tail / &gap));
-            derivative = derivative + zero.hull(&(2 * tail / gap.sqr()));
+            let (more, steeper) = beyond(x, *first, tail);
+            sum = sum + x * more;
+            slope = slope + steeper;
         }
         if !has_pole {
-            return derivative / (1 + &self.nu_squared * sum.sqr());
+            return slope / (1 + &self.nu_squared * sum.sqr());
         }
         let residue = if nearest == 0 { self.weights[0].clone() } else { &self.weights[nearest as usize] / 2 };
         let d = x - i64::from(nearest);
-        let slope = &residue - sum * &d;
-        (residue + derivative * d.sqr()) / (d.sqr() + &self.nu_squared * slope.sqr())
+        let rest = &residue - sum * &d;
+        (residue + slope * d.sqr()) / (d.sqr() + &self.nu_squared * rest.sqr())
     }
+
+    /// The two sides of the bound on [0, b], b <= 1/2, divided by y = x^2, for every N >= 1 covered: where `.0 <= .1` is
+    /// proved and k0 >= 1/(nu^2 n_0), T_N(x) <= k0 + k1 x^2 holds on [0, b]. It reaches k0 = T_N(0) itself.
+    ///
+    /// With S = sum n_l/(l^2 - y) and D = sum n_l (l^2 + y)/(l^2 - y)^2 over 1 <= l <= N, T_N = (n_0 + D y)/(y + nu^2
+    /// (n_0 - S y)^2). Multiplied out, the bound has the terms k0 nu^2 n_0^2 - n_0 >= 0 of order 0, and y times
+    /// k0 (1 - 2 nu^2 n_0 S + nu^2 S^2 y) + k1 (y + nu^2 (n_0 - S y)^2) - D.
+    #[must_use]
+    pub fn near_zero(&self, b: &Enclosure, oscillators: &Oscillators, pair: [&Enclosure; 2]) -> (Enclosure, Enclosure) {
+        let undefined = || (Enclosure::undefined(self.precision), Enclosure::undefined(self.precision));
+        let Some(last) = self.last(0, oscillators) else { return undefined() };
+        if !(2 * b).le(&Enclosure::one(self.precision)).is_true() {
+            return undefined();
+        }
+        let zero = Enclosure::zero(self.precision);
+        let x = zero.hull(b);
+        let y = x.sqr();
+        let (mut s, mut slope) = (zero.clone(), zero);
+        for (l, weight) in self.weights.iter().enumerate().take(last as usize + 1).skip(1) {
+            let square = Enclosure::from_integer((l * l) as i64, self.precision);
+            let inverse = (&square - &y).recip();
+            slope = slope + weight * (square + &y) * inverse.sqr();
+            s = s + weight * inverse;
+        }
+        if let Oscillators::AtLeast { first, tail } = oscillators {
+            let (more, steeper) = beyond(&x, *first, tail);
+            s = s + more;
+            slope = slope + steeper;
+        }
+        let (n_0, nu_squared) = (&self.weights[0], &self.nu_squared);
+        let first = 1 - 2 * (nu_squared * n_0 * &s) + nu_squared * s.sqr() * &y;
+        let second = &y + nu_squared * (n_0 - s * &y).sqr();
+        (slope, pair[0] * first + pair[1] * second)
+    }
+}
+
+/// What the poles |l| >= first can add, for any N >= first: to the sum, divided by x, and to the slope.
+fn beyond(x: &Enclosure, first: u32, tail: &Enclosure) -> (Enclosure, Enclosure) {
+    let zero = Enclosure::zero(x.precision());
+    let gap = 1 - (x / i64::from(first)).sqr();
+    (zero.hull(&(tail / &gap)), zero.hull(&(2 * tail / gap.sqr())))
 }
 
 /// An upper bound of th = sum_{l >= first} n_l/l^2, first >= 1: `first^-(2+eps)/(2+eps) + first^-(3+eps)` for the power

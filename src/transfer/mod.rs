@@ -6,14 +6,18 @@
 
 mod boxes;
 mod closed_form;
+mod cover;
 mod curve;
+mod float_sums;
 mod lorentz;
 mod matched;
+mod pair;
 mod printed;
 
 pub use boxes::{BoxProof, MAX_BOXES, MAX_N0};
 pub use closed_form::closed_form_pair;
 pub use matched::{MatchedProof, TradeOff};
+pub use pair::{CertifiedPair, Obstacle, PairError, cheapest_pair, prove_above, smallest_k1, trade_off_pairs};
 pub use printed::{PrintedTransfer, lambda_interval, printed_transfer};
 
 use crate::data::Data;

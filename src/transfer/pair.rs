@@ -1,0 +1,211 @@
+//! Certified pairs (k0, k1): the smallest k1 for a given k0, and the pair that is cheapest for given weights.
+
+use super::boxes::BoxProof;
+use super::curve::{Sample, SampledGraph};
+use super::lorentz::{LorentzSums, Oscillators};
+use crate::data::Data;
+use crate::enclosure::{Enclosure, Truth};
+use crate::number::{Direction, round_f64};
+use rug::Rational;
+use thiserror::Error;
+
+/// Significant digits of a certified k1, and of a k0 that the program chooses.
+const DIGITS: u32 = 6;
+/// Relative room above the sampled curve that is tried in turn.
+const ROOMS: [f64; 8] = [3e-4, 1e-3, 3e-3, 6e-3, 9e-3, 0.03, 0.1, 0.3];
+
+/// A pair with its proof, and how far it is from the best.
+#[derive(Clone, Debug)]
+pub struct CertifiedPair {
+    /// k0.
+    pub k0: Rational,
+    /// k1.
+    pub k1: Rational,
+    /// The proof that T_N(x) <= k0 + k1 x^2 for every N >= 0 and every x >= 0.
+    pub proof: BoxProof,
+    /// Why k1 cannot be much smaller for this k0, if some point shows it.
+    pub obstacle: Option<Obstacle>,
+}
+
+/// A point that forces k1 up.
+#[derive(Clone, Debug)]
+pub struct Obstacle {
+    /// The number of oscillators.
+    pub n_o: u32,
+    /// x.
+    pub x: Rational,
+    /// T_N(x).
+    pub value: Enclosure,
+    /// (T_N(x) - k0)/x^2: no k1 below its lower end is admissible with this k0.
+    pub least_k1: Enclosure,
+}
+
+impl CertifiedPair {
+    /// By how much, relatively, k1 exceeds the proved lower bound of every admissible k1 with this k0, rounded up.
+    #[must_use]
+    pub fn excess(&self, data: &Data<'_>) -> Option<Enclosure> {
+        let least = &self.obstacle.as_ref()?.least_k1;
+        least.is_positive().is_true().then(|| (data.rational(&self.k1) / least - 1).ceiling())
+    }
+}
+
+/// Why there is no certified pair.
+#[derive(Clone, Debug, Error)]
+pub enum PairError {
+    /// k0 lies below T_N(0).
+    #[error("k0 = {k0} is too small: T_N(0) = 1/(nu^2 n_0) is at least {least}, for every N")]
+    BelowZeroValue {
+        /// The k0 asked for.
+        k0: Rational,
+        /// A lower bound of T_N(0).
+        least: String,
+    },
+    /// No proof was found.
+    #[error(
+        "no proof was found for k0 = {k0} and k1 up to {k1:.6}: the scalar test or the boxes would need more than they may"
+    )]
+    NotFound {
+        /// k0.
+        k0: Rational,
+        /// The largest k1 that was tried.
+        k1: f64,
+    },
+}
+
+/// The smallest k1, nearly, with which a given k0 is proved admissible.
+///
+/// Guarantee: the pair is admissible for every N >= 0 and every x >= 0. How near k1 is to the best is a figure of the
+/// result (`excess`), proved as well.
+///
+/// # Errors
+/// k0 certainly below T_N(0), or no proof within the effort.
+pub fn smallest_k1(data: &Data<'_>, k0: &Rational) -> Result<CertifiedPair, PairError> {
+    let at_zero = (data.nu.sqr() * &data.n_0).recip();
+    if at_zero.gt(&data.rational(k0)).is_true() {
+        return Err(PairError::BelowZeroValue { k0: k0.clone(), least: at_zero.lower_decimal(8) });
+    }
+    let graph = SampledGraph::new(data);
+    prove_smallest_k1(data, &graph, k0)
+}
+
+fn prove_smallest_k1(data: &Data<'_>, graph: &SampledGraph, k0: &Rational) -> Result<CertifiedPair, PairError> {
+    let (least, sample) = graph.smallest_k1(k0.to_f64());
+    let obstacle = sample.and_then(|sample| obstacle(data, k0, sample));
+    for room in ROOMS {
+        let Some(k1) = round_f64(least * (1.0 + room), DIGITS, Direction::Up) else { break };
+        if let Some(proof) = BoxProof::find(data, k0, &k1) {
+            return Ok(CertifiedPair { k0: k0.clone(), k1, proof, obstacle });
+        }
+    }
+    Err(PairError::NotFound { k0: k0.clone(), k1: least * (1.0 + ROOMS[ROOMS.len() - 1]) })
+}
+
+/// The pair with nearly the smallest `a k0 + b k1`, for a, b >= 0.
+///
+/// Guarantee: as for [`smallest_k1`]. The choice of k0 is a floating-point one.
+///
+/// # Errors
+/// No proof within the effort.
+pub fn cheapest_pair(data: &Data<'_>, a: f64, b: f64) -> Result<CertifiedPair, PairError> {
+    let graph = SampledGraph::new(data);
+    let (k0, _, _) = graph.trade_off().best(a, b);
+    prove_near(data, &graph, k0)
+}
+
+/// Pairs along the trade-off, k0 increasing, at most `most` of them; those without a proof are left out.
+#[must_use]
+pub fn trade_off_pairs(data: &Data<'_>, most: usize) -> Vec<CertifiedPair> {
+    let graph = SampledGraph::new(data);
+    let candidates = graph.trade_off().candidates;
+    let stride = candidates.len().div_ceil(most.max(1)).max(1);
+    candidates.iter().step_by(stride).filter_map(|(k0, _, _)| prove_near(data, &graph, *k0).ok()).collect()
+}
+
+fn prove_near(data: &Data<'_>, graph: &SampledGraph, k0: f64) -> Result<CertifiedPair, PairError> {
+    let rounded = round_f64(k0, DIGITS, Direction::Up).unwrap_or_default();
+    prove_smallest_k1(data, graph, &rounded)
+}
+
+/// Decides how large T is at a sample.
+fn obstacle(data: &Data<'_>, k0: &Rational, sample: Sample) -> Option<Obstacle> {
+    let x = Rational::from_f64(sample.x)?;
+    let n_o = u32::try_from(sample.n).ok()?;
+    let sums = LorentzSums::new(data, n_o);
+    let point = data.rational(&x);
+    let value = sums.enclose(&point, sample.x.round() as u32, &Oscillators::Exactly(n_o));
+    let least_k1 = (&value - data.rational(k0)) / point.sqr();
+    least_k1.is_bounded().then_some(Obstacle { n_o, x, value, least_k1 })
+}
+
+/// Proves a pair that a floating-point search proposed, or one a little above it in both members.
+#[must_use]
+pub fn prove_above(data: &Data<'_>, k0: f64, k1: f64, digits: u32) -> Option<(Rational, Rational, BoxProof)> {
+    [0.0, 3e-3, 0.02, 0.2].into_iter().find_map(|room| {
+        let up = |value: f64| round_f64(value * (1.0 + room), digits, Direction::Up);
+        let (k0, k1) = (up(k0)?, up(k1)?);
+        let proof = BoxProof::find(data, &k0, &k1)?;
+        Some((k0, k1, proof))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::Specification;
+
+    fn specification(n0: &str, epsilon: &str, frequency: &str) -> Specification {
+        let text = format!(
+            r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
+            "lyapunov": {{"p_low": "1", "p_up": "1", "alpha": "1"}},
+            "bounds": {{"f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "0", "q_x": "0", "q_t": "1"}},
+            "internal_model": {{"mu": "1", "base_frequency": "{frequency}",
+              "weights": {{"family": "power", "n0": "{n0}", "epsilon": "{epsilon}"}}}},
+            "initial_set": {{"kind": "paper"}}}}"#
+        );
+        Specification::from_json("test", &text).unwrap()
+    }
+
+    fn exact(data: &Data<'_>, text: &str) -> Rational {
+        match text {
+            // T_N(0) itself, or the first number above it that a double can hold.
+            "T(0)" => {
+                let at_zero = (data.nu.sqr() * &data.n_0).recip();
+                at_zero.upper_rational().unwrap()
+            }
+            _ => crate::number::parse_decimal(text).unwrap(),
+        }
+    }
+
+    #[test]
+    fn the_smallest_k1_is_within_a_hundredth_of_the_best() {
+        for (n0, epsilon, frequency, k0) in [
+            ("2", "1/2", "1", "7"),
+            ("2", "1", "1", "7"),
+            ("2", "1/2", "1", "T(0)"),
+            ("2", "1", "1", "T(0)"),
+            ("2", "1/2", "2*pi", "T(0)"),
+            ("2", "1", "2*pi", "T(0)"),
+            ("2", "1/2", "1/10", "0.0075"),
+            ("2", "1/2", "100", "7500"),
+            ("50", "1", "1", "0.1"),
+            ("1.01", "1/100", "3", "20"),
+        ] {
+            let spec = specification(n0, epsilon, frequency);
+            let data = Data::new(&spec, 128);
+            let k0 = exact(&data, k0);
+            let case = format!("n0 {n0}, eps {epsilon}, w {frequency}, k0 {}", k0.to_f64());
+            let pair = smallest_k1(&data, &k0).unwrap_or_else(|error| panic!("{case}: {error}"));
+            assert_eq!(pair.proof.decide(&data, &pair.k0, &pair.k1).0, Truth::True);
+            let excess = pair.excess(&data).unwrap_or_else(|| panic!("{case}: no obstacle"));
+            println!(
+                "{case}: k1 {} excess {} boxes {} m0 {} N0 {}",
+                pair.k1.to_f64(),
+                excess.upper_f64(),
+                pair.proof.boxes(),
+                pair.proof.m0,
+                pair.proof.n0
+            );
+            assert!(excess.upper_f64() < 0.01, "{case}: {}", excess.upper_f64());
+        }
+    }
+}
