@@ -21,6 +21,12 @@ pub const CERTIFY_EXAMPLES: &str = "Examples:
   sigmastar certify plant.json --witness plant.certificate.json
   sigmastar certify - --format json < plant.json";
 
+/// Examples of `transfer`.
+const TRANSFER_EXAMPLES: &str = "Examples:
+  sigmastar transfer plant.json
+  sigmastar transfer plant.json --k0 1/2 --n-o 0..10,inf
+  sigmastar transfer plant.json --minimise 1,2/3 --plot bound.svg";
+
 /// Certified gains for output regulation: from bounding functions of a plant to a gain that provably works for every
 /// number of oscillators.
 #[derive(Debug, Parser)]
@@ -39,6 +45,12 @@ pub enum Command {
     /// proved. The report goes to standard output, remarks and errors to standard error.
     #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
     Certify(Box<CertifyArgs>),
+    /// Certify the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
+    ///
+    /// Finds constants k0, k1 that are proved for every n_o and every frequency, says how much of the bound each n_o uses,
+    /// and holds the paper's constants against them.
+    #[command(after_help = TRANSFER_EXAMPLES, after_long_help = format!("{TRANSFER_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Transfer(TransferArgs),
     /// List what is wrong in the paper, with evidence
     ///
     /// With a specification, also says what each item means for it.
@@ -120,6 +132,38 @@ impl CertifyArgs {
             compare: !self.no_compare,
         }
     }
+}
+
+/// The flags of `transfer`.
+#[derive(Args, Debug)]
+pub struct TransferArgs {
+    /// Bounding specification (JSON), or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Find the smallest k1 for this k0, an exact constant such as `7` or `2*pi^2`
+    #[arg(long, value_name = "V", allow_hyphen_values = true, conflicts_with = "minimise")]
+    pub k0: Option<String>,
+
+    /// Find the pair with the smallest A k0 + B k1 [default: the weights of the specification's data at X = E = 0]
+    #[arg(long, value_name = "A,B", allow_hyphen_values = true)]
+    pub minimise: Option<String>,
+
+    /// Numbers of oscillators to look at: a list of numbers and ranges; `inf` is allowed
+    #[arg(long, value_name = "LIST", default_value = "0,1,2,3,5,10,20,50,1000000000,inf")]
+    pub n_o: String,
+
+    /// Draw T for these n_o under the bound, as SVG, into this file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub plot: Option<PathBuf>,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// No remarks and no progress on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// The flags of `errata`.

@@ -7,6 +7,8 @@ mod failure;
 mod input;
 mod output;
 mod pages;
+mod progress;
+mod transfer;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -26,6 +28,7 @@ pub fn run() -> ExitCode {
     };
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
+        Command::Transfer(args) => transfer::run(&args),
         Command::Errata(args) => errata::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),

@@ -20,6 +20,7 @@ mod relative_degree;
 mod sensitivity;
 mod sets;
 mod text;
+mod transfer;
 mod verdict;
 
 pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
@@ -27,6 +28,7 @@ pub use errata::ErrataReport;
 pub use failures::{bounding_errors, failure_json};
 pub use json::{FORMAT, VERSION};
 pub use relative_degree::filter_errors;
+pub use transfer::{PairChoice, TransferReport, TransferRequest, plot_svg};
 pub use verdict::sentence;
 
 use crate::certificate::Certification;

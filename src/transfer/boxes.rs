@@ -42,7 +42,7 @@ fn group(data: &Data<'_>, n0: u32, index: usize) -> Oscillators {
 
 /// The two sides on one box: the supremum of T over it, and k0 + k1 a^2 at its left end a; or, for a box that starts
 /// at 0 where these do not prove it, the two sides of the form divided by x^2.
-fn sides(
+pub(super) fn sides(
     data: &Data<'_>,
     sums: &LorentzSums,
     oscillators: &Oscillators,

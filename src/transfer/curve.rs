@@ -19,6 +19,28 @@ const ROOM: f64 = 1e-3;
 /// The most candidates that a curve offers.
 const MAX_CANDIDATES: usize = 160;
 
+/// Points at which peaks of T_N can be seen: a grid up to `reach`, the surroundings of every pole below it at the scale
+/// nu c_m of its Lorentzian, and of every zero of g_N between m and m + 1 for the N that `members` names, where T_N
+/// peaks with half width 1/(nu g_N').
+pub(super) fn sample_points(sums: &FloatSums, reach: usize, members: impl Fn(usize) -> Vec<usize>) -> Vec<f64> {
+    const STEPS: [f64; 10] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 4.0, 8.0];
+    let mut points: Vec<f64> = (1..=reach * 32).map(|k| k as f64 / 32.0).collect();
+    let mut around = |centre: f64, width: f64| {
+        points.push(centre);
+        let both = STEPS.iter().flat_map(|step| [centre - width * step, centre + width * step]);
+        points.extend(both.filter(|x| (x - centre).abs() <= 0.75));
+    };
+    for m in 0..reach {
+        around(m as f64, sums.nu * sums.residue(m));
+        for n in members(m) {
+            let (x, width) = sums.peak(m, n);
+            around(x, width);
+        }
+    }
+    points.retain(|x| *x > 1e-12);
+    points
+}
+
 /// A sampled point of the graph.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
@@ -42,22 +64,8 @@ pub(super) struct SampledGraph {
 impl SampledGraph {
     pub(super) fn new(data: &Data<'_>) -> SampledGraph {
         let sums = FloatSums::new(data, POLES);
-        let mut points: Vec<f64> = (1..=REACH * 32).map(|k| k as f64 / 32.0).collect();
-        for m in 0..REACH {
-            let width = sums.nu * sums.residue(m);
-            let at = |centre: f64, width: f64, steps: &[f64]| -> Vec<f64> {
-                let both = steps.iter().flat_map(|step| [centre - width * step, centre + width * step]);
-                both.filter(|x| *x > 1e-12 && (x - centre).abs() <= 0.75).collect()
-            };
-            const NEAR: [f64; 10] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.5, 4.0, 8.0];
-            points.extend(at(m as f64, width, &NEAR));
-            // Between two poles T peaks where g_N vanishes; N far above m behaves like the largest.
-            for n in (m + 1..m + 7).chain([POLES]) {
-                let (x, width) = sums.peak(m, n);
-                points.push(x);
-                points.extend(at(x, width, &NEAR));
-            }
-        }
+        // N far above m behaves like the largest.
+        let points = sample_points(&sums, REACH, |m| (m + 1..m + 7).chain([POLES]).collect());
         // A box is never proved for less than what the scalar test needs beyond the largest m0.
         let m = f64::from(MAX_M0);
         let weights = &data.spec.internal_model.weights;
@@ -83,7 +91,7 @@ impl SampledGraph {
 
     fn add(&mut self, points: Vec<f64>) {
         let sums = &self.sums;
-        let new = points.into_iter().filter(|x| *x > 0.0).map(|x| {
+        let new = points.into_iter().map(|x| {
             let (value, n) = sums.supremum(x);
             Sample { x, value, n }
         });
@@ -126,6 +134,12 @@ impl SampledGraph {
         let steepest = self.samples.iter().copied().max_by(|p, q| needed(p).total_cmp(&needed(q)));
         let slope = steepest.as_ref().map_or(0.0, needed);
         (slope.max(self.floor), steepest)
+    }
+
+    /// The sample at which T is largest in proportion to k0 + k1 x^2.
+    pub(super) fn tightest(&self, k0: f64, k1: f64) -> Option<Sample> {
+        let ratio = |sample: &Sample| sample.value / (k0 + k1 * sample.x * sample.x);
+        self.samples.iter().copied().max_by(|p, q| ratio(p).total_cmp(&ratio(q)))
     }
 
     /// Pairs a little above the trade-off, k1 decreasing.

@@ -9,16 +9,23 @@ mod closed_form;
 mod cover;
 mod curve;
 mod float_sums;
+mod graph;
 mod lorentz;
 mod matched;
 mod pair;
 mod printed;
+mod uniformity;
 
 pub use boxes::{BoxProof, MAX_BOXES, MAX_N0};
 pub use closed_form::closed_form_pair;
+pub use graph::transfer_graph;
 pub use matched::{MatchedProof, TradeOff};
-pub use pair::{CertifiedPair, Obstacle, PairError, cheapest_pair, prove_above, smallest_k1, trade_off_pairs};
+pub use pair::{
+    CertifiedPair, Obstacle, PairCounterexample, PairError, PairStatus, cheapest_pair, pair_status, prove_above,
+    smallest_k1, trade_off_pairs,
+};
 pub use printed::{PrintedTransfer, lambda_interval, printed_transfer};
+pub use uniformity::{SupRatio, sup_ratios};
 
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};

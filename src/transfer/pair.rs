@@ -3,6 +3,7 @@
 use super::boxes::BoxProof;
 use super::curve::{Sample, SampledGraph};
 use super::lorentz::{LorentzSums, Oscillators};
+use super::{TransferProof, decide};
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use crate::number::{Direction, round_f64};
@@ -126,15 +127,66 @@ fn prove_near(data: &Data<'_>, graph: &SampledGraph, k0: f64) -> Result<Certifie
     prove_smallest_k1(data, graph, &rounded)
 }
 
-/// Decides how large T is at a sample.
-fn obstacle(data: &Data<'_>, k0: &Rational, sample: Sample) -> Option<Obstacle> {
+/// What is known of a pair that somebody else names.
+#[derive(Clone, Debug)]
+pub enum PairStatus {
+    /// Admissible for every N >= 0 and every x >= 0.
+    Proved,
+    /// T_N(x) > k0 + k1 x^2 at a point.
+    Refuted(PairCounterexample),
+    /// Neither.
+    Undecided,
+}
+
+/// A point at which T exceeds a bound.
+#[derive(Clone, Debug)]
+pub struct PairCounterexample {
+    /// The number of oscillators.
+    pub n_o: u32,
+    /// x.
+    pub x: Rational,
+    /// T_N(x).
+    pub value: Enclosure,
+    /// k0 + k1 x^2.
+    pub bound: Enclosure,
+}
+
+/// Proves or refutes the admissibility of a pair, given as enclosures.
+#[must_use]
+pub fn pair_status(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure) -> PairStatus {
+    let at_zero = (data.nu.sqr() * &data.n_0).recip();
+    if at_zero.gt(k0).is_true() {
+        let found = PairCounterexample { n_o: 0, x: Rational::new(), value: at_zero, bound: k0.clone() };
+        return PairStatus::Refuted(found);
+    }
+    let graph = SampledGraph::new(data);
+    let tightest = graph.tightest(k0.midpoint_f64(), k1.midpoint_f64());
+    if let Some((n_o, x, value)) = tightest.and_then(|sample| value_at(data, sample)) {
+        let bound = k0 + k1 * data.rational(&x).sqr();
+        if value.gt(&bound).is_true() {
+            return PairStatus::Refuted(PairCounterexample { n_o, x, value, bound });
+        }
+    }
+    let (Some(k0), Some(k1)) = (k0.lower_rational(), k1.lower_rational()) else { return PairStatus::Undecided };
+    let proved =
+        decide(data, &k0, &k1, &TransferProof::ClosedForm).0 == Truth::True || BoxProof::find(data, &k0, &k1).is_some();
+    if proved { PairStatus::Proved } else { PairStatus::Undecided }
+}
+
+/// N, x and an enclosure of T_N(x) at a sample.
+fn value_at(data: &Data<'_>, sample: Sample) -> Option<(u32, Rational, Enclosure)> {
     let x = Rational::from_f64(sample.x)?;
     let n_o = u32::try_from(sample.n).ok()?;
-    let sums = LorentzSums::new(data, n_o);
-    let point = data.rational(&x);
-    let value = sums.enclose(&point, sample.x.round() as u32, &Oscillators::Exactly(n_o));
-    let least_k1 = (&value - data.rational(k0)) / point.sqr();
-    least_k1.is_bounded().then_some(Obstacle { n_o, x, value, least_k1 })
+    let nearest = sample.x.round() as u32;
+    let value = LorentzSums::new(data, n_o).enclose(&data.rational(&x), nearest, &Oscillators::Exactly(n_o));
+    value.is_bounded().then_some((n_o, x, value))
+}
+
+/// Decides how large T is at a sample.
+fn obstacle(data: &Data<'_>, k0: &Rational, sample: Sample) -> Option<Obstacle> {
+    let (n_o, x, value) = value_at(data, sample)?;
+    let least_k1 = (&value - data.rational(k0)) / data.rational(&x).sqr();
+    Some(Obstacle { n_o, x, value, least_k1 })
 }
 
 /// Proves a pair that a floating-point search proposed, or one a little above it in both members.

@@ -1,0 +1,108 @@
+//! The picture: T_N(x) for several N under the envelope that holds for all of them.
+
+use crate::data::Data;
+use crate::transfer::{CertifiedPair, OscillatorCount, transfer_graph};
+use plotters::prelude::*;
+
+/// Width and height in pixels.
+const SIZE: (u32, u32) = (960, 640);
+/// The most curves that stay legible.
+const MOST: usize = 6;
+/// The x that are shown.
+const RANGE: (f64, f64) = (0.05, 30.0);
+/// Points of the envelope.
+const ENVELOPE: u32 = 200;
+/// Colours that stay apart for most eyes and in grey (after Okabe and Ito).
+const COLOURS: [RGBColor; MOST] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+];
+
+/// At most [`MOST`] of the numbers asked for, evenly chosen, the last one among them.
+fn chosen(counts: &[OscillatorCount]) -> Vec<OscillatorCount> {
+    if counts.len() <= MOST {
+        return counts.to_vec();
+    }
+    (0..MOST).map(|k| counts[k * (counts.len() - 1) / (MOST - 1)]).collect()
+}
+
+/// The picture as SVG. It is drawn from doubles and proves nothing.
+///
+/// # Errors
+/// The plotting library's reason.
+pub fn plot_svg(data: &Data<'_>, pair: &CertifiedPair, counts: &[OscillatorCount]) -> Result<String, String> {
+    let mut svg = String::new();
+    draw(&mut svg, data, pair, &chosen(counts)).map_err(|error| error.to_string())?;
+    Ok(svg)
+}
+
+fn draw(
+    svg: &mut String,
+    data: &Data<'_>,
+    pair: &CertifiedPair,
+    counts: &[OscillatorCount],
+) -> Result<(), Box<dyn std::error::Error>> {
+    let (k0, k1) = (pair.k0.to_f64(), pair.k1.to_f64());
+    let (from, to) = RANGE;
+    let envelope = |x: f64| k0 + k1 * x * x;
+    let graphs: Vec<Vec<(f64, f64)>> = counts.iter().map(|n_o| transfer_graph(data, *n_o, from, to)).collect();
+    let values = || graphs.iter().flatten().map(|(_, value)| *value).filter(|value| *value > 0.0);
+    // Deep valleys would flatten everything else.
+    let lowest = values().fold(k0, f64::min).max(k0 * 1e-5);
+    let area = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+    area.fill(&WHITE)?;
+    let title = format!("T_N(x) under k0 + k1 x^2, k0 = {k0:.6}, k1 = {k1:.6}");
+    let mut chart = ChartBuilder::on(&area)
+        .caption(title, ("sans-serif", 20))
+        .margin(12)
+        .x_label_area_size(48)
+        .y_label_area_size(72)
+        .build_cartesian_2d((from..to).log_scale(), (lowest..2.0 * envelope(to)).log_scale())?;
+    chart
+        .configure_mesh()
+        .x_desc("x = omega / base frequency")
+        .y_desc("T_N(x)")
+        .x_label_formatter(&|x| short(*x))
+        .y_label_formatter(&|y| short(*y))
+        .label_style(("sans-serif", 14))
+        .axis_desc_style(("sans-serif", 16))
+        .light_line_style(RGBColor(238, 238, 238))
+        .bold_line_style(RGBColor(205, 205, 205))
+        .draw()?;
+    let legend = |colour: RGBColor, width: u32| {
+        move |(x, y): (i32, i32)| PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(width))
+    };
+    for ((n_o, graph), colour) in counts.iter().zip(graphs).zip(COLOURS) {
+        let shown = graph.into_iter().filter(|(_, value)| *value >= lowest);
+        chart
+            .draw_series(LineSeries::new(shown, colour.stroke_width(1)))?
+            .label(format!("N = {n_o}"))
+            .legend(legend(colour, 2));
+    }
+    let line = (0..=ENVELOPE).map(|k| {
+        let x = from * (to / from).powf(f64::from(k) / f64::from(ENVELOPE));
+        (x, envelope(x))
+    });
+    chart
+        .draw_series(LineSeries::new(line, BLACK.stroke_width(2)))?
+        .label("k0 + k1 x^2, every N")
+        .legend(legend(BLACK, 2));
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
+        .background_style(WHITE.mix(0.9))
+        .border_style(RGBColor(160, 160, 160))
+        .label_font(("sans-serif", 14))
+        .draw()?;
+    area.present()?;
+    Ok(())
+}
+
+/// A tick: plain where that is short.
+fn short(value: f64) -> String {
+    if (1e-3..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
+}

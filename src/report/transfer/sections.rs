@@ -1,0 +1,112 @@
+//! The sections of the report on the transfer bound.
+
+use super::MatchedPair;
+use crate::data::Data;
+use crate::number::{Direction, write_exact};
+use crate::report::blocks::{Block, Table};
+use crate::report::number::{compact, exact, upper};
+use crate::transfer::{CertifiedPair, SupRatio};
+
+/// The claim itself.
+pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
+    let w = &data.base_frequency;
+    let (kappa_0, kappa_1) = (data.rational(&pair.k0) / w.sqr(), data.rational(&pair.k1) / w.sqr().sqr());
+    let mut blocks = vec![
+        Block::says(format!(
+            "Proved: T_N(x) <= k0 + k1 x^2 with k0 = {} and k1 = {}, for every number of oscillators N = n_o >= 0 and every \
+             x = omega/w >= 0, where nu = mu/w = {}.",
+            write_exact(&pair.k0),
+            write_exact(&pair.k1),
+            compact(&data.nu),
+        )),
+        Block::says(format!(
+            "So zeta* N zeta <= (kappa_0 + kappa_1 omega^2) |v|^2 at every frequency omega, with kappa_0 = {} and kappa_1 = \
+             {}, whatever n_o is.",
+            upper(&kappa_0),
+            upper(&kappa_1),
+        )),
+        Block::says(format!(
+            "The proof: {} boxes over x in [0, {}] for each N < {} and for all N >= {} together, and one scalar test for \
+             x beyond (m0 = {}, N0 = {}).",
+            pair.proof.boxes(),
+            f64::from(pair.proof.m0) - 0.5,
+            pair.proof.n0,
+            pair.proof.n0,
+            pair.proof.m0,
+            pair.proof.n0,
+        )),
+    ];
+    if let (Some(obstacle), Some(excess)) = (&pair.obstacle, pair.excess(data)) {
+        blocks.push(Block::says(format!(
+            "With this k0 no k1 below {} is admissible, because of T_{}({}) = {}: k1 is at most {} % above the best.",
+            obstacle.least_k1.lower_decimal(7),
+            obstacle.n_o,
+            exact(&obstacle.x, Direction::Nearest),
+            compact(&obstacle.value),
+            upper(&(100 * excess)),
+        )));
+    }
+    blocks
+}
+
+/// One line for each number of oscillators.
+pub(super) fn uniformity(rows: &[SupRatio]) -> Vec<Block> {
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new(&["n_o", "at least", "at most", "at x"]);
+    for row in rows {
+        table.push([
+            row.n_o.to_string(),
+            row.ratio.lower_decimal(7),
+            row.ratio.upper_decimal(7),
+            exact(&row.x, Direction::Nearest),
+        ]);
+    }
+    vec![
+        Block::Heading("How much of the bound each n_o uses".to_owned()),
+        Block::says("The supremum of T_N(x)/(k0 + k1 x^2) over x >= 0, enclosed; its lower end is the value at x."),
+        Block::Table(table),
+    ]
+}
+
+/// Certified pairs along the curve.
+pub(super) fn trade_off(data: &Data<'_>, pairs: &[CertifiedPair]) -> Vec<Block> {
+    let mut table = Table::new(&["k0", "k1", "above the best, %", "m0", "N0", "boxes"]);
+    for pair in pairs {
+        let excess = pair.excess(data).map_or_else(|| "unknown".to_owned(), |excess| upper(&(100 * excess)));
+        let proof = &pair.proof;
+        table.push([
+            write_exact(&pair.k0),
+            write_exact(&pair.k1),
+            excess,
+            proof.m0.to_string(),
+            proof.n0.to_string(),
+            proof.boxes().to_string(),
+        ]);
+    }
+    vec![
+        Block::Heading("The trade-off between k0 and k1".to_owned()),
+        Block::says(
+            "Each pair is proved; k1 is compared with a proved lower bound of every k1 that goes with that k0.",
+        ),
+        Block::Table(table),
+    ]
+}
+
+/// The pair that only integers x need.
+pub(super) fn matched(data: &Data<'_>, matched: &MatchedPair) -> Vec<Block> {
+    let w = &data.base_frequency;
+    vec![
+        Block::Heading("Matched base frequency".to_owned()),
+        Block::says(format!(
+            "The base frequency is exactly 2 pi/T, so only integers x occur. Proved for these: k0 = {}, k1 = {} \
+             (harmonics below {} one by one, the others by one inequality), that is kappa_0 = {}, kappa_1 = {}.",
+            write_exact(&matched.k0),
+            write_exact(&matched.k1),
+            matched.first_of_tail,
+            upper(&(data.rational(&matched.k0) / w.sqr())),
+            upper(&(data.rational(&matched.k1) / w.sqr().sqr())),
+        )),
+    ]
+}
