@@ -6,14 +6,22 @@
 
 mod boxes;
 mod closed_form;
+mod complex;
 mod curve;
+mod euler_maclaurin;
+mod inverse_powers;
 mod lorentz;
 mod matched;
+mod phase;
+mod pole_sums;
+mod poles;
 mod printed;
 
 pub use boxes::{BoxProof, MAX_BOXES, MAX_N0};
 pub use closed_form::closed_form_pair;
 pub use matched::{MatchedProof, TradeOff};
+pub use pole_sums::{AroundPole, MAX_DIRECT_POLES, MAX_PIECES, OscillatorCount, PoleSums};
+pub use poles::{MAX_POLE_OSCILLATORS, PoleDisc, PolesError, internal_model_poles, slowest_decay, transfer_from_poles};
 pub use printed::{PrintedTransfer, lambda_interval, printed_transfer};
 
 use crate::data::Data;
