@@ -6,13 +6,19 @@
 
 mod boxes;
 mod closed_form;
+mod complex;
 mod cover;
 mod curve;
+mod euler_maclaurin;
 mod float_sums;
 mod graph;
+mod inverse_powers;
 mod lorentz;
 mod matched;
 mod pair;
+mod phase;
+mod pole_sums;
+mod poles;
 mod printed;
 mod uniformity;
 
@@ -24,6 +30,8 @@ pub use pair::{
     CertifiedPair, Obstacle, PairCounterexample, PairError, PairStatus, cheapest_pair, pair_status, prove_above,
     smallest_k1, trade_off_pairs,
 };
+pub use pole_sums::{AroundPole, MAX_DIRECT_POLES, MAX_PIECES, OscillatorCount, PoleSums};
+pub use poles::{MAX_POLE_OSCILLATORS, PoleDisc, PolesError, internal_model_poles, slowest_decay, transfer_from_poles};
 pub use printed::{PrintedTransfer, lambda_interval, printed_transfer};
 pub use uniformity::{SupRatio, sup_ratios};
 

@@ -1,0 +1,51 @@
+//! The phase of the internal model on the imaginary axis: T_N as its derivative.
+
+use super::pole_sums::{OscillatorCount, PoleSums, integer, nearest_integers, point};
+use crate::enclosure::Enclosure;
+use rug::Float;
+
+impl PoleSums {
+    /// `theta_N(x) = arctan(nu g_N(x)) + pi #{poles l: 0 < l < x}`, continued through the poles, for every x >= 0 in the
+    /// enclosure; in radians.
+    ///
+    /// g tends to +oo on the left of a pole and to -oo on the right, so theta is continuous with
+    /// `theta(m) = (m - 1/2) pi` at every pole 0 <= m <= N; at x = 0 this is the limit from the right. It increases,
+    /// `theta' = nu T_N`, from -pi/2 to N pi, so an interval is enclosed by the values at its ends. Near a pole
+    /// m <= N, with d = x - m: `tan(theta - m pi) = -nu (c_m - R d)/d`, hence `theta = (m - 1/2) pi + phi`, phi the argument
+    /// of `nu (c_m - R d) + i d`, in (-pi, pi).
+    ///
+    /// Undefined where x may be negative or is unbounded, and beyond
+    /// [`MAX_DIRECT_POLES`](super::MAX_DIRECT_POLES).
+    #[must_use]
+    pub fn phase(&self, x: &Enclosure) -> Enclosure {
+        let at = |end: &Float| match nearest_integers(&point(end)) {
+            Some((nearest, _)) => self.phase_at(&point(end), nearest),
+            None => Enclosure::undefined(x.precision()),
+        };
+        let left = at(x.lower());
+        if x.is_exact() { left } else { left.hull(&at(x.upper())) }
+    }
+
+    fn phase_at(&self, x: &Enclosure, nearest: u64) -> Enclosure {
+        let around = self.around(x, nearest);
+        let (nu, d) = (self.nu(), &around.distance);
+        let half_turn = Enclosure::pi(x.precision().max(nu.precision()));
+        let turns = |poles: u64| integer(poles, half_turn.precision()) * &half_turn;
+        let Some(residue) = &around.residue else {
+            // The poles below x are all there are.
+            let OscillatorCount::Finite(last) = self.count() else { return Enclosure::undefined(x.precision()) };
+            return turns(last) + (nu * &around.sum).atan();
+        };
+        let real = nu * (residue - &around.sum * d);
+        let argument = if real.is_positive().is_true() {
+            (d / real).atan()
+        } else if d.is_positive().is_true() {
+            &half_turn / 2 - (real / d).atan()
+        } else if (-d).is_positive().is_true() {
+            -(&half_turn / 2) - (real / d).atan()
+        } else {
+            return Enclosure::undefined(x.precision());
+        };
+        turns(nearest) - &half_turn / 2 + argument
+    }
+}
