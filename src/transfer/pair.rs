@@ -14,6 +14,8 @@ use thiserror::Error;
 const DIGITS: u32 = 6;
 /// Relative room above the sampled curve that is tried in turn.
 const ROOMS: [f64; 8] = [3e-4, 1e-3, 3e-3, 6e-3, 9e-3, 0.03, 0.1, 0.3];
+/// The first of [`ROOMS`] for the pairs of a table: fewer boxes.
+const TABLE_ROOMS: &[f64] = ROOMS.split_at(2).1;
 
 /// A pair with its proof, and how far it is from the best.
 #[derive(Clone, Debug)]
@@ -86,13 +88,18 @@ pub fn smallest_k1(data: &Data<'_>, k0: &Rational) -> Result<CertifiedPair, Pair
         return Err(PairError::BelowZeroValue { k0: k0.clone(), least: at_zero.lower_decimal(8) });
     }
     let graph = SampledGraph::new(data);
-    prove_smallest_k1(data, &graph, k0)
+    prove_smallest_k1(data, &graph, k0, &ROOMS)
 }
 
-fn prove_smallest_k1(data: &Data<'_>, graph: &SampledGraph, k0: &Rational) -> Result<CertifiedPair, PairError> {
+fn prove_smallest_k1(
+    data: &Data<'_>,
+    graph: &SampledGraph,
+    k0: &Rational,
+    rooms: &[f64],
+) -> Result<CertifiedPair, PairError> {
     let (least, sample) = graph.smallest_k1(k0.to_f64());
     let obstacle = sample.and_then(|sample| obstacle(data, k0, sample));
-    for room in ROOMS {
+    for room in rooms {
         let Some(k1) = round_f64(least * (1.0 + room), DIGITS, Direction::Up) else { break };
         if let Some(proof) = BoxProof::find(data, k0, &k1) {
             return Ok(CertifiedPair { k0: k0.clone(), k1, proof, obstacle });
@@ -110,7 +117,7 @@ fn prove_smallest_k1(data: &Data<'_>, graph: &SampledGraph, k0: &Rational) -> Re
 pub fn cheapest_pair(data: &Data<'_>, a: f64, b: f64) -> Result<CertifiedPair, PairError> {
     let graph = SampledGraph::new(data);
     let (k0, _, _) = graph.trade_off().best(a, b);
-    prove_near(data, &graph, k0)
+    prove_near(data, &graph, k0, &ROOMS)
 }
 
 /// Pairs along the trade-off, k0 increasing, at most `most` of them; those without a proof are left out.
@@ -119,12 +126,12 @@ pub fn trade_off_pairs(data: &Data<'_>, most: usize) -> Vec<CertifiedPair> {
     let graph = SampledGraph::new(data);
     let candidates = graph.trade_off().candidates;
     let stride = candidates.len().div_ceil(most.max(1)).max(1);
-    candidates.iter().step_by(stride).filter_map(|(k0, _, _)| prove_near(data, &graph, *k0).ok()).collect()
+    candidates.iter().step_by(stride).filter_map(|(k0, _, _)| prove_near(data, &graph, *k0, TABLE_ROOMS).ok()).collect()
 }
 
-fn prove_near(data: &Data<'_>, graph: &SampledGraph, k0: f64) -> Result<CertifiedPair, PairError> {
+fn prove_near(data: &Data<'_>, graph: &SampledGraph, k0: f64, rooms: &[f64]) -> Result<CertifiedPair, PairError> {
     let rounded = round_f64(k0, DIGITS, Direction::Up).unwrap_or_default();
-    prove_smallest_k1(data, graph, &rounded)
+    prove_smallest_k1(data, graph, &rounded, rooms)
 }
 
 /// What is known of a pair that somebody else names.
@@ -249,14 +256,6 @@ mod tests {
             let pair = smallest_k1(&data, &k0).unwrap_or_else(|error| panic!("{case}: {error}"));
             assert_eq!(pair.proof.decide(&data, &pair.k0, &pair.k1).0, Truth::True);
             let excess = pair.excess(&data).unwrap_or_else(|| panic!("{case}: no obstacle"));
-            println!(
-                "{case}: k1 {} excess {} boxes {} m0 {} N0 {}",
-                pair.k1.to_f64(),
-                excess.upper_f64(),
-                pair.proof.boxes(),
-                pair.proof.m0,
-                pair.proof.n0
-            );
             assert!(excess.upper_f64() < 0.01, "{case}: {}", excess.upper_f64());
         }
     }

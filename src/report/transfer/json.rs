@@ -17,7 +17,12 @@ pub(super) fn report(report: &TransferReport<'_>) -> Value {
     let per_n_o: Vec<Value> = report
         .rows
         .iter()
-        .map(|row| json!({ "n_o": count_json(row.n_o), "ratio": row.ratio.decimals(), "x": write_exact(&row.x) }))
+        .map(|row| {
+            json!({
+                "n_o": count_json(row.ratio.n_o), "ratio": interval(&row.ratio.ratio), "x": write_exact(&row.ratio.x),
+                "slowest_decay": row.decay.as_ref().map(interval),
+            })
+        })
         .collect();
     let trade_off: Vec<Value> = report.trade_off.iter().map(|pair| pair_json(report, pair)).collect();
     let obstacle = pair.obstacle.as_ref().map(|obstacle| {

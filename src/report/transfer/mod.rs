@@ -10,14 +10,16 @@ pub use plot::plot_svg;
 use super::blocks::{Block, clean};
 use super::{markdown, text};
 use crate::data::{Bound, Data};
+use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational};
 use crate::spec::Specification;
 use crate::spec::model::Constant;
 use crate::transfer::{
-    CertifiedPair, OscillatorCount, PairError, SupRatio, TradeOff, TransferProof, cheapest_pair, decide, smallest_k1,
-    sup_ratios, trade_off_pairs,
+    CertifiedPair, MAX_POLE_OSCILLATORS, OscillatorCount, PairError, SupRatio, TradeOff, TransferProof, cheapest_pair,
+    decide, internal_model_poles, slowest_decay, smallest_k1, sup_ratios, trade_off_pairs,
 };
 use printed::PrintedVerdict;
+use rayon::prelude::*;
 use rug::Rational;
 use serde_json::Value;
 
@@ -59,11 +61,18 @@ struct MatchedPair {
     first_of_tail: u32,
 }
 
+/// What is shown of one number of oscillators.
+struct Row {
+    ratio: SupRatio,
+    /// The decay rate of the slowest mode of Phi - mu M M'N, where its poles are enclosed.
+    decay: Option<Enclosure>,
+}
+
 /// The certified transfer bound of a specification.
 pub struct TransferReport<'s> {
     data: Data<'s>,
     pair: CertifiedPair,
-    rows: Vec<SupRatio>,
+    rows: Vec<Row>,
     trade_off: Vec<CertifiedPair>,
     matched: Option<MatchedPair>,
     printed: PrintedVerdict,
@@ -95,7 +104,16 @@ impl<'s> TransferReport<'s> {
             }
             PairChoice::Cheapest { .. } | PairChoice::ForData => cheapest_pair(&data, a, b)?,
         };
-        let rows = sup_ratios(&data, &pair.k0, &pair.k1, &request.n_o, done);
+        let decay = |n_o| match n_o {
+            OscillatorCount::Finite(n) if n <= MAX_POLE_OSCILLATORS => {
+                internal_model_poles(&data, n).ok().map(|poles| slowest_decay(&data, &poles))
+            }
+            _ => None,
+        };
+        let rows = sup_ratios(&data, &pair.k0, &pair.k1, &request.n_o, done)
+            .into_par_iter()
+            .map(|ratio| Row { decay: decay(ratio.n_o), ratio })
+            .collect();
         let trade_off = trade_off_pairs(&data, TRADE_OFF_PAIRS);
         let matched = if spec.internal_model.matched { matched_pair(&data, a, b) } else { None };
         let printed = PrintedVerdict::new(&data);
@@ -136,7 +154,7 @@ impl<'s> TransferReport<'s> {
     /// # Errors
     /// The plotting library's reason, as text.
     pub fn plot(&self) -> Result<String, String> {
-        let counts: Vec<OscillatorCount> = self.rows.iter().map(|row| row.n_o).collect();
+        let counts: Vec<OscillatorCount> = self.rows.iter().map(|row| row.ratio.n_o).collect();
         plot_svg(&self.data, &self.pair, &counts)
     }
 }

@@ -1,6 +1,8 @@
 //! The picture: T_N(x) for several N under the envelope that holds for all of them.
 
 use crate::data::Data;
+use crate::number::Direction;
+use crate::report::number::exact;
 use crate::transfer::{CertifiedPair, OscillatorCount, transfer_graph};
 use plotters::prelude::*;
 
@@ -55,7 +57,8 @@ fn draw(
     let lowest = values().fold(k0, f64::min).max(k0 * 1e-5);
     let area = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     area.fill(&WHITE)?;
-    let title = format!("T_N(x) under k0 + k1 x^2, k0 = {k0:.6}, k1 = {k1:.6}");
+    let [k0_text, k1_text] = [&pair.k0, &pair.k1].map(|k| exact(k, Direction::Up));
+    let title = format!("T_N(x) under k0 + k1 x^2 with k0 = {k0_text}, k1 = {k1_text}");
     let mut chart = ChartBuilder::on(&area)
         .caption(title, ("sans-serif", 20))
         .margin(12)
@@ -76,7 +79,8 @@ fn draw(
     let legend = |colour: RGBColor, width: u32| {
         move |(x, y): (i32, i32)| PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(width))
     };
-    for ((n_o, graph), colour) in counts.iter().zip(graphs).zip(COLOURS) {
+    // Few oscillators last: their curves leave the common one early and stay visible on top of it.
+    for ((n_o, graph), colour) in counts.iter().zip(graphs).zip(COLOURS).rev() {
         let shown = graph.into_iter().filter(|(_, value)| *value >= lowest);
         chart
             .draw_series(LineSeries::new(shown, colour.stroke_width(1)))?

@@ -1,11 +1,11 @@
 //! The sections of the report on the transfer bound.
 
-use super::MatchedPair;
+use super::{MatchedPair, Row};
 use crate::data::Data;
 use crate::number::{Direction, write_exact};
 use crate::report::blocks::{Block, Table};
 use crate::report::number::{compact, exact, upper};
-use crate::transfer::{CertifiedPair, SupRatio};
+use crate::transfer::CertifiedPair;
 
 /// The claim itself.
 pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
@@ -50,22 +50,27 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
 }
 
 /// One line for each number of oscillators.
-pub(super) fn uniformity(rows: &[SupRatio]) -> Vec<Block> {
+pub(super) fn uniformity(rows: &[Row]) -> Vec<Block> {
     if rows.is_empty() {
         return Vec::new();
     }
-    let mut table = Table::new(&["n_o", "at least", "at most", "at x"]);
-    for row in rows {
+    let mut table = Table::new(&["n_o", "at least", "at most", "at x", "slowest decay, 1/time"]);
+    for Row { ratio, decay } in rows {
         table.push([
-            row.n_o.to_string(),
-            row.ratio.lower_decimal(7),
-            row.ratio.upper_decimal(7),
-            exact(&row.x, Direction::Nearest),
+            ratio.n_o.to_string(),
+            ratio.ratio.lower_decimal(7),
+            ratio.ratio.upper_decimal(7),
+            exact(&ratio.x, Direction::Nearest),
+            decay.as_ref().map_or_else(|| "-".to_owned(), compact),
         ]);
     }
     vec![
         Block::Heading("How much of the bound each n_o uses".to_owned()),
-        Block::says("The supremum of T_N(x)/(k0 + k1 x^2) over x >= 0, enclosed; its lower end is the value at x."),
+        Block::says(
+            "The supremum of T_N(x)/(k0 + k1 x^2) over x >= 0, enclosed; its lower end is the value at x. Beside it the \
+             decay rate of the slowest mode of the internal model, Phi - mu M M'N, from its enclosed poles: the bound \
+             does not depend on n_o, this rate tends to 0.",
+        ),
         Block::Table(table),
     ]
 }
