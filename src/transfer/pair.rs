@@ -17,6 +17,9 @@ const ROOMS: [f64; 8] = [3e-4, 1e-3, 3e-3, 6e-3, 9e-3, 0.03, 0.1, 0.3];
 /// The first of [`ROOMS`] for the pairs of a table: fewer boxes.
 const TABLE_ROOMS: &[f64] = ROOMS.split_at(2).1;
 
+/// How far the table of the trade-off goes, in units of its first k0.
+const TABLE_REACH: f64 = 32.0;
+
 /// A pair with its proof, and how far it is from the best.
 #[derive(Clone, Debug)]
 pub struct CertifiedPair {
@@ -120,11 +123,14 @@ pub fn cheapest_pair(data: &Data<'_>, a: f64, b: f64) -> Result<CertifiedPair, P
     prove_near(data, &graph, k0, &ROOMS)
 }
 
-/// Pairs along the trade-off, k0 increasing, at most `most` of them; those without a proof are left out.
+/// Pairs along the trade-off, k0 increasing from about T_N(0) to [`TABLE_REACH`] times that, at most `most` of them;
+/// those without a proof are left out.
 #[must_use]
 pub fn trade_off_pairs(data: &Data<'_>, most: usize) -> Vec<CertifiedPair> {
     let graph = SampledGraph::new(data);
-    let candidates = graph.trade_off().candidates;
+    let mut candidates = graph.trade_off().candidates;
+    let largest = candidates.first().map_or(0.0, |first| TABLE_REACH * first.0);
+    candidates.retain(|candidate| candidate.0 <= largest);
     let stride = candidates.len().div_ceil(most.max(1)).max(1);
     candidates.iter().step_by(stride).filter_map(|(k0, _, _)| prove_near(data, &graph, *k0, TABLE_ROOMS).ok()).collect()
 }
