@@ -1,4 +1,52 @@
-use criterion::{criterion_group, criterion_main};
-fn none(_: &mut criterion::Criterion) {}
-criterion_group!(benches, none);
+//! Timings of g_N, T_N and the poles of the internal model.
+//!
+//! `cargo bench --bench transfer` prints them; nothing here is asserted.
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use rug::Rational;
+use sigmastar::data::Data;
+use sigmastar::enclosure::Enclosure;
+use sigmastar::spec::Specification;
+use sigmastar::transfer::{OscillatorCount, PoleSums, internal_model_poles};
+use std::hint::black_box;
+use std::path::Path;
+
+fn sums(criterion: &mut Criterion) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json");
+    let spec = Specification::load(&path).expect("the shipped example is valid");
+    let data = Data::new(&spec, 128);
+    let x = Enclosure::from_rational(&Rational::from((17, 5)), 128);
+    let wide = Enclosure::between(&Rational::from((16, 5)), &Rational::from((17, 5)), 128);
+
+    let mut group = criterion.benchmark_group("T_N(3.4) at 128 bits");
+    for (name, count) in [
+        ("N = 20", OscillatorCount::Finite(20)),
+        ("N = 10^9", OscillatorCount::Finite(1_000_000_000)),
+        ("N = oo", OscillatorCount::Infinite),
+    ] {
+        group.bench_function(BenchmarkId::new("with its preparation", name), |b| {
+            b.iter(|| PoleSums::new(&data, count).transfer_at(black_box(&x)));
+        });
+        let sums = PoleSums::new(&data, count);
+        group.bench_function(BenchmarkId::new("prepared", name), |b| b.iter(|| sums.transfer_at(black_box(&x))));
+        group.bench_function(BenchmarkId::new("prepared, on [3.2, 3.4]", name), |b| {
+            b.iter(|| sums.transfer_at(black_box(&wide)));
+        });
+    }
+    let sums = PoleSums::new(&data, OscillatorCount::Infinite);
+    let far = Enclosure::from_rational(&Rational::from((10_001, 3)), 128);
+    group.bench_function("x = 3333.7, N = oo, prepared", |b| b.iter(|| sums.transfer_at(black_box(&far))));
+    group.finish();
+
+    let mut group = criterion.benchmark_group("poles of the internal model");
+    group.sample_size(10);
+    for n in [4, 16, 64] {
+        group.bench_with_input(BenchmarkId::new("enclosed at 128 bits", n), &n, |b, n| {
+            b.iter(|| internal_model_poles(&data, *n));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, sums);
 criterion_main!(benches);

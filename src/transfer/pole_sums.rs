@@ -337,7 +337,7 @@ impl PoleSums {
             let piece = Enclosure::new(left.unwrap_or(x.lower().clone()), right.unwrap_or(x.upper().clone()));
             self.transfer(&piece, m)
         };
-        (first + 1..=last).fold(piece(first), |hull, m| hull.hull(&piece(m)))
+        (first..=last).skip(1).fold(piece(first), |hull, m| hull.hull(&piece(m)))
     }
 }
 
