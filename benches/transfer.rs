@@ -7,7 +7,7 @@ use rug::Rational;
 use sigmastar::data::Data;
 use sigmastar::enclosure::Enclosure;
 use sigmastar::spec::Specification;
-use sigmastar::transfer::{OscillatorCount, PoleSums, internal_model_poles};
+use sigmastar::transfer::{BoxProof, OscillatorCount, PoleSums, internal_model_poles, smallest_k1};
 use std::hint::black_box;
 use std::path::Path;
 
@@ -48,5 +48,24 @@ fn sums(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, sums);
+fn pairs(criterion: &mut Criterion) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json");
+    let spec = Specification::load(&path).expect("the shipped example is valid");
+    let data = Data::new(&spec, 128);
+    // A little above the optimum for nu = 1/(2 pi), eps = 1/2.
+    let exact = |text: &str| Rational::from_str_radix(text, 10).expect("a rational");
+    let (k0, k1) = (exact("1978/100"), exact("7485/100"));
+    let proof = BoxProof::find(&data, &k0, &k1).expect("it has a proof");
+
+    let mut group = criterion.benchmark_group("k0 = 19.78, k1 = 74.85 at nu = 1/(2 pi)");
+    group.sample_size(20);
+    group.bench_function("find the proof and decide it", |b| {
+        b.iter(|| BoxProof::find(&data, black_box(&k0), black_box(&k1)));
+    });
+    group.bench_function("decide the proof", |b| b.iter(|| proof.decide(&data, black_box(&k0), black_box(&k1))));
+    group.bench_function("smallest k1 for this k0, with its proof", |b| b.iter(|| smallest_k1(&data, black_box(&k0))));
+    group.finish();
+}
+
+criterion_group!(benches, sums, pairs);
 criterion_main!(benches);

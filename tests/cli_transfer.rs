@@ -115,7 +115,11 @@ fn the_picture_is_written_whole() {
         assert!(svg.contains(label), "{label}");
     }
     for colour in ["#0072B2", "#D55E00", "#009E73"] {
-        assert_eq!(svg.matches(&format!("stroke=\"{colour}\"")).count(), 2, "{colour}: a curve and its mark in the legend");
+        assert_eq!(
+            svg.matches(&format!("stroke=\"{colour}\"")).count(),
+            2,
+            "{colour}: a curve and its mark in the legend"
+        );
     }
 }
 
