@@ -81,7 +81,7 @@ fn pairs_are_near_the_optimum_and_no_smaller_one_is_accepted() {
         let least = &pair.obstacle.as_ref().unwrap().least_k1;
         assert!(least.upper_f64() <= k1 && least.lower_f64() >= 0.999 * dense, "{name}");
 
-        let lower = Rational::from(&pair.k1 * Rational::from((98, 100)));
+        let lower = &pair.k1 * Rational::from((98, 100));
         assert_ne!(pair.proof.decide(&data, &pair.k0, &lower).0, Truth::True, "{name}");
         assert!(BoxProof::find(&data, &pair.k0, &lower).is_none(), "{name}");
         let status = pair_status(&data, &data.rational(&pair.k0), &data.rational(&lower));
@@ -138,7 +138,7 @@ fn random_x(rng: &mut StdRng, reach: u32) -> Float {
         _ => (unit(rng) - 0.5) * 2f64.powf(-20.0 * unit(rng)),
     };
     // A tenth of the points lies near 0, where the bound is tight for the smallest k0.
-    let m = if rng.next_u32() % 10 == 0 { 0.0 } else { m };
+    let m = if rng.next_u32().is_multiple_of(10) { 0.0 } else { m };
     Float::with_val(BITS, m + offset).abs() + Float::with_val(BITS, 2f64.powi(-60))
 }
 
@@ -181,7 +181,7 @@ fn bounds_hold_at_random_points_against_a_plain_sum() {
             .map(|_| {
                 // At every scale up to 1e4.
                 let n = 10f64.powf(4.0 * f64::from(rng.next_u32()) / 4_294_967_295.0).round() as usize;
-                let reach = if rng.next_u32() % 2 == 0 { 30 } else { n as u32 + 3 };
+                let reach = if rng.next_u32().is_multiple_of(2) { 30 } else { n as u32 + 3 };
                 (n, random_x(&mut rng, reach))
             })
             .collect();
