@@ -39,7 +39,10 @@ pub fn check(json: &Json, lines: &mut Vec<String>) -> Outcome<()> {
     let mut canonical = String::new();
     embedded.json.canonical(&mut canonical);
     stored::text(&file.required("specification_sha256")?, &sha256::hex_digest(canonical.as_bytes()))?;
-    lines.push("specification: well-formed; T, w, mu, alpha, P_low > 0, P_up >= P_low; W1-W3 and n_0 > n_1; digest right".to_owned());
+    lines.push(
+        "specification: well-formed; T, w, mu, alpha, P_low > 0, P_up >= P_low; W1-W3 and n_0 > n_1; digest right"
+            .to_owned(),
+    );
 
     let claim = Claim::read(&file.required("claim")?)?;
     let witness = file.required("witness")?;
@@ -53,7 +56,8 @@ pub fn check(json: &Json, lines: &mut Vec<String>) -> Outcome<()> {
         let mut attempt = lines.clone();
         let rules = Rules { d: &Data::new(&spec, precision), claim: &claim, list: &list, table: &table };
         let result = rules.apply(&main, other.as_ref(), &mut attempt);
-        let again = result.as_ref().is_err_and(|finding| finding.verdict == Verdict::Undecided) && precision < LAST_PRECISION;
+        let again =
+            result.as_ref().is_err_and(|finding| finding.verdict == Verdict::Undecided) && precision < LAST_PRECISION;
         if !again {
             *lines = attempt;
             return result;
@@ -209,7 +213,8 @@ impl Rules<'_> {
                 &r.conditions
             }
         };
-        lines.push("claim: verdict, n_o, mu, set, periodic solution and statement are those that are proved".to_owned());
+        lines
+            .push("claim: verdict, n_o, mu, set, periodic solution and statement are those that are proved".to_owned());
         stored::conditions(self.list, conditions)?;
         let cells = constants::check(d, self.table, &input)?;
         lines.push(format!("stored: {} conditions and {cells} constants are those computed here", conditions.len()));
@@ -263,15 +268,13 @@ impl Rules<'_> {
     }
 }
 
+/// Writes down all conditions, then demands each.
 fn all<'c>(
     rule: &'static str,
     pointer: &str,
-    conditions: impl Iterator<Item = &'c Condition>,
+    conditions: impl Iterator<Item = &'c Condition> + Clone,
     lines: &mut Vec<String>,
 ) -> Outcome<()> {
-    for condition in conditions {
-        lines.push(format!("  {}", condition.line()));
-        condition.demand(rule, pointer)?;
-    }
-    Ok(())
+    lines.extend(conditions.clone().map(Condition::line));
+    conditions.map(|condition| condition.demand(rule, pointer)).collect()
 }

@@ -180,9 +180,8 @@ fn examine(expr: &Expr, piece: &[[Rational; 2]; 2], precision: u32) -> (bool, bo
 pub fn prove(name: &str, expr: &Expr, x: &Rational, e: &Rational, precision: u32) -> Outcome<()> {
     let rule = "bounding functions";
     let pointer = format!("/specification/bounds/{name}");
-    let at = |x: &Rational, e: &Rational| {
-        expr.enclose(&Interval::rational(x, precision), &Interval::rational(e, precision))
-    };
+    let at =
+        |x: &Rational, e: &Rational| expr.enclose(&Interval::rational(x, precision), &Interval::rational(e, precision));
     let zero = Rational::new();
     let origin = at(&zero, &zero);
     if origin.lt(&Interval::int(0, precision)) == Some(true) {

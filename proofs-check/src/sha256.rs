@@ -43,4 +43,3 @@ pub fn hex_digest(message: &[u8]) -> String {
     }
     state.iter().map(|word| format!("{word:08x}")).collect()
 }
-

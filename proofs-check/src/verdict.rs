@@ -137,9 +137,9 @@ impl Condition {
 
     /// One line for a reader.
     pub fn line(&self) -> String {
-        let margin = shown(&(&self.rhs - &self.lhs));
-        let (lhs, rhs) = (shown(&self.lhs), shown(&self.rhs));
-        format!("{:<6} {}: {lhs} {} {rhs}, margin {margin}", self.id, self.what, self.symbol())
+        let (lhs, rhs, margin) = (shown(&self.lhs), shown(&self.rhs), shown(&(&self.rhs - &self.lhs)));
+        let holds = self.truth().map_or("undecided", |truth| if truth { "holds" } else { "FAILS" });
+        format!("  {} {holds}: {}: {lhs} {} {rhs}, margin {margin}", self.id, self.what, self.symbol())
     }
 }
 

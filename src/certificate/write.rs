@@ -72,7 +72,8 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("statement", text(statement(run, sigma, set))),
     ]);
     let regulation = run.exact.as_ref().map(|claim| &claim.witness);
-    let sharp = run.sharp.proved().map(|proof| (proof.precision, &proof.witness, sharp_json(&proof.witness, regulation)));
+    let sharp =
+        run.sharp.proved().map(|proof| (proof.precision, &proof.witness, sharp_json(&proof.witness, regulation)));
     let repaired = run.repaired.proved().map(|proof| (proof.precision, &proof.witness, repaired_json(&proof.witness)));
     // The free numbers of the other derivation, without which its column of the constants could not be checked.
     let (witness, precision, comparison, transfer) = match run.options.derivation {

@@ -75,7 +75,8 @@ impl<'a> Claim<'a> {
         text(&self.n_o, "every n_o >= 0")?;
         let spec = d.spec;
         let mu = Constant::read(&self.mu)?;
-        let same = mu.text == spec.mu.text || mu.exact.as_ref().zip(spec.mu.exact.as_ref()).is_some_and(|(a, b)| a.equals(b));
+        let same =
+            mu.text == spec.mu.text || mu.exact.as_ref().zip(spec.mu.exact.as_ref()).is_some_and(|(a, b)| a.equals(b));
         if !same {
             return text(&self.mu, &spec.mu.text);
         }

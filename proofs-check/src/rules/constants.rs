@@ -117,7 +117,8 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
         row(&format!("lambda interval, m = {m}"), DATA, [Some((range, believed, "P:eq:ineq_lambda")), None, None]);
     }
     let own = kappas(d, &k0, &k1);
-    let sources = [["section 2, closed form / w^2", "section 2, k0/w^2"], ["section 2, closed form / w^4", "section 2, k1/w^4"]];
+    let sources =
+        [["section 2, closed form / w^2", "section 2, k0/w^2"], ["section 2, closed form / w^4", "section 2, k1/w^4"]];
     for (i, [for_closed, for_own]) in sources.into_iter().enumerate() {
         let label = "P:lemma:transfer_function";
         let cells = [as_printed(&lemma[i], label), sound(&closed[i], for_closed), sound(&own[i], for_own)];
@@ -125,7 +126,11 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     }
     let [z_printed, z_repaired] = [&lemma, &closed].map(|kappa| ex.z_squared_paper(d, kappa).sqrt());
     let z_sharp = ex.z_squared(d, &own).sqrt();
-    let cells = [as_printed(&z_printed, "P:prop:periodic_solution, zeta_p"), sound(&z_repaired, "section 4"), sound(&z_sharp, "section 4")];
+    let cells = [
+        as_printed(&z_printed, "P:prop:periodic_solution, zeta_p"),
+        sound(&z_repaired, "section 4"),
+        sound(&z_sharp, "section 4"),
+    ];
     row("Z", COMMON, cells);
     let [r_printed, r_repaired] = [&ex.q + &d.n_bar * z_printed, &ex.q + &d.mu * &d.n_bar * z_repaired];
     let psi = &d.period * &ex.q1 / d.int(12).sqrt();
@@ -166,7 +171,11 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
         });
         Some((Value::Largest(holds, limit(1)), true, source))
     };
-    row("e_p*(X_p)", COMMON, [largest_e(&k, 2, label), largest_e(&k, 2, label), largest_e(&d.c, 1, "section 4, C1 and C3")]);
+    row(
+        "e_p*(X_p)",
+        COMMON,
+        [largest_e(&k, 2, label), largest_e(&k, 2, label), largest_e(&d.c, 1, "section 4, C1 and C3")],
+    );
     rows
 }
 
@@ -212,7 +221,10 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     row("x_a, e_a of P:eq:boundx_bounde_1", [no_level("P:eq:boundx_bounde_1"), None, None]);
     let s = input.sharp;
     let r = input.repaired;
-    let pair = |name: &str, repaired: Option<&Interval>, sharp: Option<&Interval>, row: &mut dyn FnMut(&str, [Cell<'a>; 3])| {
+    let pair = |name: &str,
+                repaired: Option<&Interval>,
+                sharp: Option<&Interval>,
+                row: &mut dyn FnMut(&str, [Cell<'a>; 3])| {
         row(name, [None, repaired.and_then(|v| sound(v, "section 5")), sharp.and_then(|v| sound(v, "section 5"))]);
     };
     for (i, name) in ["X_b", "E_b"].into_iter().enumerate() {
@@ -311,7 +323,8 @@ fn threshold(d: &Data<'_>, field: &Field<'_>, below: &dyn Fn(&Interval) -> Optio
     let enclosure = Interval::between(&low, &high, d.precision);
     let room = tolerance(&d.number(&high), 1e-15);
     let wide = low > high || Rational::from(&high - &low) > room;
-    let what = "the property that defines this number changes inside the stored enclosure, which is as narrow as its digits";
+    let what =
+        "the property that defines this number changes inside the stored enclosure, which is as narrow as its digits";
     demand(Some(!wide && low >= 0), RULE, &field.pointer, what)?;
     let (start, end) = (low.clone() - &room, high + room);
     let begins = if low == 0 { Some(true) } else { below(&d.number(&start)) };
@@ -330,5 +343,13 @@ fn reason(field: &Field<'_>, before: &str, value: &Interval, above: bool, after:
         let bounds = if above { figure >= upper } else { figure <= lower };
         bounds && (figure - lower).abs() <= tolerance(value, 1e-5)
     });
-    if right { Ok(()) } else { invalid(RULE, &field.pointer, format!("it should read: {before}(a bound of {}){after}", crate::verdict::shown(value))) }
+    if right {
+        Ok(())
+    } else {
+        invalid(
+            RULE,
+            &field.pointer,
+            format!("it should read: {before}(a bound of {}){after}", crate::verdict::shown(value)),
+        )
+    }
 }

@@ -28,7 +28,8 @@ impl Existence {
     pub fn new(d: &Data<'_>, x_p: Interval, e_p: Interval) -> Existence {
         let at = |which| d.bound(which, &x_p, &e_p);
         let at_zero = |which| d.bound(which, &x_p, &d.int(0));
-        let (f_xx, f_e, q_e, q_x, qr) = (at_zero(Bound::Fxx), at(Bound::Fe), at(Bound::Qe), at(Bound::Qx), at(Bound::QRms));
+        let (f_xx, f_e, q_e, q_x, qr) =
+            (at_zero(Bound::Fxx), at(Bound::Fe), at(Bound::Qe), at(Bound::Qx), at(Bound::QRms));
         let x1 = at_zero(Bound::F) + &f_xx * x_p.sqr() + &f_e * &e_p;
         let q1 = at(Bound::QtRms) + &q_x * x1 + &q_e * &qr;
         let (f_box, f_ex, q, q_t) = (at(Bound::F), at(Bound::Fex), at(Bound::Q), at(Bound::Qt));
@@ -97,7 +98,8 @@ pub fn tau(d: &Data<'_>, sigma: &Interval) -> Interval {
         let small = y.denom().significant_bits().saturating_sub(y.numer().significant_bits());
         let p = d.precision + 4 * small.min(1000) + 64;
         let y = Interval::rational(y, p);
-        let inside = Interval::rational(&rug::Rational::from((1, 12)), p) - (&y / 2).coth() / (&y * 2) + y.sqr().recip();
+        let inside =
+            Interval::rational(&rug::Rational::from((1, 12)), p) - (&y / 2).coth() / (&y * 2) + y.sqr().recip();
         (inside.max(&Interval::int(0, p)).sqrt() / y).intersect(&d.int(0).hull(&most))
     };
     let value = at(&lo).hull(&at(&hi)) * d.period.sqr();

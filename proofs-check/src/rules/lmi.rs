@@ -34,7 +34,14 @@ pub fn check(
     for (i, value) in diagonal.into_iter().enumerate() {
         m[i][i] = value;
     }
-    let sides = [(0, 5, -(w_x * d.p_up.sqrt())), (1, 2, -&d.mu), (1, 3, d.int(-1)), (1, 4, d.int(-1)), (2, 3, h.clone()), (2, 4, h.clone())];
+    let sides = [
+        (0, 5, -(w_x * d.p_up.sqrt())),
+        (1, 2, -&d.mu),
+        (1, 3, d.int(-1)),
+        (1, 4, d.int(-1)),
+        (2, 3, h.clone()),
+        (2, 4, h.clone()),
+    ];
     for (i, j, value) in sides {
         m[i][j] = value.clone();
         m[j][i] = value;
@@ -42,7 +49,12 @@ pub fn check(
     let keep: Vec<usize> = (0..6).filter(|i| *i < 3 || ![&b.k_x, &b.k_e, &b.k_f][i - 3].is_zero()).collect();
     for (position, &k) in keep.iter().enumerate() {
         let positive = d.int(0).lt(&m[k][k]);
-        demand(positive, "matrix inequality", pointer, format!("pivot {} of the matrix of C5 is positive", position + 1))?;
+        demand(
+            positive,
+            "matrix inequality",
+            pointer,
+            format!("pivot {} of the matrix of C5 is positive", position + 1),
+        )?;
         for &i in &keep[position + 1..] {
             for &j in &keep[position + 1..] {
                 m[i][j] = &m[i][j] - &m[i][k] * &m[k][j] / &m[k][k];

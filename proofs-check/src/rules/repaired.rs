@@ -52,7 +52,14 @@ pub struct Repaired {
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Repaired> {
     let named = [
-        ("X", &w.x), ("E", &w.e), ("L", &w.level), ("h", &w.h), ("p_x", &w.p_x), ("p_e", &w.p_e), ("k1", &w.k1), ("sigma", &w.sigma),
+        ("X", &w.x),
+        ("E", &w.e),
+        ("L", &w.level),
+        ("h", &w.h),
+        ("p_x", &w.p_x),
+        ("p_e", &w.p_e),
+        ("k1", &w.k1),
+        ("sigma", &w.sigma),
     ];
     set::positive(&named, &w.pointer)?;
     let [sigma, x, e, big_l, h, p_x, p_e] = [&w.sigma, &w.x, &w.e, &w.level, &w.h, &w.p_x, &w.p_e].map(|q| d.number(q));

@@ -15,9 +15,7 @@ pub fn covers(d: &Data<'_>, set: &[Rational; 3], [x_p, e_p]: [&Rational; 2], z: 
         None => constant.enclose(d.precision) - d.number(&set[i]),
     };
     let excess = match &d.spec.initial_set {
-        AskedSet::Paper => {
-            [twice(x_p, 0), twice(e_p, 1), (z + &d.n_bar * d.number(e_p)) * 2 - d.number(&set[2])]
-        }
+        AskedSet::Paper => [twice(x_p, 0), twice(e_p, 1), (z + &d.n_bar * d.number(e_p)) * 2 - d.number(&set[2])],
         AskedSet::AtRest([x0, e0]) => [
             x0.as_ref().map_or_else(|| twice(x_p, 0), |x0| user(x0, 0)),
             e0.as_ref().map_or_else(|| twice(e_p, 1), |e0| user(e0, 1)),
@@ -44,6 +42,8 @@ pub fn domain(d: &Data<'_>, x: &Interval, e: &Interval) -> Vec<Condition> {
 pub fn positive(named: &[(&str, &Rational)], pointer: &str) -> Outcome<()> {
     match named.iter().find(|(_, value)| **value <= 0) {
         None => Ok(()),
-        Some((name, value)) => invalid("signs", &format!("{pointer}/{name}"), format!("0 < {name} fails: {name} = {value}")),
+        Some((name, value)) => {
+            invalid("signs", &format!("{pointer}/{name}"), format!("0 < {name} fails: {name} = {value}"))
+        }
     }
 }

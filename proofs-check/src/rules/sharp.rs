@@ -56,11 +56,20 @@ pub struct Sharp {
 /// Evaluates all conditions; nothing but the transfer proof, signs and multipliers is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     let named = [
-        ("X_p", &w.x_p), ("E_p", &w.e_p), ("D_x", &w.d_x), ("D_e", &w.d_e), ("p_x", &w.p_x), ("p_e", &w.p_e), ("w_x", &w.w_x),
-        ("h", &w.h), ("k1", &w.k1), ("sigma", &w.sigma),
+        ("X_p", &w.x_p),
+        ("E_p", &w.e_p),
+        ("D_x", &w.d_x),
+        ("D_e", &w.d_e),
+        ("p_x", &w.p_x),
+        ("p_e", &w.p_e),
+        ("w_x", &w.w_x),
+        ("h", &w.h),
+        ("k1", &w.k1),
+        ("sigma", &w.sigma),
     ];
     set::positive(&named, &w.pointer)?;
-    let [sigma, d_x, d_e, p_x, p_e, w_x, h] = [&w.sigma, &w.d_x, &w.d_e, &w.p_x, &w.p_e, &w.w_x, &w.h].map(|q| d.number(q));
+    let [sigma, d_x, d_e, p_x, p_e, w_x, h] =
+        [&w.sigma, &w.d_x, &w.d_e, &w.p_x, &w.p_e, &w.w_x, &w.h].map(|q| d.number(q));
     let ex = Existence::new(d, d.number(&w.x_p), d.number(&w.e_p));
     let kappa = kappas(d, &d.number(&w.k0), &d.number(&w.k1));
     let z = ex.z_squared(d, &kappa).sqrt();

@@ -18,13 +18,21 @@ pub fn differs(field: &Field<'_>, stored: &str, computed: &Interval) -> Box<Find
         rule: RULE,
         pointer: field.pointer.clone(),
         message: "the stored value is not the value that follows from the specification and the witness".to_owned(),
-        sides: Some([stored.chars().take(60).collect(), shown(computed), gap.map_or("-".to_owned(), |g| format!("{g:e}"))]),
+        sides: Some([
+            stored.chars().take(60).collect(),
+            shown(computed),
+            gap.map_or("-".to_owned(), |g| format!("{g:e}")),
+        ]),
     })
 }
 
 /// A text that is fixed by the rest of the certificate.
 pub fn text(field: &Field<'_>, expected: &str) -> Outcome<()> {
-    if field.text()? == expected { Ok(()) } else { invalid(RULE, &field.pointer, format!("it should read: {expected}")) }
+    if field.text()? == expected {
+        Ok(())
+    } else {
+        invalid(RULE, &field.pointer, format!("it should read: {expected}"))
+    }
 }
 
 /// How far two figures for the same number may lie apart: `digits` decimals, and the width of the checker's own.
@@ -41,7 +49,10 @@ fn end(field: &Field<'_>, mine: &Float) -> Outcome<Option<Rational>> {
     let text = field.text()?;
     match decimal(text) {
         Some(value) => Ok(Some(value)),
-        None if matches!(text, "inf" | "-inf") && mine.is_infinite() && text.starts_with('-') == mine.is_sign_negative() => {
+        None if matches!(text, "inf" | "-inf")
+            && mine.is_infinite()
+            && text.starts_with('-') == mine.is_sign_negative() =>
+        {
             Ok(None)
         }
         None if matches!(text, "inf" | "-inf" | "undefined") => invalid(RULE, &field.pointer, "it has a finite value"),
@@ -105,4 +116,3 @@ pub fn conditions(list: &Field<'_>, computed: &[Condition]) -> Outcome<()> {
     }
     Ok(())
 }
-

@@ -55,7 +55,9 @@ pub fn check(d: &Data<'_>, k0: &Rational, k1: &Rational, proof: &Proof, pointer:
     }
     let (name, steps) = match proof {
         Proof::ClosedForm => {
-            let step = |(least, name): (Interval, &str), given: &Interval| (format!("closed form of {name}"), least, given.clone());
+            let step = |(least, name): (Interval, &str), given: &Interval| {
+                (format!("closed form of {name}"), least, given.clone())
+            };
             let [least_0, least_1] = closed_form(d);
             ("closed-form", vec![step((least_0, "k0"), &pair[0]), step((least_1, "k1"), &pair[1])])
         }
@@ -63,7 +65,12 @@ pub fn check(d: &Data<'_>, k0: &Rational, k1: &Rational, proof: &Proof, pointer:
         Proof::Matched(k) if (1..=MAX_HARMONICS).contains(k) => ("matched", matched(d, &pair, *k)),
         Proof::Matched(_) => return refuse("K must lie between 1 and 4096"),
         Proof::Boxes { m0, n0, breaks } => {
-            if *m0 < 1 || m0 > n0 || *m0 > MAX_M0 || *n0 > MAX_N0 || breaks.iter().map(Vec::len).sum::<usize>() > MAX_BOXES {
+            if *m0 < 1
+                || m0 > n0
+                || *m0 > MAX_M0
+                || *n0 > MAX_N0
+                || breaks.iter().map(Vec::len).sum::<usize>() > MAX_BOXES
+            {
                 return refuse("a proof by boxes needs 1 <= m0 <= N0, m0 <= 64, N0 <= 256, and at most 20000 boxes");
             }
             covers(*m0, *n0, breaks, pointer)?;
@@ -106,7 +113,11 @@ fn edge(m0: u32) -> Rational {
 /// N0 lists, each of increasing points from 0 to m0 - 1/2.
 fn covers(m0: u32, n0: u32, breaks: &[Vec<Rational>], pointer: &str) -> Outcome<()> {
     if breaks.len() != n0 as usize {
-        return invalid(RULE, &format!("{pointer}/boxes"), format!("{} lists of break points, not N0 = {n0}", breaks.len()));
+        return invalid(
+            RULE,
+            &format!("{pointer}/boxes"),
+            format!("{} lists of break points, not N0 = {n0}", breaks.len()),
+        );
     }
     for (index, list) in breaks.iter().enumerate() {
         let whole = list.first().is_some_and(|first| *first == 0) && list.last() == Some(&edge(m0));
@@ -149,7 +160,11 @@ fn boxes(d: &Data<'_>, pair: &[Interval; 2], n0: u32, breaks: &[Vec<Rational>], 
             let middle = Rational::from(a + b) / 2u32 + &half;
             let nearest = middle.floor().numer().to_u32().unwrap_or(0);
             let fits = Rational::from(a + &half) >= nearest && Rational::from(b - &half) <= nearest;
-            let lhs = if fits { sums.bound(&Interval::between(a, b, d.precision), nearest as usize) } else { Interval::undefined(d.precision) };
+            let lhs = if fits {
+                sums.bound(&Interval::between(a, b, d.precision), nearest as usize)
+            } else {
+                Interval::undefined(d.precision)
+            };
             let relation = if n == n0 { "N >=" } else { "N =" };
             let what = format!("box [{a}, {b}], {relation} {n}");
             let step = Condition::at_most("T", what, lhs.ceiling(), &pair[0] + &pair[1] * d.number(a).sqr());
