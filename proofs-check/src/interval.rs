@@ -6,6 +6,7 @@
 use rug::float::{Constant, Round, Special};
 use rug::ops::{DivAssignRound, Pow};
 use rug::{Float, Rational};
+use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A closed interval of reals; an infinite end is a bound, never a member.
@@ -17,7 +18,7 @@ pub struct Interval {
 
 fn rounded<T>(precision: u32, value: T, round: Round) -> Float
 where
-    Float: rug::ops::AssignRound<T, Round = Round, Ordering = std::cmp::Ordering>,
+    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
 {
     Float::with_val_round(precision, value, round).0
 }
@@ -207,9 +208,18 @@ impl Interval {
         })
     }
 
-    /// e^x.
+    /// e^x. Beyond 2^32 in magnitude the ends are moved outward, so that nothing enormous is evaluated.
     pub fn exp(&self) -> Interval {
         self.increasing(|mut x, round| {
+            let far = Float::with_val(x.prec(), 1u64 << 32);
+            if x > far && round == Round::Up {
+                return Float::with_val(x.prec(), Special::Infinity);
+            }
+            if Float::with_val(x.prec(), -&x) > far && round == Round::Down {
+                return Float::new(x.prec());
+            }
+            x = if x > far { far } else { x };
+            x = if x < -(1i64 << 32) { Float::with_val(x.prec(), -(1i64 << 32)) } else { x };
             x.exp_round(round);
             x
         })
@@ -253,32 +263,43 @@ impl Interval {
         })
     }
 
-    /// cos x: the value at the lower end, and no farther from it than x is (the slope is at most 1 in magnitude).
+    /// cos x: by its values at the ends where it is monotone, else within as much of one as x is (its slope is at most 1).
     pub fn cos(&self) -> Interval {
-        self.wave(|mut x, round| {
-            x.cos_round(round);
-            x
-        })
+        self.wave(Float::cos_round, |x| -x.rough(Float::sin_round))
     }
 
     /// sin x, in the same way.
     pub fn sin(&self) -> Interval {
-        self.wave(|mut x, round| {
-            x.sin_round(round);
-            x
-        })
+        self.wave(Float::sin_round, |x| x.rough(Float::cos_round))
     }
 
-    fn wave(&self, f: impl Fn(Float, Round) -> Float) -> Interval {
-        if !self.is_bounded() {
-            let one = Interval::int(1, self.precision());
-            return if self.is_defined() { (-&one).hull(&one) } else { self.clone() };
+    fn wave(&self, f: fn(&mut Float, Round) -> Ordering, slope: impl Fn(&Interval) -> Interval) -> Interval {
+        let (rough, slope) = (self.rough(f), slope(self));
+        let value = |mut x: Float, round| {
+            f(&mut x, round);
+            x
+        };
+        match (slope.is_nonnegative(), slope.is_nonpositive()) {
+            (true, _) => self.increasing(value),
+            (_, true) => self.decreasing(value),
+            _ => rough,
         }
+    }
+
+    /// A function with values in [-1, 1] and a slope of at most 1: the value at the lower end, and the width of x.
+    fn rough(&self, f: fn(&mut Float, Round) -> Ordering) -> Interval {
         let p = self.precision();
-        let middle = Interval { lo: self.lo.clone(), hi: self.lo.clone() };
-        let value = Interval::new(f(self.lo.clone(), Round::Down), f(self.lo.clone(), Round::Up));
-        let reach = self - &middle;
-        (value + (-&reach).hull(&reach)).intersect(&Interval::int(-1, p).hull(&Interval::int(1, p)))
+        let all = Interval::int(-1, p).hull(&Interval::int(1, p));
+        // Enormous arguments are not reduced.
+        let far = self.hi > (1i64 << 32) || self.lo < -(1i64 << 32);
+        if !self.is_defined() || far {
+            return if far { all } else { self.clone() };
+        }
+        let (mut low, mut high) = (self.lo.clone(), self.lo.clone());
+        f(&mut low, Round::Down);
+        f(&mut high, Round::Up);
+        let reach = self - Interval { lo: self.lo.clone(), hi: self.lo.clone() };
+        (Interval::new(low, high) + (-&reach).hull(&reach)).intersect(&all)
     }
 
     /// tan x; undefined where cos x may be 0.

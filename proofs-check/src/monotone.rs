@@ -18,8 +18,11 @@ use rug::Rational;
 use std::collections::VecDeque;
 
 /// The most pieces, and the most pieces times operations, that are looked at.
-const MAX_PIECES: usize = 4000;
-const MAX_WORK: usize = 400_000;
+const MAX_PIECES: usize = 2000;
+const MAX_WORK: usize = 60_000;
+
+/// The name of this rule.
+pub const RULE: &str = "bounding functions";
 
 /// What is known of a part of an expression on a piece; the index is 0 along X, 1 along E.
 #[derive(Clone)]
@@ -178,14 +181,13 @@ fn examine(expr: &Expr, piece: &[[Rational; 2]; 2], precision: u32) -> (bool, bo
 /// `invalid` with two points where it certainly decreases, or one where it is certainly negative; `undecided` with a
 /// place, when the bounded effort does not settle it.
 pub fn prove(name: &str, expr: &Expr, x: &Rational, e: &Rational, precision: u32) -> Outcome<()> {
-    let rule = "bounding functions";
     let pointer = format!("/specification/bounds/{name}");
     let at =
         |x: &Rational, e: &Rational| expr.enclose(&Interval::rational(x, precision), &Interval::rational(e, precision));
     let zero = Rational::new();
     let origin = at(&zero, &zero);
     if origin.lt(&Interval::int(0, precision)) == Some(true) {
-        return Err(finding(Verdict::Invalid, rule, &pointer, "it is negative at X = 0, E = 0"));
+        return Err(finding(Verdict::Invalid, RULE, &pointer, "it is negative at X = 0, E = 0"));
     }
     let mut queue = VecDeque::from([[[zero.clone(), x.clone()], [zero.clone(), e.clone()]]]);
     let limit = MAX_PIECES.min(MAX_WORK / expr.len().max(1));
@@ -203,7 +205,7 @@ pub fn prove(name: &str, expr: &Expr, x: &Rational, e: &Rational, precision: u32
             if at(px, pe).lt(&low) == Some(true) {
                 let (x0, e0, px, pe) = (shown(x0), shown(e0), shown(px), shown(pe));
                 let message = format!("it decreases from X = {x0}, E = {e0} to X = {px}, E = {pe}");
-                return Err(finding(Verdict::Invalid, rule, &pointer, message));
+                return Err(finding(Verdict::Invalid, RULE, &pointer, message));
             }
         }
         if looked_at >= limit {
@@ -211,7 +213,7 @@ pub fn prove(name: &str, expr: &Expr, x: &Rational, e: &Rational, precision: u32
             let message = format!(
                 "that it is finite, nonnegative and nondecreasing is not proved on [{x0}, {x1}] x [{e0}, {e1}]"
             );
-            return Err(finding(Verdict::Undecided, rule, &pointer, message));
+            return Err(finding(Verdict::Undecided, RULE, &pointer, message));
         }
         // The longer side relative to the box, or the only one that is not proved.
         let width = |side: &[Rational; 2], whole: &Rational| {
@@ -231,5 +233,5 @@ pub fn prove(name: &str, expr: &Expr, x: &Rational, e: &Rational, precision: u32
     if nonnegative {
         return Ok(());
     }
-    Err(finding(Verdict::Undecided, rule, &pointer, "its sign at X = 0, E = 0 is not decided"))
+    Err(finding(Verdict::Undecided, RULE, &pointer, "its sign at X = 0, E = 0 is not decided"))
 }

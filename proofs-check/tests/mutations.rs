@@ -12,7 +12,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// Why an accepted mutant is harmless, or `None`: then it is a hole in the checker.
-fn harmless(pointer: &str, kind: &str) -> Option<&'static str> {
+fn harmless(name: &str, pointer: &str, kind: &str) -> Option<&'static str> {
     let below = |prefix: &str| pointer.starts_with(prefix);
     match pointer {
         _ if kind == "reorder fields" => Some("the order of an object's fields has no meaning"),
@@ -25,6 +25,9 @@ fn harmless(pointer: &str, kind: &str) -> Option<&'static str> {
         }
         _ if below("/specification/relative_degree") && kind.ends_with("re-hashed") => {
             Some("another filter that is Hurwitz too: the claim is about e, whatever it is made of")
+        }
+        "/specification/bounds/f" if name == "no-x.sharp" && kind.ends_with("re-hashed") => {
+            Some("b_f where b_qx = 0: it enters no figure, and a larger one bounds more plants")
         }
         "/witness/transfer/K" => Some("another K with which the matched proof is complete"),
         _ if below("/witness/transfer/boxes/") => Some("other boxes that cover the same region and are proved"),
@@ -97,6 +100,7 @@ fn replacements(leaf: &Value) -> Vec<(&'static str, Value)> {
 
 #[derive(Default)]
 struct Tally {
+    name: String,
     made: usize,
     accepted: BTreeMap<&'static str, usize>,
     holes: Vec<String>,
@@ -108,13 +112,14 @@ impl Tally {
         if check(text.as_bytes()).verdict != Verdict::Valid {
             return;
         }
-        match harmless(pointer, kind) {
+        match harmless(&self.name, pointer, kind) {
             Some(class) => *self.accepted.entry(class).or_default() += 1,
             None => self.holes.push(format!("{pointer}: {kind}")),
         }
     }
 
-    fn report(&self, name: &str) {
+    fn report(&self) {
+        let name = &self.name;
         println!("{name}: {} mutants, {} accepted", self.made, self.accepted.values().sum::<usize>());
         self.accepted.iter().for_each(|(class, count)| println!("  {count:5}  {class}"));
         assert!(self.holes.is_empty(), "{name}: accepted and not known to be harmless:\n{}", self.holes.join("\n"));
@@ -127,7 +132,7 @@ fn mutate(name: &str, stride: usize, offset: usize) -> Tally {
     assert_eq!(check(original.to_string().as_bytes()).verdict, Verdict::Valid, "{name}");
     let mut all = Vec::new();
     pointers(&original, String::new(), &mut all);
-    let mut tally = Tally::default();
+    let mut tally = Tally { name: name.to_owned(), ..Tally::default() };
     for pointer in all.iter().skip(1 + offset).step_by(stride) {
         let value = original.pointer(pointer).unwrap();
         if !value.is_object() && !value.is_array() {
@@ -188,17 +193,17 @@ fn structure(original: &Value, pointer: &str, tally: &mut Tally) {
 
 #[test]
 fn every_place_of_a_sharp_certificate() {
-    mutate(PAPER, 1, 0).report(PAPER);
+    mutate(PAPER, 1, 0).report();
 }
 
 #[test]
 fn every_third_place_of_a_repaired_certificate() {
-    mutate(REPAIRED, 3, 0).report(REPAIRED);
+    mutate(REPAIRED, 3, 0).report();
 }
 
 #[test]
 fn every_tenth_place_of_a_certificate_by_boxes() {
-    mutate(BOXES, 10, 1).report(BOXES);
+    mutate(BOXES, 10, 1).report();
 }
 
 #[test]
@@ -206,7 +211,7 @@ fn some_places_of_every_other_certificate() {
     for (offset, name) in
         names("certificates").iter().filter(|name| ![PAPER, REPAIRED, BOXES].contains(&name.as_str())).enumerate()
     {
-        mutate(name, 60, offset).report(name);
+        mutate(name, 60, offset).report();
     }
 }
 
@@ -216,7 +221,7 @@ fn the_specifications_of_every_other_certificate() {
         let original = certificate(name);
         let mut all = Vec::new();
         pointers(&original["specification"], "/specification".to_owned(), &mut all);
-        let mut tally = Tally::default();
+        let mut tally = Tally { name: name.to_owned(), ..Tally::default() };
         for pointer in
             all.into_iter().filter(|pointer| original.pointer(pointer).is_some_and(|v| !v.is_object() && !v.is_array()))
         {
@@ -229,6 +234,6 @@ fn the_specifications_of_every_other_certificate() {
                 }
             }
         }
-        tally.report(name);
+        tally.report();
     }
 }
