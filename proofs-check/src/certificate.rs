@@ -135,7 +135,6 @@ impl Derivation {
             k0: number("k0")?,
             k1: number("k1")?,
             transfer: proof(&fields.required("transfer")?)?,
-            multipliers: fields.optional("lmi").map(|field| multipliers(&field)).transpose()?,
             pointer,
             sigma,
             set,
@@ -144,14 +143,6 @@ impl Derivation {
         fields.finish()?;
         Ok(Derivation::Sharp(Box::new(w), exact))
     }
-}
-
-fn multipliers(field: &Field<'_>) -> Outcome<[Rational; 3]> {
-    let mut fields = field.fields()?;
-    let mut number = |name| -> Outcome<Rational> { fields.required(name)?.rational() };
-    let numbers = [number("l_x")?, number("l_e")?, number("l_f")?];
-    fields.finish()?;
-    Ok(numbers)
 }
 
 fn regulation_witness(field: &Field<'_>) -> Outcome<regulation::Witness> {

@@ -23,6 +23,14 @@ where
     Float::with_val_round(precision, value, round).0
 }
 
+/// One of MPFR's correctly rounded functions.
+fn by(f: fn(&mut Float, Round) -> Ordering) -> impl Fn(Float, Round) -> Float {
+    move |mut x, round| {
+        f(&mut x, round);
+        x
+    }
+}
+
 impl Interval {
     /// The interval between two ends; undefined if they are not in order.
     pub fn new(lo: Float, hi: Float) -> Interval {
@@ -194,18 +202,7 @@ impl Interval {
 
     /// x^2.
     pub fn sqr(&self) -> Interval {
-        self.abs().increasing(|mut x, round| {
-            x.square_round(round);
-            x
-        })
-    }
-
-    /// The square root; undefined where the number may be negative.
-    pub fn sqrt(&self) -> Interval {
-        self.increasing(|mut x, round| {
-            x.sqrt_round(round);
-            x
-        })
+        self.abs().increasing(by(Float::square_round))
     }
 
     /// e^x. Beyond 2^32 in magnitude the ends are moved outward, so that nothing enormous is evaluated.
@@ -227,40 +224,36 @@ impl Interval {
 
     /// The natural logarithm; undefined where the number may not be positive.
     pub fn log(&self) -> Interval {
-        if !self.is_positive() {
-            return Interval::undefined(self.precision());
-        }
-        self.increasing(|mut x, round| {
-            x.ln_round(round);
-            x
-        })
+        if self.is_positive() { self.increasing(by(Float::ln_round)) } else { Interval::undefined(self.precision()) }
+    }
+
+    /// The square root; undefined where the number may be negative.
+    pub fn sqrt(&self) -> Interval {
+        self.increasing(by(Float::sqrt_round))
     }
 
     /// arctan x.
     pub fn atan(&self) -> Interval {
-        self.increasing(|mut x, round| {
-            x.atan_round(round);
-            x
-        })
+        self.increasing(by(Float::atan_round))
     }
 
     /// tanh x.
     pub fn tanh(&self) -> Interval {
-        self.increasing(|mut x, round| {
-            x.tanh_round(round);
-            x
-        })
+        self.increasing(by(Float::tanh_round))
     }
 
-    /// coth x for x > 0, where it decreases.
+    /// coth x for x > 0, where it decreases; undefined otherwise.
     pub fn coth(&self) -> Interval {
-        if !self.is_positive() {
-            return Interval::undefined(self.precision());
+        if self.is_positive() { self.decreasing(by(Float::coth_round)) } else { Interval::undefined(self.precision()) }
+    }
+
+    /// The Riemann zeta function for s > 1, where it decreases; undefined otherwise.
+    pub fn zeta(&self) -> Interval {
+        if self.lo > 1 && self.is_bounded() {
+            self.decreasing(by(Float::zeta_round))
+        } else {
+            Interval::undefined(self.precision())
         }
-        self.decreasing(|mut x, round| {
-            x.coth_round(round);
-            x
-        })
     }
 
     /// cos x: by its values at the ends where it is monotone, else within as much of one as x is (its slope is at most 1).
@@ -275,13 +268,9 @@ impl Interval {
 
     fn wave(&self, f: fn(&mut Float, Round) -> Ordering, slope: impl Fn(&Interval) -> Interval) -> Interval {
         let (rough, slope) = (self.rough(f), slope(self));
-        let value = |mut x: Float, round| {
-            f(&mut x, round);
-            x
-        };
         match (slope.is_nonnegative(), slope.is_nonpositive()) {
-            (true, _) => self.increasing(value),
-            (_, true) => self.decreasing(value),
+            (true, _) => self.increasing(by(f)),
+            (_, true) => self.decreasing(by(f)),
             _ => rough,
         }
     }
@@ -295,11 +284,9 @@ impl Interval {
         if !self.is_defined() || far {
             return if far { all } else { self.clone() };
         }
-        let (mut low, mut high) = (self.lo.clone(), self.lo.clone());
-        f(&mut low, Round::Down);
-        f(&mut high, Round::Up);
-        let reach = self - Interval { lo: self.lo.clone(), hi: self.lo.clone() };
-        (Interval::new(low, high) + (-&reach).hull(&reach)).intersect(&all)
+        let left = Interval { lo: self.lo.clone(), hi: self.lo.clone() };
+        let reach = self - &left;
+        (left.increasing(by(f)) + (-&reach).hull(&reach)).intersect(&all)
     }
 
     /// tan x; undefined where cos x may be 0.
@@ -308,10 +295,7 @@ impl Interval {
         if !cos.is_positive() && !(-&cos).is_positive() {
             return Interval::undefined(self.precision());
         }
-        self.increasing(|mut x, round| {
-            x.tan_round(round);
-            x
-        })
+        self.increasing(by(Float::tan_round))
     }
 
     /// 1/x; undefined where x may be 0.
@@ -348,17 +332,6 @@ impl Interval {
         let (at_lo, at_hi) = (&exponent.lo, &exponent.hi);
         let left = corner(&self.lo, at_lo).hull(&corner(&self.lo, at_hi));
         left.hull(&corner(&self.hi, at_lo)).hull(&corner(&self.hi, at_hi))
-    }
-
-    /// The Riemann zeta function for s > 1, where it decreases; undefined otherwise.
-    pub fn zeta(&self) -> Interval {
-        if self.lo <= 1 || !self.is_bounded() {
-            return Interval::undefined(self.precision());
-        }
-        self.decreasing(|mut x, round| {
-            x.zeta_round(round);
-            x
-        })
     }
 }
 

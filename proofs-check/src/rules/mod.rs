@@ -2,7 +2,6 @@
 pub mod claim;
 pub mod constants;
 pub mod existence;
-pub mod lmi;
 pub mod regulation;
 pub mod repaired;
 pub mod set;

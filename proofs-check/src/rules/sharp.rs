@@ -5,9 +5,9 @@
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
 use super::existence::{Existence, beta_s, kappas, tau};
+use super::set;
 use super::stability::{ErrorBox, distances, level};
 use super::transfer::{self, Proof};
-use super::{lmi, set};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::verdict::{Condition, Outcome};
@@ -33,8 +33,6 @@ pub struct Witness {
     pub k0: Rational,
     pub k1: Rational,
     pub transfer: Proof,
-    /// l_x, l_e, l_f, where C5 is also given as a matrix inequality.
-    pub multipliers: Option<[Rational; 3]>,
 }
 
 /// What the conditions, the claim and the constants are about.
@@ -80,9 +78,6 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     let [coupling, curvature, threshold] = error_box.decay(d, &w_x, &h);
     let arguments = [ex.x_p.max(&error_box.x_b), ex.e_p.max(&error_box.e_b)];
     let transfer = transfer::check(d, &w.k0, &w.k1, &w.transfer, &format!("{}/transfer", w.pointer))?;
-    if let Some(multipliers) = &w.multipliers {
-        lmi::check(d, &error_box, [&w_x, &h, &sigma], multipliers, &format!("{}/lmi", w.pointer))?;
-    }
 
     let mut conditions = set::covers(d, &w.set, [&w.x_p, &w.e_p], &z);
     conditions.extend(set::domain(d, &arguments[0], &arguments[1]));
