@@ -39,7 +39,9 @@ pub fn read_witness(document: &Document) -> Result<WitnessFile, SpecErrors> {
 fn read(root: &Value<'_>, errors: &mut Errors) -> Result<WitnessFile, Reported> {
     let mut file = root.object(errors)?;
     file.header(FORMAT, &[VERSION], errors)?;
-    for unused in ["tool", "precision_bits", "specification", "specification_sha256", "conditions", "constants"] {
+    let unused =
+        ["tool", "precision_bits", "specification", "specification_sha256", "comparison", "conditions", "constants"];
+    for unused in unused {
         let _ = file.optional(unused);
     }
     let claim = file.required("claim", errors).and_then(|value| read_claim(&value, errors));

@@ -5,11 +5,12 @@ use crate::constants::condition::Condition;
 use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::repaired::RepairedWitness;
 use crate::constants::sharp::{ClaimedSet, SharpWitness};
-use crate::constants::table::{Entry, Row, Value as Cell};
+use crate::constants::table::{At, Entry, Row, Value as Cell};
+use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational, write_exact};
 use crate::spec::model::InitialSet;
-use crate::transfer::TransferProof;
+use crate::transfer::{TransferProof, closed_form_pair};
 use rug::Rational;
 use serde_json::{Map, Value};
 
@@ -70,18 +71,32 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ),
         ("statement", text(statement(run, sigma, set))),
     ]);
-    let (witness, precision) = match run.options.derivation {
+    let regulation = run.exact.as_ref().map(|claim| &claim.witness);
+    let sharp =
+        run.sharp.proved().map(|proof| (proof.precision, &proof.witness, sharp_json(&proof.witness, regulation)));
+    let repaired = run.repaired.proved().map(|proof| (proof.precision, &proof.witness, repaired_json(&proof.witness)));
+    // The free numbers of the other derivation, without which its column of the constants could not be checked.
+    let (witness, precision, comparison, transfer) = match run.options.derivation {
         Derivation::Sharp => {
-            let proof = run.sharp.proved()?;
-            (sharp_json(&proof.witness, run.exact.as_ref().map(|claim| &claim.witness)), proof.precision)
+            let (precision, main, witness) = sharp?;
+            let other = repaired.map(|(_, w, witness)| ("repaired", comparison_json(&w.sigma, &w.set, witness)));
+            let first = first_comparison(&Data::new(spec, precision), [&main.k0, &main.k1], &main.transfer);
+            (witness, precision, other, first)
         }
         Derivation::Repaired => {
-            let proof = run.repaired.proved()?;
-            (repaired_json(&proof.witness), proof.precision)
+            let (precision, main, witness) = repaired?;
+            let other = sharp.map(|(_, w, witness)| ("sharp", comparison_json(&w.sigma, &w.set, witness)));
+            let first = first_comparison(&Data::new(spec, precision), [&main.k0, &main.k1], &main.transfer);
+            (witness, precision, other, first)
         }
         Derivation::Printed => return None,
     };
-    Some(object([
+    let conditions: Vec<Condition> = run
+        .conditions()
+        .iter()
+        .map(|condition| if condition.id == "T" { transfer.clone() } else { condition.clone() })
+        .collect();
+    let mut certificate = object([
         ("format", text(FORMAT)),
         ("version", Value::from(VERSION)),
         ("tool", object([("name", text(env!("CARGO_PKG_NAME"))), ("version", text(env!("CARGO_PKG_VERSION")))])),
@@ -90,9 +105,48 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("specification_sha256", text(spec.sha256.clone())),
         ("claim", claim),
         ("witness", witness),
-        ("conditions", conditions_json(run.conditions())),
-        ("constants", constants_json(&run.constants)),
-    ]))
+    ]);
+    // The object was made above.
+    if let Value::Object(fields) = &mut certificate {
+        fields.extend(comparison.map(|(name, part)| ("comparison".to_owned(), object([(name, part)]))));
+        fields.insert("conditions".to_owned(), conditions_json(&conditions));
+        fields.insert("constants".to_owned(), constants_json(&checkable(&run.constants)));
+    }
+    Some(certificate)
+}
+
+/// The first comparison of a transfer proof: T_N(0) <= k0, or k0 against the closed form.
+///
+/// A certificate shows this one, not the tightest: the two sides of a box are no numbers that a checker with other
+/// enclosures could find again.
+fn first_comparison(data: &Data<'_>, [k0, _]: [&Rational; 2], proof: &TransferProof) -> Condition {
+    let at_zero = || (data.nu.sqr() * &data.n_0).recip();
+    let (what, lhs) = match proof {
+        TransferProof::ClosedForm => ("closed form of k0", closed_form_pair(data).0),
+        TransferProof::Matched { .. } => ("k = 0: 1/(nu^2 n_0) <= k0", at_zero()),
+        TransferProof::Boxes(_) => ("T_N(0) = 1/(nu^2 n_0) <= k0", at_zero()),
+    };
+    Condition::at_most("T", format!("transfer bound, {}: {what}", proof.name()), lhs, data.rational(k0))
+}
+
+/// A witness of the derivation that the claim is not about.
+fn comparison_json(sigma: &Rational, set: &ClaimedSet, witness: Value) -> Value {
+    let set = object([("X0", exact(&set.x0)), ("E0", exact(&set.e0)), ("Z0", exact(&set.z0))]);
+    object([("sigma_star", exact(sigma)), ("initial_set", set), ("witness", witness)])
+}
+
+/// The rows without the printed figures at the paper's own free numbers. No claim rests on them, and their free numbers
+/// are not in the certificate, so no checker could find them again; the report has them.
+fn checkable(rows: &[Row]) -> Vec<Row> {
+    let keep = |row: &Row| {
+        // What E1 and E2 refute, they refute from the data alone.
+        let from_data = ["P:eq:boundx_bounde_1", "P:thm1", "P:eq:bound_sigma_inf"];
+        let refuted = |entry: &Entry| matches!(entry.value, Cell::Infeasible(_)) && from_data.contains(&entry.source);
+        let printed = row.printed.clone().filter(|entry| row.at != At::Own || refuted(entry));
+        Row { printed, ..row.clone() }
+    };
+    let some = |row: &Row| row.printed.is_some() || row.repaired.is_some() || row.sharp.is_some();
+    rows.iter().map(keep).filter(some).collect()
 }
 
 /// The claim in words.

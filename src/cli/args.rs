@@ -51,6 +51,11 @@ pub enum Command {
     /// and holds the paper's constants against them.
     #[command(after_help = TRANSFER_EXAMPLES, after_long_help = format!("{TRANSFER_EXAMPLES}\n\n{EXIT_CODES}"))]
     Transfer(TransferArgs),
+    /// Check a certificate with the independent checker
+    ///
+    /// Decides the claim again from the certificate alone, with none of the code that made it: the same as the program
+    /// `proofs-check`. Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
+    Check(CheckArgs),
     /// List what is wrong in the paper, with evidence
     ///
     /// With a specification, also says what each item means for it.
@@ -164,6 +169,31 @@ pub struct TransferArgs {
     /// No remarks and no progress on standard error; errors are still shown
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// The flags of `check`.
+#[derive(Args, Debug)]
+pub struct CheckArgs {
+    /// Certificate (JSON), or `-` for standard input
+    #[arg(value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
+    pub certificate: PathBuf,
+
+    /// Show the argument, line by line
+    #[arg(short, long)]
+    pub verbose: bool,
+
+    /// Format of the answer
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = CheckFormat::Text)]
+    pub format: CheckFormat,
+}
+
+/// A format of the checker's answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CheckFormat {
+    /// Plain text for a terminal
+    Text,
+    /// JSON
+    Json,
 }
 
 /// The flags of `errata`.

@@ -2,6 +2,7 @@
 
 mod args;
 mod certify;
+mod check;
 mod errata;
 mod failure;
 mod input;
@@ -29,6 +30,7 @@ pub fn run() -> ExitCode {
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
         Command::Transfer(args) => transfer::run(&args),
+        Command::Check(args) => check::run(&args),
         Command::Errata(args) => errata::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),

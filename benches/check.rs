@@ -1,0 +1,33 @@
+//! Checking a certificate against producing it.
+//!
+//! `cargo bench --bench check` prints the times; nothing is asserted.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify};
+use sigmastar::spec::Specification;
+use std::hint::black_box;
+use std::path::Path;
+
+fn check_and_produce(criterion: &mut Criterion) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json");
+    let spec = Specification::load(&path).expect("the shipped example is valid");
+    let kinds = [
+        ("sharp", Options::default()),
+        ("repaired", Options { derivation: Derivation::Repaired, ..Options::default() }),
+        ("sharp, by boxes", Options { transfer: TransferChoice::Boxes, ..Options::default() }),
+    ];
+    let mut group = criterion.benchmark_group("paper example");
+    group.sample_size(10);
+    for (name, options) in kinds {
+        let run = certify(&spec, options).expect("its bounding functions are proved");
+        let certificate = certificate_json(&run).expect("it certifies").to_string();
+        group.bench_function(format!("produce, {name}"), |b| b.iter(|| certify(&spec, options)));
+        group.bench_function(format!("check, {name}"), |b| {
+            b.iter(|| proofs_check::check(black_box(certificate.as_bytes())));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, check_and_produce);
+criterion_main!(benches);

@@ -1,0 +1,349 @@
+//! Expressions in X and E: grammar, interval evaluation, exact evaluation of constants.
+//!
+//! ```text
+//! sum     = product (("+" | "-") product)*
+//! product = signed (("*" | "/") signed)*
+//! signed  = ("-" | "+")* power
+//! power   = primary ("^" signed)?
+//! primary = numeral | "pi" | "X" | "E" | name "(" sum ("," sum)* ")" | "(" sum ")"
+//! ```
+//! (`^` binds tighter than a sign before it and associates to the right, as formats.md says.)
+
+use crate::exact::Exact;
+use crate::interval::Interval;
+use crate::json::decimal;
+use rug::Rational;
+use std::cmp::Ordering;
+
+const MAX_TEXT: usize = 10_000;
+const MAX_NESTING: usize = 100;
+const MAX_NODES: usize = 5_000;
+const MAX_EXPONENT: i32 = 1_000;
+
+/// One operation of an expression in postfix order.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the names of the functions say what they are")]
+pub enum Op {
+    Number(Rational),
+    Pi,
+    X,
+    E,
+    Neg,
+    Sqrt,
+    Exp,
+    Log,
+    Sin,
+    Cos,
+    Tan,
+    Atan,
+    Tanh,
+    Abs,
+    /// An integer power; the exponent is at most [`MAX_EXPONENT`] in magnitude.
+    Power(i32),
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Pow,
+    Min,
+    Max,
+}
+
+/// A parsed expression: well-formed postfix.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    ops: Vec<Op>,
+}
+
+struct Parser<'a> {
+    text: &'a [u8],
+    at: usize,
+    depth: usize,
+    ops: Vec<Op>,
+    /// The exact values of the operands so far, to recognise integer exponents.
+    exact: Vec<Option<Exact>>,
+    variables: bool,
+}
+
+type Parsed = Result<(), String>;
+
+impl Parser<'_> {
+    /// The next character after white space, 0 at the end.
+    fn peek(&mut self) -> u8 {
+        while self.text.get(self.at).is_some_and(u8::is_ascii_whitespace) {
+            self.at += 1;
+        }
+        self.text.get(self.at).copied().unwrap_or(0)
+    }
+
+    fn accept(&mut self, symbol: u8) -> bool {
+        let found = self.peek() == symbol;
+        self.at += usize::from(found);
+        found
+    }
+
+    fn push(&mut self, op: Op) -> Parsed {
+        if self.ops.len() >= MAX_NODES {
+            return Err(format!("more than {MAX_NODES} operations"));
+        }
+        step(&op, &mut self.exact, &mut exact_op);
+        self.ops.push(op);
+        Ok(())
+    }
+
+    fn deeper(&mut self, part: fn(&mut Self) -> Parsed) -> Parsed {
+        self.depth += 1;
+        if self.depth > MAX_NESTING {
+            return Err(format!("nested more than {MAX_NESTING} deep"));
+        }
+        part(self)?;
+        self.depth -= 1;
+        Ok(())
+    }
+
+    fn sum(&mut self) -> Parsed {
+        self.product()?;
+        loop {
+            let op = match self.peek() {
+                b'+' => Op::Add,
+                b'-' => Op::Sub,
+                _ => return Ok(()),
+            };
+            self.at += 1;
+            self.product()?;
+            self.push(op)?;
+        }
+    }
+
+    fn product(&mut self) -> Parsed {
+        self.signed()?;
+        loop {
+            let op = match self.peek() {
+                b'*' => Op::Mul,
+                b'/' => Op::Div,
+                _ => return Ok(()),
+            };
+            self.at += 1;
+            self.signed()?;
+            self.push(op)?;
+        }
+    }
+
+    fn signed(&mut self) -> Parsed {
+        let mut negative = false;
+        while matches!(self.peek(), b'+' | b'-') {
+            negative ^= self.accept(b'-') || !self.accept(b'+');
+        }
+        self.power()?;
+        if negative { self.push(Op::Neg) } else { Ok(()) }
+    }
+
+    fn power(&mut self) -> Parsed {
+        self.primary()?;
+        if !self.accept(b'^') {
+            return Ok(());
+        }
+        let start = self.ops.len();
+        self.deeper(Self::signed)?;
+        let exponent = self.exact.last().cloned().flatten().and_then(|value| value.as_rational());
+        match exponent.filter(|value| *value.denom() == 1) {
+            None => self.push(Op::Pow),
+            Some(integer) => match integer.numer().to_i32().filter(|n| n.unsigned_abs() <= MAX_EXPONENT as u32) {
+                None => Err(format!("an exponent beyond {MAX_EXPONENT}")),
+                Some(n) => {
+                    // The power takes the place of the exponent's operations and of its value.
+                    self.ops.truncate(start);
+                    self.exact.pop();
+                    self.push(Op::Power(n))
+                }
+            },
+        }
+    }
+
+    fn primary(&mut self) -> Parsed {
+        let first = self.peek();
+        let start = self.at;
+        if first == b'(' {
+            self.at += 1;
+            self.deeper(Self::sum)?;
+            return self.close();
+        }
+        if first.is_ascii_digit() || first == b'.' {
+            let digits = |text: &[u8], from: usize| text[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+            while self.text.get(self.at).is_some_and(|b| b.is_ascii_digit() || *b == b'.') {
+                self.at += 1;
+            }
+            if matches!(self.text.get(self.at), Some(b'e' | b'E')) {
+                let sign = usize::from(matches!(self.text.get(self.at + 1), Some(b'+' | b'-')));
+                let count = digits(self.text, (self.at + 1 + sign).min(self.text.len()));
+                // Without digits the letter is no exponent.
+                self.at += if count > 0 { 1 + sign + count } else { 0 };
+            }
+            let numeral = std::str::from_utf8(&self.text[start..self.at]).unwrap_or("");
+            let value = decimal(numeral).ok_or_else(|| format!("no numeral of moderate size at byte {start}"))?;
+            return self.push(Op::Number(value));
+        }
+        while self.text.get(self.at).is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_') {
+            self.at += 1;
+        }
+        let function = match &self.text[start..self.at] {
+            b"pi" => return self.push(Op::Pi),
+            b"X" if self.variables => return self.push(Op::X),
+            b"E" if self.variables => return self.push(Op::E),
+            b"sqrt" => Op::Sqrt,
+            b"exp" => Op::Exp,
+            b"log" => Op::Log,
+            b"sin" => Op::Sin,
+            b"cos" => Op::Cos,
+            b"tan" => Op::Tan,
+            b"atan" => Op::Atan,
+            b"tanh" => Op::Tanh,
+            b"abs" => Op::Abs,
+            b"min" => Op::Min,
+            b"max" => Op::Max,
+            _ => return Err(format!("no number, variable or function at byte {start}")),
+        };
+        if !self.accept(b'(') {
+            return Err(format!("a function without its argument at byte {start}"));
+        }
+        self.deeper(Self::sum)?;
+        let folds = matches!(function, Op::Min | Op::Max);
+        let mut arguments = 1;
+        while folds && self.accept(b',') {
+            self.deeper(Self::sum)?;
+            self.push(function.clone())?;
+            arguments += 1;
+        }
+        match (folds, arguments) {
+            (true, 1) => return Err(format!("min and max take at least two arguments, at byte {start}")),
+            (true, _) => {}
+            (false, _) => self.push(function)?,
+        }
+        self.close()
+    }
+
+    fn close(&mut self) -> Parsed {
+        if self.accept(b')') { Ok(()) } else { Err(format!("a closing parenthesis is missing at byte {}", self.at)) }
+    }
+}
+
+/// One operation on a stack of values. A well-formed expression never meets an empty stack.
+fn step<V: Clone>(op: &Op, stack: &mut Vec<V>, apply: &mut impl FnMut(&Op, Option<V>, Option<V>) -> V) {
+    let operands = match op {
+        Op::Number(_) | Op::Pi | Op::X | Op::E => 0,
+        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Pow | Op::Min | Op::Max => 2,
+        _ => 1,
+    };
+    let second = (operands == 2).then(|| stack.pop()).flatten();
+    let first = (operands >= 1).then(|| stack.pop()).flatten();
+    stack.push(apply(op, first, second));
+}
+
+fn exact_op(op: &Op, a: Option<Option<Exact>>, b: Option<Option<Exact>>) -> Option<Exact> {
+    let (a, b) = (a.flatten(), b.flatten());
+    match op {
+        Op::Number(value) => Exact::rational(value),
+        Op::Pi => Some(Exact::pi()),
+        Op::Neg => Some(a?.neg()),
+        Op::Sqrt => a?.sqrt(),
+        Op::Abs => a.map(|a| if a.sign() < 0 { a.neg() } else { a }),
+        Op::Power(n) => a?.pow(*n),
+        Op::Add => a?.add(&b?),
+        Op::Sub => a?.add(&b?.neg()),
+        Op::Mul => a?.mul(&b?),
+        Op::Div => a?.mul(&b?.recip()?),
+        Op::Min | Op::Max => {
+            let (a, b) = (a?, b?);
+            let first = (a.compare(&b)? == Ordering::Less) == (*op == Op::Min);
+            Some(if first { a } else { b })
+        }
+        Op::X | Op::E | Op::Exp | Op::Log | Op::Sin | Op::Cos | Op::Tan | Op::Atan | Op::Tanh | Op::Pow => None,
+    }
+}
+
+/// An operation on intervals; operands that do not belong to it are ignored.
+pub fn interval_op(op: &Op, a: &Interval, b: &Interval) -> Interval {
+    match op {
+        Op::Neg => -a,
+        Op::Sqrt => a.sqrt(),
+        Op::Exp => a.exp(),
+        Op::Log => a.log(),
+        Op::Sin => a.sin(),
+        Op::Cos => a.cos(),
+        Op::Tan => a.tan(),
+        Op::Atan => a.atan(),
+        Op::Tanh => a.tanh(),
+        Op::Abs => a.abs(),
+        Op::Power(n) => a.powi(*n),
+        Op::Add => a + b,
+        Op::Sub => a - b,
+        Op::Mul => a * b,
+        Op::Div => a / b,
+        Op::Pow => a.pow(b),
+        Op::Min => a.min(b),
+        Op::Max => a.max(b),
+        Op::Number(value) => Interval::rational(value, a.precision()),
+        Op::Pi => Interval::pi(a.precision()),
+        // Variables have no value of their own.
+        Op::X | Op::E => Interval::undefined(a.precision()),
+    }
+}
+
+impl Expr {
+    /// Reads an expression, with or without variables.
+    ///
+    /// # Errors
+    /// What is wrong, in words; sizes are bounded before anything is computed.
+    pub fn parse(text: &str, variables: bool) -> Result<Expr, String> {
+        if text.len() > MAX_TEXT {
+            return Err(format!("an expression of more than {MAX_TEXT} bytes"));
+        }
+        let bytes = text.as_bytes();
+        let mut parser = Parser { text: bytes, at: 0, depth: 0, ops: Vec::new(), exact: Vec::new(), variables };
+        parser.sum()?;
+        match parser.peek() {
+            0 if parser.at == bytes.len() => Ok(Expr { ops: parser.ops }),
+            _ => Err(format!("an operator or the end was expected at byte {}", parser.at)),
+        }
+    }
+
+    /// Evaluates in any arithmetic.
+    pub fn fold<V: Clone>(&self, mut apply: impl FnMut(&Op, Option<V>, Option<V>) -> V) -> Option<V> {
+        let mut stack = Vec::new();
+        for op in &self.ops {
+            step(op, &mut stack, &mut apply);
+        }
+        stack.pop()
+    }
+
+    /// The exact value of a constant expression, where it has the form of [`Exact`].
+    pub fn exact(&self) -> Option<Exact> {
+        self.fold(exact_op).flatten()
+    }
+
+    /// The exact value at X = E = 0, in the same form.
+    pub fn exact_at_origin(&self) -> Option<Exact> {
+        let at = |op: &Op, a, b| match op {
+            Op::X | Op::E => Exact::rational(&Rational::new()),
+            _ => exact_op(op, a, b),
+        };
+        self.fold(at).flatten()
+    }
+
+    /// The number of operations.
+    #[allow(clippy::len_without_is_empty, reason = "no expression is empty")]
+    pub fn len(&self) -> usize {
+        self.ops.len()
+    }
+
+    /// Contains the value at every point of the box; undefined if the expression may be undefined somewhere in it.
+    pub fn enclose(&self, x: &Interval, e: &Interval) -> Interval {
+        let none = Interval::undefined(x.precision().max(e.precision()));
+        let value = self.fold(|op, a: Option<Interval>, b: Option<Interval>| match op {
+            Op::X => x.clone(),
+            Op::E => e.clone(),
+            _ => interval_op(op, a.as_ref().unwrap_or(&none), b.as_ref().unwrap_or(&none)),
+        });
+        value.unwrap_or(none)
+    }
+}

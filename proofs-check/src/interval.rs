@@ -1,0 +1,440 @@
+//! Intervals with MPFR ends, rounded outward.
+//!
+//! An interval contains the true value, or is *undefined* (both ends NaN): then nothing is known, and nothing that is
+//! computed from it decides anything. What must be believed here: which end is rounded which way.
+
+use rug::float::{Constant, Round, Special};
+use rug::ops::{DivAssignRound, Pow};
+use rug::{Float, Rational};
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A closed interval of reals; an infinite end is a bound, never a member.
+#[derive(Clone, Debug)]
+pub struct Interval {
+    lo: Float,
+    hi: Float,
+}
+
+fn rounded<T>(precision: u32, value: T, round: Round) -> Float
+where
+    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
+{
+    Float::with_val_round(precision, value, round).0
+}
+
+/// One of MPFR's correctly rounded functions.
+fn by(f: fn(&mut Float, Round) -> Ordering) -> impl Fn(Float, Round) -> Float {
+    move |mut x, round| {
+        f(&mut x, round);
+        x
+    }
+}
+
+impl Interval {
+    /// The interval between two ends; undefined if they are not in order.
+    pub fn new(lo: Float, hi: Float) -> Interval {
+        if lo <= hi { Interval { lo, hi } } else { Interval::undefined(hi.prec()) }
+    }
+
+    /// Nothing known.
+    pub fn undefined(precision: u32) -> Interval {
+        let nan = || Float::with_val(precision, Special::Nan);
+        Interval { lo: nan(), hi: nan() }
+    }
+
+    /// The real line.
+    pub fn entire(precision: u32) -> Interval {
+        let end = |special| Float::with_val(precision, special);
+        Interval { lo: end(Special::NegInfinity), hi: end(Special::Infinity) }
+    }
+
+    /// A rational number.
+    pub fn rational(value: &Rational, precision: u32) -> Interval {
+        Interval::between(value, value, precision)
+    }
+
+    /// All numbers from `lo` to `hi`.
+    pub fn between(lo: &Rational, hi: &Rational, precision: u32) -> Interval {
+        Interval::new(rounded(precision, lo, Round::Down), rounded(precision, hi, Round::Up))
+    }
+
+    /// An integer.
+    pub fn int(value: i64, precision: u32) -> Interval {
+        Interval::new(rounded(precision, value, Round::Down), rounded(precision, value, Round::Up))
+    }
+
+    /// The number pi.
+    pub fn pi(precision: u32) -> Interval {
+        Interval::new(rounded(precision, Constant::Pi, Round::Down), rounded(precision, Constant::Pi, Round::Up))
+    }
+
+    /// The precision of the ends, in bits.
+    pub fn precision(&self) -> u32 {
+        self.lo.prec().max(self.hi.prec())
+    }
+
+    /// Whether anything is known.
+    pub fn is_defined(&self) -> bool {
+        !self.lo.is_nan() && !self.hi.is_nan()
+    }
+
+    /// Whether both ends are finite.
+    pub fn is_bounded(&self) -> bool {
+        self.lo.is_finite() && self.hi.is_finite()
+    }
+
+    /// The lower end.
+    pub fn lo(&self) -> &Float {
+        &self.lo
+    }
+
+    /// The upper end.
+    pub fn hi(&self) -> &Float {
+        &self.hi
+    }
+
+    /// The upper end as an exact rational, if finite.
+    pub fn upper(&self) -> Option<Rational> {
+        self.hi.to_rational()
+    }
+
+    /// The lower end as an exact rational, if finite.
+    pub fn lower(&self) -> Option<Rational> {
+        self.lo.to_rational()
+    }
+
+    /// The upper end alone, for values of which only an upper bound is meant.
+    pub fn ceiling(&self) -> Interval {
+        Interval { lo: self.hi.clone(), hi: self.hi.clone() }
+    }
+
+    /// The same with ends of fewer bits.
+    pub fn round(&self, precision: u32) -> Interval {
+        Interval::new(rounded(precision, &self.lo, Round::Down), rounded(precision, &self.hi, Round::Up))
+    }
+
+    /// `self < other`: certain, certainly not, or unknown.
+    pub fn lt(&self, other: &Interval) -> Option<bool> {
+        if self.hi < other.lo {
+            Some(true)
+        } else if self.lo >= other.hi {
+            Some(false)
+        } else {
+            None
+        }
+    }
+
+    /// `self <= other`: certain, certainly not, or unknown.
+    pub fn le(&self, other: &Interval) -> Option<bool> {
+        other.lt(self).map(|less| !less)
+    }
+
+    /// Certainly > 0.
+    pub fn is_positive(&self) -> bool {
+        self.lo > 0
+    }
+
+    /// Certainly >= 0.
+    pub fn is_nonnegative(&self) -> bool {
+        self.lo >= 0
+    }
+
+    /// Certainly <= 0.
+    pub fn is_nonpositive(&self) -> bool {
+        self.hi <= 0
+    }
+
+    /// Exactly 0.
+    pub fn is_zero(&self) -> bool {
+        self.lo.is_zero() && self.hi.is_zero()
+    }
+
+    /// A single number.
+    pub fn is_point(&self) -> bool {
+        self.lo == self.hi
+    }
+
+    /// The smallest interval that contains both.
+    pub fn hull(&self, other: &Interval) -> Interval {
+        if !self.is_defined() || !other.is_defined() {
+            return Interval::undefined(self.precision());
+        }
+        Interval { lo: self.lo.clone().min(&other.lo), hi: self.hi.clone().max(&other.hi) }
+    }
+
+    /// What both contain; undefined if that is nothing.
+    pub fn intersect(&self, other: &Interval) -> Interval {
+        if !self.is_defined() || !other.is_defined() {
+            return Interval::undefined(self.precision());
+        }
+        Interval::new(self.lo.clone().max(&other.lo), self.hi.clone().min(&other.hi))
+    }
+
+    /// The smaller of two numbers.
+    pub fn min(&self, other: &Interval) -> Interval {
+        if !self.is_defined() || !other.is_defined() {
+            return Interval::undefined(self.precision());
+        }
+        Interval { lo: self.lo.clone().min(&other.lo), hi: self.hi.clone().min(&other.hi) }
+    }
+
+    /// The larger of two numbers.
+    pub fn max(&self, other: &Interval) -> Interval {
+        -&(-self).min(&-other)
+    }
+
+    /// |x|.
+    pub fn abs(&self) -> Interval {
+        let zero = Interval::int(0, self.precision());
+        if self.is_defined() { self.max(&-self).max(&zero) } else { self.clone() }
+    }
+
+    /// A function that increases on the interval, by its correctly rounded values at the ends.
+    fn increasing(&self, f: impl Fn(Float, Round) -> Float) -> Interval {
+        Interval::new(f(self.lo.clone(), Round::Down), f(self.hi.clone(), Round::Up))
+    }
+
+    /// The same for a function that decreases.
+    fn decreasing(&self, f: impl Fn(Float, Round) -> Float) -> Interval {
+        Interval::new(f(self.hi.clone(), Round::Down), f(self.lo.clone(), Round::Up))
+    }
+
+    /// x^2.
+    pub fn sqr(&self) -> Interval {
+        self.abs().increasing(by(Float::square_round))
+    }
+
+    /// e^x. Beyond 2^32 in magnitude the ends are moved outward, so that nothing enormous is evaluated.
+    pub fn exp(&self) -> Interval {
+        self.increasing(|mut x, round| {
+            let far = Float::with_val(x.prec(), 1u64 << 32);
+            if x > far && round == Round::Up {
+                return Float::with_val(x.prec(), Special::Infinity);
+            }
+            if Float::with_val(x.prec(), -&x) > far && round == Round::Down {
+                return Float::new(x.prec());
+            }
+            x = if x > far { far } else { x };
+            x = if x < -(1i64 << 32) { Float::with_val(x.prec(), -(1i64 << 32)) } else { x };
+            x.exp_round(round);
+            x
+        })
+    }
+
+    /// The natural logarithm; undefined where the number may not be positive.
+    pub fn log(&self) -> Interval {
+        if self.is_positive() { self.increasing(by(Float::ln_round)) } else { Interval::undefined(self.precision()) }
+    }
+
+    /// The square root; undefined where the number may be negative.
+    pub fn sqrt(&self) -> Interval {
+        self.increasing(by(Float::sqrt_round))
+    }
+
+    /// arctan x.
+    pub fn atan(&self) -> Interval {
+        self.increasing(by(Float::atan_round))
+    }
+
+    /// tanh x.
+    pub fn tanh(&self) -> Interval {
+        self.increasing(by(Float::tanh_round))
+    }
+
+    /// coth x for x > 0, where it decreases; undefined otherwise.
+    pub fn coth(&self) -> Interval {
+        if self.is_positive() { self.decreasing(by(Float::coth_round)) } else { Interval::undefined(self.precision()) }
+    }
+
+    /// The Riemann zeta function for s > 1, where it decreases; undefined otherwise.
+    pub fn zeta(&self) -> Interval {
+        if self.lo > 1 && self.is_bounded() {
+            self.decreasing(by(Float::zeta_round))
+        } else {
+            Interval::undefined(self.precision())
+        }
+    }
+
+    /// cos x: by its values at the ends where it is monotone, else within as much of one as x is (its slope is at most 1).
+    pub fn cos(&self) -> Interval {
+        self.wave(Float::cos_round, |x| -x.rough(Float::sin_round))
+    }
+
+    /// sin x, in the same way.
+    pub fn sin(&self) -> Interval {
+        self.wave(Float::sin_round, |x| x.rough(Float::cos_round))
+    }
+
+    fn wave(&self, f: fn(&mut Float, Round) -> Ordering, slope: impl Fn(&Interval) -> Interval) -> Interval {
+        let (rough, slope) = (self.rough(f), slope(self));
+        match (slope.is_nonnegative(), slope.is_nonpositive()) {
+            (true, _) => self.increasing(by(f)),
+            (_, true) => self.decreasing(by(f)),
+            _ => rough,
+        }
+    }
+
+    /// A function with values in [-1, 1] and a slope of at most 1: the value at the lower end, and the width of x.
+    fn rough(&self, f: fn(&mut Float, Round) -> Ordering) -> Interval {
+        let p = self.precision();
+        let all = Interval::int(-1, p).hull(&Interval::int(1, p));
+        // Enormous arguments are not reduced.
+        let far = self.hi > (1i64 << 32) || self.lo < -(1i64 << 32);
+        if !self.is_defined() || far {
+            return if far { all } else { self.clone() };
+        }
+        let left = Interval { lo: self.lo.clone(), hi: self.lo.clone() };
+        let reach = self - &left;
+        (left.increasing(by(f)) + (-&reach).hull(&reach)).intersect(&all)
+    }
+
+    /// tan x; undefined where cos x may be 0.
+    pub fn tan(&self) -> Interval {
+        let cos = self.cos();
+        if !cos.is_positive() && !(-&cos).is_positive() {
+            return Interval::undefined(self.precision());
+        }
+        self.increasing(by(Float::tan_round))
+    }
+
+    /// 1/x; undefined where x may be 0.
+    pub fn recip(&self) -> Interval {
+        Interval::int(1, self.precision()) / self
+    }
+
+    /// x^n for an integer n; undefined for n < 0 where x may be 0.
+    pub fn powi(&self, n: i32) -> Interval {
+        if n < 0 {
+            return self.powi(-n).recip();
+        }
+        if !self.is_defined() {
+            return self.clone();
+        }
+        if n == 0 {
+            return Interval::int(1, self.precision());
+        }
+        let base = if n % 2 == 0 { self.abs() } else { self.clone() };
+        base.increasing(|x, round| rounded(x.prec(), Pow::pow(&x, n), round))
+    }
+
+    /// x^y for x > 0, or for x >= 0 and y > 0; undefined otherwise. x^y is monotone in x and in y, so its extremes are
+    /// at corners.
+    pub fn pow(&self, exponent: &Interval) -> Interval {
+        let p = self.precision().max(exponent.precision());
+        let defined = self.is_positive() || (self.is_nonnegative() && exponent.is_positive());
+        if !defined || !self.is_bounded() || !exponent.is_bounded() {
+            return Interval::undefined(p);
+        }
+        let corner = |x: &Float, y: &Float| {
+            Interval::new(rounded(p, Pow::pow(x, y), Round::Down), rounded(p, Pow::pow(x, y), Round::Up))
+        };
+        let (at_lo, at_hi) = (&exponent.lo, &exponent.hi);
+        let left = corner(&self.lo, at_lo).hull(&corner(&self.lo, at_hi));
+        left.hull(&corner(&self.hi, at_lo)).hull(&corner(&self.hi, at_hi))
+    }
+}
+
+fn add(a: &Interval, b: &Interval) -> Interval {
+    let p = a.precision().max(b.precision());
+    Interval::new(rounded(p, &a.lo + &b.lo, Round::Down), rounded(p, &a.hi + &b.hi, Round::Up))
+}
+
+fn sub(a: &Interval, b: &Interval) -> Interval {
+    let p = a.precision().max(b.precision());
+    Interval::new(rounded(p, &a.lo - &b.hi, Round::Down), rounded(p, &a.hi - &b.lo, Round::Up))
+}
+
+fn mul(a: &Interval, b: &Interval) -> Interval {
+    let p = a.precision().max(b.precision());
+    if !a.is_defined() || !b.is_defined() {
+        return Interval::undefined(p);
+    }
+    // An infinite end is a bound of finite numbers, so 0 times it is 0.
+    let product = |x: &Float, y: &Float, round| {
+        if x.is_zero() || y.is_zero() { Float::new(p) } else { rounded(p, x * y, round) }
+    };
+    if a.is_nonnegative() && b.is_nonnegative() {
+        return Interval::new(product(&a.lo, &b.lo, Round::Down), product(&a.hi, &b.hi, Round::Up));
+    }
+    let ends = [(&a.lo, &b.lo), (&a.lo, &b.hi), (&a.hi, &b.lo), (&a.hi, &b.hi)];
+    let extreme = |round, pick: fn(Float, &Float) -> Float| {
+        let values = ends.map(|(x, y)| product(x, y, round));
+        values.iter().skip(1).fold(values[0].clone(), pick)
+    };
+    Interval::new(extreme(Round::Down, Float::min), extreme(Round::Up, Float::max))
+}
+
+fn div(a: &Interval, b: &Interval) -> Interval {
+    let p = a.precision().max(b.precision());
+    if !b.is_positive() {
+        // Undefined where the divisor may be 0.
+        return if b.hi < 0 { div(&-a, &-b) } else { Interval::undefined(p) };
+    }
+    let quotient = |x: &Float, y: &Float, round| {
+        let mut value = rounded(p, x, round);
+        value.div_assign_round(y, round);
+        value
+    };
+    let low = if a.lo < 0 { &b.lo } else { &b.hi };
+    let high = if a.hi < 0 { &b.hi } else { &b.lo };
+    Interval::new(quotient(&a.lo, low, Round::Down), quotient(&a.hi, high, Round::Up))
+}
+
+impl Neg for &Interval {
+    type Output = Interval;
+    fn neg(self) -> Interval {
+        Interval { lo: Float::with_val(self.hi.prec(), -&self.hi), hi: Float::with_val(self.lo.prec(), -&self.lo) }
+    }
+}
+
+impl Neg for Interval {
+    type Output = Interval;
+    fn neg(self) -> Interval {
+        -&self
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $function:ident) => {
+        operator!(@ $trait $method $function; Interval, Interval; Interval, &Interval; &Interval, Interval; &Interval, &Interval);
+        impl $trait<i64> for &Interval {
+            type Output = Interval;
+            fn $method(self, other: i64) -> Interval {
+                $function(self, &Interval::int(other, self.precision()))
+            }
+        }
+        impl $trait<i64> for Interval {
+            type Output = Interval;
+            fn $method(self, other: i64) -> Interval {
+                $trait::$method(&self, other)
+            }
+        }
+        impl $trait<&Interval> for i64 {
+            type Output = Interval;
+            fn $method(self, other: &Interval) -> Interval {
+                $function(&Interval::int(self, other.precision()), other)
+            }
+        }
+        impl $trait<Interval> for i64 {
+            type Output = Interval;
+            fn $method(self, other: Interval) -> Interval {
+                $trait::$method(self, &other)
+            }
+        }
+    };
+    (@ $trait:ident $method:ident $function:ident; $($left:ty, $right:ty);*) => {
+        $(impl $trait<$right> for $left {
+            type Output = Interval;
+            #[allow(clippy::needless_borrow, reason = "one text for values and references")]
+            fn $method(self, other: $right) -> Interval {
+                $function(&self, &other)
+            }
+        })*
+    };
+}
+
+operator!(Add, add, add);
+operator!(Sub, sub, sub);
+operator!(Mul, mul, mul);
+operator!(Div, div, div);

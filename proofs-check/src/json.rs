@@ -1,0 +1,282 @@
+//! JSON as it is written: numbers as text, no repeated keys, bounded before anything is parsed.
+
+use crate::verdict::{Outcome, bad};
+use rug::{Integer, Rational};
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
+use serde_json::value::RawValue;
+use std::fmt;
+
+/// The largest file that is read, in bytes.
+pub const MAX_BYTES: usize = 4 << 20;
+/// The deepest nesting that is read.
+const MAX_NESTING: usize = 32;
+/// The most values that are read.
+const MAX_VALUES: usize = 200_000;
+/// The longest numeral in characters, and the largest decimal exponent, from which a rational is formed.
+const MAX_NUMERAL: usize = 1000;
+const MAX_EXPONENT: u32 = 4000;
+
+/// A JSON value.
+#[derive(Clone, Debug)]
+pub enum Json {
+    /// null
+    Null,
+    /// true, false
+    Bool(bool),
+    /// A number, as written.
+    Number(String),
+    /// A string.
+    Text(String),
+    /// An array.
+    Array(Vec<Json>),
+    /// An object, in the order of the file.
+    Object(Vec<(String, Json)>),
+}
+
+/// Reads a document. Its size, nesting and number of values are bounded in one pass before anything is parsed.
+pub fn parse(bytes: &[u8]) -> Outcome<Json> {
+    if bytes.len() > MAX_BYTES {
+        return bad("", format!("the file has more than {MAX_BYTES} bytes"));
+    }
+    let Ok(text) = std::str::from_utf8(bytes) else { return bad("", "the file is not UTF-8") };
+    limits(bytes)?;
+    match serde_json::from_str::<&RawValue>(text) {
+        Ok(raw) => value(raw.get(), ""),
+        Err(error) => bad("", format!("not JSON: {error}")),
+    }
+}
+
+fn limits(bytes: &[u8]) -> Outcome<()> {
+    let (mut depth, mut values, mut in_string, mut escaped) = (0_usize, 1_usize, false, false);
+    for byte in bytes {
+        match byte {
+            _ if escaped => escaped = false,
+            b'\\' if in_string => escaped = true,
+            b'"' => in_string = !in_string,
+            _ if in_string => {}
+            b'[' | b'{' => (depth, values) = (depth + 1, values + 1),
+            b']' | b'}' => depth = depth.saturating_sub(1),
+            b',' => values += 1,
+            _ => {}
+        }
+        if depth > MAX_NESTING {
+            return bad("", format!("arrays and objects are nested more than {MAX_NESTING} deep"));
+        }
+        if values > MAX_VALUES {
+            return bad("", format!("the file has more than {MAX_VALUES} values"));
+        }
+    }
+    Ok(())
+}
+
+/// The members of an object, raw; a repeated key is an error.
+struct Members<'a>(Vec<(String, &'a RawValue)>);
+
+impl<'de: 'a, 'a> Deserialize<'de> for Members<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Each;
+        impl<'de> Visitor<'de> for Each {
+            type Value = Vec<(String, &'de RawValue)>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                let mut members: Self::Value = Vec::new();
+                let mut seen = std::collections::HashSet::new();
+                while let Some((key, value)) = map.next_entry::<String, &RawValue>()? {
+                    if !seen.insert(key.clone()) {
+                        let start: String = key.chars().take(40).collect();
+                        return Err(A::Error::custom(format!("the field `{start}` is given twice")));
+                    }
+                    members.push((key, value));
+                }
+                Ok(members)
+            }
+        }
+        deserializer.deserialize_map(Each).map(Members)
+    }
+}
+
+/// One value from its text. The recursion is as deep as the nesting, which is bounded.
+fn value(raw: &str, pointer: &str) -> Outcome<Json> {
+    let failed = |error: serde_json::Error| bad(pointer, format!("not JSON: {error}"));
+    match raw.as_bytes().first() {
+        Some(b'{') => match serde_json::from_str::<Members<'_>>(raw) {
+            Err(error) => failed(error),
+            Ok(members) => {
+                let read = |(key, raw): (String, &RawValue)| {
+                    let child = value(raw.get(), &join(pointer, &key))?;
+                    Ok((key, child))
+                };
+                Ok(Json::Object(members.0.into_iter().map(read).collect::<Outcome<_>>()?))
+            }
+        },
+        Some(b'[') => match serde_json::from_str::<Vec<&RawValue>>(raw) {
+            Err(error) => failed(error),
+            Ok(list) => {
+                let read = |(index, raw): (usize, &RawValue)| value(raw.get(), &join(pointer, &index.to_string()));
+                Ok(Json::Array(list.into_iter().enumerate().map(read).collect::<Outcome<_>>()?))
+            }
+        },
+        Some(b'"') => serde_json::from_str(raw).map(Json::Text).or_else(failed),
+        Some(b't' | b'f') => Ok(Json::Bool(raw == "true")),
+        Some(b'n') => Ok(Json::Null),
+        _ => Ok(Json::Number(raw.to_owned())),
+    }
+}
+
+/// The pointer of a member (RFC 6901).
+pub fn join(pointer: &str, key: &str) -> String {
+    format!("{pointer}/{}", key.replace('~', "~0").replace('/', "~1"))
+}
+
+impl Json {
+    /// The canonical form: keys sorted by bytes, no white space, numbers as written, strings as serde_json writes them.
+    pub fn canonical(&self, output: &mut String) {
+        let quoted = |text: &str| serde_json::Value::String(text.to_owned()).to_string();
+        match self {
+            Json::Null => output.push_str("null"),
+            Json::Bool(value) => output.push_str(if *value { "true" } else { "false" }),
+            Json::Number(text) => output.push_str(text),
+            Json::Text(text) => output.push_str(&quoted(text)),
+            Json::Array(list) => {
+                for (index, element) in list.iter().enumerate() {
+                    output.push(if index == 0 { '[' } else { ',' });
+                    element.canonical(output);
+                }
+                output.push_str(if list.is_empty() { "[]" } else { "]" });
+            }
+            Json::Object(members) => {
+                let mut sorted: Vec<_> = members.iter().collect();
+                sorted.sort_by(|a, b| a.0.cmp(&b.0));
+                for (index, (key, value)) in sorted.into_iter().enumerate() {
+                    output.push(if index == 0 { '{' } else { ',' });
+                    output.push_str(&quoted(key));
+                    output.push(':');
+                    value.canonical(output);
+                }
+                output.push_str(if members.is_empty() { "{}" } else { "}" });
+            }
+        }
+    }
+}
+
+/// A value with its place.
+#[derive(Clone, Debug)]
+pub struct Field<'a> {
+    /// The value.
+    pub json: &'a Json,
+    /// Its JSON pointer.
+    pub pointer: String,
+}
+
+/// An object whose fields are taken one by one; what is left in the end is unknown.
+pub struct Fields<'a> {
+    members: Vec<&'a (String, Json)>,
+    /// The pointer of the object.
+    pub pointer: String,
+}
+
+impl<'a> Field<'a> {
+    /// The fields of an object.
+    pub fn fields(&self) -> Outcome<Fields<'a>> {
+        match self.json {
+            Json::Object(members) => Ok(Fields { members: members.iter().collect(), pointer: self.pointer.clone() }),
+            _ => bad(&self.pointer, "expected an object"),
+        }
+    }
+
+    /// The elements of an array.
+    pub fn elements(&self) -> Outcome<Vec<Field<'a>>> {
+        let Json::Array(list) = self.json else { return bad(&self.pointer, "expected an array") };
+        let element = |(index, json)| Field { json, pointer: join(&self.pointer, &usize::to_string(&index)) };
+        Ok(list.iter().enumerate().map(element).collect())
+    }
+
+    /// A string.
+    pub fn text(&self) -> Outcome<&'a str> {
+        match self.json {
+            Json::Text(text) => Ok(text),
+            _ => bad(&self.pointer, "expected a string"),
+        }
+    }
+
+    /// A whole number of up to nine digits.
+    pub fn whole(&self) -> Outcome<u32> {
+        match self.json {
+            Json::Number(text) if text.len() <= 9 && text.bytes().all(|b| b.is_ascii_digit()) => {
+                Ok(text.bytes().fold(0, |n, digit| 10 * n + u32::from(digit - b'0')))
+            }
+            _ => bad(&self.pointer, "expected a small whole number"),
+        }
+    }
+
+    /// A number, or a string that may hold one.
+    pub fn numeral(&self) -> Outcome<&'a str> {
+        match self.json {
+            Json::Text(text) | Json::Number(text) => Ok(text),
+            _ => bad(&self.pointer, "expected a number or a string"),
+        }
+    }
+
+    /// An exact rational: `p/q` or a decimal, in a string or as a JSON number.
+    pub fn rational(&self) -> Outcome<Rational> {
+        let text = self.numeral()?;
+        let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
+        match (decimal(numerator), decimal(denominator)) {
+            (Some(numerator), Some(denominator)) if denominator != 0 => Ok(numerator / denominator),
+            _ => bad(&self.pointer, "expected an exact rational, as \"3/7\" or \"0.25\", of moderate size"),
+        }
+    }
+}
+
+impl<'a> Fields<'a> {
+    /// Takes a field that may be absent.
+    pub fn optional(&mut self, name: &str) -> Option<Field<'a>> {
+        let index = self.members.iter().position(|member| member.0 == name)?;
+        let (key, json) = self.members.remove(index);
+        Some(Field { json, pointer: join(&self.pointer, key) })
+    }
+
+    /// Takes a field that must be there.
+    pub fn required(&mut self, name: &str) -> Outcome<Field<'a>> {
+        self.optional(name).map_or_else(|| bad(&self.pointer, format!("the field `{name}` is missing")), Ok)
+    }
+
+    /// All that is left, with the keys.
+    pub fn rest(self) -> impl Iterator<Item = (&'a str, Field<'a>)> {
+        let pointer = self.pointer;
+        self.members.into_iter().map(move |(key, json)| (key.as_str(), Field { json, pointer: join(&pointer, key) }))
+    }
+
+    /// Nothing may be left.
+    pub fn finish(self) -> Outcome<()> {
+        match self.members.first() {
+            None => Ok(()),
+            Some((key, _)) => bad(&join(&self.pointer, key), "this field is unknown here"),
+        }
+    }
+}
+
+/// A decimal numeral (`-12`, `0.5`, `1.5e-3`) exactly; `None` if it is none, or too large to be formed.
+pub fn decimal(text: &str) -> Option<Rational> {
+    if text.len() > MAX_NUMERAL {
+        return None;
+    }
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let unsigned = mantissa.strip_prefix('-').unwrap_or(mantissa);
+    let (whole, fraction) = unsigned.split_once('.').unwrap_or((unsigned, ""));
+    let digits = format!("{whole}{fraction}");
+    let exponent_digits = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+    let all_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if !all_digits(&digits) || !all_digits(exponent_digits) {
+        return None;
+    }
+    // The exponent is bounded before a power of ten is formed.
+    let exponent: i64 = exponent.parse().ok().filter(|e: &i64| e.unsigned_abs() <= u64::from(MAX_EXPONENT))?;
+    let scale = exponent - fraction.len() as i64;
+    let power = Integer::u_pow_u(10, scale.unsigned_abs() as u32);
+    let value = Rational::from(digits.parse::<Integer>().ok()?);
+    let value = if scale < 0 { value / Integer::from(power) } else { value * Integer::from(power) };
+    Some(if mantissa.starts_with('-') { -value } else { value })
+}

@@ -1,0 +1,11 @@
+//! The rules, one a file.
+pub mod claim;
+pub mod constants;
+pub mod existence;
+pub mod regulation;
+pub mod repaired;
+pub mod set;
+pub mod sharp;
+pub mod stability;
+pub mod stored;
+pub mod transfer;

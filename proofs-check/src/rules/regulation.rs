@@ -1,0 +1,52 @@
+//! Exact regulation with infinitely many oscillators (derivation, section 6, Theorem 2).
+//!
+//! Guarantee, for a matched base frequency: with n_o infinite, for every sigma' >= sigma, solutions from the claimed
+//! set are bounded and x, e -> 0. C1-C3 are not used; the error box is around 0.
+
+use super::set;
+use super::stability::{ErrorBox, distances, level};
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::spec::Bound;
+use crate::verdict::{Condition, Outcome, invalid};
+use rug::Rational;
+
+/// The free numbers.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the symbols of derivation, section 6")]
+pub struct Witness {
+    pub pointer: String,
+    pub sigma: Rational,
+    pub d_x: Rational,
+    pub d_e: Rational,
+    pub w_x: Rational,
+    pub h: Rational,
+}
+
+/// `z_oo = (1/mu) sqrt(b_q(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt(0,0)^2)`.
+fn steady_state(d: &Data<'_>) -> Interval {
+    let zero = d.int(0);
+    let at = |which| d.bound(which, &zero, &zero);
+    let swing = &d.period / (Interval::pi(d.precision) * 2) * at(Bound::Qt);
+    (at(Bound::Q).sqr() / &d.n_0 + swing.sqr() * 2 / &d.n_1).sqrt() / &d.mu
+}
+
+/// Evaluates the conditions; only `matched` and the signs are decided yet.
+pub fn evaluate(d: &Data<'_>, set: &[Rational; 3], w: &Witness) -> Outcome<Vec<Condition>> {
+    if !d.spec.matched {
+        return invalid("exact regulation", &w.pointer, "it needs base_frequency = 2 pi/period, asserted by `matched`");
+    }
+    let named = [("sigma_star_oo", &w.sigma), ("D_x", &w.d_x), ("D_e", &w.d_e), ("w_x", &w.w_x), ("h", &w.h)];
+    set::positive(&named, &w.pointer)?;
+    let [sigma, d_x, d_e, w_x, h] = named.map(|(_, value)| d.number(value));
+    let zero = d.int(0);
+    let error_box = ErrorBox::new(d, [&zero, &zero], &d_x, &d_e);
+    let [coupling, curvature, threshold] = error_box.decay(d, &w_x, &h);
+    let reach = distances(d, set, [&zero, &zero, &steady_state(d)]);
+    let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
+    let mut conditions = set::domain(d, &d_x, &d_e);
+    conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
+    conditions.push(Condition::less("C5", "(h/mu) k_x^2 < 4 w_x (alpha - gam)", coupling, curvature));
+    conditions.push(Condition::less("C5b", "threshold of the quadratic form < sigma_oo", threshold, sigma));
+    Ok(conditions)
+}

@@ -1,0 +1,287 @@
+//! Rule: the embedded specification is well-formed (formats.md), and its data lie in their ranges (derivation, section 1).
+//!
+//! Guarantee: no unknown field, every number exact, T, w, mu, alpha, P_low > 0, P_up >= P_low, weights with W1-W3
+//! ([`crate::weights`]), and `matched` only where base_frequency * period = 2 pi exactly.
+
+use crate::exact::Exact;
+use crate::expr::Expr;
+use crate::interval::Interval;
+use crate::json::{Field, Fields};
+use crate::verdict::{Outcome, bad, demand};
+use crate::weights::Weights;
+use rug::Rational;
+
+/// The precisions, in bits, at which a question about constants is asked.
+const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
+const RULE: &str = "specification";
+
+/// A real constant of a file.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// As written.
+    pub text: String,
+    expr: Expr,
+    /// Its exact form, if it has one.
+    pub exact: Option<Exact>,
+}
+
+impl Constant {
+    /// Reads a number or a constant expression that has a finite value.
+    pub fn read(field: &Field<'_>) -> Outcome<Constant> {
+        let text = field.numeral()?;
+        let expr = expression(field, false)?;
+        let constant = Constant { text: text.to_owned(), exact: expr.exact(), expr };
+        if PRECISIONS.iter().any(|p| constant.enclose(*p).is_bounded()) {
+            return Ok(constant);
+        }
+        bad(&field.pointer, "this constant has no value that can be enclosed")
+    }
+
+    /// An enclosure.
+    pub fn enclose(&self, precision: u32) -> Interval {
+        let none = Interval::undefined(precision);
+        self.expr.enclose(&none, &none)
+    }
+
+    /// The exact value, if it is rational.
+    pub fn rational(&self) -> Option<Rational> {
+        self.exact.as_ref().and_then(Exact::as_rational)
+    }
+
+    /// The same as a number that can be compared.
+    pub fn number(&self) -> Number<'_> {
+        Number { exact: self.exact.clone(), enclose: Box::new(|p| self.enclose(p)) }
+    }
+}
+
+/// A real number: exact form if there is one, and enclosures at any precision.
+pub struct Number<'a> {
+    /// The exact form.
+    pub exact: Option<Exact>,
+    /// The enclosures.
+    pub enclose: Box<dyn Fn(u32) -> Interval + 'a>,
+}
+
+impl<'a> Number<'a> {
+    /// A rational number.
+    pub fn rational(value: Rational) -> Number<'a> {
+        Number { exact: Exact::rational(&value), enclose: Box::new(move |p| Interval::rational(&value, p)) }
+    }
+
+    /// The product.
+    pub fn times(self, other: Number<'a>) -> Number<'a> {
+        let exact = self.exact.as_ref().zip(other.exact.as_ref()).and_then(|(a, b)| a.mul(b));
+        Number { exact, enclose: Box::new(move |p| (self.enclose)(p) * (other.enclose)(p)) }
+    }
+
+    /// `self < other`, exactly where possible, else by enclosures of rising precision.
+    pub fn lt(&self, other: &Number<'_>) -> Option<bool> {
+        let exact = self.exact.as_ref().zip(other.exact.as_ref()).and_then(|(a, b)| a.compare(b));
+        if let Some(order) = exact {
+            return Some(order.is_lt());
+        }
+        PRECISIONS.iter().find_map(|p| (self.enclose)(*p).lt(&(other.enclose)(*p)))
+    }
+
+    /// `self <= other`.
+    pub fn le(&self, other: &Number<'_>) -> Option<bool> {
+        other.lt(self).map(|less| !less)
+    }
+}
+
+fn expression(field: &Field<'_>, variables: bool) -> Outcome<Expr> {
+    Expr::parse(field.numeral()?, variables).or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))
+}
+
+/// Which bounding function; the numbers are positions in [`Specification::bounds`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the derivation's b_f, b_fe, ...")]
+pub enum Bound {
+    F,
+    Fe,
+    Fxx,
+    Fex,
+    Q,
+    Qe,
+    Qx,
+    Qt,
+    QRms,
+    QtRms,
+}
+
+/// The names of the bounding functions in a file, in the order of [`Bound`]; the last two are optional.
+pub const BOUND_NAMES: [&str; 10] = ["f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t", "q_rms", "q_t_rms"];
+
+/// The set of initial conditions that is asked for.
+#[derive(Clone, Debug)]
+pub enum AskedSet {
+    /// X0 = 2 X_p, E0 = 2 E_p, Z0 = 2 (Z + Nbar E_p).
+    Paper,
+    /// Z0 = 0; X0, E0 given or 2 X_p, 2 E_p.
+    AtRest([Option<Constant>; 2]),
+    /// X0, E0, Z0 given.
+    Box([Constant; 3]),
+}
+
+/// A specification that satisfies this rule.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the symbols of derivation, section 1")]
+pub struct Specification {
+    pub period: Constant,
+    pub p_low: Constant,
+    pub p_up: Constant,
+    pub alpha: Constant,
+    pub mu: Constant,
+    pub base_frequency: Constant,
+    pub matched: bool,
+    pub weights: Weights,
+    pub bounds: [Option<Expr>; 10],
+    pub domain: Option<[Constant; 2]>,
+    pub initial_set: AskedSet,
+}
+
+fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
+    let field = fields.required(name)?;
+    let constant = Constant::read(&field)?;
+    let truth = Number::rational(Rational::new()).lt(&constant.number());
+    demand(truth, RULE, &field.pointer, format!("{name} > 0"))?;
+    Ok(constant)
+}
+
+fn nonnegative(field: Field<'_>) -> Outcome<Constant> {
+    let constant = Constant::read(&field)?;
+    let truth = Number::rational(Rational::new()).le(&constant.number());
+    demand(truth, RULE, &field.pointer, "the number is nonnegative")?;
+    Ok(constant)
+}
+
+impl Specification {
+    /// Reads and checks the embedded specification.
+    pub fn read(field: &Field<'_>) -> Outcome<Specification> {
+        let mut file = field.fields()?;
+        header(&mut file, "sigmastar/bounding-spec")?;
+        file.required("name")?.text()?;
+        file.optional("description").map(|field| field.text().map(drop)).transpose()?;
+        let period = positive(&mut file, "period")?;
+
+        let mut lyapunov = file.required("lyapunov")?.fields()?;
+        let (p_low, p_up) = (positive(&mut lyapunov, "p_low")?, positive(&mut lyapunov, "p_up")?);
+        let alpha = positive(&mut lyapunov, "alpha")?;
+        demand(p_low.number().le(&p_up.number()), RULE, &lyapunov.pointer, "p_low <= p_up")?;
+        lyapunov.finish()?;
+
+        let mut functions = file.required("bounds")?.fields()?;
+        let mut bounds: [Option<Expr>; 10] = Default::default();
+        for (name, bound) in BOUND_NAMES.iter().zip(&mut bounds) {
+            let field = if name.ends_with("rms") { functions.optional(name) } else { Some(functions.required(name)?) };
+            *bound = field.map(|field| expression(&field, true)).transpose()?;
+        }
+        functions.finish()?;
+
+        let domain = file.optional("domain").map(|field| {
+            let mut fields = field.fields()?;
+            let ends = [positive(&mut fields, "X")?, positive(&mut fields, "E")?];
+            fields.finish().map(|()| ends)
+        });
+
+        let mut model = file.required("internal_model")?.fields()?;
+        let (mu, base_frequency) = (positive(&mut model, "mu")?, positive(&mut model, "base_frequency")?);
+        let matched = match model.optional("matched") {
+            None => false,
+            Some(field) => match field.json {
+                crate::json::Json::Bool(value) => *value,
+                _ => return bad(&field.pointer, "expected true or false"),
+            },
+        };
+        let weights = Weights::read(&model.required("weights")?)?;
+        if matched {
+            let product = base_frequency.number().times(period.number());
+            let two_pi = Exact::rational(&Rational::from(2)).and_then(|two| two.mul(&Exact::pi()));
+            let equal = match (&product.exact, &two_pi) {
+                (Some(a), Some(b)) => Some(a.equals(b)),
+                // Disjoint enclosures refute; nothing else is proved without exact forms.
+                _ => PRECISIONS.iter().find_map(|p| {
+                    let (a, b) = ((product.enclose)(*p), Interval::pi(*p) * 2);
+                    (a.lt(&b) == Some(true) || b.lt(&a) == Some(true)).then_some(false)
+                }),
+            };
+            demand(equal, RULE, &format!("{}/matched", model.pointer), "base_frequency * period = 2 pi")?;
+        }
+        model.finish()?;
+
+        let initial_set = read_set(&file.required("initial_set")?)?;
+        file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
+        file.finish()?;
+        let domain = domain.transpose()?;
+        Ok(Specification {
+            period,
+            p_low,
+            p_up,
+            alpha,
+            mu,
+            base_frequency,
+            matched,
+            weights,
+            bounds,
+            domain,
+            initial_set,
+        })
+    }
+}
+
+/// `format` and `version` of a file.
+pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
+    let field = file.required("format")?;
+    if field.text()? != format {
+        return bad(&field.pointer, format!("expected `{format}`"));
+    }
+    let field = file.required("version")?;
+    if field.whole()? == 1 { Ok(()) } else { bad(&field.pointer, "only version 1 is read") }
+}
+
+fn read_set(field: &Field<'_>) -> Outcome<AskedSet> {
+    let mut fields = field.fields()?;
+    let kind = fields.required("kind")?;
+    let set = match kind.text()? {
+        "paper" => AskedSet::Paper,
+        "at-rest" => {
+            let mut end = |name| fields.optional(name).map(nonnegative).transpose();
+            AskedSet::AtRest([end("X0")?, end("E0")?])
+        }
+        "box" => {
+            let mut end = |name| fields.required(name).and_then(nonnegative);
+            AskedSet::Box([end("X0")?, end("E0")?, end("Z0")?])
+        }
+        _ => return bad(&kind.pointer, "expected `paper`, `at-rest` or `box`"),
+    };
+    fields.finish()?;
+    Ok(set)
+}
+
+/// The filter e = xi_r + sum a_i xi_i: s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 must be Hurwitz (derivation, section 6),
+/// decided by Routh's array in rationals.
+fn filter(field: &Field<'_>) -> Outcome<()> {
+    let mut fields = field.fields()?;
+    let list = fields.required("a")?;
+    fields.finish()?;
+    let elements = list.elements()?;
+    if elements.is_empty() || elements.len() > 20 {
+        return bad(&list.pointer, "expected 1 to 20 coefficients");
+    }
+    let mut coefficients = vec![Rational::from(1)];
+    for element in elements.iter().rev() {
+        match Constant::read(element)?.rational() {
+            Some(value) => coefficients.push(value),
+            None => return bad(&element.pointer, "this coefficient is not known to be rational"),
+        }
+    }
+    let every_second = |from: usize| coefficients.iter().skip(from).step_by(2).cloned().collect::<Vec<_>>();
+    let (mut upper, mut lower) = (every_second(0), every_second(1));
+    while let (Some(a), Some(b)) = (upper.first().cloned(), lower.first().cloned()) {
+        demand(Some(b > 0), RULE, &list.pointer, "the polynomial of `a` is Hurwitz")?;
+        let at = |row: &[Rational], j: usize| row.get(j).cloned().unwrap_or_default();
+        let next = (1..upper.len()).map(|j| at(&upper, j) - Rational::from(&a / &b) * at(&lower, j)).collect();
+        (upper, lower) = (lower, next);
+    }
+    Ok(())
+}

@@ -1,0 +1,70 @@
+//! Forged certificates: each breaks exactly the condition that it is named after.
+
+mod common;
+
+use common::{folder, names, text};
+use proofs_check::check;
+use proofs_check::verdict::Verdict;
+
+/// C1b has no forged certificate of its own: C3 implies (c/alpha) b_fxx X_p < 1, so whoever breaks C1b breaks C3.
+const CONDITIONS: [&str; 22] = [
+    "sharp-set",
+    "sharp-domain",
+    "sharp-T",
+    "sharp-C1",
+    "sharp-C2",
+    "sharp-C3",
+    "sharp-C3b",
+    "sharp-C4",
+    "sharp-C5",
+    "sharp-C5b",
+    "repaired-set",
+    "repaired-domain",
+    "repaired-T",
+    "repaired-C1",
+    "repaired-C2",
+    "repaired-C3",
+    "repaired-C3b",
+    "repaired-C4",
+    "repaired-C5",
+    "repaired-C5b",
+    "regulation-C4",
+    "regulation-C5b",
+];
+
+#[test]
+fn every_condition_has_a_forged_certificate() {
+    for condition in CONDITIONS {
+        let forged = |name: &String| *name == condition || name.starts_with(&format!("{condition}-"));
+        assert!(names("forged").iter().any(forged), "{condition} in {}", folder("forged").display());
+    }
+}
+
+#[test]
+fn each_is_refused_for_that_condition_alone() {
+    for name in names("forged").iter().filter(|name| !name.starts_with("boxes")) {
+        let report = check(text("forged", name).as_bytes());
+        assert_eq!(report.verdict, Verdict::Invalid, "{name}");
+        let id = name.split('-').nth(1).unwrap();
+        let finding = report.finding.as_ref().unwrap();
+        assert!(finding.message.contains(&format!(": {id}, ")), "{name}: {}", finding.message);
+        assert!(finding.sides.is_some(), "{name}: both sides and the gap");
+        for line in report.lines.iter().filter(|line| line.contains(" FAILS: ")) {
+            assert!(line.trim_start().starts_with(&format!("{id} ")), "{name} also breaks {line}");
+        }
+        // Where C5 fails, the threshold of C5b has no meaning; nothing else may be left open.
+        for line in report.lines.iter().filter(|line| line.contains(" undecided: ")) {
+            assert!(id == "C5" && line.trim_start().starts_with("C5b "), "{name}: {line}");
+        }
+    }
+}
+
+#[test]
+fn forged_boxes_are_not_accepted() {
+    for name in names("forged").iter().filter(|name| name.starts_with("boxes")) {
+        let report = check(text("forged", name).as_bytes());
+        let finding = report.finding.expect("refused");
+        assert_eq!(finding.rule, "transfer bound", "{name}");
+        assert!(finding.pointer.starts_with("/witness/transfer"), "{name}: {}", finding.pointer);
+    }
+}

@@ -1,0 +1,133 @@
+//! Hostile input: an answer at once, in words, and never a panic.
+
+mod common;
+
+use common::{PAPER, assert_refused, certificate, changed, text, with};
+use proofs_check::check;
+use proofs_check::verdict::Verdict::{BadInput, Invalid, Undecided};
+
+fn refused(bytes: &[u8]) -> String {
+    let report = check(bytes);
+    assert_eq!(report.verdict, BadInput);
+    report.finding.unwrap().message
+}
+
+#[test]
+fn no_certificate_at_all() {
+    for bytes in
+        [&b""[..], b" ", b"{", b"[]", b"nul", b"\xff\xfe", b"\xef\xbb\xbf{}", b"{} {}", b"\"\\ud800\"", b"1e999999999"]
+    {
+        refused(bytes);
+    }
+}
+
+#[test]
+fn deep_nesting() {
+    let deep = |n: usize| format!("{}{}", "[".repeat(n), "]".repeat(n));
+    assert!(refused(deep(100_000).as_bytes()).contains("nested"));
+    assert!(refused("{\"a\":".repeat(100_000).as_bytes()).contains("nested"));
+    assert_refused(
+        &changed(PAPER, "/witness/D_x", serde_json::from_str::<serde_json::Value>(&deep(20)).unwrap()),
+        BadInput,
+        "format",
+        "/witness/D_x",
+    );
+}
+
+#[test]
+fn large_files() {
+    assert!(refused(&vec![b' '; 100 << 20]).contains("bytes"));
+    let report = proofs_check::check_reader(std::io::repeat(b'[')).unwrap();
+    assert_eq!(report.verdict, BadInput);
+    let million = format!("[{}0]", "0,".repeat(1_000_000));
+    assert!(refused(million.as_bytes()).contains("values"));
+}
+
+#[test]
+fn a_million_boxes() {
+    let mut list = vec!["0".to_owned()];
+    list.extend((1..30_000).map(|i| format!("{i}/60000")));
+    let mut certificate = certificate(common::BOXES);
+    certificate["witness"]["transfer"]["boxes"][0] = list.into();
+    assert_refused(&check(certificate.to_string().as_bytes()), Invalid, "transfer bound", "/witness/transfer");
+    let million: Vec<_> = (0..1_000_000).map(|_| "1").collect();
+    certificate["witness"]["transfer"]["boxes"][0] = million.into();
+    assert_eq!(check(certificate.to_string().as_bytes()).verdict, BadInput);
+}
+
+#[test]
+fn numbers_too_large_to_form() {
+    for number in [
+        "1e999999999",
+        "-1e999999999",
+        "1e-999999999",
+        "1e99999999999999999999",
+        "1/1e4001",
+        "1/0",
+        "0/0",
+        "NaN",
+        "1e",
+        "",
+    ] {
+        assert_refused(&changed(PAPER, "/witness/D_x", number), BadInput, "format", "/witness/D_x");
+    }
+    let long = "9".repeat(100_000);
+    assert_refused(&changed(PAPER, "/claim/sigma_star", long.as_str()), BadInput, "format", "/claim/sigma_star");
+    let raw = text("certificates", PAPER).replacen("\"precision_bits\":128", "\"precision_bits\":1e999999999", 1);
+    assert_eq!(check(raw.as_bytes()).verdict, BadInput);
+    for bits in [0_u64, 52, 5000, 4_000_000_000] {
+        assert_refused(&changed(PAPER, "/precision_bits", bits), BadInput, "format", "/precision_bits");
+    }
+}
+
+#[test]
+fn numbers_near_the_limits_are_formed_and_refused() {
+    for number in ["1e4000", "1e-4000", "-1e4000"] {
+        for pointer in
+            ["/witness/D_x", "/witness/p_e", "/witness/h", "/witness/k1", "/claim/sigma_star", "/witness/X_p"]
+        {
+            let report = changed(PAPER, pointer, number);
+            assert!([Invalid, Undecided].contains(&report.verdict), "{pointer} = {number}: {}", report.text(false));
+        }
+    }
+}
+
+#[test]
+fn expressions_that_explode() {
+    let towers = [
+        "10^10^10",
+        "2^(2^(2^100))",
+        "1/0",
+        "0^(0-1)",
+        "exp(exp(exp(exp(9))))",
+        "tan(pi/2)",
+        "log(0)",
+        "(1e4000)^1000",
+    ];
+    for text in towers {
+        for pointer in ["/specification/period", "/specification/bounds/q", "/specification/internal_model/mu"] {
+            let report = changed(PAPER, pointer, text);
+            assert_ne!(report.verdict, proofs_check::verdict::Verdict::Valid, "{pointer} = {text}");
+        }
+    }
+    let deep = format!("{}1{}", "(".repeat(5000), ")".repeat(5000));
+    assert_refused(&changed(PAPER, "/specification/bounds/q", deep), BadInput, "format", "/specification/bounds/q");
+    let long = "X+".repeat(4999) + "X";
+    assert_refused(&changed(PAPER, "/specification/bounds/q", long), BadInput, "format", "/specification/bounds/q");
+    // An odd number of signs: a negative bound.
+    let signs = "-".repeat(9_001) + "1";
+    assert_refused(
+        &changed(PAPER, "/specification/bounds/q", signs),
+        Invalid,
+        "bounding functions",
+        "/specification/bounds/q",
+    );
+}
+
+#[test]
+fn many_weights() {
+    let values: Vec<_> = (0..1001).map(|_| "1").collect();
+    let weights = serde_json::json!({ "family": "explicit", "values": values, "tail": { "coefficient": "1", "exponent": "3/2" } });
+    let report = with(PAPER, "/specification/internal_model", "weights", weights);
+    assert_refused(&report, BadInput, "format", "/specification/internal_model/weights");
+}

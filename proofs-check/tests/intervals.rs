@@ -1,0 +1,90 @@
+//! Intervals against each other at two precisions, and constants against known digits.
+
+use proofs_check::exact::Exact;
+use proofs_check::interval::Interval;
+use rug::Rational;
+
+type Unary = fn(&Interval) -> Interval;
+
+#[test]
+fn coarse_intervals_contain_fine_ones() {
+    let functions: [(&str, Unary); 14] = [
+        ("sqr", Interval::sqr),
+        ("sqrt", Interval::sqrt),
+        ("exp", Interval::exp),
+        ("log", Interval::log),
+        ("atan", Interval::atan),
+        ("tanh", Interval::tanh),
+        ("coth", Interval::coth),
+        ("cos", Interval::cos),
+        ("sin", Interval::sin),
+        ("tan", Interval::tan),
+        ("recip", Interval::recip),
+        ("abs", Interval::abs),
+        ("zeta", Interval::zeta),
+        ("powi", |x| x.powi(-3)),
+    ];
+    for (name, f) in functions {
+        let mut defined = 0;
+        for numerator in -40..40 {
+            let (a, b) = (Rational::from((numerator, 7)), Rational::from((numerator + 3, 7)));
+            let wide = f(&Interval::between(&a, &b, 30));
+            for step in 0..=3 {
+                let fine = f(&Interval::rational(&Rational::from((numerator + step, 7)), 200));
+                if wide.is_defined() {
+                    assert!(fine.is_defined() && wide.lo() <= fine.lo() && fine.hi() <= wide.hi(), "{name} at {a}");
+                    defined += 1;
+                }
+            }
+        }
+        assert!(defined > 40, "{name}: {defined}");
+    }
+}
+
+#[test]
+fn undefined_is_contagious_and_decides_nothing() {
+    let none = Interval::int(-1, 64).sqrt();
+    let one = Interval::int(1, 64);
+    let zero = Interval::int(0, 64);
+    for value in [
+        &none + &one,
+        &none * &zero,
+        &one / &zero,
+        none.min(&one),
+        none.max(&one),
+        none.hull(&one),
+        none.powi(0),
+        none.abs(),
+        none.sqr(),
+        zero.pow(&zero),
+        one.zeta(),
+        none.cos(),
+    ] {
+        assert!(!value.is_defined());
+        assert_eq!((value.lt(&one), value.le(&one), one.lt(&value)), (None, None, None));
+    }
+}
+
+#[test]
+fn strict_and_loose_comparisons() {
+    let one = Interval::int(1, 64);
+    assert_eq!((one.lt(&one), one.le(&one)), (Some(false), Some(true)));
+    let third = Interval::rational(&Rational::from((1, 3)), 64);
+    assert_eq!((third.lt(&third), third.le(&third)), (None, None));
+}
+
+#[test]
+fn exact_numbers() {
+    let rational = |n: i64, d: i64| Exact::rational(&Rational::from((n, d))).unwrap();
+    let two = rational(2, 1).sqrt().unwrap();
+    assert_eq!(two.mul(&two), Some(rational(2, 1)));
+    assert_eq!(two.add(&two), rational(8, 1).sqrt());
+    assert_eq!(two.add(&two.neg()).unwrap().sign(), 0);
+    assert_eq!(two.add(&rational(1, 1)), None);
+    assert_eq!(Exact::pi().compare(&rational(3, 1)), None);
+    assert_eq!(rational(-3, 2).compare(&rational(-1, 1)), Some(std::cmp::Ordering::Less));
+    assert!(
+        rational(-1, 1).sqrt().is_none() && rational(0, 1).recip().is_none() && rational(3, 1).pow(1_000_000).is_none()
+    );
+    assert_eq!(rational(-2, 3).pow(-3), Some(rational(-27, 8)));
+}

@@ -1,0 +1,92 @@
+//! Rule: bounding functions are finite, nonnegative and nondecreasing.
+
+use proofs_check::expr::Expr;
+use proofs_check::monotone::prove;
+use proofs_check::verdict::Verdict::{self, Invalid, Undecided};
+use rug::Rational;
+
+fn verdict(text: &str, x: i64, e: i64) -> Option<Verdict> {
+    let expr = Expr::parse(text, true).unwrap();
+    prove("q", &expr, &Rational::from(x), &Rational::from(e), 128).err().map(|finding| finding.verdict)
+}
+
+#[test]
+fn proved() {
+    for text in [
+        "0",
+        "1",
+        "X + E",
+        "X*E",
+        "X^2 + 3",
+        "sqrt(1 + E^2)",
+        "sqrt(X)",
+        "sqrt(X*E)",
+        "X^1.5",
+        "X^2/(1 + X)",
+        "X/(1 + X)",
+        "atan(E*(X + 1))",
+        "tanh(X)",
+        "exp(X) - 1",
+        "log(1 + X)",
+        "X - atan(X)",
+        "max(X, E)",
+        "min(X, 1)",
+        "abs(X - 20) + 2*X",
+        "2 - cos(X/10)",
+        "X*exp(-X/100)",
+        "X - X^2/40",
+        "1/(11 - X)",
+        "(1 + X)^E",
+        "sqrt(2) - sqrt(2) + X",
+        "5 + sin(X/10)",
+    ] {
+        assert_eq!(verdict(text, 10, 10), None, "{text}");
+    }
+    // A box that is a single point has nothing to be monotone along.
+    assert_eq!(verdict("2 - X", 0, 0), None);
+}
+
+#[test]
+fn refuted() {
+    for text in [
+        "X - 1",
+        "-1",
+        "1 - X",
+        "E - X + 20",
+        "cos(X)",
+        "abs(X - 1)",
+        "20*X - X^2 - X^3",
+        "1/(1 + X)",
+        "exp(-E)",
+        "X^X",
+        "max(1, 2 - E)",
+        "X^2 - X + 1",
+    ] {
+        assert_eq!(verdict(text, 10, 10), Some(Invalid), "{text}");
+    }
+    // The same is a bounding function on a smaller box.
+    assert_eq!(verdict("X - X^2/4", 3, 1), Some(Invalid));
+    assert_eq!(verdict("X - X^2/4", 2, 1), None);
+}
+
+#[test]
+fn not_defined_somewhere_is_never_proved() {
+    for text in ["1/(X - 5)", "log(X)", "1/X", "tan(X)", "sqrt(X - 1)", "1/0", "X^(0-1/2)", "0^(X-X)", "1/(10 - X)"] {
+        assert!(verdict(text, 10, 10).is_some(), "{text}");
+    }
+}
+
+#[test]
+fn an_unsettled_function_is_undecided_with_its_place() {
+    // Nondecreasing, but only just: the derivative vanishes inside.
+    let expr = Expr::parse("(X - 1)^3 + 1 - sqrt(3)*sqrt(3) + 3 - E*0", true).unwrap();
+    let finding = prove("q_e", &expr, &Rational::from(2), &Rational::from(2), 128).err();
+    if let Some(finding) = finding {
+        assert_eq!((finding.verdict, finding.pointer.as_str()), (Undecided, "/specification/bounds/q_e"));
+    }
+    // A dip that is too narrow for the corners of the pieces to find and too real to be proved away.
+    assert_eq!(
+        verdict("X + 1e-9*sin(1e12*X)", 10, 10).map(|verdict| verdict != Undecided && verdict != Invalid),
+        Some(false)
+    );
+}

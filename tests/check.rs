@@ -1,0 +1,60 @@
+//! Certificates as they are written today, read by the independent checker; and the command `check`.
+
+use assert_cmd::Command;
+use predicates::str::{contains, is_empty};
+use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify};
+use sigmastar::spec::Specification;
+use std::path::Path;
+
+/// The certificate of a shipped specification.
+fn certificate(name: &str, options: Options) -> String {
+    let spec = Specification::load(&Path::new("specs").join(format!("{name}.json"))).unwrap();
+    certificate_json(&certify(&spec, options).unwrap()).expect("it certifies").to_string()
+}
+
+fn is_valid(name: &str, options: Options) {
+    let report = proofs_check::check(certificate(name, options).as_bytes());
+    assert_eq!(report.verdict.to_string(), "valid", "{name}: {}", report.text(false));
+}
+
+#[test]
+fn fresh_certificates_are_valid() {
+    for name in ["linear", "explicit-weights", "short-period"] {
+        is_valid(name, Options::default());
+    }
+    let with = |derivation, transfer, compare| Options { derivation, transfer, compare, ..Options::default() };
+    is_valid("no-x", with(Derivation::Repaired, TransferChoice::Best, true));
+    is_valid("linear", with(Derivation::Sharp, TransferChoice::Boxes, false));
+    is_valid("ill-conditioned", with(Derivation::Sharp, TransferChoice::ClosedForm, false));
+}
+
+#[test]
+fn numbers_reach_the_checker_as_they_are_written() {
+    let text = std::fs::read_to_string("specs/linear.json").unwrap();
+    let text = text.replace("\"q_x\": 1", "\"q_x\": 1E0").replace("\"f_xx\": 0", "\"f_xx\": 0.0e+05");
+    assert!(text.contains("1E0") && text.contains("0.0e+05"));
+    let spec = Specification::from_json("test", &text).unwrap();
+    let options = Options { compare: false, ..Options::default() };
+    let certificate = certificate_json(&certify(&spec, options).unwrap()).unwrap().to_string();
+    assert!(certificate.contains("1E0") && certificate.contains("0.0e+05"));
+    let report = proofs_check::check(certificate.as_bytes());
+    assert_eq!(report.verdict.to_string(), "valid", "{}", report.text(false));
+}
+
+#[test]
+fn the_command() {
+    let sigmastar = || Command::cargo_bin("sigmastar").unwrap();
+    let valid = "proofs-check/tests/certificates/paper-example.sharp.json";
+    let forged = "proofs-check/tests/forged/sharp-C4.json";
+    sigmastar().args(["check", valid]).assert().code(0).stdout("valid\n").stderr(is_empty());
+    sigmastar().args(["check", valid, "--verbose"]).assert().code(0).stdout(contains("C5b holds"));
+    sigmastar().args(["check", forged]).assert().code(1).stdout(contains("invalid")).stdout(contains("C4"));
+    sigmastar()
+        .args(["check", forged, "--format", "json"])
+        .assert()
+        .code(1)
+        .stdout(contains("\"field\": \"/witness\""));
+    sigmastar().args(["check", "specs/linear.json"]).assert().code(2).stdout(contains("bad-input"));
+    sigmastar().args(["check", "-"]).write_stdin("{").assert().code(2).stdout(contains("not JSON"));
+    sigmastar().args(["check", "nowhere.json"]).assert().code(2).stdout(is_empty()).stderr(contains("nowhere.json"));
+}
