@@ -49,7 +49,7 @@ pub struct Sharp {
     pub arguments: [Interval; 2],
 }
 
-/// Evaluates all conditions; nothing but the transfer proof, signs and multipliers is decided yet.
+/// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     #[rustfmt::skip]
     let named = [
