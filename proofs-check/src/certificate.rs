@@ -264,9 +264,9 @@ impl Rules<'_> {
 fn all<'c>(
     rule: &'static str,
     pointer: &str,
-    conditions: impl Iterator<Item = &'c Condition> + Clone,
+    mut conditions: impl Iterator<Item = &'c Condition> + Clone,
     lines: &mut Vec<String>,
 ) -> Outcome<()> {
     lines.extend(conditions.clone().map(Condition::line));
-    conditions.map(|condition| condition.demand(rule, pointer)).collect()
+    conditions.try_for_each(|condition| condition.demand(rule, pointer))
 }

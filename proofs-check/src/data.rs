@@ -5,7 +5,6 @@ use crate::spec::{Bound, Specification};
 use rug::Rational;
 
 /// The numbers of derivation, section 1, under their names there.
-#[allow(missing_docs, reason = "the symbols of derivation, section 1")]
 pub struct Data<'s> {
     pub spec: &'s Specification,
     pub precision: u32,

@@ -22,32 +22,20 @@ const MAX_EXPONENT: i32 = 1_000;
 
 /// One operation of an expression in postfix order.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the names of the functions say what they are")]
+#[rustfmt::skip]
 pub enum Op {
-    Number(Rational),
-    Pi,
-    X,
-    E,
-    Neg,
-    Sqrt,
-    Exp,
-    Log,
-    Sin,
-    Cos,
-    Tan,
-    Atan,
-    Tanh,
-    Abs,
+    Number(Rational), Pi, X, E,
+    Neg, Sqrt, Exp, Log, Sin, Cos, Tan, Atan, Tanh, Abs,
     /// An integer power; the exponent is at most [`MAX_EXPONENT`] in magnitude.
     Power(i32),
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Pow,
-    Min,
-    Max,
+    Add, Sub, Mul, Div, Pow, Min, Max,
 }
+
+#[rustfmt::skip]
+const FUNCTIONS: [(&str, Op); 11] = [
+    ("sqrt", Op::Sqrt), ("exp", Op::Exp), ("log", Op::Log), ("sin", Op::Sin), ("cos", Op::Cos), ("tan", Op::Tan),
+    ("atan", Op::Atan), ("tanh", Op::Tanh), ("abs", Op::Abs), ("min", Op::Min), ("max", Op::Max),
+];
 
 /// A parsed expression: well-formed postfix.
 #[derive(Clone, Debug)]
@@ -102,30 +90,22 @@ impl Parser<'_> {
     }
 
     fn sum(&mut self) -> Parsed {
-        self.product()?;
-        loop {
-            let op = match self.peek() {
-                b'+' => Op::Add,
-                b'-' => Op::Sub,
-                _ => return Ok(()),
-            };
-            self.at += 1;
-            self.product()?;
-            self.push(op)?;
-        }
+        self.left([(b'+', Op::Add), (b'-', Op::Sub)], Self::product)
     }
 
     fn product(&mut self) -> Parsed {
-        self.signed()?;
+        self.left([(b'*', Op::Mul), (b'/', Op::Div)], Self::signed)
+    }
+
+    /// Operands with left-associative operators between them.
+    fn left(&mut self, operators: [(u8, Op); 2], operand: fn(&mut Self) -> Parsed) -> Parsed {
+        operand(self)?;
         loop {
-            let op = match self.peek() {
-                b'*' => Op::Mul,
-                b'/' => Op::Div,
-                _ => return Ok(()),
-            };
+            let next = self.peek();
+            let Some((_, op)) = operators.iter().find(|(symbol, _)| *symbol == next) else { return Ok(()) };
             self.at += 1;
-            self.signed()?;
-            self.push(op)?;
+            operand(self)?;
+            self.push(op.clone())?;
         }
     }
 
@@ -186,22 +166,16 @@ impl Parser<'_> {
         while self.text.get(self.at).is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_') {
             self.at += 1;
         }
-        let function = match &self.text[start..self.at] {
-            b"pi" => return self.push(Op::Pi),
-            b"X" if self.variables => return self.push(Op::X),
-            b"E" if self.variables => return self.push(Op::E),
-            b"sqrt" => Op::Sqrt,
-            b"exp" => Op::Exp,
-            b"log" => Op::Log,
-            b"sin" => Op::Sin,
-            b"cos" => Op::Cos,
-            b"tan" => Op::Tan,
-            b"atan" => Op::Atan,
-            b"tanh" => Op::Tanh,
-            b"abs" => Op::Abs,
-            b"min" => Op::Min,
-            b"max" => Op::Max,
-            _ => return Err(format!("no number, variable or function at byte {start}")),
+        let name = std::str::from_utf8(&self.text[start..self.at]).unwrap_or("");
+        match name {
+            "pi" => return self.push(Op::Pi),
+            "X" if self.variables => return self.push(Op::X),
+            "E" if self.variables => return self.push(Op::E),
+            _ => {}
+        }
+        let Some(function) = FUNCTIONS.iter().find(|function| function.0 == name).map(|function| function.1.clone())
+        else {
+            return Err(format!("no number, variable or function at byte {start}"));
         };
         if !self.accept(b'(') {
             return Err(format!("a function without its argument at byte {start}"));

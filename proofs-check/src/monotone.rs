@@ -56,7 +56,7 @@ fn quotients(op: &Op, u: &Interval, value: &Interval) -> Interval {
         Op::Abs if u.is_nonnegative() => one,
         Op::Abs if u.is_nonpositive() => -one,
         Op::Abs => (-&one).hull(&one),
-        Op::Power(0) => one * 0,
+        Op::Power(0) => Interval::int(0, u.precision()),
         Op::Power(n) => u.powi(n - 1) * i64::from(*n),
         _ => Interval::undefined(u.precision()),
     }

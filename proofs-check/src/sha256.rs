@@ -5,7 +5,7 @@ use rug::Integer;
 /// The first 32 bits of the fractional parts of the `root`-th roots of the first primes, which are the constants of
 /// the standard; computed rather than copied.
 fn constants(count: usize, root: u32) -> Vec<u32> {
-    let is_prime = |n: &u32| (2..*n).take_while(|d| d * d <= *n).all(|d| n % d != 0);
+    let is_prime = |n: &u32| (2..*n).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
     let fraction = |prime: u32| (Integer::from(prime) << (32 * root)).root(root).to_u32_wrapping();
     (2..).filter(is_prime).take(count).map(fraction).collect()
 }

@@ -95,7 +95,6 @@ fn expression(field: &Field<'_>, variables: bool) -> Outcome<Expr> {
 
 /// Which bounding function; the numbers are positions in [`Specification::bounds`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the derivation's b_f, b_fe, ...")]
 pub enum Bound {
     F,
     Fe,
@@ -125,7 +124,6 @@ pub enum AskedSet {
 
 /// A specification that satisfies this rule.
 #[derive(Clone, Debug)]
-#[allow(missing_docs, reason = "the symbols of derivation, section 1")]
 pub struct Specification {
     pub period: Constant,
     pub p_low: Constant,

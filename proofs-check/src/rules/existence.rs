@@ -5,7 +5,6 @@ use crate::interval::Interval;
 use crate::spec::Bound;
 
 /// The bounding functions at (X_p, E_p), b_f and b_fxx at (X_p, 0), and what follows.
-#[allow(missing_docs, reason = "the symbols of derivation, section 4")]
 pub struct Existence {
     pub x_p: Interval,
     pub e_p: Interval,

@@ -13,7 +13,6 @@ use rug::Rational;
 
 /// The free numbers.
 #[derive(Clone, Debug)]
-#[allow(missing_docs, reason = "the symbols of derivation, section 6")]
 pub struct Witness {
     pub pointer: String,
     pub sigma: Rational,

@@ -14,7 +14,6 @@ use rug::Rational;
 
 /// The free numbers.
 #[derive(Clone, Debug)]
-#[allow(missing_docs, reason = "the symbols of derivation, section 5")]
 pub struct Witness {
     /// Where it stands in the file.
     pub pointer: String,
@@ -33,7 +32,6 @@ pub struct Witness {
 }
 
 /// What the conditions, the claim and the constants are about.
-#[allow(missing_docs, reason = "the symbols of derivation, section 5")]
 pub struct Repaired {
     pub existence: Existence,
     pub z: Interval,

@@ -15,7 +15,6 @@ use rug::Rational;
 
 /// The free numbers.
 #[derive(Clone, Debug)]
-#[allow(missing_docs, reason = "the symbols of derivation, sections 4 and 5")]
 pub struct Witness {
     /// Where it stands in the file.
     pub pointer: String,
@@ -36,7 +35,6 @@ pub struct Witness {
 }
 
 /// What the conditions, the claim and the constants are about.
-#[allow(missing_docs, reason = "the symbols of derivation, sections 4 and 5")]
 pub struct Sharp {
     pub existence: Existence,
     pub x_per: Interval,
@@ -51,19 +49,12 @@ pub struct Sharp {
     pub arguments: [Interval; 2],
 }
 
-/// Evaluates all conditions; nothing but the transfer proof, signs and multipliers is decided yet.
+/// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
+    #[rustfmt::skip]
     let named = [
-        ("X_p", &w.x_p),
-        ("E_p", &w.e_p),
-        ("D_x", &w.d_x),
-        ("D_e", &w.d_e),
-        ("p_x", &w.p_x),
-        ("p_e", &w.p_e),
-        ("w_x", &w.w_x),
-        ("h", &w.h),
-        ("k1", &w.k1),
-        ("sigma", &w.sigma),
+        ("X_p", &w.x_p), ("E_p", &w.e_p), ("D_x", &w.d_x), ("D_e", &w.d_e), ("p_x", &w.p_x), ("p_e", &w.p_e),
+        ("w_x", &w.w_x), ("h", &w.h), ("k1", &w.k1), ("sigma", &w.sigma),
     ];
     set::positive(&named, &w.pointer)?;
     let [sigma, d_x, d_e, p_x, p_e, w_x, h] =

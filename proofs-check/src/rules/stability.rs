@@ -6,7 +6,6 @@ use crate::spec::Bound;
 use rug::Rational;
 
 /// What the plant's data give on the error box |xt| <= D_x, |et| <= D_e around |x| <= x_per, |e| <= e_per.
-#[allow(missing_docs, reason = "the symbols of derivation, section 5")]
 pub struct ErrorBox {
     pub x_b: Interval,
     pub e_b: Interval,

@@ -40,8 +40,7 @@ pub fn tolerance(value: &Interval, relative: f64) -> Rational {
     let (Some(lo), Some(hi)) = (value.lower(), value.upper()) else { return Rational::new() };
     let size = lo.clone().abs().max(hi.clone().abs());
     let relative = Rational::from_f64(relative).unwrap_or_default();
-    // The last term is for figures that are 0 up to rounding.
-    size * relative + (hi - lo) * 4u32 + Rational::from((1, 1_000_000_000_000_000_000_u64)).square()
+    size * relative + (hi - lo) * 4u32
 }
 
 /// An end of a stored enclosure: a decimal, or `inf` where the checker finds no bound either.
