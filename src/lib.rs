@@ -7,6 +7,7 @@
 //! - [`data`]: the numbers of a specification, enclosed at one precision;
 //! - [`transfer`], [`constants`]: the transfer bound, then the constants and conditions in three derivations;
 //! - [`lmi`]: the linear matrix inequality of C5, proposed by a solver and verified exactly, as a cross-check;
+//! - [`lyapunov`]: P_x(t) and the Lyapunov triple for a Jacobian, proposed by a solver and proved for every t;
 //! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
 //! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
 //! - [`report`], [`errata`]: what a person reads.
@@ -20,6 +21,7 @@ pub mod enclosure;
 pub mod errata;
 pub mod expr;
 pub mod lmi;
+pub mod lyapunov;
 pub mod number;
 pub mod report;
 pub mod search;

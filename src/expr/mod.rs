@@ -87,6 +87,13 @@ impl Expr {
         Ok(Expr { text: text.into(), nodes: nodes.into() })
     }
 
+    /// The constant 0.
+    #[must_use]
+    pub fn zero() -> Expr {
+        let node = Node { kind: syntax::NodeKind::Number(rug::Rational::new()), span: 0..1 };
+        Expr { text: "0".into(), nodes: Arc::new([node]) }
+    }
+
     /// The source text, exactly as it was parsed.
     #[must_use]
     pub fn text(&self) -> &str {

@@ -53,8 +53,23 @@ impl TrigonometricPolynomial {
         std::iter::once([self.mean.clone(), zero]).chain(halves).collect()
     }
 
+    /// The product with a number.
+    #[must_use]
+    pub fn scaled(&self, factor: &Enclosure) -> TrigonometricPolynomial {
+        let harmonics = self.harmonics.iter().map(|[a, b]| [a * factor, b * factor]).collect();
+        TrigonometricPolynomial { mean: &self.mean * factor, harmonics }
+    }
+
+    /// The derivative with respect to the angle w t.
+    #[must_use]
+    pub fn derivative(&self) -> TrigonometricPolynomial {
+        let harmonics = self.harmonics.iter().zip(1_i64..).map(|([a, b], k)| [b * k, (a * k).negate()]).collect();
+        TrigonometricPolynomial { mean: Enclosure::zero(self.mean.precision()), harmonics }
+    }
+
     /// The sum of the two, the second multiplied by `sign`.
-    fn plus(&self, other: &TrigonometricPolynomial, sign: i64) -> TrigonometricPolynomial {
+    #[must_use]
+    pub fn plus(&self, other: &TrigonometricPolynomial, sign: i64) -> TrigonometricPolynomial {
         let zero = Enclosure::zero(self.mean.precision());
         let none = [zero.clone(), zero];
         let count = self.harmonics.len().max(other.harmonics.len());
@@ -70,7 +85,14 @@ impl TrigonometricPolynomial {
     }
 
     /// The product: the convolution of the complex coefficients.
-    fn times(&self, other: &TrigonometricPolynomial) -> TrigonometricPolynomial {
+    #[must_use]
+    pub fn times(&self, other: &TrigonometricPolynomial) -> TrigonometricPolynomial {
+        if other.harmonics.is_empty() {
+            return self.scaled(&other.mean);
+        }
+        if self.harmonics.is_empty() {
+            return other.scaled(&self.mean);
+        }
         let (left, right) = (self.complex(), other.complex());
         let precision = self.mean.precision();
         let at = |list: &[[Enclosure; 2]], k: i64| {
