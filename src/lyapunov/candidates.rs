@@ -1,4 +1,4 @@
-//! Proved triples for a Jacobian: from the largest rate that was found down to the smallest ratio p_up/p_low.
+//! Candidates for a Jacobian: from the largest rate that was found down to the smallest ratio p_up/p_low.
 
 use super::family::Family;
 use super::float::FloatFamily;
@@ -11,14 +11,55 @@ use faer::Mat;
 use rug::Rational;
 use thiserror::Error;
 
-/// What was found for a Jacobian.
-#[derive(Clone, Debug)]
+/// What was found for a Jacobian, in floating point; [`Candidates::prove`] turns a candidate into a proved triple.
 pub struct Candidates {
-    /// Proved triples, none with both a smaller rate and a larger ratio than another; the largest rate first. Not empty.
-    pub proved: Vec<ProvedTriple>,
+    /// Candidates, none with both a smaller rate and a larger ratio than another; the largest rate first. Not empty.
+    pub found: Vec<Candidate>,
     /// The Floquet exponents of the middle of the Jacobian, (real, imaginary) in 1/time, the largest real part first:
     /// floating point, certified by nothing. Minus the first real part bounds every rate that can be proved.
     pub floquet: Vec<[f64; 2]>,
+    family: Family,
+}
+
+/// A P(t) with p_low = 1 and what it seems to give.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// P(t), exactly.
+    pub matrix: PeriodicMatrix,
+    /// The rate in floating point, in 1/time.
+    pub alpha: f64,
+    /// p_up/p_low in floating point.
+    pub ratio: f64,
+}
+
+impl Candidates {
+    /// The proved triple of a candidate: with as little given up of its rate and ratio as the proof needs, at most 1 %.
+    ///
+    /// `None` if it is not proved; nothing is claimed then.
+    #[must_use]
+    pub fn prove(&self, candidate: &Candidate) -> Option<ProvedTriple> {
+        ROOM.iter().find_map(|room| {
+            let triple = ProvedTriple {
+                matrix: candidate.matrix.clone(),
+                p_low: round_f64(1.0 - room, 8, Direction::Down)?,
+                p_up: round_f64(candidate.ratio * (1.0 + room), 8, Direction::Up)?,
+                alpha: round_f64(candidate.alpha * (1.0 - room), 8, Direction::Down)?,
+            };
+            prove(&self.family, &triple).is_ok().then_some(triple)
+        })
+    }
+
+    /// The first candidate that is proved, in the given order.
+    ///
+    /// # Errors
+    /// None of them is.
+    pub fn first_proved<'c>(
+        &self,
+        order: impl IntoIterator<Item = &'c Candidate>,
+    ) -> Result<ProvedTriple, LyapunovFailure> {
+        let rate = -self.floquet.first().map_or(f64::NAN, |first| first[0]);
+        order.into_iter().find_map(|candidate| self.prove(candidate)).ok_or(LyapunovFailure::NotFound { rate })
+    }
 }
 
 /// Why there is no triple.
@@ -56,12 +97,12 @@ const CUTS: [usize; 7] = [1, 2, 4, 8, 12, 16, 24];
 /// What is given up of rate and ratio for the proof, tried in turn: rounding only, and room for cells.
 const ROOM: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-2];
 
-/// Proved triples for a Jacobian.
+/// Candidates for a Jacobian.
 ///
-/// Guarantee: every triple in the result is proved ([`prove`]); nothing else is claimed, and a better one may exist.
+/// Guarantee: none before [`Candidates::prove`]; a better triple than all of them may exist.
 ///
 /// # Errors
-/// No triple was found; nothing is claimed about there being none.
+/// Nothing was found; nothing is claimed about there being nothing.
 pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, LyapunovFailure> {
     let family = Family::new(jacobian, period, DEFAULT_PRECISION).ok_or(LyapunovFailure::NotFinite)?;
     let float = FloatFamily::new(&family);
@@ -76,27 +117,22 @@ pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, 
     for degree in DEGREES.into_iter().take_while(|degree| float.degree() > 0 || *degree == 0) {
         let reached = by_programs(&float, degree, limit, &mut proposals);
         // A higher degree is tried while it may reach a larger rate.
-        if reached > 0.97 * limit {
+        best = f64::max(best, reached);
+        if best > 0.97 * limit {
             break;
         }
-        best = f64::max(best, reached);
     }
     by_equation(&float, limit, &mut proposals);
-    let mut proved: Vec<ProvedTriple> = proposals.iter().filter_map(|p| round_and_prove(&family, &float, p)).collect();
-    proved.sort_by(|a, b| b.alpha.cmp(&a.alpha).then_with(|| ratio(a).cmp(&ratio(b))));
-    let mut least: Option<Rational> = None;
-    proved.retain(|triple| {
-        let better = least.as_ref().is_none_or(|least| ratio(triple) < *least);
-        if better {
-            least = Some(ratio(triple));
-        }
+    let mut found: Vec<Candidate> = proposals.iter().filter_map(|p| rounded(&float, p)).collect();
+    found.sort_by(|a, b| b.alpha.total_cmp(&a.alpha).then(a.ratio.total_cmp(&b.ratio)));
+    let mut least = f64::INFINITY;
+    found.retain(|candidate| {
+        let better = candidate.ratio < least;
+        least = least.min(candidate.ratio);
         better
     });
-    if proved.is_empty() { Err(LyapunovFailure::NotFound { rate: limit }) } else { Ok(Candidates { proved, floquet }) }
-}
-
-fn ratio(triple: &ProvedTriple) -> Rational {
-    Rational::from(&triple.p_up / &triple.p_low)
+    let none = LyapunovFailure::NotFound { rate: limit };
+    if found.is_empty() { Err(none) } else { Ok(Candidates { found, floquet, family }) }
 }
 
 /// Collects the P(t) of a degree with the smallest ratio at shares of the largest rate; returns the rate.
@@ -135,8 +171,8 @@ fn by_equation(family: &FloatFamily, limit: f64, proposals: &mut Vec<Vec<Mat<f64
     }
 }
 
-/// Rounds a proposal to short decimals with p_low = 1, and proves what it gives.
-fn round_and_prove(family: &Family, float: &FloatFamily, proposal: &[Mat<f64>]) -> Option<ProvedTriple> {
+/// Rounds a proposal to short decimals, with p_low = 1.
+fn rounded(float: &FloatFamily, proposal: &[Mat<f64>]) -> Option<Candidate> {
     let given = float.assess(proposal)?;
     // Ten decimals next to an eigenvalue of 1: far below the room.
     const DECIMALS: f64 = 1e10;
@@ -151,13 +187,5 @@ fn round_and_prove(family: &Family, float: &FloatFamily, proposal: &[Mat<f64>]) 
     let harmonics: Option<Vec<[Vec<Vec<Rational>>; 2]>> =
         waves.chunks(2).map(|pair| Some([exact(&pair[0])?, exact(&pair[1])?])).collect();
     let matrix = PeriodicMatrix { mean: exact(mean)?, harmonics: harmonics? };
-    ROOM.iter().find_map(|room| {
-        let triple = ProvedTriple {
-            matrix: matrix.clone(),
-            p_low: round_f64(1.0 - room, 8, Direction::Down)?,
-            p_up: round_f64(given.ratio() * (1.0 + room), 8, Direction::Up)?,
-            alpha: round_f64(given.alpha * (1.0 - room), 8, Direction::Down)?,
-        };
-        prove(family, &triple).is_ok().then_some(triple)
-    })
+    Some(Candidate { matrix, alpha: given.alpha, ratio: given.ratio() })
 }

@@ -4,7 +4,7 @@
 //! - [`float`]: the same in floating point, Floquet exponents, what P gives at sampled times;
 //! - [`propose`]: P(t) by semidefinite programs, and by the periodic Lyapunov equation;
 //! - [`prove`]: the two inequalities for a rational P(t), for every t and every member of the family;
-//! - [`candidates`]: proved triples from the largest rate down to the smallest ratio p_up/p_low.
+//! - [`candidates`](mod@candidates): candidates from the largest rate down to the smallest ratio p_up/p_low.
 
 mod candidates;
 mod family;
@@ -12,6 +12,6 @@ mod float;
 mod propose;
 mod prove;
 
-pub use candidates::{Candidates, LyapunovFailure, candidates};
+pub use candidates::{Candidate, Candidates, LyapunovFailure, candidates};
 pub use family::{Deviation, Family};
 pub use prove::{NotProved, ProvedTriple, prove};

@@ -24,7 +24,7 @@ mod verdict;
 
 pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
 pub use errata::ErrataReport;
-pub use failures::{bounding_errors, failure_json};
+pub use failures::{bounding_errors, failure_json, jacobian_errors};
 pub use json::{FORMAT, VERSION};
 pub use relative_degree::filter_errors;
 pub use verdict::sentence;
