@@ -16,9 +16,12 @@ pub struct Resolution {
     pub spec: Specification,
     /// Every candidate, and the Floquet exponents.
     pub candidates: Candidates,
-    /// sigma* of each candidate in floating point, where the search found one; in the order of the candidates.
+    /// sigma* of each candidate in floating point, where the search was run and found one; in the order of the candidates.
     pub sigmas: Vec<Option<f64>>,
 }
+
+/// So many candidates in a row without a smaller sigma* end the search for one.
+const GIVE_UP: usize = 3;
 
 /// Finds and proves a triple for the Jacobian of a specification: of the candidates, the one whose sigma* comes out smallest
 /// in floating point.
@@ -40,7 +43,15 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
             (model.p_low, model.p_up, model.alpha) = (1.0, candidate.ratio, candidate.alpha);
             search_sharp(&model).ok().map(|proposal| proposal.sigma)
         };
-        let sigmas: Vec<Option<f64>> = candidates.found.iter().map(&mut sigma).collect();
+        let mut sigmas: Vec<Option<f64>> = Vec::new();
+        // From the largest rate down; past the best, sigma* grows with the loss of rate.
+        let (mut best, mut worse) = (f64::INFINITY, 0);
+        for candidate in &candidates.found {
+            let found = if worse < GIVE_UP { sigma(candidate) } else { None };
+            worse = if found.is_some_and(|sigma| sigma < best) || best.is_infinite() { 0 } else { worse + 1 };
+            best = best.min(found.unwrap_or(f64::INFINITY));
+            sigmas.push(found);
+        }
         let rank = |at: &usize| sigmas[*at].unwrap_or(f64::INFINITY);
         let mut order: Vec<usize> = (0..sigmas.len()).collect();
         // Stable: where no sigma* is found, the largest rate comes first.

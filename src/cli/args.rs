@@ -43,6 +43,10 @@ pub enum Command {
     ///
     /// With a specification, also says what each item means for it.
     Errata(ErrataArgs),
+    /// Find and prove the Lyapunov triple of a specification with a Jacobian
+    ///
+    /// Prints P, the triple that is proved for every t, and the Floquet exponents (floating point) beside.
+    Lyapunov(LyapunovArgs),
     /// Write a completion script for a shell to standard output
     Completions {
         /// The shell
@@ -130,6 +134,18 @@ pub struct ErrataArgs {
     pub spec: Option<PathBuf>,
 
     /// Format of the list
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// The flags of `lyapunov`.
+#[derive(Args, Debug)]
+pub struct LyapunovArgs {
+    /// Bounding specification (JSON) with a Jacobian, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
 }

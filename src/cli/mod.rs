@@ -5,6 +5,7 @@ mod certify;
 mod errata;
 mod failure;
 mod input;
+mod lyapunov;
 mod output;
 mod pages;
 
@@ -27,6 +28,7 @@ pub fn run() -> ExitCode {
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
         Command::Errata(args) => errata::run(&args),
+        Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),
     };

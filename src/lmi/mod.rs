@@ -6,6 +6,7 @@
 //! - [`propose`]: the smallest sigma and the multipliers of C5, well scaled, in floating point;
 //! - [`ldl`]: exact definiteness of small matrices, and their leading minors;
 //! - [`residual`]: definiteness of larger ones, exactly or within errors;
+//! - [`perron`]: C3 with weights, as a linear program and as a diagonal Stein inequality;
 //! - [`cross_check`]: the matrix inequality against the closed form of C5 on a certificate.
 //!
 //! Nothing that comes out of the solver is a claim: it is rounded to rationals and verified, or dropped.
@@ -14,11 +15,12 @@ pub mod affine;
 mod cross_check;
 pub mod decay;
 pub mod ldl;
+pub mod perron;
 pub mod propose;
 pub mod residual;
 pub mod solve;
 
-pub use cross_check::{CrossCheck, CrossCheckError, cross_check};
+pub use cross_check::{AGREEMENT, CrossCheck, CrossCheckError, cross_check};
 pub use decay::{DecayData, verify_decay};
 pub use ldl::{is_positive_definite, leading_minors};
 pub use residual::ScaledMatrix;

@@ -12,7 +12,9 @@ mod errata;
 mod exact_regulation;
 mod failures;
 mod json;
+mod lyapunov;
 mod markdown;
+mod matrix_checks;
 mod number;
 mod obstacles;
 mod printed;
@@ -26,6 +28,7 @@ pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
 pub use errata::ErrataReport;
 pub use failures::{bounding_errors, failure_json, jacobian_errors};
 pub use json::{FORMAT, VERSION};
+pub use lyapunov::LyapunovReport;
 pub use relative_degree::filter_errors;
 pub use verdict::sentence;
 
@@ -72,6 +75,7 @@ impl<'r> Report<'r> {
         }
         blocks.extend(sets::section(run));
         blocks.extend(conditions::section(run));
+        blocks.extend(matrix_checks::section(run));
         blocks.extend(constants::section(run));
         blocks.extend(printed::section(run, self.rechecked));
         blocks.extend(sensitivity::section(run));
