@@ -10,6 +10,7 @@
 //! - [`lyapunov`]: P_x(t) and the Lyapunov triple for a Jacobian, proposed by a solver and proved for every t;
 //! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
 //! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
+//! - [`rate`]: rates of convergence for a given number of oscillators;
 //! - [`report`], [`errata`]: what a person reads.
 //!
 //! Nothing below the command line knows it, and every arrow goes one way.
@@ -23,6 +24,7 @@ pub mod expr;
 pub mod lmi;
 pub mod lyapunov;
 pub mod number;
+pub mod rate;
 pub mod report;
 pub mod search;
 pub mod spec;

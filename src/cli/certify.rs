@@ -71,7 +71,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
 }
 
 /// The specification with a proved triple, where it has a Jacobian: that of the witness, or one that is found.
-fn triple(spec: &Specification, witness: Option<&Document>) -> Result<Option<Specification>, Failure> {
+pub(super) fn triple(spec: &Specification, witness: Option<&Document>) -> Result<Option<Specification>, Failure> {
     if spec.lyapunov.triple().is_some() {
         return Ok(None);
     }

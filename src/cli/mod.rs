@@ -8,6 +8,7 @@ mod input;
 mod lyapunov;
 mod output;
 mod pages;
+mod rate;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -29,6 +30,7 @@ pub fn run() -> ExitCode {
         Command::Certify(args) => certify::run(&args),
         Command::Errata(args) => errata::run(&args),
         Command::Lyapunov(args) => lyapunov::run(&args),
+        Command::Rate(args) => rate::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),
     };

@@ -18,6 +18,7 @@ mod matrix_checks;
 mod number;
 mod obstacles;
 mod printed;
+mod rate;
 mod relative_degree;
 mod sensitivity;
 mod sets;
@@ -29,6 +30,7 @@ pub use errata::ErrataReport;
 pub use failures::{bounding_errors, failure_json, jacobian_errors};
 pub use json::{FORMAT, VERSION};
 pub use lyapunov::LyapunovReport;
+pub use rate::RateReport;
 pub use relative_degree::filter_errors;
 pub use verdict::sentence;
 
