@@ -2,7 +2,7 @@
 
 use crate::enclosure::Enclosure;
 use crate::expr::Expr;
-use crate::spec::model::Specification;
+use crate::spec::model::{Constant, Lyapunov, Specification};
 
 /// The numbers of a specification as enclosures, and the quantities that follow from them alone.
 ///
@@ -90,8 +90,13 @@ impl<'s> Data<'s> {
     #[must_use]
     pub fn new(spec: &'s Specification, precision: u32) -> Data<'s> {
         let model = &spec.internal_model;
-        let p_low = spec.lyapunov.p_low.enclose(precision);
-        let p_up = spec.lyapunov.p_up.enclose(precision);
+        // Without a proved triple these are undefined, and nothing that needs them can be decided.
+        let triple = spec.lyapunov.triple();
+        let number = |part: fn(&Lyapunov) -> &Constant| {
+            triple.map_or_else(|| Enclosure::undefined(precision), |triple| part(triple).enclose(precision))
+        };
+        let p_low = number(|triple| &triple.p_low);
+        let p_up = number(|triple| &triple.p_up);
         let mu = model.mu.enclose(precision);
         let base_frequency = model.base_frequency.enclose(precision);
         let n_bar_squared = model.weights.total(precision);
@@ -102,7 +107,7 @@ impl<'s> Data<'s> {
             spec,
             precision,
             period: spec.period.enclose(precision),
-            alpha: spec.lyapunov.alpha.enclose(precision),
+            alpha: number(|triple| &triple.alpha),
             c,
             nu: &mu / &base_frequency,
             n_0: model.weights.weight(0, precision),

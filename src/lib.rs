@@ -7,8 +7,10 @@
 //! - [`data`]: the numbers of a specification, enclosed at one precision;
 //! - [`transfer`], [`constants`]: the transfer bound, then the constants and conditions in three derivations;
 //! - [`lmi`]: the linear matrix inequality of C5, proposed by a solver and verified exactly, as a cross-check;
+//! - [`lyapunov`]: P_x(t) and the Lyapunov triple for a Jacobian, proposed by a solver and proved for every t;
 //! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
 //! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
+//! - [`rate`]: rates of convergence for a given number of oscillators;
 //! - [`report`], [`errata`]: what a person reads.
 //!
 //! Nothing below the command line knows it, and every arrow goes one way.
@@ -20,7 +22,9 @@ pub mod enclosure;
 pub mod errata;
 pub mod expr;
 pub mod lmi;
+pub mod lyapunov;
 pub mod number;
+pub mod rate;
 pub mod report;
 pub mod search;
 pub mod spec;

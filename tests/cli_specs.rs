@@ -5,13 +5,14 @@ use std::collections::BTreeSet;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-const CERTIFIED: [&str; 10] = [
+const CERTIFIED: [&str; 11] = [
     "explicit-weights",
     "ill-conditioned",
     "linear",
     "no-x",
     "paper-example",
     "paper-example-at-rest",
+    "paper-example-jacobian",
     "paper-example-rms",
     "paper-example-rms-at-rest",
     "relative-degree-4",

@@ -52,7 +52,14 @@ fn invalid_examples_are_refused_where_they_are_wrong() {
         ("foreign-field", &[(UnknownField, "/initial_set/X0", "\"X0\"")]),
         ("half-a-domain", &[(MissingField, "/domain/E", "\"domain\"")]),
         ("irrational-coefficient", &[(Range, "/relative_degree/a/0", "sqrt(2)")]),
-        ("jacobian", &[(Unsupported, "/lyapunov/jacobian", "[")]),
+        (
+            "jacobian",
+            &[
+                (Range, "/lyapunov/jacobian/0/0", "sin(3*t)"),
+                (Range, "/lyapunov/jacobian/0/1", "["),
+                (Range, "/lyapunov/jacobian/1/0", "-sqrt(3) + t"),
+            ],
+        ),
         (
             "many-errors",
             &[

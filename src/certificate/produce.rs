@@ -2,6 +2,7 @@
 
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::{decide_exact, decide_repaired, decide_sharp};
+use super::matrix_checks::MatrixChecks;
 use super::read::WitnessFile;
 use super::round::{TransferKind, exact_claim, round_repaired, round_sharp};
 use super::run::{
@@ -180,13 +181,14 @@ fn assemble<'s>(
 ) -> Certification<'s> {
     let Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal } = parts;
     let relative_degree = relative_degree_gains(spec, data.precision);
+    let checks = MatrixChecks::new(spec, sharp.proved(), repaired.proved());
     let claimed = |proved: bool| {
         if proved && unproved.is_empty() && exact_failing.is_empty() { Verdict::Certified } else { Verdict::Undecided }
     };
     let verdict = match options.derivation {
         // The filter must be stable: otherwise the plant is not what the specification says.
         _ if matches!(relative_degree, Some(Err(RelativeDegreeError::NotHurwitz(_)))) => Verdict::BadInput,
-        Derivation::Sharp => claimed(sharp.proved().is_some()),
+        Derivation::Sharp => claimed(sharp.proved().is_some() && !checks.disagree()),
         Derivation::Repaired => claimed(repaired.proved().is_some()),
         // Printed can be refuted (E1), never certified.
         Derivation::Printed if printed.refutation.is_some() => Verdict::Refuted,
@@ -211,6 +213,7 @@ fn assemble<'s>(
         relative_degree,
         exact,
         exact_failing,
+        checks,
         sensitivities,
         unproved_bounds: unproved,
         constants,

@@ -4,6 +4,8 @@ use super::write::{FORMAT, VERSION};
 use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::repaired::RepairedWitness;
 use crate::constants::sharp::{ClaimedSet, SharpWitness};
+use crate::lyapunov::ProvedTriple;
+use crate::spec::model::PeriodicMatrix;
 use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
 use crate::transfer::{BoxProof, TransferProof};
 use rug::Rational;
@@ -49,10 +51,56 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<WitnessFile, Reported> 
     file.finish(errors);
     let (claim, witness) = (claim?, witness?);
     let mut fields = witness.object(errors)?;
+    // Read by `read_lyapunov`, where the specification asks for it.
+    let _ = fields.optional("lyapunov");
     let result =
         if claim.repaired { read_repaired(&mut fields, claim, errors) } else { read_sharp(&mut fields, claim, errors) };
     fields.finish(errors);
     result
+}
+
+/// Reads the part `witness.lyapunov` of a certificate: P(t) and the triple, for a specification with a Jacobian.
+///
+/// # Errors
+/// A part that is missing, or fields in it that are missing, unknown or not exact rationals, with their places.
+pub fn read_lyapunov(document: &Document) -> Result<ProvedTriple, SpecErrors> {
+    let mut errors = Errors::new();
+    let outcome = (|| {
+        let root = document.root();
+        let mut file = root.object(&mut errors)?;
+        let witness = file.required("witness", &mut errors)?;
+        let mut witness = witness.object(&mut errors)?;
+        let value = witness.required("lyapunov", &mut errors)?;
+        let mut fields = value.object(&mut errors)?;
+        let mean = fields.required("P", &mut errors).and_then(|value| read_matrix(&value, &mut errors));
+        let mut harmonics = Vec::new();
+        if let Some(value) = fields.optional("harmonics") {
+            for pair in value.array(&mut errors)? {
+                let mut pair = pair.object(&mut errors)?;
+                let [cos, sin] = ["cos", "sin"]
+                    .map(|name| pair.required(name, &mut errors).and_then(|value| read_matrix(&value, &mut errors)));
+                pair.finish(&mut errors);
+                harmonics.push([cos?, sin?]);
+            }
+        }
+        let [p_low, p_up, alpha] = ["p_low", "p_up", "alpha"].map(|name| rational(&mut fields, name, &mut errors));
+        fields.finish(&mut errors);
+        let matrix = PeriodicMatrix { mean: mean?, harmonics };
+        Ok(ProvedTriple { matrix, p_low: p_low?, p_up: p_up?, alpha: alpha? })
+    })();
+    errors.conclude(document, outcome)
+}
+
+fn read_matrix(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
+    let mut rows = Vec::new();
+    for row in value.array(errors)? {
+        let mut entries = Vec::new();
+        for entry in row.array(errors)? {
+            entries.push(exact_rational(&entry, "an entry of a matrix", errors)?);
+        }
+        rows.push(entries);
+    }
+    Ok(rows)
 }
 
 /// What the claim contributes to the witness.

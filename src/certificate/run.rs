@@ -2,6 +2,7 @@
 
 use super::bounding::BoundingProblem;
 use super::decide::Ladder;
+use super::matrix_checks::MatrixChecks;
 use super::verdict::Verdict;
 use crate::constants::condition::Condition;
 use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness};
@@ -178,6 +179,8 @@ pub struct Certification<'s> {
     pub exact: Option<ExactClaim>,
     /// The conditions that are not proved of an exact-regulation claim that was given to be decided again.
     pub exact_failing: Vec<Condition>,
+    /// What the matrix inequalities say; a disagreement keeps the sharp derivation from being certified.
+    pub checks: MatrixChecks,
     /// Which condition sets sigma*, according to the search.
     pub binding: Option<&'static str>,
     /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.

@@ -4,6 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use sigmastar::certificate::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use sigmastar::rate::MAX_OSCILLATORS;
 use std::path::PathBuf;
 
 /// The exit codes, as help and manual page tell them.
@@ -60,6 +61,14 @@ pub enum Command {
     ///
     /// With a specification, also says what each item means for it.
     Errata(ErrataArgs),
+    /// Find and prove the Lyapunov triple of a specification with a Jacobian
+    ///
+    /// Prints P, the triple that is proved for every t, and the Floquet exponents (floating point) beside.
+    Lyapunov(LyapunovArgs),
+    /// Prove rates of convergence for given numbers of oscillators
+    ///
+    /// They tend to 0 as n_o grows, while sigma* does not move. Printed next to the spectral abscissa of the oscillators.
+    Rate(RateArgs),
     /// Write a completion script for a shell to standard output
     Completions {
         /// The shell
@@ -204,6 +213,39 @@ pub struct ErrataArgs {
     pub spec: Option<PathBuf>,
 
     /// Format of the list
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// The flags of `lyapunov`.
+#[derive(Args, Debug)]
+pub struct LyapunovArgs {
+    /// Bounding specification (JSON) with a Jacobian, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// The flags of `rate`.
+#[derive(Args, Debug)]
+pub struct RateArgs {
+    /// Bounding specification (JSON), or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Numbers of oscillators, separated by commas, each at most 200
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "0,1,2,4,8,16",
+          value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_OSCILLATORS)))]
+    pub n_o: Vec<u32>,
+
+    /// The gain, an exact constant of at least sigma*; sigma* itself if absent
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+
+    /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
 }

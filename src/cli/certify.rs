@@ -4,9 +4,11 @@ use super::args::{CertifyArgs, Format};
 use super::failure::Failure;
 use super::input;
 use super::output::{self, OutputFile};
-use sigmastar::certificate::{Certification, certificate_json, certify, read_witness, recheck};
-use sigmastar::report::{Report, TargetKind, bounding_errors, filter_errors};
-use sigmastar::spec::{SpecErrors, Specification};
+use sigmastar::certificate::{
+    Certification, certificate_json, certify, read_lyapunov, read_witness, recheck, resolve, resolve_with,
+};
+use sigmastar::report::{Report, TargetKind, bounding_errors, filter_errors, jacobian_errors};
+use sigmastar::spec::{Document, SpecErrors, Specification};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &CertifyArgs) -> u8 {
@@ -26,13 +28,16 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         let message = "the specification and the witness cannot be the same file";
         return Err(Failure::call(message, "--witness names a certificate written with -o"));
     }
-    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let mut spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let witness = args.witness.as_deref().map(input::document).transpose()?;
+    if let Some(proved) = triple(&spec, witness.as_ref())? {
+        spec = proved;
+    }
 
-    let run = match &args.witness {
+    let run = match &witness {
         None => certify(&spec, args.options()),
-        Some(path) => {
-            let document = input::document(path)?;
-            let witness = read_witness(&document)?;
+        Some(document) => {
+            let witness = read_witness(document)?;
             let made_for = document.at("/specification_sha256");
             if made_for.is_some_and(|digest| digest.text() != Some(&spec.sha256)) && !args.quiet {
                 output::remark("the certificate was made for another specification; its witness is tried on this one");
@@ -63,6 +68,20 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         output::diagnostics(&unproved);
     }
     Ok(run.verdict.exit_code())
+}
+
+/// The specification with a proved triple, where it has a Jacobian: that of the witness, or one that is found.
+pub(super) fn triple(spec: &Specification, witness: Option<&Document>) -> Result<Option<Specification>, Failure> {
+    if spec.lyapunov.triple().is_some() {
+        return Ok(None);
+    }
+    let outcome = match witness {
+        Some(document) => {
+            resolve_with(spec, &read_lyapunov(document)?).map(|outcome| outcome.map_err(|failure| failure.to_string()))
+        }
+        None => resolve(spec).map(|found| found.map(|found| found.spec).map_err(|failure| failure.to_string())),
+    };
+    outcome.transpose().map_err(|message| jacobian_errors(spec, message).into())
 }
 
 /// Writes the certificate, or says why there is none.

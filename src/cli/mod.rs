@@ -6,9 +6,11 @@ mod check;
 mod errata;
 mod failure;
 mod input;
+mod lyapunov;
 mod output;
 mod pages;
 mod progress;
+mod rate;
 mod transfer;
 
 use args::{Cli, Command};
@@ -32,6 +34,8 @@ pub fn run() -> ExitCode {
         Command::Transfer(args) => transfer::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Errata(args) => errata::run(&args),
+        Command::Lyapunov(args) => lyapunov::run(&args),
+        Command::Rate(args) => rate::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),
     };

@@ -1,6 +1,7 @@
 //! The sharp derivation: conditions C1-C5 decided from a rational witness (derivation, sections 4 and 5).
 
 use super::condition::{self, Condition};
+use super::contraction::ContractionMatrix;
 use super::existence::{PeriodicBounds, PeriodicSolution, kappas};
 use super::gains;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
@@ -67,6 +68,8 @@ pub struct SharpEvaluation {
     pub kappa_1: Enclosure,
     /// Z.
     pub z: Enclosure,
+    /// The contraction matrix of C3 at sigma.
+    pub contraction: ContractionMatrix,
     /// The error box.
     pub error_box: ErrorBox,
     /// C5.
@@ -165,7 +168,18 @@ impl SharpEvaluation {
             decay.sigma_threshold.clone(),
             sigma.clone(),
         ));
-        SharpEvaluation { sigma, bounds, periodic, kappa_0, kappa_1, z, error_box, decay, conditions }
+        SharpEvaluation {
+            sigma,
+            bounds,
+            periodic,
+            kappa_0,
+            kappa_1,
+            z,
+            contraction: matrix,
+            error_box,
+            decay,
+            conditions,
+        }
     }
 
     /// The truth of all conditions together.

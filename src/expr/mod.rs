@@ -25,12 +25,14 @@ mod prove;
 mod refute;
 mod slope;
 mod syntax;
+mod trigonometric;
 
 pub use error::{ExprError, ExprErrorKind};
 pub use failure::{BoundingFailure, Counterexample, DomainBox, Evaluation, Property, Reason};
 pub use float::FloatExpr;
 pub use prove::{ProofSettings, prove_bounding};
 pub use slope::Slopes;
+pub use trigonometric::{MAX_HARMONIC, NotTrigonometric, TrigonometricPolynomial};
 
 use std::fmt;
 use std::sync::Arc;
@@ -55,6 +57,8 @@ pub enum Variables {
     None,
     /// X and E.
     XAndE,
+    /// The time t, which takes the place of X: [`Expr::enclose`] is given its value as `x`.
+    Time,
 }
 
 /// A parsed expression with its source text.
@@ -81,6 +85,13 @@ impl Expr {
     pub fn parse(text: &str, variables: Variables) -> Result<Expr, ExprError> {
         let nodes = parse::parse(text, variables)?;
         Ok(Expr { text: text.into(), nodes: nodes.into() })
+    }
+
+    /// The constant 0.
+    #[must_use]
+    pub fn zero() -> Expr {
+        let node = Node { kind: syntax::NodeKind::Number(rug::Rational::new()), span: 0..1 };
+        Expr { text: "0".into(), nodes: Arc::new([node]) }
     }
 
     /// The source text, exactly as it was parsed.

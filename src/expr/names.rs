@@ -42,6 +42,7 @@ fn known(variables: Variables) -> impl Iterator<Item = &'static str> {
     let variables: &[&str] = match variables {
         Variables::None => &[],
         Variables::XAndE => &["X", "E"],
+        Variables::Time => &["t"],
     };
     variables.iter().copied().chain(UNARY.iter().map(|f| f.0)).chain(FOLDED.iter().map(|f| f.0)).chain(["pi"])
 }

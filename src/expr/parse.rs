@@ -5,7 +5,7 @@
 //! product = signed (("*" | "/") signed)*
 //! signed  = ("-" | "+")* power
 //! power   = primary ("^" signed)?
-//! primary = numeral | "pi" | "X" | "E" | name "(" sum ("," sum)* ")" | "(" sum ")"
+//! primary = numeral | "pi" | "X" | "E" | "t" | name "(" sum ("," sum)* ")" | "(" sum ")"
 //! ```
 
 use super::exact::Exact;
@@ -18,6 +18,7 @@ use std::ops::Range;
 
 const OPERAND: &str = "a number, X, E, pi, a function or an opening parenthesis";
 const CONSTANT_OPERAND: &str = "a number, pi, a function or an opening parenthesis";
+const TIME_OPERAND: &str = "a number, t, pi, a function or an opening parenthesis";
 const OPERATOR: &str = "an operator or the end";
 
 /// The nodes of the expression, in postfix order.
@@ -45,6 +46,7 @@ fn operand_words(variables: Variables) -> &'static str {
     match variables {
         Variables::None => CONSTANT_OPERAND,
         Variables::XAndE => OPERAND,
+        Variables::Time => TIME_OPERAND,
     }
 }
 
@@ -208,6 +210,13 @@ impl Parser<'_> {
         let name = &self.text[span.clone()];
         match name {
             "pi" => return self.push(NodeKind::Pi, span.clone()),
+            // The time takes the place of X.
+            "t" if self.variables == Variables::Time => return self.push(NodeKind::X, span.clone()),
+            "X" | "E" if self.variables == Variables::Time => {
+                let kind = ExprErrorKind::UnknownName { name: name.to_owned() };
+                let help = Some("an entry of the Jacobian is a function of t alone".to_owned());
+                return Err(ExprError { kind, span: span.clone(), expected: Some(TIME_OPERAND), help });
+            }
             "X" | "E" if self.variables == Variables::None => {
                 let help = (name == "E").then(|| "Euler's number is exp(1)".to_owned());
                 let kind = ExprErrorKind::VariableInConstant { name: name.to_owned() };

@@ -5,7 +5,7 @@ use std::f64::consts::SQRT_2;
 
 /// The positions (row, column), row <= column, of the upper triangle, column by column: Clarabel's order.
 ///
-/// This is the only place that knows the order; everything else stores and reads entries through it.
+/// Only this module knows the order: everything else stores and reads entries through its functions.
 fn triangle(order: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..order).flat_map(|column| (0..=column).map(move |row| (row, column)))
 }
@@ -28,6 +28,17 @@ impl<T> Symmetric<T> {
     #[must_use]
     pub fn order(&self) -> usize {
         self.order
+    }
+
+    /// The entry (row, column), whichever triangle it is in.
+    ///
+    /// # Panics
+    /// Outside the matrix, as an index of a slice.
+    #[must_use]
+    pub fn at(&self, row: usize, column: usize) -> &T {
+        let (row, column) = (row.min(column), row.max(column));
+        // The position in the order of `triangle`, which goes column by column.
+        &self.entries[column * (column + 1) / 2 + row]
     }
 
     /// The entries of the upper triangle.
@@ -62,6 +73,14 @@ impl Symmetric<f64> {
     #[must_use]
     pub fn cone_vector(&self) -> Vec<f64> {
         self.map(|row, column, value| if row == column { *value } else { SQRT_2 * value }).entries
+    }
+
+    /// The matrix of a vector of that cone; what is missing counts as NaN.
+    #[must_use]
+    pub fn from_cone_vector(order: usize, vector: &[f64]) -> Symmetric<f64> {
+        let values = vector.iter().copied().chain(std::iter::repeat(f64::NAN));
+        let entry = |((row, column), value): ((usize, usize), f64)| if row == column { value } else { value / SQRT_2 };
+        Symmetric { order, entries: triangle(order).zip(values).map(entry).collect() }
     }
 }
 
@@ -179,6 +198,12 @@ mod tests {
     fn the_cone_vector_of_a_matrix_made_by_hand() {
         assert_eq!(by_hand().entries(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
         assert_eq!(by_hand().cone_vector(), [1.0, 2.0 * SQRT_2, 3.0, 4.0 * SQRT_2, 5.0 * SQRT_2, 6.0]);
+        assert_eq!(Symmetric::from_cone_vector(3, &by_hand().cone_vector()), by_hand());
+        assert!(Symmetric::from_cone_vector(2, &[1.0]).entries()[2].is_nan());
+        let all = [[1.0, 2.0, 4.0], [2.0, 3.0, 5.0], [4.0, 5.0, 6.0]];
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            assert_eq!(*by_hand().at(i, j), all[i][j]);
+        }
     }
 
     #[test]

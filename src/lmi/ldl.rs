@@ -21,11 +21,20 @@ pub fn is_positive_definite(matrix: &[Vec<Rational>]) -> bool {
     symmetric && all_pivots_positive(matrix.to_vec())
 }
 
-/// Eliminates in the lower triangle of a square matrix until a pivot is not positive.
-fn all_pivots_positive(mut lower: Vec<Vec<Rational>>) -> bool {
+/// Whether every pivot of a square matrix, of which the lower triangle is read, is positive.
+fn all_pivots_positive(lower: Vec<Vec<Rational>>) -> bool {
+    let order = lower.len();
+    let pivots = pivots(lower);
+    pivots.len() == order && pivots.iter().all(|pivot| *pivot > 0)
+}
+
+/// The pivots of elimination in the lower triangle, up to the first that is not positive.
+fn pivots(mut lower: Vec<Vec<Rational>>) -> Vec<Rational> {
+    let mut pivots = Vec::with_capacity(lower.len());
     for k in 0..lower.len() {
+        pivots.push(lower[k][k].clone());
         if lower[k][k] <= 0 {
-            return false;
+            break;
         }
         let (done, rest) = lower.split_at_mut(k + 1);
         let pivot = &done[k][k];
@@ -37,7 +46,25 @@ fn all_pivots_positive(mut lower: Vec<Vec<Rational>>) -> bool {
             }
         }
     }
-    true
+    pivots
+}
+
+/// The leading principal minors of a symmetric matrix, exactly, up to and including the first that is not positive:
+/// by Sylvester the matrix is positive definite if and only if all are there and all are positive.
+///
+/// The k-th minor is the product of the first k pivots of `M = L D L'`. Only the lower triangle is read; a row that is too
+/// short gives no minors at all. Meant for n <= 20, as [`is_positive_definite`].
+#[must_use]
+pub fn leading_minors(matrix: &[Vec<Rational>]) -> Vec<Rational> {
+    if matrix.iter().any(|row| row.len() != matrix.len()) {
+        return Vec::new();
+    }
+    let mut minor = Rational::from(1);
+    let times = |pivot| {
+        minor *= pivot;
+        minor.clone()
+    };
+    pivots(matrix.to_vec()).into_iter().map(times).collect()
 }
 
 #[cfg(test)]
@@ -66,6 +93,7 @@ mod tests {
         assert!(!is_positive_definite(&exact([[2, 1], [0, 2]])));
         assert!(!is_positive_definite(&[vec![Rational::from(1), Rational::new()]]));
         assert!(!is_positive_definite(&[vec![Rational::from(1)], vec![Rational::new()]]));
+        assert!(leading_minors(&[vec![Rational::from(1), Rational::new()]]).is_empty());
     }
 
     /// The Hilbert matrix of order 20: definite, with a condition number of 10^28.
@@ -103,6 +131,10 @@ mod tests {
             let rational: Vec<Vec<Rational>> =
                 matrix.iter().map(|row| row.iter().map(|x| Rational::from(*x)).collect()).collect();
             prop_assert_eq!(is_positive_definite(&rational), sylvester);
+            // The minors are those of Laplace, up to the first that is not positive.
+            let laplace: Vec<i64> = (1..=order).map(|n| determinant(&leading(n))).collect();
+            let shown = laplace.iter().position(|minor| *minor <= 0).map_or(order, |first| first + 1);
+            prop_assert_eq!(leading_minors(&rational), laplace[..shown].to_vec());
         }
     }
 }

@@ -3,7 +3,7 @@
 // Clarabel's semidefinite cone needs BLAS and LAPACK; naming the crate makes the linker see its symbols.
 extern crate lapack_faer as _;
 
-use super::affine::AffineMatrix;
+use super::affine::{AffineMatrix, Symmetric};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, PSDTriangleConeT, SolverStatus, SupportedConeT,
@@ -30,7 +30,7 @@ pub enum SolverFailure {
     /// The solver claims, without proof, that the cost has no minimum.
     #[error("the solver finds no minimum")]
     Unbounded,
-    /// The solver stopped early or with reduced accuracy; its last point is not used.
+    /// The solver stopped early, or with reduced accuracy where full accuracy was asked for; its last point is not used.
     #[error("the solver stopped without a solution: {0}")]
     Stopped(String),
     /// The solver refused the problem.
@@ -72,6 +72,17 @@ fn settings() -> Result<DefaultSettings<f64>, SolverFailure> {
 /// three problems in a hundred end with reduced accuracy, and at 1e-8 a minimum may be off by some 1e-7.
 const TOLERANCE: f64 = 3e-9;
 
+/// What the solver proposes for a problem.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// The variables.
+    pub x: Vec<f64>,
+    /// The dual matrices, one per constraint: nonnegative, with `cost_k = sum tr(A_k Y)` up to the tolerance.
+    pub duals: Vec<Symmetric<f64>>,
+    /// The solver's own words, where it stopped short of its tolerance: such a point may be tried, and must be reported.
+    pub remark: Option<String>,
+}
+
 /// Minimises `cost . x` subject to `M(x)` positive semidefinite for every M of `constraints`, in floating point.
 ///
 /// Guarantee: none about the result, which is a proposal to be verified; but it is finite, and the solver reached its
@@ -80,6 +91,18 @@ const TOLERANCE: f64 = 3e-9;
 /// # Errors
 /// Every other outcome of the solver, by name, and data that are not finite or do not fit together.
 pub fn minimise(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Vec<f64>, SolverFailure> {
+    let candidate = propose(cost, constraints)?;
+    candidate.remark.map_or(Ok(candidate.x), |status| Err(SolverFailure::Stopped(status)))
+}
+
+/// The same, with the dual matrices, and with the last point of a solver that stopped at reduced accuracy or made no more
+/// progress: [`Candidate::remark`] then says so.
+///
+/// Guarantee: none about the result, which is a proposal to be verified; but it is finite.
+///
+/// # Errors
+/// As for [`minimise`], but for `AlmostSolved` and `InsufficientProgress`.
+pub fn propose(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Candidate, SolverFailure> {
     if let Some(odd) = constraints.iter().find(|constraint| constraint.terms().len() != cost.len()) {
         return Err(SolverFailure::Shape { costs: cost.len(), variables: odd.terms().len() });
     }
@@ -105,18 +128,38 @@ pub fn minimise(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Vec<f
     let mut solver = DefaultSolver::new(&quadratic, cost, &a, &b, &cones, settings()?)
         .map_err(|error| SolverFailure::Refused(error.to_string()))?;
     solver.solve();
-    candidate(solver.solution.status, solver.solution.x)
+    let orders: Vec<usize> = constraints.iter().map(AffineMatrix::order).collect();
+    let solution = solver.solution;
+    candidate(solution.status, solution.x, &solution.z, &orders)
 }
 
-/// Only `Solved` gives a candidate: the statuses of reduced accuracy are failures here.
-fn candidate(status: SolverStatus, x: Vec<f64>) -> Result<Vec<f64>, SolverFailure> {
-    match status {
-        SolverStatus::Solved if x.iter().all(|value| value.is_finite()) => Ok(x),
-        SolverStatus::Solved => Err(SolverFailure::Unusable),
-        SolverStatus::PrimalInfeasible => Err(SolverFailure::Infeasible),
-        SolverStatus::DualInfeasible => Err(SolverFailure::Unbounded),
-        other => Err(SolverFailure::Stopped(other.to_string())),
+/// Only `Solved` gives a candidate without a remark; where the solver came close, its last point is one with a remark.
+fn candidate(status: SolverStatus, x: Vec<f64>, z: &[f64], orders: &[usize]) -> Result<Candidate, SolverFailure> {
+    let remark = match status {
+        SolverStatus::Solved => None,
+        SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => Some(status.to_string()),
+        SolverStatus::PrimalInfeasible => return Err(SolverFailure::Infeasible),
+        SolverStatus::DualInfeasible => return Err(SolverFailure::Unbounded),
+        other => return Err(SolverFailure::Stopped(other.to_string())),
+    };
+    if !x.iter().chain(z).all(|value| value.is_finite()) {
+        return Err(SolverFailure::Unusable);
     }
+    let mut rest = z;
+    let mut duals = Vec::with_capacity(orders.len());
+    for order in orders {
+        let (own, others) = rest.split_at((order * (order + 1) / 2).min(rest.len()));
+        duals.push(Symmetric::from_cone_vector(*order, own));
+        rest = others;
+    }
+    Ok(Candidate { x, duals, remark })
+}
+
+/// The margin with which a constraint is posed, so that its rounded solution can be proved: max{1e-6 |A|, 2 n tol}, where |A|
+/// is the size of the entries of the matrix at the solution, n its order and tol the solver's tolerance.
+#[must_use]
+pub fn margin(size: f64, order: usize) -> f64 {
+    (1e-6 * size).max(2.0 * order as f64 * TOLERANCE)
 }
 
 #[cfg(test)]
@@ -167,13 +210,39 @@ mod tests {
     }
 
     #[test]
-    fn only_solved_gives_a_candidate() {
+    fn only_solved_gives_a_candidate_without_a_remark() {
         use SolverStatus::*;
-        assert_eq!(candidate(Solved, vec![1.0]), Ok(vec![1.0]));
-        assert_eq!(candidate(Solved, vec![f64::NAN]), Err(SolverFailure::Unusable));
-        let others = [Unsolved, AlmostSolved, AlmostPrimalInfeasible, AlmostDualInfeasible, MaxIterations, MaxTime];
-        for status in others.into_iter().chain([NumericalError, InsufficientProgress, CallbackTerminated]) {
-            assert_eq!(candidate(status, vec![1.0]), Err(SolverFailure::Stopped(status.to_string())));
+        let at = |status, x: f64| candidate(status, vec![x], &[3.0], &[1]);
+        let plain = at(Solved, 1.0).expect("solved");
+        assert_eq!((plain.x, plain.duals[0].entries(), plain.remark), (vec![1.0], &[3.0][..], None));
+        assert_eq!(at(Solved, f64::NAN), Err(SolverFailure::Unusable));
+        assert_eq!(candidate(Solved, vec![1.0], &[f64::INFINITY], &[1]), Err(SolverFailure::Unusable));
+        for status in [AlmostSolved, InsufficientProgress] {
+            assert_eq!(at(status, 1.0).expect("tried").remark, Some(status.to_string()));
+            assert_eq!(at(status, f64::NAN), Err(SolverFailure::Unusable));
         }
+        assert_eq!(at(PrimalInfeasible, 1.0), Err(SolverFailure::Infeasible));
+        assert_eq!(at(DualInfeasible, 1.0), Err(SolverFailure::Unbounded));
+        let others = [Unsolved, AlmostPrimalInfeasible, AlmostDualInfeasible, MaxIterations, MaxTime];
+        for status in others.into_iter().chain([NumericalError, CallbackTerminated]) {
+            assert_eq!(at(status, 1.0), Err(SolverFailure::Stopped(status.to_string())));
+        }
+    }
+
+    /// The dual of the least eigenvalue is the projector on its eigenvector, here (1, 0, -1)/sqrt(2).
+    #[test]
+    fn the_dual_matrix_of_a_problem_made_by_hand() {
+        let entries = [[2.0, 0.0, 1.0], [0.0, 5.0, 0.0], [1.0, 0.0, 2.0]];
+        let matrix = AffineMatrix::from_fn(3, 0, |i, j| entries[i][j], |_, _, _| 0.0).minus_identity();
+        let dual = &propose(&[-1.0], &[matrix]).expect("solved").duals[0];
+        for (found, expected) in dual.entries().iter().zip([0.5, 0.0, 0.0, -0.5, 0.0, 0.5]) {
+            assert!((found - expected).abs() <= 1e-6, "{dual:?}");
+        }
+    }
+
+    #[test]
+    fn margins_follow_the_larger_of_size_and_tolerance() {
+        assert_eq!(margin(16.0, 4), 16e-6);
+        assert_eq!(margin(0.0, 4), 8.0 * TOLERANCE);
     }
 }

@@ -3,6 +3,7 @@
 use super::Report;
 use super::consequences::{Consequences, TargetKind, TargetOutcome, full};
 use super::failures::{bounding_errors, errors_json};
+use super::matrix_checks::checks_json;
 use super::number::estimate;
 use super::relative_degree::gains_json;
 use super::sets::Sets;
@@ -53,6 +54,7 @@ pub(super) fn report(report: &Report<'_>) -> Value {
         set("errors", errors_json(&errors));
     }
     set("conditions", conditions_with_truth(run.conditions()));
+    set("matrix_inequalities", checks_json(run));
     set("derivations", derivations(run));
     set("constants", constants_json(&run.constants));
     set("printed", printed(run));

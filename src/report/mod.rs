@@ -12,10 +12,13 @@ mod errata;
 mod exact_regulation;
 mod failures;
 mod json;
+mod lyapunov;
 mod markdown;
+mod matrix_checks;
 mod number;
 mod obstacles;
 mod printed;
+mod rate;
 mod relative_degree;
 mod sensitivity;
 mod sets;
@@ -25,8 +28,10 @@ mod verdict;
 
 pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
 pub use errata::ErrataReport;
-pub use failures::{bounding_errors, failure_json};
+pub use failures::{bounding_errors, failure_json, jacobian_errors};
 pub use json::{FORMAT, VERSION};
+pub use lyapunov::LyapunovReport;
+pub use rate::RateReport;
 pub use relative_degree::filter_errors;
 pub use transfer::{PairChoice, TransferReport, TransferRequest, plot_svg};
 pub use verdict::sentence;
@@ -74,6 +79,7 @@ impl<'r> Report<'r> {
         }
         blocks.extend(sets::section(run));
         blocks.extend(conditions::section(run));
+        blocks.extend(matrix_checks::section(run));
         blocks.extend(constants::section(run));
         blocks.extend(printed::section(run, self.rechecked));
         blocks.extend(sensitivity::section(run));

@@ -6,6 +6,7 @@ use super::obstacles;
 use crate::certificate::{Certification, Derivation, Outcome, Verdict};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
+use crate::spec::model::LyapunovSource;
 use crate::transfer::TransferProof;
 
 /// The verdict in one sentence that a control engineer understands.
@@ -52,9 +53,18 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
     };
     let mut items = vec![derivation.to_owned()];
     let used = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper));
+    let of_the_zero_dynamics = match &run.spec.lyapunov {
+        LyapunovSource::Proved { triple, .. } => {
+            items.push(format!(
+                "Proved for every t and every matrix of the Jacobian: the Lyapunov triple p_low = {}, p_up = {}, alpha = {}.",
+                triple.p_low.text, triple.p_up.text, triple.alpha.text
+            ));
+            "that its Jacobian df/dx(t,0,0) is within the one given"
+        }
+        _ => "the Lyapunov triple (p_low, p_up, alpha)",
+    };
     items.push(format!(
-        "Assumed of the plant: the Lyapunov triple (p_low, p_up, alpha), and that the bounding functions bound the \
-         plant{}.",
+        "Assumed of the plant: {of_the_zero_dynamics}, and that the bounding functions bound the plant{}.",
         used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments"))
     ));
     items.push(

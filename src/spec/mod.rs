@@ -11,6 +11,7 @@ mod constant;
 mod document;
 mod error;
 mod initial_set;
+mod jacobian;
 mod json;
 mod limits;
 pub mod model;
@@ -26,8 +27,12 @@ mod weights_read;
 pub use constant::{any_constant, nonnegative_constant, positive_constant};
 pub use document::{Document, Value};
 pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
+pub use jacobian::MAX_STATES;
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
-pub use model::{Bounds, Constant, Domain, InitialSet, InternalModel, Lyapunov, RelativeDegree, Specification};
+pub use model::{
+    Bounds, Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource,
+    PeriodicMatrix, RelativeDegree, Specification,
+};
 pub use object::Object;
 pub use power_tail::power_tail;
 pub use read::{FORMAT, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};

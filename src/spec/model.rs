@@ -1,8 +1,8 @@
 //! What a bounding specification says, with every number exact.
 
 use crate::enclosure::Enclosure;
-use crate::expr::Expr;
-use crate::number::Monomial;
+use crate::expr::{Expr, Variables};
+use crate::number::{Monomial, write_exact};
 use rug::Rational;
 
 use super::document::Document;
@@ -20,8 +20,8 @@ pub struct Specification {
     pub description: Option<String>,
     /// The period T > 0 of f and q, in units of time.
     pub period: Constant,
-    /// The Lyapunov data of the zero dynamics.
-    pub lyapunov: Lyapunov,
+    /// The Lyapunov data of the zero dynamics, or where they come from.
+    pub lyapunov: LyapunovSource,
     /// The bounding functions.
     pub bounds: Bounds,
     /// Where the bounding functions hold; everywhere when absent.
@@ -67,6 +67,15 @@ impl Constant {
         }
     }
 
+    /// A rational constant.
+    #[must_use]
+    pub fn rational(value: &Rational) -> Constant {
+        let text = write_exact(value);
+        // A decimal or a fraction of two integers; should it be beyond the limits of expressions, its value stands alone.
+        let expr = Expr::parse(&text, Variables::None).unwrap_or_else(|_| Expr::zero());
+        Constant { text, expr, exact: Some(Monomial::rational(value.clone())) }
+    }
+
     /// The exact rational value, if the constant is known to be rational.
     #[must_use]
     pub fn as_rational(&self) -> Option<&Rational> {
@@ -90,6 +99,72 @@ pub struct Lyapunov {
     pub p_up: Constant,
     /// Rate.
     pub alpha: Constant,
+}
+
+/// Where the Lyapunov triple comes from.
+#[derive(Clone, Debug)]
+pub enum LyapunovSource {
+    /// The user vouches for it.
+    Given(Lyapunov),
+    /// It is to be found and proved for this Jacobian (`certificate::resolve`). Until then there is no triple, and nothing
+    /// that needs one is decided.
+    Wanted(Jacobian),
+    /// It was proved for this Jacobian, with this P_x(t).
+    Proved {
+        /// F(t) = df/dx(t,0,0).
+        jacobian: Jacobian,
+        /// The triple.
+        triple: Lyapunov,
+        /// P_x(t).
+        matrix: PeriodicMatrix,
+    },
+}
+
+impl LyapunovSource {
+    /// The triple, given or proved.
+    #[must_use]
+    pub fn triple(&self) -> Option<&Lyapunov> {
+        match self {
+            LyapunovSource::Given(triple) | LyapunovSource::Proved { triple, .. } => Some(triple),
+            LyapunovSource::Wanted(_) => None,
+        }
+    }
+
+    /// The Jacobian, where the specification has one.
+    #[must_use]
+    pub fn jacobian(&self) -> Option<&Jacobian> {
+        match self {
+            LyapunovSource::Wanted(jacobian) | LyapunovSource::Proved { jacobian, .. } => Some(jacobian),
+            LyapunovSource::Given(_) => None,
+        }
+    }
+}
+
+/// F(t) = df/dx(t,0,0), in 1/time: every matrix function whose entries are as described, each for itself.
+#[derive(Clone, Debug)]
+pub struct Jacobian {
+    /// The rows of a square matrix.
+    pub rows: Vec<Vec<JacobianEntry>>,
+    /// The period, where it is known exactly; without it every entry is constant or an interval.
+    pub period: Option<Monomial>,
+}
+
+/// An entry of a Jacobian.
+#[derive(Clone, Debug)]
+pub enum JacobianEntry {
+    /// A constant or a trigonometric polynomial in t with the period of the specification.
+    Function(Expr),
+    /// Any (continuous) function of time with values between the two, lower <= upper.
+    Interval([Constant; 2]),
+}
+
+/// `P(t) = mean + sum_k (cos_k cos(k w t) + sin_k sin(k w t))`, w = 2 pi / period, with symmetric rational matrices.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PeriodicMatrix {
+    /// The rows of the mean.
+    pub mean: Vec<Vec<Rational>>,
+    /// The rows of (cos_k, sin_k) for k = 1, 2, ...; empty for a constant matrix.
+    pub harmonics: Vec<[Vec<Vec<Rational>>; 2]>,
 }
 
 /// Bounding functions of (X, E), upper bounds on |x| <= X, |e| <= E for every t (P:LP1, P:LP2).

@@ -4,7 +4,7 @@ use super::constant::{any_constant, expression, positive_constant, whole};
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
-use super::model::{Bounds, Constant, Domain, InternalModel, Lyapunov, RelativeDegree, Specification};
+use super::model::{Bounds, Constant, Domain, InternalModel, Lyapunov, LyapunovSource, RelativeDegree, Specification};
 use super::object::Object;
 use super::quantity::Quantity;
 use super::weights_read;
@@ -82,7 +82,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
     let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
     let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
-    let lyapunov = object.required("lyapunov", errors).and_then(|value| read_lyapunov(&value, errors));
+    let lyapunov =
+        object.required("lyapunov", errors).and_then(|value| read_lyapunov(&value, period.as_ref().ok(), errors));
     let bounds = object.required("bounds", errors).and_then(|value| read_bounds(&value, errors));
     let domain = object.optional("domain").map(|value| read_domain(&value, errors)).transpose();
     let internal_model = object
@@ -109,17 +110,17 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     })
 }
 
-fn read_lyapunov(value: &Value<'_>, errors: &mut Errors) -> Result<Lyapunov, Reported> {
+fn read_lyapunov(
+    value: &Value<'_>,
+    period: Option<&Constant>,
+    errors: &mut Errors,
+) -> Result<LyapunovSource, Reported> {
     let mut object = value.object(errors)?;
-    if let Some(jacobian) = value.member("jacobian") {
-        let error = jacobian
-            .error(ErrorKind::Unsupported, "`jacobian` is not read by this version")
-            .expected("not read yet")
-            .help(
-                "give the triple instead: \"lyapunov\": { \"p_low\": ..., \"p_up\": ..., \"alpha\": ... } with \
-                 p_low I <= P_x <= p_up I and P_x' + P_x F + F'P_x <= -2 alpha P_x",
-            );
-        return Err(errors.report(error));
+    if value.member("jacobian").is_some() {
+        let jacobian =
+            object.required("jacobian", errors).and_then(|value| super::jacobian::read(&value, period, errors));
+        object.finish_as("next to a Jacobian", errors);
+        return jacobian.map(LyapunovSource::Wanted);
     }
     let p_low = positive_field(&mut object, "p_low", errors);
     let p_up = object.required("p_up", errors).and_then(|value| {
@@ -131,7 +132,7 @@ fn read_lyapunov(value: &Value<'_>, errors: &mut Errors) -> Result<Lyapunov, Rep
     });
     let alpha = positive_field(&mut object, "alpha", errors);
     object.finish(errors);
-    Ok(Lyapunov { p_low: p_low?, p_up: p_up?, alpha: alpha? })
+    Ok(LyapunovSource::Given(Lyapunov { p_low: p_low?, p_up: p_up?, alpha: alpha? }))
 }
 
 fn in_order(p_low: &Constant, p_up: &Constant, value: &Value<'_>, errors: &mut Errors) -> Result<(), Reported> {

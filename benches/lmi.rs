@@ -1,0 +1,60 @@
+//! Verified definiteness: the residual test on matrices of order 400, f64 Cholesky included.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use faer::Mat;
+use sigmastar::enclosure::Truth;
+use sigmastar::lmi::ScaledMatrix;
+use std::hint::black_box;
+
+/// Q diag(values) Q' with a Householder reflection Q, so that the spectrum is known.
+fn with_spectrum(n: usize, values: impl Fn(usize) -> f64) -> Mat<f64> {
+    let direction: Vec<f64> = (0..n).map(|i| ((i * i + 3) % 17) as f64 - 8.0).collect();
+    let norm: f64 = direction.iter().map(|x| x * x).sum();
+    let q = Mat::from_fn(n, n, |i, j| f64::from(i == j) - 2.0 * direction[i] * direction[j] / norm);
+    let scaled = Mat::from_fn(n, n, |i, j| q[(i, j)] * values(j));
+    &scaled * q.transpose()
+}
+
+#[path = "../tests/sdpa/mod.rs"]
+#[allow(dead_code)]
+mod sdpa;
+
+/// Solving a random problem against proving both bounds of its optimum.
+fn bounds(c: &mut Criterion) {
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
+    for (order, variables) in [(3, 2), (6, 4), (12, 8), (20, 12), (30, 20), (40, 20)] {
+        let (problem, _) = sdpa::random(order, variables, 5);
+        let candidate = problem.solve().expect("solved");
+        assert!(problem.verify(&candidate).is_some());
+        c.bench_function(&format!("SDP of order {order}, {variables} variables: solve"), |b| {
+            b.iter(|| one_thread.install(|| black_box(problem.solve())));
+        });
+        c.bench_function(&format!("SDP of order {order}, {variables} variables: verify"), |b| {
+            b.iter(|| one_thread.install(|| black_box(problem.verify(&candidate))));
+        });
+    }
+}
+
+fn definiteness(c: &mut Criterion) {
+    let n = 400;
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
+    for exponent in [3, 13] {
+        let least = 10f64.powi(-exponent);
+        let matrix = with_spectrum(n, |j| least.powf(j as f64 / (n - 1) as f64));
+        let verify = || {
+            let scaled = ScaledMatrix::from_doubles(n, |i, j| matrix[(i, j)], &vec![0.0; n]);
+            scaled.map(|scaled| scaled.is_positive_definite())
+        };
+        assert_eq!(verify(), Some(Truth::True), "1e-{exponent}");
+        c.bench_function(&format!("definite, order 400, least eigenvalue 1e-{exponent}, one thread"), |b| {
+            b.iter(|| one_thread.install(|| black_box(verify())));
+        });
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(10);
+    targets = definiteness, bounds
+}
+criterion_main!(benches);

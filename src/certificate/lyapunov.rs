@@ -1,0 +1,126 @@
+//! The Lyapunov triple of a specification with a Jacobian: chosen, proved, and carried by the certificate.
+
+use crate::data::Data;
+use crate::enclosure::MAX_PRECISION;
+use crate::lyapunov::{Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, candidates, prove};
+use crate::number::write_exact;
+use crate::search::{FloatModel, search_sharp};
+use crate::spec::model::{Constant, Lyapunov, LyapunovSource, PeriodicMatrix, Specification};
+use crate::transfer::TradeOff;
+use rug::Rational;
+use serde_json::{Map, Value};
+
+/// A specification whose triple was found and proved, and what else is known about its Jacobian.
+pub struct Resolution {
+    /// The specification with [`LyapunovSource::Proved`].
+    pub spec: Specification,
+    /// Every candidate, and the Floquet exponents.
+    pub candidates: Candidates,
+    /// sigma* of each candidate in floating point, where the search was run and found one; in the order of the candidates.
+    pub sigmas: Vec<Option<f64>>,
+}
+
+/// So many candidates in a row without a smaller sigma* end the search for one.
+const GIVE_UP: usize = 3;
+
+/// Finds and proves a triple for the Jacobian of a specification: of the candidates, the one whose sigma* comes out smallest
+/// in floating point.
+///
+/// Guarantee: the triple is proved for every t and every matrix of the Jacobian. That no other gives a smaller sigma* is
+/// not claimed. `None` if the specification has a triple already.
+///
+/// # Errors
+/// No triple was found.
+pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailure>> {
+    let LyapunovSource::Wanted(jacobian) = &spec.lyapunov else { return None };
+    Some(candidates(jacobian, &spec.period).and_then(|candidates| {
+        let data = Data::new(spec, 64);
+        // The transfer constants hardly move the best triple: the cheap ones do.
+        let trade_off =
+            if spec.internal_model.matched { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
+        let mut model = FloatModel::new(&data, trade_off);
+        let mut sigma = |candidate: &Candidate| {
+            (model.p_low, model.p_up, model.alpha) = (1.0, candidate.ratio, candidate.alpha);
+            search_sharp(&model).ok().map(|proposal| proposal.sigma)
+        };
+        let mut sigmas: Vec<Option<f64>> = Vec::new();
+        // From the largest rate down; past the best, sigma* grows with the loss of rate.
+        let (mut best, mut worse) = (f64::INFINITY, 0);
+        for candidate in &candidates.found {
+            let found = if worse < GIVE_UP { sigma(candidate) } else { None };
+            worse = if found.is_some_and(|sigma| sigma < best) || best.is_infinite() { 0 } else { worse + 1 };
+            best = best.min(found.unwrap_or(f64::INFINITY));
+            sigmas.push(found);
+        }
+        let rank = |at: &usize| sigmas[*at].unwrap_or(f64::INFINITY);
+        let mut order: Vec<usize> = (0..sigmas.len()).collect();
+        // Stable: where no sigma* is found, the largest rate comes first.
+        order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+        let triple = candidates.first_proved(order.iter().map(|at| &candidates.found[*at]))?;
+        Ok(Resolution { spec: with_triple(spec, &triple), candidates, sigmas })
+    }))
+}
+
+/// Decides the triple of a certificate for the Jacobian of a specification again. `None` if the specification has no Jacobian
+/// whose triple is wanted.
+///
+/// # Errors
+/// The inequality that is not proved.
+pub fn resolve_with(spec: &Specification, triple: &ProvedTriple) -> Option<Result<Specification, NotProved>> {
+    let LyapunovSource::Wanted(jacobian) = &spec.lyapunov else { return None };
+    let mut precision = 128;
+    loop {
+        // The reader has refused entries that are no polynomials of the period.
+        let family = Family::new(jacobian, &spec.period, precision);
+        match family.map_or(Err(NotProved::Shape), |family| prove(&family, triple)) {
+            Err(NotProved::Inequality { .. }) if precision < MAX_PRECISION => precision *= 4,
+            outcome => return Some(outcome.map(|()| with_triple(spec, triple))),
+        }
+    }
+}
+
+fn with_triple(spec: &Specification, proved: &ProvedTriple) -> Specification {
+    let mut spec = spec.clone();
+    if let Some(jacobian) = spec.lyapunov.jacobian().cloned() {
+        let triple = Lyapunov {
+            p_low: Constant::rational(&proved.p_low),
+            p_up: Constant::rational(&proved.p_up),
+            alpha: Constant::rational(&proved.alpha),
+        };
+        spec.lyapunov = LyapunovSource::Proved { jacobian, triple, matrix: proved.matrix.clone() };
+    }
+    spec
+}
+
+fn rows(matrix: &[Vec<Rational>]) -> Value {
+    let row = |row: &Vec<Rational>| Value::Array(row.iter().map(|entry| Value::from(write_exact(entry))).collect());
+    Value::Array(matrix.iter().map(row).collect())
+}
+
+/// P(t) as fields: `P` are the rows of the mean, and `harmonics`, where there are any, lists `cos` and `sin` of k = 1, 2, ...
+#[must_use]
+pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
+    let mut fields = Map::new();
+    fields.insert("P".to_owned(), rows(&matrix.mean));
+    if !matrix.harmonics.is_empty() {
+        let one = |[cos, sin]: &[Vec<Vec<Rational>>; 2]| {
+            let mut pair = Map::new();
+            pair.insert("cos".to_owned(), rows(cos));
+            pair.insert("sin".to_owned(), rows(sin));
+            Value::Object(pair)
+        };
+        fields.insert("harmonics".to_owned(), Value::Array(matrix.harmonics.iter().map(one).collect()));
+    }
+    fields
+}
+
+/// The part `witness.lyapunov` of a certificate: P(t) and the triple; `None` where the user gave the triple.
+#[must_use]
+pub fn lyapunov_json(spec: &Specification) -> Option<Value> {
+    let LyapunovSource::Proved { triple, matrix, .. } = &spec.lyapunov else { return None };
+    let mut fields = matrix_json(matrix);
+    for (name, value) in [("p_low", &triple.p_low), ("p_up", &triple.p_up), ("alpha", &triple.alpha)] {
+        fields.insert(name.to_owned(), Value::from(value.text.clone()));
+    }
+    Some(Value::Object(fields))
+}

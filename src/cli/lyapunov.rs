@@ -1,0 +1,30 @@
+//! `sigmastar lyapunov`.
+
+use super::args::{Format, LyapunovArgs};
+use super::failure::Failure;
+use super::{input, output};
+use sigmastar::certificate::resolve;
+use sigmastar::report::{LyapunovReport, jacobian_errors};
+use sigmastar::spec::Specification;
+
+/// Runs the command and returns the exit code.
+pub fn run(args: &LyapunovArgs) -> u8 {
+    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, false))
+}
+
+fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
+    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let given = || {
+        let message = "this specification gives its Lyapunov triple, and there is no Jacobian to find one for";
+        Failure::call(message, "write \"lyapunov\": { \"jacobian\": [[...], ...] } in it")
+    };
+    let resolution = resolve(&spec).ok_or_else(given)?;
+    let resolution = resolution.map_err(|failure| jacobian_errors(&spec, failure.to_string()))?;
+    let report = LyapunovReport::new(resolution).ok_or_else(given)?;
+    let text = match args.format {
+        Format::Text => report.text(),
+        Format::Markdown => report.markdown(),
+        Format::Json => output::json_text(&report.json()),
+    };
+    Ok(output::data(&text).map_or_else(|code| code, |()| 0))
+}

@@ -1,0 +1,350 @@
+//! The proof of a triple: p_low I <= P(t) <= p_up I and P' + P F + F'P <= -2 alpha P for every t and every F of the family.
+//!
+//! P and the centre of F are trigonometric polynomials in the angle a = w t, so the three matrices
+//! `P - p_low I`, `p_up I - P` and `-(P' + P F + F'P + 2 alpha P)` are too, of known degree, with enclosed coefficients. The
+//! last is affine in the deviation of F, which may change with time: at each t it is enough that it is positive definite at
+//! the vertices. With a ball of radius r instead, `|P D + D'P| <= 2 p_up r` is taken from the diagonal.
+//!
+//! For every angle: on a cell of half-width h around a_0, `Q(a) = Q(a_0) + (a - a_0) Q'(a_0) + R` with
+//! `|R_ij| <= h^2/2 sum_k k^2 (|a_k| + |b_k|)`. The affine part is positive definite on the cell if it is at both ends; the row sums
+//! of the bounds of R are taken from the diagonal. Cells that are not proved are halved. They cover [0, 2 pi].
+
+use super::family::{Deviation, Family};
+use crate::enclosure::Enclosure;
+use crate::expr::TrigonometricPolynomial;
+use crate::lmi::ScaledMatrix;
+use crate::spec::model::PeriodicMatrix;
+use rayon::prelude::*;
+use rug::Rational;
+use thiserror::Error;
+
+/// A proved triple with its witness.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProvedTriple {
+    /// P(t).
+    pub matrix: PeriodicMatrix,
+    /// `p_low I <= P(t)`.
+    pub p_low: Rational,
+    /// `P(t) <= p_up I`.
+    pub p_up: Rational,
+    /// The rate, in 1/time.
+    pub alpha: Rational,
+}
+
+/// Which inequality could not be proved, and where.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum NotProved {
+    /// Matrices that are not symmetric, or not of the order of the Jacobian, or numbers that are not positive.
+    #[error("P is not symmetric of the order of the Jacobian, or p_low, p_up or alpha is not positive")]
+    Shape,
+    /// One of the inequalities.
+    #[error("{what} is not proved at the angle 2 pi t/period = {angle}")]
+    Inequality {
+        /// In words.
+        what: &'static str,
+        /// Near which angle, in radians.
+        angle: f64,
+    },
+}
+
+/// Cells are halved at most this many times.
+const MAX_HALVINGS: u32 = 11;
+
+/// Proves the two inequalities of the triple.
+///
+/// Guarantee: if `Ok`, then for every t and every F of the family, P(t) being periodic with its period:
+/// p_low I <= P(t) <= p_up I with 0 < p_low, and P' + P F + F'P <= -2 alpha P with alpha > 0 (strictly, in fact).
+///
+/// # Errors
+/// The first inequality that is not proved; this says nothing about its truth.
+pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
+    let order = family.order();
+    let ProvedTriple { matrix, p_low, p_up, alpha } = witness;
+    let parts = || std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten());
+    let square = |rows: &Vec<Vec<Rational>>| rows.len() == order && rows.iter().all(|row| row.len() == order);
+    let symmetric = |rows: &Vec<Vec<Rational>>| (0..order).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]));
+    let positive = [p_low, p_up, alpha].iter().all(|number| **number > 0);
+    // A matrix that varies needs a period that the family is known to have; a constant one has every period.
+    if order == 0 || !positive || !parts().all(|rows| square(rows) && symmetric(rows)) {
+        return Err(NotProved::Shape);
+    }
+    let precision = family.frequency.precision();
+    let rational = |value: &Rational| Enclosure::from_rational(value, precision);
+    let p: Vec<Vec<TrigonometricPolynomial>> = (0..order)
+        .map(|i| {
+            (0..order)
+                .map(|j| TrigonometricPolynomial {
+                    mean: rational(&matrix.mean[i][j]),
+                    harmonics: matrix.harmonics.iter().map(|[a, b]| [rational(&a[i][j]), rational(&b[i][j])]).collect(),
+                })
+                .collect()
+        })
+        .collect();
+    let shifted = |scale: i64, shift: &Rational| {
+        Entries::new(order, |i, j| {
+            let mut entry = p[i][j].scaled(&Enclosure::from_integer(scale, precision));
+            if i == j {
+                entry.mean = entry.mean + rational(shift);
+            }
+            entry
+        })
+    };
+    shifted(1, &Rational::from(-p_low)).is_positive_definite("p_low I <= P")?;
+    shifted(-1, p_up).is_positive_definite("P <= p_up I")?;
+    let twice_alpha = rational(alpha) * 2;
+    let centre = Entries::new(order, |i, j| {
+        let mut sum = p[i][j].derivative().scaled(&family.frequency).plus(&p[i][j].scaled(&twice_alpha), 1);
+        for k in 0..order {
+            sum = sum.plus(&p[i][k].times(&family.centre[k][j]), 1).plus(&p[k][j].times(&family.centre[k][i]), 1);
+        }
+        sum.scaled(&Enclosure::from_integer(-1, precision))
+    });
+    const DECAY: &str = "P' + P F + F'P <= -2 alpha P";
+    match &family.deviation {
+        Deviation::Vertices(vertices) => vertices.iter().try_for_each(|vertex| {
+            let at_vertex = Entries::new(order, |i, j| {
+                let mut entry = centre.at(i, j).clone();
+                for (row, column, offset) in vertex {
+                    // (P D)_ij has P_i,row D_row,j, and (D'P)_ij has D_row,i P_row,j.
+                    if *column == j {
+                        entry = entry.plus(&p[i][*row].scaled(offset), -1);
+                    }
+                    if *column == i {
+                        entry = entry.plus(&p[*row][j].scaled(offset), -1);
+                    }
+                }
+                entry
+            });
+            at_vertex.is_positive_definite(DECAY)
+        }),
+        Deviation::Ball(radius) => {
+            let taken = rational(p_up) * radius * 2;
+            let at_worst = Entries::new(order, |i, j| {
+                let mut entry = centre.at(i, j).clone();
+                if i == j {
+                    entry.mean = entry.mean - &taken;
+                }
+                entry
+            });
+            at_worst.is_positive_definite(DECAY)
+        }
+    }
+}
+
+/// The lower triangle of a symmetric matrix of trigonometric polynomials.
+struct Entries {
+    order: usize,
+    lower: Vec<TrigonometricPolynomial>,
+}
+
+impl Entries {
+    fn new(order: usize, entry: impl Fn(usize, usize) -> TrigonometricPolynomial) -> Entries {
+        let lower = (0..order).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| entry(i, j)).collect();
+        Entries { order, lower }
+    }
+
+    fn at(&self, i: usize, j: usize) -> &TrigonometricPolynomial {
+        let (row, column) = (i.max(j), i.min(j));
+        &self.lower[row * (row + 1) / 2 + column]
+    }
+
+    /// Proves that the matrix is positive definite at every angle.
+    fn is_positive_definite(&self, what: &'static str) -> Result<(), NotProved> {
+        let degree = self.lower.iter().map(|entry| entry.harmonics.len()).max().unwrap_or(0);
+        let failure = |angle: f64| NotProved::Inequality { what, angle };
+        if degree == 0 {
+            let proved = definite(self.order, |i, j| self.at(i, j).mean.clone());
+            return if proved { Ok(()) } else { Err(failure(0.0)) };
+        }
+        let precision = self.lower[0].mean.precision();
+        // Row sums of the bounds of the second derivative.
+        let curvature: Vec<Enclosure> = (0..self.order)
+            .map(|i| {
+                (0..self.order).fold(Enclosure::zero(precision), |sum, j| {
+                    self.at(i, j)
+                        .harmonics
+                        .iter()
+                        .zip(1_i64..)
+                        .fold(sum, |sum, ([a, b], k)| sum + (a.abs() + b.abs()).ceiling() * (k * k))
+                })
+            })
+            .collect();
+        let cells = 8 * (degree as i64 + 1);
+        // 2 pi < 62832/10000.
+        let width = Rational::from((62_832, 10_000)) / cells;
+        (0..cells).into_par_iter().try_for_each(|cell| {
+            let mut stack: Vec<(Rational, Rational, u32)> =
+                vec![(Rational::from(&width * cell) + Rational::from(&width / 2), width.clone() / 2, 0)];
+            while let Some((angle, half, halvings)) = stack.pop() {
+                if self.holds_on(&angle, &half, degree, &curvature) {
+                    continue;
+                }
+                if halvings == MAX_HALVINGS {
+                    return Err(failure(angle.to_f64()));
+                }
+                let quarter: Rational = half / 2;
+                stack.push((Rational::from(&angle - &quarter), quarter.clone(), halvings + 1));
+                stack.push((angle + &quarter, quarter, halvings + 1));
+            }
+            Ok(())
+        })
+    }
+
+    /// Whether the matrix is proved to be positive definite at every angle within `half` of `angle`.
+    fn holds_on(&self, angle: &Rational, half: &Rational, degree: usize, curvature: &[Enclosure]) -> bool {
+        let precision = curvature[0].precision();
+        let angle = Enclosure::from_rational(angle, precision);
+        let waves: Vec<[Enclosure; 2]> = (1..=degree as i64)
+            .map(|k| {
+                let angle = &angle * k;
+                [angle.cos(), angle.sin()]
+            })
+            .collect();
+        let value_and_slope: Vec<[Enclosure; 2]> = self
+            .lower
+            .iter()
+            .map(|entry| {
+                let start = [entry.mean.clone(), Enclosure::zero(precision)];
+                entry.harmonics.iter().zip(&waves).zip(1_i64..).fold(
+                    start,
+                    |[value, slope], (([a, b], [cos, sin]), k)| {
+                        [value + a * cos + b * sin, slope + (b * cos - a * sin) * k]
+                    },
+                )
+            })
+            .collect();
+        let half = Enclosure::from_rational(half, precision);
+        let remainder = half.sqr() / 2;
+        [1_i64, -1].iter().all(|sign| {
+            let step = &half * *sign;
+            definite(self.order, |i, j| {
+                let [value, slope] = &value_and_slope[i * (i + 1) / 2 + j];
+                let entry = value + &step * slope;
+                if i == j { entry - &remainder * &curvature[i] } else { entry }
+            })
+        })
+    }
+}
+
+fn definite(order: usize, entry: impl Fn(usize, usize) -> Enclosure + Sync) -> bool {
+    ScaledMatrix::from_enclosures(order, entry).is_some_and(|matrix| matrix.is_positive_definite().is_true())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Expr, Variables};
+    use crate::spec::model::{Constant, Jacobian, JacobianEntry};
+
+    fn constant(text: &str) -> Constant {
+        let expr = Expr::parse(text, Variables::None).unwrap();
+        Constant { text: text.to_owned(), exact: expr.exact(), expr }
+    }
+
+    /// Entries with a comma are intervals.
+    fn family(rows: &[&[&str]]) -> Family {
+        let entry = |text: &&str| match text.split_once(',') {
+            Some((low, up)) => JacobianEntry::Interval([constant(low), constant(up)]),
+            None => JacobianEntry::Function(Expr::parse(text, Variables::Time).unwrap()),
+        };
+        let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect();
+        let period = constant("1");
+        Family::new(&Jacobian { rows, period: period.exact.clone() }, &period, 128).unwrap()
+    }
+
+    fn rows(entries: &[&[(i32, i32)]]) -> Vec<Vec<Rational>> {
+        entries.iter().map(|row| row.iter().map(|entry| Rational::from(*entry)).collect()).collect()
+    }
+
+    fn scalar(alpha: (i32, i32)) -> ProvedTriple {
+        let matrix = PeriodicMatrix { mean: rows(&[&[(1, 1)]]), harmonics: Vec::new() };
+        ProvedTriple {
+            matrix,
+            p_low: Rational::from((99, 100)),
+            p_up: Rational::from((101, 100)),
+            alpha: Rational::from(alpha),
+        }
+    }
+
+    #[test]
+    fn a_constant_rate_is_proved_up_to_its_value() {
+        let family = family(&[&["-1/3"]]);
+        assert_eq!(prove(&family, &scalar((333_333, 1_000_000))), Ok(()));
+        assert!(matches!(prove(&family, &scalar((333_334, 1_000_000))), Err(NotProved::Inequality { .. })));
+        for (p_low, p_up) in [((1, 1), (101, 100)), ((99, 100), (1, 1)), ((2, 1), (3, 1)), ((1, 3), (1, 2))] {
+            let moved = ProvedTriple { p_low: Rational::from(p_low), p_up: Rational::from(p_up), ..scalar((1, 4)) };
+            assert!(prove(&family, &moved).is_err(), "{p_low:?} {p_up:?}");
+        }
+        for alpha in [(0, 1), (-1, 1)] {
+            assert_eq!(prove(&family, &scalar(alpha)), Err(NotProved::Shape));
+        }
+    }
+
+    /// x' = (-1 + 2 cos(2 pi t)) x: with constant P the rate is -1, and `P = exp(-2 int 2 cos)` has the rate 1. Its Fourier
+    /// series is known, and five harmonics are close enough for a rate of 0.99.
+    #[test]
+    fn a_periodic_matrix_proves_what_no_constant_one_can() {
+        let family = family(&[&["-1 + 2*cos(2*pi*t)"]]);
+        assert!(prove(&family, &scalar((1, 1000))).is_err());
+        // exp(-z sin a), z = 2/pi: I_0(z) + 2 sum ..., by quadrature.
+        let z = 2.0 / std::f64::consts::PI;
+        let samples: Vec<(f64, f64)> = (0..64)
+            .map(|s| {
+                let angle = std::f64::consts::TAU * f64::from(s) / 64.0;
+                (angle, (-z * angle.sin()).exp())
+            })
+            .collect();
+        let short = |value: f64| vec![vec![Rational::from_f64((value * 1e9).round() / 1e9).unwrap()]];
+        let mean =
+            |wave: &dyn Fn(f64) -> f64| samples.iter().map(|(angle, value)| value * wave(*angle)).sum::<f64>() / 64.0;
+        let harmonics: Vec<_> = (1..=8)
+            .map(|k| {
+                let k = f64::from(k);
+                [short(2.0 * mean(&|a| (k * a).cos())), short(2.0 * mean(&|a| (k * a).sin()))]
+            })
+            .collect();
+        let matrix = PeriodicMatrix { mean: short(mean(&|_| 1.0)), harmonics };
+        let witness = |alpha: (i32, i32)| ProvedTriple {
+            matrix: matrix.clone(),
+            p_low: Rational::from((1, 2)),
+            p_up: Rational::from((19, 10)),
+            alpha: Rational::from(alpha),
+        };
+        assert_eq!(prove(&family, &witness((99, 100))), Ok(()));
+        assert!(prove(&family, &witness((101, 100))).is_err());
+        // exp(-2/pi) = 0.5291 is the least value and exp(2/pi) = 1.890 the largest.
+        let high = ProvedTriple { p_low: Rational::from((53, 100)), ..witness((1, 2)) };
+        assert!(matches!(prove(&family, &high), Err(NotProved::Inequality { what: "p_low I <= P", .. })));
+        let low = ProvedTriple { p_up: Rational::from((189, 100)), ..witness((1, 2)) };
+        assert!(matches!(prove(&family, &low), Err(NotProved::Inequality { what: "P <= p_up I", .. })));
+    }
+
+    /// [[-1, d], [0, -1]] with |d| <= 1/2 and P = I: the rate is 1 - 1/4.
+    #[test]
+    fn intervals_are_taken_at_their_vertices_or_in_a_ball() {
+        let matrix = PeriodicMatrix { mean: rows(&[&[(1, 1), (0, 1)], &[(0, 1), (1, 1)]]), harmonics: Vec::new() };
+        let witness = |alpha: (i32, i32)| ProvedTriple { matrix: matrix.clone(), ..scalar(alpha) };
+        let vertices = family(&[&["-1", "-1/2,1/2"], &["0", "-1"]]);
+        assert_eq!(prove(&vertices, &witness((749, 1000))), Ok(()));
+        assert!(prove(&vertices, &witness((751, 1000))).is_err());
+        let lopsided = family(&[&["-1", "0,1/2"], &["0", "-2,-1"]]);
+        assert_eq!(prove(&lopsided, &witness((749, 1000))), Ok(()));
+        assert!(prove(&lopsided, &witness((751, 1000))).is_err());
+        // p_up = 101/100 enters the ball.
+        let ball =
+            Family { deviation: Deviation::Ball(Enclosure::from_rational(&Rational::from((1, 4)), 128)), ..vertices };
+        assert_eq!(prove(&ball, &witness((746, 1000))), Ok(()));
+        assert!(prove(&ball, &witness((749, 1000))).is_err());
+    }
+
+    #[test]
+    fn what_is_not_a_symmetric_matrix_of_the_order_is_refused() {
+        let family = family(&[&["-1", "0"], &["0", "-1"]]);
+        assert_eq!(prove(&family, &scalar((1, 2))), Err(NotProved::Shape));
+        let odd = PeriodicMatrix { mean: rows(&[&[(1, 1), (1, 10)], &[(0, 1), (1, 1)]]), harmonics: Vec::new() };
+        assert_eq!(prove(&family, &ProvedTriple { matrix: odd, ..scalar((1, 2)) }), Err(NotProved::Shape));
+        let mean = rows(&[&[(1, 1), (0, 1)], &[(0, 1), (1, 1)]]);
+        let short = PeriodicMatrix { mean: mean.clone(), harmonics: vec![[mean, rows(&[&[(0, 1)]])]] };
+        assert_eq!(prove(&family, &ProvedTriple { matrix: short, ..scalar((1, 2)) }), Err(NotProved::Shape));
+    }
+}

@@ -1,0 +1,107 @@
+//! A rate for the closed loop, through U of derivation section 5 and P_zeta of Lemma 1.
+//!
+//! With `zs = N^(1/2) zt`, `zs' = A zs - b u`, |u| <= k_x xi + k_e |et|, `P A + A'P <= -I`, p the largest eigenvalue of P and
+//! g = |P b|: `(zs'P zs)' <= -|zs|^2 + 2 g |zs| |u| <= -|zs|^2/2 + 4 g^2 (k_x^2 xi^2 + k_e^2 et^2)`. If the quadratic form of C5 is at
+//! least `r_x xi^2 + r_e et^2`, then W = U + eps zs'P zs with `eps <= min{r_x/(8 g^2 k_x^2), r_e/(8 g^2 k_e^2)}` has
+//! `W' <= -(r_x/2) xi^2 - (r_e/2) et^2 - (eps/2) |zs|^2`, and `W <= w_x xi^2 + et^2 + (h + eps p) |zs|^2`. So `W' <= -2 rate W` with
+//! `rate = min{ r_x/(4 w_x), r_e/4, eps/(4 (h + eps p)) }`, in the error box, where C4 keeps the solution: the state converges at
+//! least like exp(-rate t). (The paper's constant c, P:eq:derUs, in the notation above, with the sum of the two terms of u
+//! counted as in `u^2 <= 2 k_x^2 xi^2 + 2 k_e^2 et^2`.)
+
+use super::oscillators::ProvedLyapunov;
+use crate::certificate::SharpProof;
+use crate::data::Data;
+use crate::enclosure::Enclosure;
+use crate::lmi::{DecayData, is_positive_definite, propose_multipliers, verify_decay};
+use rug::Rational;
+
+/// Shares of the diagonal that are tried for r_x and r_e, as 1 - 2^-k and then 2^-k.
+const HALVINGS: u32 = 30;
+
+/// What does not depend on n_o.
+pub struct ClosedLoop {
+    w_x: Enclosure,
+    h: Enclosure,
+    k_x: Enclosure,
+    k_e: Enclosure,
+    r_x: Enclosure,
+    r_e: Enclosure,
+}
+
+impl ClosedLoop {
+    /// Proves r_x and r_e at a gain; `None` where C5 is not proved there by its matrix inequality.
+    ///
+    /// Hypothesis: `sigma >= sigma*` of the proof, so that its error box is that of this gain too.
+    #[must_use]
+    pub fn new(data: &Data<'_>, proof: &SharpProof, sigma: &Rational) -> Option<ClosedLoop> {
+        let witness = &proof.witness;
+        if *sigma < witness.sigma {
+            return None;
+        }
+        let decay = DecayData::new(data, &proof.evaluation.error_box, &witness.w_x, &witness.h)?;
+        let multipliers = propose_multipliers(&decay, sigma).ok()?.exact_multipliers()?;
+        if !verify_decay(&decay, sigma, &multipliers) {
+            return None;
+        }
+        // Shares of the diagonal entries 2 w_x (alpha - gam) and 2 sigma, given up from the matrix, exactly.
+        let taken = |share: &Rational| {
+            let r_x = Rational::from(&decay.w_x * &decay.rate) * 2u32 * share;
+            let r_e = Rational::from(sigma * share) * 2u32;
+            (r_x, r_e)
+        };
+        let present = multipliers.iter().zip(decay.present()).filter(|(_, present)| *present);
+        let unknowns: Vec<Rational> =
+            std::iter::once(sigma.clone()).chain(present.map(|(multiplier, _)| multiplier.clone())).collect();
+        let holds = |share: &Rational| {
+            let (r_x, r_e) = taken(share);
+            decay.mu.iter().all(|mu| {
+                let mut rows = decay.matrix(mu).substitute(&unknowns).constant().rows();
+                rows[0][0] -= &r_x;
+                rows[1][1] -= &r_e;
+                is_positive_definite(&rows)
+            })
+        };
+        let mut share = Rational::from(1);
+        let mut proved = None;
+        for _ in 0..HALVINGS {
+            share /= 2u32;
+            // Binary search from above: the largest multiple of the step that still holds.
+            let next = proved.clone().unwrap_or_default() + &share;
+            if holds(&next) {
+                proved = Some(next);
+            }
+        }
+        let (r_x, r_e) = taken(&proved?);
+        let number = |value: &Rational| Enclosure::from_rational(value, data.precision);
+        Some(ClosedLoop {
+            w_x: number(&decay.w_x),
+            h: number(&decay.h),
+            k_x: number(&decay.k_x),
+            k_e: number(&decay.k_e),
+            r_x: number(&r_x),
+            r_e: number(&r_e),
+        })
+    }
+
+    /// The rate with P_zeta of one n_o, in 1/time; its lower end is what is proved.
+    #[must_use]
+    pub fn rate(&self, lemma: &ProvedLyapunov) -> Enclosure {
+        let precision = self.h.precision();
+        let largest = Enclosure::from_rational(&lemma.largest, precision);
+        // A large eps where nothing limits it: the third term then is close to its supremum 1/(4 p).
+        let mut eps = &self.h * 1024 / &largest;
+        for (r, k) in [(&self.r_x, &self.k_x), (&self.r_e, &self.k_e)] {
+            let coupling = (&lemma.gain * k).sqr() * 8;
+            // Without coupling there is no limit.
+            if coupling.is_positive().is_true() {
+                eps = eps.min(&(r / coupling));
+            }
+        }
+        // One number: any eps up to the limit is allowed.
+        let eps = eps
+            .lower_rational()
+            .map_or_else(|| Enclosure::undefined(precision), |eps| Enclosure::from_rational(&eps, precision));
+        let third = &eps / ((&self.h + &eps * largest) * 4);
+        (&self.r_x / (&self.w_x * 4)).min(&(&self.r_e / 4)).min(&third)
+    }
+}

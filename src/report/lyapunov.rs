@@ -1,0 +1,122 @@
+//! The report of `sigmastar lyapunov`: P, the proved triple, the candidates, and the Floquet exponents beside.
+
+use super::blocks::{Block, Table, clean};
+use super::number::estimate;
+use super::{markdown, text};
+use crate::certificate::{Resolution, matrix_json};
+use crate::number::write_exact;
+use crate::spec::model::{Lyapunov, LyapunovSource, PeriodicMatrix};
+use rug::Rational;
+use serde_json::{Value, json};
+
+/// The report on a Jacobian whose triple was found and proved.
+pub struct LyapunovReport {
+    resolution: Resolution,
+    triple: Lyapunov,
+    matrix: PeriodicMatrix,
+}
+
+impl LyapunovReport {
+    /// The report; `None` where the specification of the resolution carries no proved triple, which `resolve` never returns.
+    #[must_use]
+    pub fn new(resolution: Resolution) -> Option<LyapunovReport> {
+        let LyapunovSource::Proved { triple, matrix, .. } = &resolution.spec.lyapunov else { return None };
+        let (triple, matrix) = (triple.clone(), matrix.clone());
+        Some(LyapunovReport { resolution, triple, matrix })
+    }
+
+    fn blocks(&self) -> Vec<Block> {
+        let triple = &self.triple;
+        let mut blocks = vec![
+            Block::Title(format!("{}: the Lyapunov triple of its Jacobian", clean(&self.resolution.spec.name))),
+            Block::says(format!(
+                "Proved for every t and every matrix F of the Jacobian: p_low I <= P <= p_up I and P' + P F + F'P <= -2 alpha P \
+                 with p_low = {}, p_up = {}, alpha = {}.",
+                triple.p_low.text, triple.p_up.text, triple.alpha.text
+            )),
+            Block::Heading("P".to_owned()),
+        ];
+        let waves = self.matrix.harmonics.iter().zip(1..).flat_map(|([cos, sin], k)| {
+            [
+                (format!("the factor of cos({k} w t), w = 2 pi/period"), cos),
+                (format!("the factor of sin({k} w t)"), sin),
+            ]
+        });
+        let mean = if self.matrix.harmonics.is_empty() { "constant" } else { "the mean" };
+        for (title, rows) in std::iter::once((mean.to_owned(), &self.matrix.mean)).chain(waves) {
+            blocks.push(Block::says(format!("P, {title}:")));
+            blocks.push(Block::Table(matrix_table(rows)));
+        }
+        blocks.push(Block::Heading("Candidates".to_owned()));
+        blocks.push(Block::says(
+            "Floating point: what was tried, by its rate. The one with the smallest sigma* that could be proved is the one above.",
+        ));
+        let mut table = Table::new(&["alpha", "p_up/p_low", "degree of P", "sigma*"]);
+        for (candidate, sigma) in self.resolution.candidates.found.iter().zip(&self.resolution.sigmas) {
+            table.push([
+                estimate(candidate.alpha),
+                estimate(candidate.ratio),
+                candidate.matrix.harmonics.len().to_string(),
+                sigma.map_or_else(|| "-".to_owned(), estimate),
+            ]);
+        }
+        blocks.push(Block::Table(table));
+        blocks.push(Block::Heading("Floquet exponents (floating point, not certified)".to_owned()));
+        blocks.push(Block::says(
+            "Of the middle of the Jacobian, in 1/time. Minus the largest real part bounds alpha for every P(t).",
+        ));
+        let mut table = Table::new(&["real part", "imaginary part"]);
+        for [re, im] in &self.resolution.candidates.floquet {
+            table.push([estimate(*re), estimate(*im)]);
+        }
+        blocks.push(Block::Table(table));
+        blocks
+    }
+
+    /// As plain text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        text::render(&self.blocks())
+    }
+
+    /// As GitHub-flavoured Markdown.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        markdown::render(&self.blocks())
+    }
+
+    /// As JSON: `{"format": "sigmastar/lyapunov", "version": 1, ...}`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let mut fields = serde_json::Map::new();
+        fields.insert("format".to_owned(), json!("sigmastar/lyapunov"));
+        fields.insert("version".to_owned(), json!(1));
+        fields.insert("verdict".to_owned(), json!("certified"));
+        fields.extend(matrix_json(&self.matrix));
+        for (name, value) in [("p_low", &self.triple.p_low), ("p_up", &self.triple.p_up), ("alpha", &self.triple.alpha)]
+        {
+            fields.insert(name.to_owned(), json!(value.text));
+        }
+        let candidates =
+            self.resolution.candidates.found.iter().zip(&self.resolution.sigmas).map(|(candidate, sigma)| {
+                json!({
+                    "alpha": estimate(candidate.alpha),
+                    "ratio": estimate(candidate.ratio),
+                    "degree": candidate.matrix.harmonics.len(),
+                    "sigma_star": sigma.map(estimate),
+                })
+            });
+        fields.insert("candidates_estimates".to_owned(), candidates.collect());
+        let floquet = self.resolution.candidates.floquet.iter().map(|pair| json!(pair.map(estimate)));
+        fields.insert("floquet_exponents_not_certified".to_owned(), floquet.collect());
+        Value::Object(fields)
+    }
+}
+
+fn matrix_table(rows: &[Vec<Rational>]) -> Table {
+    let mut table = Table::new(&vec![""; rows.len()]);
+    for row in rows {
+        table.push(row.iter().map(write_exact));
+    }
+    table
+}

@@ -1,0 +1,117 @@
+//! The report of `sigmastar rate`.
+
+use super::blocks::{Block, Table, clean};
+use super::number::{estimate, exact};
+use super::{markdown, text};
+use crate::certificate::Certification;
+use crate::enclosure::Enclosure;
+use crate::number::{Direction, write_exact};
+use crate::rate::Rates;
+use rug::Rational;
+use serde_json::{Value, json};
+
+/// Rates for several n_o at one gain.
+pub struct RateReport {
+    name: String,
+    sigma: Rational,
+    sigma_star: Rational,
+    rates: Vec<Rates>,
+}
+
+impl RateReport {
+    /// The report; `None` if the run is not certified.
+    #[must_use]
+    pub fn new(run: &Certification<'_>, sigma: &Rational, rates: Vec<Rates>) -> Option<RateReport> {
+        let sigma_star = run.sigma_star()?.clone();
+        Some(RateReport { name: clean(&run.spec.name), sigma: sigma.clone(), sigma_star, rates })
+    }
+
+    fn blocks(&self) -> Vec<Block> {
+        let mut table = Table::new(&[
+            "n_o",
+            "spectral abscissa (estimate)",
+            "decay rate of Phi - mu M M'N",
+            "by Lemma 1, any kappa",
+            "p",
+            "closed loop",
+        ]);
+        let unknown = || "not proved".to_owned();
+        for rates in &self.rates {
+            table.push([
+                rates.n_o.to_string(),
+                rates.spectral.map_or_else(|| "unknown".to_owned(), |rate| estimate(-rate)),
+                rates.oscillators.as_ref().map_or_else(unknown, |rate| exact(rate, Direction::Down)),
+                rates.lemma.as_ref().map_or_else(unknown, |(_, rate)| exact(rate, Direction::Down)),
+                rates.lemma.as_ref().map_or_else(unknown, |(largest, _)| exact(largest, Direction::Up)),
+                rates.closed_loop.as_ref().map_or_else(unknown, lower),
+            ]);
+        }
+        vec![
+            Block::Title(format!("{}: rates at sigma = {}", self.name, exact(&self.sigma, Direction::Down))),
+            Block::says(format!(
+                "sigma* = {} serves every n_o; the rates tend to 0 as n_o grows. All in 1/time, proved and rounded down, but for \
+                 the spectral abscissa, which is floating point. The rate of the closed loop is that at which its state is \
+                 proved to approach the periodic solution from the initial set of the certificate; it is a lower bound, \
+                 usually far below the true one.",
+                exact(&self.sigma_star, Direction::Up)
+            )),
+            Block::Table(table),
+            Block::says(
+                "Lemma 1: P_zeta with P_zeta (Phi - mu M M'N) + (.)' <= -N is proved, and p bounds N^(-1/2) P_zeta N^(-1/2). Every \
+                 kappa > 0 is admissible, and the rate of N + kappa P_zeta tends to 1/(2p) as kappa grows.",
+            ),
+        ]
+    }
+
+    /// As plain text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        text::render(&self.blocks())
+    }
+
+    /// As GitHub-flavoured Markdown.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        markdown::render(&self.blocks())
+    }
+
+    /// As JSON: `{"format": "sigmastar/rates", "version": 1, ...}`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let one = |rates: &Rates| {
+            json!({
+                "n_o": rates.n_o,
+                "spectral_abscissa_estimate": rates.spectral.map(|rate| (-rate).to_string()),
+                "oscillators": rates.oscillators.as_ref().map(write_exact),
+                "lemma_1": rates.lemma.as_ref().map(|(largest, rate)| json!({
+                    "p": write_exact(largest), "kappa": "every kappa > 0", "rate": write_exact(rate),
+                })),
+                "closed_loop": rates.closed_loop.as_ref().map(lower),
+            })
+        };
+        json!({
+            "format": "sigmastar/rates", "version": 1, "verdict": "certified",
+            "sigma": write_exact(&self.sigma), "sigma_star": write_exact(&self.sigma_star),
+            "rates": self.rates.iter().map(one).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// The lower end, rounded down.
+fn lower(rate: &Enclosure) -> String {
+    rate.lower_rational().map_or_else(
+        || "not proved".to_owned(),
+        |rate| {
+            let short = crate::number::round_rational(&rate, 4, Direction::Down).to_f64();
+            estimate_down(short, &rate)
+        },
+    )
+}
+
+/// A decimal in scientific form that is not above the rate.
+fn estimate_down(short: f64, rate: &Rational) -> String {
+    // Three digits, cut off: try the nearest, then the one below.
+    let text = format!("{short:.3e}");
+    let fits = |text: &str| crate::number::parse_decimal(text).is_ok_and(|value| value <= *rate);
+    if fits(&text) { text } else { format!("{:.3e}", short * (1.0 - 2e-3)) }
+}

@@ -1,0 +1,83 @@
+//! P and the triple for random Jacobians: found and proved whenever the Floquet exponent leaves a margin.
+
+use proptest::prelude::*;
+use sigmastar::expr::{Expr, Variables};
+use sigmastar::lyapunov::{Candidates, LyapunovFailure, candidates};
+use sigmastar::spec::model::{Constant, Jacobian, JacobianEntry};
+
+fn constant(text: &str) -> Constant {
+    let expr = Expr::parse(text, Variables::None).expect("a constant");
+    Constant { text: text.to_owned(), exact: expr.exact(), expr }
+}
+
+/// The rows as text; an entry with a comma is an interval.
+fn find(rows: &[Vec<String>]) -> Result<Candidates, LyapunovFailure> {
+    let entry = |text: &String| match text.split_once(',') {
+        Some((low, up)) => JacobianEntry::Interval([constant(low), constant(up)]),
+        None => JacobianEntry::Function(Expr::parse(text, Variables::Time).expect("an expression in t")),
+    };
+    let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect();
+    let period = constant("1");
+    candidates(&Jacobian { rows, period: period.exact.clone() }, &period)
+}
+
+/// The rows of `base + margin` on the diagonal such that the largest real part of the Floquet exponents is -1.
+fn shifted(base: &dyn Fn(f64) -> Vec<Vec<String>>) -> Vec<Vec<String>> {
+    // With a shift so large that the family is surely stable, the exponents tell how much of it is needed.
+    let far = find(&base(-60.0)).expect("far from unstable");
+    base(-60.0 - far.floquet[0][0] - 1.0)
+}
+
+fn lti(n: usize, numbers: &[i32]) -> impl Fn(f64) -> Vec<Vec<String>> {
+    move |shift| {
+        let entry = |i: usize, j: usize| {
+            let value = f64::from(numbers[8 * i + j]) / 10.0 + if i == j { shift } else { 0.0 };
+            format!("{value:.9}")
+        };
+        (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    }
+}
+
+fn periodic(n: usize, numbers: &[i32]) -> impl Fn(f64) -> Vec<Vec<String>> {
+    move |shift| {
+        let number =
+            |part: usize, i: usize, j: usize| f64::from(numbers[(64 * part + 8 * i + j) % numbers.len()]) / 10.0;
+        let entry = |i: usize, j: usize| {
+            let mean = number(0, i, j) + if i == j { shift } else { 0.0 };
+            let (a, b) = (number(1, i, j), number(2, i, j));
+            format!("{mean:.9} + {a:.1}*cos(2*pi*t) + {b:.1}*sin(2*pi*t)")
+        };
+        (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    }
+}
+
+/// The largest proved rate, where the Floquet exponent is -1.
+fn largest_rate(rows: &[Vec<String>]) -> f64 {
+    let found = find(rows).unwrap_or_else(|failure| panic!("{rows:?}: {failure}"));
+    assert!((found.floquet[0][0] + 1.0).abs() <= 1e-3, "{:?}", found.floquet);
+    for pair in found.found.windows(2) {
+        assert!(pair[0].alpha >= pair[1].alpha && pair[0].ratio > pair[1].ratio);
+    }
+    found.prove(&found.found[0]).expect("proved").alpha.to_f64()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    #[test]
+    fn constant_jacobians_with_a_margin_of_5_percent(n in 1..=8usize, numbers in prop::collection::vec(-20..=20i32, 64)) {
+        let rate = largest_rate(&shifted(&lti(n, &numbers)));
+        prop_assert!((0.95..=1.0).contains(&rate), "{rate}");
+    }
+}
+
+#[test]
+fn periodic_jacobians_with_a_margin_of_5_percent() {
+    for n in 1..=8 {
+        let numbers: Vec<i32> = (0..192).map(|k| (k * k * 7 + 13 * k * n as i32 + 5) % 41 - 20).collect();
+        let start = std::time::Instant::now();
+        let rate = largest_rate(&shifted(&periodic(n, &numbers)));
+        eprintln!("{n} {rate} {:?}", start.elapsed());
+        assert!((0.95..=1.0).contains(&rate), "{n}: {rate}");
+    }
+}
