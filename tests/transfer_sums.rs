@@ -477,6 +477,22 @@ fn one_oscillator_has_the_poles_of_its_cubic() {
     }
 }
 
+/// w enters T only in nu = mu/w, and the decay rates as a factor.
+#[test]
+fn decay_rates_are_in_the_units_of_the_base_frequency() {
+    let slow = power("2", "0.5", "1").specification();
+    let mut fast = power("2", "0.5", "3").specification();
+    fast.internal_model.base_frequency = fast.internal_model.mu.clone();
+    let (slow, fast) = (Data::new(&slow, 128), Data::new(&fast, 128));
+    for n in [0, 2, 7] {
+        let rate = |data: &Data<'_>| slowest_decay(data, &internal_model_poles(data, n).unwrap());
+        let (slow, fast) = (rate(&slow), rate(&fast));
+        assert!((3 * slow).intersect(&fast).is_defined() && relative_width(&fast) < 1e-30, "N = {n}");
+    }
+    // N = 0: mu n_0.
+    assert!(slowest_decay(&fast, &internal_model_poles(&fast, 0).unwrap()).contains(&Rational::from(6)));
+}
+
 #[test]
 fn poles_that_cannot_be_proved_are_errors() {
     let spec = power("2", "0.5", "1").specification();
