@@ -304,7 +304,7 @@ fn wide_intervals_contain_their_points() {
             for case in 0..30 {
                 let (mut a, mut b) = (random.point(7), random.point(7));
                 if case % 2 == 0 {
-                    b = Rational::from(&a + Rational::from((random.below(30) as i64, 1000)));
+                    b = &a + Rational::from((random.below(30) as i64, 1000));
                 }
                 if a > b {
                     std::mem::swap(&mut a, &mut b);
@@ -312,7 +312,7 @@ fn wide_intervals_contain_their_points() {
                 let value = sums.transfer_at(&Enclosure::between(&a, &b, 128));
                 assert!(value.is_bounded(), "N = {n}, [{a}, {b}]");
                 for step in 0..=8 {
-                    let x = Rational::from(&a + Rational::from(&b - &a) * step / 8);
+                    let x = &a + Rational::from(&b - &a) * step / 8;
                     let truth = plain_at(&family, &weights, &x);
                     assert!(holds(&value, &truth), "{} N = {n}, [{a}, {b}] at {x}: {value:?} {truth}", family.json);
                 }
@@ -337,7 +337,7 @@ fn sums_on_wide_intervals_are_attained_at_the_ends() {
             let largest = left.slope.max(&right.slope);
             assert!(wide.slope.upper() <= largest.upper());
             for step in 1..8 {
-                let x = thin(&Rational::from(&a + Rational::from(&b - &a) * step / 8));
+                let x = thin(&(&a + Rational::from(&b - &a) * step / 8));
                 let inside = sums.around(&x, m);
                 assert!(wide.sum.lower() <= inside.sum.lower() && inside.sum.upper() <= wide.sum.upper());
                 assert!(wide.slope.lower() <= inside.slope.lower() && inside.slope.upper() <= wide.slope.upper());
@@ -475,6 +475,22 @@ fn one_oscillator_has_the_poles_of_its_cubic() {
         assert!((&cube[0] - 3 * &square[0] + &y[0] - 2).contains_zero());
         assert!((&cube[1] - 3 * &square[1] + &y[1]).contains_zero());
     }
+}
+
+/// w enters T only in nu = mu/w, and the decay rates as a factor.
+#[test]
+fn decay_rates_are_in_the_units_of_the_base_frequency() {
+    let slow = power("2", "0.5", "1").specification();
+    let mut fast = power("2", "0.5", "3").specification();
+    fast.internal_model.base_frequency = fast.internal_model.mu.clone();
+    let (slow, fast) = (Data::new(&slow, 128), Data::new(&fast, 128));
+    for n in [0, 2, 7] {
+        let rate = |data: &Data<'_>| slowest_decay(data, &internal_model_poles(data, n).unwrap());
+        let (slow, fast) = (rate(&slow), rate(&fast));
+        assert!((3 * slow).intersect(&fast).is_defined() && relative_width(&fast) < 1e-30, "N = {n}");
+    }
+    // N = 0: mu n_0.
+    assert!(slowest_decay(&fast, &internal_model_poles(&fast, 0).unwrap()).contains(&Rational::from(6)));
 }
 
 #[test]

@@ -49,3 +49,29 @@ impl PoleSums {
         turns(nearest) - &half_turn / 2 + argument
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::Data;
+    use crate::spec::Specification;
+    use rug::Rational;
+    use std::path::Path;
+
+    /// Every form of the argument: from either neighbouring pole, close to it and far from it.
+    #[test]
+    fn both_neighbouring_poles_give_the_same_phase() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json");
+        let spec = Specification::load(&path).unwrap();
+        let data = Data::new(&spec, 128);
+        let sums = PoleSums::new(&data, OscillatorCount::Finite(5));
+        for m in 0..5 {
+            for percent in [1, 20, 50, 80, 99] {
+                let x = data.rational(&Rational::from((100 * m + percent, 100)));
+                let (left, right) = (sums.phase_at(&x, m), sums.phase_at(&x, m + 1));
+                assert!(left.intersect(&right).is_defined(), "{m}, {percent}: {left:?} {right:?}");
+                assert!(Float::with_val(64, left.upper() - left.lower()) < 1e-30);
+            }
+        }
+    }
+}

@@ -9,6 +9,7 @@ use rug::float::Round;
 use rug::{Float, Integer, Rational};
 use std::cmp::Ordering;
 use std::fmt;
+use std::sync::OnceLock;
 
 /// The most poles l >= 1 that are summed one by one. With infinitely many or more oscillators, x beyond about two thirds
 /// of it is undefined.
@@ -66,7 +67,8 @@ pub struct PoleSums {
     powers: InversePowers,
     /// The last pole, when there is one.
     end: Option<End>,
-    bernoulli: Vec<Enclosure>,
+    /// Needed only when there are poles beyond the direct sums.
+    bernoulli: OnceLock<Vec<Enclosure>>,
 }
 
 /// The sums around one integer m >= 0, for every x in an enclosure.
@@ -142,8 +144,7 @@ impl PoleSums {
             coefficient,
             powers,
             end,
-            // From L on the corrections shrink below the last bits within about 0.14 `work` terms.
-            bernoulli: bernoulli_over_index(work as usize / 5 + 8, work),
+            bernoulli: OnceLock::new(),
         }
     }
 
@@ -221,7 +222,9 @@ impl PoleSums {
         if !matches!(self.count, OscillatorCount::Finite(n) if n == last) {
             let start = End { at: integer(last + 1, work), power: self.powers.get(last + 1).into_owned() };
             let ends = (&start, self.end.as_ref());
-            let [tail_value, tail_slope] = tail_sums(x, self.powers.exponent(), ends, &self.bernoulli, 2 * work);
+            // From L on the corrections shrink below the last bits within about 0.14 `work` terms.
+            let bernoulli = self.bernoulli.get_or_init(|| bernoulli_over_index(work as usize / 5 + 8, work));
+            let [tail_value, tail_slope] = tail_sums(x, self.powers.exponent(), ends, bernoulli, 2 * work);
             value = value + tail_value;
             slope = slope + tail_slope;
         }
