@@ -1,9 +1,9 @@
 //! P and the triple for random Jacobians: found and proved whenever the Floquet exponent leaves a margin.
 
 use proptest::prelude::*;
+use sigmastar::expr::{Expr, Variables};
 use sigmastar::lyapunov::{Candidates, LyapunovFailure, candidates};
 use sigmastar::spec::model::{Constant, Jacobian, JacobianEntry};
-use sigmastar::expr::{Expr, Variables};
 
 fn constant(text: &str) -> Constant {
     let expr = Expr::parse(text, Variables::None).expect("a constant");
@@ -40,7 +40,8 @@ fn lti(n: usize, numbers: &[i32]) -> impl Fn(f64) -> Vec<Vec<String>> {
 
 fn periodic(n: usize, numbers: &[i32]) -> impl Fn(f64) -> Vec<Vec<String>> {
     move |shift| {
-        let number = |part: usize, i: usize, j: usize| f64::from(numbers[(64 * part + 8 * i + j) % numbers.len()]) / 10.0;
+        let number =
+            |part: usize, i: usize, j: usize| f64::from(numbers[(64 * part + 8 * i + j) % numbers.len()]) / 10.0;
         let entry = |i: usize, j: usize| {
             let mean = number(0, i, j) + if i == j { shift } else { 0.0 };
             let (a, b) = (number(1, i, j), number(2, i, j));
@@ -61,7 +62,7 @@ fn largest_rate(rows: &[Vec<String>]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 16, ..ProptestConfig::default() })]
 
     #[test]
     fn constant_jacobians_with_a_margin_of_5_percent(n in 1..=8usize, numbers in prop::collection::vec(-20..=20i32, 64)) {
@@ -74,9 +75,7 @@ proptest! {
 fn periodic_jacobians_with_a_margin_of_5_percent() {
     for n in 1..=8 {
         let numbers: Vec<i32> = (0..192).map(|k| (k * k * 7 + 13 * k * n as i32 + 5) % 41 - 20).collect();
-        let start = std::time::Instant::now();
         let rate = largest_rate(&shifted(&periodic(n, &numbers)));
-        eprintln!("{n} {rate} {:?}", start.elapsed());
         assert!((0.95..=1.0).contains(&rate), "{n}: {rate}");
     }
 }

@@ -54,7 +54,9 @@ fn what_is_not_such_a_file_is_refused() {
 #[test]
 fn random_strictly_feasible_problems_are_bounded_from_both_sides() {
     let sizes = [(3, 2), (4, 5), (5, 3), (8, 8), (12, 6), (16, 20), (20, 10), (30, 25), (60, 5)];
-    for (seed, (order, variables)) in sizes.into_iter().flat_map(|size| (0..if size.0 < 30 { 6 } else { 1 }).map(move |seed| (seed, size))) {
+    for (seed, (order, variables)) in
+        sizes.into_iter().flat_map(|size| (0..if size.0 < 30 { 6 } else { 1 }).map(move |seed| (seed, size)))
+    {
         let (problem, optimum) = random(order, variables, 100 * order as u64 + seed);
         assert_eq!(read(&write(&problem)).as_ref(), Ok(&problem));
         let candidate = problem.solve().expect("a candidate");

@@ -88,10 +88,7 @@ fn sylvester(spec: &Specification, proof: &RepairedProof) -> Option<SylvesterChe
     let [first, second, third] = diagonal.each_ref().map(down);
     let (upper, lower) = (beside(&matrix.rho_12)?, beside(&data.mu)?);
     let zero = Rational::new;
-    let rows = vec![
-        vec![first?, upper.clone(), zero()],
-        vec![upper, second?, lower.clone()],
-        vec![zero(), lower, third?],
-    ];
+    let rows =
+        vec![vec![first?, upper.clone(), zero()], vec![upper, second?, lower.clone()], vec![zero(), lower, third?]];
     Some(SylvesterCheck { minors: leading_minors(&rows), rows })
 }

@@ -4,9 +4,9 @@ use super::write::{FORMAT, VERSION};
 use crate::constants::exact_regulation::ExactWitness;
 use crate::constants::repaired::RepairedWitness;
 use crate::constants::sharp::{ClaimedSet, SharpWitness};
-use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
 use crate::lyapunov::ProvedTriple;
 use crate::spec::model::PeriodicMatrix;
+use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
 use crate::transfer::{BoxProof, TransferProof};
 use rug::Rational;
 

@@ -30,7 +30,10 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
         Failure::Documents(problems.iter().map(|problem| bounding_errors(&spec, problem)).collect())
     })?;
     let (Some(sigma_star), Some(proof)) = (run.sigma_star(), run.sharp.proved()) else {
-        output::remark(&format!("{}: without a certified gain there are no rates; see `sigmastar certify`", run.verdict));
+        output::remark(&format!(
+            "{}: without a certified gain there are no rates; see `sigmastar certify`",
+            run.verdict
+        ));
         return Ok(run.verdict.exit_code());
     };
     let sigma = sigma.unwrap_or_else(|| sigma_star.clone());

@@ -82,7 +82,12 @@ pub(super) fn e3(data: Option<&Data<'_>>) -> Erratum {
     ];
     let for_data = data.map(|data| {
         let too_small_by = 2 * &data.p_low;
-        let exact = data.spec.lyapunov.triple().and_then(|triple| triple.p_low.as_rational()).map(|p_low| Side::Exact(Rational::from(p_low * 2u32)));
+        let exact = data
+            .spec
+            .lyapunov
+            .triple()
+            .and_then(|triple| triple.p_low.as_rational())
+            .map(|p_low| Side::Exact(Rational::from(p_low * 2u32)));
         let (bearing, summary) = if vanishes(data, Bound::Fxx) && vanishes(data, Bound::Fex) {
             (Bearing::Harmless, "b_fxx = b_fex = 0, so rho_0 = 0 either way")
         } else {

@@ -209,9 +209,7 @@ fn apply(operation: Unary, a: Term, period: &Monomial, precision: u32) -> Result
             });
             constant(unary(operation, &value), exact)
         }
-        (Unary::Neg, Term::Line { slope, offset }) => {
-            Ok(Term::Line { slope: slope.neg(), offset: offset.negate() })
-        }
+        (Unary::Neg, Term::Line { slope, offset }) => Ok(Term::Line { slope: slope.neg(), offset: offset.negate() }),
         (Unary::Neg, Term::Polynomial(p)) => {
             Ok(Term::Polynomial(TrigonometricPolynomial::constant(Enclosure::zero(precision)).plus(&p, -1)))
         }

@@ -23,6 +23,6 @@ pub mod solve;
 pub use cross_check::{AGREEMENT, CrossCheck, CrossCheckError, cross_check};
 pub use decay::{DecayData, verify_decay};
 pub use ldl::{is_positive_definite, leading_minors};
-pub use residual::ScaledMatrix;
 pub use propose::{DecayProposal, propose_multipliers, propose_sigma};
+pub use residual::ScaledMatrix;
 pub use solve::{Candidate, SolverFailure, margin, minimise, propose};

@@ -51,9 +51,8 @@ pub fn stein_holds(matrix: &[Vec<Rational>], d: &[Rational]) -> bool {
 /// What the solver did instead of solving: there are such weights if and only if the spectral radius is below 1.
 pub fn propose_weights(matrix: &[Vec<Rational>]) -> Result<Vec<Rational>, SolverFailure> {
     let entry = |i: usize, k: usize| f64::from(u8::from(i == k)) - matrix[i][k].to_f64();
-    let constraints: Vec<AffineMatrix<f64>> = (0..matrix.len())
-        .map(|i| AffineMatrix::from_fn(1, matrix.len(), |_, _| -1.0, |k, _, _| entry(i, k)))
-        .collect();
+    let constraints: Vec<AffineMatrix<f64>> =
+        (0..matrix.len()).map(|i| AffineMatrix::from_fn(1, matrix.len(), |_, _| -1.0, |k, _, _| entry(i, k))).collect();
     rationals(&propose(&vec![1.0; matrix.len()], &constraints)?.x)
 }
 
@@ -66,9 +65,9 @@ pub fn propose_stein(matrix: &[Vec<Rational>]) -> Result<Vec<Rational>, SolverFa
     let at = |i: usize, j: usize| matrix[i][j].to_f64();
     let term = |k: usize, i: usize, j: usize| f64::from(u8::from(i == k && j == k)) - at(k, i) * at(k, j);
     let mut constraints = vec![AffineMatrix::from_fn(order, order, |_, _| 0.0, term).with_margin(margin(1.0, order))];
-    constraints.extend((0..order).map(|i| {
-        AffineMatrix::from_fn(1, order, |_, _| -1.0, |k, _, _| f64::from(u8::from(i == k)))
-    }));
+    constraints.extend(
+        (0..order).map(|i| AffineMatrix::from_fn(1, order, |_, _| -1.0, |k, _, _| f64::from(u8::from(i == k)))),
+    );
     rationals(&propose(&vec![1.0; order], &constraints)?.x)
 }
 

@@ -108,8 +108,7 @@ impl FloatFamily {
         };
         let one = |step: usize| {
             let time = step as f64;
-            let [start, middle, end] =
-                [time, time + 0.5, time + 1.0].map(|time| at(time / count as f64));
+            let [start, middle, end] = [time, time + 0.5, time + 1.0].map(|time| at(time / count as f64));
             let k1 = start;
             let k2 = &middle * (&identity + faer::Scale(h / 2.0) * &k1);
             let k3 = &middle * (&identity + faer::Scale(h / 2.0) * &k2);
@@ -132,9 +131,8 @@ impl FloatFamily {
             let (steps, h) = self.steps(0.0);
             let duration = h * steps.len() as f64;
             let monodromy = steps.iter().fold(Mat::identity(self.order, self.order), |product, step| step * product);
-            let exponent = |[re, im]: [f64; 2]| {
-                [libm::hypot(re, im).portable_ln() / duration, libm::atan2(im, re) / duration]
-            };
+            let exponent =
+                |[re, im]: [f64; 2]| [libm::hypot(re, im).portable_ln() / duration, libm::atan2(im, re) / duration];
             eigenvalues(&monodromy)?.into_iter().map(exponent).collect()
         };
         exponents.sort_by(|a, b| b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1])));

@@ -34,7 +34,8 @@ pub(super) fn smallest_ratio(family: &FloatFamily, degree: usize, alpha: f64) ->
         let angle = TAU * sample as f64 / samples as f64;
         let waves = waves(angle, degree);
         let basis = |variable: usize| (triangle[variable % triangle.len()], waves[variable / triangle.len()]);
-        let unit = |(a, b): (usize, usize), i: usize, j: usize| f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i)));
+        let unit =
+            |(a, b): (usize, usize), i: usize, j: usize| f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i)));
         let identity = |i: usize, j: usize| f64::from(u8::from(i == j));
         let p = |variable: usize, i: usize, j: usize| {
             let (at, (wave, _)) = basis(variable);

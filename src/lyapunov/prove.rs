@@ -161,9 +161,11 @@ impl Entries {
         let curvature: Vec<Enclosure> = (0..self.order)
             .map(|i| {
                 (0..self.order).fold(Enclosure::zero(precision), |sum, j| {
-                    self.at(i, j).harmonics.iter().zip(1_i64..).fold(sum, |sum, ([a, b], k)| {
-                        sum + (a.abs() + b.abs()).ceiling() * (k * k)
-                    })
+                    self.at(i, j)
+                        .harmonics
+                        .iter()
+                        .zip(1_i64..)
+                        .fold(sum, |sum, ([a, b], k)| sum + (a.abs() + b.abs()).ceiling() * (k * k))
                 })
             })
             .collect();
@@ -171,7 +173,8 @@ impl Entries {
         // 2 pi < 62832/10000.
         let width = Rational::from((62_832, 10_000)) / cells;
         (0..cells).into_par_iter().try_for_each(|cell| {
-            let mut stack: Vec<(Rational, Rational, u32)> = vec![(Rational::from(&width * cell) + Rational::from(&width / 2), width.clone() / 2, 0)];
+            let mut stack: Vec<(Rational, Rational, u32)> =
+                vec![(Rational::from(&width * cell) + Rational::from(&width / 2), width.clone() / 2, 0)];
             while let Some((angle, half, halvings)) = stack.pop() {
                 if self.holds_on(&angle, &half, degree, &curvature) {
                     continue;
@@ -202,9 +205,12 @@ impl Entries {
             .iter()
             .map(|entry| {
                 let start = [entry.mean.clone(), Enclosure::zero(precision)];
-                entry.harmonics.iter().zip(&waves).zip(1_i64..).fold(start, |[value, slope], (([a, b], [cos, sin]), k)| {
-                    [value + a * cos + b * sin, slope + (b * cos - a * sin) * k]
-                })
+                entry.harmonics.iter().zip(&waves).zip(1_i64..).fold(
+                    start,
+                    |[value, slope], (([a, b], [cos, sin]), k)| {
+                        [value + a * cos + b * sin, slope + (b * cos - a * sin) * k]
+                    },
+                )
             })
             .collect();
         let half = Enclosure::from_rational(half, precision);
@@ -252,7 +258,12 @@ mod tests {
 
     fn scalar(alpha: (i32, i32)) -> ProvedTriple {
         let matrix = PeriodicMatrix { mean: rows(&[&[(1, 1)]]), harmonics: Vec::new() };
-        ProvedTriple { matrix, p_low: Rational::from((99, 100)), p_up: Rational::from((101, 100)), alpha: Rational::from(alpha) }
+        ProvedTriple {
+            matrix,
+            p_low: Rational::from((99, 100)),
+            p_up: Rational::from((101, 100)),
+            alpha: Rational::from(alpha),
+        }
     }
 
     #[test]
@@ -284,7 +295,8 @@ mod tests {
             })
             .collect();
         let short = |value: f64| vec![vec![Rational::from_f64((value * 1e9).round() / 1e9).unwrap()]];
-        let mean = |wave: &dyn Fn(f64) -> f64| samples.iter().map(|(angle, value)| value * wave(*angle)).sum::<f64>() / 64.0;
+        let mean =
+            |wave: &dyn Fn(f64) -> f64| samples.iter().map(|(angle, value)| value * wave(*angle)).sum::<f64>() / 64.0;
         let harmonics: Vec<_> = (1..=8)
             .map(|k| {
                 let k = f64::from(k);
@@ -319,7 +331,8 @@ mod tests {
         assert_eq!(prove(&lopsided, &witness((749, 1000))), Ok(()));
         assert!(prove(&lopsided, &witness((751, 1000))).is_err());
         // p_up = 101/100 enters the ball.
-        let ball = Family { deviation: Deviation::Ball(Enclosure::from_rational(&Rational::from((1, 4)), 128)), ..vertices };
+        let ball =
+            Family { deviation: Deviation::Ball(Enclosure::from_rational(&Rational::from((1, 4)), 128)), ..vertices };
         assert_eq!(prove(&ball, &witness((746, 1000))), Ok(()));
         assert!(prove(&ball, &witness((749, 1000))).is_err());
     }

@@ -98,7 +98,9 @@ impl ClosedLoop {
             }
         }
         // One number: any eps up to the limit is allowed.
-        let eps = eps.lower_rational().map_or_else(|| Enclosure::undefined(precision), |eps| Enclosure::from_rational(&eps, precision));
+        let eps = eps
+            .lower_rational()
+            .map_or_else(|| Enclosure::undefined(precision), |eps| Enclosure::from_rational(&eps, precision));
         let third = &eps / ((&self.h + &eps * largest) * 4);
         (&self.r_x / (&self.w_x * 4)).min(&(&self.r_e / 4)).min(&third)
     }

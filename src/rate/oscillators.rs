@@ -145,7 +145,8 @@ impl Oscillators {
             if i == j { sum - Enclosure::one(precision) } else { sum }
         };
         let proved = |matrix: Option<ScaledMatrix>| matrix.is_some_and(|m| m.is_positive_definite() == Truth::True);
-        if !proved(ScaledMatrix::from_enclosures(n, decay)) || !proved(ScaledMatrix::from_doubles(n, |i, j| p[(i, j)], &vec![0.0; n]))
+        if !proved(ScaledMatrix::from_enclosures(n, decay))
+            || !proved(ScaledMatrix::from_doubles(n, |i, j| p[(i, j)], &vec![0.0; n]))
         {
             return None;
         }

@@ -32,7 +32,8 @@ pub fn bounding_errors(spec: &Specification, problem: &BoundingProblem) -> SpecE
 /// A Jacobian without a proved triple, as an error at its place: undecided, for no search proves that there is none.
 #[must_use]
 pub fn jacobian_errors(spec: &Specification, message: impl Into<String>) -> SpecErrors {
-    let help = "check the signs, narrow the intervals or give them as functions of t, or give the triple p_low, p_up, alpha";
+    let help =
+        "check the signs, narrow the intervals or give them as functions of t, or give the triple p_low, p_up, alpha";
     spec.errors_at("/lyapunov/jacobian", &(0..0), ErrorKind::Undecided, message, Some(help.to_owned()))
 }
 

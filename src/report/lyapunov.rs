@@ -37,12 +37,15 @@ impl LyapunovReport {
             Block::Heading("P".to_owned()),
         ];
         let waves = self.matrix.harmonics.iter().zip(1..).flat_map(|([cos, sin], k)| {
-            [(format!("the factor of cos({k} w t), w = 2 pi/period"), cos), (format!("the factor of sin({k} w t)"), sin)]
+            [
+                (format!("the factor of cos({k} w t), w = 2 pi/period"), cos),
+                (format!("the factor of sin({k} w t)"), sin),
+            ]
         });
         let mean = if self.matrix.harmonics.is_empty() { "constant" } else { "the mean" };
         for (title, rows) in std::iter::once((mean.to_owned(), &self.matrix.mean)).chain(waves) {
-            blocks.push(Block::says(format!("P, {title}:")));
-            blocks.push(Block::Table(matrix_table(rows)));
+            blocks.push(Block::says(format!("P, {title}, by rows:")));
+            blocks.push(Block::List(rows.iter().map(|row| row_text(row)).collect()));
         }
         blocks.push(Block::Heading("Candidates".to_owned()));
         blocks.push(Block::says(
@@ -90,17 +93,19 @@ impl LyapunovReport {
         fields.insert("version".to_owned(), json!(1));
         fields.insert("verdict".to_owned(), json!("certified"));
         fields.extend(matrix_json(&self.matrix));
-        for (name, value) in [("p_low", &self.triple.p_low), ("p_up", &self.triple.p_up), ("alpha", &self.triple.alpha)] {
+        for (name, value) in [("p_low", &self.triple.p_low), ("p_up", &self.triple.p_up), ("alpha", &self.triple.alpha)]
+        {
             fields.insert(name.to_owned(), json!(value.text));
         }
-        let candidates = self.resolution.candidates.found.iter().zip(&self.resolution.sigmas).map(|(candidate, sigma)| {
-            json!({
-                "alpha": estimate(candidate.alpha),
-                "ratio": estimate(candidate.ratio),
-                "degree": candidate.matrix.harmonics.len(),
-                "sigma_star": sigma.map(estimate),
-            })
-        });
+        let candidates =
+            self.resolution.candidates.found.iter().zip(&self.resolution.sigmas).map(|(candidate, sigma)| {
+                json!({
+                    "alpha": estimate(candidate.alpha),
+                    "ratio": estimate(candidate.ratio),
+                    "degree": candidate.matrix.harmonics.len(),
+                    "sigma_star": sigma.map(estimate),
+                })
+            });
         fields.insert("candidates_estimates".to_owned(), candidates.collect());
         let floquet = self.resolution.candidates.floquet.iter().map(|pair| json!(pair.map(estimate)));
         fields.insert("floquet_exponents_not_certified".to_owned(), floquet.collect());
@@ -108,10 +113,7 @@ impl LyapunovReport {
     }
 }
 
-fn matrix_table(rows: &[Vec<Rational>]) -> Table {
-    let mut table = Table::new(&vec![""; rows.len()]);
-    for row in rows {
-        table.push(row.iter().map(write_exact));
-    }
-    table
+fn row_text(row: &[Rational]) -> String {
+    let entries: Vec<String> = row.iter().map(write_exact).collect();
+    format!("[ {} ]", entries.join(", "))
 }

@@ -99,10 +99,13 @@ impl RateReport {
 
 /// The lower end, rounded down.
 fn lower(rate: &Enclosure) -> String {
-    rate.lower_rational().map_or_else(|| "not proved".to_owned(), |rate| {
-        let short = crate::number::round_rational(&rate, 4, Direction::Down).to_f64();
-        estimate_down(short, &rate)
-    })
+    rate.lower_rational().map_or_else(
+        || "not proved".to_owned(),
+        |rate| {
+            let short = crate::number::round_rational(&rate, 4, Direction::Down).to_f64();
+            estimate_down(short, &rate)
+        },
+    )
 }
 
 /// A decimal in scientific form that is not above the rate.

@@ -18,11 +18,7 @@ pub const MAX_STATES: usize = 12;
 /// # Errors
 /// Reports another shape, entries that cannot be read, an interval with lo > hi, and an entry in t that is not proved to be a
 /// trigonometric polynomial of the period.
-pub(super) fn read(
-    value: &Value<'_>,
-    period: Option<&Constant>,
-    errors: &mut Errors,
-) -> Result<Jacobian, Reported> {
+pub(super) fn read(value: &Value<'_>, period: Option<&Constant>, errors: &mut Errors) -> Result<Jacobian, Reported> {
     let lists = value.array(errors)?;
     let order = lists.len();
     if order == 0 || order > MAX_STATES {

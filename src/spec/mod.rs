@@ -27,11 +27,11 @@ mod weights_read;
 pub use constant::{any_constant, nonnegative_constant, positive_constant};
 pub use document::{Document, Value};
 pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
-pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use jacobian::MAX_STATES;
+pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use model::{
-    Bounds, Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
-    RelativeDegree, Specification,
+    Bounds, Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource,
+    PeriodicMatrix, RelativeDegree, Specification,
 };
 pub use object::Object;
 pub use power_tail::power_tail;

@@ -4,9 +4,7 @@ use super::constant::{any_constant, expression, positive_constant, whole};
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
-use super::model::{
-    Bounds, Constant, Domain, InternalModel, Lyapunov, LyapunovSource, RelativeDegree, Specification,
-};
+use super::model::{Bounds, Constant, Domain, InternalModel, Lyapunov, LyapunovSource, RelativeDegree, Specification};
 use super::object::Object;
 use super::quantity::Quantity;
 use super::weights_read;
@@ -84,9 +82,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
     let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
     let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
-    let lyapunov = object
-        .required("lyapunov", errors)
-        .and_then(|value| read_lyapunov(&value, period.as_ref().ok(), errors));
+    let lyapunov =
+        object.required("lyapunov", errors).and_then(|value| read_lyapunov(&value, period.as_ref().ok(), errors));
     let bounds = object.required("bounds", errors).and_then(|value| read_bounds(&value, errors));
     let domain = object.optional("domain").map(|value| read_domain(&value, errors)).transpose();
     let internal_model = object

@@ -221,9 +221,7 @@ impl Problem {
         let mut duals: Vec<Mat<f64>> = candidate
             .duals
             .iter()
-            .map(|dual| {
-                Mat::from_fn(dual.order(), dual.order(), |i, j| dual.at(i, j) + if i == j { eps } else { 0.0 })
-            })
+            .map(|dual| Mat::from_fn(dual.order(), dual.order(), |i, j| dual.at(i, j) + if i == j { eps } else { 0.0 }))
             .collect();
         let dense: Vec<Vec<Mat<f64>>> =
             (0..=m).map(|k| pieces.iter().map(|(b, n, o)| self.piece(k, *b, *n, *o)).collect()).collect();
@@ -259,7 +257,8 @@ impl Problem {
                 let n = dual.nrows();
                 for i in 0..n {
                     for j in 0..=i {
-                        let entry = dual[(i, j)] + (0..m).map(|k| step[(k, 0)] * dense[k + 1][piece][(i, j)]).sum::<f64>();
+                        let entry =
+                            dual[(i, j)] + (0..m).map(|k| step[(k, 0)] * dense[k + 1][piece][(i, j)]).sum::<f64>();
                         dual[(i, j)] = entry;
                         dual[(j, i)] = entry;
                     }
@@ -364,7 +363,11 @@ pub fn random(order: usize, variables: usize, seed: u64) -> (Problem, f64) {
     let cost: Vec<f64> = matrices.iter().map(|f| inner(f, &dual)).collect();
     let optimum = cost.iter().zip(&x).map(|(c, x)| c * x).sum();
     let entries = |f: &Mat<f64>| {
-        (0..order).flat_map(|i| (i..order).map(move |j| (i, j))).map(|(i, j)| (0, i, j, f[(i, j)])).filter(|e| e.3 != 0.0).collect()
+        (0..order)
+            .flat_map(|i| (i..order).map(move |j| (i, j)))
+            .map(|(i, j)| (0, i, j, f[(i, j)]))
+            .filter(|e| e.3 != 0.0)
+            .collect()
     };
     let matrices = std::iter::once(&constant).chain(&matrices).map(entries).collect();
     (Problem { cost, blocks: vec![order as i64], matrices }, optimum)
