@@ -62,7 +62,7 @@ fn largest_rate(rows: &[Vec<String>]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 16, ..ProptestConfig::default() })]
 
     #[test]
     fn constant_jacobians_with_a_margin_of_5_percent(n in 1..=8usize, numbers in prop::collection::vec(-20..=20i32, 64)) {
@@ -75,9 +75,7 @@ proptest! {
 fn periodic_jacobians_with_a_margin_of_5_percent() {
     for n in 1..=8 {
         let numbers: Vec<i32> = (0..192).map(|k| (k * k * 7 + 13 * k * n as i32 + 5) % 41 - 20).collect();
-        let start = std::time::Instant::now();
         let rate = largest_rate(&shifted(&periodic(n, &numbers)));
-        eprintln!("{n} {rate} {:?}", start.elapsed());
         assert!((0.95..=1.0).contains(&rate), "{n}: {rate}");
     }
 }

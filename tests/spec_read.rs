@@ -33,7 +33,7 @@ const SET: &str = "\"initial_set\": { \"kind\": \"paper\" }";
 fn the_example_means_what_it_says() {
     let specification = Specification::from_json("x", EXAMPLE).expect("valid");
     assert_eq!(specification.period.as_rational(), Some(&Rational::from(1)));
-    assert_eq!(specification.lyapunov.p_up.as_rational(), Some(&Rational::from((15512, 10000))));
+    assert_eq!(specification.lyapunov.triple().unwrap().p_up.as_rational(), Some(&Rational::from((15512, 10000))));
     assert_eq!(specification.bounds.q.text(), "4.822 + X + atan(E*(X + 0.189))");
     assert_eq!(specification.bounds.named().count(), 8);
     assert!(specification.internal_model.matched);

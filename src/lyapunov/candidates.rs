@@ -1,6 +1,6 @@
 //! Candidates for a Jacobian: from the largest rate that was found down to the smallest ratio p_up/p_low.
 
-use super::family::Family;
+use super::family::{Deviation, Family};
 use super::float::FloatFamily;
 use super::propose::{fourier, lyapunov_samples, smallest_ratio};
 use super::prove::{ProvedTriple, prove};
@@ -33,17 +33,23 @@ pub struct Candidate {
 }
 
 impl Candidates {
-    /// The proved triple of a candidate: with as little given up of its rate and ratio as the proof needs, at most 1 %.
+    /// The proved triple of a candidate: with as little given up of its rate and ratio as the proof needs, at most about 1 %.
     ///
     /// `None` if it is not proved; nothing is claimed then.
     #[must_use]
     pub fn prove(&self, candidate: &Candidate) -> Option<ProvedTriple> {
+        // A larger p_up takes more for a ball of deviations, and so from the rate.
+        let ball = match &self.family.deviation {
+            Deviation::Vertices(_) => 0.0,
+            Deviation::Ball(radius) => radius.midpoint_f64(),
+        };
+        let given_up = candidate.alpha + 2.0 * candidate.ratio * ball;
         ROOM.iter().find_map(|room| {
             let triple = ProvedTriple {
                 matrix: candidate.matrix.clone(),
                 p_low: round_f64(1.0 - room, 8, Direction::Down)?,
                 p_up: round_f64(candidate.ratio * (1.0 + room), 8, Direction::Up)?,
-                alpha: round_f64(candidate.alpha * (1.0 - room), 8, Direction::Down)?,
+                alpha: round_f64(candidate.alpha - room * given_up, 8, Direction::Down)?,
             };
             prove(&self.family, &triple).is_ok().then_some(triple)
         })

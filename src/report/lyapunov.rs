@@ -44,8 +44,8 @@ impl LyapunovReport {
         });
         let mean = if self.matrix.harmonics.is_empty() { "constant" } else { "the mean" };
         for (title, rows) in std::iter::once((mean.to_owned(), &self.matrix.mean)).chain(waves) {
-            blocks.push(Block::says(format!("P, {title}:")));
-            blocks.push(Block::Table(matrix_table(rows)));
+            blocks.push(Block::says(format!("P, {title}, by rows:")));
+            blocks.push(Block::List(rows.iter().map(|row| row_text(row)).collect()));
         }
         blocks.push(Block::Heading("Candidates".to_owned()));
         blocks.push(Block::says(
@@ -113,10 +113,7 @@ impl LyapunovReport {
     }
 }
 
-fn matrix_table(rows: &[Vec<Rational>]) -> Table {
-    let mut table = Table::new(&vec![""; rows.len()]);
-    for row in rows {
-        table.push(row.iter().map(write_exact));
-    }
-    table
+fn row_text(row: &[Rational]) -> String {
+    let entries: Vec<String> = row.iter().map(write_exact).collect();
+    format!("[ {} ]", entries.join(", "))
 }

@@ -175,14 +175,15 @@ struct At {
 
 impl<'s> Spec<'s> {
     pub fn new(spec: &'s Specification) -> Spec<'s> {
-        let (p_low, p_up) = (constant(&spec.lyapunov.p_low), constant(&spec.lyapunov.p_up));
+        let (p_low, p_up) =
+            (constant(&spec.lyapunov.triple().unwrap().p_low), constant(&spec.lyapunov.triple().unwrap().p_up));
         Spec {
             spec,
             t: constant(&spec.period),
             c: (&p_up / &p_low).sqrt(),
             p_low,
             p_up,
-            alpha: constant(&spec.lyapunov.alpha),
+            alpha: constant(&spec.lyapunov.triple().unwrap().alpha),
             mu: constant(&spec.internal_model.mu),
             w: constant(&spec.internal_model.base_frequency),
             n_bar: total(&spec.internal_model.weights).sqrt(),
