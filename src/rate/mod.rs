@@ -49,19 +49,9 @@ pub fn rates(data: &Data<'_>, proof: &SharpProof, sigma: &Rational, n_o: u32) ->
     let lemma: Option<ProvedLyapunov> = at(0.0);
     let closed_loop =
         lemma.as_ref().and_then(|lemma| ClosedLoop::new(data, proof, sigma).map(|closed_loop| closed_loop.rate(lemma)));
-<<<<<<< HEAD
-    let lemma = lemma.and_then(|lemma| {
-        let rate = crate::number::round_rational(
-            &(Rational::from(1) / (Rational::from(&lemma.largest) * 2u32)),
-            6,
-            crate::number::Direction::Down,
-        );
-        Some((lemma.largest, rate))
-=======
     let lemma = lemma.map(|lemma| {
         let rate = Rational::from(1) / (lemma.largest.clone() * 2u32);
         (lemma.largest, round_rational(&rate, 6, Direction::Down))
->>>>>>> a66c5e3c2b365e5ffff44140c11d2e6644f53f2a
     });
     Rates { n_o, spectral, oscillators, lemma, closed_loop }
 }
