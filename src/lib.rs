@@ -21,6 +21,7 @@ pub mod errata;
 pub mod expr;
 pub mod lmi;
 pub mod number;
+pub mod regulator;
 pub mod report;
 pub mod search;
 pub mod spec;

@@ -4,6 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use sigmastar::certificate::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
 use std::path::PathBuf;
 
 /// The exit codes, as help and manual page tell them.
@@ -39,6 +40,10 @@ pub enum Command {
     /// proved. The report goes to standard output, remarks and errors to standard error.
     #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
     Certify(Box<CertifyArgs>),
+    /// Write the regulator of a specification: matrices, exact discretisation, C code
+    ///
+    /// Every number is the exact one rounded once to double precision.
+    Controller(ControllerArgs),
     /// List what is wrong in the paper, with evidence
     ///
     /// With a specification, also says what each item means for it.
@@ -132,6 +137,48 @@ pub struct ErrataArgs {
     /// Format of the list
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
+}
+
+/// The flags of `controller`.
+#[derive(Args, Debug)]
+pub struct ControllerArgs {
+    /// Bounding specification (JSON) with the internal model, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// The gain sigma, an exact positive constant such as `48.5` or `97/2`
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub sigma: String,
+
+    /// The number of oscillators n_o
+    #[arg(long, value_name = "N",
+          value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_EXPORTED_OSCILLATORS)))]
+    pub n_o: u32,
+
+    /// Also discretise for this sampling time, an exact positive constant, with e held over each sample
+    #[arg(long, value_name = "DT", allow_hyphen_values = true)]
+    pub discretise: Option<String>,
+
+    /// Form in which the regulator is written
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = ControllerFormat::Json)]
+    pub format: ControllerFormat,
+
+    /// Write to this file; the C source takes its header beside it
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+}
+
+/// A form of the regulator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ControllerFormat {
+    /// JSON
+    Json,
+    /// NumPy archive (needs -o)
+    Npz,
+    /// Script for MATLAB and Octave
+    Matlab,
+    /// C99 source and header with a step function (needs --discretise and -o FILE.c)
+    C,
 }
 
 /// A derivation.

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::output::{reason, shown};
 use sigmastar::report::{Target, TargetKind};
-use sigmastar::spec::{Document, Errors, MAX_BYTES, positive_constant};
+use sigmastar::spec::{Constant, Document, Errors, MAX_BYTES, positive_constant};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -41,10 +41,18 @@ pub fn document(path: &Path) -> Result<Document, Failure> {
 /// # Errors
 /// What is wrong with the constant, in its place.
 pub fn target(kind: TargetKind, flag: &str, text: &str) -> Result<Target, Failure> {
+    Ok(Target { kind, value: positive(flag, text)? })
+}
+
+/// Reads the value of a flag that is an exact positive constant, as in a specification.
+///
+/// # Errors
+/// What is wrong with the constant, in its place.
+pub fn positive(flag: &str, text: &str) -> Result<Constant, Failure> {
     let quoted = serde_json::json!({ flag: text }).to_string();
     let document = Document::parse("<command line>", &quoted)?;
     let mut errors = Errors::new();
     let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
     let value = positive_constant(&place, &mut errors);
-    Ok(Target { kind, value: errors.conclude(&document, value)? })
+    Ok(errors.conclude(&document, value)?)
 }

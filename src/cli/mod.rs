@@ -2,6 +2,7 @@
 
 mod args;
 mod certify;
+mod controller;
 mod errata;
 mod failure;
 mod input;
@@ -26,6 +27,7 @@ pub fn run() -> ExitCode {
     };
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
+        Command::Controller(args) => controller::run(&args),
         Command::Errata(args) => errata::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),
