@@ -30,6 +30,7 @@ pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use model::{Bounds, Constant, Domain, InitialSet, InternalModel, Lyapunov, RelativeDegree, Specification};
 pub use object::Object;
 pub use power_tail::power_tail;
+pub(crate) use read::read_internal_model;
 pub use read::{FORMAT, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
 pub use weights::Weights;
 pub use weights_read::MAX_WEIGHTS;
