@@ -24,6 +24,7 @@ pub mod number;
 pub mod plant;
 pub mod regulator;
 pub mod report;
+pub mod reproduce;
 pub mod search;
 pub mod simulate;
 pub mod spec;

@@ -8,6 +8,9 @@ mod failure;
 mod input;
 mod output;
 mod pages;
+mod progress;
+mod reproduce;
+mod simulate;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -28,6 +31,8 @@ pub fn run() -> ExitCode {
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
         Command::Controller(args) => controller::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
+        Command::Reproduce(args) => reproduce::run(&args),
         Command::Errata(args) => errata::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),

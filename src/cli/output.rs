@@ -147,3 +147,14 @@ impl OutputFile {
         })
     }
 }
+
+/// A folder for files that are made, created where it does not exist.
+///
+/// # Errors
+/// It cannot be created, or it is something else.
+pub fn folder(path: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(path).map_err(|error| {
+        let message = format!("cannot create the folder `{}`: {}", shown(path), reason(&error));
+        Failure::call(message, "name a folder that exists or can be created")
+    })
+}

@@ -10,7 +10,9 @@ mod design;
 mod discrete;
 pub mod export;
 mod law;
+mod read;
 
 pub use design::{Design, MAX_EXPORTED_OSCILLATORS};
 pub use discrete::{Discrete, Stepper};
 pub use law::Regulator;
+pub use read::read_regulator;

@@ -26,7 +26,9 @@ pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
 pub use errata::ErrataReport;
 pub use failures::{bounding_errors, failure_json};
 pub use json::{FORMAT, VERSION};
+pub use markdown::render as markdown;
 pub use relative_degree::filter_errors;
+pub use text::render as text;
 pub use verdict::sentence;
 
 use crate::certificate::Certification;
@@ -84,13 +86,13 @@ impl<'r> Report<'r> {
     /// As plain text, readable without colour at 100 columns.
     #[must_use]
     pub fn text(&self) -> String {
-        text::render(&self.blocks())
+        text(&self.blocks())
     }
 
     /// As GitHub-flavoured Markdown.
     #[must_use]
     pub fn markdown(&self) -> String {
-        markdown::render(&self.blocks())
+        markdown(&self.blocks())
     }
 
     /// As JSON: numbers are strings, enclosures `["lo", "hi"]`.

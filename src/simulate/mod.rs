@@ -9,6 +9,8 @@ mod closed_loop;
 mod fixed;
 mod noise;
 mod orbit;
+pub mod plot;
+mod report;
 
 mod run;
 mod steady;
@@ -20,6 +22,7 @@ pub use fixed::FixedStep;
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};
 
+pub use report::{FORMAT, VERSION, bode, csv, figures, json, spectrum, spectrum_curve, text};
 pub use run::{LongRun, Method, NoisyRun, Settings, Simulation, SteadyFigures, noisy_run, simulate};
 pub use steady::{SteadyState, SteadyStateError, steady_state};
 
