@@ -19,6 +19,7 @@ pub mod data;
 pub mod enclosure;
 pub mod errata;
 pub mod expr;
+pub mod falsify;
 pub mod lmi;
 pub mod number;
 pub mod plant;

@@ -59,6 +59,11 @@ pub enum Command {
     ///
     /// Floating point, no claim. Writes report.md, report.json and the figures into a folder.
     Reproduce(ReproduceArgs),
+    /// Try to break a certificate by simulation
+    ///
+    /// Draws plants within the bounding functions, starts on the boundary of the initial set and checks every bound of
+    /// the claim a little above sigma*. Finding nothing proves nothing; exit code 1 and a plant file if it finds one.
+    Falsify(FalsifyArgs),
     /// List what is wrong in the paper, with evidence
     ///
     /// With a specification, also says what each item means for it.
@@ -285,6 +290,34 @@ pub struct ReproduceArgs {
     #[arg(long, value_name = "STEPS", default_value_t = 10_000,
           value_parser = clap::value_parser!(u32).range(1000..=1_000_000))]
     pub noise_steps: u32,
+
+    /// No progress and no remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// The flags of `falsify`.
+#[derive(Args, Debug)]
+pub struct FalsifyArgs {
+    /// Certificate (JSON), or `-` for standard input
+    #[arg(value_name = "CERT", value_hint = ValueHint::FilePath)]
+    pub certificate: PathBuf,
+
+    /// Number of plants
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub trials: u32,
+
+    /// Seed of the random numbers; the same seed gives the same trials
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    pub seed: u64,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = SimulationFormat::Text)]
+    pub format: SimulationFormat,
+
+    /// Write the first counterexample to this plant file
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
 
     /// No progress and no remarks on standard error; errors are still shown
     #[arg(short, long)]

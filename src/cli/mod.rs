@@ -5,6 +5,7 @@ mod certify;
 mod controller;
 mod errata;
 mod failure;
+mod falsify;
 mod input;
 mod output;
 mod pages;
@@ -33,6 +34,7 @@ pub fn run() -> ExitCode {
         Command::Controller(args) => controller::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Falsify(args) => falsify::run(&args),
         Command::Errata(args) => errata::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),

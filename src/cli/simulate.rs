@@ -48,7 +48,11 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         harmonics: args.harmonics as usize,
     };
     let closed_loop = ClosedLoop::new(&plant, regulator);
-    let start = closed_loop.start(&plant.initial.x, plant.initial.e);
+    let start = closed_loop.start_of(&plant.initial).ok_or_else(|| {
+        let (given, needed) = (plant.initial.z.len(), closed_loop.regulator.dimension());
+        let message = format!("the initial z of the plant file has {given} components, this regulator has {needed}");
+        Failure::call(message, "give the number of oscillators that it is for, or remove z for a start at rest")
+    })?;
     let runs = if power.is_some() { 2 } else { 1 };
     let bar = Bar::new(u64::from(args.periods) * runs, args.quiet);
     let simulation = simulate(&closed_loop, &start, &settings, &bar);

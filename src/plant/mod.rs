@@ -32,13 +32,15 @@ pub struct Plant {
     pub internal_model: InternalModel,
 }
 
-/// An initial condition; z = 0.
+/// An initial condition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Initial {
     /// x(0).
     pub x: Vec<f64>,
     /// e(0).
     pub e: f64,
+    /// z(0); empty for a regulator at rest.
+    pub z: Vec<f64>,
 }
 
 impl Plant {

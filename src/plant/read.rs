@@ -130,8 +130,16 @@ fn read_initial(value: &Value<'_>, states: usize, errors: &mut Errors) -> Result
         read.into_iter().collect()
     });
     let e = object.required("e", errors).and_then(|value| double(&value, errors));
+    let z = match object.optional("z") {
+        None => Ok(Vec::new()),
+        Some(value) => {
+            let elements = value.array(errors)?;
+            let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, errors)).collect();
+            read.into_iter().collect()
+        }
+    };
     object.finish(errors);
-    Ok(Initial { x: x?, e: e? })
+    Ok(Initial { x: x?, e: e?, z: z? })
 }
 
 /// A constant that is a finite double.

@@ -1,7 +1,7 @@
 //! The plant with its regulator.
 
 use crate::expr::{Evaluator, Program};
-use crate::plant::Plant;
+use crate::plant::{Initial, Plant};
 use crate::regulator::Regulator;
 use std::sync::Arc;
 
@@ -78,6 +78,17 @@ impl ClosedLoop {
         y.push(e);
         y.resize(self.dimension(), 0.0);
         y
+    }
+
+    /// (x(0), e(0), z(0)) of a plant's initial condition; `None` where its z has another dimension than the regulator.
+    #[must_use]
+    pub fn start_of(&self, initial: &Initial) -> Option<Vec<f64>> {
+        let mut y = self.start(&initial.x, initial.e);
+        if !initial.z.is_empty() {
+            let z = y.get_mut(self.states + 1..).filter(|z| z.len() == initial.z.len())?;
+            z.copy_from_slice(&initial.z);
+        }
+        Some(y)
     }
 
     /// An evaluator of f and q.

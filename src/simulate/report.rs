@@ -229,7 +229,14 @@ pub fn spectrum(title: &str, curves: Vec<Curve>) -> Figure {
 pub fn bode(regulator: &Regulator) -> Figure {
     let last = regulator.frequencies.last().copied().unwrap_or(TAU).max(regulator.sigma);
     let first = regulator.frequencies.first().copied().unwrap_or(TAU).min(regulator.sigma);
-    let omegas = frequencies(first / 100.0, last * 10.0, 4000);
+    let mut omegas = frequencies(first / 100.0, last * 10.0, 1000);
+    // The zeros are as deep as they are narrow: each is approached from both sides.
+    for pole in &regulator.frequencies {
+        let near = (2..20).map(|quarter| libm::pow(10.0, -0.5 - 0.25 * f64::from(quarter)));
+        omegas.extend(near.flat_map(|offset| [pole * (1.0 - offset), pole * (1.0 + offset)]));
+        omegas.push(*pole);
+    }
+    omegas.sort_by(f64::total_cmp);
     let curve = |label: &str, regulator: &Regulator| {
         let points = omegas.iter().map(|&omega| (omega, magnitude(regulator, omega))).collect();
         Curve { label: label.to_owned(), points, marked: false }
@@ -244,7 +251,7 @@ pub fn bode(regulator: &Regulator) -> Figure {
         x: "angular frequency".to_owned(),
         y: "|e/q|".to_owned(),
         scale: Scale::LogLog,
-        floor: 1e-6,
+        floor: 1e-4,
         curves,
     }
 }
