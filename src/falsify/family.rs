@@ -2,6 +2,7 @@
 
 use super::claim::Claim;
 use crate::expr::FloatExpr;
+use std::cmp::Ordering;
 
 /// a cos(k Om t + phase).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,24 +90,23 @@ impl Family {
     /// The first bounding function that the plant is not shown to respect on X, E up to the reach of the claim.
     ///
     /// The bounds of the plant at the upper corner of each cell of a grid are compared with the bounding functions at
-    /// the lower corner; both are nondecreasing, so that the cells cover the region. Left out is one thing: |f| on the
-    /// corner cell where both are smaller than 1e-4 of the reach, if b_f(0, 0) = 0; there |f|/b_f is as on its edges.
+    /// the lower corner; both are nondecreasing, so that the cells cover the region from 1e-4 of the reach on. Closer
+    /// to the axes, where both may tend to 0, the axes themselves are compared.
     #[must_use]
     pub fn exceeds(&self, claim: &Claim, compiled: &[FloatExpr]) -> Option<&'static str> {
-        let grids = claim.reach.map(|last| {
+        let cells = claim.reach.map(|last| {
             let count = (libm::log(1.0 / SMALLEST) / libm::log(RATIO)).ceil() as i32;
-            let mut grid = vec![0.0];
-            grid.extend((0..=count).rev().map(|k| last * RATIO.powi(-k)));
-            grid
+            let mut cells = vec![[0.0, 0.0]];
+            cells.extend((0..count).rev().map(|k| [last * RATIO.powi(-k - 1), last * RATIO.powi(-k)]));
+            cells
         });
-        for x in grids[0].windows(2) {
-            for e in grids[1].windows(2) {
+        for x in &cells[0] {
+            for e in &cells[1] {
                 let plant = self.bounds(x[1], e[1]);
                 for (index, (bound, expr)) in plant.iter().zip(compiled).enumerate() {
                     let allowed = expr.eval(x[0], e[0]);
-                    let corner = index == 0 && x[0] == 0.0 && e[0] == 0.0 && allowed == 0.0;
                     // An undefined bounding function allows nothing.
-                    if !corner && !(*bound <= allowed) {
+                    if bound.partial_cmp(&allowed).is_none_or(Ordering::is_gt) {
                         return Some(CONDITIONS[index]);
                     }
                 }
