@@ -5,6 +5,7 @@ use clap_complete::Shell;
 use sigmastar::certificate::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar::rate::MAX_OSCILLATORS;
+use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
 use std::path::PathBuf;
 
 /// The exit codes, as help and manual page tell them.
@@ -27,6 +28,12 @@ const TRANSFER_EXAMPLES: &str = "Examples:
   sigmastar transfer plant.json
   sigmastar transfer plant.json --k0 1/2 --n-o 0..10,inf
   sigmastar transfer plant.json --minimise 1,2/3 --plot bound.svg";
+
+/// Examples of simulations.
+pub const SIMULATE_EXAMPLES: &str = "Examples:
+  sigmastar simulate plant.json --sigma 2 --n-o 4
+  sigmastar simulate plant.json --sigma 2 --high-gain --plots figures
+  sigmastar simulate plant.json --controller controller.json --noise-power 1e-3 --seed 7";
 
 /// Certified gains for output regulation: from bounding functions of a plant to a gain that provably works for every
 /// number of oscillators.
@@ -57,6 +64,24 @@ pub enum Command {
     /// Decides the claim again from the certificate alone, with none of the code that made it: the same as the program
     /// `proofs-check`. Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
     Check(CheckArgs),
+    /// Write the regulator of a specification: matrices, exact discretisation, C code
+    ///
+    /// Every number is the exact one rounded once to double precision.
+    Controller(ControllerArgs),
+    /// Simulate a plant with a regulator: steady state, long run, measurement noise
+    ///
+    /// Floating point, no claim. The report goes to standard output; --csv and --plots write files.
+    #[command(after_help = SIMULATE_EXAMPLES)]
+    Simulate(SimulateArgs),
+    /// Reproduce the tables and figures of the paper
+    ///
+    /// Floating point, no claim. Writes report.md, report.json and the figures into a folder.
+    Reproduce(ReproduceArgs),
+    /// Try to break a certificate by simulation
+    ///
+    /// Draws plants within the bounding functions, starts on the boundary of the initial set and checks every bound of
+    /// the claim a little above sigma*. Finding nothing proves nothing; exit code 1 and a plant file if it finds one.
+    Falsify(FalsifyArgs),
     /// List what is wrong in the paper, with evidence
     ///
     /// With a specification, also says what each item means for it.
@@ -248,6 +273,197 @@ pub struct RateArgs {
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
+}
+
+/// The flags of `controller`.
+#[derive(Args, Debug)]
+pub struct ControllerArgs {
+    /// Bounding specification (JSON) with the internal model, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// The gain sigma, an exact positive constant such as `48.5` or `97/2`
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub sigma: String,
+
+    /// The number of oscillators n_o
+    #[arg(long, value_name = "N",
+          value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_EXPORTED_OSCILLATORS)))]
+    pub n_o: u32,
+
+    /// Also discretise for this sampling time, an exact positive constant, with e held over each sample
+    #[arg(long, value_name = "DT", allow_hyphen_values = true)]
+    pub discretise: Option<String>,
+
+    /// Form in which the regulator is written
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = ControllerFormat::Json)]
+    pub format: ControllerFormat,
+
+    /// Write to this file; the C source takes its header beside it
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+}
+
+/// The flags of `simulate`.
+#[derive(Args, Debug)]
+pub struct SimulateArgs {
+    /// Plant (JSON), or `-` for standard input
+    #[arg(value_name = "PLANT", value_hint = ValueHint::FilePath)]
+    pub plant: PathBuf,
+
+    /// The gain sigma, an exact positive constant such as `48.5` or `97/2`
+    #[arg(long, value_name = "V", allow_hyphen_values = true, required_unless_present = "controller")]
+    pub sigma: Option<String>,
+
+    /// The number of oscillators n_o, with the internal model of the plant file
+    #[arg(long, value_name = "N", required_unless_present_any = ["controller", "high_gain"],
+          value_parser = clap::value_parser!(u32).range(0..=200))]
+    pub n_o: Option<u32>,
+
+    /// The high-gain feedback u = -sigma e without an internal model
+    #[arg(long, conflicts_with = "n_o")]
+    pub high_gain: bool,
+
+    /// The regulator from a file that `controller` wrote (JSON)
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["sigma", "n_o", "high_gain"])]
+    pub controller: Option<PathBuf>,
+
+    /// Length of the run from the initial condition, in periods
+    #[arg(long, value_name = "P", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub periods: u32,
+
+    /// Integrate the run with this many classical Runge-Kutta steps per period instead of adaptive steps of order 8
+    #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub fixed: Option<u32>,
+
+    /// Samples per period in the CSV file and the time response
+    #[arg(long, value_name = "S", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub samples: u32,
+
+    /// Fourier coefficients in the report
+    #[arg(long, value_name = "K", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub harmonics: u32,
+
+    /// Also run with measurement noise of this power spectral density through s^2/(s^2 + 3 s + 2)
+    #[arg(long, value_name = "POWER", allow_hyphen_values = true)]
+    pub noise_power: Option<String>,
+
+    /// Seed of the noise
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    pub seed: u64,
+
+    /// Runge-Kutta steps per period of the run with noise, which is held over each
+    #[arg(long, value_name = "STEPS", default_value_t = 10_000,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub noise_steps: u32,
+
+    /// Feed the noise back through -sigma (e + v) as well, not only into the internal model
+    #[arg(long)]
+    pub noise_everywhere: bool,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = SimulationFormat::Text)]
+    pub format: SimulationFormat,
+
+    /// Write the samples of the run to this file (CSV)
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub csv: Option<PathBuf>,
+
+    /// Write figures (SVG) into this folder
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    pub plots: Option<PathBuf>,
+
+    /// No progress and no remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// A format of a simulation report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SimulationFormat {
+    /// Plain text for a terminal
+    Text,
+    /// JSON
+    Json,
+}
+
+/// The flags of `reproduce`.
+#[derive(Args, Debug)]
+pub struct ReproduceArgs {
+    /// Folder for the report and the figures; created where it does not exist
+    #[arg(short, long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    pub output: PathBuf,
+
+    /// Only these parts (several can be given, separated by commas)
+    #[arg(long, value_enum, value_name = "PART", value_delimiter = ',')]
+    pub only: Vec<PartArg>,
+
+    /// Seeds of the noise: ranges are over seeds 1 to this number
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub seeds: u32,
+
+    /// Runge-Kutta steps per period of the runs with noise (the paper has 100000)
+    #[arg(long, value_name = "STEPS", default_value_t = 10_000,
+          value_parser = clap::value_parser!(u32).range(1000..=1_000_000))]
+    pub noise_steps: u32,
+
+    /// No progress and no remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// The flags of `falsify`.
+#[derive(Args, Debug)]
+pub struct FalsifyArgs {
+    /// Certificate (JSON), or `-` for standard input
+    #[arg(value_name = "CERT", value_hint = ValueHint::FilePath)]
+    pub certificate: PathBuf,
+
+    /// Number of plants
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub trials: u32,
+
+    /// Seed of the random numbers; the same seed gives the same trials
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    pub seed: u64,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = SimulationFormat::Text)]
+    pub format: SimulationFormat,
+
+    /// Write the first counterexample to this plant file
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+
+    /// No progress and no remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// A part of the paper's numerical section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PartArg {
+    /// High-gain feedback, without noise
+    Table1,
+    /// Internal model, without noise
+    Table2,
+    /// The columns with noise of both tables
+    Noise,
+    /// The five figures
+    Figures,
+}
+
+/// A form of the regulator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ControllerFormat {
+    /// JSON
+    Json,
+    /// NumPy archive (needs -o)
+    Npz,
+    /// Script for MATLAB and Octave
+    Matlab,
+    /// C99 source and header with a step function (needs --discretise and -o FILE.c)
+    C,
 }
 
 /// A derivation.

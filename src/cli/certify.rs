@@ -17,7 +17,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
 
 fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     // What is wrong with the call is said before any work is done.
-    let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.spec)).transpose()?;
+    let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.spec, "the certificate")).transpose()?;
     let flags =
         [(TargetKind::Sup, "--target-sup", &args.target_sup), (TargetKind::Rms, "--target-rms", &args.target_rms)];
     let targets = flags
@@ -89,7 +89,7 @@ fn write_certificate(run: &Certification<'_>, file: &OutputFile, quiet: bool) ->
     let name = file.name();
     match certificate_json(run) {
         Some(certificate) => {
-            file.write(&output::json_text(&certificate))?;
+            file.write(output::json_text(&certificate))?;
             if !quiet {
                 output::remark(&format!("the certificate is in `{name}`"));
             }

@@ -3,14 +3,18 @@
 mod args;
 mod certify;
 mod check;
+mod controller;
 mod errata;
 mod failure;
+mod falsify;
 mod input;
 mod lyapunov;
 mod output;
 mod pages;
 mod progress;
 mod rate;
+mod reproduce;
+mod simulate;
 mod transfer;
 
 use args::{Cli, Command};
@@ -33,6 +37,10 @@ pub fn run() -> ExitCode {
         Command::Certify(args) => certify::run(&args),
         Command::Transfer(args) => transfer::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Controller(args) => controller::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
+        Command::Reproduce(args) => reproduce::run(&args),
+        Command::Falsify(args) => falsify::run(&args),
         Command::Errata(args) => errata::run(&args),
         Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Rate(args) => rate::run(&args),

@@ -84,14 +84,15 @@ pub struct OutputFile {
 
 impl OutputFile {
     /// Checks that the file can be meant: its folder exists, it is no folder or device itself, and it is not `input`.
+    /// `what` is what will be written, for messages.
     ///
     /// # Errors
     /// The call is wrong; nothing was touched.
-    pub fn new(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
+    pub fn new(path: &Path, input: &Path, what: &str) -> Result<OutputFile, Failure> {
         let name = shown(path);
         if path == Path::new("-") {
             let help = "name a file; for the report as JSON on standard output, use --format json";
-            return Err(Failure::call("the certificate cannot go to standard output", help));
+            return Err(Failure::call(format!("{what} cannot go to standard output"), help));
         }
         // An existing file is written through its links, so that a link stays one.
         let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
@@ -125,7 +126,7 @@ impl OutputFile {
     ///
     /// # Errors
     /// The file system's reason.
-    pub fn write(&self, text: &str) -> Result<(), Failure> {
+    pub fn write(&self, content: impl AsRef<[u8]>) -> Result<(), Failure> {
         let write = || {
             let mut builder = tempfile::Builder::new();
             #[cfg(unix)]
@@ -135,7 +136,7 @@ impl OutputFile {
                 builder.permissions(std::fs::Permissions::from_mode(0o666));
             }
             let mut file = builder.prefix(".sigmastar-").tempfile_in(&self.folder)?;
-            file.write_all(text.as_bytes())?;
+            file.write_all(content.as_ref())?;
             file.as_file().sync_all()?;
             file.persist(&self.target).map_err(|error| error.error)?;
             Ok(())
@@ -145,4 +146,15 @@ impl OutputFile {
             Failure::call(message, "check the permissions of the folder and the space left there")
         })
     }
+}
+
+/// A folder for files that are made, created where it does not exist.
+///
+/// # Errors
+/// It cannot be created, or it is something else.
+pub fn folder(path: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(path).map_err(|error| {
+        let message = format!("cannot create the folder `{}`: {}", shown(path), reason(&error));
+        Failure::call(message, "name a folder that exists or can be created")
+    })
 }

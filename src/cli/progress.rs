@@ -1,27 +1,43 @@
 //! A progress bar on standard error, for work above a second.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{self, IsTerminal};
-use std::time::Duration;
+use sigmastar::simulate::Progress;
+use std::io::{IsTerminal, stderr};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
-/// How long work may take before a bar appears.
+/// How long work takes before it is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A bar over `length` steps. It shows itself only on a terminal, and only once the work has taken a second.
-pub fn bar(length: usize, what: &'static str, quiet: bool) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::hidden());
-    if quiet || !io::stderr().is_terminal() {
-        return bar;
-    }
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}, {eta} to go");
-    // The template is a constant without errors; without it the bar has its default look.
-    let bar = bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())).with_message(what);
-    let shown = bar.downgrade();
-    std::thread::spawn(move || {
-        std::thread::sleep(PATIENCE);
-        if let Some(bar) = shown.upgrade().filter(|bar| !bar.is_finished()) {
-            bar.set_draw_target(ProgressDrawTarget::stderr());
+/// A bar that appears after a second, on a terminal only.
+pub struct Bar {
+    bar: ProgressBar,
+    start: Instant,
+    wanted: AtomicBool,
+}
+
+impl Bar {
+    /// A bar for some units of work.
+    pub fn new(units: u64, quiet: bool) -> Bar {
+        let bar = ProgressBar::with_draw_target(Some(units), ProgressDrawTarget::hidden());
+        // The template is a constant, and one that is read.
+        if let Ok(style) = ProgressStyle::with_template("sigmastar: [{wide_bar}] {percent} % {eta} left") {
+            bar.set_style(style.progress_chars("=> "));
         }
-    });
-    bar
+        Bar { bar, start: Instant::now(), wanted: AtomicBool::new(!quiet && stderr().is_terminal()) }
+    }
+
+    /// Removes the bar.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Progress for Bar {
+    fn advance(&self) {
+        if self.start.elapsed() > PATIENCE && self.wanted.swap(false, Ordering::Relaxed) {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.bar.inc(1);
+    }
 }

@@ -2,11 +2,13 @@
 
 use super::args::{Format, TransferArgs};
 use super::failure::Failure;
+use super::input;
 use super::output::{self, OutputFile};
-use super::{input, progress};
+use super::progress::Bar;
 use sigmastar::certificate::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
 use sigmastar::report::{PairChoice, TransferReport, TransferRequest};
+use sigmastar::simulate::Progress;
 use sigmastar::spec::Specification;
 use sigmastar::transfer::{OscillatorCount, PairError};
 
@@ -19,7 +21,7 @@ pub fn run(args: &TransferArgs) -> u8 {
 }
 
 fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
-    let plot = args.plot.as_deref().map(|path| OutputFile::new(path, &args.spec)).transpose()?;
+    let plot = args.plot.as_deref().map(|path| OutputFile::new(path, &args.spec, "the plot")).transpose()?;
     let pair = match (&args.k0, &args.minimise) {
         (Some(text), _) => PairChoice::SmallestK1(input::positive("--k0", text)?),
         (None, Some(text)) => {
@@ -36,10 +38,10 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
     };
     let n_o = counts(&args.n_o)?;
     let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
-    let bar = progress::bar(n_o.len(), "numbers of oscillators", args.quiet);
+    let bar = Bar::new(n_o.len() as u64, args.quiet);
     let request = TransferRequest { pair, n_o };
-    let report = TransferReport::new(&spec, DEFAULT_PRECISION, &request, || bar.inc(1));
-    bar.finish_and_clear();
+    let report = TransferReport::new(&spec, DEFAULT_PRECISION, &request, || bar.advance());
+    bar.finish();
     let report = match report {
         Ok(report) => report,
         Err(error) => return Ok(no_pair(args, &error)),

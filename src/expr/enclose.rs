@@ -1,7 +1,7 @@
 //! Interval evaluation.
 
 use super::Expr;
-use super::syntax::{Algebra, Binary, Node, Unary, evaluate};
+use super::syntax::{Algebra, Argument, Binary, Node, Unary, evaluate};
 use crate::enclosure::Enclosure;
 use rug::{Integer, Rational};
 use std::ops::Range;
@@ -59,12 +59,11 @@ impl Algebra for Natural<'_> {
         Enclosure::pi(self.precision)
     }
 
-    fn x(&mut self) -> Enclosure {
-        self.x.clone()
-    }
-
-    fn e(&mut self) -> Enclosure {
-        self.e.clone()
+    fn variable(&mut self, variable: Argument) -> Enclosure {
+        match variable {
+            Argument::X => self.x.clone(),
+            Argument::E => self.e.clone(),
+        }
     }
 
     fn unary(&mut self, operation: Unary, a: Enclosure) -> Enclosure {

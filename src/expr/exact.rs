@@ -1,7 +1,7 @@
 //! Exact values, where they have the form c sqrt(r) pi^k.
 
 use super::Expr;
-use super::syntax::{Algebra, Binary, Unary, evaluate};
+use super::syntax::{Algebra, Argument, Binary, Unary, evaluate};
 use crate::number::Monomial;
 use rug::Rational;
 use std::cmp::Ordering;
@@ -12,7 +12,30 @@ pub(super) struct Exact {
     pub(super) e: Option<Monomial>,
 }
 
-impl Algebra for Exact {
+impl Lookup<Argument> for Exact {
+    fn lookup(&self, variable: Argument) -> Option<Monomial> {
+        match variable {
+            Argument::X => self.x.clone(),
+            Argument::E => self.e.clone(),
+        }
+    }
+}
+
+/// Exact evaluation that knows no variable, of any kind.
+pub(super) struct Constants;
+
+impl<V> Lookup<V> for Constants {
+    fn lookup(&self, _variable: V) -> Option<Monomial> {
+        None
+    }
+}
+
+/// The exact values of variables, where they are known.
+pub(super) trait Lookup<V> {
+    fn lookup(&self, variable: V) -> Option<Monomial>;
+}
+
+impl<V, L: Lookup<V>> Algebra<V> for L {
     type Value = Option<Monomial>;
 
     fn number(&mut self, value: &Rational) -> Option<Monomial> {
@@ -23,12 +46,8 @@ impl Algebra for Exact {
         Some(Monomial::pi())
     }
 
-    fn x(&mut self) -> Option<Monomial> {
-        self.x.clone()
-    }
-
-    fn e(&mut self) -> Option<Monomial> {
-        self.e.clone()
+    fn variable(&mut self, variable: V) -> Option<Monomial> {
+        self.lookup(variable)
     }
 
     fn unary(&mut self, operation: Unary, a: Option<Monomial>) -> Option<Monomial> {
@@ -75,7 +94,7 @@ impl Expr {
     /// grows too large; it says nothing about the value.
     #[must_use]
     pub fn exact(&self) -> Option<Monomial> {
-        evaluate(&self.nodes, &mut Exact { x: None, e: None })
+        evaluate(&self.nodes, &mut Constants)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Fast evaluation in double precision, for searches only.
 
 use super::Expr;
-use super::syntax::{Algebra, Binary, Unary, evaluate};
+use super::syntax::{Algebra, Argument, Binary, Unary, evaluate};
 use crate::enclosure::Enclosure;
 use rug::Rational;
 
@@ -35,7 +35,7 @@ pub struct FloatExpr {
     shallow: bool,
 }
 
-fn unary(operation: Unary, a: f64) -> f64 {
+pub(super) fn unary(operation: Unary, a: f64) -> f64 {
     match operation {
         Unary::Neg => -a,
         Unary::Sqrt => a.sqrt(),
@@ -50,7 +50,7 @@ fn unary(operation: Unary, a: f64) -> f64 {
     }
 }
 
-fn binary(operation: Binary, a: f64, b: f64) -> f64 {
+pub(super) fn binary(operation: Binary, a: f64, b: f64) -> f64 {
     match operation {
         Binary::Add => a + b,
         Binary::Sub => a - b,
@@ -135,13 +135,11 @@ impl Algebra for Compiler {
         self.constant(&Enclosure::pi(CONSTANT_PRECISION))
     }
 
-    fn x(&mut self) -> bool {
-        self.operand(Instruction::X);
-        false
-    }
-
-    fn e(&mut self) -> bool {
-        self.operand(Instruction::E);
+    fn variable(&mut self, variable: Argument) -> bool {
+        self.operand(match variable {
+            Argument::X => Instruction::X,
+            Argument::E => Instruction::E,
+        });
         false
     }
 

@@ -6,7 +6,7 @@
 use super::Expr;
 use super::enclose::{binary, power, unary};
 use super::slope::quotients;
-use super::syntax::{Algebra, Binary, Unary, evaluate};
+use super::syntax::{Algebra, Argument, Binary, Unary, evaluate};
 use crate::enclosure::Enclosure;
 use rug::Rational;
 
@@ -119,12 +119,11 @@ impl Algebra for JetAlgebra<'_> {
         Jet::constant(Enclosure::pi(self.precision))
     }
 
-    fn x(&mut self) -> Jet {
-        Jet::variable(self.x, 0)
-    }
-
-    fn e(&mut self) -> Jet {
-        Jet::variable(self.e, 1)
+    fn variable(&mut self, variable: Argument) -> Jet {
+        match variable {
+            Argument::X => Jet::variable(self.x, 0),
+            Argument::E => Jet::variable(self.e, 1),
+        }
     }
 
     fn unary(&mut self, operation: Unary, a: Jet) -> Jet {

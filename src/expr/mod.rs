@@ -7,6 +7,9 @@
 //! for every base if n >= 0 (`0^0 = 1`) and for nonzero bases if n < 0; every other `u^v` is the real power, defined
 //! for u > 0, and for u = 0 with v > 0 where it is 0. On that set every expression is continuous.
 //!
+//! The same grammar serves the right sides of a plant ([`PlantExpr`], in t, the states and e), which are only ever
+//! evaluated in double precision, by a [`Program`]; the two kinds of expressions are different types.
+//!
 //! Expressions come from strangers' files. Every limit that keeps them harmless is a public constant here; parsing
 //! and evaluation take time and memory linear in the number of nodes, apart from the arithmetic itself.
 
@@ -15,12 +18,15 @@ mod error;
 mod exact;
 mod failure;
 mod float;
+mod graph;
 mod growth;
 mod jet;
 mod lex;
 mod names;
 mod parse;
+mod plant;
 mod point;
+mod program;
 mod prove;
 mod refute;
 mod slope;
@@ -30,6 +36,8 @@ mod trigonometric;
 pub use error::{ExprError, ExprErrorKind};
 pub use failure::{BoundingFailure, Counterexample, DomainBox, Evaluation, Property, Reason};
 pub use float::FloatExpr;
+pub use plant::{MAX_STATES, NameError, PlantExpr, PlantNames, PlantVariable};
+pub use program::{Evaluator, Program};
 pub use prove::{ProofSettings, prove_bounding};
 pub use slope::Slopes;
 pub use trigonometric::{MAX_HARMONIC, NotTrigonometric, TrigonometricPolynomial};
@@ -83,7 +91,7 @@ impl Expr {
     /// the limits [`MAX_TEXT`], [`MAX_NESTING`], [`MAX_NODES`], [`MAX_EXPONENT`] or those of
     /// [`crate::number::parse_decimal`] is exceeded. Never panics.
     pub fn parse(text: &str, variables: Variables) -> Result<Expr, ExprError> {
-        let nodes = parse::parse(text, variables)?;
+        let nodes = parse::parse(text, &variables)?;
         Ok(Expr { text: text.into(), nodes: nodes.into() })
     }
 

@@ -1,7 +1,7 @@
 //! Names that have a meaning, and which of them a writer may have meant.
 
 use super::Variables;
-use super::syntax::{Binary, Unary};
+use super::syntax::{Argument, Binary, Unary};
 
 /// The functions of one argument.
 pub(super) const UNARY: [(&str, Unary); 9] = [
@@ -38,22 +38,88 @@ const ALIASES: [(&str, &str); 12] = [
 /// Edits beyond which a name is not taken for a misspelling.
 const MAX_EDITS: usize = 2;
 
-fn known(variables: Variables) -> impl Iterator<Item = &'static str> {
-    let variables: &[&str] = match variables {
-        Variables::None => &[],
-        Variables::XAndE => &["X", "E"],
-        Variables::Time => &["t"],
-    };
-    variables.iter().copied().chain(UNARY.iter().map(|f| f.0)).chain(FOLDED.iter().map(|f| f.0)).chain(["pi"])
+/// What can stand where an operand is needed, in a bounding function and in a constant.
+pub(super) const OPERAND: &str = "a number, X, E, pi, a function or an opening parenthesis";
+const CONSTANT_OPERAND: &str = "a number, pi, a function or an opening parenthesis";
+const TIME_OPERAND: &str = "a number, t, pi, a function or an opening parenthesis";
+
+/// Which names are variables, and how messages speak of them.
+pub(super) trait Scope {
+    /// A variable.
+    type Variable: Copy;
+
+    /// The variable of this name; an error with perhaps a suggestion where it is a variable elsewhere and forbidden
+    /// here; `None` for any other name.
+    fn variable(&self, name: &str) -> Option<Result<Self::Variable, Option<String>>>;
+
+    /// What can stand where an operand is needed.
+    fn operand(&self) -> &'static str;
+
+    /// The names of the variables.
+    fn names(&self) -> impl Iterator<Item = &str>;
+
+    /// A product of one-letter variables written without operators (`XE`), with them (`X*E`); any other name itself.
+    fn spelled_out(&self, name: &str) -> String {
+        let letters = || name.chars().map(String::from);
+        if letters().all(|letter| self.names().any(|known| known == letter)) {
+            letters().collect::<Vec<_>>().join("*")
+        } else {
+            name.to_owned()
+        }
+    }
+}
+
+impl Scope for Variables {
+    type Variable = Argument;
+
+    fn variable(&self, name: &str) -> Option<Result<Argument, Option<String>>> {
+        let argument = match (name, self) {
+            // The time takes the place of X.
+            ("t", Variables::Time) => Argument::X,
+            ("X", Variables::None | Variables::XAndE) => Argument::X,
+            ("E", Variables::None | Variables::XAndE) => Argument::E,
+            _ => return None,
+        };
+        Some(match self {
+            Variables::XAndE | Variables::Time => Ok(argument),
+            Variables::None => Err((argument == Argument::E).then(|| "Euler's number is exp(1)".to_owned())),
+        })
+    }
+
+    fn operand(&self) -> &'static str {
+        match self {
+            Variables::None => CONSTANT_OPERAND,
+            Variables::XAndE => OPERAND,
+            Variables::Time => TIME_OPERAND,
+        }
+    }
+
+    fn names(&self) -> impl Iterator<Item = &str> {
+        let names: &[&str] = match self {
+            Variables::None => &[],
+            Variables::XAndE => &["X", "E"],
+            Variables::Time => &["t"],
+        };
+        names.iter().copied()
+    }
+}
+
+/// Whether a name has a meaning of its own, so that no variable can have it.
+pub(super) fn is_taken(name: &str) -> bool {
+    name == "pi" || UNARY.iter().any(|f| f.0 == name) || FOLDED.iter().any(|f| f.0 == name)
+}
+
+fn known<S: Scope>(scope: &S) -> impl Iterator<Item = &str> {
+    scope.names().chain(UNARY.iter().map(|f| f.0)).chain(FOLDED.iter().map(|f| f.0)).chain(["pi"])
 }
 
 /// A suggestion for an unknown name, as a sentence.
-pub(super) fn suggest(name: &str, variables: Variables) -> Option<String> {
+pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
     let lower = name.to_lowercase();
     if let Some((_, meant)) = ALIASES.iter().find(|(alias, _)| *alias == lower) {
         return Some(format!("write {meant}"));
     }
-    if let Some(meant) = known(variables).find(|known| known.to_lowercase() == lower) {
+    if let Some(meant) = known(scope).find(|known| known.to_lowercase() == lower) {
         return Some(format!("write {meant}"));
     }
     match lower.as_str() {
@@ -63,10 +129,11 @@ pub(super) fn suggest(name: &str, variables: Variables) -> Option<String> {
         "log2" => return Some("write log(u)/log(2)".to_owned()),
         _ => {}
     }
-    if variables == Variables::XAndE && name.chars().all(|c| matches!(c, 'X' | 'E')) {
-        return Some(format!("write {}", spelled_out(name)));
+    let product = scope.spelled_out(name);
+    if product != name {
+        return Some(format!("write {product}"));
     }
-    known(variables)
+    known(scope)
         // A variable is one letter: every short name would be a misspelling of it.
         .filter(|known| known.len() > 1)
         .map(|known| (strsim::osa_distance(&lower, known), known))
@@ -75,22 +142,13 @@ pub(super) fn suggest(name: &str, variables: Variables) -> Option<String> {
         .map(|(_, known)| format!("did you mean {known}?"))
 }
 
-/// A product of variables written without operators (`XE`), with them (`X*E`).
-pub(super) fn spelled_out(name: &str) -> String {
-    if name.chars().all(|c| matches!(c, 'X' | 'E')) {
-        name.chars().map(String::from).collect::<Vec<_>>().join("*")
-    } else {
-        name.to_owned()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn suggestions() {
-        let suggest = |name| suggest(name, Variables::XAndE);
+        let suggest = |name| suggest(name, &Variables::XAndE);
         for (name, meant) in [
             ("sqr", "did you mean sqrt?"),
             ("x", "write X"),
@@ -107,7 +165,7 @@ mod tests {
         }
         assert_eq!(suggest("q"), None);
         assert_eq!(suggest("velocity"), None);
-        assert_eq!(super::suggest("e", Variables::None).as_deref(), Some("Euler's number is exp(1)"));
-        assert_eq!(super::suggest("XE", Variables::None), None);
+        assert_eq!(super::suggest("e", &Variables::None).as_deref(), Some("Euler's number is exp(1)"));
+        assert_eq!(super::suggest("XE", &Variables::None), None);
     }
 }

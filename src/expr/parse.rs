@@ -5,24 +5,23 @@
 //! product = signed (("*" | "/") signed)*
 //! signed  = ("-" | "+")* power
 //! power   = primary ("^" signed)?
-//! primary = numeral | "pi" | "X" | "E" | "t" | name "(" sum ("," sum)* ")" | "(" sum ")"
+//! primary = numeral | "pi" | variable | name "(" sum ("," sum)* ")" | "(" sum ")"
 //! ```
+//!
+//! Which names are variables is the [`Scope`]'s to say.
 
-use super::exact::Exact;
+use super::exact::Constants;
 use super::lex::{Token, TokenKind, tokens};
-use super::names::{FOLDED, UNARY, spelled_out, suggest};
+use super::names::{FOLDED, Scope, UNARY, suggest};
 use super::syntax::{Binary, Node, NodeKind, Unary, step};
-use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT, Variables};
+use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT};
 use crate::number::{Monomial, parse_decimal};
 use std::ops::Range;
 
-const OPERAND: &str = "a number, X, E, pi, a function or an opening parenthesis";
-const CONSTANT_OPERAND: &str = "a number, pi, a function or an opening parenthesis";
-const TIME_OPERAND: &str = "a number, t, pi, a function or an opening parenthesis";
 const OPERATOR: &str = "an operator or the end";
 
 /// The nodes of the expression, in postfix order.
-pub(super) fn parse(text: &str, variables: Variables) -> Result<Vec<Node>, ExprError> {
+pub(super) fn parse<S: Scope>(text: &str, scope: &S) -> Result<Vec<Node<S::Variable>>, ExprError> {
     if text.len() > MAX_TEXT {
         // The limit may fall inside a character; the span must not.
         let start = (0..=MAX_TEXT).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
@@ -31,10 +30,10 @@ pub(super) fn parse(text: &str, variables: Variables) -> Result<Vec<Node>, ExprE
     }
     let tokens = tokens(text);
     if tokens.is_empty() {
-        let expected = Some(operand_words(variables));
+        let expected = Some(scope.operand());
         return Err(ExprError { kind: ExprErrorKind::Empty, span: text.len()..text.len(), expected, help: None });
     }
-    let mut parser = Parser { text, tokens, at: 0, depth: 0, variables, nodes: Vec::new(), exact: Vec::new() };
+    let mut parser = Parser { text, tokens, at: 0, depth: 0, scope, nodes: Vec::new(), exact: Vec::new() };
     parser.sum()?;
     match parser.peek() {
         None => Ok(parser.nodes),
@@ -42,26 +41,18 @@ pub(super) fn parse(text: &str, variables: Variables) -> Result<Vec<Node>, ExprE
     }
 }
 
-fn operand_words(variables: Variables) -> &'static str {
-    match variables {
-        Variables::None => CONSTANT_OPERAND,
-        Variables::XAndE => OPERAND,
-        Variables::Time => TIME_OPERAND,
-    }
-}
-
-struct Parser<'a> {
+struct Parser<'a, S: Scope> {
     text: &'a str,
     tokens: Vec<Token>,
     at: usize,
     depth: usize,
-    variables: Variables,
-    nodes: Vec<Node>,
+    scope: &'a S,
+    nodes: Vec<Node<S::Variable>>,
     /// The exact values of the operands that wait for their operation, to recognise constant integer exponents.
     exact: Vec<Option<Monomial>>,
 }
 
-impl Parser<'_> {
+impl<S: Scope> Parser<'_, S> {
     fn peek(&self) -> Option<Token> {
         self.tokens.get(self.at).cloned()
     }
@@ -90,12 +81,12 @@ impl Parser<'_> {
         self.tokens.get(self.at).map_or(self.text.len(), |token| token.span.start)
     }
 
-    fn push(&mut self, kind: NodeKind, span: Range<usize>) -> Result<(), ExprError> {
+    fn push(&mut self, kind: NodeKind<S::Variable>, span: Range<usize>) -> Result<(), ExprError> {
         if self.nodes.len() >= MAX_NODES {
             return Err(ExprError { kind: ExprErrorKind::TooManyNodes, span, expected: None, help: None });
         }
         let node = Node { kind, span };
-        step(&node, &mut self.exact, &mut Exact { x: None, e: None });
+        step(&node, &mut self.exact, &mut Constants);
         self.nodes.push(node);
         Ok(())
     }
@@ -181,7 +172,7 @@ impl Parser<'_> {
 
     fn primary(&mut self) -> Result<(), ExprError> {
         let Some(token) = self.peek() else {
-            return Err(self.end_of_text(operand_words(self.variables)));
+            return Err(self.end_of_text(self.scope.operand()));
         };
         self.at += 1;
         match token.kind {
@@ -201,36 +192,29 @@ impl Parser<'_> {
             }
             TokenKind::Symbol(symbol) => {
                 self.at -= 1;
-                Err(self.misplaced(symbol, token.span, operand_words(self.variables)))
+                Err(self.misplaced(symbol, token.span, self.scope.operand()))
             }
         }
     }
 
     fn name(&mut self, span: &Range<usize>) -> Result<(), ExprError> {
         let name = &self.text[span.clone()];
-        match name {
-            "pi" => return self.push(NodeKind::Pi, span.clone()),
-            // The time takes the place of X.
-            "t" if self.variables == Variables::Time => return self.push(NodeKind::X, span.clone()),
-            "X" | "E" if self.variables == Variables::Time => {
-                let kind = ExprErrorKind::UnknownName { name: name.to_owned() };
-                let help = Some("an entry of the Jacobian is a function of t alone".to_owned());
-                return Err(ExprError { kind, span: span.clone(), expected: Some(TIME_OPERAND), help });
-            }
-            "X" | "E" if self.variables == Variables::None => {
-                let help = (name == "E").then(|| "Euler's number is exp(1)".to_owned());
+        if name == "pi" {
+            return self.push(NodeKind::Pi, span.clone());
+        }
+        match self.scope.variable(name) {
+            Some(Ok(variable)) => return self.push(NodeKind::Variable(variable), span.clone()),
+            Some(Err(help)) => {
                 let kind = ExprErrorKind::VariableInConstant { name: name.to_owned() };
-                return Err(ExprError { kind, span: span.clone(), expected: Some(CONSTANT_OPERAND), help });
+                return Err(ExprError { kind, span: span.clone(), expected: Some(self.scope.operand()), help });
             }
-            "X" => return self.push(NodeKind::X, span.clone()),
-            "E" => return self.push(NodeKind::E, span.clone()),
-            _ => {}
+            None => {}
         }
         let unary = UNARY.iter().find(|f| f.0 == name).map(|f| f.1);
         let folded = FOLDED.iter().find(|f| f.0 == name).map(|f| f.1);
         if unary.is_none() && folded.is_none() {
             let kind = ExprErrorKind::UnknownName { name: shortened(name) };
-            let (expected, help) = (Some(operand_words(self.variables)), suggest(name, self.variables));
+            let (expected, help) = (Some(self.scope.operand()), suggest(name, self.scope));
             return Err(ExprError { kind, span: span.clone(), expected, help });
         }
         let open = self.start()..self.start() + 1;
@@ -328,7 +312,7 @@ impl Parser<'_> {
         match token.kind {
             TokenKind::Numeral | TokenKind::Name | TokenKind::Symbol('(') => {
                 let left = self.at.checked_sub(1).map_or_else(String::new, |at| text(&self.tokens[at].span));
-                let factor = if token.kind == TokenKind::Name { spelled_out(&right) } else { right.clone() };
+                let factor = if token.kind == TokenKind::Name { self.scope.spelled_out(&right) } else { right.clone() };
                 let help = Some(format!("write {left}*{factor}"));
                 let kind = ExprErrorKind::MissingOperator { left, right };
                 ExprError { kind, span: token.span.clone(), expected: Some(OPERATOR), help }
@@ -345,7 +329,8 @@ fn shortened(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Expr;
+    use super::super::names::OPERAND;
+    use super::super::{Expr, Variables};
     use super::*;
     use rug::Rational;
 
@@ -482,7 +467,7 @@ mod tests {
     #[test]
     fn spans_cover_the_operation() {
         let text = "1 + -max(X, E, 2)^(1/3)";
-        let nodes = parse(text, Variables::XAndE).unwrap();
+        let nodes = parse(text, &Variables::XAndE).unwrap();
         let spans: Vec<&str> = nodes.iter().map(|node| &text[node.span.clone()]).collect();
         let expected = ["1", "X", "E", "max(X, E", "2", "max(X, E, 2)", "1", "3", "1/3", "max(X, E, 2)^(1/3)"];
         assert_eq!(spans[..10], expected);

@@ -3,7 +3,7 @@
 use super::Expr;
 use super::enclose::{binary, power, unary};
 use super::exact::{Exact, sign};
-use super::syntax::{Algebra, Binary, Node, Unary, evaluate};
+use super::syntax::{Algebra, Argument, Binary, Node, Unary, evaluate};
 use crate::enclosure::Enclosure;
 use crate::number::Monomial;
 use rug::Rational;
@@ -77,13 +77,8 @@ impl Algebra for PointAlgebra {
         self.settle(exact, || Enclosure::pi(self.precision))
     }
 
-    fn x(&mut self) -> PointValue {
-        let exact = self.exact.x();
-        self.settle(exact, || Enclosure::undefined(self.precision))
-    }
-
-    fn e(&mut self) -> PointValue {
-        let exact = self.exact.e();
+    fn variable(&mut self, variable: Argument) -> PointValue {
+        let exact = self.exact.variable(variable);
         self.settle(exact, || Enclosure::undefined(self.precision))
     }
 

@@ -11,7 +11,7 @@ use super::failure::{BoundingFailure, DomainBox, Property, Reason};
 use super::jet::Jet;
 use super::refute::{Refuter, sides};
 use super::slope::is_zero;
-use super::syntax::NodeKind;
+use super::syntax::{Argument, NodeKind};
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION};
 use rug::Rational;
 use std::cmp::Ordering;
@@ -197,8 +197,10 @@ fn examine(expr: &Expr, piece: &mut Piece, precision: u32) -> Option<Obstacle> {
     let slopes = expr.enclose_slopes(&x, &e);
     if !slopes.value.is_defined() {
         let (_, span) = expr.enclose_blaming(&x, &e);
-        let constant =
-            [!expr.mentions(|kind| matches!(kind, NodeKind::X)), !expr.mentions(|kind| matches!(kind, NodeKind::E))];
+        let constant = [
+            !expr.mentions(|kind| matches!(kind, NodeKind::Variable(Argument::X))),
+            !expr.mentions(|kind| matches!(kind, NodeKind::Variable(Argument::E))),
+        ];
         return Some(Obstacle { property: Property::Finite, span, influence: [f64::NAN; 2], constant });
     }
     piece.monotone[0] |= is_nonnegative(&slopes.slope_x);

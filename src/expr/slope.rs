@@ -16,7 +16,7 @@
 use super::Expr;
 use super::enclose::{binary, power, unary};
 use super::growth;
-use super::syntax::{Algebra, Binary, Unary, evaluate};
+use super::syntax::{Algebra, Argument, Binary, Unary, evaluate};
 use crate::enclosure::Enclosure;
 use rug::float::Special;
 use rug::{Float, Rational};
@@ -209,7 +209,7 @@ impl SlopeAlgebra<'_> {
         self.close(Slopes::constant(value), [Enclosure::zero(self.precision), Enclosure::zero(self.precision)])
     }
 
-    fn variable(&self, along: usize) -> Item {
+    fn seed(&self, along: usize) -> Item {
         let mut unit = [Enclosure::zero(self.precision), Enclosure::zero(self.precision)];
         unit[along] = Enclosure::one(self.precision);
         let [slope_x, slope_e] = unit.clone();
@@ -228,12 +228,11 @@ impl Algebra for SlopeAlgebra<'_> {
         self.constant(Enclosure::pi(self.precision))
     }
 
-    fn x(&mut self) -> Item {
-        self.variable(0)
-    }
-
-    fn e(&mut self) -> Item {
-        self.variable(1)
+    fn variable(&mut self, variable: Argument) -> Item {
+        match variable {
+            Argument::X => self.seed(0),
+            Argument::E => self.seed(1),
+        }
     }
 
     fn unary(&mut self, operation: Unary, a: Item) -> Item {

@@ -3,20 +3,27 @@
 use rug::Rational;
 use std::ops::Range;
 
-/// One operation and the bytes of the text it was read from.
+/// A variable of a bounding function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Argument {
+    X,
+    E,
+}
+
+/// One operation and the bytes of the text it was read from. `V` is the kind of variables that may occur, so that an
+/// expression in the variables of a plant can never be taken for a bounding function.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
-    pub(super) kind: NodeKind,
+pub(super) struct Node<V = Argument> {
+    pub(super) kind: NodeKind<V>,
     pub(super) span: Range<usize>,
 }
 
 /// What a node does with the values before it.
 #[derive(Clone, Debug)]
-pub(super) enum NodeKind {
+pub(super) enum NodeKind<V = Argument> {
     Number(Rational),
     Pi,
-    X,
-    E,
+    Variable(V),
     Unary(Unary),
     Binary(Binary),
     /// The power with a constant integer exponent.
@@ -24,7 +31,7 @@ pub(super) enum NodeKind {
 }
 
 /// Operations on one value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Unary {
     Neg,
     Sqrt,
@@ -39,7 +46,7 @@ pub(super) enum Unary {
 }
 
 /// Operations on two values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Binary {
     Add,
     Sub,
@@ -52,28 +59,26 @@ pub(super) enum Binary {
 }
 
 /// A meaning of the operations: numbers, enclosures, slopes, machine code, ...
-pub(super) trait Algebra {
+pub(super) trait Algebra<V = Argument> {
     type Value;
     fn number(&mut self, value: &Rational) -> Self::Value;
     fn pi(&mut self) -> Self::Value;
-    fn x(&mut self) -> Self::Value;
-    fn e(&mut self) -> Self::Value;
+    fn variable(&mut self, variable: V) -> Self::Value;
     fn unary(&mut self, operation: Unary, a: Self::Value) -> Self::Value;
     fn binary(&mut self, operation: Binary, a: Self::Value, b: Self::Value) -> Self::Value;
     fn power(&mut self, base: Self::Value, exponent: i32) -> Self::Value;
     /// Called with the value of every node, in postfix order.
-    fn note(&mut self, _node: &Node, _value: &Self::Value) {}
+    fn note(&mut self, _node: &Node<V>, _value: &Self::Value) {}
 }
 
 /// Applies one node to the values on the stack.
-pub(super) fn step<A: Algebra>(node: &Node, stack: &mut Vec<A::Value>, algebra: &mut A) {
+pub(super) fn step<V: Copy, A: Algebra<V>>(node: &Node<V>, stack: &mut Vec<A::Value>, algebra: &mut A) {
     // The parser pushes a node only after its operands, so the stack holds at least `arity` values here.
     let mut pop = || stack.pop().expect("operands precede their operation");
     let value = match &node.kind {
         NodeKind::Number(number) => algebra.number(number),
         NodeKind::Pi => algebra.pi(),
-        NodeKind::X => algebra.x(),
-        NodeKind::E => algebra.e(),
+        NodeKind::Variable(variable) => algebra.variable(*variable),
         NodeKind::Unary(operation) => {
             let a = pop();
             algebra.unary(*operation, a)
@@ -94,7 +99,7 @@ pub(super) fn step<A: Algebra>(node: &Node, stack: &mut Vec<A::Value>, algebra: 
 
 /// The value of a whole expression: a loop over the postfix order, so that no depth of nesting can overflow the
 /// call stack.
-pub(super) fn evaluate<A: Algebra>(nodes: &[Node], algebra: &mut A) -> A::Value {
+pub(super) fn evaluate<V: Copy, A: Algebra<V>>(nodes: &[Node<V>], algebra: &mut A) -> A::Value {
     let mut stack = Vec::with_capacity(16);
     for node in nodes {
         step(node, &mut stack, algebra);

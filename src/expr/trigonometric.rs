@@ -2,7 +2,7 @@
 
 use super::Expr;
 use super::enclose::{binary, power, unary};
-use super::syntax::{Binary, NodeKind, Unary};
+use super::syntax::{Argument, Binary, NodeKind, Unary};
 use crate::enclosure::Enclosure;
 use crate::number::Monomial;
 use rug::Rational;
@@ -150,11 +150,11 @@ impl Expr {
                     constant(Enclosure::from_rational(number, precision), Some(Monomial::rational(number.clone())))
                 }
                 NodeKind::Pi => constant(Enclosure::pi(precision), Some(Monomial::pi())),
-                NodeKind::X => {
+                NodeKind::Variable(Argument::X) => {
                     let slope = Monomial::rational(Rational::from(1));
                     Ok(Term::Line { slope, offset: Enclosure::zero(precision) })
                 }
-                NodeKind::E => Err("only t may occur here".to_owned()),
+                NodeKind::Variable(Argument::E) => Err("only t may occur here".to_owned()),
                 NodeKind::Unary(operation) => apply(*operation, pop(), period, precision),
                 NodeKind::Binary(operation) => {
                     let b = pop();

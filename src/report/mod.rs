@@ -31,8 +31,10 @@ pub use errata::ErrataReport;
 pub use failures::{bounding_errors, failure_json, jacobian_errors};
 pub use json::{FORMAT, VERSION};
 pub use lyapunov::LyapunovReport;
+pub use markdown::render as markdown;
 pub use rate::RateReport;
 pub use relative_degree::filter_errors;
+pub use text::render as text;
 pub use transfer::{PairChoice, TransferReport, TransferRequest, plot_svg};
 pub use verdict::sentence;
 
@@ -92,13 +94,13 @@ impl<'r> Report<'r> {
     /// As plain text, readable without colour at 100 columns.
     #[must_use]
     pub fn text(&self) -> String {
-        text::render(&self.blocks())
+        text(&self.blocks())
     }
 
     /// As GitHub-flavoured Markdown.
     #[must_use]
     pub fn markdown(&self) -> String {
-        markdown::render(&self.blocks())
+        markdown(&self.blocks())
     }
 
     /// As JSON: numbers are strings, enclosures `["lo", "hi"]`.

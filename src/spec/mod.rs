@@ -35,6 +35,7 @@ pub use model::{
 };
 pub use object::Object;
 pub use power_tail::power_tail;
+pub(crate) use read::read_internal_model;
 pub use read::{FORMAT, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
 pub use weights::Weights;
 pub use weights_read::MAX_WEIGHTS;

@@ -192,7 +192,7 @@ fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reporte
     Ok(Domain { x: x?, e: e? })
 }
 
-fn read_internal_model(
+pub(crate) fn read_internal_model(
     value: &Value<'_>,
     period: Option<&Constant>,
     errors: &mut Errors,

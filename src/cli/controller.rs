@@ -1,0 +1,88 @@
+//! `sigmastar controller`.
+
+use super::args::{ControllerArgs, ControllerFormat, Format};
+use super::failure::Failure;
+use super::input;
+use super::output::{self, OutputFile, shown};
+use sigmastar::regulator::export::{self, CSources, Export};
+use sigmastar::regulator::{Design, Discrete};
+use sigmastar::report::blocks::clean;
+use sigmastar::spec::Specification;
+use std::path::Path;
+
+/// Runs the command and returns the exit code.
+pub fn run(args: &ControllerArgs) -> u8 {
+    attempt(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
+}
+
+fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
+    let what = "the regulator";
+    let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.spec, what)).transpose()?;
+    let header = match args.format {
+        ControllerFormat::C => Some(header_path(args)?),
+        _ => None,
+    };
+    let header = header.as_deref().map(|path| OutputFile::new(path, &args.spec, what)).transpose()?;
+    let sigma = input::positive("--sigma", &args.sigma)?;
+    let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
+    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+
+    let design = Design::new(&spec.internal_model, &sigma, args.n_o);
+    let regulator = design.regulator();
+    let discrete = step.map(|step| design.discretise(&step));
+    if !regulator.is_finite() || !discrete.as_ref().is_none_or(Discrete::is_finite) {
+        return Err(Failure::call(
+            "a number of this regulator is beyond double precision",
+            "use units of time in which the gains, frequencies and sampling time have ordinary magnitudes",
+        ));
+    }
+    let export = Export { name: &clean(&spec.name), regulator: &regulator, discrete: discrete.as_ref() };
+    let text = match args.format {
+        ControllerFormat::Json => output::json_text(&export::json(&export)),
+        ControllerFormat::Matlab => export::matlab(&export),
+        ControllerFormat::Npz => return npz(&export, output.as_ref()),
+        ControllerFormat::C => return c(&export, output.as_ref(), header.as_ref()),
+    };
+    match output {
+        Some(file) => file.write(text).map(|()| 0),
+        None => Ok(output::data(&text).map_or_else(|code| code, |()| 0)),
+    }
+}
+
+fn npz(export: &Export<'_>, output: Option<&OutputFile>) -> Result<u8, Failure> {
+    let file =
+        output.ok_or_else(|| Failure::call("an archive is not text for standard output", "name a file with -o"))?;
+    let bytes = export::npz(export).map_err(|error| {
+        Failure::call(format!("the archive cannot be made: {error}"), "try another --format, such as json")
+    })?;
+    file.write(bytes).map(|()| 0)
+}
+
+/// The header beside the C source.
+fn header_path(args: &ControllerArgs) -> Result<std::path::PathBuf, Failure> {
+    if args.discretise.is_none() {
+        return Err(Failure::call("C code runs at samples", "give the sampling time with --discretise"));
+    }
+    let path = args.output.as_deref();
+    let source = path.filter(|path| path.extension().is_some_and(|extension| extension == "c"));
+    let source = source.ok_or_else(|| {
+        Failure::call(
+            "the C source needs the name of a file",
+            "give it with -o, ending in `.c`; the header goes beside it",
+        )
+    })?;
+    Ok(source.with_extension("h"))
+}
+
+fn c(export: &Export<'_>, source: Option<&OutputFile>, header: Option<&OutputFile>) -> Result<u8, Failure> {
+    let needed = || Failure::call("the C source needs --discretise and -o", "give both");
+    let (source, header) = source.zip(header).ok_or_else(needed)?;
+    let name = header.name();
+    let name = Path::new(&name).file_name().map_or_else(String::new, |name| shown(Path::new(name)));
+    if name.contains(['"', '\\']) {
+        return Err(Failure::call(format!("`{name}` cannot be included by C code"), "name a file without quotes"));
+    }
+    let CSources { header: header_text, source: source_text } = export::c_sources(export, &name).ok_or_else(needed)?;
+    header.write(header_text)?;
+    source.write(source_text).map(|()| 0)
+}

@@ -1,0 +1,89 @@
+//! `sigmastar simulate`.
+
+use super::args::{Format, SimulateArgs, SimulationFormat};
+use super::failure::Failure;
+use super::input;
+use super::output::{self, OutputFile};
+use super::progress::Bar;
+use sigmastar::certificate::Verdict;
+use sigmastar::plant::Plant;
+use sigmastar::regulator::{Design, Regulator, read_regulator};
+use sigmastar::simulate::{
+    ClosedLoop, Method, Noise, NoiseSettings, Settings, Simulation, csv, figures, json, simulate, text,
+};
+use std::path::Path;
+
+/// Runs the command and returns the exit code.
+pub fn run(args: &SimulateArgs) -> u8 {
+    attempt(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
+}
+
+fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
+    let csv_file = args.csv.as_deref().map(|path| OutputFile::new(path, &args.plant, "the samples")).transpose()?;
+    let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
+    let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
+    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
+    let regulator = match (&args.controller, &sigma, args.n_o) {
+        (Some(path), ..) => read_regulator(&input::document(path)?)?,
+        (None, Some(sigma), Some(n_o)) => Design::new(&plant.internal_model, sigma, n_o).regulator(),
+        (None, Some(sigma), None) => Regulator::high_gain(sigma.to_f64()),
+        (None, None, _) => return Err(Failure::call("no regulator is given", "give --sigma or --controller")),
+    };
+    let power = power.map(|power| power.to_f64());
+    let period = plant.period.to_f64();
+    if !regulator.is_finite() || !power.is_none_or(f64::is_finite) || !period.is_normal() {
+        let help = "use units of time in which the gains, frequencies and the period have ordinary magnitudes";
+        return Err(Failure::call("a number of this simulation is beyond double precision", help));
+    }
+    if let Some(folder) = &args.plots {
+        output::folder(folder)?;
+    }
+    let entry = if args.noise_everywhere { Noise::Everywhere } else { Noise::Printed };
+    let settings = Settings {
+        periods: args.periods as usize,
+        method: args.fixed.map_or(Method::Adaptive, |steps| Method::Fixed(steps as usize)),
+        samples: args.samples as usize,
+        noise: power.map(|power| (NoiseSettings { power, seed: args.seed }, entry)),
+        noise_steps: args.noise_steps as usize,
+        harmonics: args.harmonics as usize,
+    };
+    let closed_loop = ClosedLoop::new(&plant, regulator);
+    let start = closed_loop.start_of(&plant.initial).ok_or_else(|| {
+        let (given, needed) = (plant.initial.z.len(), closed_loop.regulator.dimension());
+        let message = format!("the initial z of the plant file has {given} components, this regulator has {needed}");
+        Failure::call(message, "give the number of oscillators that it is for, or remove z for a start at rest")
+    })?;
+    let runs = if power.is_some() { 2 } else { 1 };
+    let bar = Bar::new(u64::from(args.periods) * runs, args.quiet);
+    let simulation = simulate(&closed_loop, &start, &settings, &bar);
+    bar.finish();
+
+    let report = match args.format {
+        SimulationFormat::Text => text(&plant, &closed_loop, &simulation),
+        SimulationFormat::Json => output::json_text(&json(&plant, &closed_loop, &simulation)),
+    };
+    if let (Some(file), Ok(run)) = (&csv_file, &simulation.long) {
+        file.write(csv(&plant, &closed_loop, run))?;
+    }
+    if let Some(folder) = &args.plots {
+        write_figures(folder, &args.plant, &closed_loop, &simulation)?;
+    }
+    if let Err(code) = output::data(&report) {
+        return Ok(code);
+    }
+    let complete = simulation.steady.is_ok() && simulation.long.is_ok();
+    Ok(if complete { 0 } else { Verdict::Undecided.exit_code() })
+}
+
+fn write_figures(
+    folder: &Path,
+    input: &Path,
+    closed_loop: &ClosedLoop,
+    simulation: &Simulation,
+) -> Result<(), Failure> {
+    for (name, figure) in figures(closed_loop, simulation) {
+        let svg = figure.svg().map_err(|error| Failure::call(error.to_string(), "leave --plots out"))?;
+        OutputFile::new(&folder.join(name), input, "a figure")?.write(svg)?;
+    }
+    Ok(())
+}

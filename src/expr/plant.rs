@@ -1,0 +1,210 @@
+//! Expressions in the variables of a plant: t, the states and e.
+
+use super::ExprError;
+use super::names::{Scope, is_taken};
+use super::parse::parse;
+use super::syntax::Node;
+use std::fmt;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// The most states that a plant may have.
+pub const MAX_STATES: usize = 100;
+
+/// The longest name of a state, in bytes.
+const MAX_NAME: usize = 40;
+
+const OPERAND: &str = "a number, t, a state, e, pi, a function or an opening parenthesis";
+
+/// A variable of a plant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PlantVariable {
+    /// The time t.
+    Time,
+    /// A state, by its index from 0.
+    State(usize),
+    /// The regulated error e.
+    Error,
+}
+
+/// The names of a plant's states; t and e are always there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlantNames {
+    states: Vec<String>,
+}
+
+/// Why a list of state names was refused.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum NameError {
+    /// Too many states.
+    #[error("{found} states; at most {MAX_STATES} are read")]
+    TooMany {
+        /// How many there are.
+        found: usize,
+    },
+    /// Not a name.
+    #[error("state {index} has no name that can be used in an expression")]
+    Malformed {
+        /// The index of the state, from 0.
+        index: usize,
+    },
+    /// A name that has a meaning already.
+    #[error("the name of state {index} has another meaning in expressions")]
+    Reserved {
+        /// The index of the state, from 0.
+        index: usize,
+    },
+    /// Two states of one name.
+    #[error("state {index} has the name of another state")]
+    Duplicate {
+        /// The index of the second state, from 0.
+        index: usize,
+    },
+}
+
+impl NameError {
+    /// The index of the state at fault, where it is one.
+    #[must_use]
+    pub fn index(&self) -> Option<usize> {
+        match self {
+            NameError::TooMany { .. } => None,
+            NameError::Malformed { index } | NameError::Reserved { index } | NameError::Duplicate { index } => {
+                Some(*index)
+            }
+        }
+    }
+}
+
+impl PlantNames {
+    /// The states with these names, in their order.
+    ///
+    /// # Errors
+    /// [`NameError`]: a name is a letter or underscore followed by letters, digits and underscores (ASCII, at most 40
+    /// bytes); not `t`, `e`, `pi` or a function; and no two are the same.
+    pub fn new(states: Vec<String>) -> Result<PlantNames, NameError> {
+        if states.len() > MAX_STATES {
+            return Err(NameError::TooMany { found: states.len() });
+        }
+        for (index, name) in states.iter().enumerate() {
+            let starts = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+            let continues = name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_');
+            if !starts || !continues || name.len() > MAX_NAME {
+                return Err(NameError::Malformed { index });
+            }
+            if name == "t" || name == "e" || is_taken(name) {
+                return Err(NameError::Reserved { index });
+            }
+            if states[..index].contains(name) {
+                return Err(NameError::Duplicate { index });
+            }
+        }
+        Ok(PlantNames { states })
+    }
+
+    /// The names of the states.
+    #[must_use]
+    pub fn states(&self) -> &[String] {
+        &self.states
+    }
+}
+
+impl Scope for PlantNames {
+    type Variable = PlantVariable;
+
+    fn variable(&self, name: &str) -> Option<Result<PlantVariable, Option<String>>> {
+        match name {
+            "t" => Some(Ok(PlantVariable::Time)),
+            "e" => Some(Ok(PlantVariable::Error)),
+            _ => self.states.iter().position(|state| state == name).map(|index| Ok(PlantVariable::State(index))),
+        }
+    }
+
+    fn operand(&self) -> &'static str {
+        OPERAND
+    }
+
+    fn names(&self) -> impl Iterator<Item = &str> {
+        ["t", "e"].into_iter().chain(self.states.iter().map(String::as_str))
+    }
+}
+
+/// A right side of a plant: an expression in t, the states and e, with its text.
+///
+/// It is a type of its own: no proof about bounding functions can be asked of it, and no bounding function can contain
+/// its variables.
+#[derive(Clone, Debug)]
+pub struct PlantExpr {
+    text: Arc<str>,
+    pub(super) nodes: Arc<[Node<PlantVariable>]>,
+}
+
+impl PlantExpr {
+    /// Reads an expression, by the grammar of [`Expr::parse`](super::Expr::parse) with other variables.
+    ///
+    /// # Errors
+    /// Those of [`Expr::parse`](super::Expr::parse).
+    pub fn parse(text: &str, names: &PlantNames) -> Result<PlantExpr, ExprError> {
+        let nodes = parse(text, names)?;
+        Ok(PlantExpr { text: text.into(), nodes: nodes.into() })
+    }
+
+    /// The source text, exactly as it was parsed.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+impl fmt::Display for PlantExpr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(states: &[&str]) -> Result<PlantNames, NameError> {
+        PlantNames::new(states.iter().map(|name| (*name).to_owned()).collect())
+    }
+
+    #[test]
+    fn names_that_cannot_be_used_are_refused() {
+        assert!(names(&[]).is_ok() && names(&["x1", "X", "E", "_v", "theta_2"]).is_ok());
+        for (states, error) in [
+            (&["x1", "2x"][..], NameError::Malformed { index: 1 }),
+            (&[""], NameError::Malformed { index: 0 }),
+            (&["x-1"], NameError::Malformed { index: 0 }),
+            (&["é"], NameError::Malformed { index: 0 }),
+            (&["t"], NameError::Reserved { index: 0 }),
+            (&["a", "e"], NameError::Reserved { index: 1 }),
+            (&["sin"], NameError::Reserved { index: 0 }),
+            (&["max"], NameError::Reserved { index: 0 }),
+            (&["pi"], NameError::Reserved { index: 0 }),
+            (&["x", "y", "x"], NameError::Duplicate { index: 2 }),
+        ] {
+            assert_eq!(names(states), Err(error), "{states:?}");
+        }
+        let many = vec!["x"; MAX_STATES + 1];
+        assert_eq!(names(&many), Err(NameError::TooMany { found: MAX_STATES + 1 }));
+    }
+
+    #[test]
+    fn the_variables_of_a_plant_and_no_others() {
+        let names = names(&["x1", "v"]).unwrap();
+        assert!(PlantExpr::parse("-x1 + v*e*sin(2*pi*t)", &names).is_ok());
+        for (text, message, help) in [
+            ("X", "`X` is not a known name", None),
+            ("E + 1", "`E` is not a known name", Some("write e")),
+            ("x2", "`x2` is not a known name", Some("did you mean x1?")),
+            ("vt", "`vt` is not a known name", Some("write v*t")),
+            ("2t", "an operator is missing between `2` and `t`", Some("write 2*t")),
+            ("v(t)", "an operator is missing between `v` and `(`", Some("write v*(")),
+        ] {
+            let error = PlantExpr::parse(text, &names).map(|_| ()).unwrap_err();
+            assert_eq!((error.to_string().as_str(), error.help.as_deref()), (message, help), "{text}");
+        }
+        assert_eq!(PlantExpr::parse("2*", &names).map(|_| ()).unwrap_err().expected, Some(OPERAND));
+    }
+}

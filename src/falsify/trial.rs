@@ -1,0 +1,247 @@
+//! One plant, one initial condition, one number of oscillators: simulated and checked.
+
+use super::claim::Claim;
+use super::draw::{DrawnPlant, compiled, draw, uniform};
+use super::report::counterexample_plant;
+use crate::plant::Plant;
+use crate::regulator::Regulator;
+use crate::simulate::{
+    ClosedLoop, Orbit, Progress, Silent, SteadyState, SteadyStateError, Tolerance, rms, steady_state, sup, trajectory,
+};
+use rand_core::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// The numbers of oscillators that are tried.
+const OSCILLATORS: [u32; 6] = [0, 1, 2, 3, 5, 8];
+/// How far above sigma* a trial is.
+const ABOVE: f64 = 1.0 + 1e-6;
+/// What a bound may be exceeded by before it counts: integration and rounding.
+const TOLERANCE: f64 = 1e-6;
+/// Periods from the initial condition that are compared with the periodic solution.
+const PERIODS: usize = 12;
+/// Samples of a period in that comparison.
+const SAMPLES: usize = 4096;
+
+/// How many trials, from which seed.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// The number of trials.
+    pub trials: u64,
+    /// The seed; trial k uses it and k only.
+    pub seed: u64,
+}
+
+/// What a trial is about.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// Its number, from 1.
+    pub number: u64,
+    /// The plant.
+    pub plant: DrawnPlant,
+    /// sigma, a little above sigma*.
+    pub sigma: f64,
+    /// n_o.
+    pub n_o: u32,
+    /// x(0), e(0), z(0) on the boundary of the initial set.
+    pub start: Vec<f64>,
+}
+
+/// A bound that does not hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Violation {
+    /// What was bounded.
+    pub quantity: &'static str,
+    /// By what.
+    pub bound: f64,
+    /// What it is.
+    pub found: f64,
+}
+
+/// What became of a trial.
+#[derive(Clone, Debug)]
+pub enum Finding {
+    /// Every bound holds; the largest share of one that was used.
+    Holds {
+        /// For each quantity the found value over the bound.
+        shares: Vec<(&'static str, f64)>,
+    },
+    /// A bound does not hold.
+    Violated(Box<Trial>, Violation),
+    /// No plant fits, or the simulation could not be finished for a reason that is no violation.
+    Unfinished(String),
+}
+
+/// The outcome of all trials, in their order.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// What was asked for.
+    pub settings: Settings,
+    /// One finding for each trial.
+    pub findings: Vec<Finding>,
+}
+
+impl Outcome {
+    /// The first violation.
+    #[must_use]
+    pub fn counterexample(&self) -> Option<(&Trial, &Violation)> {
+        self.findings.iter().find_map(|finding| match finding {
+            Finding::Violated(trial, violation) => Some((&**trial, violation)),
+            _ => None,
+        })
+    }
+}
+
+/// Runs the trials, in parallel; the outcome does not depend on how many at a time.
+#[must_use]
+pub fn falsify(claim: &Claim, settings: Settings, progress: &dyn Progress) -> Outcome {
+    let findings = (1..=settings.trials)
+        .into_par_iter()
+        .map(|number| {
+            let finding = run(claim, settings.seed, number);
+            progress.advance();
+            finding
+        })
+        .collect();
+    Outcome { settings, findings }
+}
+
+fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
+    // Seeds and numbers are mixed, so that neighbouring trials share nothing.
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number);
+    let bounds = compiled(claim);
+    let Some(plant) = draw(claim, &bounds, &mut random) else {
+        return Finding::Unfinished("no plant of the drawn kind lies within the bounding functions".to_owned());
+    };
+    let n_o = OSCILLATORS[(uniform(&mut random) * OSCILLATORS.len() as f64) as usize];
+    let sigma = claim.sigma * ABOVE;
+    let regulator = regulator(claim, sigma, n_o);
+    let start = start(claim, &plant, &regulator, &mut random);
+    let trial = Trial { number, plant, sigma, n_o, start };
+    let file = counterexample_plant(claim, &trial, None).and_then(|document| Plant::from_value(&document.root()));
+    let file = match file {
+        Ok(file) => file,
+        Err(errors) => return Finding::Unfinished(errors.to_string()),
+    };
+    let closed_loop = ClosedLoop::new(&file, regulator);
+    check(claim, trial, &closed_loop)
+}
+
+/// The regulator of the claim in double precision.
+fn regulator(claim: &Claim, sigma: f64, n_o: u32) -> Regulator {
+    let model = &claim.spec.internal_model;
+    let weights = (0..=u64::from(n_o)).map(|l| model.weights.weight_f64(l)).collect();
+    Regulator::new(sigma, model.mu.to_f64(), model.base_frequency.to_f64(), weights)
+}
+
+/// A point of the boundary: |x| = X0, |e| = E0, |z|_N = Z0.
+fn start(claim: &Claim, plant: &DrawnPlant, regulator: &Regulator, random: &mut Xoshiro256PlusPlus) -> Vec<f64> {
+    let [x_0, e_0, z_0] = claim.initial;
+    let mut start = Vec::new();
+    let angle = TAU * uniform(random);
+    if plant.family.jacobian.is_some() {
+        start.extend([x_0 * libm::cos(angle), x_0 * libm::sin(angle)]);
+    }
+    start.push(if uniform(random) < 0.5 { e_0 } else { -e_0 });
+    let mut z: Vec<f64> = (0..regulator.dimension()).map(|_| 2.0 * uniform(random) - 1.0).collect();
+    let size = regulator.weighted_norm(&z);
+    z.iter_mut().for_each(|part| *part *= if size > 0.0 { z_0 / size } else { 0.0 });
+    start.extend(z);
+    start
+}
+
+/// Collects shares of bounds, and the first violation.
+struct Checks {
+    shares: Vec<(&'static str, f64)>,
+    violation: Option<Violation>,
+}
+
+impl Checks {
+    fn at_most(&mut self, quantity: &'static str, found: f64, bound: f64) {
+        self.shares.push((quantity, if bound > 0.0 { found / bound } else { 0.0 }));
+        // NaN is no value that a bound allows.
+        let holds = found <= bound * (1.0 + TOLERANCE) + 1e-9;
+        if !holds && self.violation.is_none() {
+            self.violation = Some(Violation { quantity, bound, found });
+        }
+    }
+}
+
+fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
+    let escape = |quantity| Violation { quantity, bound: f64::MAX, found: f64::INFINITY };
+    let steady = match steady_state(closed_loop, &trial.start, &Silent) {
+        Ok(steady) => steady,
+        Err(SteadyStateError::Integration(_)) => {
+            return Finding::Violated(Box::new(trial), escape("the solution from the initial set (it escapes)"));
+        }
+        Err(error @ SteadyStateError::NoConvergence { .. }) => return Finding::Unfinished(error.to_string()),
+    };
+    let Ok(orbit) = Orbit::new(closed_loop, &steady) else {
+        return Finding::Unfinished("the periodic solution could not be sampled".to_owned());
+    };
+    let mut checks = Checks { shares: Vec::new(), violation: None };
+    check_orbit(claim, &trial, closed_loop, &steady, &orbit, &mut checks);
+    check_approach(claim, &trial, closed_loop, &orbit, &mut checks);
+    match checks.violation {
+        Some(violation) => Finding::Violated(Box::new(trial), violation),
+        None => Finding::Holds { shares: checks.shares },
+    }
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+fn check_orbit(
+    claim: &Claim,
+    trial: &Trial,
+    closed_loop: &ClosedLoop,
+    steady: &SteadyState,
+    orbit: &Orbit,
+    checks: &mut Checks,
+) {
+    let n = closed_loop.states();
+    let largest = |of: &dyn Fn(&[f64]) -> f64| orbit.samples.iter().fold(0.0_f64, |size, y| size.max(of(y)));
+    let x = largest(&|y| norm(&y[..n]));
+    let error = orbit.error();
+    let e = sup(&error);
+    let m = closed_loop.regulator.m();
+    let zeta = largest(&|y| {
+        let zeta: Vec<f64> = y[n + 1..].iter().zip(&m).map(|(z, m)| z - m * y[n]).collect();
+        closed_loop.regulator.weighted_norm(&zeta)
+    });
+    checks.at_most("largest Floquet multiplier", steady.multipliers.first().copied().unwrap_or(0.0), 1.0);
+    checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
+    checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
+    checks.at_most("sup|zeta|_N of the periodic solution", zeta, claim.periodic[2]);
+    checks.at_most("sup|e| against psi_1/sigma", e, claim.psi[0] / trial.sigma);
+    checks.at_most("sup|x| against psi_x/sigma", x, claim.psi[1] / trial.sigma);
+    if let Some([by_rms, by_sup]) = claim.matched_bounds(trial.sigma, trial.n_o) {
+        checks.at_most("rms(e) against its bound for this n_o", rms(&error), by_rms);
+        checks.at_most("sup|e| against its bound for this n_o", e, by_sup);
+    }
+}
+
+/// The first periods from the initial condition: within the error box around the periodic solution.
+fn check_approach(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop, orbit: &Orbit, checks: &mut Checks) {
+    let n = closed_loop.states();
+    let (mut y, mut away) = (trial.start.clone(), [0.0_f64; 2]);
+    let period = closed_loop.period;
+    for index in 0..PERIODS {
+        let t = index as f64 * period;
+        let Ok(samples) = trajectory(closed_loop, t, period, SAMPLES, &y, Tolerance::ORDINARY) else {
+            checks.at_most("the solution from the initial set (it escapes)", f64::INFINITY, f64::MAX);
+            return;
+        };
+        for (sample, point) in samples.iter().zip(&orbit.samples) {
+            let x: Vec<f64> = sample[..n].iter().zip(&point[..n]).map(|(a, b)| a - b).collect();
+            away = [away[0].max(norm(&x)), away[1].max((sample[n] - point[n]).abs())];
+        }
+        y = samples.last().cloned().unwrap_or(y);
+    }
+    if let Some([d_x, d_e]) = claim.error_box {
+        checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
+        checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    }
+}

@@ -1,0 +1,152 @@
+//! From a document to a plant.
+
+use super::{Initial, Plant, periodicity};
+use crate::expr::{PlantExpr, PlantNames};
+use crate::spec::{
+    Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Value, any_constant, positive_constant,
+    read_internal_model,
+};
+use std::path::Path;
+
+/// The `format` of a plant file.
+pub const FORMAT: &str = "sigmastar/plant";
+
+/// The versions of it that are read.
+pub const VERSIONS: [u64; 1] = [1];
+
+impl Plant {
+    /// Reads a plant from the text of its file; `label` is what errors call it, usually its path.
+    ///
+    /// # Errors
+    /// Everything that was found wrong, in file order: fields, expressions, lists of different lengths, a right side
+    /// that is not periodic with the stated period.
+    pub fn from_json(label: &str, text: &str) -> Result<Plant, SpecErrors> {
+        Document::parse(label, text).and_then(|document| Plant::from_value(&document.root()))
+    }
+
+    /// Reads a plant from its file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and those of [`Plant::from_json`].
+    pub fn load(path: &Path) -> Result<Plant, SpecErrors> {
+        Document::load(path).and_then(|document| Plant::from_value(&document.root()))
+    }
+
+    /// Reads a plant that is a value of a document.
+    ///
+    /// # Errors
+    /// Those of [`Plant::from_json`].
+    pub fn from_value(value: &Value<'_>) -> Result<Plant, SpecErrors> {
+        let mut errors = Errors::new();
+        let outcome = read(value, &mut errors);
+        errors.conclude(value.document(), outcome)
+    }
+}
+
+fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
+    let mut object = value.object(errors)?;
+    object.header(FORMAT, &VERSIONS, errors)?;
+    let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
+    let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
+    let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
+    let names = object.required("states", errors).and_then(|value| read_names(&value, errors));
+    let f = object.required("f", errors);
+    let q = object.required("q", errors);
+    let initial = object.required("initial", errors);
+    let internal_model = object
+        .required("internal_model", errors)
+        .and_then(|value| read_internal_model(&value, period.as_ref().ok(), errors));
+    object.finish(errors);
+    // Without the names of the states the right sides have no meaning to check.
+    let names = names?;
+    let f = f.and_then(|value| {
+        let elements = of_length(&value, names.states().len(), "right sides", errors)?;
+        let read: Vec<Result<_, Reported>> = elements.iter().map(|value| expression(value, &names, errors)).collect();
+        Ok((elements, read.into_iter().collect::<Result<Vec<_>, _>>()?))
+    });
+    let q = q.and_then(|value| expression(&value, &names, errors).map(|q| (value, q)));
+    let initial = initial.and_then(|value| read_initial(&value, names.states().len(), errors));
+    let ((f_values, f), (q_value, q)) = (f?, q?);
+    let plant = Plant {
+        name: name?,
+        description: description?,
+        period: period?,
+        names,
+        f,
+        q,
+        initial: initial?,
+        internal_model: internal_model?,
+    };
+    if let Some(broken) = periodicity::counterexample(&plant) {
+        let value = f_values.get(broken.index).unwrap_or(&q_value);
+        let message = format!("this is not periodic in t with the stated period: {broken}");
+        let length = value.text().or_else(|| value.numeral()).map_or(0, str::len);
+        let error = value.error_in(ErrorKind::Range, &(0..length), message);
+        return Err(
+            errors.report(error.help("correct the expression, or state the period of all right sides together"))
+        );
+    }
+    Ok(plant)
+}
+
+fn read_names(value: &Value<'_>, errors: &mut Errors) -> Result<PlantNames, Reported> {
+    let elements = value.array(errors)?;
+    let read: Vec<Result<_, Reported>> = elements.iter().map(|value| value.string(errors).map(str::to_owned)).collect();
+    let read = read.into_iter().collect::<Result<Vec<_>, _>>()?;
+    PlantNames::new(read).map_err(|error| {
+        let place = error.index().and_then(|index| elements.get(index)).unwrap_or(value);
+        let expected = "expected different names such as x1, other than t, e, pi and the functions";
+        errors.report(place.error(ErrorKind::UnknownName, error.to_string()).expected(expected))
+    })
+}
+
+/// The elements of an array that has as many as there are states.
+fn of_length<'d>(
+    value: &Value<'d>,
+    length: usize,
+    what: &str,
+    errors: &mut Errors,
+) -> Result<Vec<Value<'d>>, Reported> {
+    let elements = value.array(errors)?;
+    if elements.len() == length {
+        return Ok(elements);
+    }
+    let message = format!("{} {what} for {length} states", elements.len());
+    Err(errors.report(value.error(ErrorKind::Range, message).expected("expected one for each state")))
+}
+
+fn expression(value: &Value<'_>, names: &PlantNames, errors: &mut Errors) -> Result<PlantExpr, Reported> {
+    let Some(text) = value.numeral().or_else(|| value.text()) else {
+        return Err(value.wrong_type("a number or a string with an expression in t, the states and e", errors));
+    };
+    PlantExpr::parse(text, names).map_err(|error| errors.report(value.expression_error(&error)))
+}
+
+fn read_initial(value: &Value<'_>, states: usize, errors: &mut Errors) -> Result<Initial, Reported> {
+    let mut object = value.object(errors)?;
+    let x = object.required("x", errors).and_then(|value| {
+        let elements = of_length(&value, states, "initial values", errors)?;
+        let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, errors)).collect();
+        read.into_iter().collect()
+    });
+    let e = object.required("e", errors).and_then(|value| double(&value, errors));
+    let z = match object.optional("z") {
+        None => Ok(Vec::new()),
+        Some(value) => {
+            let elements = value.array(errors)?;
+            let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, errors)).collect();
+            read.into_iter().collect()
+        }
+    };
+    object.finish(errors);
+    Ok(Initial { x: x?, e: e?, z: z? })
+}
+
+/// A constant that is a finite double.
+fn double(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
+    let number = any_constant(value, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)?;
+    if number.is_finite() {
+        return Ok(number);
+    }
+    Err(errors.report(value.error(ErrorKind::Range, "this number is beyond double precision")))
+}

@@ -1,0 +1,42 @@
+//! The regulator as a script for MATLAB and Octave.
+
+use super::{Export, decimal};
+
+/// A script that sets `sigma`, `mu`, `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N` and, with a discretisation,
+/// `step`, `Phi_d`, `Gamma_d`. It uses base functions only and runs in MATLAB and in Octave.
+#[must_use]
+pub fn matlab(export: &Export<'_>) -> String {
+    let regulator = export.regulator;
+    let row = |values: &[f64]| values.iter().map(|value| decimal(*value)).collect::<Vec<_>>().join(", ");
+    let mut script = format!("% Regulator for: {}\n", export.name);
+    script.push_str("% z' = Phi*z + Gamma*e, u = -sigma*e + mu*M'*N*(z - M*e)\n");
+    script.push_str(&format!("sigma = {};\n", decimal(regulator.sigma)));
+    script.push_str(&format!("mu = {};\n", decimal(regulator.mu)));
+    script.push_str(&format!("frequencies = [{}];\n", row(&regulator.frequencies)));
+    script.push_str(&format!("weights = [{}];\n", row(&regulator.weights)));
+    let dimension = regulator.dimension();
+    script.push_str(&format!("Phi = zeros({dimension});\n"));
+    for at in 0..regulator.frequencies.len() {
+        // Indices start at 1: the block of l = at + 1 has rows 2 at + 2 and 2 at + 3.
+        let (first, second, l) = (2 * at + 2, 2 * at + 3, at + 1);
+        script.push_str(&format!("Phi({first}, {second}) = frequencies({l});\n"));
+        script.push_str(&format!("Phi({second}, {first}) = -frequencies({l});\n"));
+    }
+    script.push_str(&format!("M = [{}]';\n", row(&regulator.m())));
+    script.push_str(&format!("N = diag([{}]);\n", row(&regulator.n_diagonal())));
+    script.push_str(&format!("Gamma = -(Phi + sigma*eye({dimension}))*M;\n"));
+    if let Some(discrete) = export.discrete {
+        script.push_str("% With e constant over each sample: z_next = Phi_d*z + Gamma_d*e\n");
+        script.push_str(&format!("step = {};\n", decimal(discrete.step)));
+        script.push_str(&format!("Phi_d = eye({dimension});\n"));
+        for (at, [cosine, sine]) in discrete.rotations.iter().enumerate() {
+            let (first, second) = (2 * at + 2, 2 * at + 3);
+            let (cosine, sine) = (decimal(*cosine), decimal(*sine));
+            script.push_str(&format!(
+                "Phi_d({first}:{second}, {first}:{second}) = [{cosine}, {sine}; -({sine}), {cosine}];\n"
+            ));
+        }
+        script.push_str(&format!("Gamma_d = [{}]';\n", row(&discrete.input)));
+    }
+    script
+}

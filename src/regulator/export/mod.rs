@@ -1,0 +1,30 @@
+//! The forms in which a regulator is written out. The same input gives the same bytes.
+
+mod c;
+mod json;
+mod matlab;
+mod npz;
+
+pub use c::{CSources, c_sources};
+pub use json::{FORMAT, VERSION, json};
+pub use matlab::matlab;
+pub use npz::npz;
+
+use super::{Discrete, Regulator};
+
+/// What is written out.
+#[derive(Clone, Copy, Debug)]
+pub struct Export<'r> {
+    /// The name of the plant, one line without control characters.
+    pub name: &'r str,
+    /// The regulator.
+    pub regulator: &'r Regulator,
+    /// Its discretisation, where one was asked for.
+    pub discrete: Option<&'r Discrete>,
+}
+
+/// A double in the fewest digits that give it back.
+fn decimal(value: f64) -> String {
+    let plain = format!("{value:?}");
+    plain.strip_suffix(".0").map_or(plain.clone(), str::to_owned)
+}

@@ -1,0 +1,31 @@
+//! The regulator as a NumPy archive.
+
+use super::Export;
+use ndarray::{Array0, Array1, Array2};
+use ndarray_npy::{NpzWriter, WriteNpzError};
+use std::io::Cursor;
+
+/// The regulator as a NumPy `.npz` archive (stored, no time stamps): `sigma`, `mu`, `frequencies`, `weights`, `Phi`,
+/// `Gamma`, `M`, `N` and, with a discretisation, `step`, `Phi_d`, `Gamma_d`.
+///
+/// # Errors
+/// None is known: the archive is written to memory.
+pub fn npz(export: &Export<'_>) -> Result<Vec<u8>, WriteNpzError> {
+    let regulator = export.regulator;
+    let mut archive = NpzWriter::new(Cursor::new(Vec::new()));
+    let vector = |values: &[f64]| Array1::from(values.to_vec());
+    archive.add_array("sigma", &Array0::from_elem((), regulator.sigma))?;
+    archive.add_array("mu", &Array0::from_elem((), regulator.mu))?;
+    archive.add_array("frequencies", &vector(&regulator.frequencies))?;
+    archive.add_array("weights", &vector(&regulator.weights))?;
+    archive.add_array("Phi", &regulator.phi())?;
+    archive.add_array("Gamma", &vector(&regulator.gamma()))?;
+    archive.add_array("M", &vector(&regulator.m()))?;
+    archive.add_array("N", &Array2::from_diag(&vector(&regulator.n_diagonal())))?;
+    if let Some(discrete) = export.discrete {
+        archive.add_array("step", &Array0::from_elem((), discrete.step))?;
+        archive.add_array("Phi_d", &discrete.transition())?;
+        archive.add_array("Gamma_d", &vector(&discrete.input))?;
+    }
+    Ok(archive.finish()?.into_inner())
+}

@@ -1,0 +1,137 @@
+//! The regulator in double precision.
+
+use ndarray::Array2;
+
+/// The parameters of the regulator in double precision.
+///
+/// Invariants: `frequencies[l - 1]` is l w for l = 1, ..., n_o, and `weights` holds n_0, ..., n_(n_o). Gains and
+/// frequencies are in 1/time, weights are pure numbers. A regulator that is only simulated may have any positive
+/// weights: W1-W3 and the strict decrease are hypotheses of a certificate, not of this type.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regulator {
+    /// The gain sigma.
+    pub sigma: f64,
+    /// The gain mu.
+    pub mu: f64,
+    /// w, 2 w, ..., n_o w.
+    pub frequencies: Vec<f64>,
+    /// n_0, ..., n_(n_o).
+    pub weights: Vec<f64>,
+}
+
+impl Regulator {
+    /// The regulator with the weights given, n_o one less than their number, and base frequency w; an empty list of
+    /// weights is the high-gain feedback u = -sigma e.
+    #[must_use]
+    pub fn new(sigma: f64, mu: f64, base_frequency: f64, weights: Vec<f64>) -> Regulator {
+        let frequencies = (1..weights.len()).map(|l| l as f64 * base_frequency).collect();
+        Regulator { sigma, mu, frequencies, weights }
+    }
+
+    /// The high-gain feedback u = -sigma e, which has no state.
+    #[must_use]
+    pub fn high_gain(sigma: f64) -> Regulator {
+        Regulator { sigma, mu: 0.0, frequencies: Vec::new(), weights: Vec::new() }
+    }
+
+    /// The number of oscillators n_o; `None` for the high-gain feedback, which has no integrator either.
+    #[must_use]
+    pub fn oscillators(&self) -> Option<usize> {
+        self.weights.len().checked_sub(1)
+    }
+
+    /// Whether every parameter is a finite double; an exact number may be too large for one.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let mut all = [self.sigma, self.mu].into_iter().chain(self.frequencies.iter().chain(&self.weights).copied());
+        all.all(f64::is_finite)
+    }
+
+    /// The dimension of z: 2 n_o + 1, or 0 for the high-gain feedback.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.oscillators().map_or(0, |n_o| 2 * n_o + 1)
+    }
+
+    /// Phi = blkdiag(0, l w [[0, 1], [-1, 0]]).
+    #[must_use]
+    pub fn phi(&self) -> Array2<f64> {
+        let mut phi = Array2::zeros((self.dimension(), self.dimension()));
+        for (at, &frequency) in self.frequencies.iter().enumerate() {
+            let first = 2 * at + 1;
+            phi[(first, first + 1)] = frequency;
+            phi[(first + 1, first)] = -frequency;
+        }
+        phi
+    }
+
+    /// Gamma = -(Phi + sigma I) M = (-sigma, -sigma, w, -sigma, 2 w, ...).
+    #[must_use]
+    pub fn gamma(&self) -> Vec<f64> {
+        let mut gamma = vec![-self.sigma; self.dimension()];
+        for (at, &frequency) in self.frequencies.iter().enumerate() {
+            gamma[2 * at + 2] = frequency;
+        }
+        gamma
+    }
+
+    /// M = (1, 1, 0, 1, 0, ...).
+    #[must_use]
+    pub fn m(&self) -> Vec<f64> {
+        (0..self.dimension()).map(|i| if i == 0 || i % 2 == 1 { 1.0 } else { 0.0 }).collect()
+    }
+
+    /// The diagonal of N = blkdiag(n_0, n_l I_2).
+    #[must_use]
+    pub fn n_diagonal(&self) -> Vec<f64> {
+        (0..self.dimension()).map(|i| self.weights[i.div_ceil(2)]).collect()
+    }
+
+    /// s = M'N(z - M e) = n_0 (z_0 - e) + sum n_l (z_l1 - e), in this order of operations.
+    #[must_use]
+    pub fn internal_model_output(&self, z: &[f64], e: f64) -> f64 {
+        let Some((n_0, rest)) = self.weights.split_first() else { return 0.0 };
+        let first = n_0 * (z[0] - e);
+        rest.iter().enumerate().fold(first, |sum, (at, n_l)| sum + n_l * (z[2 * at + 1] - e))
+    }
+
+    /// |z|_N = sqrt(z'N z).
+    #[must_use]
+    pub fn weighted_norm(&self, z: &[f64]) -> f64 {
+        z.iter().zip(self.n_diagonal()).map(|(z, n)| n * z * z).sum::<f64>().sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn regulator() -> Regulator {
+        Regulator::new(3.0, 1.0, 2.0, vec![2.0, 1.0, 0.25])
+    }
+
+    #[test]
+    fn the_matrices_are_those_of_the_paper() {
+        let regulator = regulator();
+        let phi = regulator.phi();
+        assert_eq!((phi[(1, 2)], phi[(2, 1)], phi[(3, 4)], phi[(4, 3)]), (2.0, -2.0, 4.0, -4.0));
+        assert_eq!(phi.iter().filter(|entry| **entry != 0.0).count(), 4);
+        assert_eq!(regulator.m(), [1.0, 1.0, 0.0, 1.0, 0.0]);
+        assert_eq!(regulator.n_diagonal(), [2.0, 1.0, 1.0, 0.25, 0.25]);
+        // Gamma = -(Phi + sigma I) M, multiplied out.
+        let m = ndarray::Array1::from(regulator.m());
+        let product = -(phi.dot(&m) + 3.0 * &m);
+        assert_eq!(regulator.gamma(), product.to_vec());
+    }
+
+    #[test]
+    fn the_output_is_weighted() {
+        let regulator = regulator();
+        let z = [1.0, 2.0, 30.0, 4.0, 50.0];
+        assert_eq!(regulator.internal_model_output(&z, 0.5), 2.0 * 0.5 + 1.5 + 0.25 * 3.5);
+        assert_eq!(regulator.weighted_norm(&[1.0, 2.0, 0.0, 4.0, 2.0]), (2.0 + 4.0 + 4.0 + 1.0_f64).sqrt());
+        let high_gain = Regulator::high_gain(3.0);
+        assert_eq!((high_gain.oscillators(), high_gain.dimension()), (None, 0));
+        assert_eq!(high_gain.internal_model_output(&[], 1.0), 0.0);
+    }
+}

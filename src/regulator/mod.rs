@@ -1,0 +1,18 @@
+//! The regulator that a certificate speaks of: its matrices, its exact discretisation, and the forms it is exported in.
+//!
+//! With n_o oscillators, gains sigma and mu, weights n_0, n_1, ... and base frequency w (derivation, section 1):
+//! z' = Phi z + Gamma e, u = -sigma e + mu M'N(z - M e), with Phi = blkdiag(0, l w [[0, 1], [-1, 0]]),
+//! Gamma = -(Phi + sigma I) M, M = (1, 1, 0, 1, 0, ...), N = blkdiag(n_0, n_l I_2), l = 1, ..., n_o.
+//!
+//! Nothing here is searched or decided: every number is an exact number of the specification, rounded once.
+
+mod design;
+mod discrete;
+pub mod export;
+mod law;
+mod read;
+
+pub use design::{Design, MAX_EXPORTED_OSCILLATORS};
+pub use discrete::{Discrete, Stepper};
+pub use law::Regulator;
+pub use read::read_regulator;

@@ -1,0 +1,87 @@
+//! The classical Runge-Kutta method with a fixed step: fast, and what noise that is held over a step needs.
+
+use super::{ClosedLoop, Disturbance};
+use crate::expr::Evaluator;
+
+/// The largest number of time values that are tabulated; beyond it they are computed at each step.
+const LARGEST_TABLE: usize = 1 << 24;
+
+/// The classical fourth-order Runge-Kutta method with a whole number of steps per period.
+///
+/// What f and q compute from the time alone is tabulated over one period at the start: after that a step evaluates
+/// only what depends on x and e. The k-th period starts at t = k T.
+#[derive(Clone, Debug)]
+pub struct FixedStep<'l> {
+    closed_loop: &'l ClosedLoop,
+    steps_per_period: usize,
+    step: f64,
+    evaluator: Evaluator,
+    /// The time values at t = 0, h/2, h, ..., T - h/2, one row each; empty where there are too many.
+    table: Vec<f64>,
+    /// Four slopes and a point between.
+    stages: [Vec<f64>; 5],
+}
+
+impl<'l> FixedStep<'l> {
+    /// Prepares steps of T/`steps_per_period`, which is at least 1.
+    #[must_use]
+    pub fn new(closed_loop: &'l ClosedLoop, steps_per_period: usize) -> FixedStep<'l> {
+        let steps_per_period = steps_per_period.max(1);
+        let step = closed_loop.period / steps_per_period as f64;
+        let mut evaluator = closed_loop.evaluator();
+        let mut table = Vec::new();
+        if 2 * steps_per_period * closed_loop.time_values() <= LARGEST_TABLE {
+            for half in 0..2 * steps_per_period {
+                evaluator.set_time(half as f64 * 0.5 * step);
+                evaluator.time_values(&mut table);
+            }
+        }
+        let stages = std::array::from_fn(|_| vec![0.0; closed_loop.dimension()]);
+        FixedStep { closed_loop, steps_per_period, step, evaluator, table, stages }
+    }
+
+    /// The length h of a step.
+    #[must_use]
+    pub fn step_length(&self) -> f64 {
+        self.step
+    }
+
+    /// One step from the time `index` h, with the noise held over it.
+    #[inline]
+    pub fn step(&mut self, index: usize, y: &mut [f64], noise: Disturbance) {
+        let h = self.step;
+        let half = 2 * (index % self.steps_per_period);
+        let [k1, k2, k3, k4, between] = &mut self.stages;
+        let closed_loop = self.closed_loop;
+        let width = closed_loop.time_values();
+        let mut slope = |half: usize, y: &[f64], dy: &mut [f64]| {
+            let evaluator = &mut self.evaluator;
+            if self.table.is_empty() {
+                evaluator.set_time(half as f64 * 0.5 * h);
+            } else {
+                let row = half % (2 * self.steps_per_period) * width;
+                evaluator.load_time_values(&self.table[row..row + width]);
+            }
+            closed_loop.right_side(evaluator, y, noise, dy);
+        };
+        slope(half, y, k1);
+        advance(between, y, 0.5 * h, k1);
+        slope(half + 1, between, k2);
+        advance(between, y, 0.5 * h, k2);
+        slope(half + 1, between, k3);
+        advance(between, y, h, k3);
+        slope(half + 2, between, k4);
+        let sixth = h / 6.0;
+        for ((y, (k1, k2)), (k3, k4)) in y.iter_mut().zip(k1.iter().zip(k2.iter())).zip(k3.iter().zip(k4.iter())) {
+            *y += sixth * (k1 + 2.0 * (k2 + k3) + k4);
+        }
+    }
+}
+
+/// `target = y + h k`.
+#[inline]
+fn advance(target: &mut [f64], y: &[f64], h: f64, k: &[f64]) {
+    for ((target, y), k) in target.iter_mut().zip(y).zip(k) {
+        *target = y + h * k;
+    }
+}

@@ -1,0 +1,41 @@
+//! Simulation of the closed loop: steady states, long runs, spectra, measurement noise.
+//!
+//! Everything here is floating point and claims nothing: it shows what a certificate speaks of, and it is what
+//! [`crate::reproduce`] and [`crate::falsify`] are made of. The same input gives the same figures on every machine.
+
+mod adaptive;
+mod bode;
+mod closed_loop;
+mod fixed;
+mod noise;
+mod orbit;
+pub mod plot;
+mod report;
+
+mod run;
+mod steady;
+
+pub use adaptive::{IntegrationFailure, Tolerance, flow, flow_with_derivative, trajectory};
+pub use bode::{frequencies, magnitude};
+pub use closed_loop::{ClosedLoop, Disturbance, Noise};
+pub use fixed::FixedStep;
+pub use noise::{BandLimitedNoise, NoiseSettings};
+pub use orbit::{Orbit, amplitudes, rms, sup};
+
+pub use report::{FORMAT, VERSION, bode, csv, figures, json, spectrum, spectrum_curve, text};
+pub use run::{LongRun, Method, NoisyRun, Settings, Simulation, SteadyFigures, noisy_run, simulate};
+pub use steady::{SteadyState, SteadyStateError, steady_state};
+
+/// Hears of work done, for a progress bar.
+pub trait Progress: Sync {
+    /// One more unit of work is done.
+    fn advance(&self);
+}
+
+/// Nobody listens.
+#[derive(Clone, Copy, Debug)]
+pub struct Silent;
+
+impl Progress for Silent {
+    fn advance(&self) {}
+}

@@ -1,0 +1,213 @@
+//! One simulation: a steady state, a long run from the initial condition, and a run with noise.
+
+use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
+use super::orbit::{Orbit, amplitudes, rms, sup};
+use super::{
+    BandLimitedNoise, ClosedLoop, Disturbance, FixedStep, Noise, NoiseSettings, Progress, SteadyState,
+    SteadyStateError, steady_state,
+};
+
+/// How a long run is integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Dormand-Prince 8(5,3) with step control.
+    Adaptive,
+    /// Classical Runge-Kutta with this many steps per period.
+    Fixed(usize),
+}
+
+/// What is simulated.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// The length of the long run in periods, at least 1.
+    pub periods: usize,
+    /// Its method.
+    pub method: Method,
+    /// Samples of a period in the long run, at least 1; with the fixed step, every step is one of them or the
+    /// number of steps is a multiple.
+    pub samples: usize,
+    /// Noise, if any, and where it enters.
+    pub noise: Option<(NoiseSettings, Noise)>,
+    /// Steps per period of the run with noise.
+    pub noise_steps: usize,
+    /// How many Fourier coefficients are reported.
+    pub harmonics: usize,
+}
+
+/// A run from the initial condition without noise.
+#[derive(Clone, Debug)]
+pub struct LongRun {
+    /// Times of the samples.
+    pub times: Vec<f64>,
+    /// y at these times.
+    pub states: Vec<Vec<f64>>,
+    /// The largest |e| among the samples of the last period.
+    pub sup: f64,
+    /// The root mean square of e over the last period.
+    pub rms: f64,
+    /// The distance max|y(t + T) - y(t)| at the end of each period.
+    pub return_distances: Vec<f64>,
+    /// The first period at whose end that distance is below 1e-6 (1 + max|y|), counted from 1.
+    pub settled: Option<usize>,
+}
+
+/// A run with noise from the initial condition, of the same length as the long run.
+#[derive(Clone, Debug)]
+pub struct NoisyRun {
+    /// For each period: the largest |e|.
+    pub sup: Vec<f64>,
+    /// For each period: the root mean square of e.
+    pub rms: Vec<f64>,
+    /// The largest |v| of the whole run.
+    pub largest_noise: f64,
+}
+
+/// The outcome of a simulation.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    /// The steady state, or why there is none.
+    pub steady: Result<(SteadyState, SteadyFigures), SteadyStateError>,
+    /// The long run, or why it ended early.
+    pub long: Result<LongRun, IntegrationFailure>,
+    /// The run with noise, where it was asked for.
+    pub noisy: Option<Result<NoisyRun, IntegrationFailure>>,
+}
+
+/// Figures of e over a period of the steady state.
+#[derive(Clone, Debug)]
+pub struct SteadyFigures {
+    /// sup|e|.
+    pub sup: f64,
+    /// rms(e).
+    pub rms: f64,
+    /// |c_0|, |c_1|, ...
+    pub amplitudes: Vec<f64>,
+    /// Samples of e over a period.
+    pub error: Vec<f64>,
+}
+
+impl SteadyFigures {
+    /// Samples a steady state and works its figures out.
+    ///
+    /// # Errors
+    /// [`IntegrationFailure`].
+    pub fn new(
+        closed_loop: &ClosedLoop,
+        steady: &SteadyState,
+        harmonics: usize,
+    ) -> Result<SteadyFigures, IntegrationFailure> {
+        let error = Orbit::new(closed_loop, steady)?.error();
+        Ok(SteadyFigures { sup: sup(&error), rms: rms(&error), amplitudes: amplitudes(&error, harmonics), error })
+    }
+}
+
+/// Runs everything that the settings ask for.
+#[must_use]
+pub fn simulate(closed_loop: &ClosedLoop, start: &[f64], settings: &Settings, progress: &dyn Progress) -> Simulation {
+    let steady = steady_state(closed_loop, start, progress).and_then(|steady| {
+        let figures = SteadyFigures::new(closed_loop, &steady, settings.harmonics)?;
+        Ok((steady, figures))
+    });
+    let long = long_run(closed_loop, start, settings, progress);
+    let noisy = settings.noise.map(|(noise, enters)| {
+        noisy_run(closed_loop, start, settings.periods, settings.noise_steps, noise, enters, progress)
+    });
+    Simulation { steady, long, noisy }
+}
+
+fn long_run(
+    closed_loop: &ClosedLoop,
+    start: &[f64],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<LongRun, IntegrationFailure> {
+    let samples = settings.samples.max(1);
+    let mut y = start.to_vec();
+    let mut run = LongRun {
+        times: vec![0.0],
+        states: vec![y.clone()],
+        sup: 0.0,
+        rms: 0.0,
+        return_distances: Vec::new(),
+        settled: None,
+    };
+    let mut fixed = match settings.method {
+        Method::Fixed(steps) => {
+            Some((steps.div_ceil(samples), FixedStep::new(closed_loop, steps.div_ceil(samples) * samples)))
+        }
+        Method::Adaptive => None,
+    };
+    let period = closed_loop.period;
+    for index in 0..settings.periods.max(1) {
+        let t = index as f64 * period;
+        let before = y.clone();
+        let states = match &mut fixed {
+            None => trajectory(closed_loop, t, period, samples, &y, Tolerance::ORDINARY)?.split_off(1),
+            Some((stride, method)) => {
+                let mut states = Vec::with_capacity(samples);
+                for sample in 0..samples {
+                    for step in 0..*stride {
+                        method.step(sample * *stride + step, &mut y, Disturbance::default());
+                    }
+                    states.push(y.clone());
+                }
+                if !y.iter().all(|value| value.is_finite()) {
+                    return Err(IntegrationFailure::Escaped { t });
+                }
+                states
+            }
+        };
+        let errors: Vec<f64> = states.iter().map(|y| y[closed_loop.states()]).collect();
+        (run.sup, run.rms) = (errors.iter().fold(0.0, |largest: f64, e| largest.max(e.abs())), rms(&errors));
+        run.times.extend((1..=states.len()).map(|k| t + period * k as f64 / samples as f64));
+        run.states.extend(states);
+        y.clone_from(run.states.last().unwrap_or(&before));
+        let distance = y.iter().zip(&before).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
+        let size = y.iter().fold(1.0, |largest: f64, value| largest.max(1.0 + value.abs()));
+        run.return_distances.push(distance);
+        if distance >= 1e-6 * size {
+            run.settled = None;
+        } else if run.settled.is_none() {
+            run.settled = Some(index + 1);
+        }
+        progress.advance();
+    }
+    Ok(run)
+}
+
+/// A run with noise by the fixed-step method, the noise held over each step.
+///
+/// # Errors
+/// A solution that escapes.
+pub fn noisy_run(
+    closed_loop: &ClosedLoop,
+    start: &[f64],
+    periods: usize,
+    steps_per_period: usize,
+    settings: NoiseSettings,
+    enters: Noise,
+    progress: &dyn Progress,
+) -> Result<NoisyRun, IntegrationFailure> {
+    let mut method = FixedStep::new(closed_loop, steps_per_period);
+    let mut noise = BandLimitedNoise::new(settings, method.step_length());
+    let mut y = start.to_vec();
+    let mut run = NoisyRun { sup: Vec::new(), rms: Vec::new(), largest_noise: 0.0 };
+    for period in 0..periods {
+        let (mut largest, mut squares) = (0.0_f64, 0.0);
+        for step in 0..steps_per_period {
+            let v = noise.sample();
+            run.largest_noise = run.largest_noise.max(v.abs());
+            method.step(step, &mut y, enters.enters(&closed_loop.regulator, v));
+            let e = y[closed_loop.states()];
+            largest = largest.max(e.abs());
+            squares += e * e;
+        }
+        if !y.iter().all(|value| value.is_finite()) {
+            return Err(IntegrationFailure::Escaped { t: period as f64 * closed_loop.period });
+        }
+        run.sup.push(largest);
+        run.rms.push((squares / steps_per_period as f64).sqrt());
+        progress.advance();
+    }
+    Ok(run)
+}
