@@ -6,11 +6,36 @@ use super::syntax::{Binary, Unary};
 use super::{PlantExpr, PlantVariable};
 use std::sync::Arc;
 
+/// An operation; the frequent ones stand by themselves, so that the loop over them makes no calls.
 #[derive(Clone, Copy, Debug)]
 enum Operation {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Neg,
     Unary(Unary),
     Binary(Binary),
     Step,
+}
+
+impl Operation {
+    fn of_one(operation: Unary) -> Operation {
+        match operation {
+            Unary::Neg => Operation::Neg,
+            other => Operation::Unary(other),
+        }
+    }
+
+    fn of_two(operation: Binary) -> Operation {
+        match operation {
+            Binary::Add => Operation::Add,
+            Binary::Sub => Operation::Sub,
+            Binary::Mul => Operation::Mul,
+            Binary::Div => Operation::Div,
+            other => Operation::Binary(other),
+        }
+    }
 }
 
 /// One operation on slots; its result goes to the next slot.
@@ -97,9 +122,9 @@ impl Program {
             for id in (0..terms.len()).filter(|&id| needed[id] && timely[id] == wanted) {
                 let instruction = match terms[id] {
                     Term::Number(_) | Term::Variable(_) => continue,
-                    Term::Unary(operation, a) => (Operation::Unary(operation), a, a),
+                    Term::Unary(operation, a) => (Operation::of_one(operation), a, a),
                     Term::Step(a) => (Operation::Step, a, a),
-                    Term::Binary(operation, a, b) => (Operation::Binary(operation), a, b),
+                    Term::Binary(operation, a, b) => (Operation::of_two(operation), a, b),
                 };
                 let (operation, a, b) = instruction;
                 slot[id] = slots.len() as u32;
@@ -190,8 +215,13 @@ fn run(code: &[Instruction], first: usize, slots: &mut [f64]) {
     for (offset, instruction) in code.iter().enumerate() {
         let (a, b) = (slots[instruction.a as usize], slots[instruction.b as usize]);
         slots[first + offset] = match instruction.operation {
-            Operation::Binary(operation) => binary(operation, a, b),
+            Operation::Add => a + b,
+            Operation::Sub => a - b,
+            Operation::Mul => a * b,
+            Operation::Div => a / b,
+            Operation::Neg => -a,
             Operation::Unary(operation) => unary(operation, a),
+            Operation::Binary(operation) => binary(operation, a, b),
             Operation::Step => step(a),
         };
     }

@@ -1,0 +1,232 @@
+//! `sigmastar simulate`, `reproduce` and `falsify` from the command line.
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use serde_json::Value;
+use std::path::Path;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const EXAMPLE: &str = "specs/plants/paper-example.json";
+
+fn sigmastar(arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("sigmastar").unwrap();
+    command.current_dir(ROOT).args(arguments);
+    command
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = sigmastar(arguments).assert().success().stderr("").get_output().stdout.clone();
+    serde_json::from_slice(&output).unwrap()
+}
+
+#[test]
+fn a_simulation_reports_writes_samples_and_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let (csv, plots) = (folder.path().join("run.csv"), folder.path().join("figures"));
+    let arguments = ["simulate", EXAMPLE, "--sigma", "2", "--n-o", "2", "--periods", "3", "--samples", "50"];
+    let output = sigmastar(&arguments).arg("--csv").arg(&csv).arg("--plots").arg(&plots).assert().success();
+    output.stdout(predicate::str::contains("sup|e| = 0.0176760").and(predicate::str::contains("6.4661e-3")));
+    let text = std::fs::read_to_string(csv).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], "t,x1,x2,e,u,z0,z1c,z1s,z2c,z2s");
+    assert_eq!(lines.len(), 1 + 1 + 3 * 50);
+    assert!(lines[1].starts_with("0.0,1.0,-2.0,4.0,") && lines[151].starts_with("3.0,"), "{} {}", lines[1], lines[151]);
+    for name in ["response.svg", "spectrum.svg", "bode.svg"] {
+        let svg = std::fs::read_to_string(plots.join(name)).unwrap();
+        assert!(svg.starts_with("<svg") && svg.matches("<polyline").count() >= 1, "{name}");
+    }
+}
+
+#[test]
+fn an_exported_regulator_gives_the_same_simulation() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("controller.json");
+    let arguments =
+        ["controller", "specs/paper-example.json", "--sigma", "2", "--n-o", "3", "--discretise", "1/10", "-o"];
+    sigmastar(&arguments).arg(&file).assert().success();
+    let short = ["--periods", "2", "--format", "json"];
+    let direct = json(&[&["simulate", EXAMPLE, "--sigma", "2", "--n-o", "3"][..], &short].concat());
+    let read = json(&[&["simulate", EXAMPLE, "--controller", file.to_str().unwrap()][..], &short].concat());
+    assert_eq!(direct, read);
+    assert_eq!(direct["steady_state"]["multipliers"].as_array().unwrap().len(), 10);
+}
+
+#[test]
+fn the_two_methods_and_the_seeds() {
+    let base = ["simulate", EXAMPLE, "--sigma", "5", "--n-o", "1", "--periods", "4", "--format", "json"];
+    let adaptive = json(&base);
+    let fixed = json(&[&base[..], &["--fixed", "1000"]].concat());
+    let at = |value: &Value| value["long_run"]["rms_e_last_period"].as_f64().unwrap();
+    assert!((at(&adaptive) / at(&fixed) - 1.0).abs() < 1e-6);
+    let noisy = |seed: &str, more: &[&str]| {
+        json(&[&base[..], &["--noise-power", "1e-3", "--noise-steps", "1000", "--seed", seed], more].concat())["noisy_run"]
+            .clone()
+    };
+    let first = noisy("1", &[]);
+    assert_eq!(first, noisy("1", &[]));
+    assert_ne!(first, noisy("2", &[]));
+    assert_ne!(first["rms_e"], noisy("1", &["--noise-everywhere"])["rms_e"]);
+    // 4000 normal samples of variance 1: the largest is between 3 and 6.
+    let largest = first["sup_v"].as_f64().unwrap();
+    assert!((3.0..6.0).contains(&largest), "{largest}");
+}
+
+#[test]
+fn wrong_plants_and_calls_are_refused() {
+    let text = std::fs::read_to_string(Path::new(ROOT).join(EXAMPLE)).unwrap();
+    for (old, new, message) in [
+        ("sin(x2)/10", "sin(x3)/10", "`x3` is not a known name"),
+        ("\"x2\"]", "\"e\"]", "another meaning"),
+        ("\"x2\"]", "\"x1\"]", "has the name of another state"),
+        ("\"x2\"]", "\"x2\", \"x3\"]", "2 right sides for 3 states"),
+        ("[\"1\", \"-2\"]", "[\"1\"]", "1 initial values for 2 states"),
+        ("+ sin(2*pi*t)\"", "+ sin(3*t)\"", "not periodic in t with the stated period"),
+        ("\"period\": \"1\"", "\"period\": \"2\"", "asserts base_frequency = 2 pi / period"),
+        ("\"q\":", "\"Q\":", "did you mean `q`?"),
+        ("\"e\": \"4\"", "\"e\": \"1e400\"", "beyond double precision"),
+        ("sigmastar/plant", "sigmastar/bounding-spec", "this is a file of format"),
+        ("\"e\": \"4\"", "\"e\": \"4\", \"z\": [1, 2]", "the initial z of the plant file has 2 components"),
+    ] {
+        assert!(text.contains(old), "{old}");
+        let arguments = ["simulate", "-", "--sigma", "2", "--n-o", "1"];
+        let assert = sigmastar(&arguments).write_stdin(text.replacen(old, new, 1)).assert();
+        assert.code(2).stdout("").stderr(predicate::str::contains(message));
+    }
+    sigmastar(&["simulate", EXAMPLE, "--n-o", "1"]).assert().code(2);
+    sigmastar(&["simulate", EXAMPLE, "--sigma", "2"]).assert().code(2);
+    sigmastar(&["simulate", EXAMPLE, "--sigma", "0", "--n-o", "1"]).assert().code(2);
+    // Without a steady state nothing is claimed either way.
+    let unstable = text.replacen("- x2 + x2^2/10", "+ x2 + x2^2/10", 1);
+    let arguments = ["simulate", "-", "--sigma", "2", "--n-o", "0"];
+    let assert = sigmastar(&arguments).write_stdin(unstable).assert().code(3);
+    assert.stdout(predicate::str::contains("None was found: the solution escapes"));
+}
+
+#[test]
+fn the_tables_of_the_paper_are_reproduced() {
+    let folder = tempfile::tempdir().unwrap();
+    sigmastar(&["reproduce", "--only", "table1,table2,figures", "-o"])
+        .arg(folder.path())
+        .assert()
+        .success()
+        .stdout(predicate::str::contains("| 1 | 4 | 2 | 3.04e-8 | 3.0395e-8 | 0 | 1.66e-8 | 1.6610e-8 | 0 | 0.940 |"));
+    let report: Value = serde_json::from_slice(&std::fs::read(folder.path().join("report.json")).unwrap()).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 5 + 2 * 14);
+    let mut exact = 0;
+    for row in rows {
+        let units = |column: &str| row["without_noise"][column]["units_of_last_place"].as_f64().unwrap().abs();
+        let (sup, rms) = (units("sup"), units("rms"));
+        if row["n_0"] == 2.0 {
+            continue;
+        }
+        // Every noise-free entry, to its printed digits.
+        assert!(sup <= 1.0 && rms <= 1.0, "{row}");
+        exact += i32::from(sup == 0.0) + i32::from(rms == 0.0);
+        if let (Some(n_o), "1") = (row["n_o"].as_u64(), row["base_frequency_ratio"].as_str().unwrap()) {
+            let amplitudes = row["amplitudes"].as_array().unwrap();
+            assert!(amplitudes[..=n_o as usize].iter().all(|amplitude| amplitude.as_f64().unwrap() < 1e-9));
+            assert!(amplitudes[n_o as usize + 1].as_f64().unwrap() > 1e-9);
+        }
+    }
+    assert_eq!(exact, 38);
+    let figures = report["figures"].as_array().unwrap();
+    assert_eq!(figures.len(), 5);
+    for figure in figures {
+        let svg = std::fs::read_to_string(folder.path().join(figure.as_str().unwrap())).unwrap();
+        assert!(svg.contains("<polyline"), "{figure}");
+    }
+}
+
+#[test]
+fn the_columns_with_noise_are_ranges_over_seeds() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["reproduce", "--only", "noise", "--seeds", "1", "--noise-steps", "1000", "-o"];
+    sigmastar(&arguments).arg(folder.path()).assert().success();
+    let report: Value = serde_json::from_slice(&std::fs::read(folder.path().join("report.json")).unwrap()).unwrap();
+    // E22: the stated noise is larger than stated.
+    assert!((45.0..65.0).contains(&report["largest_noise"][0].as_f64().unwrap()));
+    for row in report["rows"].as_array().unwrap() {
+        let laws = row["with_noise"].as_array().unwrap();
+        assert_eq!(laws.len(), if row["table"] == 1 { 1 } else { 2 }, "{row}");
+        for law in laws {
+            let [low, high] = [0, 1].map(|end| law["rms"]["range"][end].as_f64().unwrap());
+            let printed: f64 = law["rms"]["printed"].as_str().unwrap().parse().unwrap();
+            // The order of magnitude; nothing is tuned.
+            assert!(low < high && low < printed && printed < 3.0 * high, "{row}");
+        }
+    }
+    assert!(report["rows"][0]["without_noise"].is_null());
+}
+
+fn certificate(name: &str, folder: &Path) -> Value {
+    let file = folder.join("certificate.json");
+    sigmastar(&["certify", &format!("specs/{name}.json"), "--no-compare", "-q", "-o"]).arg(&file).assert().success();
+    serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap()
+}
+
+/// Runs `falsify` on a certificate and returns the exit code, the report and the counterexample, if one was written.
+fn falsify(certificate: &Value, folder: &Path, trials: &str) -> (i32, Value, Option<String>) {
+    let file = folder.join("tried.json");
+    let counterexample = folder.join("counterexample.json");
+    std::fs::write(&file, certificate.to_string()).unwrap();
+    let _ = std::fs::remove_file(&counterexample);
+    let mut command = sigmastar(&["falsify", "--trials", trials, "--format", "json", "--quiet", "-o"]);
+    let output = command.arg(&counterexample).arg(&file).output().unwrap();
+    let report = serde_json::from_slice(&output.stdout).unwrap();
+    (output.status.code().unwrap(), report, std::fs::read_to_string(counterexample).ok())
+}
+
+#[test]
+fn shipped_certificates_withstand_the_trials() {
+    for name in ["paper-example", "linear", "no-x"] {
+        let folder = tempfile::tempdir().unwrap();
+        let (code, report, counterexample) = falsify(&certificate(name, folder.path()), folder.path(), "6");
+        assert_eq!((code, counterexample), (0, None), "{name}: {report}");
+        let trials = report["trials"].as_array().unwrap();
+        assert!(trials.len() == 6 && trials.iter().all(|trial| trial["finding"] == "holds"), "{name}: {report}");
+    }
+}
+
+#[test]
+fn false_certificates_are_refuted_with_a_counterexample() {
+    let folder = tempfile::tempdir().unwrap();
+    let honest = certificate("paper-example", folder.path());
+    for (pointer, value, quantity) in [
+        // A periodic solution far smaller than it is.
+        ("/witness/E_p", "0.002", "sup|e| of the periodic solution"),
+        ("/claim/periodic_solution/zeta", "1/10", "sup|zeta|_N of the periodic solution"),
+        // An initial set that the error box does not hold.
+        ("/claim/initial_set/X0", "9.9", "against D_x"),
+        // An error box that solutions leave.
+        ("/witness/D_e", "1/100", "against D_e"),
+    ] {
+        let mut altered = honest.clone();
+        *altered.pointer_mut(pointer).unwrap() = Value::String(value.to_owned());
+        let (code, report, counterexample) = falsify(&altered, folder.path(), "12");
+        assert_eq!(code, 1, "{pointer}: {report}");
+        let counterexample = counterexample.expect(pointer);
+        assert!(counterexample.contains(quantity), "{pointer}: {counterexample}");
+        // It is a plant file, and what it says can be seen again.
+        let plant: Value = serde_json::from_str(&counterexample).unwrap();
+        let description = plant["description"].as_str().unwrap();
+        let words: Vec<&str> = description.split_whitespace().collect();
+        let after = |flag: &str| words[words.iter().position(|word| *word == flag).unwrap() + 1].trim_end_matches('.');
+        let arguments = ["simulate", "-", "--sigma", after("--sigma"), "--n-o", after("--n-o"), "--format", "json"];
+        let output = sigmastar(&arguments).write_stdin(counterexample.clone()).output().unwrap();
+        let again: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{again}");
+        if pointer == "/witness/E_p" {
+            assert!(again["steady_state"]["sup_e"].as_f64().unwrap() > 0.002, "{again}");
+        }
+    }
+}
+
+#[test]
+fn what_is_no_certificate_is_refused() {
+    sigmastar(&["falsify", "specs/linear.json"])
+        .assert()
+        .code(2)
+        .stdout("")
+        .stderr(predicate::str::contains("this is a file of format `sigmastar/bounding-spec`"));
+}
