@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use sigmastar::expr::{Expr, Variables};
-use sigmastar::lyapunov::{Candidates, LyapunovFailure, candidates};
+use sigmastar::lyapunov::{Candidates, LyapunovFailure, candidates, floquet_exponents};
 use sigmastar::spec::model::{Constant, Jacobian, JacobianEntry};
 
 fn constant(text: &str) -> Constant {
@@ -11,21 +11,26 @@ fn constant(text: &str) -> Constant {
 }
 
 /// The rows as text; an entry with a comma is an interval.
-fn find(rows: &[Vec<String>]) -> Result<Candidates, LyapunovFailure> {
+fn jacobian(rows: &[Vec<String>]) -> (Jacobian, Constant) {
     let entry = |text: &String| match text.split_once(',') {
-        Some((low, up)) => JacobianEntry::Interval([constant(low), constant(up)]),
+        Some((low, up)) => JacobianEntry::Interval(Box::new([constant(low), constant(up)])),
         None => JacobianEntry::Function(Expr::parse(text, Variables::Time).expect("an expression in t")),
     };
     let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect();
     let period = constant("1");
-    candidates(&Jacobian { rows, period: period.exact.clone() }, &period)
+    (Jacobian { rows, period: period.exact.clone() }, period)
 }
 
-/// The rows of `base + margin` on the diagonal such that the largest real part of the Floquet exponents is -1.
+fn find(rows: &[Vec<String>]) -> Result<Candidates, LyapunovFailure> {
+    let (jacobian, period) = jacobian(rows);
+    candidates(&jacobian, &period)
+}
+
+/// The family with such a multiple of I added that the largest real part of the Floquet exponents is -1.
 fn shifted(base: &dyn Fn(f64) -> Vec<Vec<String>>) -> Vec<Vec<String>> {
-    // With a shift so large that the family is surely stable, the exponents tell how much of it is needed.
-    let far = find(&base(-60.0)).expect("far from unstable");
-    base(-60.0 - far.floquet[0][0] - 1.0)
+    let (plain, period) = jacobian(&base(0.0));
+    let exponent = floquet_exponents(&plain, &period).expect("finite")[0][0];
+    base(-exponent - 1.0)
 }
 
 fn lti(n: usize, numbers: &[i32]) -> impl Fn(f64) -> Vec<Vec<String>> {
@@ -73,7 +78,7 @@ proptest! {
 
 #[test]
 fn periodic_jacobians_with_a_margin_of_5_percent() {
-    for n in 1..=8 {
+    for n in [1, 2, 3, 5, 8] {
         let numbers: Vec<i32> = (0..192).map(|k| (k * k * 7 + 13 * k * n as i32 + 5) % 41 - 20).collect();
         let rate = largest_rate(&shifted(&periodic(n, &numbers)));
         assert!((0.95..=1.0).contains(&rate), "{n}: {rate}");

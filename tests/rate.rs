@@ -104,7 +104,7 @@ fn the_certificate_carries_p_and_is_decided_again() {
     assert_eq!((code, &again["sigma_star"]), (0, &report["sigma_star"]));
 
     let honest = certificate.clone();
-    let mut decided = |certificate: &Value| {
+    let decided = |certificate: &Value| {
         std::fs::write(&file, certificate.to_string()).unwrap();
         run(&["certify", spec, "--no-compare", "--witness", name])
     };
@@ -128,7 +128,7 @@ fn jacobians_of_all_kinds_on_the_command_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = std::fs::read_to_string(format!("{ROOT}/specs/paper-example.json")).unwrap();
     let triple = r#"{ "p_low": "1", "p_up": "1.5512", "alpha": "0.58" }"#;
-    let mut decide = |jacobian: &str| {
+    let decide = |jacobian: &str| {
         let file = folder.path().join("spec.json");
         std::fs::write(&file, text.replace(triple, &format!(r#"{{ "jacobian": {jacobian} }}"#))).unwrap();
         run(&["lyapunov", file.to_str().unwrap()])

@@ -141,6 +141,12 @@ pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, 
     if found.is_empty() { Err(none) } else { Ok(Candidates { found, floquet, family }) }
 }
 
+/// The Floquet exponents of the middle of a Jacobian as in [`Candidates::floquet`]; `None` if they cannot be computed.
+#[must_use]
+pub fn floquet_exponents(jacobian: &Jacobian, period: &Constant) -> Option<Vec<[f64; 2]>> {
+    FloatFamily::new(&Family::new(jacobian, period, DEFAULT_PRECISION)?).floquet_exponents()
+}
+
 /// Collects the P(t) of a degree with the smallest ratio at shares of the largest rate; returns the rate.
 fn by_programs(family: &FloatFamily, degree: usize, limit: f64, proposals: &mut Vec<Vec<Mat<f64>>>) -> f64 {
     let at = |alpha: f64| {

@@ -42,7 +42,8 @@ impl Family {
             for (j, entry) in row.iter().enumerate() {
                 entries.push(match entry {
                     JacobianEntry::Function(expr) => expr.trigonometric(exact, precision).ok()?,
-                    JacobianEntry::Interval([low, up]) => {
+                    JacobianEntry::Interval(ends) => {
+                        let [low, up] = &**ends;
                         let (low, up) = (low.enclose(precision), up.enclose(precision));
                         radii.push((i, j, ((&up - &low) / 2).ceiling()));
                         TrigonometricPolynomial { mean: (low + up) / 2, harmonics: Vec::new() }

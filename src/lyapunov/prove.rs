@@ -94,8 +94,8 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
     let twice_alpha = rational(alpha) * 2;
     let centre = Entries::new(order, |i, j| {
         let mut sum = p[i][j].derivative().scaled(&family.frequency).plus(&p[i][j].scaled(&twice_alpha), 1);
-        for k in 0..order {
-            sum = sum.plus(&p[i][k].times(&family.centre[k][j]), 1).plus(&p[k][j].times(&family.centre[k][i]), 1);
+        for (k, centre) in family.centre.iter().enumerate() {
+            sum = sum.plus(&p[i][k].times(&centre[j]), 1).plus(&p[k][j].times(&centre[i]), 1);
         }
         sum.scaled(&Enclosure::from_integer(-1, precision))
     });
@@ -244,7 +244,7 @@ mod tests {
     /// Entries with a comma are intervals.
     fn family(rows: &[&[&str]]) -> Family {
         let entry = |text: &&str| match text.split_once(',') {
-            Some((low, up)) => JacobianEntry::Interval([constant(low), constant(up)]),
+            Some((low, up)) => JacobianEntry::Interval(Box::new([constant(low), constant(up)])),
             None => JacobianEntry::Function(Expr::parse(text, Variables::Time).unwrap()),
         };
         let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect();

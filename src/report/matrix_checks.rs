@@ -2,11 +2,21 @@
 
 use super::blocks::{Block, Table};
 use super::json::interval;
-use super::number::{estimate, exact, pair};
+use super::number::{exact, pair};
 use crate::certificate::{Certification, Derivation};
-use crate::number::{Direction, write_exact};
+use crate::number::{Direction, round_f64, write_exact};
 use rug::Rational;
 use serde_json::{Value, json};
+
+/// The solver's figure in as many digits as it gives on every machine.
+fn solver_sigma(value: f64) -> String {
+    round_f64(value, 5, Direction::Nearest).map_or_else(|| "nothing".to_owned(), |sigma| write_exact(&sigma))
+}
+
+/// The power of ten above a difference; the last digits of a solver are not the same on every machine.
+fn order_of_magnitude(difference: f64) -> String {
+    (-6..=0).map(|k| 10f64.powi(k)).find(|power| difference < *power).map_or("unknown".to_owned(), |p| format!("{p:e}"))
+}
 
 /// The section.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
@@ -15,7 +25,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     if run.options.derivation == Derivation::Sharp {
         items.extend(checks.decay.as_ref().map(|decay| match decay {
             Ok(check) => {
-                let verdict = if check.agrees() { "they agree to" } else { "they DISAGREE by" };
+                let verdict = if check.agrees() { "they agree" } else { "they DISAGREE" };
                 let proved = if check.multipliers.is_some() {
                     "at sigma* the matrix is proved positive definite, exactly, with the multipliers in the certificate"
                 } else {
@@ -23,11 +33,10 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
                 };
                 format!(
                     "C5: sigma must exceed {} by the closed form (proved), {} by the semidefinite program (floating point); \
-                     {verdict} {} (relative); {proved}.",
+                     {verdict}: the relative difference is below {}; {proved}.",
                     pair(&check.closed_form),
-                    Rational::from_f64(check.solver_sigma)
-                        .map_or_else(|| "nothing".to_owned(), |sigma| exact(&sigma, Direction::Nearest)),
-                    estimate(check.relative_difference)
+                    solver_sigma(check.solver_sigma),
+                    order_of_magnitude(check.relative_difference)
                 )
             }
             Err(error) => format!("C5: not cross-checked by the semidefinite program: {error}."),
@@ -76,8 +85,8 @@ pub(super) fn checks_json(run: &Certification<'_>) -> Value {
     let decay = checks.decay.as_ref().map(|decay| match decay {
         Ok(check) => json!({
             "closed_form": interval(&check.closed_form),
-            "solver_estimate": check.solver_sigma.to_string(),
-            "relative_difference": estimate(check.relative_difference),
+            "solver_estimate": solver_sigma(check.solver_sigma),
+            "relative_difference_below": order_of_magnitude(check.relative_difference),
             "agree": check.agrees(),
             "proved_at_sigma_star": check.multipliers.is_some(),
         }),

@@ -84,7 +84,7 @@ fn read_interval(value: &Value<'_>, errors: &mut Errors) -> Result<JacobianEntry
     let (low_end, up_end) = (low_end?, up_end?);
     let ordered = Quantity::constant(&low_end).le(&Quantity::constant(&up_end));
     let (kind, message) = match ordered {
-        Truth::True => return Ok(JacobianEntry::Interval([low_end, up_end])),
+        Truth::True => return Ok(JacobianEntry::Interval(Box::new([low_end, up_end]))),
         Truth::False => (ErrorKind::Range, "the lower end of this interval exceeds its upper end"),
         Truth::Undecided => (ErrorKind::Undecided, "cannot be decided whether this interval is empty"),
     };

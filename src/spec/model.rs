@@ -155,7 +155,7 @@ pub enum JacobianEntry {
     /// A constant or a trigonometric polynomial in t with the period of the specification.
     Function(Expr),
     /// Any (continuous) function of time with values between the two, lower <= upper.
-    Interval([Constant; 2]),
+    Interval(Box<[Constant; 2]>),
 }
 
 /// `P(t) = mean + sum_k (cos_k cos(k w t) + sin_k sin(k w t))`, w = 2 pi / period, with symmetric rational matrices.

@@ -300,7 +300,7 @@ impl Problem {
             let (i, j) = (row - offset, column - offset);
             let value = Rational::from_f64(*value)?;
             let times = if i == j { 1u32 } else { 2 };
-            lower += Rational::from(&value * Rational::from_f64(duals[piece][(i, j)])?) * times;
+            lower += &value * Rational::from_f64(duals[piece][(i, j)])? * times;
             lower -= value.abs() * Rational::from_f64(absolute[piece][(i, j)])? * times;
         }
         Some(lower)
