@@ -11,7 +11,9 @@
 //! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
 //! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
 //! - [`rate`]: rates of convergence for a given number of oscillators;
-//! - [`report`], [`errata`]: what a person reads.
+//! - [`report`], [`errata`]: what a person reads;
+//! - [`regulator`], [`plant`], [`simulate`], [`reproduce`], [`falsify`]: the regulator itself, and floating-point
+//!   simulations that show what a claim speaks of and try to break it; nothing rigorous depends on them.
 //!
 //! Nothing below the command line knows it, and every arrow goes one way.
 

@@ -16,6 +16,8 @@ pub struct FixedStep<'l> {
     steps_per_period: usize,
     step: f64,
     evaluator: Evaluator,
+    /// The half step whose time values the evaluator holds: two stages share one, and so do two steps.
+    loaded: Option<usize>,
     /// The time values at t = 0, h/2, h, ..., T - h/2, one row each; empty where there are too many.
     table: Vec<f64>,
     /// Four slopes and a point between.
@@ -37,7 +39,7 @@ impl<'l> FixedStep<'l> {
             }
         }
         let stages = std::array::from_fn(|_| vec![0.0; closed_loop.dimension()]);
-        FixedStep { closed_loop, steps_per_period, step, evaluator, table, stages }
+        FixedStep { closed_loop, steps_per_period, step, evaluator, loaded: None, table, stages }
     }
 
     /// The length h of a step.
@@ -56,11 +58,13 @@ impl<'l> FixedStep<'l> {
         let width = closed_loop.time_values();
         let mut slope = |half: usize, y: &[f64], dy: &mut [f64]| {
             let evaluator = &mut self.evaluator;
-            if self.table.is_empty() {
-                evaluator.set_time(half as f64 * 0.5 * h);
-            } else {
-                let row = half % (2 * self.steps_per_period) * width;
-                evaluator.load_time_values(&self.table[row..row + width]);
+            let half = if half == 2 * self.steps_per_period { 0 } else { half };
+            if self.loaded != Some(half) {
+                self.loaded = Some(half);
+                match self.table.get(half * width..(half + 1) * width) {
+                    Some(row) => evaluator.load_time_values(row),
+                    None => evaluator.set_time(half as f64 * 0.5 * h),
+                }
             }
             closed_loop.right_side(evaluator, y, noise, dy);
         };
