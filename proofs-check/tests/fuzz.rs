@@ -5,7 +5,7 @@ mod common;
 
 use common::{PAPER, text};
 use proofs_check::check;
-use proofs_check::expr::Expr;
+use proofs_check::expr::{ARGUMENTS, Expr};
 use proofs_check::interval::Interval;
 use proofs_check::verdict::Verdict;
 
@@ -60,7 +60,7 @@ fn random_expressions() {
     let mut read = 0;
     for _ in 0..60_000 {
         let text: String = (0..1 + random.below(9)).map(|_| words[random.below(words.len())]).collect();
-        let Ok(expr) = Expr::parse(&text, true) else { continue };
+        let Ok(expr) = Expr::parse(&text, ARGUMENTS) else { continue };
         read += 1;
         let value = expr.enclose(&side, &side);
         let inside = Interval::int(1, 64);

@@ -1,12 +1,12 @@
 //! Rule: bounding functions are finite, nonnegative and nondecreasing.
 
-use proofs_check::expr::Expr;
+use proofs_check::expr::{ARGUMENTS, Expr};
 use proofs_check::monotone::prove;
 use proofs_check::verdict::Verdict::{self, Invalid, Undecided};
 use rug::Rational;
 
 fn verdict(text: &str, x: i64, e: i64) -> Option<Verdict> {
-    let expr = Expr::parse(text, true).unwrap();
+    let expr = Expr::parse(text, ARGUMENTS).unwrap();
     prove("q", &expr, &Rational::from(x), &Rational::from(e), 128).err().map(|finding| finding.verdict)
 }
 
@@ -79,7 +79,7 @@ fn not_defined_somewhere_is_never_proved() {
 #[test]
 fn an_unsettled_function_is_undecided_with_its_place() {
     // Nondecreasing, but only just: the derivative vanishes inside.
-    let expr = Expr::parse("(X - 1)^3 + 1 - sqrt(3)*sqrt(3) + 3 - E*0", true).unwrap();
+    let expr = Expr::parse("(X - 1)^3 + 1 - sqrt(3)*sqrt(3) + 3 - E*0", ARGUMENTS).unwrap();
     let finding = prove("q_e", &expr, &Rational::from(2), &Rational::from(2), 128).err();
     if let Some(finding) = finding {
         assert_eq!((finding.verdict, finding.pointer.as_str()), (Undecided, "/specification/bounds/q_e"));
