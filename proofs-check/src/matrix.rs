@@ -4,13 +4,13 @@ use crate::interval::Interval;
 
 /// Whether a symmetric matrix is positive definite, by the pivots of LDL'; only the lower triangle is read.
 ///
-/// `Some(true)`: every symmetric matrix with entries in the intervals is. `Some(false)`: none is, since a pivot is at most 0
-/// after positive ones. `None`: not decided.
+/// `Some(true)`: every symmetric matrix with entries in the intervals is. `Some(false)`: none is even
+/// semidefinite, since a pivot is negative after positive ones. `None`: not decided.
 pub fn positive_definite(mut rows: Vec<Vec<Interval>>) -> Option<bool> {
     for k in 0..rows.len() {
         let pivot = rows[k][k].clone();
         if !pivot.is_positive() {
-            return pivot.is_nonpositive().then_some(false);
+            return (-pivot).is_positive().then_some(false);
         }
         let column: Vec<Interval> = rows[k + 1..].iter().map(|row| row[k].clone()).collect();
         for (i, row) in rows[k + 1..].iter_mut().enumerate() {

@@ -164,8 +164,8 @@ enum Value<'a> {
 }
 
 impl Problem<'_> {
-    /// P and dP/dt on a cell.
-    fn p(&self, s: &Interval) -> [Vec<Vec<Jet>>; 2] {
+    /// P, and dP/dt if that is wanted, on a cell.
+    fn p<const WANTED: usize>(&self, s: &Interval) -> [Vec<Vec<Jet>>; WANTED] {
         let p = self.precision;
         let number = |q: &Rational| Interval::rational(q, p);
         // (cos, sin) of each harmonic, and d/dt of them.
@@ -188,13 +188,15 @@ impl Problem<'_> {
             })
         };
         let order = self.w.mean.len();
-        [0, 1].map(|derivative| (0..order).map(|i| (0..order).map(|j| entry(i, j, derivative)).collect()).collect())
+        std::array::from_fn(|derivative| {
+            (0..order).map(|i| (0..order).map(|j| entry(i, j, derivative)).collect()).collect()
+        })
     }
 
     /// `sign P + shift I`, its lower triangle.
     fn shifted(&self, s: &Interval, sign: i64, shift: &Rational) -> Vec<Vec<Jet>> {
         let (sign, shift) = (Interval::int(sign, self.precision), Interval::rational(shift, self.precision));
-        let [p, _] = self.p(s);
+        let [p] = self.p(s);
         let mut rows: Vec<Vec<Jet>> =
             p.iter().map(|row| row.iter().map(|entry| entry.scaled(&sign)).collect()).collect();
         for (i, row) in rows.iter_mut().enumerate() {
@@ -236,8 +238,13 @@ impl Problem<'_> {
         q: impl Fn(&Interval) -> Vec<Vec<Jet>>,
     ) -> Outcome<()> {
         let pointer = &self.w.pointer;
-        let mut queue = vec![[Rational::new(), Rational::from(1)]];
-        while let Some([a, b]) = queue.pop() {
+        // Each end of a cell with Q there.
+        let at = |s: Rational| {
+            let q = q(&Interval::rational(&s, self.precision));
+            (s, q.iter().map(|row| row.iter().map(|jet| jet.0[0].clone()).collect()).collect::<Vec<Vec<_>>>())
+        };
+        let mut queue = vec![[at(Rational::new()), at(Rational::from(1))]];
+        while let Some([(a, at_a), (b, at_b)]) = queue.pop() {
             let over = q(&Interval::between(&a, &b, self.precision));
             let width = Rational::from(&b - &a);
             let factor = Interval::rational(&(Rational::from(width.square_ref()) / 8u32), self.precision);
@@ -245,18 +252,17 @@ impl Problem<'_> {
                 .iter()
                 .map(|row| row.iter().fold(Interval::int(0, self.precision), |sum, jet| sum + jet.0[2].abs()) * &factor)
                 .collect();
-            let ends = [&a, &b].map(|s| q(&Interval::rational(s, self.precision)));
-            let definite = |end: &[Vec<Jet>], less: bool| {
+            let definite = |end: &[Vec<Interval>], less: bool| {
                 let entry = |i: usize, j: usize| {
-                    if less && i == j { &end[i][j].0[0] - &sums[i].ceiling() } else { end[i][j].0[0].clone() }
+                    if less && i == j { &end[i][j] - &sums[i].ceiling() } else { end[i][j].clone() }
                 };
                 positive_definite((0..end.len()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect())
             };
-            if ends.iter().all(|end| definite(end, true) == Some(true)) {
+            if definite(&at_a, true) == Some(true) && definite(&at_b, true) == Some(true) {
                 continue;
             }
             let place = format!("{what} at t/T = {}", a.to_f64());
-            let truth = ends.map(|end| definite(&end, false));
+            let truth = [&at_a, &at_b].map(|end| definite(end, false));
             if refutes && truth.contains(&Some(false)) {
                 return invalid(RULE, pointer, format!("not satisfied: {place}"));
             }
@@ -266,8 +272,8 @@ impl Problem<'_> {
                 return Err(finding(Verdict::Undecided, RULE, pointer, message));
             }
             *cells -= 1;
-            let middle = Rational::from(&a + &b) / 2u32;
-            queue.extend([[middle.clone(), b], [a, middle]]);
+            let middle = at(Rational::from(&a + &b) / 2u32);
+            queue.extend([[middle.clone(), (b, at_b)], [(a, at_a), middle]]);
         }
         Ok(())
     }
