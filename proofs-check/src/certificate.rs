@@ -55,10 +55,6 @@ pub fn check(json: &Json, lines: &mut Vec<String>) -> Outcome<()> {
     let other = file.optional("comparison").map(|field| comparison(&field, !claim.sharp)).transpose()?;
     let (list, table) = (file.required("conditions")?, file.required("constants")?);
     file.finish()?;
-    if let Some((jacobian, witness)) = &spec.jacobian {
-        let words = lyapunov::prove(jacobian, &spec.period, witness)?;
-        lines.push(format!("Lyapunov triple: {words}"));
-    }
 
     let mut precision = first_precision;
     loop {
@@ -70,10 +66,17 @@ pub fn check(json: &Json, lines: &mut Vec<String>) -> Outcome<()> {
         let again = result.as_ref().is_err_and(|finding| undecided(finding)) && precision < LAST_PRECISION;
         if !again {
             *lines = attempt;
-            return result;
+            result?;
+            break;
         }
         precision *= 2;
     }
+    // Last, because it may take the longest.
+    if let Some((jacobian, witness)) = &spec.jacobian {
+        let words = lyapunov::prove(jacobian, &spec.period, witness)?;
+        lines.push(format!("Lyapunov triple: {words}"));
+    }
+    Ok(())
 }
 
 /// The free numbers of the derivation that the claim is not about, for the table of constants.

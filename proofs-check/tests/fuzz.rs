@@ -8,6 +8,7 @@ use proofs_check::check;
 use proofs_check::expr::{ARGUMENTS, Expr};
 use proofs_check::interval::Interval;
 use proofs_check::verdict::Verdict;
+use serde_json::Value;
 
 /// A small generator (xorshift64), so that every run is the same.
 struct Random(u64);
@@ -42,11 +43,19 @@ fn damaged_certificates() {
             }
         }
         if check(&bytes).verdict == Verdict::Valid {
-            valid.push(String::from_utf8(bytes).unwrap());
+            valid.push(serde_json::from_slice::<Value>(&bytes).unwrap());
         }
     }
-    // What survives differs in figures that no stored value shows or in white space only.
-    assert!(valid.len() <= 15, "{} of 1500 damaged certificates pass", valid.len());
+    // What survives differs in white space, or in free numbers that no stored value shows and that are proved again.
+    let original: Value = serde_json::from_str(&original).unwrap();
+    for mut survivor in valid {
+        for pointer in ["/witness/lmi", "/witness/exact_regulation", "/comparison", "/tool/version", "/precision_bits"]
+        {
+            let free = original.pointer(pointer).unwrap();
+            *survivor.pointer_mut(pointer).unwrap() = free.clone();
+        }
+        assert_eq!(survivor, original);
+    }
 }
 
 #[test]

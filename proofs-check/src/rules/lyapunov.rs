@@ -261,8 +261,9 @@ impl Problem<'_> {
             if definite(&at_a, true) == Some(true) && definite(&at_b, true) == Some(true) {
                 continue;
             }
-            let place = format!("{what} at t/T = {}", a.to_f64());
             let truth = [&at_a, &at_b].map(|end| definite(end, false));
+            let end = if truth[0] == Some(true) { &b } else { &a };
+            let place = format!("{what} at t/T = {}", end.to_f64());
             if refutes && truth.contains(&Some(false)) {
                 return invalid(RULE, pointer, format!("not satisfied: {place}"));
             }
