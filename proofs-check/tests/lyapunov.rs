@@ -171,6 +171,17 @@ fn a_dip_between_the_ends_of_a_cell() {
     fails(&f, &scalar("0.99", "1.01", "1.001"), Invalid);
 }
 
+/// The curvature of a product is in the product of the slopes: around its zero, which no cell ends at, sin^2 is small on an
+/// interval much narrower than the first cells with good ends.
+#[test]
+fn a_narrow_dip_of_a_product() {
+    for square in ["sin(2*pi*t + 1)*sin(2*pi*t + 1)", "sin(2*pi*t + 1)^2"] {
+        let f = json!([[format!("-1 - {square}")]]);
+        holds(&f, &scalar("0.99", "1.01", "0.9999"));
+        fails(&f, &scalar("0.99", "1.01", "1.000001"), Invalid);
+    }
+}
+
 #[test]
 fn bounded_effort() {
     // The margin vanishes at one time that no cell ends at.
