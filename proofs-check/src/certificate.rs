@@ -5,7 +5,7 @@ use crate::interval::Interval;
 use crate::json::{Field, Fields, Json};
 use crate::rules::claim::{Claim, read_set};
 use crate::rules::transfer::Proof;
-use crate::rules::{constants, regulation, repaired, sharp, stored};
+use crate::rules::{constants, lmi, lyapunov, regulation, repaired, sharp, stored};
 use crate::spec::{BOUND_NAMES, Specification, header};
 use crate::verdict::{Condition, Finding, Outcome, Verdict, bad, invalid};
 use crate::{monotone, sha256};
@@ -17,7 +17,7 @@ const LAST_PRECISION: u32 = 1024;
 
 /// One derivation with its witness.
 enum Derivation {
-    Sharp(Box<sharp::Witness>, Option<regulation::Witness>),
+    Sharp(Box<sharp::Witness>, Option<regulation::Witness>, Option<lmi::Witness>),
     Repaired(Box<repaired::Witness>),
 }
 
@@ -27,7 +27,12 @@ pub fn check(json: &Json, lines: &mut Vec<String>) -> Outcome<()> {
     header(&mut file, "sigmastar/certificate")?;
     let mut tool = file.required("tool")?.fields()?;
     stored::text(&tool.required("name")?, "sigmastar")?;
-    stored::text(&tool.required("version")?, env!("CARGO_PKG_VERSION"))?;
+    let version = tool.required("version")?;
+    let number = |part: &str| (1..=9).contains(&part.len()) && part.bytes().all(|b| b.is_ascii_digit());
+    let parts: Vec<&str> = version.text()?.split('.').collect();
+    if parts.len() != 3 || !parts.into_iter().all(number) {
+        return bad(&version.pointer, "expected three whole numbers, as in `1.0.2`");
+    }
     tool.finish()?;
     let bits = file.required("precision_bits")?;
     let first_precision = bits.whole()?;
@@ -35,7 +40,8 @@ pub fn check(json: &Json, lines: &mut Vec<String>) -> Outcome<()> {
         return bad(&bits.pointer, format!("expected {PRECISIONS:?} bits"));
     }
     let embedded = file.required("specification")?;
-    let spec = Specification::read(&embedded)?;
+    let mut witness = file.required("witness")?.fields()?;
+    let spec = Specification::read(&embedded, &mut witness)?;
     let mut canonical = String::new();
     embedded.json.canonical(&mut canonical);
     stored::text(&file.required("specification_sha256")?, &sha256::hex_digest(canonical.as_bytes()))?;
@@ -45,8 +51,7 @@ pub fn check(json: &Json, lines: &mut Vec<String>) -> Outcome<()> {
     );
 
     let claim = Claim::read(&file.required("claim")?)?;
-    let witness = file.required("witness")?;
-    let main = Derivation::read(&witness, claim.sharp, claim.sigma.clone(), claim.set.clone())?;
+    let main = Derivation::read(witness, claim.sharp, claim.sigma.clone(), claim.set.clone())?;
     let other = file.optional("comparison").map(|field| comparison(&field, !claim.sharp)).transpose()?;
     let (list, table) = (file.required("conditions")?, file.required("constants")?);
     file.finish()?;
@@ -61,10 +66,17 @@ pub fn check(json: &Json, lines: &mut Vec<String>) -> Outcome<()> {
         let again = result.as_ref().is_err_and(|finding| undecided(finding)) && precision < LAST_PRECISION;
         if !again {
             *lines = attempt;
-            return result;
+            result?;
+            break;
         }
         precision *= 2;
     }
+    // Last, because it may take the longest.
+    if let Some((jacobian, witness)) = &spec.jacobian {
+        let words = lyapunov::prove(jacobian, &spec.period, witness)?;
+        lines.push(format!("Lyapunov triple: {words}"));
+    }
+    Ok(())
 }
 
 /// The free numbers of the derivation that the claim is not about, for the table of constants.
@@ -77,9 +89,9 @@ fn comparison(field: &Field<'_>, sharp: bool) -> Outcome<Derivation> {
     let mut set = fields.required("initial_set")?.fields()?;
     let (numbers, _) = read_set(&mut set)?;
     set.finish()?;
-    let witness = fields.required("witness")?;
+    let witness = fields.required("witness")?.fields()?;
     fields.finish()?;
-    Derivation::read(&witness, sharp, sigma, numbers)
+    Derivation::read(witness, sharp, sigma, numbers)
 }
 
 fn proof(field: &Field<'_>) -> Outcome<Proof> {
@@ -101,9 +113,8 @@ fn proof(field: &Field<'_>) -> Outcome<Proof> {
 }
 
 impl Derivation {
-    fn read(field: &Field<'_>, sharp: bool, sigma: Rational, set: [Rational; 3]) -> Outcome<Derivation> {
-        let mut fields = field.fields()?;
-        let pointer = field.pointer.clone();
+    fn read(mut fields: Fields<'_>, sharp: bool, sigma: Rational, set: [Rational; 3]) -> Outcome<Derivation> {
+        let pointer = fields.pointer.clone();
         let mut number = |name: &str| fields.required(name)?.rational();
         if !sharp {
             let w = repaired::Witness {
@@ -140,8 +151,9 @@ impl Derivation {
             set,
         };
         let exact = fields.optional("exact_regulation").map(|field| regulation_witness(&field)).transpose()?;
+        let multipliers = fields.optional("lmi").map(|field| lmi::Witness::read(&field)).transpose()?;
         fields.finish()?;
-        Ok(Derivation::Sharp(Box::new(w), exact))
+        Ok(Derivation::Sharp(Box::new(w), exact, multipliers))
     }
 }
 
@@ -224,11 +236,15 @@ impl Rules<'_> {
                 self.without_domain(&proved.arguments, lines)?;
                 Ok(Proved::Repaired(w, Box::new(proved)))
             }
-            Derivation::Sharp(w, exact) => {
+            Derivation::Sharp(w, exact, multipliers) => {
                 let proved = sharp::evaluate(d, w)?;
                 lines.push(format!("sharp derivation, sigma = {}", w.sigma));
                 all("sharp", &w.pointer, proved.transfer.iter().chain(&proved.conditions), lines)?;
                 self.without_domain(&proved.arguments, lines)?;
+                if let Some(multipliers) = multipliers {
+                    lmi::check(d, &proved.error_box, [&w.sigma, &w.w_x, &w.h], multipliers)?;
+                    lines.push("  C5 holds by its matrix inequality too".to_owned());
+                }
                 if let Some(exact) = exact {
                     lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
                     let conditions = regulation::evaluate(d, &w.set, exact)?;

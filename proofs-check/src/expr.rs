@@ -1,11 +1,11 @@
-//! Expressions in X and E: grammar, interval evaluation, exact evaluation of constants.
+//! Expressions in X and E, or in t: grammar, interval evaluation, exact evaluation of constants.
 //!
 //! ```text
 //! sum     = product (("+" | "-") product)*
 //! product = signed (("*" | "/") signed)*
 //! signed  = ("-" | "+")* power
 //! power   = primary ("^" signed)?
-//! primary = numeral | "pi" | "X" | "E" | name "(" sum ("," sum)* ")" | "(" sum ")"
+//! primary = numeral | "pi" | variable | name "(" sum ("," sum)* ")" | "(" sum ")"
 //! ```
 //! (`^` binds tighter than a sign before it and associates to the right, as formats.md says.)
 
@@ -37,6 +37,12 @@ const FUNCTIONS: [(&str, Op); 11] = [
     ("atan", Op::Atan), ("tanh", Op::Tanh), ("abs", Op::Abs), ("min", Op::Min), ("max", Op::Max),
 ];
 
+/// The variables of a constant, of a bounding function, and of an entry of a Jacobian; the first is [`Op::X`], the second
+/// [`Op::E`].
+pub const NONE: &[&str] = &[];
+pub const ARGUMENTS: &[&str] = &["X", "E"];
+pub const TIME: &[&str] = &["t"];
+
 /// A parsed expression: well-formed postfix.
 #[derive(Clone, Debug)]
 pub struct Expr {
@@ -50,7 +56,7 @@ struct Parser<'a> {
     ops: Vec<Op>,
     /// The exact values of the operands so far, to recognise integer exponents.
     exact: Vec<Option<Exact>>,
-    variables: bool,
+    variables: &'static [&'static str],
 }
 
 type Parsed = Result<(), String>;
@@ -167,11 +173,11 @@ impl Parser<'_> {
             self.at += 1;
         }
         let name = std::str::from_utf8(&self.text[start..self.at]).unwrap_or("");
-        match name {
-            "pi" => return self.push(Op::Pi),
-            "X" if self.variables => return self.push(Op::X),
-            "E" if self.variables => return self.push(Op::E),
-            _ => {}
+        if name == "pi" {
+            return self.push(Op::Pi);
+        }
+        if let Some(index) = self.variables.iter().position(|variable| *variable == name) {
+            return self.push(if index == 0 { Op::X } else { Op::E });
         }
         let Some(function) = FUNCTIONS.iter().find(|function| function.0 == name).map(|function| function.1.clone())
         else {
@@ -264,11 +270,11 @@ pub fn interval_op(op: &Op, a: &Interval, b: &Interval) -> Interval {
 }
 
 impl Expr {
-    /// Reads an expression, with or without variables.
+    /// Reads an expression in [`NONE`], [`ARGUMENTS`] or [`TIME`].
     ///
     /// # Errors
     /// What is wrong, in words; sizes are bounded before anything is computed.
-    pub fn parse(text: &str, variables: bool) -> Result<Expr, String> {
+    pub fn parse(text: &str, variables: &'static [&'static str]) -> Result<Expr, String> {
         if text.len() > MAX_TEXT {
             return Err(format!("an expression of more than {MAX_TEXT} bytes"));
         }

@@ -31,6 +31,16 @@ fn by(f: fn(&mut Float, Round) -> Ordering) -> impl Fn(Float, Round) -> Float {
     }
 }
 
+/// The smaller of two ends, with all its bits. (`Float::min` would round it to the precision of the first.)
+fn lesser<'a>(a: &'a Float, b: &'a Float) -> &'a Float {
+    if b < a { b } else { a }
+}
+
+/// The larger of two ends, with all its bits.
+fn greater<'a>(a: &'a Float, b: &'a Float) -> &'a Float {
+    if b > a { b } else { a }
+}
+
 impl Interval {
     /// The interval between two ends; undefined if they are not in order.
     pub fn new(lo: Float, hi: Float) -> Interval {
@@ -160,7 +170,7 @@ impl Interval {
         if !self.is_defined() || !other.is_defined() {
             return Interval::undefined(self.precision());
         }
-        Interval { lo: self.lo.clone().min(&other.lo), hi: self.hi.clone().max(&other.hi) }
+        Interval { lo: lesser(&self.lo, &other.lo).clone(), hi: greater(&self.hi, &other.hi).clone() }
     }
 
     /// What both contain; undefined if that is nothing.
@@ -168,7 +178,7 @@ impl Interval {
         if !self.is_defined() || !other.is_defined() {
             return Interval::undefined(self.precision());
         }
-        Interval::new(self.lo.clone().max(&other.lo), self.hi.clone().min(&other.hi))
+        Interval::new(greater(&self.lo, &other.lo).clone(), lesser(&self.hi, &other.hi).clone())
     }
 
     /// The smaller of two numbers.
@@ -176,7 +186,7 @@ impl Interval {
         if !self.is_defined() || !other.is_defined() {
             return Interval::undefined(self.precision());
         }
-        Interval { lo: self.lo.clone().min(&other.lo), hi: self.hi.clone().min(&other.hi) }
+        Interval { lo: lesser(&self.lo, &other.lo).clone(), hi: lesser(&self.hi, &other.hi).clone() }
     }
 
     /// The larger of two numbers.

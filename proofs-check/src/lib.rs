@@ -10,6 +10,7 @@ pub mod exact;
 pub mod expr;
 pub mod interval;
 pub mod json;
+pub mod matrix;
 pub mod monotone;
 pub mod rules;
 pub mod sha256;

@@ -4,9 +4,10 @@
 //! ([`crate::weights`]), and `matched` only where base_frequency * period = 2 pi exactly.
 
 use crate::exact::Exact;
-use crate::expr::Expr;
+use crate::expr::{ARGUMENTS, Expr, NONE, TIME};
 use crate::interval::Interval;
-use crate::json::{Field, Fields};
+use crate::json::{Field, Fields, Json};
+use crate::rules::lyapunov;
 use crate::verdict::{Outcome, bad, demand};
 use crate::weights::Weights;
 use rug::Rational;
@@ -29,7 +30,7 @@ impl Constant {
     /// Reads a number or a constant expression that has a finite value.
     pub fn read(field: &Field<'_>) -> Outcome<Constant> {
         let text = field.numeral()?;
-        let expr = expression(field, false)?;
+        let expr = expression(field, NONE)?;
         let constant = Constant { text: text.to_owned(), exact: expr.exact(), expr };
         if PRECISIONS.iter().any(|p| constant.enclose(*p).is_bounded()) {
             return Ok(constant);
@@ -89,7 +90,7 @@ impl<'a> Number<'a> {
     }
 }
 
-fn expression(field: &Field<'_>, variables: bool) -> Outcome<Expr> {
+fn expression(field: &Field<'_>, variables: &'static [&'static str]) -> Outcome<Expr> {
     Expr::parse(field.numeral()?, variables).or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))
 }
 
@@ -122,6 +123,21 @@ pub enum AskedSet {
     Box([Constant; 3]),
 }
 
+/// An entry of the Jacobian F(t).
+#[derive(Clone, Debug)]
+pub enum Entry {
+    /// A function of t.
+    Function(Expr),
+    /// Any number between two, lo <= hi, at each time.
+    Between([Constant; 2]),
+}
+
+/// The rows of F(t).
+pub type Jacobian = Vec<Vec<Entry>>;
+
+/// The most states that a Jacobian is read for.
+const MAX_STATES: usize = 12;
+
 /// A specification that satisfies this rule.
 #[derive(Clone, Debug)]
 pub struct Specification {
@@ -129,6 +145,8 @@ pub struct Specification {
     pub p_low: Constant,
     pub p_up: Constant,
     pub alpha: Constant,
+    /// The Jacobian that stands in place of the triple, with what proves the triple.
+    pub jacobian: Option<(Jacobian, lyapunov::Witness)>,
     pub mu: Constant,
     pub base_frequency: Constant,
     pub matched: bool,
@@ -154,25 +172,33 @@ fn nonnegative(field: Field<'_>) -> Outcome<Constant> {
 }
 
 impl Specification {
-    /// Reads and checks the embedded specification.
-    pub fn read(field: &Field<'_>) -> Outcome<Specification> {
+    /// Reads and checks the embedded specification. With a Jacobian, the triple is the field `lyapunov` of the witness, which is
+    /// taken out; [`lyapunov::prove`] is left to be done.
+    pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<Specification> {
         let mut file = field.fields()?;
         header(&mut file, "sigmastar/bounding-spec")?;
         file.required("name")?.text()?;
         file.optional("description").map(|field| field.text().map(drop)).transpose()?;
         let period = positive(&mut file, "period")?;
 
-        let mut lyapunov = file.required("lyapunov")?.fields()?;
-        let (p_low, p_up) = (positive(&mut lyapunov, "p_low")?, positive(&mut lyapunov, "p_up")?);
-        let alpha = positive(&mut lyapunov, "alpha")?;
-        demand(p_low.number().le(&p_up.number()), RULE, &lyapunov.pointer, "p_low <= p_up")?;
-        lyapunov.finish()?;
+        let mut fields = file.required("lyapunov")?.fields()?;
+        let (jacobian, [p_low, p_up, alpha]) = match fields.optional("jacobian") {
+            None => (None, ["p_low", "p_up", "alpha"].map(|name| positive(&mut fields, name))),
+            Some(field) => {
+                let jacobian = read_jacobian(&field)?;
+                let (witness, triple) = lyapunov::Witness::read(&witness.required("lyapunov")?, jacobian.len())?;
+                (Some((jacobian, witness)), triple.map(Ok))
+            }
+        };
+        let (p_low, p_up, alpha) = (p_low?, p_up?, alpha?);
+        demand(p_low.number().le(&p_up.number()), RULE, &fields.pointer, "p_low <= p_up")?;
+        fields.finish()?;
 
         let mut functions = file.required("bounds")?.fields()?;
         let mut bounds: [Option<Expr>; 10] = Default::default();
         for (name, bound) in BOUND_NAMES.iter().zip(&mut bounds) {
             let field = if name.ends_with("rms") { functions.optional(name) } else { Some(functions.required(name)?) };
-            *bound = field.map(|field| expression(&field, true)).transpose()?;
+            *bound = field.map(|field| expression(&field, ARGUMENTS)).transpose()?;
         }
         functions.finish()?;
 
@@ -187,7 +213,7 @@ impl Specification {
         let matched = match model.optional("matched") {
             None => false,
             Some(field) => match field.json {
-                crate::json::Json::Bool(value) => *value,
+                Json::Bool(value) => *value,
                 _ => return bad(&field.pointer, "expected true or false"),
             },
         };
@@ -216,6 +242,7 @@ impl Specification {
             p_low,
             p_up,
             alpha,
+            jacobian,
             mu,
             base_frequency,
             matched,
@@ -235,6 +262,30 @@ pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
     }
     let field = file.required("version")?;
     if field.whole()? == 1 { Ok(()) } else { bad(&field.pointer, "only version 1 is read") }
+}
+
+fn read_jacobian(field: &Field<'_>) -> Outcome<Jacobian> {
+    let rows = field.elements()?;
+    if rows.is_empty() || rows.len() > MAX_STATES {
+        return bad(&field.pointer, format!("expected 1 to {MAX_STATES} rows"));
+    }
+    let entry = |field: &Field<'_>| {
+        if !matches!(field.json, Json::Array(_)) {
+            return Ok(Entry::Function(expression(field, TIME)?));
+        }
+        let [lo, hi] = &field.elements()?[..] else { return bad(&field.pointer, "expected [lower end, upper end]") };
+        let (lo, hi) = (Constant::read(lo)?, Constant::read(hi)?);
+        demand(lo.number().le(&hi.number()), RULE, &field.pointer, "the lower end is at most the upper end")?;
+        Ok(Entry::Between([lo, hi]))
+    };
+    let row = |row: &Field<'_>| {
+        let entries = row.elements()?;
+        if entries.len() != rows.len() {
+            return bad(&row.pointer, format!("expected {} entries", rows.len()));
+        }
+        entries.iter().map(entry).collect()
+    };
+    rows.iter().map(row).collect()
 }
 
 fn read_set(field: &Field<'_>) -> Outcome<AskedSet> {

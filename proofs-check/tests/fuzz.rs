@@ -5,9 +5,10 @@ mod common;
 
 use common::{PAPER, text};
 use proofs_check::check;
-use proofs_check::expr::Expr;
+use proofs_check::expr::{ARGUMENTS, Expr};
 use proofs_check::interval::Interval;
 use proofs_check::verdict::Verdict;
+use serde_json::Value;
 
 /// A small generator (xorshift64), so that every run is the same.
 struct Random(u64);
@@ -42,11 +43,19 @@ fn damaged_certificates() {
             }
         }
         if check(&bytes).verdict == Verdict::Valid {
-            valid.push(String::from_utf8(bytes).unwrap());
+            valid.push(serde_json::from_slice::<Value>(&bytes).unwrap());
         }
     }
-    // What survives differs in figures that no stored value shows or in white space only.
-    assert!(valid.len() <= 15, "{} of 1500 damaged certificates pass", valid.len());
+    // What survives differs in white space, or in free numbers that no stored value shows and that are proved again.
+    let original: Value = serde_json::from_str(&original).unwrap();
+    for mut survivor in valid {
+        for pointer in ["/witness/lmi", "/witness/exact_regulation", "/comparison", "/tool/version", "/precision_bits"]
+        {
+            let free = original.pointer(pointer).unwrap();
+            *survivor.pointer_mut(pointer).unwrap() = free.clone();
+        }
+        assert_eq!(survivor, original);
+    }
 }
 
 #[test]
@@ -60,7 +69,7 @@ fn random_expressions() {
     let mut read = 0;
     for _ in 0..60_000 {
         let text: String = (0..1 + random.below(9)).map(|_| words[random.below(words.len())]).collect();
-        let Ok(expr) = Expr::parse(&text, true) else { continue };
+        let Ok(expr) = Expr::parse(&text, ARGUMENTS) else { continue };
         read += 1;
         let value = expr.enclose(&side, &side);
         let inside = Interval::int(1, 64);

@@ -73,7 +73,9 @@ fn numbers_too_large_to_form() {
     }
     let long = "9".repeat(100_000);
     assert_refused(&changed(PAPER, "/claim/sigma_star", long.as_str()), BadInput, "format", "/claim/sigma_star");
-    let raw = text("certificates", PAPER).replacen("\"precision_bits\":128", "\"precision_bits\":1e999999999", 1);
+    let original = text("certificates", PAPER);
+    let raw = original.replacen("\"precision_bits\": 128", "\"precision_bits\": 1e999999999", 1);
+    assert_ne!(raw, original);
     assert_eq!(check(raw.as_bytes()).verdict, BadInput);
     for bits in [0_u64, 52, 5000, 4_000_000_000] {
         assert_refused(&changed(PAPER, "/precision_bits", bits), BadInput, "format", "/precision_bits");

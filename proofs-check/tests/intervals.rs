@@ -88,3 +88,34 @@ fn exact_numbers() {
     );
     assert_eq!(rational(-2, 3).pow(-3), Some(rational(-27, 8)));
 }
+
+/// Ends keep all their bits: the result contains what both orders of the operands say, whatever their precisions.
+#[test]
+fn operands_of_different_precision_lose_nothing() {
+    for numerator in [-17, -1, 1, 13] {
+        let third = Rational::from((numerator, 3));
+        for (p, q) in [(24, 200), (200, 24)] {
+            let (a, b) = (Interval::rational(&third, p), Interval::rational(&third, q));
+            let coarse = Interval::rational(&third, 24);
+            let fine = Interval::rational(&third, 200);
+            let least = [&coarse, &fine].map(|x| x.lower().unwrap()).into_iter().min().unwrap();
+            let most = [&coarse, &fine].map(|x| x.upper().unwrap()).into_iter().max().unwrap();
+            let hull = a.hull(&b);
+            assert_eq!((hull.lower().unwrap(), hull.upper().unwrap()), (least, most));
+            let common = a.intersect(&b);
+            assert!(common.is_defined());
+            assert_eq!((common.lower(), common.upper()), (fine.lower(), fine.upper()));
+            for extreme in [a.min(&b), a.max(&b), a.clone() + (&b - &b)] {
+                assert!(extreme.lower().unwrap() <= third && third <= extreme.upper().unwrap());
+            }
+        }
+    }
+    // One number beside another of which it is the nearest neighbour at 24 bits.
+    let wide = Interval::between(&Rational::from((-1, 1)), &Rational::from((1, 1)), 24);
+    let beyond = Rational::from(1) + Rational::from((1, 1 << 30));
+    let narrow = Interval::rational(&beyond, 200);
+    assert_eq!(wide.hull(&narrow).upper().unwrap(), beyond);
+    assert_eq!(wide.max(&narrow).lower().unwrap(), beyond);
+    assert_eq!((-&wide).min(&-&narrow).upper().unwrap(), -beyond.clone());
+    assert!(!wide.intersect(&narrow).is_defined() && !narrow.intersect(&wide).is_defined());
+}

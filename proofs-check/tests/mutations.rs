@@ -29,6 +29,14 @@ fn harmless(name: &str, pointer: &str, kind: &str) -> Option<&'static str> {
         "/specification/bounds/f" if name == "no-x.sharp" && kind.ends_with("re-hashed") => {
             Some("b_f where b_qx = 0: it enters no figure, and a larger one bounds more plants")
         }
+        "/witness/lmi" if kind == "deleted" => Some("the multipliers prove C5 a second time"),
+        _ if below("/witness/lmi/") => Some("another multiplier with which the matrix inequality is proved"),
+        _ if below("/witness/lyapunov/P") || below("/witness/lyapunov/harmonics") => {
+            Some("another P(t), with which the same triple is proved")
+        }
+        _ if below("/specification/lyapunov/jacobian") && kind.ends_with("re-hashed") => {
+            Some("another Jacobian, for which P(t) proves the same triple")
+        }
         "/witness/transfer/K" => Some("another K with which the matched proof is complete"),
         _ if below("/witness/transfer/boxes/") => Some("other boxes that cover the same region and are proved"),
         _ if below("/witness/exact_regulation/") || below("/comparison/") => {

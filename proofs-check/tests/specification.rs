@@ -74,13 +74,6 @@ fn unknown_fields_and_missing_ones() {
     ] {
         assert_refused(&with(PAPER, object, "extra", 1), BadInput, "format", &format!("{object}/extra"));
     }
-    // A matrix inequality is not read: it must not pass unread.
-    assert_refused(
-        &with(PAPER, "/witness", "lmi", json!({ "l_x": "1", "l_e": "1", "l_f": "1" })),
-        BadInput,
-        "format",
-        "/witness/lmi",
-    );
     assert_refused(
         &changed(PAPER, "/specification/initial_set/kind", "ball"),
         BadInput,
@@ -99,12 +92,14 @@ fn unknown_fields_and_missing_ones() {
 fn the_digest_is_over_numbers_as_written() {
     let original = text("certificates", "no-x.sharp");
     assert_eq!(check(original.as_bytes()).verdict, Valid);
-    for (from, to) in [("\"p_low\":1,", "\"p_low\":1.0,"), ("\"alpha\":1}", "\"alpha\":1E0}")] {
-        let report = check(original.replacen(from, to, 1).as_bytes());
+    for (from, to) in [("\"p_low\": 1,", "\"p_low\": 1.0,"), ("\"alpha\": 1\n", "\"alpha\": 1E0\n")] {
+        let changed = original.replacen(from, to, 1);
+        assert_ne!(changed, original);
+        let report = check(changed.as_bytes());
         assert_refused(&report, Invalid, "stored values", "/specification_sha256");
     }
     // White space and the order of keys have no meaning.
-    let loose = original.replacen("\"p_low\":1,\"p_up\":1,", "\"p_up\" : 1,\n \"p_low\":1 ,", 1);
+    let loose = original.replacen("\"p_low\": 1,", "", 1).replacen("\"p_up\": 1,", "\"p_up\" :1,\"p_low\":1 ,", 1);
     assert_ne!(loose, original);
     assert_valid(&check(loose.as_bytes()));
     assert_eq!(
@@ -167,4 +162,20 @@ fn the_filter_is_hurwitz() {
     }
     assert_refused(&a(&[]), BadInput, "format", "/specification/relative_degree");
     assert_refused(&a(&["pi"]), BadInput, "format", "/specification/relative_degree");
+}
+
+#[test]
+fn certificates_of_every_version_of_the_tool_are_read() {
+    for version in ["0.1.0", "0.1.1", "1.0.0", "12.345.6789"] {
+        assert_valid(&changed(PAPER, "/tool/version", version));
+    }
+    for version in
+        ["", "1", "1.0", "1.0.0.0", "1..0", "1.0.", ".1.0", "1.0.x", "v1.0.0", "1.0.0-beta", "1.0.0 ", "-1.0.0"]
+    {
+        assert_refused(&changed(PAPER, "/tool/version", version), BadInput, "format", "/tool/version");
+    }
+    let long = format!("1.0.{}", "9".repeat(1000));
+    assert_refused(&changed(PAPER, "/tool/version", long), BadInput, "format", "/tool/version");
+    assert_refused(&changed(PAPER, "/tool/version", 1), BadInput, "format", "/tool/version");
+    assert_refused(&changed(PAPER, "/tool/name", "other"), Invalid, "stored values", "/tool/name");
 }

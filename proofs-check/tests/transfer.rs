@@ -44,7 +44,9 @@ fn boxes_cover_the_region() {
     let with_list = |index: usize, list: Vec<Value>| changed(BOXES, &format!("/witness/transfer/boxes/{index}"), list);
     // More boxes prove what fewer do.
     let mut finer = list(0);
-    finer.insert(1, json!("1/1000000"));
+    let point = |at: usize| proofs_check::json::decimal(finer[at].as_str().unwrap()).unwrap();
+    let middle = (point(2) + point(3)) / 2u32;
+    finer.insert(3, json!(middle.to_string()));
     assert_valid(&with_list(0, finer));
     let mut gap = list(1);
     gap.remove(0);
@@ -57,7 +59,11 @@ fn boxes_cover_the_region() {
     assert_refused(&with_list(2, backwards), Invalid, RULE, AT);
     assert_refused(&with_list(0, vec![]), Invalid, RULE, AT);
     assert_refused(&with_list(0, vec![json!("0")]), Invalid, RULE, AT);
-    for (field, value) in [("m0", 0), ("m0", 2), ("m0", 4), ("N0", 3), ("N0", 5), ("N0", 257), ("m0", 65)] {
+    let stored = |field: &str| certificate(BOXES)["witness"]["transfer"][field].as_u64().unwrap();
+    let (m0, n0) = (stored("m0"), stored("N0"));
+    for (field, value) in
+        [("m0", 0), ("m0", m0 - 1), ("m0", m0 + 1), ("m0", 65), ("N0", n0 - 1), ("N0", n0 + 1), ("N0", 257)]
+    {
         assert_refused(&changed(BOXES, &format!("{AT}/{field}"), value), Invalid, RULE, AT);
     }
     assert_refused(&changed(BOXES, "/witness/transfer/proof", "matched"), BadInput, "format", AT);

@@ -2,11 +2,11 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use proofs_check::expr::Expr;
+use proofs_check::expr::{ARGUMENTS, Expr, NONE, TIME};
 use proofs_check::interval::Interval;
 
 fuzz_target!(|text: &str| {
-    for variables in [false, true] {
+    for variables in [NONE, ARGUMENTS, TIME] {
         if let Ok(expr) = Expr::parse(text, variables) {
             let side = Interval::int(0, 64).hull(&Interval::int(3, 64));
             let _ = (expr.exact(), expr.exact_at_origin(), expr.enclose(&side, &side));

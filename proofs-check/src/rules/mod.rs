@@ -2,6 +2,8 @@
 pub mod claim;
 pub mod constants;
 pub mod existence;
+pub mod lmi;
+pub mod lyapunov;
 pub mod regulation;
 pub mod repaired;
 pub mod set;
