@@ -84,7 +84,9 @@ mod tests {
         assert!((rms(&samples) - (0.0625 + 0.5 + 0.125_f64).sqrt()).abs() < 1e-14);
         let exact = (0..2_000_000).map(|k| signal(f64::from(k) / 2e6).abs()).fold(0.0, f64::max);
         let sampled = samples.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        assert!(exact - sampled > 1e-5 && (sup(&samples) - exact).abs() < 1e-7);
+        // The parabola recovers all but a hundredth of what the largest sample misses.
+        let missed = exact - sampled;
+        assert!(missed > 1e-4 && (sup(&samples) - exact).abs() < 0.01 * missed, "{exact} {sampled}");
         assert_eq!(sup(&[2.0, 2.0, 2.0]), 2.0);
     }
 }
