@@ -158,6 +158,10 @@ fn matched_proofs_need_a_matched_frequency_and_a_moderate_k() {
     for k in [0, 4097, 65_536, u32::MAX] {
         assert_eq!(decide(&data, &large, &large, &proof(k)).0, Truth::False, "{k}");
     }
+    // T_N(0) = 1/(nu^2 n_0) = 2 pi^2 must be reached, however large k1 is.
+    for (k0, expected) in [((19_739, 1000), Truth::False), ((19_740, 1000), Truth::True)] {
+        assert_eq!(decide(&data, &Rational::from(k0), &large, &proof(1)).0, expected);
+    }
     let unmatched = specification("1", false, &json);
     assert_eq!(decide(&Data::new(&unmatched, 128), &large, &large, &proof(1)).0, Truth::False);
 }

@@ -28,6 +28,26 @@ fn float(text: &str) -> Float {
     Float::with_val(BITS, parse_decimal(text).unwrap())
 }
 
+/// n_l = 1/l as far as it is listed, much further than the first pole that a formula may take, and then 80/l^2.
+#[test]
+fn a_long_list_of_weights_is_summed_to_its_end() {
+    let list: Vec<String> = (0..=80).map(|l| if l == 0 { "2".to_owned() } else { format!("1/{l}") }).collect();
+    let texts: Vec<&str> = list.iter().map(String::as_str).collect();
+    let mut family = explicit(&["1"], "80", "2", "1");
+    family.json = family.json.replace(r#"["1"]"#, &format!("[\"{}\"]", texts.join("\", \"")));
+    family.listed = texts.iter().map(|text| rational(text)).collect();
+    let spec = family.specification();
+    let data = Data::new(&spec, 128);
+    let weights = family.weights(400);
+    for x in [(1, 3), (5, 4), (33, 10), (799, 10)].map(Rational::from) {
+        for n in [50, 79, 80, 81, 200, 400] {
+            let truth = plain_at(&family, &weights[..=n], &x);
+            let value = PoleSums::new(&data, OscillatorCount::Finite(n as u64)).transfer_at(&thin(&x));
+            assert!(holds(&value, &truth) && relative_width(&value) < 1e-25, "N = {n}, x = {x}");
+        }
+    }
+}
+
 /// A decimal or a quotient of two.
 fn rational(text: &str) -> Float {
     text.split_once('/').map_or_else(|| float(text), |(over, under)| float(over) / float(under))
@@ -70,13 +90,17 @@ fn families() -> Vec<Family> {
 
 impl Family {
     fn specification(&self) -> Specification {
+        self.specification_at("1")
+    }
+
+    fn specification_at(&self, frequency: &str) -> Specification {
         let text = format!(
             r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "sums", "period": "1",
             "lyapunov": {{"p_low": 1, "p_up": 1, "alpha": 1}},
             "bounds": {{"f": 0, "f_e": 0, "f_xx": 0, "f_ex": 0, "q": 1, "q_e": 0, "q_x": 0, "q_t": 1}},
-            "internal_model": {{"mu": "{}", "base_frequency": "1", "weights": {}}},
+            "internal_model": {{"mu": "{}", "base_frequency": "{}", "weights": {}}},
             "initial_set": {{"kind": "paper"}}}}"#,
-            self.mu, self.json
+            self.mu, frequency, self.json
         );
         Specification::from_json("sums", &text).unwrap()
     }
@@ -450,6 +474,9 @@ fn the_poles_give_the_transfer_function_as_lorentzians() {
                 assert!(relative_width(&lorentzians) < 1e-18);
             }
             let slowest = slowest_decay(&data, &poles);
+            // In 1/time: the same poles over the base frequency are three times as fast at three times that.
+            let faster = slowest_decay(&Data::new(&family.specification_at("3"), 128), &poles);
+            assert!((faster / &slowest).contains(&Rational::from(3)));
             assert!(slowest.is_positive().is_true());
             assert!(poles.iter().all(|pole| slowest.lower() <= pole.imaginary_part().upper()));
         }
@@ -530,6 +557,9 @@ fn hypotheses_are_enforced() {
     assert!(!three.transfer(&between(29, 36), 4).is_defined());
     assert!(three.transfer(&between(31, 90), 4).is_defined());
     assert!(three.transfer_at(&between(0, 1_000_000)).is_defined());
+    // Nor is the sum without the slope, which wide intervals take from their ends.
+    assert!(!three.around(&between(12, 27), 9).sum.is_defined() && !three.around(&between(5, 32), 3).sum.is_defined());
+    assert!(!three.around(&between(2, 22), 1).sum.is_defined());
     // Too many pieces, and beyond the direct sums.
     assert!(!infinite.transfer_at(&between(0, 10_000)).is_defined());
     let far = Enclosure::from_integer(MAX_DIRECT_POLES as i64, 128);

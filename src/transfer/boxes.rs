@@ -4,6 +4,7 @@ use super::lorentz::{LorentzSums, Oscillators, weight_tail};
 use super::{TransferStep, decide_steps};
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
+use rayon::prelude::*;
 use rug::Rational;
 use std::cmp::Ordering;
 
@@ -32,7 +33,7 @@ pub(super) fn edge(m0: u32) -> Rational {
 }
 
 /// Which oscillators the list with this index is about.
-fn group(data: &Data<'_>, n0: u32, index: usize) -> Oscillators {
+pub(super) fn group(data: &Data<'_>, n0: u32, index: usize) -> Oscillators {
     if index + 1 == n0 as usize {
         Oscillators::AtLeast { first: n0, tail: weight_tail(data, n0) }
     } else {
@@ -105,18 +106,24 @@ impl BoxProof {
             lhs: (data.nu.sqr() * &data.n_0).recip(),
             rhs: k0.clone(),
         };
-        let boxes = self.breaks.iter().enumerate().flat_map(|(index, breaks)| {
-            let oscillators = group(data, self.n0, index);
-            let (sums, k0, k1) = (&sums, &k0, &k1);
-            breaks.windows(2).map(move |pair| {
-                let (lhs, rhs) = sides(data, sums, &oscillators, [&pair[0], &pair[1]], [k0, k1]);
+        let mut steps = vec![at_zero.clone()];
+        steps.extend(scalar_test(data, &k0, &k1, self.m0));
+        if steps.iter().all(|step| step.lhs.le(&step.rhs).is_true()) {
+            let boxes = |(index, breaks): (usize, &Vec<Rational>)| {
+                let oscillators = group(data, self.n0, index);
                 let relation = if index + 1 == self.n0 as usize { "N >=" } else { "N =" };
-                let what = format!("box [{}, {}], {relation} {}", pair[0], pair[1], index + 1);
-                TransferStep { what, lhs, rhs }
-            })
-        });
-        let scalar = scalar_test(data, &k0, &k1, self.m0);
-        decide_steps(std::iter::once(at_zero.clone()).chain(scalar).chain(boxes), at_zero)
+                let one = |pair: &[Rational]| {
+                    let (lhs, rhs) = sides(data, &sums, &oscillators, [&pair[0], &pair[1]], [&k0, &k1]);
+                    let what = format!("box [{}, {}], {relation} {}", pair[0], pair[1], index + 1);
+                    TransferStep { what, lhs, rhs }
+                };
+                breaks.windows(2).map(one).collect::<Vec<TransferStep>>()
+            };
+            // In the order of the lists, whatever the number of threads.
+            let groups: Vec<Vec<TransferStep>> = self.breaks.par_iter().enumerate().map(boxes).collect();
+            steps.extend(groups.into_iter().flatten());
+        }
+        decide_steps(steps, at_zero)
     }
 }
 
@@ -204,6 +211,66 @@ mod tests {
                 assert_eq!(proof.decide(&data, &k0, &k1).0, Truth::True);
             }
         }
+    }
+
+    /// n_0 = 2, eps = 1/2, nu = 1, m0 = 2 by the formulas of the derivation in doubles: `k0 = 1` leaves s > 0.
+    #[test]
+    fn the_scalar_test_is_the_one_of_the_derivation() {
+        let spec = specification("2", "1/2", "1");
+        let data = Data::new(&spec, 128);
+        let weight = 2f64.powf(-1.5);
+        let (a, b) = (4.0 * weight, 2.0 * weight);
+        let sum = (2.0 + 2.35 + 1.5 * 2f64.ln()) / 1.5 + 1.0 / 14.0;
+        let slope = (std::f64::consts::PI.powi(2) - 4.0) / 2.0 + 1.5 / 2.25;
+        for (k0, k1) in [(1.0, 9.0), (1.0, 40.0), (50.0, 40.0)] {
+            let s = (slope - k0).max(0.0);
+            let d = (b / (4.0 * (k1 * 2.25 - s))).sqrt();
+            let expected =
+                [(2.0 * d, 1.0), (2.0 / a * (1.0 + sum * sum) + s / 4.0, k1 * (1.0 - d / 2.0) * (1.0 - d / 2.0))];
+            let pair = [k0, k1].map(|k| data.rational(&Rational::from_f64(k).unwrap()));
+            let steps = scalar_test(&data, &pair[0], &pair[1], 2);
+            assert_eq!(steps.len(), 2);
+            for (step, (lhs, rhs)) in steps.iter().zip(expected) {
+                assert!((step.lhs.midpoint_f64() / lhs - 1.0).abs() < 1e-12, "{k0}, {k1}: {}", step.what);
+                assert!((step.rhs.midpoint_f64() / rhs - 1.0).abs() < 1e-12, "{k0}, {k1}: {}", step.what);
+            }
+        }
+        // Without room for d there is nothing to compare: A_m0 - k0 > k1 (m0 - 1/2)^2.
+        let pair = [decimal("1"), decimal("1")].map(|k| data.rational(&k));
+        assert!(scalar_test(&data, &pair[0], &pair[1], 2).iter().all(|step| !step.lhs.le(&step.rhs).is_true()));
+    }
+
+    #[test]
+    fn a_box_uses_the_least_bound_on_it_and_one_pole() {
+        let spec = specification("2", "1/2", "1");
+        let data = Data::new(&spec, 128);
+        let sums = LorentzSums::new(&data, 4);
+        let pair = [decimal("7"), decimal("18")].map(|k| data.rational(&k));
+        let sides_of = |a: &str, b: &str, oscillators: &Oscillators| {
+            sides(&data, &sums, oscillators, [&decimal(a), &decimal(b)], [&pair[0], &pair[1]])
+        };
+        let (lhs, rhs) = sides_of("0.75", "0.8", &Oscillators::Exactly(3));
+        assert!(lhs.is_bounded() && rhs.contains(&decimal("17.125")), "7 + 18 (3/4)^2");
+        assert!(!sides_of("0.4", "0.6", &Oscillators::Exactly(3)).0.is_defined());
+        // The same beyond the last pole, where no pole would be hit.
+        assert!(!sides_of("2.4", "2.6", &Oscillators::Exactly(1)).0.is_defined());
+        match group(&data, 4, 3) {
+            Oscillators::AtLeast { first: 4, tail } => assert!(tail == weight_tail(&data, 4)),
+            other => panic!("{other:?}"),
+        }
+        assert!(matches!(group(&data, 4, 2), Oscillators::Exactly(3)));
+    }
+
+    /// The form divided by x^2 would hold: only the comparison at 0 itself refuses.
+    #[test]
+    fn k0_below_the_value_at_zero_is_refused() {
+        let spec = specification("2", "1/2", "1");
+        let data = Data::new(&spec, 128);
+        let (k0, k1) = (decimal("0.5"), decimal("30"));
+        let proof = BoxProof::find(&data, &k0, &k1).unwrap();
+        let (truth, step) = proof.decide(&data, &decimal("0.499999999"), &k1);
+        assert_eq!(truth, Truth::False);
+        assert!(step.what.contains("T_N(0)"), "{}", step.what);
     }
 
     #[test]

@@ -29,10 +29,15 @@ impl BoxProof {
         let last = (m0 + N0_STEPS[N0_STEPS.len() - 1]).min(MAX_N0);
         let sums = FloatSums::new(data, last as usize);
         let floats = pair.each_ref().map(Enclosure::midpoint_f64);
-        let candidates = N0_STEPS.iter().map(|step| m0 + step).filter(|n0| (2..=last).contains(n0));
-        candidates
-            .filter_map(|n0| cover(data, &sums, floats, m0, n0))
-            .find(|proof| proof.decide(data, k0, k1).0 == Truth::True)
+        for n0 in N0_STEPS.iter().map(|step| m0 + step).filter(|n0| (2..=last).contains(n0)) {
+            match cover(data, &sums, floats, m0, n0) {
+                Ok(proof) if proof.decide(data, k0, k1).0 == Truth::True => return Some(proof),
+                // The same N stays in the way of every larger N0.
+                Err(Uncovered::OneN) => return None,
+                Ok(_) | Err(Uncovered::AllLargeN) => {}
+            }
+        }
+        None
     }
 }
 
@@ -41,20 +46,31 @@ pub(super) fn first_m0(data: &Data<'_>, [k0, k1]: [&Enclosure; 2]) -> Option<u32
     (1..=MAX_M0).find(|m0| scalar_test(data, k0, k1, *m0).iter().all(|step| step.lhs.le(&step.rhs).is_true()))
 }
 
+/// Which boxes were not found.
+enum Uncovered {
+    /// Those for all N >= N0 together.
+    AllLargeN,
+    /// Those for one N < N0.
+    OneN,
+}
+
 /// Covers [0, m0 - 1/2] for every group of oscillators, the hardest one first.
-fn cover(data: &Data<'_>, sums: &FloatSums, pair: [f64; 2], m0: u32, n0: u32) -> Option<BoxProof> {
+fn cover(data: &Data<'_>, sums: &FloatSums, pair: [f64; 2], m0: u32, n0: u32) -> Result<BoxProof, Uncovered> {
     let mut left = MAX_BOXES;
     let mut breaks = Vec::with_capacity(n0 as usize);
-    let all = FloatSums::all_from(data, n0);
-    let groups = std::iter::once(all).chain((1..n0 as usize).rev().map(|n| FloatGroup { last: n, tail: None }));
-    for group in groups {
+    let mut add = |group: FloatGroup| {
         let points = cover_group(sums, group, pair, m0, left)?;
         left = left.checked_sub(points.len())?;
         breaks.push(points.iter().map(|x| Rational::from_f64(*x)).collect::<Option<Vec<Rational>>>()?);
+        Some(())
+    };
+    add(FloatSums::all_from(data, n0)).ok_or(Uncovered::AllLargeN)?;
+    for n in (1..n0 as usize).rev() {
+        add(FloatGroup { last: n, tail: None }).ok_or(Uncovered::OneN)?;
     }
     breaks.reverse();
     debug_assert!(breaks.iter().all(|points| points.last() == Some(&edge(m0))));
-    Some(BoxProof { m0, n0, breaks })
+    Ok(BoxProof { m0, n0, breaks })
 }
 
 /// Increasing break points from 0 to m0 - 1/2 such that every box between two of them holds in doubles.

@@ -11,13 +11,17 @@ use crate::data::Data;
 use crate::number::Portable;
 
 /// The largest number of oscillators that is sampled.
-const POLES: usize = 64;
-/// The largest pole around which T is sampled.
-const REACH: usize = 32;
+const POLES: usize = 72;
+/// The largest pole around which T is sampled: boxes may have to reach that far.
+const REACH: usize = MAX_M0 as usize;
 /// The room above the sampled curve, relative, in both members, so that boxes of finite size can prove it.
 const ROOM: f64 = 1e-3;
-/// The most candidates that a curve offers.
-const MAX_CANDIDATES: usize = 160;
+/// The most edges of the hull that a curve keeps.
+const MAX_EDGES: usize = 160;
+/// k1 falls at most by this factor from one candidate to the next.
+const LARGEST_STEP: f64 = 2.0;
+/// The share of the cost that is given up for a larger k1: a much smaller one may cost thousands of boxes and gain nothing.
+const SLACK: f64 = 1e-3;
 
 /// Points at which peaks of T_N can be seen: a grid up to `reach`, the surroundings of every pole below it at the scale
 /// nu c_m of its Lorentzian, and of every zero of g_N between m and m + 1 for the N that `members` names, where T_N
@@ -145,14 +149,28 @@ impl SampledGraph {
     /// Pairs a little above the trade-off, k1 decreasing.
     pub(super) fn trade_off(&self) -> TradeOff {
         let vertices = self.vertices();
-        let stride = vertices.len().div_ceil(MAX_CANDIDATES);
-        let candidates = vertices
+        let stride = vertices.len().div_ceil(MAX_EDGES);
+        let mut lines: Vec<(f64, f64)> = Vec::new();
+        for (k0, k1) in vertices.into_iter().step_by(stride) {
+            // Lines between two admissible ones are admissible.
+            if let Some((before, steeper)) = lines.last().copied() {
+                let ratio = steeper / k1;
+                let steps = (ratio.portable_ln() / LARGEST_STEP.portable_ln()).ceil().min(200.0);
+                let between = (1..steps as i32).map(|step| {
+                    let share =
+                        (ratio.portable_pow(f64::from(step) / steps).recip() - ratio.recip()) / (1.0 - ratio.recip());
+                    (k0 + (before - k0) * share, k1 + (steeper - k1) * share)
+                });
+                lines.extend(between.collect::<Vec<_>>());
+            }
+            lines.push((k0, k1));
+        }
+        let candidates = lines
             .into_iter()
-            .step_by(stride)
             .map(|(k0, k1)| (k0 * (1.0 + ROOM), k1 * (1.0 + ROOM), 0))
             .filter(|(k0, k1, _)| k0.is_finite() && k1.is_finite() && *k0 > 0.0)
             .collect();
-        TradeOff { candidates }
+        TradeOff { candidates, slack: SLACK }
     }
 
     /// The vertices of the trade-off, k1 decreasing, without any room.

@@ -208,6 +208,102 @@ mod tests {
     }
 
     #[test]
+    fn what_lies_beyond_is_enclosed_as_derived() {
+        let half = Enclosure::from_rational(&Rational::from((1, 2)), 128);
+        let [value, slope] = <[Enclosure; 2]>::from(beyond(&half, 2, &Enclosure::from_integer(3, 128)));
+        // 3/(1 - 1/16) and 2 * 3/(1 - 1/16)^2; N = N0 - 1 + 0 poles add nothing.
+        assert!(*value.lower() == 0 && value.upper_f64() >= 3.2 && value.upper_f64() < 3.2 + 1e-12);
+        let steepest = 6.0 * 256.0 / 225.0;
+        assert!(*slope.lower() == 0 && (slope.upper_f64() - steepest).abs() < 1e-12);
+    }
+
+    /// Every N >= N0 that is summed lies in the enclosure for all of them, on whole boxes next to the first own pole.
+    #[test]
+    fn all_larger_n_contain_each_of_them() {
+        let spec = paper_example();
+        let data = Data::new(&spec, 128);
+        let sums = LorentzSums::new(&data, 60);
+        for first in [1, 2, 3, 8] {
+            let later = Oscillators::AtLeast { first, tail: weight_tail(&data, first) };
+            for numerator in [1, 3, 7, 10 * first - 8, 10 * first - 6, 10 * first - 5] {
+                let x = Enclosure::from_rational(&Rational::from((numerator, 10)), 128);
+                let nearest = (numerator + 4) / 10;
+                let all = sums.enclose(&x, nearest, &later);
+                assert!(all.is_bounded() || nearest >= first);
+                for n in [first, first + 1, first + 5, 60] {
+                    let one = sums.enclose(&x, nearest, &Oscillators::Exactly(n));
+                    let inside = all.lower() <= one.upper() && one.lower() <= all.upper();
+                    let strictly = all.lower() <= one.lower() && one.upper() <= all.upper();
+                    assert!(!all.is_defined() || (inside && strictly), "N0 = {first}, N = {n}, x = {numerator}/10");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn tails_of_the_weights_are_upper_bounds() {
+        let paper = paper_example();
+        let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json"));
+        let family = r#"{ "family": "power", "n0": "2", "epsilon": "1/2" }"#;
+        // Nearly l n_l = const, for which the bound from W2 is nearly attained.
+        let flat = r#"{"family": "explicit", "values": ["2"], "tail": {"coefficient": "1", "exponent": "1.001"}}"#;
+        let text = text.unwrap();
+        assert!(text.contains(family));
+        let flat = Specification::from_json("flat", &text.replace(family, flat)).unwrap();
+        for (spec, exponent) in [(&paper, 1.5), (&flat, 1.001)] {
+            let data = Data::new(spec, 128);
+            for first in [1, 2, 5, 30] {
+                let sum: f64 = (first..200_000).map(|l| f64::from(l).powf(-2.0 - exponent)).sum();
+                let tail = weight_tail(&data, first).upper_f64();
+                assert!(sum <= tail && tail < 1.6 * sum, "{exponent} {first}: {sum} {tail}");
+            }
+        }
+    }
+
+    /// The divided form never promises more than the bound itself leaves, for any N that it covers.
+    #[test]
+    fn the_form_divided_by_x_squared_is_below_the_exact_difference() {
+        let spec = paper_example();
+        let data = Data::new(&spec, 128);
+        let sums = LorentzSums::new(&data, 60);
+        let nu_squared = data.nu.midpoint_f64().powi(2);
+        let weight = |l: u32| f64::from(l).powf(-1.5);
+        let exact = |x: f64, n: u32, [k0, k1]: [f64; 2]| {
+            let y = x * x;
+            let s: f64 = (1..=n).map(|l| weight(l) / (f64::from(l * l) - y)).sum();
+            let d: f64 = (1..=n).map(|l| weight(l) * (f64::from(l * l) + y) / (f64::from(l * l) - y).powi(2)).sum();
+            let denominator = y + nu_squared * (2.0 - s * y).powi(2);
+            ((k0 + k1 * y) * denominator - 2.0 - d * y - (k0 * nu_squared * 4.0 - 2.0)) / y
+        };
+        let cases = [(Oscillators::Exactly(1), vec![1]), (Oscillators::Exactly(5), vec![5])];
+        let all = [1, 2, 4]
+            .map(|first| (Oscillators::AtLeast { first, tail: weight_tail(&data, first) }, vec![first, first + 2, 60]));
+        for (oscillators, members) in cases.into_iter().chain(all) {
+            for pair in [[20.0, 75.0], [25.0, 40.0], [1000.0, 1.0]] {
+                for b in [0.5, 0.25, 1.0 / 64.0] {
+                    let ends = [pair[0], pair[1], b].map(|v| data.rational(&Rational::from_f64(v).unwrap()));
+                    let (lhs, rhs) = sums.near_zero(&ends[2], &oscillators, [&ends[0], &ends[1]]);
+                    let promised = rhs.lower_f64() - lhs.upper_f64();
+                    for n in &members {
+                        for x in [b, 0.9 * b, 0.5 * b, 0.1 * b] {
+                            let truth = exact(x, *n, pair);
+                            assert!(promised <= truth + 1e-6 * truth.abs(), "{oscillators:?} N = {n} b = {b} x = {x}");
+                        }
+                    }
+                    // And for one N it is nearly that on small boxes.
+                    if let (Oscillators::Exactly(n), true) = (&oscillators, b < 0.1) {
+                        let truth = exact(b, *n, pair);
+                        assert!(promised >= truth - 0.05 * truth.abs() - 1.0, "N = {n}: {promised} {truth}");
+                    }
+                }
+            }
+        }
+        let wide = Enclosure::from_rational(&Rational::from((51, 100)), 128);
+        let k = Enclosure::from_integer(1000, 128);
+        assert!(!sums.near_zero(&wide, &Oscillators::Exactly(5), [&k, &k]).1.is_defined());
+    }
+
+    #[test]
     fn hypotheses_are_checked() {
         let spec = paper_example();
         let data = Data::new(&spec, 128);

@@ -65,6 +65,8 @@ impl MatchedProof {
 pub struct TradeOff {
     /// Candidate pairs (k0, k1, K), in order of decreasing k1.
     pub candidates: Vec<(f64, f64, u32)>,
+    /// The share of the smallest cost that [`TradeOff::best`] may give up for a larger k1.
+    pub slack: f64,
 }
 
 impl TradeOff {
@@ -96,24 +98,23 @@ impl TradeOff {
         candidates.push((needs[0], needs[1], 1));
         candidates.sort_by(|a, b| b.1.total_cmp(&a.1));
         candidates.dedup();
-        TradeOff { candidates }
+        TradeOff { candidates, slack: 0.0 }
     }
 
     /// A single pair valid for every x: the closed form.
     #[must_use]
     pub fn closed_form(data: &Data<'_>) -> TradeOff {
         let (k0, k1) = super::closed_form_pair(data);
-        TradeOff { candidates: vec![(k0.upper_f64(), k1.upper_f64(), 0)] }
+        TradeOff { candidates: vec![(k0.upper_f64(), k1.upper_f64(), 0)], slack: 0.0 }
     }
 
-    /// The candidate that minimises `k0 a + k1 b`.
+    /// The candidate that minimises `k0 a + k1 b`: the first one, so with the largest k1, whose cost exceeds the smallest
+    /// by no more than the slack.
     #[must_use]
     pub fn best(&self, a: f64, b: f64) -> (f64, f64, u32) {
         let cost = |pair: &(f64, f64, u32)| pair.0 * a + pair.1 * b;
-        self.candidates.iter().copied().min_by(|p, q| cost(p).total_cmp(&cost(q))).unwrap_or((
-            f64::INFINITY,
-            f64::INFINITY,
-            1,
-        ))
+        let least = self.candidates.iter().map(cost).fold(f64::INFINITY, f64::min);
+        let first = self.candidates.iter().copied().find(|pair| cost(pair) <= least * (1.0 + self.slack));
+        first.unwrap_or((f64::INFINITY, f64::INFINITY, 1))
     }
 }

@@ -17,6 +17,9 @@ const ROOMS: [f64; 8] = [3e-4, 1e-3, 3e-3, 6e-3, 9e-3, 0.03, 0.1, 0.3];
 /// The first of [`ROOMS`] for the pairs of a table: fewer boxes.
 const TABLE_ROOMS: &[f64] = ROOMS.split_at(2).1;
 
+/// By how much k1 grows from one attempt to the next where the cheapest pair has no proof.
+const FALLBACK: f64 = 1.5;
+
 /// How far the table of the trade-off goes, in units of its first k0.
 const TABLE_REACH: f64 = 32.0;
 
@@ -111,7 +114,8 @@ fn prove_smallest_k1(
     Err(PairError::NotFound { k0: k0.clone(), k1: least * (1.0 + ROOMS[ROOMS.len() - 1]) })
 }
 
-/// The pair with nearly the smallest `a k0 + b k1`, for a, b >= 0.
+/// The pair with nearly the smallest `a k0 + b k1`, for a, b >= 0; where that one has no proof within the effort, a pair
+/// with a larger k1.
 ///
 /// Guarantee: as for [`smallest_k1`]. The choice of k0 is a floating-point one.
 ///
@@ -119,8 +123,20 @@ fn prove_smallest_k1(
 /// No proof within the effort.
 pub fn cheapest_pair(data: &Data<'_>, a: f64, b: f64) -> Result<CertifiedPair, PairError> {
     let graph = SampledGraph::new(data);
-    let (k0, _, _) = graph.trade_off().best(a, b);
-    prove_near(data, &graph, k0, &ROOMS)
+    let trade_off = graph.trade_off();
+    let best = trade_off.best(a, b);
+    let mut result = prove_near(data, &graph, best.0, &ROOMS);
+    let mut k1 = best.1;
+    for candidate in trade_off.candidates.iter().rev() {
+        if result.is_ok() {
+            break;
+        }
+        if candidate.1 >= FALLBACK * k1 {
+            k1 = candidate.1;
+            result = prove_near(data, &graph, candidate.0, TABLE_ROOMS);
+        }
+    }
+    result
 }
 
 /// Pairs along the trade-off, k0 increasing from about T_N(0) to [`TABLE_REACH`] times that, at most `most` of them;
@@ -217,6 +233,7 @@ pub fn prove_above(data: &Data<'_>, k0: f64, k1: f64, digits: u32) -> Option<(Ra
 mod tests {
     use super::*;
     use crate::spec::Specification;
+    use crate::transfer::TradeOff;
 
     fn specification(n0: &str, epsilon: &str, frequency: &str) -> Specification {
         let text = format!(
@@ -264,5 +281,54 @@ mod tests {
             let excess = pair.excess(&data).unwrap_or_else(|| panic!("{case}: no obstacle"));
             assert!(excess.upper_f64() < 0.01, "{case}: {}", excess.upper_f64());
         }
+    }
+
+    /// Where k0 alone costs, a larger k1 saves boxes; where the cheapest pair needs too many, another one is found.
+    #[test]
+    fn cheapest_pairs_are_found_where_one_of_the_two_hardly_counts() {
+        // (n_0, eps, w, a, b, the most boxes, by what factor the cost may exceed that of the curve)
+        let cases =
+            [("7.9", "0.02", "2/1000000", 1.0, 1.0, 4000, 1.01), ("728", "0.0988", "1/51", 1e-4, 1.0, 20_000, 4.0)];
+        for (n0, epsilon, frequency, a, b, most, factor) in cases {
+            let spec = specification(n0, epsilon, frequency);
+            let data = Data::new(&spec, 128);
+            let case = format!("n0 {n0}, eps {epsilon}, w {frequency}");
+            let pair = cheapest_pair(&data, a, b).unwrap_or_else(|error| panic!("{case}: {error}"));
+            assert_eq!(pair.proof.decide(&data, &pair.k0, &pair.k1).0, Truth::True);
+            assert!(pair.proof.boxes() <= most, "{case}: {} boxes", pair.proof.boxes());
+            let costs = TradeOff::curve(&data).candidates.into_iter().map(|(k0, k1, _)| a * k0 + b * k1);
+            let cost = a * pair.k0.to_f64() + b * pair.k1.to_f64();
+            let least = costs.fold(f64::INFINITY, f64::min);
+            assert!(cost <= factor * least, "{case}: {cost} {least}");
+        }
+    }
+
+    #[test]
+    fn the_obstacle_is_what_its_point_shows() {
+        let spec = specification("2", "1/2", "1");
+        let data = Data::new(&spec, 128);
+        let pair = smallest_k1(&data, &Rational::from(7)).unwrap();
+        let obstacle = pair.obstacle.as_ref().unwrap();
+        // T_N(x) lies on the line of slope `least_k1` through (0, k0).
+        let on_line = data.rational(&pair.k0) + &obstacle.least_k1 * data.rational(&obstacle.x).sqr();
+        assert!(on_line.intersect(&obstacle.value).is_defined());
+        let excess = pair.excess(&data).unwrap();
+        let needed = data.rational(&pair.k1) / (1 + &excess);
+        assert!(needed.le(&obstacle.least_k1.ceiling()).is_true() && excess.upper_f64() < 0.01);
+    }
+
+    #[test]
+    fn the_status_of_a_named_pair_is_no_more_than_what_is_known() {
+        let spec = specification("2", "1/2", "1");
+        let data = Data::new(&spec, 128);
+        let of = |low: i32, high: i32| Enclosure::between(&Rational::from(low), &Rational::from(high), 128);
+        assert!(matches!(pair_status(&data, &of(7, 7), &of(18, 18)), PairStatus::Proved));
+        match pair_status(&data, &of(7, 7), &of(17, 17)) {
+            PairStatus::Refuted(point) => assert!(point.value.gt(&point.bound).is_true()),
+            other => panic!("{other:?}"),
+        }
+        // The pair may be any one in the enclosures: some of these are admissible and some are not.
+        assert!(matches!(pair_status(&data, &of(7, 7), &of(10, 1000)), PairStatus::Undecided));
+        assert!(matches!(pair_status(&data, &of(1, 100), &of(18, 18)), PairStatus::Undecided));
     }
 }

@@ -1,10 +1,10 @@
 //! How much of a certified bound each number of oscillators uses: sup_x T_N(x)/(k0 + k1 x^2), enclosed.
 
-use super::boxes::{MAX_BOXES, MAX_M0, edge, scalar_test, sides};
+use super::boxes::{MAX_BOXES, MAX_M0, edge, group, scalar_test, sides};
 use super::cover::cover_group;
 use super::curve::sample_points;
 use super::float_sums::{FloatGroup, FloatSums};
-use super::lorentz::{LorentzSums, Oscillators, weight_tail};
+use super::lorentz::LorentzSums;
 use super::pole_sums::{OscillatorCount, PoleSums};
 use crate::data::Data;
 use crate::enclosure::Enclosure;
@@ -67,14 +67,20 @@ fn sup_ratio(data: &Data<'_>, sums: &FloatSums, [k0, k1]: [&Rational; 2], n_o: O
         OscillatorCount::Infinite => LAST_ALONE as usize,
     };
     let (mut best, mut place) = (at_zero, Rational::new());
+    // At the last pole T_N(N) = 1/(nu^2 c_N), without any sum.
     let last_pole = match n_o {
-        OscillatorCount::Finite(n) => Some(Rational::from(n)),
+        OscillatorCount::Finite(n) => {
+            pole_sums.residue(n).map(|residue| ((data.nu.sqr() * residue).recip(), Rational::from(n)))
+        }
         OscillatorCount::Infinite => None,
     };
     let proposed = peaks(sums, last, [k0.to_f64(), k1.to_f64()]).into_iter().filter_map(Rational::from_f64);
-    for x in proposed.chain(last_pole) {
+    let proposed = proposed.map(|x| {
         let x = round_rational(&x, DIGITS, Direction::Nearest);
-        let value = at(&x, pole_sums.transfer_at(&data.rational(&x)));
+        (pole_sums.transfer_at(&data.rational(&x)), x)
+    });
+    for (value, x) in proposed.chain(last_pole) {
+        let value = at(&x, value);
         if value.lower() > best.lower() {
             (best, place) = (value, x);
         }
@@ -121,13 +127,10 @@ fn peaks(sums: &FloatSums, n: usize, [k0, k1]: [f64; 2]) -> Vec<f64> {
 /// T_N <= x/(nu^2 n_0 (x - N)) (Lemma T''), both decreasing in x; before, by boxes.
 fn stays_below(data: &Data<'_>, sums: &FloatSums, n_o: OscillatorCount, last: usize, pair: [Rational; 2]) -> bool {
     let alone = n_o == OscillatorCount::Finite(last as u64);
-    let oscillators = if alone {
-        Oscillators::Exactly(last as u32)
-    } else {
-        let first = LAST_ALONE as u32 + 1;
-        Oscillators::AtLeast { first, tail: weight_tail(data, first) }
-    };
-    let group = if alone { FloatGroup { last, tail: None } } else { FloatSums::all_from(data, LAST_ALONE as u32 + 1) };
+    let first = LAST_ALONE as u32 + 1;
+    // As in a proof with N0 = `first`: a list for each smaller N, and the last one for all others.
+    let oscillators = group(data, first, if alone { last - 1 } else { first as usize - 1 });
+    let group = if alone { FloatGroup { last, tail: None } } else { FloatSums::all_from(data, first) };
     let [k0, k1] = pair.each_ref().map(|k| data.rational(k));
     let beyond_all = |m: u32| {
         let x = edge(m);
@@ -136,9 +139,7 @@ fn stays_below(data: &Data<'_>, sums: &FloatSums, n_o: OscillatorCount, last: us
             return false;
         }
         let bound = &k0 + &k1 * data.rational(&x).sqr();
-        let gap = data.rational(&gap);
-        (2 * (&data.nu * &gap)).recip().le(&bound).is_true()
-            || (data.rational(&x) / (data.nu.sqr() * &data.n_0 * gap)).le(&bound).is_true()
+        beyond_last_pole(data, &data.rational(&x), &data.rational(&gap)).iter().any(|upper| upper.le(&bound).is_true())
     };
     let settled =
         |m: &u32| beyond_all(*m) || scalar_test(data, &k0, &k1, *m).iter().all(|step| step.lhs.le(&step.rhs).is_true());
@@ -157,4 +158,110 @@ fn stays_below(data: &Data<'_>, sums: &FloatSums, n_o: OscillatorCount, last: us
             let (lhs, rhs) = sides(data, &sums, &oscillators, [&pair[0], &pair[1]], [&k0, &k1]);
             lhs.le(&rhs).is_true()
         })
+}
+
+/// `1/(2 nu (x - N))` and `x/(nu^2 n_0 (x - N))` for a gap x - N > 0: upper bounds of T_N(x) (Lemmas T' and T'').
+fn beyond_last_pole(data: &Data<'_>, x: &Enclosure, gap: &Enclosure) -> [Enclosure; 2] {
+    [(2 * (&data.nu * gap)).recip(), x / (data.nu.sqr() * &data.n_0 * gap)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::Specification;
+    use crate::transfer::smallest_k1;
+
+    fn specification(mu: &str) -> Specification {
+        let text = format!(
+            r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
+            "lyapunov": {{"p_low": "1", "p_up": "1", "alpha": "1"}},
+            "bounds": {{"f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "0", "q_x": "0", "q_t": "1"}},
+            "internal_model": {{"mu": "{mu}", "base_frequency": "1",
+              "weights": {{"family": "power", "n0": "2", "epsilon": "1/2"}}}},
+            "initial_set": {{"kind": "paper"}}}}"#
+        );
+        Specification::from_json("test", &text).unwrap()
+    }
+
+    #[test]
+    fn lemmas_beyond_the_last_pole() {
+        let spec = specification("4");
+        let data = Data::new(&spec, 128);
+        let of = |n: i32, d: i32| data.rational(&Rational::from((n, d)));
+        // x = 7/2, N = 3: 1/(2 * 4 * 1/2) = 1/4 and (7/2)/(16 * 2 * 1/2) = 7/32.
+        let [first, second] = beyond_last_pole(&data, &of(7, 2), &of(1, 2));
+        assert!(first.contains(&Rational::from((1, 4))) && second.contains(&Rational::from((7, 32))));
+        for n in [1_u64, 2, 5] {
+            let sums = PoleSums::new(&data, OscillatorCount::Finite(n));
+            for tenths in [1, 5, 20, 300] {
+                let x = of(10 * n as i32 + tenths, 10);
+                let value = sums.transfer_at(&x);
+                for upper in beyond_last_pole(&data, &x, &of(tenths, 10)) {
+                    assert!(value.le(&upper).is_true(), "N = {n}, x = N + {tenths}/10");
+                }
+            }
+        }
+    }
+
+    /// Refuses every height below a value that is attained, for one N and for all N > 32 together.
+    #[test]
+    fn no_height_below_an_attained_ratio_is_proved() {
+        for mu in ["1/10", "1", "10"] {
+            let spec = specification(mu);
+            let data = Data::new(&spec, 128);
+            let k0 = 2 * (data.nu.sqr() * &data.n_0).recip();
+            let k0 = k0.upper_rational().unwrap();
+            let pair = smallest_k1(&data, &k0).unwrap();
+            let floats = FloatSums::new(&data, LAST_ALONE as usize);
+            for n_o in
+                [1, 2, 5, 32, 33, 1000].map(OscillatorCount::Finite).into_iter().chain([OscillatorCount::Infinite])
+            {
+                let last = match n_o {
+                    OscillatorCount::Finite(n) => n.min(LAST_ALONE) as usize,
+                    OscillatorCount::Infinite => LAST_ALONE as usize,
+                };
+                let found = sup_ratio(&data, &floats, [&pair.k0, &pair.k1], n_o);
+                let attained = found.ratio.lower_rational().unwrap();
+                let value = PoleSums::new(&data, n_o).transfer_at(&data.rational(&found.x));
+                let bound = data.rational(&pair.k0) + data.rational(&pair.k1) * data.rational(&found.x).sqr();
+                assert!(*(value / bound).lower() == attained, "mu = {mu}, N = {n_o}: the value at x");
+                for percent in [1, 30, 60, 90, 99] {
+                    let height = Rational::from(&attained * Rational::from((percent, 100)));
+                    let scaled = [&pair.k0, &pair.k1].map(|k| Rational::from(k * &height));
+                    assert!(!stays_below(&data, &floats, n_o, last, scaled), "mu = {mu}, N = {n_o}, {percent} %");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_k0_below_the_value_at_zero_is_refused() {
+        let spec = specification("1");
+        let data = Data::new(&spec, 128);
+        let floats = FloatSums::new(&data, LAST_ALONE as usize);
+        for n in [1, 3, 1000] {
+            let below = |k0: Rational| {
+                let last = n.min(LAST_ALONE) as usize;
+                stays_below(&data, &floats, OscillatorCount::Finite(n), last, [k0, Rational::from(40)])
+            };
+            // T_N(0) = 1/2.
+            assert!(below(Rational::from((1, 2))), "N = {n}");
+            assert!(!below(Rational::from((499_999_999, 1_000_000_000))), "N = {n}");
+        }
+    }
+
+    /// N = 10^6 and more are looked at through their last pole alone, without summing up to it.
+    #[test]
+    fn the_last_pole_is_its_own_place() {
+        // With so small a k1 the value at the last pole, 2/(nu^2 n_N) = 2 N^(3/2), stands out.
+        let spec = specification("1");
+        let data = Data::new(&spec, 128);
+        let n = 1_048_577;
+        let floats = FloatSums::new(&data, LAST_ALONE as usize);
+        let (k0, k1) = (Rational::from(10_000_000_000_u64), Rational::from((1, 1_000_000_000)));
+        let found = sup_ratio(&data, &floats, [&k0, &k1], OscillatorCount::Finite(n));
+        assert_eq!(found.x, Rational::from(n));
+        let last = 2.0 * (n as f64).powf(1.5) / (1e10 + 1e-9 * (n as f64).powi(2));
+        assert!((found.ratio.lower_f64() / last - 1.0).abs() < 1e-9);
+    }
 }
