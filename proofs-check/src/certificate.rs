@@ -17,7 +17,7 @@ const LAST_PRECISION: u32 = 1024;
 
 /// One derivation with its witness.
 enum Derivation {
-    Sharp(Box<sharp::Witness>, Option<regulation::Witness>, Option<lmi::Witness>),
+    Sharp(Box<sharp::Witness>, Option<Box<regulation::Witness>>, Option<Box<lmi::Witness>>),
     Repaired(Box<repaired::Witness>),
 }
 
@@ -153,7 +153,7 @@ impl Derivation {
         let exact = fields.optional("exact_regulation").map(|field| regulation_witness(&field)).transpose()?;
         let multipliers = fields.optional("lmi").map(|field| lmi::Witness::read(&field)).transpose()?;
         fields.finish()?;
-        Ok(Derivation::Sharp(Box::new(w), exact, multipliers))
+        Ok(Derivation::Sharp(Box::new(w), exact.map(Box::new), multipliers.map(Box::new)))
     }
 }
 
