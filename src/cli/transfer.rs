@@ -67,6 +67,9 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
 fn no_pair(args: &TransferArgs, error: &PairError) -> u8 {
     let (verdict, help) = match error {
         PairError::BelowZeroValue { .. } => (Verdict::Refuted, "choose a k0 that is not below T_N(0)"),
+        PairError::OutOfRange { .. } => {
+            (Verdict::Undecided, "scale mu, base_frequency or the weights, or choose a k0 within 1e-300 to 1e300")
+        }
         PairError::NotFound { .. } => (Verdict::Undecided, "choose a smaller k0, which lets k1 be larger"),
     };
     if args.format == Format::Json {

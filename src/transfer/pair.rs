@@ -69,6 +69,14 @@ pub enum PairError {
         /// A lower bound of T_N(0).
         least: String,
     },
+    /// The search works in doubles, and k0 or k1 leave their range.
+    #[error(
+        "no pair was found: T_N(0) = 1/(nu^2 n_0) is about {at_zero}, and it, k0 or k1 leaves the range of doubles"
+    )]
+    OutOfRange {
+        /// T_N(0).
+        at_zero: String,
+    },
     /// No proof was found.
     #[error(
         "no proof was found for k0 = {k0} and k1 up to {k1:.6}: the scalar test or the boxes would need more than they may"
@@ -104,12 +112,20 @@ fn prove_smallest_k1(
     rooms: &[f64],
 ) -> Result<CertifiedPair, PairError> {
     let (least, sample) = graph.smallest_k1(k0.to_f64());
+    let at_zero = (data.nu.sqr() * &data.n_0).recip();
+    let out_of_range = || PairError::OutOfRange { at_zero: at_zero.upper_decimal(3) };
+    if !least.is_normal() || !k0.to_f64().is_normal() {
+        return Err(out_of_range());
+    }
     let obstacle = sample.and_then(|sample| obstacle(data, k0, sample));
     for room in rooms {
         let Some(k1) = round_f64(least * (1.0 + room), DIGITS, Direction::Up) else { break };
         if let Some(proof) = BoxProof::find(data, k0, &k1) {
             return Ok(CertifiedPair { k0: k0.clone(), k1, proof, obstacle });
         }
+    }
+    if !at_zero.midpoint_f64().is_normal() {
+        return Err(out_of_range());
     }
     Err(PairError::NotFound { k0: k0.clone(), k1: least * (1.0 + ROOMS[ROOMS.len() - 1]) })
 }
@@ -330,5 +346,19 @@ mod tests {
         // The pair may be any one in the enclosures: some of these are admissible and some are not.
         assert!(matches!(pair_status(&data, &of(7, 7), &of(10, 1000)), PairStatus::Undecided));
         assert!(matches!(pair_status(&data, &of(1, 100), &of(18, 18)), PairStatus::Undecided));
+    }
+
+    #[test]
+    fn data_beyond_doubles_are_told_apart_from_hard_ones() {
+        for (n0, frequency) in [("2", "1e300"), ("2", "1e-300"), ("1e300", "1")] {
+            let spec = specification(n0, "1/2", frequency);
+            let data = Data::new(&spec, 128);
+            let error = cheapest_pair(&data, 1.0, 1.0).unwrap_err();
+            assert!(matches!(error, PairError::OutOfRange { .. }), "{n0} {frequency}: {error}");
+        }
+        let spec = specification("2", "1/2", "1");
+        let large = Rational::from_str_radix(&format!("1{}", "0".repeat(400)), 10).unwrap();
+        let error = smallest_k1(&Data::new(&spec, 128), &large).unwrap_err();
+        assert!(matches!(error, PairError::OutOfRange { .. }), "{error}");
     }
 }

@@ -16,6 +16,8 @@ use rug::Rational;
 const LAST_ALONE: u64 = 32;
 /// How far above the largest value that was found an upper bound is tried, relatively.
 const STEPS: [f64; 6] = [1e-4, 3e-4, 1e-3, 1e-2, 0.1, 1.0];
+/// How far above it a bound that is already proved is good enough.
+const ENOUGH: f64 = 1e-3;
 /// Significant digits of the place where the supremum is attained, nearly.
 const DIGITS: u32 = 8;
 
@@ -44,17 +46,49 @@ pub fn sup_ratios(
     done: impl Fn() + Sync,
 ) -> Vec<SupRatio> {
     let sums = FloatSums::new(data, LAST_ALONE as usize);
+    // What all N > LAST_ALONE share: the places to look at, and a height proved for all of them, near the value for the last.
+    let places = places(&sums, LAST_ALONE as usize, [k0, k1]);
+    let many = |n_o: &OscillatorCount| n_o.includes(LAST_ALONE + 1);
+    let height = (counts.iter().filter(|n_o| many(n_o)).count() > 1)
+        .then(|| sup_ratio(data, &sums, [k0, k1], OscillatorCount::Infinite, &places, None).ratio.upper_rational())
+        .flatten();
     counts
         .par_iter()
         .map(|n_o| {
-            let ratio = sup_ratio(data, &sums, [k0, k1], *n_o);
+            let ratio = if many(n_o) {
+                sup_ratio(data, &sums, [k0, k1], *n_o, &places, height.as_ref())
+            } else {
+                sup_ratio(data, &sums, [k0, k1], *n_o, &self::places(&sums, last_alone(*n_o), [k0, k1]), None)
+            };
             done();
             ratio
         })
         .collect()
 }
 
-fn sup_ratio(data: &Data<'_>, sums: &FloatSums, [k0, k1]: [&Rational; 2], n_o: OscillatorCount) -> SupRatio {
+/// N, or the number that stands for all larger ones.
+fn last_alone(n_o: OscillatorCount) -> usize {
+    match n_o {
+        OscillatorCount::Finite(n) => n.min(LAST_ALONE) as usize,
+        OscillatorCount::Infinite => LAST_ALONE as usize,
+    }
+}
+
+/// Where the ratio may be largest, as short decimals.
+fn places(sums: &FloatSums, last: usize, pair: [&Rational; 2]) -> Vec<Rational> {
+    let peaks = peaks(sums, last, pair.map(Rational::to_f64)).into_iter().filter_map(Rational::from_f64);
+    peaks.map(|x| round_rational(&x, DIGITS, Direction::Nearest)).collect()
+}
+
+/// `height` is an upper bound of the ratio for every N > [`LAST_ALONE`], proved, if it is known.
+fn sup_ratio(
+    data: &Data<'_>,
+    sums: &FloatSums,
+    [k0, k1]: [&Rational; 2],
+    n_o: OscillatorCount,
+    places: &[Rational],
+    height: Option<&Rational>,
+) -> SupRatio {
     let at = |x: &Rational, value: Enclosure| value / (data.rational(k0) + data.rational(k1) * data.rational(x).sqr());
     let at_zero = at(&Rational::new(), (data.nu.sqr() * &data.n_0).recip());
     if n_o == OscillatorCount::Finite(0) {
@@ -62,10 +96,7 @@ fn sup_ratio(data: &Data<'_>, sums: &FloatSums, [k0, k1]: [&Rational; 2], n_o: O
         return SupRatio { n_o, ratio: at_zero, x: Rational::new() };
     }
     let pole_sums = PoleSums::new(data, n_o);
-    let last = match n_o {
-        OscillatorCount::Finite(n) => n.min(LAST_ALONE) as usize,
-        OscillatorCount::Infinite => LAST_ALONE as usize,
-    };
+    let last = last_alone(n_o);
     let (mut best, mut place) = (at_zero, Rational::new());
     // At the last pole T_N(N) = 1/(nu^2 c_N), without any sum.
     let last_pole = match n_o {
@@ -74,23 +105,25 @@ fn sup_ratio(data: &Data<'_>, sums: &FloatSums, [k0, k1]: [&Rational; 2], n_o: O
         }
         OscillatorCount::Infinite => None,
     };
-    let proposed = peaks(sums, last, [k0.to_f64(), k1.to_f64()]).into_iter().filter_map(Rational::from_f64);
-    let proposed = proposed.map(|x| {
-        let x = round_rational(&x, DIGITS, Direction::Nearest);
-        (pole_sums.transfer_at(&data.rational(&x)), x)
-    });
+    let proposed = places.iter().map(|x| (pole_sums.transfer_at(&data.rational(x)), x.clone()));
     for (value, x) in proposed.chain(last_pole) {
         let value = at(&x, value);
         if value.lower() > best.lower() {
             (best, place) = (value, x);
         }
     }
-    let upper = STEPS.iter().find_map(|step| {
-        let height = round_rational(&(best.upper_rational()? * Rational::from_f64(1.0 + step)?), 10, Direction::Up);
-        (height < 1 && stays_below(data, sums, n_o, last, [k0, k1].map(|k| Rational::from(k * &height))))
-            .then(|| data.rational(&height))
-    });
-    let upper = upper.unwrap_or_else(|| Enclosure::one(data.precision));
+    let near = |height: &&Rational| {
+        data.rational(height).upper_f64() <= best.lower_f64() * (1.0 + ENOUGH) && n_o.includes(LAST_ALONE + 1)
+    };
+    let known = height.filter(near).map(|height| data.rational(height));
+    let find = || {
+        STEPS.iter().find_map(|step| {
+            let height = round_rational(&(best.upper_rational()? * Rational::from_f64(1.0 + step)?), 10, Direction::Up);
+            (height < 1 && stays_below(data, sums, n_o, last, [k0, k1].map(|k| Rational::from(k * &height))))
+                .then(|| data.rational(&height))
+        })
+    };
+    let upper = known.or_else(find).unwrap_or_else(|| Enclosure::one(data.precision));
     let ratio = Enclosure::new(best.lower().clone(), upper.upper().clone());
     SupRatio { n_o, ratio, x: place }
 }
@@ -216,11 +249,8 @@ mod tests {
             for n_o in
                 [1, 2, 5, 32, 33, 1000].map(OscillatorCount::Finite).into_iter().chain([OscillatorCount::Infinite])
             {
-                let last = match n_o {
-                    OscillatorCount::Finite(n) => n.min(LAST_ALONE) as usize,
-                    OscillatorCount::Infinite => LAST_ALONE as usize,
-                };
-                let found = sup_ratio(&data, &floats, [&pair.k0, &pair.k1], n_o);
+                let last = last_alone(n_o);
+                let found = sup_ratios(&data, &pair.k0, &pair.k1, &[n_o], || ()).remove(0);
                 let attained = found.ratio.lower_rational().unwrap();
                 let value = PoleSums::new(&data, n_o).transfer_at(&data.rational(&found.x));
                 let bound = data.rational(&pair.k0) + data.rational(&pair.k1) * data.rational(&found.x).sqr();
@@ -250,6 +280,22 @@ mod tests {
         }
     }
 
+    /// The bound that all large N share is one for each of them, and no N <= 32 uses it.
+    #[test]
+    fn together_and_alone_the_enclosures_agree() {
+        let spec = specification("1");
+        let data = Data::new(&spec, 128);
+        let pair = smallest_k1(&data, &Rational::from(7)).unwrap();
+        let counts = [1, 32, 33, 34, 60, 5000].map(OscillatorCount::Finite);
+        let together = sup_ratios(&data, &pair.k0, &pair.k1, &counts, || ());
+        for (n_o, shared) in counts.into_iter().zip(together) {
+            let own = sup_ratios(&data, &pair.k0, &pair.k1, &[n_o], || ()).remove(0);
+            assert!(shared.ratio.lower() == own.ratio.lower() && shared.x == own.x, "N = {n_o}");
+            assert!(shared.ratio.upper_f64() <= 1.002 * own.ratio.upper_f64(), "N = {n_o}");
+            assert!(n_o.includes(LAST_ALONE + 1) || shared.ratio == own.ratio, "N = {n_o}");
+        }
+    }
+
     /// N = 10^6 and more are looked at through their last pole alone, without summing up to it.
     #[test]
     fn the_last_pole_is_its_own_place() {
@@ -257,9 +303,8 @@ mod tests {
         let spec = specification("1");
         let data = Data::new(&spec, 128);
         let n = 1_048_577;
-        let floats = FloatSums::new(&data, LAST_ALONE as usize);
         let (k0, k1) = (Rational::from(10_000_000_000_u64), Rational::from((1, 1_000_000_000)));
-        let found = sup_ratio(&data, &floats, [&k0, &k1], OscillatorCount::Finite(n));
+        let found = sup_ratios(&data, &k0, &k1, &[OscillatorCount::Finite(n)], || ()).remove(0);
         assert_eq!(found.x, Rational::from(n));
         let last = 2.0 * (n as f64).powf(1.5) / (1e10 + 1e-9 * (n as f64).powi(2));
         assert!((found.ratio.lower_f64() / last - 1.0).abs() < 1e-9);

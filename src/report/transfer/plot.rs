@@ -108,5 +108,17 @@ fn draw(
 
 /// A tick: plain where that is short.
 fn short(value: f64) -> String {
+    // The ticks are products of powers of ten, not exact ones.
+    let value: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     if (1e-3..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn ticks_are_short() {
+        let ticks =
+            [9.999999999999999e197, 0.010000000000000002, 1000.0, 1e-300, 99_999.999_999_999_99].map(super::short);
+        assert_eq!(ticks, ["1e198", "0.01", "1000", "1e-300", "1e5"]);
+    }
 }
