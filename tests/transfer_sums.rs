@@ -328,7 +328,7 @@ fn wide_intervals_contain_their_points() {
             for case in 0..30 {
                 let (mut a, mut b) = (random.point(7), random.point(7));
                 if case % 2 == 0 {
-                    b = Rational::from(&a + Rational::from((random.below(30) as i64, 1000)));
+                    b = &a + Rational::from((random.below(30) as i64, 1000));
                 }
                 if a > b {
                     std::mem::swap(&mut a, &mut b);
@@ -336,7 +336,7 @@ fn wide_intervals_contain_their_points() {
                 let value = sums.transfer_at(&Enclosure::between(&a, &b, 128));
                 assert!(value.is_bounded(), "N = {n}, [{a}, {b}]");
                 for step in 0..=8 {
-                    let x = Rational::from(&a + Rational::from(&b - &a) * step / 8);
+                    let x = &a + Rational::from(&b - &a) * step / 8;
                     let truth = plain_at(&family, &weights, &x);
                     assert!(holds(&value, &truth), "{} N = {n}, [{a}, {b}] at {x}: {value:?} {truth}", family.json);
                 }
@@ -361,7 +361,7 @@ fn sums_on_wide_intervals_are_attained_at_the_ends() {
             let largest = left.slope.max(&right.slope);
             assert!(wide.slope.upper() <= largest.upper());
             for step in 1..8 {
-                let x = thin(&Rational::from(&a + Rational::from(&b - &a) * step / 8));
+                let x = thin(&(&a + Rational::from(&b - &a) * step / 8));
                 let inside = sums.around(&x, m);
                 assert!(wide.sum.lower() <= inside.sum.lower() && inside.sum.upper() <= wide.sum.upper());
                 assert!(wide.slope.lower() <= inside.slope.lower() && inside.slope.upper() <= wide.slope.upper());
