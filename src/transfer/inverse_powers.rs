@@ -70,8 +70,8 @@ impl InversePowers {
         (first..2 * first).map(one).collect()
     }
 
-    /// l^-p by two correctly rounded powers: it does not increase in p, because l >= 1.
-    fn power(&self, l: u64) -> Enclosure {
+    /// l^-p, l >= 1, by itself: two correctly rounded powers, since it does not increase in p.
+    pub(super) fn power(&self, l: u64) -> Enclosure {
         let precision = self.exponent.precision().max(u64::BITS);
         let base = Float::with_val(precision, l);
         let at = |p: &Float, round| {

@@ -132,7 +132,8 @@ impl PoleSums {
         let powers = InversePowers::new(exponent);
         let end = match count {
             OscillatorCount::Finite(n) if n > 0 => {
-                Some(End { at: integer(n, work), power: powers.get(n).into_owned() })
+                // One power by itself: its block would be filled for nothing.
+                Some(End { at: integer(n, work), power: powers.power(n) })
             }
             _ => None,
         };
