@@ -219,7 +219,8 @@ fn step<V: Clone>(op: &Op, stack: &mut Vec<V>, apply: &mut impl FnMut(&Op, Optio
     stack.push(apply(op, first, second));
 }
 
-fn exact_op(op: &Op, a: Option<Option<Exact>>, b: Option<Option<Exact>>) -> Option<Exact> {
+/// An operation on exact numbers, where the result is one.
+pub fn exact_op(op: &Op, a: Option<Option<Exact>>, b: Option<Option<Exact>>) -> Option<Exact> {
     let (a, b) = (a.flatten(), b.flatten());
     match op {
         Op::Number(value) => Exact::rational(value),

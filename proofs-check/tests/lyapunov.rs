@@ -155,6 +155,14 @@ fn functions_of_t() {
     for text in ["-2 + cos(pi*t)", "-2 + t/10", "-2 + sin(6*t)/10"] {
         fails(&json!([[text]]), &w, Invalid);
     }
+    // Equal at all sevenths of a period, and not proved to have it.
+    for text in ["-2 + t*sin(14*pi*t)/10", "-2 + sin(14*pi*t)*cos(pi*t)/10", "-2 + sin(7*t*(2*pi)*(1 + 0*t))/10*t"] {
+        fails(&json!([[text]]), &w, Undecided);
+    }
+    // Both factors change their signs, or the line has no slope.
+    for text in ["-2 + sin(pi*t)*cos(3*pi*t)/2", "-2 + cos(pi*t - t*pi + 1)/2", "-2 - sin(pi*(1 - 2*t)/1)/2"] {
+        holds(&json!([[text]]), &w);
+    }
     // Only what is smooth is followed.
     for text in ["-2 + abs(sin(2*pi*t))", "-2 + 1/(2 + cos(2*pi*t))", "-2 + exp(cos(2*pi*t))/9", "log(t - t)"] {
         fails(&json!([[text]]), &w, Undecided);

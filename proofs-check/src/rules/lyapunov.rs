@@ -1,8 +1,8 @@
 //! The Lyapunov triple of a specification with a Jacobian (derivation, sections 1 and 7, L1).
 //!
 //! Guarantee: `P_low I <= P(t) <= P_up I` and `P' + P F + F'P <= -2 alpha P` for every t and every F(t) of the Jacobian, whose
-//! interval entries may change with time; P has the period T by its form, and F has because f has. The triple that the
-//! other rules use is the one proved here.
+//! interval entries may change with time; P has the period T by its form, and so have the functions in F, which is proved
+//! first. The triple that the other rules use is the one proved here.
 //!
 //! `Q = P - P_low I`, `P_up I - P` or `-(P' + P F + F'P + 2 alpha P)`, the last at each vertex of the interval entries (it is
 //! affine in them), is proved positive definite on cells [a, b] that cover a period. With R_ij the largest |Q_ij''| on the
@@ -11,7 +11,8 @@
 //! sums of R are positive definite: then so is everything on the line between. Time is s = t/T here; a cell that is not
 //! proved is halved, up to a bounded effort.
 
-use crate::expr::{Expr, Op, interval_op};
+use crate::exact::Exact;
+use crate::expr::{Expr, Op, exact_op, interval_op};
 use crate::interval::Interval;
 use crate::json::Field;
 use crate::matrix::positive_definite;
@@ -282,7 +283,8 @@ impl Problem<'_> {
 
 /// Proves the triple of a witness for a Jacobian; returns what was looked at, in words.
 pub fn prove(jacobian: &Jacobian, period: &Constant, w: &Witness) -> Outcome<String> {
-    let mut last = periodic(jacobian, period).and_then(|()| attempt(jacobian, period, w, PRECISIONS[0]));
+    periodic(jacobian, period)?;
+    let mut last = attempt(jacobian, period, w, PRECISIONS[0]);
     for precision in &PRECISIONS[1..] {
         if last.as_ref().is_err_and(|finding| finding.verdict == Verdict::Undecided) {
             last = attempt(jacobian, period, w, *precision);
@@ -291,25 +293,97 @@ pub fn prove(jacobian: &Jacobian, period: &Constant, w: &Witness) -> Outcome<Str
     last
 }
 
-/// A Jacobian that certainly differs at some times a period apart is that of no plant.
-fn periodic(jacobian: &Jacobian, period: &Constant) -> Outcome<()> {
-    let precision = PRECISIONS[0];
-    let period = period.enclose(precision);
-    for expr in
-        jacobian.iter().flatten().filter_map(|entry| if let Entry::Function(e) = entry { Some(e) } else { None })
-    {
-        let at = |time: Interval| expr.enclose(&time, &Interval::undefined(precision));
-        let apart = |k: i64| {
-            let (now, later) = (at(&period * k / 7), at(&period * (k + 7) / 7));
-            now.lt(&later) == Some(true) || later.lt(&now) == Some(true)
+/// How a part of an expression changes when t grows by the period T.
+#[derive(Clone)]
+enum Shift {
+    /// It does not depend on t; its exact value, if it has one.
+    Constant(Option<Exact>),
+    /// It is this multiple of t, plus a constant.
+    Line(Exact),
+    /// It stays (false) or changes its sign (true).
+    Sign(bool),
+    /// Nothing is known.
+    Unknown,
+}
+
+impl Shift {
+    /// A line; one without a slope stays.
+    fn line(slope: Option<Exact>) -> Shift {
+        match slope {
+            Some(slope) if slope.sign() == 0 => Shift::Sign(false),
+            Some(slope) => Shift::Line(slope),
+            None => Shift::Unknown,
+        }
+    }
+
+    /// sin and cos of a line change their signs if `slope T/pi` is an odd integer, and stay if it is an even one.
+    fn wave(slope: &Exact, period: Option<&Exact>) -> Shift {
+        let half_turns = || slope.mul(period?)?.mul(&Exact::pi().recip()?)?.as_rational();
+        match half_turns() {
+            Some(count) if *count.denom() == 1 => Shift::Sign(count.numer().is_odd()),
+            _ => Shift::Unknown,
+        }
+    }
+
+    fn apply(op: &Op, period: Option<&Exact>, a: Option<Shift>, b: Option<Shift>) -> Shift {
+        use Shift::{Constant, Line, Sign, Unknown};
+        let operand = |shift: &Option<Shift>| match shift {
+            Some(Constant(value)) => Ok(Some(value.clone())),
+            None => Ok(None),
+            _ => Err(()),
         };
-        let same = !(0..7).any(apart);
-        demand(
-            Some(same),
-            RULE,
-            "/specification/lyapunov/jacobian",
-            "the Jacobian has the period of the specification",
-        )?;
+        if let (Ok(a), Ok(b), true) = (operand(&a), operand(&b), *op != Op::X) {
+            return Constant(exact_op(op, a, b));
+        }
+        match (op, a, b) {
+            (Op::X, ..) => Shift::line(Exact::rational(&Rational::from(1))),
+            (Op::Neg, Some(Line(slope)), _) => Line(slope.neg()),
+            (Op::Neg, Some(Sign(odd)), _) => Sign(odd),
+            (Op::Sin | Op::Cos, Some(Line(slope)), _) => Shift::wave(&slope, period),
+            (Op::Sin | Op::Cos, Some(Sign(false)), _) => Sign(false),
+            (Op::Power(n), Some(Sign(odd)), _) => Sign(odd && n % 2 != 0),
+            (Op::Add | Op::Sub, Some(Line(slope)), Some(Constant(_)))
+            | (Op::Add, Some(Constant(_)), Some(Line(slope))) => Line(slope),
+            (Op::Sub, Some(Constant(_)), Some(Line(slope))) => Line(slope.neg()),
+            (Op::Add, Some(Line(a)), Some(Line(b))) => Shift::line(a.add(&b)),
+            (Op::Sub, Some(Line(a)), Some(Line(b))) => Shift::line(a.add(&b.neg())),
+            (Op::Add | Op::Sub, Some(Sign(a)), Some(Sign(b))) if a == b => Sign(a),
+            (Op::Add | Op::Sub, Some(Sign(false)), Some(Constant(_)))
+            | (Op::Add | Op::Sub, Some(Constant(_)), Some(Sign(false))) => Sign(false),
+            (Op::Mul, Some(Constant(Some(c))), Some(Line(slope)))
+            | (Op::Mul, Some(Line(slope)), Some(Constant(Some(c)))) => Shift::line(slope.mul(&c)),
+            (Op::Div, Some(Line(slope)), Some(Constant(Some(c)))) => Shift::line(c.recip().and_then(|c| slope.mul(&c))),
+            (Op::Mul, Some(Sign(a)), Some(Sign(b))) => Sign(a != b),
+            (Op::Mul, Some(Sign(odd)), Some(Constant(_)))
+            | (Op::Mul, Some(Constant(_)), Some(Sign(odd)))
+            | (Op::Div, Some(Sign(odd)), Some(Constant(_))) => Sign(odd),
+            _ => Unknown,
+        }
+    }
+}
+
+/// Whether a function of t has the period: proved by its form, refuted by values at some times a period apart.
+fn is_periodic(expr: &Expr, period: &Constant) -> Option<bool> {
+    let shift = expr.fold(|op, a, b| Shift::apply(op, period.exact.as_ref(), a, b));
+    if matches!(shift, Some(Shift::Constant(_) | Shift::Sign(false))) {
+        return Some(true);
+    }
+    let period = period.enclose(PRECISIONS[0]);
+    let at = |time: Interval| expr.enclose(&time, &Interval::undefined(PRECISIONS[0]));
+    let apart = |k: i64| {
+        let (now, later) = (at(&period * k / 7), at(&period * (k + 7) / 7));
+        now.lt(&later) == Some(true) || later.lt(&now) == Some(true)
+    };
+    (0..7).any(apart).then_some(false)
+}
+
+/// Every function of t in the Jacobian has the period of the specification.
+fn periodic(jacobian: &Jacobian, period: &Constant) -> Outcome<()> {
+    for entry in jacobian.iter().flatten() {
+        if let Entry::Function(expr) = entry {
+            let what = "the Jacobian has the period of the specification";
+            demand(is_periodic(expr, period), RULE, "/specification/lyapunov/jacobian", what)?;
+        }
     }
     Ok(())
 }
