@@ -52,11 +52,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         return Err(errors.into());
     }
     let report = Report::new(&run, &targets).rechecked(args.witness.is_some());
-    let text = match args.format {
-        Format::Text => report.text(),
-        Format::Markdown => report.markdown(),
-        Format::Json => output::json_text(&report.json()),
-    };
+    let text = output::report(&report, args.format);
     if let Some(file) = &output {
         write_certificate(&run, file, args.quiet)?;
     }

@@ -1,6 +1,6 @@
 //! `sigmastar errata`.
 
-use super::args::{ErrataArgs, Format};
+use super::args::ErrataArgs;
 use super::failure::Failure;
 use super::{input, output};
 use sigmastar::report::ErrataReport;
@@ -17,10 +17,6 @@ fn attempt(args: &ErrataArgs) -> Result<u8, Failure> {
         None => None,
     };
     let report = ErrataReport::new(spec.as_ref());
-    let text = match args.format {
-        Format::Text => report.text(),
-        Format::Markdown => report.markdown(),
-        Format::Json => output::json_text(&report.json()),
-    };
+    let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| 0))
 }

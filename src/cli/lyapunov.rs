@@ -1,6 +1,6 @@
 //! `sigmastar lyapunov`.
 
-use super::args::{Format, LyapunovArgs};
+use super::args::LyapunovArgs;
 use super::failure::Failure;
 use super::{input, output};
 use sigmastar::certificate::resolve;
@@ -21,10 +21,6 @@ fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
     let resolution = resolve(&spec).ok_or_else(given)?;
     let resolution = resolution.map_err(|failure| jacobian_errors(&spec, failure.to_string()))?;
     let report = LyapunovReport::new(resolution).ok_or_else(given)?;
-    let text = match args.format {
-        Format::Text => report.text(),
-        Format::Markdown => report.markdown(),
-        Format::Json => output::json_text(&report.json()),
-    };
+    let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| 0))
 }

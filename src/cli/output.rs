@@ -1,7 +1,9 @@
 //! Data on standard output, remarks on standard error, and files that appear whole or not at all.
 
+use super::args::Format;
 use super::failure::Failure;
 use sigmastar::certificate::Verdict;
+use sigmastar::report::Readable;
 use sigmastar::spec::SpecErrors;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -20,6 +22,15 @@ pub fn data(text: &str) -> Result<(), u8> {
             );
             Err(Verdict::BadInput.exit_code())
         }
+    }
+}
+
+/// A report in the format that was asked for.
+pub fn report(report: &impl Readable, format: Format) -> String {
+    match format {
+        Format::Text => report.text(),
+        Format::Markdown => report.markdown(),
+        Format::Json => json_text(&report.json()),
     }
 }
 

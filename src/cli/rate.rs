@@ -1,13 +1,13 @@
 //! `sigmastar rate`.
 
-use super::args::{Format, RateArgs};
+use super::args::RateArgs;
 use super::certify::triple;
 use super::failure::Failure;
 use super::{input, output};
 use sigmastar::certificate::{Options, Verdict, certify};
 use sigmastar::data::Data;
 use sigmastar::rate::rates;
-use sigmastar::report::{RateReport, TargetKind, bounding_errors};
+use sigmastar::report::{RateReport, bounding_errors};
 use sigmastar::spec::Specification;
 
 /// Runs the command and returns the exit code.
@@ -17,10 +17,10 @@ pub fn run(args: &RateArgs) -> u8 {
 
 fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     let mut spec = Specification::from_value(&input::document(&args.spec)?.root())?;
-    let sigma = args.sigma.as_ref().map(|text| input::target(TargetKind::Sup, "--sigma", text)).transpose()?;
+    let sigma = args.sigma.as_ref().map(|text| input::positive("--sigma", text)).transpose()?;
     let sigma = sigma.map(|sigma| {
         let help = "write it as a decimal or a fraction";
-        sigma.value.as_rational().cloned().ok_or_else(|| Failure::call("--sigma is not a rational number", help))
+        sigma.as_rational().cloned().ok_or_else(|| Failure::call("--sigma is not a rational number", help))
     });
     let sigma = sigma.transpose()?;
     if let Some(proved) = triple(&spec, None)? {
@@ -44,10 +44,6 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     let data = Data::new(&spec, proof.precision);
     let found = args.n_o.iter().map(|n_o| rates(&data, proof, &sigma, *n_o)).collect();
     let Some(report) = RateReport::new(&run, &sigma, found) else { return Ok(Verdict::Undecided.exit_code()) };
-    let text = match args.format {
-        Format::Text => report.text(),
-        Format::Markdown => report.markdown(),
-        Format::Json => output::json_text(&report.json()),
-    };
+    let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| 0))
 }

@@ -55,11 +55,7 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
             output::remark(&format!("the plot is in `{}`", file.name()));
         }
     }
-    let text = match args.format {
-        Format::Text => report.text(),
-        Format::Markdown => report.markdown(),
-        Format::Json => output::json_text(&report.json()),
-    };
+    let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
 }
 

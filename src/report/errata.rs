@@ -1,7 +1,7 @@
 //! The list of errata as a report.
 
 use super::blocks::{Block, clean};
-use super::{json, markdown, text};
+use super::{Readable, json};
 use crate::errata::{Erratum, Side, errata};
 use crate::spec::Specification;
 use serde_json::{Value, json as object};
@@ -18,7 +18,9 @@ impl ErrataReport {
     pub fn new(spec: Option<&Specification>) -> ErrataReport {
         ErrataReport { name: spec.map(|spec| clean(&spec.name)), items: errata(spec) }
     }
+}
 
+impl Readable for ErrataReport {
     fn blocks(&self) -> Vec<Block> {
         let title = match &self.name {
             Some(name) => format!("Errata of the paper, seen from {name}"),
@@ -45,21 +47,8 @@ impl ErrataReport {
         blocks
     }
 
-    /// As plain text.
-    #[must_use]
-    pub fn text(&self) -> String {
-        text::render(&self.blocks())
-    }
-
-    /// As GitHub-flavoured Markdown.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        markdown::render(&self.blocks())
-    }
-
     /// As JSON: `{"format": "sigmastar/errata", "version": 1, "errata": [...]}`.
-    #[must_use]
-    pub fn json(&self) -> Value {
+    fn json(&self) -> Value {
         let items: Vec<Value> = self.items.iter().map(item_json).collect();
         object!({ "format": "sigmastar/errata", "version": 1, "specification": self.name, "errata": items })
     }

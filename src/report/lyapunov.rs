@@ -1,8 +1,8 @@
 //! The report of `sigmastar lyapunov`: P, the proved triple, the candidates, and the Floquet exponents beside.
 
+use super::Readable;
 use super::blocks::{Block, Table, clean};
 use super::number::estimate;
-use super::{markdown, text};
 use crate::certificate::{Resolution, matrix_json};
 use crate::number::write_exact;
 use crate::spec::model::{Lyapunov, LyapunovSource, PeriodicMatrix};
@@ -24,7 +24,9 @@ impl LyapunovReport {
         let (triple, matrix) = (triple.clone(), matrix.clone());
         Some(LyapunovReport { resolution, triple, matrix })
     }
+}
 
+impl Readable for LyapunovReport {
     fn blocks(&self) -> Vec<Block> {
         let triple = &self.triple;
         let mut blocks = vec![
@@ -73,21 +75,8 @@ impl LyapunovReport {
         blocks
     }
 
-    /// As plain text.
-    #[must_use]
-    pub fn text(&self) -> String {
-        text::render(&self.blocks())
-    }
-
-    /// As GitHub-flavoured Markdown.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        markdown::render(&self.blocks())
-    }
-
     /// As JSON: `{"format": "sigmastar/lyapunov", "version": 1, ...}`.
-    #[must_use]
-    pub fn json(&self) -> Value {
+    fn json(&self) -> Value {
         let mut fields = serde_json::Map::new();
         fields.insert("format".to_owned(), json!("sigmastar/lyapunov"));
         fields.insert("version".to_owned(), json!(1));

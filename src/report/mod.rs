@@ -41,6 +41,25 @@ pub use verdict::sentence;
 use crate::certificate::Certification;
 use blocks::{Block, clean};
 
+/// A report that can be written in every format, with the same content in each.
+pub trait Readable {
+    /// The document that the renderers of text and Markdown share.
+    fn blocks(&self) -> Vec<Block>;
+
+    /// As JSON: numbers are strings, enclosures `["lo", "hi"]`.
+    fn json(&self) -> serde_json::Value;
+
+    /// As plain text, readable without colour at 100 columns.
+    fn text(&self) -> String {
+        text::render(&self.blocks())
+    }
+
+    /// As GitHub-flavoured Markdown.
+    fn markdown(&self) -> String {
+        markdown::render(&self.blocks())
+    }
+}
+
 /// Everything that a report is made from.
 pub struct Report<'r> {
     run: &'r Certification<'r>,
@@ -67,10 +86,10 @@ impl<'r> Report<'r> {
         self.rechecked = rechecked;
         self
     }
+}
 
-    /// The document that the renderers share.
-    #[must_use]
-    pub fn blocks(&self) -> Vec<Block> {
+impl Readable for Report<'_> {
+    fn blocks(&self) -> Vec<Block> {
         let run = self.run;
         let name = clean(&run.spec.name);
         let name = if name.is_empty() { "(no name)" } else { &name };
@@ -91,21 +110,7 @@ impl<'r> Report<'r> {
         blocks
     }
 
-    /// As plain text, readable without colour at 100 columns.
-    #[must_use]
-    pub fn text(&self) -> String {
-        text(&self.blocks())
-    }
-
-    /// As GitHub-flavoured Markdown.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        markdown(&self.blocks())
-    }
-
-    /// As JSON: numbers are strings, enclosures `["lo", "hi"]`.
-    #[must_use]
-    pub fn json(&self) -> serde_json::Value {
+    fn json(&self) -> serde_json::Value {
         json::report(self)
     }
 }

@@ -1,10 +1,9 @@
 //! The report of `sigmastar rate`.
 
+use super::Readable;
 use super::blocks::{Block, Table, clean};
-use super::number::{estimate, exact};
-use super::{markdown, text};
+use super::number::{estimate, exact, margin};
 use crate::certificate::Certification;
-use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
 use crate::rate::Rates;
 use rug::Rational;
@@ -25,7 +24,9 @@ impl RateReport {
         let sigma_star = run.sigma_star()?.clone();
         Some(RateReport { name: clean(&run.spec.name), sigma: sigma.clone(), sigma_star, rates })
     }
+}
 
+impl Readable for RateReport {
     fn blocks(&self) -> Vec<Block> {
         let mut table = Table::new(&[
             "n_o",
@@ -43,7 +44,7 @@ impl RateReport {
                 rates.oscillators.as_ref().map_or_else(unknown, |rate| exact(rate, Direction::Down)),
                 rates.lemma.as_ref().map_or_else(unknown, |(_, rate)| exact(rate, Direction::Down)),
                 rates.lemma.as_ref().map_or_else(unknown, |(largest, _)| exact(largest, Direction::Up)),
-                rates.closed_loop.as_ref().map_or_else(unknown, lower),
+                rates.closed_loop.as_ref().map_or_else(unknown, margin),
             ]);
         }
         vec![
@@ -63,21 +64,8 @@ impl RateReport {
         ]
     }
 
-    /// As plain text.
-    #[must_use]
-    pub fn text(&self) -> String {
-        text::render(&self.blocks())
-    }
-
-    /// As GitHub-flavoured Markdown.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        markdown::render(&self.blocks())
-    }
-
     /// As JSON: `{"format": "sigmastar/rates", "version": 1, ...}`.
-    #[must_use]
-    pub fn json(&self) -> Value {
+    fn json(&self) -> Value {
         let one = |rates: &Rates| {
             json!({
                 "n_o": rates.n_o,
@@ -86,7 +74,7 @@ impl RateReport {
                 "lemma_1": rates.lemma.as_ref().map(|(largest, rate)| json!({
                     "p": write_exact(largest), "kappa": "every kappa > 0", "rate": write_exact(rate),
                 })),
-                "closed_loop": rates.closed_loop.as_ref().map(lower),
+                "closed_loop": rates.closed_loop.as_ref().map(|rate| rate.lower_decimal(6)),
             })
         };
         json!({
@@ -95,23 +83,4 @@ impl RateReport {
             "rates": self.rates.iter().map(one).collect::<Vec<_>>(),
         })
     }
-}
-
-/// The lower end, rounded down.
-fn lower(rate: &Enclosure) -> String {
-    rate.lower_rational().map_or_else(
-        || "not proved".to_owned(),
-        |rate| {
-            let short = crate::number::round_rational(&rate, 4, Direction::Down).to_f64();
-            estimate_down(short, &rate)
-        },
-    )
-}
-
-/// A decimal in scientific form that is not above the rate.
-fn estimate_down(short: f64, rate: &Rational) -> String {
-    // Three digits, cut off: try the nearest, then the one below.
-    let text = format!("{short:.3e}");
-    let fits = |text: &str| crate::number::parse_decimal(text).is_ok_and(|value| value <= *rate);
-    if fits(&text) { text } else { format!("{:.3e}", short * (1.0 - 2e-3)) }
 }

@@ -7,8 +7,8 @@ mod sections;
 
 pub use plot::plot_svg;
 
+use super::Readable;
 use super::blocks::{Block, clean};
-use super::{markdown, text};
 use crate::data::{Bound, Data};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational};
@@ -120,6 +120,17 @@ impl<'s> TransferReport<'s> {
         Ok(TransferReport { data, pair, rows, trade_off, matched, printed })
     }
 
+    /// T_N under the envelope as an SVG picture, for the n_o of the table.
+    ///
+    /// # Errors
+    /// The plotting library's reason, as text.
+    pub fn plot(&self) -> Result<String, String> {
+        let counts: Vec<OscillatorCount> = self.rows.iter().map(|row| row.ratio.n_o).collect();
+        plot_svg(&self.data, &self.pair, &counts)
+    }
+}
+
+impl Readable for TransferReport<'_> {
     fn blocks(&self) -> Vec<Block> {
         let name = clean(&self.data.spec.name);
         let mut blocks = vec![Block::Title(format!("{name}: transfer bound"))];
@@ -131,31 +142,9 @@ impl<'s> TransferReport<'s> {
         blocks
     }
 
-    /// As plain text.
-    #[must_use]
-    pub fn text(&self) -> String {
-        text::render(&self.blocks())
-    }
-
-    /// As GitHub-flavoured Markdown.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        markdown::render(&self.blocks())
-    }
-
     /// As JSON.
-    #[must_use]
-    pub fn json(&self) -> Value {
+    fn json(&self) -> Value {
         json::report(self)
-    }
-
-    /// T_N under the envelope as an SVG picture, for the n_o of the table.
-    ///
-    /// # Errors
-    /// The plotting library's reason, as text.
-    pub fn plot(&self) -> Result<String, String> {
-        let counts: Vec<OscillatorCount> = self.rows.iter().map(|row| row.ratio.n_o).collect();
-        plot_svg(&self.data, &self.pair, &counts)
     }
 }
 
