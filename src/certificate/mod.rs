@@ -22,21 +22,4 @@ pub use run::{
     SharpProof, TransferChoice,
 };
 pub use verdict::Verdict;
-pub use write::{FORMAT, VERSION, conditions_json, constants_json, statement};
-
-/// The certificate of a run, with the witnesses of its matrix inequalities; `None` unless certified.
-#[must_use]
-pub fn certificate_json(run: &Certification<'_>) -> Option<serde_json::Value> {
-    let mut certificate = write::certificate_json(run)?;
-    if let Some(serde_json::Value::Object(witness)) = certificate.get_mut("witness") {
-        witness.extend(lyapunov_json(run.spec).map(|value| ("lyapunov".to_owned(), value)));
-        if run.options.derivation == Derivation::Sharp {
-            let multipliers = run.checks.decay.iter().flatten().find_map(|check| check.multipliers.as_ref());
-            witness.extend(multipliers.map(|[l_x, l_e, l_f]| {
-                let [l_x, l_e, l_f] = [l_x, l_e, l_f].map(crate::number::write_exact);
-                ("lmi".to_owned(), serde_json::json!({ "l_x": l_x, "l_e": l_e, "l_f": l_f }))
-            }));
-        }
-    }
-    Some(certificate)
-}
+pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, statement};

@@ -1,5 +1,6 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
+use super::lyapunov::lyapunov_json;
 use super::run::{Certification, Derivation};
 use crate::constants::condition::Condition;
 use crate::constants::exact_regulation::ExactWitness;
@@ -96,6 +97,11 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         .iter()
         .map(|condition| if condition.id == "T" { transfer.clone() } else { condition.clone() })
         .collect();
+    let mut witness = witness;
+    if let Value::Object(fields) = &mut witness {
+        fields.extend(lyapunov_json(spec).map(|value| ("lyapunov".to_owned(), value)));
+        fields.extend(multipliers_json(run).map(|value| ("lmi".to_owned(), value)));
+    }
     let mut certificate = object([
         ("format", text(FORMAT)),
         ("version", Value::from(VERSION)),
@@ -113,6 +119,13 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         fields.insert("constants".to_owned(), constants_json(&checkable(&run.constants)));
     }
     Some(certificate)
+}
+
+/// The multipliers with which the matrix inequality of C5 was proved, for a claim of the sharp derivation.
+fn multipliers_json(run: &Certification<'_>) -> Option<Value> {
+    let checks = (run.options.derivation == Derivation::Sharp).then_some(&run.checks)?;
+    let [l_x, l_e, l_f] = checks.decay.iter().flatten().find_map(|check| check.multipliers.as_ref())?;
+    Some(object([("l_x", exact(l_x)), ("l_e", exact(l_e)), ("l_f", exact(l_f))]))
 }
 
 /// The first comparison of a transfer proof: T_N(0) <= k0, or k0 against the closed form.

@@ -1,9 +1,10 @@
 //! Rigorous sums of powers, `sum_{l >= first} l^-p`, by the Euler-Maclaurin formula.
 
 use crate::enclosure::Enclosure;
+use crate::number::bernoulli_over_factorial;
+use rug::Float;
 use rug::float::Round;
 use rug::ops::Pow;
-use rug::{Complete, Float, Integer, Rational};
 
 /// Bits carried beyond the precision that is asked for: they absorb the rounding of some hundred operations and, for
 /// exponents down to 1 + 2^-40, the cancellation in `p - 1`.
@@ -107,43 +108,11 @@ fn negligible(term: &Enclosure, sum: &Enclosure, work: u32) -> bool {
     *term.upper() <= scaled
 }
 
-/// `B_2k/(2k)!` for k = 1, ..., `count`, exactly, from the tangent numbers T_k: `B_2k = (-1)^(k-1) 2k T_k/(4^k (4^k - 1))`.
-/// The tangent numbers come by Brent and Harvey's recurrence in small integer steps.
-fn bernoulli_over_factorial(count: usize) -> Vec<Rational> {
-    let mut tangent: Vec<Integer> = Vec::with_capacity(count);
-    let mut value = Integer::from(1);
-    for k in 0..count {
-        if k > 0 {
-            value *= k as u64;
-        }
-        tangent.push(value.clone());
-    }
-    for k in 1..count {
-        for j in k..count {
-            let left = (&tangent[j - 1] * (j - k) as u64).complete();
-            tangent[j] *= (j - k + 2) as u64;
-            tangent[j] += left;
-        }
-    }
-    let mut factorial = Integer::from(1);
-    let mut result = Vec::with_capacity(count);
-    for (index, tangent) in tangent.into_iter().enumerate() {
-        let k = index as u32 + 1;
-        factorial *= 2 * k - 1;
-        // (2k)! = 2k (2k-1)!, and the 2k cancels against the one in the numerator.
-        let four = Integer::from(1) << (2 * k);
-        let denominator = (&four * (four.clone() - 1u32)) * &factorial;
-        let magnitude = Rational::from((tangent, denominator));
-        result.push(if k % 2 == 1 { magnitude } else { -magnitude });
-        factorial *= 2 * k;
-    }
-    result
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use rug::Rational;
     use std::time::Instant;
 
     fn exponent(numerator: i64, denominator: i64) -> Enclosure {
@@ -159,17 +128,6 @@ mod tests {
     fn relative_width(x: &Enclosure) -> f64 {
         let width = Float::with_val_round(64, x.upper() - x.lower(), Round::Up).0;
         Float::with_val_round(64, &width / x.lower(), Round::Up).0.to_f64()
-    }
-
-    #[test]
-    fn bernoulli_numbers_are_the_known_ones() {
-        let known = [(1, 6), (-1, 30), (1, 42), (-1, 30), (5, 66), (-691, 2730), (7, 6), (-3617, 510)];
-        let mut factorial = Integer::from(1);
-        for (index, (value, known)) in bernoulli_over_factorial(8).into_iter().zip(known).enumerate() {
-            let k = index as u32 + 1;
-            factorial *= (2 * k - 1) * (2 * k);
-            assert_eq!(value * &factorial, Rational::from(known), "B_{}", 2 * k);
-        }
     }
 
     #[test]

@@ -16,8 +16,9 @@
 //! (s - x) + t is one recurrence without cancellation. The integrals are geometric series, see [`integrals`].
 
 use crate::enclosure::Enclosure;
+use crate::number::bernoulli_over_factorial;
 use rug::float::Round;
-use rug::{Complete, Float, Integer, Rational};
+use rug::{Float, Integer, Rational};
 
 /// One end of the range of summation: s and s^-p.
 #[derive(Clone, Debug)]
@@ -162,36 +163,16 @@ impl<'a> Derivatives<'a> {
     }
 }
 
-/// B_2k/(2k) for k = 1, ..., `count`, each exact before it is rounded outward: `(-1)^(k-1) T_k/(4^k (4^k - 1))` with the
-/// tangent numbers T_k (tan t = sum T_k t^(2k-1)/(2k-1)!).
+/// B_2k/(2k) for k = 1, ..., `count`, each exact before it is rounded outward.
 pub(super) fn bernoulli_over_index(count: usize, precision: u32) -> Vec<Enclosure> {
-    let exact = |(index, tangent): (usize, Integer)| {
-        let power = Integer::from(1) << (2 * index as u32 + 2);
-        let denominator = (&power - 1u32).complete() * power;
-        let sign = if index % 2 == 0 { 1 } else { -1 };
-        Enclosure::from_rational(&Rational::from((tangent * sign, denominator)), precision)
+    let mut factorial = Integer::from(1);
+    let exact = |(index, number): (usize, Rational)| {
+        // (2k - 1)! from (2k - 3)!.
+        let k = index as u64 + 1;
+        factorial *= (2 * k - 1) * (2 * k - 2).max(1);
+        Enclosure::from_rational(&(number * &factorial), precision)
     };
-    tangent_numbers(count).into_iter().enumerate().map(exact).collect()
-}
-
-/// T_1, T_2, ...: the derivative of a polynomial in tan is (1 + tan^2) times that in its argument, and T_k is the value at
-/// 0 of the derivative of order 2k - 1 of tan.
-fn tangent_numbers(count: usize) -> Vec<Integer> {
-    let mut polynomial = vec![Integer::new(), Integer::from(1)];
-    let mut numbers = Vec::with_capacity(count);
-    for order in 1..2 * count {
-        let mut next = vec![Integer::new(); polynomial.len() + 1];
-        for (degree, coefficient) in polynomial.iter().enumerate().skip(1) {
-            let product = (coefficient * degree as u64).complete();
-            next[degree - 1] += &product;
-            next[degree + 1] += product;
-        }
-        if order % 2 == 1 {
-            numbers.push(next[0].clone());
-        }
-        polynomial = next;
-    }
-    numbers
+    bernoulli_over_factorial(count).into_iter().enumerate().map(exact).collect()
 }
 
 #[cfg(test)]

@@ -6,12 +6,14 @@ use super::lorentz::{LorentzSums, Oscillators};
 use super::{TransferProof, decide};
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
-use crate::number::{Direction, round_f64};
+use crate::number::{Direction, round_f64, write_exact};
 use rug::Rational;
 use thiserror::Error;
 
 /// Significant digits of a certified k1, and of a k0 that the program chooses.
 const DIGITS: u32 = 6;
+/// Significant digits of a point at which T is evaluated.
+const POINT_DIGITS: u32 = 10;
 /// Relative room above the sampled curve that is tried in turn.
 const ROOMS: [f64; 8] = [3e-4, 1e-3, 3e-3, 6e-3, 9e-3, 0.03, 0.1, 0.3];
 /// The first of [`ROOMS`] for the pairs of a table: fewer boxes.
@@ -62,7 +64,7 @@ impl CertifiedPair {
 #[derive(Clone, Debug, Error)]
 pub enum PairError {
     /// k0 lies below T_N(0).
-    #[error("k0 = {k0} is too small: T_N(0) = 1/(nu^2 n_0) is at least {least}, for every N")]
+    #[error("k0 = {} is too small: T_N(0) = 1/(nu^2 n_0) is at least {least}, for every N", write_exact(k0))]
     BelowZeroValue {
         /// The k0 asked for.
         k0: Rational,
@@ -79,7 +81,8 @@ pub enum PairError {
     },
     /// No proof was found.
     #[error(
-        "no proof was found for k0 = {k0} and k1 up to {k1:.6}: the scalar test or the boxes would need more than they may"
+        "no proof was found for k0 = {} and k1 up to {k1:.6}: the scalar test or the boxes would need more than they may",
+        write_exact(k0)
     )]
     NotFound {
         /// k0.
@@ -220,7 +223,8 @@ pub fn pair_status(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure) -> PairStatu
 
 /// N, x and an enclosure of T_N(x) at a sample.
 fn value_at(data: &Data<'_>, sample: Sample) -> Option<(u32, Rational, Enclosure)> {
-    let x = Rational::from_f64(sample.x)?;
+    // Short, so that the point that is shown is the one that was looked at.
+    let x = round_f64(sample.x, POINT_DIGITS, Direction::Nearest)?;
     let n_o = u32::try_from(sample.n).ok()?;
     let nearest = sample.x.round() as u32;
     let value = LorentzSums::new(data, n_o).enclose(&data.rational(&x), nearest, &Oscillators::Exactly(n_o));
