@@ -3,6 +3,7 @@
 
 use proptest::prelude::*;
 use sigmastar::certificate::{Derivation, Options, Verdict, certify};
+use sigmastar::lmi::{CrossCheck, CrossCheckError};
 use sigmastar::spec::Specification;
 
 /// A decimal with a random exponent: the orders of magnitude are what is tested.
@@ -50,7 +51,26 @@ fn verdict(text: &str, derivation: Derivation) -> Result<Verdict, TestCaseError>
     let spec = Specification::from_json("random", text).map_err(|e| TestCaseError::fail(format!("{e:?}\n{text}")))?;
     let options = Options { derivation, compare: false, ..Options::default() };
     let run = certify(&spec, options).map_err(|e| TestCaseError::fail(format!("{e:?}\n{text}")))?;
+    if let Some(proof) = run.sharp.proved() {
+        no_better_weights(proof.witness.sigma.to_f64(), run.checks.decay.as_ref(), text)?;
+    }
     Ok(run.verdict)
+}
+
+/// Where C5 sets sigma*, the semidefinite program with C4 finds no w_x and h in the error box that lower its threshold by
+/// more than rounding gave away: the search is at the optimum.
+fn no_better_weights(
+    sigma: f64,
+    check: Option<&Result<CrossCheck, CrossCheckError>>,
+    text: &str,
+) -> Result<(), TestCaseError> {
+    let Some(Ok(CrossCheck { fixed, free: Ok(free), .. })) = check else { return Ok(()) };
+    let threshold = fixed.closed_form.midpoint_f64();
+    if sigma <= threshold * (1.0 + 1e-4) {
+        let room = 1.0 - free.solver_sigma / threshold;
+        prop_assert!(room <= 1e-4, "{room:e} {text}");
+    }
+    Ok(())
 }
 
 proptest! {

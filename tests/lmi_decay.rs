@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rug::Rational;
 use rug::ops::Pow;
-use sigmastar::lmi::{DecayData, SolverFailure, propose_multipliers, propose_sigma, verify_decay};
+use sigmastar::lmi::{DecayData, DecayProposal, SolverFailure, propose_multipliers, propose_sigma, verify_decay};
 
 /// The closed form of C5, exactly: `(1 + ht k_e)^2/(4 ht) + (w_x p k_f + k_x (1 + ht k_e)/2)^2/(4A - ht k_x^2)`; also
 /// 4A - ht k_x^2, ht and the worst xi for et = 1.
@@ -68,6 +68,9 @@ fn beside(value: &Rational, sign: i32, digits: i32) -> Rational {
 /// Whether the proposed multipliers prove C5 at sigma, and the proposed margin.
 fn at(data: &DecayData, sigma: &Rational) -> Result<(bool, f64), SolverFailure> {
     let proposal = propose_multipliers(data, sigma)?;
+    if let Some(remark) = proposal.remark {
+        return Err(SolverFailure::Stopped(remark));
+    }
     Ok((verify_decay(data, sigma, &proposal.exact_multipliers().expect("finite")), proposal.margin))
 }
 
@@ -79,12 +82,17 @@ fn solved<T>(answer: Result<T, SolverFailure>) -> Result<T, TestCaseError> {
     })
 }
 
+fn complete(proposal: &DecayProposal) -> Result<(), TestCaseError> {
+    proposal.remark.as_ref().map_or(Ok(()), |remark| Err(TestCaseError::reject(remark.clone())))
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 500, max_global_rejects: 10, ..ProptestConfig::default() })]
 
     #[test]
     fn the_solver_finds_the_threshold_of_the_closed_form(data in decay_data(true)) {
         let proposal = solved(propose_sigma(&data))?;
+        complete(&proposal)?;
         let difference = (proposal.sigma / closed_form(&data).threshold.to_f64() - 1.0).abs();
         prop_assert!(difference <= 1e-6, "{difference}");
     }

@@ -33,10 +33,15 @@ fn the_matrix_inequality_confirms_every_certificate() {
         let proof = run.sharp.proved().expect("certified");
         let data = Data::new(&spec, proof.precision);
         let check = cross_check(&proof.evaluation, &proof.witness, &data).expect("solved");
-        assert!(check.relative_difference <= 1e-6, "{}: {check:?}", path.display());
+        assert!(check.fixed.relative_difference <= 1e-6, "{}: {check:?}", path.display());
+        // The search leaves nothing: no other weights in the same error box do with a smaller sigma.
+        let free = check.free.as_ref().expect("solved");
+        assert!(free.relative_difference <= 1e-6 && !check.contradicts(), "{}: {check:?}", path.display());
+        let room = 1.0 - free.solver_sigma / check.fixed.solver_sigma;
+        assert!(room.abs() <= 1e-6, "{}: {room:e}", path.display());
         assert!(check.multipliers.is_some(), "{}: {check:?}", path.display());
         // Below the threshold nothing is verified.
-        let below = check.closed_form.lower_rational().expect("bounded") * Rational::from((999_999, 1_000_000));
+        let below = check.fixed.closed_form.lower_rational().expect("bounded") * Rational::from((999_999, 1_000_000));
         let tampered = SharpWitness { sigma: below, ..proof.witness.clone() };
         let check = cross_check(&proof.evaluation, &tampered, &data).expect("solved");
         assert!(check.multipliers.is_none(), "{}: {check:?}", path.display());

@@ -62,7 +62,7 @@ impl MatrixChecks {
     /// of the two is wrong, and nothing may be claimed.
     #[must_use]
     pub fn disagree(&self) -> bool {
-        matches!(&self.decay, Some(Ok(check)) if !check.agrees())
+        matches!(&self.decay, Some(Ok(check)) if check.contradicts())
     }
 }
 

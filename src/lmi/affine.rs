@@ -141,6 +141,12 @@ impl AffineMatrix<Rational> {
         AffineMatrix { constant, terms: self.terms.iter().skip(values.len()).cloned().collect() }
     }
 
+    /// `M(centre + y)` as a matrix affine in y; what `centre` does not name counts as 0.
+    #[must_use]
+    pub fn about(&self, centre: &[Rational]) -> AffineMatrix<Rational> {
+        AffineMatrix { constant: self.substitute(centre).constant, terms: self.terms.clone() }
+    }
+
     /// `D M(x) D` with D = diag(1/roots) and x_k = units_k y_k, as a matrix affine in y, in floating point.
     ///
     /// A congruence with D > 0 does not change definiteness. Rounding errors are of the order of one unit in the last
@@ -227,6 +233,13 @@ mod tests {
         let fully = two_terms().substitute(&[rational(10), rational(-2)]);
         assert_eq!(fully.constant().rows(), [[rational(11), rational(0)], [rational(0), rational(-1)]]);
         assert!(fully.terms().is_empty());
+    }
+
+    #[test]
+    fn a_shift_moves_the_constant_only() {
+        let shifted = two_terms().about(&[rational(10)]);
+        assert_eq!(shifted.constant().rows(), [[rational(11), rational(2)], [rational(2), rational(5)]]);
+        assert_eq!(shifted.terms(), two_terms().terms());
     }
 
     #[test]

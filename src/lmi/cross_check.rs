@@ -1,38 +1,69 @@
 //! The matrix inequality of C5 against its closed form, on a certificate.
 
 use super::decay::{DecayData, verify_decay};
+use super::level::{LevelData, propose_lyapunov_weights};
 use super::propose::{propose_multipliers, propose_sigma};
 use super::solve::SolverFailure;
-use crate::constants::sharp::{SharpEvaluation, SharpWitness};
+use crate::constants::sharp::{SharpEvaluation, SharpWitness, distances};
+use crate::constants::stability::DecayCondition;
 use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64};
 use rug::Rational;
 use thiserror::Error;
 
-/// Two independent answers to the same question.
+/// Two independent answers to the same question, twice: for the weights of the certificate, and for the best ones in its box.
 #[derive(Clone, Debug)]
 pub struct CrossCheck {
-    /// The threshold of sigma by the closed form, rigorously.
-    pub closed_form: Enclosure,
-    /// The smallest sigma of the matrix inequality, by the solver.
-    pub solver_sigma: f64,
-    /// |solver_sigma - closed_form| / closed_form, in floating point.
-    pub relative_difference: f64,
+    /// The smallest sigma for the certificate's w_x and h.
+    pub fixed: Figures,
+    /// The smallest sigma for any w_x and h that satisfy C4 in the certificate's error box, and the closed form for these.
+    pub free: Result<Figures, SolverFailure>,
     /// Multipliers (l_x, l_e, l_f) with which the matrix at the witness's sigma is proved positive definite, where they were
     /// found: C5 then holds by the matrix inequality too, whatever the closed form says.
     pub multipliers: Option<[Rational; 3]>,
+}
+
+/// The smallest sigma with C5, in two ways.
+#[derive(Clone, Debug)]
+pub struct Figures {
+    /// The threshold of sigma by the closed form, rigorously for the w_x, h at hand.
+    pub closed_form: Enclosure,
+    /// The smallest sigma of the matrix inequality, by the solver.
+    pub solver_sigma: f64,
+    /// |solver_sigma - closed_form| / closed_form, in floating point; NaN where there is no threshold.
+    pub relative_difference: f64,
+    /// The solver's own words, where it stopped short of its tolerance.
+    pub remark: Option<String>,
 }
 
 /// The largest relative difference that the solver's tolerance explains; on trial data over many orders of magnitude it
 /// stays below 1e-6.
 pub const AGREEMENT: f64 = 1e-5;
 
-impl CrossCheck {
-    /// Whether the two answers agree to the solver's tolerance.
+impl Figures {
+    fn new(closed_form: Enclosure, solver_sigma: f64, remark: Option<String>) -> Figures {
+        let threshold = closed_form.midpoint_f64();
+        let relative_difference = ((solver_sigma - threshold) / threshold).abs();
+        Figures { relative_difference, closed_form, solver_sigma, remark }
+    }
+
+    /// Whether the two agree to the solver's tolerance.
     #[must_use]
-    pub fn agrees(&self) -> bool {
+    pub fn agree(&self) -> bool {
         self.relative_difference <= AGREEMENT
+    }
+}
+
+impl CrossCheck {
+    /// Whether one of the two is wrong: a pair of figures that differs by more than a solver that reached its tolerance
+    /// explains, or best weights that need a larger sigma than those of the certificate.
+    #[must_use]
+    pub fn contradicts(&self) -> bool {
+        let apart = |figures: &Figures| figures.remark.is_none() && !figures.agree();
+        let largest = self.fixed.closed_form.upper_f64() * (1.0 + AGREEMENT);
+        let worse = |free: &Figures| free.remark.is_none() && free.solver_sigma > largest;
+        apart(&self.fixed) || self.free.as_ref().is_ok_and(|free| apart(free) || worse(free))
     }
 }
 
@@ -47,13 +78,14 @@ pub enum CrossCheckError {
     Solver(#[from] SolverFailure),
 }
 
-/// Holds the matrix inequality of C5 against the closed form, for the numbers of an evaluated witness.
+/// Holds the matrix inequality of C5 against the closed form, for the numbers of an evaluated witness, and C4 with C5 as one
+/// program in (w_x, h, sigma, l_x, l_e, l_f) against the closed form at the w_x, h that it finds.
 ///
-/// Guarantee: what `multipliers` prove is proved in exact arithmetic. `solver_sigma` and `relative_difference` are floating
+/// Guarantee: what `multipliers` prove is proved in exact arithmetic. The solver's figures and the differences are floating
 /// point: a large difference points to an error in one of the two, a small one proves nothing.
 ///
 /// # Errors
-/// Data without bounds, and a solver without an answer.
+/// Data without bounds, and a solver without an answer for the weights of the witness.
 pub fn cross_check(
     evaluation: &SharpEvaluation,
     witness: &SharpWitness,
@@ -66,7 +98,6 @@ pub fn cross_check(
         return Err(CrossCheckError::Unbounded);
     }
     let smallest = propose_sigma(&decay)?;
-    let threshold = closed_form.midpoint_f64();
     let at_sigma = propose_multipliers(&decay, &witness.sigma)?;
     let proves = |multipliers: &[Rational; 3]| verify_decay(&decay, &witness.sigma, multipliers);
     // Short numbers where they do, the solver's own doubles otherwise.
@@ -75,9 +106,59 @@ pub fn cross_check(
     let short = l_x.zip(l_e).zip(l_f).map(|((l_x, l_e), l_f)| [l_x, l_e, l_f]);
     let multipliers = short.filter(proves).or_else(|| at_sigma.exact_multipliers().filter(proves));
     Ok(CrossCheck {
-        relative_difference: ((smallest.sigma - threshold) / threshold).abs(),
-        closed_form,
-        solver_sigma: smallest.sigma,
+        fixed: Figures::new(closed_form, smallest.sigma, smallest.remark),
+        free: best_weights(evaluation, witness, data, &decay),
         multipliers,
     })
+}
+
+/// The program with C4, and the closed form at the weights that it finds.
+fn best_weights(
+    evaluation: &SharpEvaluation,
+    witness: &SharpWitness,
+    data: &Data<'_>,
+    decay: &DecayData,
+) -> Result<Figures, SolverFailure> {
+    let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
+    let [dist_x, dist_e, dist_z] = distances(data, &witness.set, periodic).map(|distance| distance.upper_f64());
+    let (p_low, p_up) = (data.p_low.midpoint_f64(), data.p_up.midpoint_f64());
+    let (d_x, d_e) = (witness.d_x.to_f64(), witness.d_e.to_f64());
+    let level = LevelData {
+        start: [p_up * dist_x * dist_x, dist_e * dist_e, dist_z * dist_z],
+        exit: [p_low * d_x * d_x, d_e * d_e],
+    };
+    let found = propose_lyapunov_weights(decay, &level)?;
+    let weight =
+        |value: f64| Rational::from_f64(value).map(|value| data.rational(&value)).ok_or(SolverFailure::Unusable);
+    let closed_form = DecayCondition::new(data, &evaluation.error_box, &weight(found.w_x)?, &weight(found.h)?);
+    Ok(Figures::new(closed_form.sigma_threshold, found.sigma, found.remark))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn figures(closed_form: i64, solver_sigma: f64, remark: Option<&str>) -> Figures {
+        Figures::new(Enclosure::from_integer(closed_form, 64), solver_sigma, remark.map(str::to_owned))
+    }
+
+    #[test]
+    fn a_difference_that_the_tolerance_does_not_explain_is_a_contradiction() {
+        let check = |fixed: Figures, free: Result<Figures, SolverFailure>| {
+            CrossCheck { fixed, free, multipliers: None }.contradicts()
+        };
+        let good = || figures(10, 10.000_01, None);
+        assert!(!check(good(), Ok(good())));
+        assert!(!check(good(), Err(SolverFailure::Infeasible)));
+        assert!(check(figures(10, 10.001, None), Ok(good())));
+        assert!(check(figures(10, 9.999, None), Ok(good())));
+        assert!(check(good(), Ok(figures(10, 9.999, None))));
+        assert!(check(figures(10, f64::NAN, None), Ok(good())));
+        // A solver that stopped early contradicts nothing.
+        assert!(!check(figures(10, 10.001, Some("AlmostSolved")), Ok(good())));
+        assert!(!check(good(), Ok(figures(12, 13.0, Some("AlmostSolved")))));
+        // The best weights cannot need more than those of the certificate; they may need less.
+        assert!(check(good(), Ok(figures(11, 11.0, None))));
+        assert!(!check(good(), Ok(figures(9, 9.0, None))));
+    }
 }

@@ -82,35 +82,40 @@ impl DecayData {
     /// [`DecayData::present`] are left out.
     #[must_use]
     pub fn matrix(&self, mu: &Rational) -> AffineMatrix<Rational> {
-        let sectors: Vec<_> = self.sectors().into_iter().filter(|(_, _, k)| **k != 0).collect();
-        let mut signals = vec![Signal::X, Signal::E, Signal::S];
-        signals.extend(sectors.iter().map(|(signal, _, _)| *signal));
-        let term = |variable: usize, row: usize, column: usize| {
-            let signal = signals[row];
-            match variable.checked_sub(1).map(|sector| sectors[sector]) {
-                _ if row != column => Rational::new(),
-                None if signal == Signal::E => Rational::from(2),
-                Some((bounded, _, _)) if signal == bounded => Rational::from(1),
-                Some((_, by, k)) if signal == by => -Rational::from(k * k),
-                _ => Rational::new(),
-            }
-        };
-        let constant = |row: usize, column: usize| self.constant(mu, signals[row], signals[column]);
-        AffineMatrix::from_fn(signals.len(), 1 + sectors.len(), constant, term)
+        self.matrix_in_weights(mu).substitute(&[self.w_x.clone(), self.h.clone()])
     }
 
-    /// The entry of the matrix that does not depend on the unknowns, for `row` not after `column` in the order.
-    fn constant(&self, mu: &Rational, row: Signal, column: Signal) -> Rational {
+    /// The same matrix, affine in (w_x, h, sigma, l_x, l_e, l_f): the data's own w_x and h are not used.
+    #[must_use]
+    pub fn matrix_in_weights(&self, mu: &Rational) -> AffineMatrix<Rational> {
         use Signal::{E, Phi, S, Ue, Ux, X};
-        match (row, column) {
-            (X, X) => Rational::from(&self.w_x * &self.rate) * 2u32,
-            (X, Phi) => -Rational::from(&self.w_x * &self.root_p_up),
+        let sectors: Vec<_> = self.sectors().into_iter().filter(|(_, _, k)| **k != 0).collect();
+        let mut signals = vec![X, E, S];
+        signals.extend(sectors.iter().map(|(signal, _, _)| *signal));
+        let zero = Rational::new;
+        let constant = |row: usize, column: usize| match (signals[row], signals[column]) {
             (E, S) => -mu.clone(),
             (E, Ux | Ue) => Rational::from(-1),
-            (S, S) => Rational::from(&self.h * mu) * 2u32,
-            (S, Ux | Ue) => self.h.clone(),
-            _ => Rational::new(),
-        }
+            _ => zero(),
+        };
+        let term = |variable: usize, row: usize, column: usize| {
+            let at = (signals[row], signals[column]);
+            match (variable, at) {
+                (0, (X, X)) => Rational::from(&self.rate * 2u32),
+                (0, (X, Phi)) => -self.root_p_up.clone(),
+                (1, (S, S)) => Rational::from(mu * 2u32),
+                (1, (S, Ux | Ue)) => Rational::from(1),
+                (2, (E, E)) => Rational::from(2),
+                (0..=2, _) => zero(),
+                (_, (signal, other)) if signal == other => match sectors[variable - 3] {
+                    (bounded, _, _) if signal == bounded => Rational::from(1),
+                    (_, by, k) if signal == by => -Rational::from(k * k),
+                    _ => zero(),
+                },
+                _ => zero(),
+            }
+        };
+        AffineMatrix::from_fn(signals.len(), 3 + sectors.len(), constant, term)
     }
 }
 

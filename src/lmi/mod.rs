@@ -4,6 +4,7 @@
 //! - [`solve`]: a linear cost under such constraints, with fixed settings and an honest status;
 //! - [`decay`]: the 6x6 matrix of C5, defined once, exactly, and decided exactly;
 //! - [`propose`]: the smallest sigma and the multipliers of C5, well scaled, in floating point;
+//! - [`level`]: the same together with the level condition C4, with the weights w_x, h free;
 //! - [`ldl`]: exact definiteness of small matrices, and their leading minors;
 //! - [`residual`]: definiteness of larger ones, exactly or within errors;
 //! - [`perron`]: C3 with weights, as a linear program and as a diagonal Stein inequality;
@@ -15,14 +16,16 @@ pub mod affine;
 mod cross_check;
 pub mod decay;
 pub mod ldl;
+pub mod level;
 pub mod perron;
 pub mod propose;
 pub mod residual;
 pub mod solve;
 
-pub use cross_check::{AGREEMENT, CrossCheck, CrossCheckError, cross_check};
+pub use cross_check::{AGREEMENT, CrossCheck, CrossCheckError, Figures, cross_check};
 pub use decay::{DecayData, verify_decay};
 pub use ldl::{is_positive_definite, leading_minors};
+pub use level::{LevelData, WeightsProposal, propose_lyapunov_weights};
 pub use propose::{DecayProposal, propose_multipliers, propose_sigma};
 pub use residual::ScaledMatrix;
 pub use solve::{Candidate, SolverFailure, margin, minimise, propose};

@@ -1,11 +1,11 @@
 //! Floating-point proposals for C5: the smallest sigma, and multipliers for a given sigma.
 
 use super::decay::DecayData;
-use super::solve::{SolverFailure, minimise};
+use super::solve::{SolverFailure, propose};
 use rug::Rational;
 
 /// What the solver proposes for C5.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DecayProposal {
     /// sigma, in 1/time: proposed by [`propose_sigma`], given to [`propose_multipliers`].
     pub sigma: f64,
@@ -13,6 +13,8 @@ pub struct DecayProposal {
     pub multipliers: [f64; 3],
     /// The smallest eigenvalue of the scaled matrix, in the solver's opinion.
     pub margin: f64,
+    /// The solver's own words, where it stopped short of its tolerance.
+    pub remark: Option<String>,
 }
 
 impl DecayProposal {
@@ -25,7 +27,7 @@ impl DecayProposal {
 }
 
 /// The margin that the smallest sigma leaves in the scaled matrix: small against the six digits that are compared.
-const MARGIN: f64 = 1e-9;
+pub(super) const MARGIN: f64 = 1e-9;
 
 /// The smallest sigma for which there are multipliers such that the scaled matrix is at least `MARGIN`.
 ///
@@ -40,9 +42,9 @@ pub fn propose_sigma(data: &DecayData) -> Result<DecayProposal, SolverFailure> {
     let mut cost = vec![0.0; scale.units.len()];
     // Minimise sigma in units of its expected value.
     cost[0] = 1.0;
-    let solution = minimise(&cost, &[matrix])?;
-    let sigma = solution[0] * scale.units[0];
-    Ok(DecayProposal { sigma, multipliers: scale.multipliers(data, &solution[1..]), margin: MARGIN })
+    let found = propose(&cost, &[matrix])?;
+    let multipliers = scale.multipliers(data, &found.x[1..]);
+    Ok(DecayProposal { sigma: found.x[0] * scale.units[0], multipliers, margin: MARGIN, remark: found.remark })
 }
 
 /// The multipliers that make the smallest eigenvalue of the scaled matrix largest, for a given sigma.
@@ -61,17 +63,17 @@ pub fn propose_multipliers(data: &DecayData, sigma: &Rational) -> Result<DecayPr
     let last = cost.len() - 1;
     // Maximise the eigenvalue, the last unknown.
     cost[last] = -1.0;
-    let solution = minimise(&cost, &[matrix])?;
-    let multipliers = scale.multipliers(data, &solution[..last]);
-    Ok(DecayProposal { sigma: sigma.to_f64(), multipliers, margin: solution[last] })
+    let found = propose(&cost, &[matrix])?;
+    let multipliers = scale.multipliers(data, &found.x[..last]);
+    Ok(DecayProposal { sigma: sigma.to_f64(), multipliers, margin: found.x[last], remark: found.remark })
 }
 
 /// The scales of rows and unknowns for which the solution is expected to have ones on the diagonal.
-struct Scale {
+pub(super) struct Scale {
     /// The root of the expected (positive part of the) diagonal entry, per row.
-    roots: Vec<f64>,
+    pub(super) roots: Vec<f64>,
     /// The expected value of sigma and of the multipliers that are present.
-    units: Vec<f64>,
+    pub(super) units: Vec<f64>,
 }
 
 impl Scale {
@@ -82,7 +84,7 @@ impl Scale {
     /// `l_x = (1 + ht u)/(2 k_x xi)`, `l_e = (1 + ht u)/(2 k_e)`, `l_f = w_x p xi/k_f`, `u = k_x xi + k_e`.
     ///
     /// Only the scale depends on this: the solver sees the whole matrix.
-    fn new(data: &DecayData, sigma: Option<&Rational>) -> Result<Scale, SolverFailure> {
+    pub(super) fn new(data: &DecayData, sigma: Option<&Rational>) -> Result<Scale, SolverFailure> {
         let [w_x, h, mu, rate] = [&data.w_x, &data.h, &data.mu[0], &data.rate].map(Rational::to_f64);
         let [p, k_x, k_e, k_f] = [&data.root_p_up, &data.k_x, &data.k_e, &data.k_f].map(Rational::to_f64);
         let h_over_mu = h / mu;

@@ -4,6 +4,7 @@ use super::blocks::{Block, Table};
 use super::json::interval;
 use super::number::{exact, pair};
 use crate::certificate::{Certification, Derivation};
+use crate::lmi::{CrossCheck, Figures};
 use crate::number::{Direction, round_f64, write_exact};
 use rug::Rational;
 use serde_json::{Value, json};
@@ -18,29 +19,50 @@ fn order_of_magnitude(difference: f64) -> String {
     (-6..=0).map(|k| 10f64.powi(k)).find(|power| difference < *power).map_or("unknown".to_owned(), |p| format!("{p:e}"))
 }
 
+/// C5 for the weights of the certificate, and with C4 for the best ones in its error box.
+fn decay_items(check: &CrossCheck) -> [String; 2] {
+    let proved = if check.multipliers.is_some() {
+        "at sigma* the matrix is proved positive definite, exactly, with the multipliers in the certificate"
+    } else {
+        "no multipliers were proved at sigma*; C5 rests on the closed form"
+    };
+    let fixed = format!(
+        "C5: sigma must exceed {} by the closed form (proved), {} by the semidefinite program (floating point); {}; {proved}.",
+        pair(&check.fixed.closed_form),
+        solver_sigma(check.fixed.solver_sigma),
+        compared(&check.fixed)
+    );
+    let free = match &check.free {
+        Ok(free) => format!(
+            "sigma must exceed {} by the semidefinite program (floating point), {} by the closed form there; {}",
+            solver_sigma(free.solver_sigma),
+            solver_sigma(free.closed_form.midpoint_f64()),
+            compared(free)
+        ),
+        Err(error) => format!("not worked out: {error}"),
+    };
+    [fixed, format!("C4 and C5 in the same error box, with the best w_x and h for it: {free}.")]
+}
+
+fn compared(figures: &Figures) -> String {
+    let verdict = match (&figures.remark, figures.agree()) {
+        (_, true) => "they agree".to_owned(),
+        (None, false) => "they DISAGREE".to_owned(),
+        (Some(remark), false) => format!("the solver stopped early ({remark})"),
+    };
+    format!("{verdict}: the relative difference is below {}", order_of_magnitude(figures.relative_difference))
+}
+
 /// The section.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let checks = &run.checks;
     let mut items = Vec::new();
     if run.options.derivation == Derivation::Sharp {
-        items.extend(checks.decay.as_ref().map(|decay| match decay {
-            Ok(check) => {
-                let verdict = if check.agrees() { "they agree" } else { "they DISAGREE" };
-                let proved = if check.multipliers.is_some() {
-                    "at sigma* the matrix is proved positive definite, exactly, with the multipliers in the certificate"
-                } else {
-                    "no multipliers were proved at sigma*; C5 rests on the closed form"
-                };
-                format!(
-                    "C5: sigma must exceed {} by the closed form (proved), {} by the semidefinite program (floating point); \
-                     {verdict}: the relative difference is below {}; {proved}.",
-                    pair(&check.closed_form),
-                    solver_sigma(check.solver_sigma),
-                    order_of_magnitude(check.relative_difference)
-                )
-            }
-            Err(error) => format!("C5: not cross-checked by the semidefinite program: {error}."),
-        }));
+        match &checks.decay {
+            Some(Ok(check)) => items.extend(decay_items(check)),
+            Some(Err(error)) => items.push(format!("C5: not cross-checked by the semidefinite program: {error}.")),
+            None => {}
+        }
         items.extend(checks.contraction.as_ref().map(|check| {
             let [low, up] = &check.spectral_radius;
             let stein = match &check.stein {
@@ -78,18 +100,30 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     blocks
 }
 
+fn figures_json(figures: &Figures) -> Value {
+    json!({
+        "solver_estimate": solver_sigma(figures.solver_sigma),
+        "relative_difference_below": order_of_magnitude(figures.relative_difference),
+        "agree": figures.agree(),
+    })
+}
+
 /// The same as JSON.
 pub(super) fn checks_json(run: &Certification<'_>) -> Value {
     let checks = &run.checks;
     let list = |values: &[Rational]| Value::Array(values.iter().map(|value| json!(write_exact(value))).collect());
     let decay = checks.decay.as_ref().map(|decay| match decay {
-        Ok(check) => json!({
-            "closed_form": interval(&check.closed_form),
-            "solver_estimate": solver_sigma(check.solver_sigma),
-            "relative_difference_below": order_of_magnitude(check.relative_difference),
-            "agree": check.agrees(),
-            "proved_at_sigma_star": check.multipliers.is_some(),
-        }),
+        Ok(check) => {
+            let mut fixed = figures_json(&check.fixed);
+            fixed["closed_form"] = interval(&check.fixed.closed_form);
+            fixed["contradiction"] = json!(check.contradicts());
+            fixed["proved_at_sigma_star"] = json!(check.multipliers.is_some());
+            fixed["best_weights"] = match &check.free {
+                Ok(figures) => figures_json(figures),
+                Err(error) => json!({ "unavailable": error.to_string() }),
+            };
+            fixed
+        }
         Err(error) => json!({ "unavailable": error.to_string() }),
     });
     let contraction = checks.contraction.as_ref().map(|check| {
