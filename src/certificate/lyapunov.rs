@@ -33,7 +33,7 @@ const GIVE_UP: usize = 3;
 /// No triple was found.
 pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailure>> {
     let LyapunovSource::Wanted(jacobian) = &spec.lyapunov else { return None };
-    Some(candidates(jacobian, &spec.period).and_then(|candidates| {
+    Some(candidates(jacobian, &spec.period).and_then(|mut candidates| {
         let data = Data::new(spec, 64);
         // The transfer constants hardly move the best triple: the cheap ones do.
         let trade_off =
@@ -51,6 +51,15 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
             worse = if found.is_some_and(|sigma| sigma < best) || best.is_infinite() { 0 } else { worse + 1 };
             best = best.min(found.unwrap_or(f64::INFINITY));
             sigmas.push(found);
+        }
+        // Around the best one, a finer step.
+        if let Some(at) = (0..sigmas.len()).filter(|at| sigmas[*at].is_some_and(|sigma| sigma <= best)).next_back() {
+            let more = candidates.beside(at);
+            sigmas.extend(more.iter().map(&mut sigma));
+            candidates.found.extend(more);
+            let mut all: Vec<_> = std::mem::take(&mut candidates.found).into_iter().zip(sigmas).collect();
+            all.sort_by(|a, b| b.0.alpha.total_cmp(&a.0.alpha));
+            (candidates.found, sigmas) = all.into_iter().unzip();
         }
         let rank = |at: &usize| sigmas[*at].unwrap_or(f64::INFINITY);
         let mut order: Vec<usize> = (0..sigmas.len()).collect();

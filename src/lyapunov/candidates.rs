@@ -55,6 +55,20 @@ impl Candidates {
         })
     }
 
+    /// Further candidates of the same degree, with rates between that of a candidate and those of its neighbours.
+    #[must_use]
+    pub fn beside(&self, index: usize) -> Vec<Candidate> {
+        let Some(here) = self.found.get(index) else { return Vec::new() };
+        let float = FloatFamily::new(&self.family);
+        let neighbours = [index.checked_sub(1), index.checked_add(1)];
+        let ends = neighbours.iter().flatten().filter_map(|at| self.found.get(*at)).map(|candidate| candidate.alpha);
+        let rates = ends.flat_map(|end| [1.0, 2.0].map(|part| here.alpha + part / 3.0 * (end - here.alpha)));
+        rates
+            .filter_map(|alpha| smallest_ratio(&float, here.matrix.harmonics.len(), alpha))
+            .filter_map(|proposal| rounded(&float, &proposal))
+            .collect()
+    }
+
     /// The first candidate that is proved, in the given order.
     ///
     /// # Errors
@@ -92,7 +106,7 @@ pub enum LyapunovFailure {
 }
 
 /// Shares of the largest rate at which the smallest ratio is sought.
-const SHARES: [f64; 12] = [0.999, 0.98, 0.94, 0.88, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1];
+const SHARES: [f64; 12] = [0.9998, 0.98, 0.94, 0.88, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1];
 
 /// Degrees of P(t) that a semidefinite program is tried for, where F varies.
 const DEGREES: [usize; 4] = [0, 1, 2, 4];
@@ -156,7 +170,7 @@ fn by_programs(family: &FloatFamily, degree: usize, limit: f64, proposals: &mut 
     };
     // The largest rate, by bisection on whether there is an answer.
     let (mut low, mut high) = (0.0, limit);
-    for _ in 0..9 {
+    for _ in 0..12 {
         let middle = (low + high) / 2.0;
         match at(middle) {
             Some(_) => low = middle,
