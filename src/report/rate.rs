@@ -5,7 +5,7 @@ use super::blocks::{Block, Table, clean};
 use super::number::{estimate, exact, margin};
 use crate::certificate::Certification;
 use crate::number::{Direction, write_exact};
-use crate::rate::Rates;
+use crate::rate::{Method, Rates};
 use rug::Rational;
 use serde_json::{Value, json};
 
@@ -26,6 +26,14 @@ impl RateReport {
     }
 }
 
+/// How a rate was proved, as reports name it.
+fn name(method: Method) -> &'static str {
+    match method {
+        Method::Riccati => "riccati",
+        Method::Kappa => "kappa",
+    }
+}
+
 impl Readable for RateReport {
     fn blocks(&self) -> Vec<Block> {
         let mut table = Table::new(&[
@@ -35,6 +43,8 @@ impl Readable for RateReport {
             "by Lemma 1, any kappa",
             "p",
             "closed loop",
+            "proved by",
+            "by the paper's c and kappa",
         ]);
         let unknown = || "not proved".to_owned();
         for rates in &self.rates {
@@ -44,7 +54,9 @@ impl Readable for RateReport {
                 rates.oscillators.as_ref().map_or_else(unknown, |rate| exact(rate, Direction::Down)),
                 rates.lemma.as_ref().map_or_else(unknown, |(_, rate)| exact(rate, Direction::Down)),
                 rates.lemma.as_ref().map_or_else(unknown, |(largest, _)| exact(largest, Direction::Up)),
-                rates.closed_loop.as_ref().map_or_else(unknown, margin),
+                rates.closed_loop.as_ref().map_or_else(unknown, |(rate, _)| exact(rate, Direction::Down)),
+                rates.closed_loop.as_ref().map_or_else(String::new, |(_, method)| name(*method).to_owned()),
+                rates.by_kappa.as_ref().map_or_else(unknown, margin),
             ]);
         }
         vec![
@@ -74,7 +86,9 @@ impl Readable for RateReport {
                 "lemma_1": rates.lemma.as_ref().map(|(largest, rate)| json!({
                     "p": write_exact(largest), "kappa": "every kappa > 0", "rate": write_exact(rate),
                 })),
-                "closed_loop": rates.closed_loop.as_ref().map(|rate| rate.lower_decimal(6)),
+                "closed_loop": rates.closed_loop.as_ref().map(|(rate, _)| write_exact(rate)),
+                "closed_loop_by": rates.closed_loop.as_ref().map(|(_, method)| name(*method)),
+                "closed_loop_by_kappa": rates.by_kappa.as_ref().map(|rate| rate.lower_decimal(6)),
             })
         };
         json!({
