@@ -103,24 +103,15 @@ impl ErrorDynamics<'_> {
     /// positive definite. If false, nothing is known.
     #[must_use]
     pub fn proves(&self, witness: &RateWitness) -> bool {
-        self.positive_definite(witness).is_some_and(|proved| proved)
-    }
-
-    fn positive_definite(&self, witness: &RateWitness) -> Option<bool> {
         let n = self.oscillators.order() + 1;
-        if witness.q.nrows() != n || witness.q.ncols() != n {
-            return None;
+        if witness.q.nrows() != n || witness.q.ncols() != n || (self.bounds.has_x && !(witness.w_x > 0.0)) {
+            return false;
         }
         let proved = |matrix: Option<ScaledMatrix>| matrix.is_some_and(|m| m.is_positive_definite() == Truth::True);
-        if !proved(ScaledMatrix::from_doubles(n, |i, j| witness.q[(i, j)], &vec![0.0; n])) {
-            return Some(false);
-        }
-        if self.bounds.has_x && !(witness.w_x > 0.0) {
-            return Some(false);
-        }
-        let form = Form::new(self, witness)?;
+        let Some(form) = Form::new(self, witness) else { return false };
         let signals = &form.signals;
-        Some(proved(ScaledMatrix::from_enclosures(signals.len(), |i, j| form.entry(signals[i], signals[j]))))
+        proved(ScaledMatrix::from_doubles(n, |i, j| witness.q[(i, j)], &vec![0.0; n]))
+            && proved(ScaledMatrix::from_enclosures(signals.len(), |i, j| form.entry(signals[i], signals[j])))
     }
 }
 
@@ -228,3 +219,6 @@ impl<'a> Form<'a> {
         (half(i, j) + half(j, i) + &self.twice_rate * at(i, j)).negate()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,7 @@
 //! Q of the closed loop's Lyapunov function, proposed by a Riccati equation in floating point.
 
 use super::inequality::{ErrorDynamics, RateWitness};
-use super::small_gain::SmallGain;
+use super::small_gain::{Multipliers, SmallGain};
 use crate::number::{Direction, round_f64};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
@@ -28,7 +28,11 @@ pub fn propose_and_prove(dynamics: &ErrorDynamics<'_>, condition: &SmallGain) ->
 pub fn propose(dynamics: &ErrorDynamics<'_>, condition: &SmallGain, largest: f64, share: f64) -> Option<RateWitness> {
     let shifted = largest * (1.0 + share) / 2.0;
     let multipliers = condition.multipliers(shifted)?;
-    let q = stabilising(&shifted_dynamics(dynamics, shifted)?, multipliers.output, multipliers.input)?;
+    let (a, input) = shifted_dynamics(dynamics, shifted)?;
+    let Multipliers { output, input_gain, .. } = multipliers;
+    let q = stabilising(&a, &input, output, input_gain)?;
+    // The subspace is less accurate where eigenvalues of the Hamiltonian matrix are close to the imaginary axis.
+    let q = refined(&a, &input, output, input_gain, &q).unwrap_or(q);
     let rate = round_f64(largest * share, 6, Direction::Down)?;
     Some(RateWitness { rate, w_x: multipliers.w_x, q, multipliers: multipliers.l })
 }
@@ -53,7 +57,7 @@ fn shifted_dynamics(dynamics: &ErrorDynamics<'_>, rate: f64) -> Option<(Mat<f64>
 
 /// The least symmetric solution of `Q A + A'Q + c e e' + beta Q B B'Q = 0`, from the stable subspace of the Hamiltonian matrix
 /// `[[A, beta B B'], [-c e e', -A']]`: with [X; Y] a basis of it, Q = Y X^-1.
-fn stabilising((a, input): &(Mat<f64>, Vec<f64>), c: f64, beta: f64) -> Option<Mat<f64>> {
+fn stabilising(a: &Mat<f64>, input: &[f64], c: f64, beta: f64) -> Option<Mat<f64>> {
     let n = input.len();
     // Q in the unit root(c/beta), in which both rank-one terms have the same size.
     let (coupling, unit) = ((c * beta).sqrt(), (c / beta).sqrt());
@@ -85,4 +89,30 @@ fn stabilising((a, input): &(Mat<f64>, Vec<f64>), c: f64, beta: f64) -> Option<M
     let quotient = y * x.partial_piv_lu().inverse();
     let q = Mat::from_fn(n, n, |i, j| unit * f64::midpoint(quotient[(i, j)].re, quotient[(j, i)].re));
     (0..n).all(|j| (0..n).all(|i| q[(i, j)].is_finite())).then_some(q)
+}
+
+/// One step of Newton's method: `Q + D` with `D K + K'D = -R`, `K = A + beta B B'Q` and R the left side of the equation at Q.
+fn refined(a: &Mat<f64>, input: &[f64], c: f64, beta: f64, q: &Mat<f64>) -> Option<Mat<f64>> {
+    let n = input.len();
+    let image: Vec<f64> = (0..n).map(|i| (0..n).map(|j| q[(i, j)] * input[j]).sum()).collect();
+    let product = q * a;
+    let residual = Mat::from_fn(n, n, |i, j| {
+        let output = if i == 0 && j == 0 { c } else { 0.0 };
+        product[(i, j)] + product[(j, i)] + output + beta * image[i] * image[j]
+    });
+    let closed = Mat::from_fn(n, n, |i, j| a[(i, j)] + beta * input[i] * image[j]);
+    if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
+        return None;
+    }
+    // In the basis V of eigenvectors of K: (V*D V)_ij = -(V*R V)_ij/(conj(l_i) + l_j).
+    let eigen = closed.eigen().ok()?;
+    let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
+    let vectors = eigen.U().to_owned();
+    let residual = Mat::from_fn(n, n, |i, j| c64::new(residual[(i, j)], 0.0));
+    let inside = vectors.adjoint() * &residual * &vectors;
+    let divided = Mat::from_fn(n, n, |i, j| -inside[(i, j)] / (values[i].conj() + values[j]));
+    let inverse = vectors.partial_piv_lu().inverse();
+    let step = inverse.adjoint() * &divided * &inverse;
+    let better = Mat::from_fn(n, n, |i, j| q[(i, j)] + f64::midpoint(step[(i, j)].re, step[(j, i)].re));
+    (0..n).all(|j| (0..n).all(|i| better[(i, j)].is_finite())).then_some(better)
 }

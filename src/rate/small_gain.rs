@@ -165,18 +165,19 @@ impl SmallGain {
         let (l_x, l_e) = (1.0, from_x / from_e);
         let l_f = if k_f > 0.0 { (from_x / k_f).powi(2) } else { 0.0 };
         let distance = self.x_decay - rate;
-        let w_x = match (self.has_x, k_f > 0.0) {
-            (false, _) => 0.0,
-            (true, true) => distance * l_f / self.root_p_up.powi(2),
-            (true, false) => (k_x * k_x).max(f64::MIN_POSITIVE) / distance,
+        let w_x = match (self.has_x, k_f > 0.0, k_x > 0.0) {
+            (true, true, _) => distance * l_f / self.root_p_up.powi(2),
+            (true, false, true) => k_x * k_x / distance,
+            // Nothing couples x to the rest.
+            (true, false, false) => 1.0,
+            (false, ..) => 0.0,
         };
-        let w_x = if self.has_x && k_f == 0.0 && k_x == 0.0 { 1.0 } else { w_x };
         let inverse = |l: f64, k: f64| if k > 0.0 { 1.0 / l } else { 0.0 };
         Some(Multipliers {
             w_x,
             l: [l_x, l_e, l_f],
             output: from_e * from_e * l_e + from_x * from_x,
-            input: (inverse(l_x, k_x) + inverse(l_e, k_e)).max(1e-3),
+            input_gain: (inverse(l_x, k_x) + inverse(l_e, k_e)).max(1e-3),
         })
     }
 }
@@ -184,14 +185,14 @@ impl SmallGain {
 /// What is left to find Q with.
 #[derive(Clone, Copy, Debug)]
 pub struct Multipliers {
-    /// w_x.
+    /// w_x, positive where there may be an x.
     pub w_x: f64,
     /// l_x, l_e, l_f.
     pub l: [f64; 3],
     /// At least `l_e k_e^2 + l_f k_f^2`, positive.
     pub output: f64,
     /// At least the sum of 1/l_x and 1/l_e over the signals that do not vanish, positive.
-    pub input: f64,
+    pub input_gain: f64,
 }
 
 /// The least value that golden-section search meets between two arguments.
