@@ -104,7 +104,8 @@ impl ErrorDynamics<'_> {
     #[must_use]
     pub fn proves(&self, witness: &RateWitness) -> bool {
         let n = self.oscillators.order() + 1;
-        if witness.q.nrows() != n || witness.q.ncols() != n || (self.bounds.has_x && !(witness.w_x > 0.0)) {
+        let positive = witness.w_x > 0.0 || !self.bounds.has_x;
+        if witness.q.nrows() != n || witness.q.ncols() != n || !positive {
             return false;
         }
         let proved = |matrix: Option<ScaledMatrix>| matrix.is_some_and(|m| m.is_positive_definite() == Truth::True);
@@ -158,7 +159,7 @@ impl<'a> Form<'a> {
         mu_b.extend(oscillators.b.iter().map(|b| &oscillators.mu * b));
         let mut columns = vec![Some((0, number(&dynamics.sigma).negate()))];
         columns.extend((0..n - 1).map(|column| oscillators.phi(column).map(|(row, entry)| (row + 1, entry))));
-        let [l_x, l_e, l_f] = witness.multipliers.map(|l| double(l));
+        let [l_x, l_e, l_f] = witness.multipliers.map(double);
         let multipliers = [l_x?, l_e?, l_f?];
         let [k_x, k_e, k_f] = dynamics.bounds.gains.each_ref().map(|k| number(k).sqr());
         let [l_x, l_e, l_f] = &multipliers;

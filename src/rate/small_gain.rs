@@ -172,6 +172,7 @@ impl SmallGain {
             (true, false, false) => 1.0,
             (false, ..) => 0.0,
         };
+        // 0 for a signal that vanishes; where both do, any positive number serves.
         let inverse = |l: f64, k: f64| if k > 0.0 { 1.0 / l } else { 0.0 };
         Some(Multipliers {
             w_x,
