@@ -42,7 +42,7 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
         return Err(Failure::call(message, "give a gain of at least sigma*, or leave the flag out for sigma* itself"));
     }
     let data = Data::new(&spec, proof.precision);
-    let found = args.n_o.iter().map(|n_o| rates(&data, proof, &sigma, *n_o)).collect();
+    let found = rates(&data, proof, &sigma, &args.n_o);
     let Some(report) = RateReport::new(&run, &sigma, found) else { return Ok(Verdict::Undecided.exit_code()) };
     let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| 0))

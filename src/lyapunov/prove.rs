@@ -156,19 +156,7 @@ impl Entries {
             let proved = definite(self.order, |i, j| self.at(i, j).mean.clone());
             return if proved { Ok(()) } else { Err(failure(0.0)) };
         }
-        let precision = self.lower[0].mean.precision();
-        // Row sums of the bounds of the second derivative.
-        let curvature: Vec<Enclosure> = (0..self.order)
-            .map(|i| {
-                (0..self.order).fold(Enclosure::zero(precision), |sum, j| {
-                    self.at(i, j)
-                        .harmonics
-                        .iter()
-                        .zip(1_i64..)
-                        .fold(sum, |sum, ([a, b], k)| sum + (a.abs() + b.abs()).ceiling() * (k * k))
-                })
-            })
-            .collect();
+        let curvature = self.curvature();
         let cells = 8 * (degree as i64 + 1);
         // 2 pi < 62832/10000.
         let width = Rational::from((62_832, 10_000)) / cells;
@@ -188,6 +176,19 @@ impl Entries {
             }
             Ok(())
         })
+    }
+
+    /// Row sums of the bounds of the second derivative: `sum_j sum_k k^2 (|a_k| + |b_k|)` over the entries of each row.
+    fn curvature(&self) -> Vec<Enclosure> {
+        let precision = self.lower[0].mean.precision();
+        let entry = |i: usize, j: usize| self.at(i, j).harmonics.iter().zip(1_i64..);
+        (0..self.order)
+            .map(|i| {
+                (0..self.order)
+                    .flat_map(|j| entry(i, j))
+                    .fold(Enclosure::zero(precision), |sum, ([a, b], k)| sum + (a.abs() + b.abs()).ceiling() * (k * k))
+            })
+            .collect()
     }
 
     /// Whether the matrix is proved to be positive definite at every angle within `half` of `angle`.
@@ -335,6 +336,34 @@ mod tests {
             Family { deviation: Deviation::Ball(Enclosure::from_rational(&Rational::from((1, 4)), 128)), ..vertices };
         assert_eq!(prove(&ball, &witness((746, 1000))), Ok(()));
         assert!(prove(&ball, &witness((749, 1000))).is_err());
+    }
+
+    /// One cell: what the values and slopes at its middle say, less the curvature over it.
+    #[test]
+    fn a_cell_counts_slope_and_curvature() {
+        let holds = |mean: (i32, i32), harmonics: &[(i64, i64)], half: (i32, i32)| {
+            let integer = |value: i64| Enclosure::from_integer(value, 128);
+            let polynomial = TrigonometricPolynomial {
+                mean: Enclosure::from_rational(&Rational::from(mean), 128),
+                harmonics: harmonics.iter().map(|(a, b)| [integer(*a), integer(*b)]).collect(),
+            };
+            let degree = harmonics.len();
+            let squares: i64 = harmonics.iter().zip(1_i64..).map(|((a, b), k)| (a.abs() + b.abs()) * k * k).sum();
+            let entries = Entries { order: 1, lower: vec![polynomial] };
+            assert_eq!(entries.curvature()[0].lower_rational(), Some(Rational::from(squares)));
+            entries.holds_on(&Rational::new(), &Rational::from(half), degree, &entries.curvature())
+        };
+        // 1/2 + cos a: positive up to 2 pi/3; its tangent at 0 is flat.
+        assert!(holds((1, 2), &[(1, 0)], (1, 10)));
+        assert!(!holds((1, 2), &[(1, 0)], (3, 1)));
+        // cos 3a - 1/10 is negative at 1/2.
+        assert!(holds((-1, 10), &[(0, 0), (0, 0), (1, 0)], (1, 5)));
+        assert!(!holds((-1, 10), &[(0, 0), (0, 0), (1, 0)], (1, 2)));
+        // 1/2 + sin 2a is negative at -3/10, and so is 1/2 - sin 2a at 3/10.
+        for sign in [1, -1] {
+            assert!(holds((1, 1), &[(0, 0), (0, sign)], (3, 10)));
+            assert!(!holds((1, 2), &[(0, 0), (0, sign)], (3, 10)));
+        }
     }
 
     #[test]

@@ -1,21 +1,41 @@
 //! Rates of convergence for a given number of oscillators: they tend to 0 as n_o grows, while sigma* does not move.
 //!
 //! - [`oscillators`]: P_zeta and the decay rate of `Phi - mu M M'N` (Lemma 1 of the paper, P:lemma:hurwitzPhiM);
-//! - [`closed_loop`]: a rate for the closed loop of derivation section 5.
+//! - [`inequality`]: the matrix inequality that proves a rate of the closed loop, for any quadratic Lyapunov function;
+//! - [`small_gain`]: the largest rate that the inequality can prove, in floating point;
+//! - [`riccati`]: the Lyapunov function for it, by a Riccati equation;
+//! - [`by_kappa`]: a rate by the paper's constants c and kappa, for comparison.
 
-pub mod closed_loop;
+pub mod by_kappa;
+pub mod inequality;
 pub mod oscillators;
+pub mod riccati;
+pub mod small_gain;
 
 use crate::certificate::SharpProof;
 use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational};
-use closed_loop::ClosedLoop;
+use by_kappa::RateByKappa;
+use inequality::{ErrorDynamics, LoopBounds};
 use oscillators::{Oscillators, ProvedLyapunov};
 use rug::Rational;
+use small_gain::SmallGain;
 
-/// The largest number of oscillators for which rates are worked out: matrices of order 401.
+/// The largest number of oscillators for which rates are worked out: matrices of order up to 407.
 pub const MAX_OSCILLATORS: u32 = 200;
+
+/// Shares of the spectral abscissa that are tried for the oscillators alone.
+const SHARES: [f64; 7] = [0.9999, 0.999, 0.99, 0.95, 0.9, 0.75, 0.5];
+
+/// How a rate of the closed loop was proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// By a Lyapunov function of its own, from a Riccati equation.
+    Riccati,
+    /// By the paper's c and kappa, from the Lyapunov function of the certificate.
+    Kappa,
+}
 
 /// What was found for one n_o; rates in 1/time.
 #[derive(Clone, Debug)]
@@ -29,29 +49,53 @@ pub struct Rates {
     /// P_zeta of Lemma 1, as its largest eigenvalue relative to N, with the proved rate 1/(2 p) that the lemma gives: every
     /// kappa > 0 is admissible, and the rate of N + kappa P_zeta tends to it as kappa grows.
     pub lemma: Option<(Rational, Rational)>,
-    /// A proved rate of exponential convergence of the closed loop's state to the periodic solution, at the given sigma.
-    pub closed_loop: Option<Enclosure>,
+    /// The best proved rate of exponential convergence of the closed loop's state to the periodic solution, at the given sigma.
+    pub closed_loop: Option<(Rational, Method)>,
+    /// The rate that the paper's c and kappa give, proved.
+    pub by_kappa: Option<Enclosure>,
 }
 
-/// The rates for one n_o at a gain `sigma >= sigma*`.
+/// The rates for several n_o at a gain `sigma >= sigma*`.
 ///
 /// Guarantee: every rate but `spectral` is proved; `None` says that nothing was proved, not that there is none. The rate of the
 /// closed loop holds from the initial set of the proof.
 #[must_use]
-pub fn rates(data: &Data<'_>, proof: &SharpProof, sigma: &Rational, n_o: u32) -> Rates {
+pub fn rates(data: &Data<'_>, proof: &SharpProof, sigma: &Rational, n_o: &[u32]) -> Vec<Rates> {
+    // The error box is proved to be invariant from sigma* on.
+    let bounds = LoopBounds::new(data, &proof.evaluation.error_box).filter(|_| *sigma >= proof.witness.sigma);
+    let by_kappa = RateByKappa::new(data, proof, sigma);
+    n_o.iter().map(|n_o| at(data, sigma, *n_o, bounds.as_ref(), by_kappa.as_ref())).collect()
+}
+
+fn at(
+    data: &Data<'_>,
+    sigma: &Rational,
+    n_o: u32,
+    bounds: Option<&LoopBounds>,
+    by_kappa: Option<&RateByKappa>,
+) -> Rates {
     let system = Oscillators::new(data, n_o);
     let eigen = system.eigen();
     let spectral = eigen.as_ref().map(|eigen| -eigen.abscissa());
-    let at = |rate: f64| eigen.as_ref().and_then(|eigen| system.prove(eigen, rate));
-    let oscillators = spectral.and_then(|spectral| {
-        [0.99, 0.95, 0.9, 0.75, 0.5].iter().find_map(|share| at(share * spectral)).map(|proved| proved.rate)
+    let prove = |rate: f64| eigen.as_ref().and_then(|eigen| system.prove(eigen, rate));
+    let oscillators =
+        spectral.and_then(|spectral| SHARES.iter().find_map(|share| prove(share * spectral)).map(|proved| proved.rate));
+    let lemma: Option<ProvedLyapunov> = prove(0.0);
+    let by_kappa = lemma.as_ref().zip(by_kappa).map(|(lemma, by_kappa)| by_kappa.rate(lemma));
+    let own = bounds.zip(eigen.as_ref()).and_then(|(bounds, eigen)| {
+        let dynamics = ErrorDynamics { oscillators: &system, sigma: sigma.clone(), bounds };
+        let condition = SmallGain::new(&dynamics, eigen.values());
+        riccati::propose_and_prove(&dynamics, &condition).map(|witness| (witness.rate, Method::Riccati))
     });
-    let lemma: Option<ProvedLyapunov> = at(0.0);
-    let closed_loop =
-        lemma.as_ref().and_then(|lemma| ClosedLoop::new(data, proof, sigma).map(|closed_loop| closed_loop.rate(lemma)));
+    let weaker = by_kappa.as_ref().and_then(Enclosure::lower_rational).filter(|rate| *rate > 0);
+    let weaker = weaker.map(|rate| (round_rational(&rate, 6, Direction::Down), Method::Kappa));
+    let closed_loop = match (own, weaker) {
+        (Some(own), Some(weaker)) => Some(if own.0 >= weaker.0 { own } else { weaker }),
+        (own, weaker) => own.or(weaker),
+    };
     let lemma = lemma.map(|lemma| {
         let rate = Rational::from(1) / (lemma.largest.clone() * 2u32);
         (lemma.largest, round_rational(&rate, 6, Direction::Down))
     });
-    Rates { n_o, spectral, oscillators, lemma, closed_loop }
+    Rates { n_o, spectral, oscillators, lemma, closed_loop, by_kappa }
 }

@@ -14,9 +14,9 @@ use rug::Rational;
 pub struct Oscillators {
     order: usize,
     frequency: Enclosure,
-    mu: Enclosure,
+    pub(super) mu: Enclosure,
     /// b, one number for each state; 0 for the second state of an oscillator.
-    b: Vec<Enclosure>,
+    pub(super) b: Vec<Enclosure>,
 }
 
 /// An eigenvalue decomposition of A in floating point.
@@ -29,6 +29,12 @@ pub struct Eigen {
 }
 
 impl Eigen {
+    /// The eigenvalues.
+    #[must_use]
+    pub fn values(&self) -> &[c64] {
+        &self.values
+    }
+
     /// The largest real part.
     #[must_use]
     pub fn abscissa(&self) -> f64 {
@@ -58,8 +64,19 @@ impl Oscillators {
         Oscillators { order: b.len(), frequency: data.base_frequency.clone(), mu: data.mu.clone(), b }
     }
 
+    /// `2 n_o + 1`.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// w in floating point.
+    pub(super) fn base_frequency_f64(&self) -> f64 {
+        self.frequency.midpoint_f64()
+    }
+
     /// `(P Phi)_ij` for column j: where the one entry of that column of Phi stands, and the entry.
-    fn phi(&self, column: usize) -> Option<(usize, Enclosure)> {
+    pub(super) fn phi(&self, column: usize) -> Option<(usize, Enclosure)> {
         let oscillator = column.div_ceil(2) as i64;
         let entry = &self.frequency * oscillator;
         // Phi = l w [[0, 1], [-1, 0]] on the states 2l - 1 and 2l.

@@ -1,12 +1,14 @@
-//! A rate for the closed loop, through U of derivation section 5 and P_zeta of Lemma 1.
+//! A rate for the closed loop by the paper's constants c and kappa (P:eq:derUs), for comparison.
 //!
 //! With `zs = N^(1/2) zt`, `zs' = A zs - b u`, |u| <= k_x xi + k_e |et|, `P A + A'P <= -I`, p the largest eigenvalue of P and
 //! g = |P b|: `(zs'P zs)' <= -|zs|^2 + 2 g |zs| |u| <= -|zs|^2/2 + 4 g^2 (k_x^2 xi^2 + k_e^2 et^2)`. If the quadratic form of C5 is at
 //! least `r_x xi^2 + r_e et^2`, then W = U + eps zs'P zs with `eps <= min{r_x/(8 g^2 k_x^2), r_e/(8 g^2 k_e^2)}` has
 //! `W' <= -(r_x/2) xi^2 - (r_e/2) et^2 - (eps/2) |zs|^2`, and `W <= w_x xi^2 + et^2 + (h + eps p) |zs|^2`. So `W' <= -2 rate W` with
 //! `rate = min{ r_x/(4 w_x), r_e/4, eps/(4 (h + eps p)) }`, in the error box, where C4 keeps the solution: the state converges at
-//! least like exp(-rate t). (The paper's constant c, P:eq:derUs, in the notation above, with the sum of the two terms of u
-//! counted as in `u^2 <= 2 k_x^2 xi^2 + 2 k_e^2 et^2`.)
+//! least like exp(-rate t). The paper's W is U + c (N + kappa P), and its limit for kappa -> oo with eps = c kappa is this one; its
+//! constant nu/(2[...]) has to be nu/(4[...]), because the sum of the two terms of u counts as in `u^2 <= 2 k_x^2 xi^2 + 2 k_e^2 et^2`.
+//!
+//! It uses C5 with the weights of the certificate, which at sigma* leave next to nothing: see [`super::inequality`].
 
 use super::oscillators::ProvedLyapunov;
 use crate::certificate::SharpProof;
@@ -19,7 +21,7 @@ use rug::Rational;
 const HALVINGS: u32 = 30;
 
 /// What does not depend on n_o.
-pub struct ClosedLoop {
+pub struct RateByKappa {
     w_x: Enclosure,
     h: Enclosure,
     k_x: Enclosure,
@@ -28,12 +30,12 @@ pub struct ClosedLoop {
     r_e: Enclosure,
 }
 
-impl ClosedLoop {
+impl RateByKappa {
     /// Proves r_x and r_e at a gain; `None` where C5 is not proved there by its matrix inequality.
     ///
     /// Hypothesis: `sigma >= sigma*` of the proof, so that its error box is that of this gain too.
     #[must_use]
-    pub fn new(data: &Data<'_>, proof: &SharpProof, sigma: &Rational) -> Option<ClosedLoop> {
+    pub fn new(data: &Data<'_>, proof: &SharpProof, sigma: &Rational) -> Option<RateByKappa> {
         let witness = &proof.witness;
         if *sigma < witness.sigma {
             return None;
@@ -73,7 +75,7 @@ impl ClosedLoop {
         }
         let (r_x, r_e) = taken(&proved?);
         let number = |value: &Rational| Enclosure::from_rational(value, data.precision);
-        Some(ClosedLoop {
+        Some(RateByKappa {
             w_x: number(&decay.w_x),
             h: number(&decay.h),
             k_x: number(&decay.k_x),
