@@ -1,6 +1,7 @@
 //! Outward-rounded decimals: how enclosures are written in reports and certificates.
 
 use super::Enclosure;
+use crate::number::positional;
 use rug::Float;
 use rug::float::Round;
 
@@ -36,21 +37,7 @@ fn tidy(text: &str) -> String {
     }
     // The value is 0.significant * 10^point.
     let point = whole.len() as i64 + exponent - leading as i64;
-    let count = significant.len() as i64;
-    if (-5..=0).contains(&point) {
-        format!("{sign}0.{}{significant}", "0".repeat((-point) as usize))
-    } else if point > 0 && point <= 17 {
-        if count <= point {
-            format!("{sign}{significant}{}", "0".repeat((point - count) as usize))
-        } else {
-            let (whole, fraction) = significant.split_at(point as usize);
-            format!("{sign}{whole}.{fraction}")
-        }
-    } else {
-        let (first, rest) = significant.split_at(1);
-        let dot = if rest.is_empty() { "" } else { "." };
-        format!("{sign}{first}{dot}{rest}e{}", point - 1)
-    }
+    positional(sign, significant, point, -5..=17)
 }
 
 impl Enclosure {

@@ -2,6 +2,7 @@
 
 use rug::ops::Pow;
 use rug::{Integer, Rational};
+use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// The longest numeral accepted, in bytes.
@@ -104,20 +105,25 @@ pub fn write_exact(value: &Rational) -> String {
     let significant = text.trim_end_matches('0');
     // value = 0.text * 10^point
     let point = text.len() as i64 - places;
+    positional(sign, significant, point, -6..=15)
+}
+
+/// `0.significant * 10^point` in decimal notation: plain while `point` lies in `plain`, with an exponent otherwise.
+///
+/// Precondition: `significant` are digits, at least one, the first not 0.
+pub(crate) fn positional(sign: &str, significant: &str, point: i64, plain: RangeInclusive<i64>) -> String {
     let count = significant.len() as i64;
-    if (-6..=0).contains(&point) {
-        format!("{sign}0.{}{significant}", "0".repeat((-point) as usize))
-    } else if point > 0 && point <= 15 {
-        if count <= point {
-            format!("{sign}{significant}{}", "0".repeat((point - count) as usize))
-        } else {
-            let (whole, fraction) = significant.split_at(point as usize);
-            format!("{sign}{whole}.{fraction}")
-        }
-    } else {
+    if !plain.contains(&point) {
         let (first, rest) = significant.split_at(1);
         let dot = if rest.is_empty() { "" } else { "." };
         format!("{sign}{first}{dot}{rest}e{}", point - 1)
+    } else if point <= 0 {
+        format!("{sign}0.{}{significant}", "0".repeat((-point) as usize))
+    } else if count <= point {
+        format!("{sign}{significant}{}", "0".repeat((point - count) as usize))
+    } else {
+        let (whole, fraction) = significant.split_at(point as usize);
+        format!("{sign}{whole}.{fraction}")
     }
 }
 

@@ -12,6 +12,7 @@ mod short;
 
 pub use bernoulli::bernoulli_over_factorial;
 pub use constant::Monomial;
+pub(crate) use decimal::positional;
 pub use decimal::{DecimalError, MAX_EXPONENT, MAX_LENGTH, parse_decimal, write_exact};
 pub use portable::Portable;
 pub use short::{Direction, round_f64, round_rational};
