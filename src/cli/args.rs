@@ -427,6 +427,11 @@ pub struct FalsifyArgs {
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     pub seed: u64,
 
+    /// Also certify the specification at these other base frequencies, exact positive constants separated by commas, and
+    /// try those certificates
+    #[arg(long, value_name = "LIST", value_delimiter = ',', allow_hyphen_values = true)]
+    pub base_frequency: Vec<String>,
+
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = SimulationFormat::Text)]
     pub format: SimulationFormat,

@@ -29,8 +29,8 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// For steady states: a little above rounding.
-    pub const TIGHT: Tolerance = Tolerance { relative: 1e-13, absolute: 1e-14 };
+    /// For steady states: at rounding, which is then all that is left of the harmonics that oscillators block.
+    pub const TIGHT: Tolerance = Tolerance { relative: 1e-15, absolute: 1e-16 };
     /// For long runs.
     pub const ORDINARY: Tolerance = Tolerance { relative: 1e-9, absolute: 1e-11 };
 }
