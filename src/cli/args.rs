@@ -286,7 +286,7 @@ pub struct ControllerArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: String,
 
-    /// The number of oscillators n_o
+    /// The number of oscillators n_o (the high-gain feedback u = -sigma e needs no file: see `simulate --high-gain`)
     #[arg(long, value_name = "N",
           value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_EXPORTED_OSCILLATORS)))]
     pub n_o: u32,
