@@ -67,6 +67,11 @@ fn the_two_methods_and_the_seeds() {
     let base = ["simulate", EXAMPLE, "--sigma", "5", "--n-o", "1", "--periods", "4", "--format", "json"];
     let adaptive = json(&base);
     let fixed = json(&[&base[..], &["--fixed", "1000"]].concat());
+    // Settled: the last period that changes by more than 1e-6 is the one before.
+    let long = json(&["simulate", EXAMPLE, "--sigma", "5", "--n-o", "0", "--periods", "40", "--format", "json"]);
+    let settled = long["long_run"]["settled_period"].as_u64().unwrap() as usize;
+    let change = |period: usize| long["long_run"]["return_distances"][period - 1].as_f64().unwrap();
+    assert!(change(settled - 1) > 1e-6 && change(settled) < 1e-5, "{settled}");
     let at = |value: &Value| value["long_run"]["rms_e_last_period"].as_f64().unwrap();
     assert!((at(&adaptive) / at(&fixed) - 1.0).abs() < 1e-6);
     let noisy = |seed: &str, more: &[&str]| {

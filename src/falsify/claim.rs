@@ -101,7 +101,7 @@ impl Claim {
         let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
         let initial = [set.x0.to_f64(), set.e0.to_f64(), set.z0.to_f64()];
         let reach = match &spec.domain {
-            Some(domain) => [&domain.x, &domain.e].map(|end| data_end(end)),
+            Some(domain) => [&domain.x, &domain.e].map(data_end),
             // Rounded up: plants within the bounding functions on a larger box are within them on a smaller one.
             None => [(x, x_p, error_box[0]), (e, e_p, error_box[1])].map(|(per, p, radius)| {
                 Rational::from_f64((per + radius).max(p.to_f64()) * 1.001).unwrap_or_else(|| Rational::from(1))
@@ -112,7 +112,6 @@ impl Claim {
             [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]
         };
         let (sigma, witness) = (sigma.to_f64(), [x_p.clone(), e_p.clone()]);
-        drop(data);
         Claim { spec, derivation, sigma, initial, periodic, periodic_z: z, error_box, lyapunov, psi, reach, witness }
     }
 

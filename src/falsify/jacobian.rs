@@ -280,4 +280,40 @@ mod tests {
         assert!(condition_holds(&triple("1", "0.74"), &family, &DMatrix::identity(2, 2), 1.0));
         assert!(!condition_holds(&triple("1", "0.76"), &family, &DMatrix::identity(2, 2), 1.0));
     }
+
+    #[test]
+    fn members_of_a_jacobian_are_within_its_intervals() {
+        let text = include_str!("../../specs/paper-example-jacobian.json");
+        let mut spec = Specification::from_json("jacobian", text).unwrap();
+        let jacobian = spec.lyapunov.jacobian().unwrap().clone();
+        let one = Constant::rational(&Rational::from(1));
+        // The triple does not matter to what is drawn.
+        let triple = Lyapunov { p_low: one.clone(), p_up: one.clone(), alpha: one };
+        let matrix = PeriodicMatrix { mean: Vec::new(), harmonics: Vec::new() };
+        spec.lyapunov = LyapunovSource::Proved { jacobian: jacobian.clone(), triple, matrix };
+        let claim = Claim::for_tests(spec, [10.0, 10.0]);
+        let (mut random, mut largest) = (Random::new(7, 8), 0.0_f64);
+        for _ in 0..20 {
+            let drawn = draw(&claim, Clock { period: "1", multiple: 1 }, 0.0, &mut random).unwrap();
+            let family = family(&claim, &drawn.rows).unwrap();
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let [low, high] = match &jacobian.rows[i][j] {
+                    JacobianEntry::Function(expr) => [expr.to_float().eval(0.0, 0.0); 2],
+                    JacobianEntry::Interval(ends) => [ends[0].to_f64(), ends[1].to_f64()],
+                };
+                for k in 0..16 {
+                    let angle = Enclosure::pi(DEFAULT_PRECISION) * k / 8;
+                    let value = family.centre[i][j].at(&angle).midpoint_f64();
+                    assert!(low - 1e-12 <= value && value <= high + 1e-12, "{i} {j}: {value}");
+                    if low < high {
+                        largest = largest.max((value - 0.5 * (low + high)).abs() / (0.5 * (high - low)));
+                    }
+                }
+            }
+        }
+        assert!(largest > 0.99, "{largest}");
+        let ends = [Constant::rational(&Rational::from(1)), Constant::rational(&Rational::from(2))];
+        assert!(lies_between(&claim, "1.5 + 0.3*cos(2*pi*t) + 0.39*sin(2*pi*t)", &ends));
+        assert!(!lies_between(&claim, "1.5 + 0.31*cos(2*pi*t) + 0.4*sin(2*pi*t)", &ends));
+    }
 }

@@ -96,7 +96,7 @@ mod tests {
             ("2*X + X^2/100", "2*X + E/4", false),
             // Below almost everywhere: only close to X = 1, E = 0 the first is larger.
             ("X*(2 - X)*(1 - min(E*1000, 1))", "0.999", false),
-            ("1.9*X + E*min(X, 3)", "2*X + X*E", true),
+            ("1.9*X + E*(0.1 + 0.9*min(X, 3))", "2*X + E*(X + 0.2)", true),
             ("1.9*X + E*(0.1 + min(X, 3))", "2*X + X*E", false),
             ("0.3 + min(E, 0.7)", "0.3 + atan(2*E)", true),
             ("0.3 + min(E, 1.6)", "0.3 + atan(2*E)", false),

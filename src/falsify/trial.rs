@@ -255,3 +255,33 @@ fn check_approach(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop, orbit:
         checks.at_most("Lyapunov function on the way, against its start", level[1], level[0]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::Specification;
+
+    #[test]
+    fn bounds_are_exceeded_by_more_than_the_tolerance() {
+        for (found, holds) in [(0.5, true), (1.0 + 1e-7, true), (1.0 + 2e-6, false), (f64::NAN, false)] {
+            let mut checks = Checks { shares: Vec::new(), violation: None };
+            checks.at_most("quantity", found, 1.0);
+            assert_eq!(checks.violation.is_none(), holds, "{found}");
+        }
+    }
+
+    #[test]
+    fn trials_start_on_the_boundary() {
+        let spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
+        let mut claim = Claim::for_tests(spec, [3.0, 3.0]);
+        claim.initial = [2.0, 0.5, 7.0];
+        let mut random = Random::new(3, 4);
+        let plant = draw(&claim, &mut random).unwrap();
+        let regulator = regulator(&claim, claim.sigma, 3);
+        let start = start(&claim, &plant, &regulator, &mut random);
+        let n = plant.family.states();
+        assert!((norm(&start[..n]) - 2.0).abs() < 1e-5 && start[n].abs() == 0.5);
+        assert!((regulator.weighted_norm(&start[n + 1..]) - 7.0).abs() < 1e-12);
+        assert_eq!(start.len(), n + 1 + 7);
+    }
+}
