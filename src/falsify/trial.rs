@@ -14,7 +14,7 @@ use rayon::prelude::*;
 /// The numbers of oscillators that are tried.
 const OSCILLATORS: [u32; 6] = [0, 1, 2, 3, 5, 8];
 /// Draws before a trial is given up.
-const DRAWS: usize = 5;
+const DRAWS: usize = 30;
 /// How far above sigma* a trial is.
 const ABOVE: f64 = 1.0 + 1e-6;
 /// What a bound may be exceeded by before it counts: integration and rounding.
