@@ -102,7 +102,7 @@ fn run_c(folder: &Path, n_o: u32, steps: u32) -> Vec<u64> {
     let (main_file, program): (PathBuf, PathBuf) = (folder.join("main.c"), folder.join("main"));
     std::fs::write(&main_file, main).unwrap();
     let gcc = Process::new("gcc")
-        .args(["-std=c99", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wno-long-long", "-Werror", "-o"])
+        .args(["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", "-o"])
         .args([&program, &source, &main_file])
         .output()
         .unwrap();
@@ -118,7 +118,7 @@ fn c_code_agrees_with_the_stepper_bit_for_bit() {
         return;
     }
     let spec = example();
-    for n_o in [0, 1, 7] {
+    for n_o in [0, 1, 7, 50] {
         let folder = tempfile::tempdir().unwrap();
         let outputs = run_c(folder.path(), n_o, 3000);
         let design = Design::new(&spec.internal_model, &constant("97/2"), n_o);
@@ -208,6 +208,10 @@ fn wrong_calls_are_refused() {
         (&[spec, "--sigma", "0", "--n-o", "1"][..], "must be positive"),
         (&[spec, "--sigma", "2+", "--n-o", "1"], "ends where more is needed"),
         (&[spec, "--sigma", "1e400", "--n-o", "1"], "beyond double precision"),
+        (&[spec, "--sigma", "1e-400", "--n-o", "1"], "beyond double precision"),
+        (&[spec, "--sigma", "NaN", "--n-o", "1"], "`NaN` is not a known name"),
+        (&[spec, "--sigma", "1/0", "--n-o", "1"], "no value that can be enclosed"),
+        (&[spec, "--sigma", "2", "--n-o", "1", "--discretise", "1e-400"], "beyond double precision"),
         (&[spec, "--sigma", "2", "--n-o", "1001"], "1001 is not in"),
         (&[spec, "--sigma", "2", "--n-o", "1", "--format", "npz"], "name a file with -o"),
         (&[spec, "--sigma", "2", "--n-o", "1", "--format", "c", "-o", "/tmp/x.c"], "--discretise"),

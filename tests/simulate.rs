@@ -49,6 +49,17 @@ fn an_exported_regulator_gives_the_same_simulation() {
     let read = json(&[&["simulate", EXAMPLE, "--controller", file.to_str().unwrap()][..], &short].concat());
     assert_eq!(direct, read);
     assert_eq!(direct["steady_state"]["multipliers"].as_array().unwrap().len(), 10);
+    // The high-gain feedback has no file; the error says what to use.
+    let empty =
+        r#"{"format": "sigmastar/controller", "version": 1, "sigma": 2, "mu": 1, "frequencies": [], "weights": []}"#;
+    std::fs::write(&file, empty).unwrap();
+    sigmastar(&["simulate", EXAMPLE, "--controller"])
+        .arg(&file)
+        .assert()
+        .code(2)
+        .stderr(predicate::str::contains("--high-gain --sigma"));
+    let high_gain = json(&["simulate", EXAMPLE, "--sigma", "2", "--high-gain", "--periods", "2", "--format", "json"]);
+    assert!((high_gain["steady_state"]["sup_e"].as_f64().unwrap() - 1.2555).abs() < 1e-4);
 }
 
 #[test]
@@ -56,6 +67,11 @@ fn the_two_methods_and_the_seeds() {
     let base = ["simulate", EXAMPLE, "--sigma", "5", "--n-o", "1", "--periods", "4", "--format", "json"];
     let adaptive = json(&base);
     let fixed = json(&[&base[..], &["--fixed", "1000"]].concat());
+    // Settled: the last period that changes by more than 1e-6 is the one before.
+    let long = json(&["simulate", EXAMPLE, "--sigma", "5", "--n-o", "0", "--periods", "40", "--format", "json"]);
+    let settled = long["long_run"]["settled_period"].as_u64().unwrap() as usize;
+    let change = |period: usize| long["long_run"]["return_distances"][period - 1].as_f64().unwrap();
+    assert!(change(settled - 1) > 1e-6 && change(settled) < 1e-5, "{settled}");
     let at = |value: &Value| value["long_run"]["rms_e_last_period"].as_f64().unwrap();
     assert!((at(&adaptive) / at(&fixed) - 1.0).abs() < 1e-6);
     let noisy = |seed: &str, more: &[&str]| {
@@ -166,60 +182,120 @@ fn certificate(name: &str, folder: &Path) -> Value {
 }
 
 /// Runs `falsify` on a certificate and returns the exit code, the report and the counterexample, if one was written.
-fn falsify(certificate: &Value, folder: &Path, trials: &str) -> (i32, Value, Option<String>) {
+fn falsify(certificate: &Value, folder: &Path, trials: &str, more: &[&str]) -> (i32, Value, Option<String>) {
     let file = folder.join("tried.json");
     let counterexample = folder.join("counterexample.json");
     std::fs::write(&file, certificate.to_string()).unwrap();
     let _ = std::fs::remove_file(&counterexample);
     let mut command = sigmastar(&["falsify", "--trials", trials, "--format", "json", "--quiet", "-o"]);
-    let output = command.arg(&counterexample).arg(&file).output().unwrap();
+    let output = command.arg(&counterexample).arg(&file).args(more).output().unwrap();
     let report = serde_json::from_slice(&output.stdout).unwrap();
     (output.status.code().unwrap(), report, std::fs::read_to_string(counterexample).ok())
 }
 
 #[test]
 fn shipped_certificates_withstand_the_trials() {
-    for name in ["paper-example", "linear", "no-x"] {
+    for name in ["paper-example", "linear", "no-x", "paper-example-jacobian"] {
         let folder = tempfile::tempdir().unwrap();
-        let (code, report, counterexample) = falsify(&certificate(name, folder.path()), folder.path(), "6");
+        let (code, report, counterexample) = falsify(&certificate(name, folder.path()), folder.path(), "4", &[]);
         assert_eq!((code, counterexample), (0, None), "{name}: {report}");
         let trials = report["trials"].as_array().unwrap();
-        assert!(trials.len() == 6 && trials.iter().all(|trial| trial["finding"] == "holds"), "{name}: {report}");
+        assert!(trials.len() == 4 && trials.iter().all(|trial| trial["finding"] == "holds"), "{name}: {report}");
     }
 }
 
 #[test]
-fn false_certificates_are_refuted_with_a_counterexample() {
+fn other_base_frequencies_are_certified_and_tried() {
     let folder = tempfile::tempdir().unwrap();
-    let honest = certificate("paper-example", folder.path());
-    for (pointer, value, quantity) in [
+    let more = ["--base-frequency", "19*pi/10,2*pi"];
+    let (code, report, _) = falsify(&certificate("no-x", folder.path()), folder.path(), "3", &more);
+    assert_eq!(code, 0, "{report}");
+    let others = report["other_base_frequencies"].as_array().unwrap();
+    assert_eq!(others.len(), 2);
+    // Only at 2 pi/T are there bounds that fall with n_o.
+    for (other, matched) in others.iter().zip([false, true]) {
+        let shares = other["trials"][0]["shares"].as_array().unwrap();
+        let by_n_o = shares.iter().any(|share| share["quantity"] == "rms(e) against its bound for this n_o");
+        assert_eq!(by_n_o, matched, "{other}");
+    }
+    assert!(others[0]["sigma_star"].as_f64().unwrap() > others[1]["sigma_star"].as_f64().unwrap());
+    for (frequencies, message) in [("0", "must be positive"), ("2*pi,", "is empty"), ("pi+", "more is needed")] {
+        let file = folder.path().join("tried.json");
+        let arguments = ["falsify", "--base-frequency", frequencies];
+        sigmastar(&arguments).arg(&file).assert().code(2).stdout("").stderr(predicate::str::contains(message));
+    }
+}
+
+/// The simulation that the description of a counterexample names.
+fn simulated_again(counterexample: &str, more: &[&str]) -> Value {
+    let plant: Value = serde_json::from_str(counterexample).unwrap();
+    let description = plant["description"].as_str().unwrap();
+    let words: Vec<&str> = description.split_whitespace().collect();
+    let after = |flag: &str| words[words.iter().position(|word| *word == flag).unwrap() + 1].trim_end_matches('.');
+    let arguments = ["simulate", "-", "--sigma", after("--sigma"), "--n-o", after("--n-o"), "--format", "json", "-q"];
+    let output = sigmastar(&arguments).args(more).write_stdin(counterexample).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{counterexample}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn false_certificates_are_refuted_with_a_counterexample() {
+    for (name, pointer, value, quantity) in [
+        // A gain that is far too small, and nothing else wrong: sigma*/50 and less.
+        ("paper-example", "/claim/sigma_star", "9/10", "|e - e_p| on the way, against D_e"),
+        ("no-x", "/claim/sigma_star", "1/230", "|e - e_p| on the way, against D_e"),
+        ("linear", "/claim/sigma_star", "1/700", "Lyapunov function on the way, against its start"),
         // A periodic solution far smaller than it is.
-        ("/witness/E_p", "0.002", "sup|e| of the periodic solution"),
-        ("/claim/periodic_solution/zeta", "1/10", "sup|zeta|_N of the periodic solution"),
+        ("no-x", "/witness/E_p", "0.002", "sup|e| of the periodic solution"),
+        ("no-x", "/claim/periodic_solution/zeta", "1/10", "sup|zeta|_N of the periodic solution"),
+        ("no-x", "/claim/periodic_solution/z", "1/10", "sup|z|_N of the periodic solution"),
         // An initial set that the error box does not hold.
-        ("/claim/initial_set/X0", "9.9", "against D_x"),
+        ("linear", "/claim/initial_set/X0", "99", "against D_x"),
         // An error box that solutions leave.
-        ("/witness/D_e", "1/100", "against D_e"),
+        ("no-x", "/witness/D_e", "1/100", "against D_e"),
     ] {
-        let mut altered = honest.clone();
+        let folder = tempfile::tempdir().unwrap();
+        let mut altered = certificate(name, folder.path());
         *altered.pointer_mut(pointer).unwrap() = Value::String(value.to_owned());
-        let (code, report, counterexample) = falsify(&altered, folder.path(), "12");
+        let (code, report, counterexample) = falsify(&altered, folder.path(), "8", &[]);
         assert_eq!(code, 1, "{pointer}: {report}");
+        assert_eq!(report["refuted"], true);
         let counterexample = counterexample.expect(pointer);
         assert!(counterexample.contains(quantity), "{pointer}: {counterexample}");
-        // It is a plant file, and what it says can be seen again.
-        let plant: Value = serde_json::from_str(&counterexample).unwrap();
-        let description = plant["description"].as_str().unwrap();
-        let words: Vec<&str> = description.split_whitespace().collect();
-        let after = |flag: &str| words[words.iter().position(|word| *word == flag).unwrap() + 1].trim_end_matches('.');
-        let arguments = ["simulate", "-", "--sigma", after("--sigma"), "--n-o", after("--n-o"), "--format", "json"];
-        let output = sigmastar(&arguments).write_stdin(counterexample.clone()).output().unwrap();
-        let again: Value = serde_json::from_slice(&output.stdout).unwrap();
-        assert_eq!(output.status.code(), Some(0), "{again}");
-        if pointer == "/witness/E_p" {
-            assert!(again["steady_state"]["sup_e"].as_f64().unwrap() > 0.002, "{again}");
-        }
+        let again = simulated_again(&counterexample, &["--periods", "2"]);
+        let steady = again["steady_state"]["sup_e"].as_f64().unwrap();
+        assert!(pointer != "/witness/E_p" || steady > 0.002, "{again}");
     }
+}
+
+/// What the guide tells a user to do: the samples of a counterexample show the violation.
+#[test]
+fn a_counterexample_can_be_seen_in_its_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut altered = certificate("no-x", folder.path());
+    altered["claim"]["sigma_star"] = Value::String("1/230".to_owned());
+    let radius: f64 = altered["witness"]["D_e"].as_str().unwrap().parse().unwrap();
+    let (_, report, counterexample) = falsify(&altered, folder.path(), "8", &[]);
+    let found = report["trials"].as_array().unwrap().iter().find(|trial| trial["finding"] == "violated").unwrap();
+    let csv = folder.path().join("samples.csv");
+    let again = simulated_again(&counterexample.unwrap(), &["--periods", "12", "--csv", csv.to_str().unwrap()]);
+    let text = std::fs::read_to_string(csv).unwrap();
+    let e = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap().abs());
+    let largest = e.fold(0.0, f64::max);
+    let periodic = again["steady_state"]["sup_e"].as_f64().unwrap();
+    let distance = found["found"].as_f64().unwrap();
+    assert!(radius < distance && (largest - distance).abs() <= periodic * 1.001, "{largest} {distance} {periodic}");
+}
+
+#[test]
+fn a_triple_that_is_not_proved_draws_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut altered = certificate("paper-example-jacobian", folder.path());
+    altered["witness"]["lyapunov"]["alpha"] = Value::String("2".to_owned());
+    let file = folder.path().join("altered.json");
+    std::fs::write(&file, altered.to_string()).unwrap();
+    let assert = sigmastar(&["falsify", "--trials", "1"]).arg(&file).assert();
+    assert.code(2).stdout("").stderr(predicate::str::contains("this triple is not proved"));
 }
 
 #[test]

@@ -286,7 +286,7 @@ pub struct ControllerArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: String,
 
-    /// The number of oscillators n_o
+    /// The number of oscillators n_o (the high-gain feedback u = -sigma e needs no file: see `simulate --high-gain`)
     #[arg(long, value_name = "N",
           value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_EXPORTED_OSCILLATORS)))]
     pub n_o: u32,
@@ -426,6 +426,11 @@ pub struct FalsifyArgs {
     /// Seed of the random numbers; the same seed gives the same trials
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     pub seed: u64,
+
+    /// Also certify the specification at these other base frequencies, exact positive constants separated by commas, and
+    /// try those certificates
+    #[arg(long, value_name = "LIST", value_delimiter = ',', allow_hyphen_values = true)]
+    pub base_frequency: Vec<String>,
 
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = SimulationFormat::Text)]

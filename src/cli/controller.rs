@@ -30,7 +30,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let design = Design::new(&spec.internal_model, &sigma, args.n_o);
     let regulator = design.regulator();
     let discrete = step.map(|step| design.discretise(&step));
-    if !regulator.is_finite() || !discrete.as_ref().is_none_or(Discrete::is_finite) {
+    if !regulator.is_representable() || !discrete.as_ref().is_none_or(Discrete::is_representable) {
         return Err(Failure::call(
             "a number of this regulator is beyond double precision",
             "use units of time in which the gains, frequencies and sampling time have ordinary magnitudes",

@@ -6,7 +6,9 @@ use super::input;
 use super::output::{self, OutputFile};
 use super::progress::Bar;
 use sigmastar::certificate::Verdict;
-use sigmastar::falsify::{Claim, Finding, Settings, counterexample_plant, falsify, json, text};
+use sigmastar::falsify::{
+    Claim, Finding, FrequencyError, Outcome, Settings, counterexample_plant, falsify, json, text, with_base_frequency,
+};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &FalsifyArgs) -> u8 {
@@ -16,13 +18,31 @@ pub fn run(args: &FalsifyArgs) -> u8 {
 fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let what = "the counterexample";
     let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.certificate, what)).transpose()?;
-    let claim = Claim::from_document(&input::document(&args.certificate)?)?;
-    let bar = Bar::new(u64::from(args.trials), args.quiet);
+    let others: Vec<_> =
+        args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
+    let mut claims = vec![Claim::from_document(&input::document(&args.certificate)?)?];
+    for frequency in &others {
+        let claim = with_base_frequency(&claims[0], frequency).map_err(|error| match error {
+            FrequencyError::Specification(errors) => Failure::from(errors),
+            error @ FrequencyError::NotCertified { .. } => {
+                Failure::call(error.to_string(), "see why with `certify`, or leave this base frequency out")
+            }
+        })?;
+        claims.push(claim);
+    }
     let settings = Settings { trials: u64::from(args.trials), seed: args.seed };
-    let outcome = falsify(&claim, settings, &bar);
+    let bar = Bar::new(u64::from(args.trials) * claims.len() as u64, args.quiet);
+    let outcomes: Vec<(Claim, Outcome)> = claims
+        .into_iter()
+        .map(|claim| {
+            let outcome = falsify(&claim, settings, &bar);
+            (claim, outcome)
+        })
+        .collect();
     bar.finish();
-    if let (Some(file), Some((trial, violation))) = (&output, outcome.counterexample()) {
-        file.write(counterexample_plant(&claim, trial, Some(violation))?.text())?;
+    let broken = outcomes.iter().find_map(|(claim, outcome)| Some((claim, outcome.counterexample()?)));
+    if let (Some(file), Some((claim, (trial, violation)))) = (&output, broken) {
+        file.write(counterexample_plant(claim, trial, Some(violation))?.text())?;
         if !args.quiet {
             output::remark(&format!(
                 "the counterexample is in `{}`; see it with: sigmastar simulate {} --sigma {:?} --n-o {}",
@@ -34,16 +54,31 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
         }
     }
     let report = match args.format {
-        SimulationFormat::Text => text(&claim, &outcome),
-        SimulationFormat::Json => output::json_text(&json(&claim, &outcome)),
+        SimulationFormat::Text => {
+            outcomes.iter().map(|(claim, outcome)| text(claim, outcome)).collect::<Vec<_>>().join("\n")
+        }
+        SimulationFormat::Json => output::json_text(&as_json(&outcomes)),
     };
     if let Err(code) = output::data(&report) {
         return Ok(code);
     }
-    let held = outcome.findings.iter().any(|finding| matches!(finding, Finding::Holds { .. }));
-    Ok(match outcome.counterexample() {
+    let held = |(_, outcome): &(Claim, Outcome)| {
+        outcome.findings.iter().any(|finding| matches!(finding, Finding::Holds { .. }))
+    };
+    Ok(match broken {
         Some(_) => Verdict::Refuted.exit_code(),
-        None if held => 0,
+        None if outcomes.iter().all(held) => 0,
         None => Verdict::Undecided.exit_code(),
     })
+}
+
+/// The report on the certificate, with those at other base frequencies in a field of their own.
+fn as_json(outcomes: &[(Claim, Outcome)]) -> serde_json::Value {
+    let mut reports = outcomes.iter().map(|(claim, outcome)| json(claim, outcome));
+    let mut first = reports.next().unwrap_or_default();
+    let others: Vec<serde_json::Value> = reports.collect();
+    if !others.is_empty() {
+        first["other_base_frequencies"] = others.into();
+    }
+    first
 }

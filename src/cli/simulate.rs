@@ -31,7 +31,10 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     };
     let power = power.map(|power| power.to_f64());
     let period = plant.period.to_f64();
-    if !regulator.is_finite() || !power.is_none_or(f64::is_finite) || !period.is_normal() {
+    if !regulator.is_representable()
+        || !power.is_none_or(|power| power > 0.0 && power.is_finite())
+        || !period.is_normal()
+    {
         let help = "use units of time in which the gains, frequencies and the period have ordinary magnitudes";
         return Err(Failure::call("a number of this simulation is beyond double precision", help));
     }

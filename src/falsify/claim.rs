@@ -1,6 +1,6 @@
 //! What a certificate claims, as a simulation can check it.
 
-use crate::certificate::{WitnessFile, read_witness};
+use crate::certificate::{Derivation, WitnessFile, read_lyapunov, read_witness, resolve_with};
 use crate::constants::consequences::{ErrorBounds, Psi, error_bounds};
 use crate::constants::existence::PeriodicBounds;
 use crate::data::Data;
@@ -11,8 +11,10 @@ use rug::Rational;
 /// The claim of a certificate in double precision.
 #[derive(Clone, Debug)]
 pub struct Claim {
-    /// The specification inside the certificate.
+    /// The specification inside the certificate, with its triple where that is proved by the witness.
     pub spec: Specification,
+    /// The derivation that the claim rests on.
+    pub derivation: Derivation,
     /// sigma*.
     pub sigma: f64,
     /// X0, E0, Z0: the initial set.
@@ -20,21 +22,26 @@ pub struct Claim {
     /// Bounds of sup|x|, sup|e| and sup|zeta|_N along the periodic solution: the smaller of the claim's and the
     /// witness's.
     pub periodic: [f64; 3],
-    /// D_x, D_e: the error box, where the derivation has one.
-    pub error_box: Option<[f64; 2]>,
+    /// The bound of sup|z|_N along the periodic solution.
+    pub periodic_z: f64,
+    /// D_x, D_e: the error box.
+    pub error_box: [f64; 2],
+    /// w_x P_low, w_x P_up and h of the Lyapunov function w_x x'P_x x + e^2 + h z'N z in error coordinates, where the
+    /// derivation has one of this form.
+    pub lyapunov: Option<[f64; 3]>,
     /// psi_1 and psi_x: sup|e| <= psi_1/sigma and sup|x| <= psi_x/sigma.
     pub psi: [f64; 2],
-    /// The arguments up to which plants have to lie within the bounding functions.
-    pub reach: [f64; 2],
+    /// The arguments up to which plants lie within the bounding functions: the domain, or what the claim rests on.
+    pub reach: [Rational; 2],
     witness: [Rational; 2],
 }
 
 impl Claim {
-    /// Reads the claim, the witness and the specification of a certificate. Nothing is checked: what a falsified
-    /// certificate says is taken as it is.
+    /// Reads the claim, the witness and the specification of a certificate. What a falsified certificate says is taken
+    /// as it is; only a triple for a Jacobian is proved again, because the matrices that are drawn rest on it.
     ///
     /// # Errors
-    /// What cannot be read, in its place.
+    /// What cannot be read, in its place, and a triple that is not proved.
     pub fn from_document(document: &Document) -> Result<Claim, SpecErrors> {
         let witness = read_witness(document)?;
         let mut errors = Errors::new();
@@ -44,43 +51,68 @@ impl Claim {
             let reported: Result<Claim, Reported> = Err(errors.report(error));
             return errors.conclude(document, reported);
         };
-        let spec = Specification::from_value(&embedded)?;
-        let stated = ["x", "e", "zeta"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
-            Some(value) => bound(&value, &mut errors),
-            None => {
-                let message = format!("the bound `periodic_solution.{name}` is missing");
-                Err(errors.report(root.error(ErrorKind::MissingField, message)))
-            }
-        });
-        let [x, e, zeta] = stated;
-        let stated = x.and_then(|x| Ok([x, e?, zeta?]));
+        let mut spec = Specification::from_value(&embedded)?;
+        if spec.lyapunov.triple().is_none() {
+            let triple = read_lyapunov(document)?;
+            let place = document.at("/witness/lyapunov").unwrap_or(root.clone());
+            spec = match resolve_with(&spec, &triple) {
+                Some(Ok(proved)) => proved,
+                Some(Err(failure)) => {
+                    let error = place.error(ErrorKind::Range, format!("this triple is not proved: {failure}"));
+                    let error = error.help("`sigmastar check` decides the certificate");
+                    let reported: Result<Claim, Reported> = Err(errors.report(error));
+                    return errors.conclude(document, reported);
+                }
+                None => spec,
+            };
+        }
+        let stated =
+            ["x", "e", "zeta", "z"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
+                Some(value) => bound(&value, &mut errors),
+                None => {
+                    let message = format!("the bound `periodic_solution.{name}` is missing");
+                    Err(errors.report(root.error(ErrorKind::MissingField, message)))
+                }
+            });
+        let [x, e, zeta, z] = stated;
+        let stated = x.and_then(|x| Ok([x, e?, zeta?, z?]));
         let stated = errors.conclude(document, stated)?;
         Ok(Claim::new(spec, &witness, stated))
     }
 
-    fn new(spec: Specification, witness: &WitnessFile, stated: [f64; 3]) -> Claim {
-        let (sigma, set, x_p, e_p, error_box) = match witness {
+    fn new(spec: Specification, witness: &WitnessFile, [x, e, zeta, z]: [f64; 4]) -> Claim {
+        let data = Data::new(&spec, DEFAULT_PRECISION);
+        let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
+        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match witness {
             WitnessFile::Sharp { witness, .. } => {
                 let radii = [witness.d_x.to_f64(), witness.d_e.to_f64()];
-                (&witness.sigma, &witness.set, &witness.x_p, &witness.e_p, Some(radii))
+                let w_x = witness.w_x.to_f64();
+                let lyapunov = Some([w_x * p_low, w_x * p_up, witness.h.to_f64()]);
+                let periodic = [&witness.x_p, &witness.e_p];
+                (Derivation::Sharp, &witness.sigma, &witness.set, periodic, radii, lyapunov)
             }
-            WitnessFile::Repaired { witness } => (&witness.sigma, &witness.set, &witness.x, &witness.e, None),
+            WitnessFile::Repaired { witness } => {
+                let level = witness.level.to_f64();
+                let radii = [(level / p_low).sqrt(), level.sqrt()];
+                let periodic = [&witness.x, &witness.e];
+                (Derivation::Repaired, &witness.sigma, &witness.set, periodic, radii, None)
+            }
         };
-        let periodic = [stated[0].min(x_p.to_f64()), stated[1].min(e_p.to_f64()), stated[2]];
+        let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
         let initial = [set.x0.to_f64(), set.e0.to_f64(), set.z0.to_f64()];
-        let [radius_x, radius_e] =
-            error_box.unwrap_or([4.0 * (initial[0] + periodic[0]), 4.0 * (initial[1] + periodic[1])]);
         let reach = match &spec.domain {
-            Some(domain) => [domain.x.to_f64(), domain.e.to_f64()],
-            None => [2.0 * (stated[0] + radius_x), 2.0 * (stated[1] + radius_e)],
+            Some(domain) => [&domain.x, &domain.e].map(data_end),
+            // Rounded up: plants within the bounding functions on a larger box are within them on a smaller one.
+            None => [(x, x_p, error_box[0]), (e, e_p, error_box[1])].map(|(per, p, radius)| {
+                Rational::from_f64((per + radius).max(p.to_f64()) * 1.001).unwrap_or_else(|| Rational::from(1))
+            }),
         };
         let psi = {
-            let data = Data::new(&spec, DEFAULT_PRECISION);
             let psi = Psi::new(&data, &PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p)));
             [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]
         };
         let (sigma, witness) = (sigma.to_f64(), [x_p.clone(), e_p.clone()]);
-        Claim { spec, sigma, initial, periodic, error_box, psi, reach, witness }
+        Claim { spec, derivation, sigma, initial, periodic, periodic_z: z, error_box, lyapunov, psi, reach, witness }
     }
 
     /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*, for a matched base frequency.
@@ -97,6 +129,22 @@ impl Claim {
         let ErrorBounds { rms, sup } = error_bounds(&data, &bounds, &sigma, &e_per, u64::from(n_o));
         Some([rms.upper_f64(), sup.upper_f64()])
     }
+
+    /// A claim about a specification that claims nothing, for tests of what is drawn.
+    #[cfg(test)]
+    pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> Claim {
+        let reach = reach.map(|end| Rational::from_f64(end).unwrap());
+        let witness = [Rational::new(), Rational::new()];
+        let (initial, periodic, error_box) = ([0.0; 3], [0.0; 3], [0.0; 2]);
+        let (periodic_z, lyapunov, psi) = (0.0, None, [0.0; 2]);
+        let derivation = Derivation::Sharp;
+        Claim { spec, derivation, sigma: 1.0, initial, periodic, periodic_z, error_box, lyapunov, psi, reach, witness }
+    }
+}
+
+/// The end of the domain, which the reader has seen to be positive and bounded.
+fn data_end(constant: &Constant) -> Rational {
+    constant.enclose(DEFAULT_PRECISION).upper_rational().unwrap_or_else(|| Rational::from(1))
 }
 
 /// An upper end of the claim; `inf` where there is none.

@@ -1,229 +1,290 @@
 //! Drawing plants that touch the bounding functions.
 
 use super::claim::Claim;
-use super::family::{Family, Harmonic};
+use super::family::{CONDITIONS, Family, Harmonic};
+use super::jacobian::{self, Clock};
+use super::membership::respects;
+use super::random::Random;
+use super::shape::{Factor, Number, Shape};
 use crate::data::Bound;
-use crate::expr::FloatExpr;
-use rand_core::RngCore;
-use rand_xoshiro::Xoshiro256PlusPlus;
+use crate::expr::{Expr, Variables};
 use std::f64::consts::TAU;
 
-/// What is kept of a bounding function: the cells of the membership check are two percent wide.
-const SHARE: f64 = 0.95;
+/// What is kept of a bounding function at first.
+const SHARE: f64 = 0.98;
+
+/// What is kept of a coefficient that is too large.
+const FACTOR: f64 = 0.93;
+
+/// What is kept of a bounding function in the end.
+const ROOM: f64 = 0.99;
+
+/// Points of each side of the grid on which that is looked at.
+const GRID: i32 = 40;
 
 /// Times that a plant is made smaller before it is given up.
 const ATTEMPTS: usize = 60;
 
-/// A plant with its coefficients, within the families of a claim.
+/// A plant with its coefficients, proved to lie within the families of a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnPlant {
     /// The coefficients.
     pub family: Family,
 }
 
-/// A number from 0 to 1.
-pub(super) fn uniform(random: &mut Xoshiro256PlusPlus) -> f64 {
-    (random.next_u64() >> 11) as f64 * 2.0_f64.powi(-53)
-}
-
-/// A share of what is allowed: all of it in a third of the cases.
-fn share(random: &mut Xoshiro256PlusPlus) -> f64 {
-    (1.5 * uniform(random)).min(1.0)
-}
-
-fn direction(random: &mut Xoshiro256PlusPlus) -> [f64; 2] {
-    let angle = TAU * uniform(random);
-    [libm::cos(angle), libm::sin(angle)]
-}
-
-/// The bounding functions, in the order of [`Family::bounds`].
-pub(super) fn compiled(claim: &Claim) -> Vec<FloatExpr> {
+/// The bounding functions of a claim, in the order of [`Family::bounds`].
+fn allowed(claim: &Claim) -> Vec<&Expr> {
     [Bound::F, Bound::Fe, Bound::Fxx, Bound::Fex, Bound::Q, Bound::Qe, Bound::Qx, Bound::Qt, Bound::QRms, Bound::QtRms]
         .iter()
-        .map(|bound| bound.of(&claim.spec).to_float())
+        .map(|bound| bound.of(&claim.spec))
         .collect()
 }
 
-/// Draws a plant: each coefficient is a random share of what the bounding functions allow at (0, 0), then everything
-/// that exceeds one somewhere is made smaller until nothing does, as [`Family::exceeds`] shows. `None` where the plants
-/// of this kind do not fit into the families.
+/// Draws a plant: each coefficient is a random share of what the bounding functions allow at small arguments, then what
+/// exceeds one somewhere is made smaller until nothing does. `None` where the plants of this kind do not fit into the
+/// families, or could not be proved to.
 ///
-/// P_x = R diag(p_low, p) R' with p_low <= p <= p_up, and F = P^(-1/2) G P^(1/2) with G = -alpha I - S + rotation,
-/// S >= 0 diagonal, so that P_x F + F'P_x = P^(1/2)(G + G')P^(1/2) <= -2 alpha P_x.
+/// Guarantee: P_x exists and every bounding function holds up to the reach of the claim, the axes included, proved for
+/// the coefficients as [`Family::texts`] writes them.
 #[must_use]
-pub fn draw(claim: &Claim, bounds: &[FloatExpr], random: &mut Xoshiro256PlusPlus) -> Option<DrawnPlant> {
-    let at_zero: Vec<f64> = bounds.iter().map(|expr| SHARE * expr.eval(0.0, 0.0)).collect();
-    let period = claim.spec.period.to_f64();
-    let with_states = bounds[0].eval(claim.reach[0], 0.0) > 0.0;
-    let g_size = at_zero[1] * share(random);
-    let g = direction(random).map(|part| g_size * part);
+pub fn draw(claim: &Claim, random: &mut Random) -> Option<DrawnPlant> {
+    let allowed = allowed(claim);
+    let [reach_x, reach_e] = claim.reach.each_ref().map(rug::Rational::to_f64);
+    let value = |index: usize, x: f64| allowed[index].to_float().eval(x, 0.0);
+    let at_zero: Vec<f64> = (0..allowed.len()).map(|index| SHARE * value(index, 0.0)).collect();
     // The slope of a bounding function in X, where it is linear.
-    let slope = |index: usize| {
-        let x = claim.reach[0] * 1e-3;
-        (bounds[index].eval(x, 0.0) - bounds[index].eval(0.0, 0.0)).max(0.0) / x
+    let small = reach_x * 1e-3;
+    let slope = |index: usize| SHARE * ((value(index, small) - value(index, 0.0)) / small).max(0.0);
+
+    let clock = Clock { period: &claim.spec.period.text, multiple: [1, 1, 2, 3][random.whole(0, 3) as usize] };
+    let drawn = match value(0, reach_x) > 0.0 {
+        true => jacobian::draw(claim, clock, slope(0), random)?,
+        false => jacobian::Drawn { rows: Vec::new(), norm: Number::default() },
+    };
+    let n = drawn.rows.len();
+    // Where F x alone takes all that f may be, no other coefficient fits, and hardly a proof.
+    if n > 0 && SHARE * drawn.norm.value() > 0.999 * slope(0) {
+        return None;
+    }
+    // What needs states is 0 without them.
+    let mut of_states = |size: f64| if n == 0 { 0.0 } else { size * random.share() };
+    let (g_size, g_1) = (of_states(at_zero[1]), of_states(at_zero[3].min(slope(1))));
+    let (kappa, beta, delta) = (of_states(at_zero[2]), of_states(at_zero[6]), of_states(slope(5)));
+    let scale = |reach: f64, random: &mut Random| Number::new(reach * libm::exp(-4.0 * random.uniform()));
+    let mut shape = |reach: f64| match random.whole(0, 2) {
+        0 => Shape::Linear,
+        1 => Shape::Tanh(scale(reach, random)),
+        _ => Shape::Sin(scale(reach, random)),
+    };
+    let shapes = [shape(8.0 * reach_x), shape(reach_x)];
+    let bounded = match shape(reach_e) {
+        Shape::Linear => Shape::Tanh(Number::new(reach_e)),
+        other => other,
     };
     let mut family = Family {
-        jacobian: None,
-        jacobian_norm: 0.0,
-        g,
-        g_1: at_zero[3].min(slope(1)) * share(random),
-        kappa: at_zero[2] * share(random),
-        directions: [direction(random), direction(random), direction(random)],
-        beta: at_zero[6] * share(random),
-        c: at_zero[5] * share(random),
-        d: SHARE * slope(5) * share(random),
-        saturation: claim.reach[1] * libm::exp(-5.0 * uniform(random)),
-        harmonics: Vec::new(),
-        period,
+        period: clock.period.to_owned(),
+        jacobian: drawn.rows,
+        jacobian_norm: drawn.norm,
+        g: (random.direction(n).iter().map(|part| part.times(g_size)).collect(), Number::new(g_size)),
+        g_1: Number::new(g_1),
+        kappa: Number::new(kappa),
+        directions: [random.direction(n), random.direction(n), random.direction(n)],
+        shapes,
+        wave: random.chance(0.5).then(|| scale(reach_x, random)),
+        beta: Number::new(beta),
+        c: Number::new(at_zero[5] * random.share()),
+        delta: Number::new(delta),
+        saturation: bounded,
+        factors: [clock.factor(random), clock.factor(random), clock.factor(random), clock.factor(random)],
+        harmonics: harmonics(clock.multiple, random),
     };
-    if with_states {
-        let largest = SHARE * bounds[0].eval(claim.reach[0] * 1e-3, 0.0) / (claim.reach[0] * 1e-3);
-        set_jacobian(&mut family, claim, largest, random)?;
-    } else {
-        (family.g, family.g_1, family.kappa, family.beta, family.d) = ([0.0; 2], 0.0, 0.0, 0.0, 0.0);
-    }
-    let orders = 1 + (random.next_u64() % 4) as u32;
-    let constant = if uniform(random) < 0.3 { 1.0 } else { 0.0 };
-    family.harmonics.push(Harmonic { amplitude: constant * uniform(random), order: 0, phase: 0.0 });
-    let first = 1 + (random.next_u64() % 3) as u32;
-    for order in first..first + orders {
-        let phase = TAU * uniform(random);
-        family.harmonics.push(Harmonic { amplitude: uniform(random) + 1e-3, order, phase });
-    }
-    fill(&mut family, &at_zero);
-    for _ in 0..ATTEMPTS {
-        match family.exceeds(claim, bounds) {
-            None => return Some(DrawnPlant { family }),
-            Some(condition) => shrink(&mut family, condition),
+    fill(&mut family, &at_zero, claim.spec.period.to_f64());
+    // A bound only falls as coefficients become smaller, so what fits once need not be looked at again.
+    for (index, allowed) in allowed.iter().enumerate() {
+        let fits = (0..ATTEMPTS).any(|_| {
+            let bound = &family.bounds()[index];
+            // The norm of F is given, so f may have no room to spare.
+            let room = CONDITIONS[index] == "f" || leaves_room(bound, allowed, [reach_x, reach_e]);
+            let fits = room && respects(bound, allowed, &claim.reach);
+            if !fits {
+                shrink(&mut family, CONDITIONS[index]);
+            }
+            fits
+        });
+        if !fits {
+            return None;
         }
     }
-    None
+    Some(DrawnPlant { family })
+}
+
+/// Whether a bound stays a little below what is allowed at the points of a grid, so that the proof is short.
+fn leaves_room(bound: &str, allowed: &Expr, reach: [f64; 2]) -> bool {
+    let Ok(bound) = Expr::parse(bound, Variables::XAndE) else { return false };
+    let (bound, allowed) = (bound.to_float(), allowed.to_float());
+    let along = |end: f64, at: i32| if at == GRID { 0.0 } else { end * 0.8_f64.powi(at) };
+    (0..=GRID).all(|i| {
+        (0..=GRID).all(|j| {
+            let (x, e) = (along(reach[0], i), along(reach[1], j));
+            bound.eval(x, e) <= ROOM * allowed.eval(x, e)
+        })
+    })
+}
+
+/// One to four harmonics of neighbouring orders, now and then with a constant.
+fn harmonics(multiple: u32, random: &mut Random) -> Vec<Harmonic> {
+    let mut harmonics = Vec::new();
+    if random.chance(0.3) {
+        harmonics.push(Harmonic { amplitude: Number::new(random.uniform()), factor: Factor::ONE });
+    }
+    let (first, count) = (random.whole(1, 3), random.whole(1, 4));
+    for order in first..first + count {
+        let factor = Factor { order: multiple * order, phase: Number::new(TAU * random.uniform()) };
+        harmonics.push(Harmonic { amplitude: Number::new(random.uniform() + 1e-3), factor });
+    }
+    harmonics
 }
 
 /// Scales A so that the first of its four bounds is reached.
-fn fill(family: &mut Family, at_zero: &[f64]) {
-    let mut factor = f64::INFINITY;
-    let here = family.bounds(0.0, 0.0);
-    for index in [4, 7, 8, 9] {
-        if here[index] > 0.0 {
-            factor = factor.min(at_zero[index] / here[index]);
-        }
-    }
+fn fill(family: &mut Family, at_zero: &[f64], period: f64) {
+    let speed = |harmonic: &Harmonic| f64::from(harmonic.factor.order) * TAU / period;
+    let sizes = |weight: &dyn Fn(&Harmonic) -> f64| {
+        let all = family.harmonics.iter().map(|harmonic| harmonic.amplitude.value() * weight(harmonic));
+        let sum: f64 = all.clone().sum();
+        let mean = family.harmonics.iter().map(|harmonic| if harmonic.factor.order == 0 { 1.0 } else { 0.5 });
+        [sum, all.zip(mean).map(|(size, mean)| size * size * mean).sum::<f64>().sqrt()]
+    };
+    let ([sup, rms], [speed_sup, speed_rms]) = (sizes(&|_| 1.0), sizes(&speed));
+    let room = [(4, sup), (7, speed_sup), (8, rms), (9, speed_rms)].map(|(index, here)| at_zero[index] / here);
+    let factor = room.into_iter().fold(f64::INFINITY, f64::min);
     let factor = if factor.is_finite() { factor } else { 0.0 };
-    family.harmonics.iter_mut().for_each(|harmonic| harmonic.amplitude *= factor);
+    family.harmonics.iter_mut().for_each(|harmonic| harmonic.amplitude = harmonic.amplitude.times(factor));
 }
 
 /// Makes smaller what a bounding function does not allow.
 fn shrink(family: &mut Family, condition: &str) {
-    const FACTOR: f64 = 0.9;
+    let smaller = |numbers: &mut [&mut Number]| numbers.iter_mut().for_each(|number| **number = number.times(FACTOR));
+    let Family { g, g_1, kappa, beta, c, delta, saturation, harmonics, .. } = family;
+    let mut input = || {
+        g.0.iter_mut().for_each(|part| *part = part.times(FACTOR));
+        smaller(&mut [&mut g.1, g_1]);
+    };
     match condition {
         "f" => {
-            family.kappa *= FACTOR;
-            family.g_1 *= FACTOR;
-            family.g = family.g.map(|part| FACTOR * part);
+            input();
+            smaller(&mut [kappa]);
         }
-        "f_e" => {
-            family.g_1 *= FACTOR;
-            family.g = family.g.map(|part| FACTOR * part);
-        }
-        "f_xx" => family.kappa *= FACTOR,
-        "f_ex" => family.g_1 *= FACTOR,
-        "q_e" => (family.c, family.d) = (FACTOR * family.c, FACTOR * family.d),
-        "q_x" => (family.beta, family.d) = (FACTOR * family.beta, FACTOR * family.d),
-        "q_t" | "q_t_rms" => family.harmonics.iter_mut().for_each(|harmonic| harmonic.amplitude *= FACTOR),
+        "f_e" => input(),
+        "f_xx" => smaller(&mut [kappa, g_1]),
+        "f_ex" => smaller(&mut [g_1]),
+        "q_e" => smaller(&mut [c, delta]),
+        "q_x" => smaller(&mut [beta, delta]),
         _ => {
-            (family.beta, family.c, family.d) = (FACTOR * family.beta, FACTOR * family.c, FACTOR * family.d);
-            family.saturation *= FACTOR;
+            smaller(&mut [beta, c, delta]);
+            if let Shape::Tanh(scale) | Shape::Sin(scale) = saturation {
+                smaller(&mut [scale]);
+            }
+            if condition.starts_with("q_t") {
+                harmonics.iter_mut().for_each(|harmonic| harmonic.amplitude = harmonic.amplitude.times(FACTOR));
+            }
         }
-    }
-}
-
-/// Draws P_x and F with a norm of at most `largest`; `None` where alpha alone is more.
-fn set_jacobian(family: &mut Family, claim: &Claim, largest: f64, random: &mut Xoshiro256PlusPlus) -> Option<()> {
-    let lyapunov = claim.spec.lyapunov.triple()?;
-    let (low, up, alpha) = (lyapunov.p_low.to_f64(), lyapunov.p_up.to_f64(), lyapunov.alpha.to_f64());
-    let ratio = (1.0 + (up / low - 1.0) * share(random) * 0.999).sqrt();
-    let [cosine, sine] = direction(random);
-    let slack = [alpha * uniform(random), 0.0];
-    let mut rotation = largest * (1.0 + uniform(random));
-    for _ in 0..200 {
-        // In the axes of P_x: P^(-1/2) G P^(1/2).
-        let axes =
-            [[-(alpha + slack[0]) * 1.000_001, rotation * ratio], [-rotation / ratio, -(alpha + slack[1]) * 1.000_001]];
-        let norm = spectral_norm(axes);
-        if norm <= largest {
-            let turn = [[cosine, -sine], [sine, cosine]];
-            let product = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
-                [0, 1].map(|i| [0, 1].map(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
-            };
-            let back = [[cosine, sine], [-sine, cosine]];
-            family.jacobian = Some(product(product(turn, axes), back));
-            family.jacobian_norm = norm;
-            return Some(());
-        }
-        rotation *= 0.95;
-    }
-    None
-}
-
-/// The largest singular value of a 2 x 2 matrix.
-pub(super) fn spectral_norm([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
-    let square = a * a + b * b + c * c + d * d;
-    let determinant = a * d - b * c;
-    (0.5 * (square + (square * square - 4.0 * determinant * determinant).max(0.0).sqrt())).sqrt()
-}
-
-impl DrawnPlant {
-    /// f and q as texts in t, x1, x2 and e.
-    #[must_use]
-    pub fn texts(&self) -> (Vec<String>, String) {
-        let family = &self.family;
-        let number = |value: f64| format!("({value:?})");
-        let [v, w, m] = family.directions;
-        let along = |vector: [f64; 2]| format!("({}*x1 + {}*x2)", number(vector[0]), number(vector[1]));
-        let saturation = number(family.saturation);
-        let error = format!("{saturation}*tanh(e/{saturation})");
-        let mut q: Vec<String> = family
-            .harmonics
-            .iter()
-            .filter(|harmonic| harmonic.amplitude != 0.0)
-            .map(|Harmonic { amplitude, order, phase }| {
-                let period = number(family.period);
-                format!("{}*cos({order}*2*pi*t/{period} + {})", number(*amplitude), number(*phase))
-            })
-            .collect();
-        q.push(format!("{}*{error}", number(family.c)));
-        let Some(jacobian) = family.jacobian else {
-            return (Vec::new(), q.join(" + "));
-        };
-        q.push(format!("({} + {}*{error})*{}", number(family.beta), number(family.d), along(m)));
-        let f = (0..2)
-            .map(|i| {
-                format!(
-                    "{} + e*({} + {}*{}*{}) + {}*{}*{}^2",
-                    along(jacobian[i]),
-                    number(family.g[i]),
-                    number(family.g_1),
-                    number(v[i]),
-                    along(v),
-                    number(0.5 * family.kappa),
-                    number(w[i]),
-                    along(w)
-                )
-            })
-            .collect();
-        (f, q.join(" + "))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::expr::{Evaluator, PlantExpr, PlantNames, Program};
+    use crate::spec::Specification;
+    use std::sync::Arc;
+
+    fn claim(spec: &str) -> Claim {
+        Claim::for_tests(Specification::from_json("test", spec).unwrap(), [3.0, 4.0])
+    }
+
+    /// The largest values that f, q and their derivatives take at points, by difference quotients, against the bounds.
+    #[test]
+    fn plants_stay_within_their_bounds() {
+        let claim = claim(include_str!("../../specs/paper-example.json"));
+        let mut random = Random::new(5, 6);
+        let (mut kinds, mut touched) = ([0; 4], [0.0_f64; 10]);
+        for _ in 0..12 {
+            let plant = draw(&claim, &mut random).expect("plants fit");
+            let family = &plant.family;
+            let n = family.states();
+            kinds[n] += 1;
+            let (f, q) = family.texts();
+            let names = PlantNames::new((1..=n).map(|i| format!("x{i}")).collect()).unwrap();
+            let parsed: Vec<PlantExpr> =
+                f.iter().chain([&q]).map(|text| PlantExpr::parse(text, &names).unwrap()).collect();
+            let program = Arc::new(Program::values(&parsed.iter().collect::<Vec<_>>(), n));
+            let mut evaluator = Evaluator::new(program);
+            let mut at = |t: f64, x: &[f64], e: f64| {
+                let mut values = vec![0.0; n + 1];
+                evaluator.set_time(t);
+                evaluator.evaluate(x, e, &mut values);
+                values
+            };
+            let bounds: Vec<Expr> =
+                family.bounds().iter().map(|text| Expr::parse(text, Variables::XAndE).unwrap()).collect();
+            let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
+            for _ in 0..300 {
+                let (t, e) = (random.uniform(), 4.0 * (2.0 * random.uniform() - 1.0));
+                let size = 3.0 * random.uniform();
+                let x: Vec<f64> = random.direction(n).iter().map(|part| size * part.value()).collect();
+                let along: Vec<f64> = random.direction(n).iter().map(|part| part.value()).collect();
+                let step = 1e-4;
+                let moved = |by: f64| -> Vec<f64> { x.iter().zip(&along).map(|(x, v)| x + by * v).collect() };
+                let here = at(t, &x, e);
+                let difference = |a: &[f64], b: &[f64]| -> Vec<f64> {
+                    a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+                };
+                let by_e = difference(&at(t, &x, e + step), &at(t, &x, e - step));
+                let by_x = difference(&at(t, &moved(step), e), &at(t, &moved(-step), e));
+                let by_t = difference(&at(t + step, &x, e), &at(t - step, &x, e));
+                let (up, down) = (at(t, &moved(step), e), at(t, &moved(-step), e));
+                let twice: Vec<f64> = (0..n).map(|i| (up[i] - 2.0 * here[i] + down[i]) / (step * step)).collect();
+                let mixed = {
+                    let [a, b] = [1.0, -1.0].map(|sign| {
+                        difference(&at(t, &moved(sign * step), e + step), &at(t, &moved(sign * step), e - step))
+                    });
+                    difference(&a, &b)
+                };
+                let found = [
+                    norm(&here[..n]),
+                    norm(&by_e[..n]),
+                    norm(&twice),
+                    norm(&mixed[..n]),
+                    here[n].abs(),
+                    by_e[n].abs(),
+                    by_x[n].abs(),
+                    by_t[n].abs(),
+                ];
+                let size = norm(&x);
+                for (index, (found, bound)) in found.iter().zip(&bounds).enumerate() {
+                    let bound = bound.to_float().eval(size, e.abs());
+                    assert!(*found <= bound * (1.0 + 1e-6) + 1e-5, "{}: {found} {bound}", CONDITIONS[index]);
+                    if bound > 1e-3 {
+                        touched[index] = touched[index].max(found / bound);
+                    }
+                }
+            }
+            for (index, (bound, allowed)) in bounds.iter().zip(allowed(&claim)).enumerate() {
+                let [bound, allowed] = [bound, allowed].map(|expr| expr.to_float().eval(3.0, 4.0));
+                assert!(bound <= allowed, "{}: {bound} {allowed}", CONDITIONS[index]);
+            }
+        }
+        assert!(kinds[1] > 0 && kinds[2] > 0 && kinds[3] > 0, "{kinds:?}");
+        // The bounds are no larger than they have to be.
+        assert!(touched[..8].iter().all(|share| *share > 0.7), "{touched:?}");
+    }
 
     #[test]
-    fn norms() {
-        assert!((spectral_norm([[3.0, 0.0], [0.0, -2.0]]) - 3.0).abs() < 1e-15);
-        assert!((spectral_norm([[0.0, 5.0], [-0.5, 0.0]]) - 5.0).abs() < 1e-15);
-        assert!((spectral_norm([[1.0, 1.0], [1.0, 1.0]]) - 2.0).abs() < 1e-15);
+    fn without_states_and_with_a_jacobian() {
+        let mut random = Random::new(1, 1);
+        let none = draw(&claim(include_str!("../../specs/no-x.json")), &mut random).unwrap();
+        assert_eq!((none.family.states(), none.family.texts().0.len()), (0, 0));
+        // A Jacobian without a proved triple draws nothing.
+        assert!(draw(&claim(include_str!("../../specs/paper-example-jacobian.json")), &mut random).is_none());
     }
 }

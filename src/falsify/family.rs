@@ -1,117 +1,146 @@
-//! A family of plants with known bounds, and whether a member lies within some bounding functions.
+//! A family of plants with known bounds.
 
-use super::claim::Claim;
-use crate::expr::FloatExpr;
-use std::cmp::Ordering;
+use super::shape::{Factor, Number, Shape};
 
-/// a cos(k Om t + phase).
+/// a cos(k Om t + phase), or a for k = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Harmonic {
-    /// The amplitude a.
-    pub amplitude: f64,
-    /// k.
-    pub order: u32,
-    /// The phase.
-    pub phase: f64,
+    /// The amplitude a >= 0.
+    pub amplitude: Number,
+    /// k and the phase.
+    pub factor: Factor,
 }
 
-/// A plant with n = 2 states, or none:
-/// f = F x + e (g + g_1 v (v'x)) + (kappa/2) w (w'x)^2 and q = A(t) + (beta + d r(e)) m'x + c r(e), with unit vectors
-/// v, w, m, r(e) = s tanh(e/s), and A a sum of harmonics.
+/// A plant with n states:
 ///
-/// |F| is the spectral norm, |g| the Euclidean one. Then |f| <= |F| X + E(|g| + g_1 X) + kappa X^2/2,
-/// |df/de| <= |g| + g_1 X, |d2f/dedx| = g_1, |d2f/dxdx| = kappa, |q| <= sup|A| + (beta + d R) X + c R,
-/// |dq/de| <= c + d X, |dq/dx| <= beta + d R, |dq/dt| <= sup|A'|, with R = min(E, s).
+/// f = F(t) x + e a(t) (g + g_1 v phi(v'x)) + kappa b(t) w psi(w'x),
+/// q = A(t) + c d(t) r(e) + (beta + delta r(e)) b_q(t) phi_q(m'x),
+///
+/// with vectors v, w, m of norm at most 1, phi, phi_q and r as in [`Shape`], psi(s) = s^2/2 or l^2 (1 - cos(s/l)),
+/// factors a, b, d, b_q as in [`Factor`], and A a sum of harmonics of different orders. F is a matrix of texts in t.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Family {
-    /// F, row by row; absent without states.
-    pub jacobian: Option<[[f64; 2]; 2]>,
-    /// |F|.
-    pub jacobian_norm: f64,
-    /// g.
-    pub g: [f64; 2],
+    /// T as it is written in the specification.
+    pub period: String,
+    /// F, row by row; empty without states.
+    pub jacobian: Vec<Vec<String>>,
+    /// An upper bound of sup_t |F(t)|.
+    pub jacobian_norm: Number,
+    /// g and an upper bound of its norm.
+    pub g: (Vec<Number>, Number),
     /// g_1 >= 0.
-    pub g_1: f64,
+    pub g_1: Number,
     /// kappa >= 0.
-    pub kappa: f64,
+    pub kappa: Number,
     /// v, w, m.
-    pub directions: [[f64; 2]; 3],
+    pub directions: [Vec<Number>; 3],
+    /// phi and phi_q.
+    pub shapes: [Shape; 2],
+    /// l of psi; `None` for s^2/2.
+    pub wave: Option<Number>,
     /// beta >= 0.
-    pub beta: f64,
+    pub beta: Number,
     /// c >= 0.
-    pub c: f64,
-    /// d >= 0.
-    pub d: f64,
-    /// s > 0.
-    pub saturation: f64,
+    pub c: Number,
+    /// delta >= 0.
+    pub delta: Number,
+    /// r.
+    pub saturation: Shape,
+    /// a, b, b_q, d.
+    pub factors: [Factor; 4],
     /// A.
     pub harmonics: Vec<Harmonic>,
-    /// The period T.
-    pub period: f64,
 }
 
-/// Ratio of neighbouring grid points.
-const RATIO: f64 = 1.02;
-/// The smallest grid point over the largest.
-const SMALLEST: f64 = 1e-4;
 /// The bounds in the order of [`Family::bounds`].
 pub(super) const CONDITIONS: [&str; 10] = ["f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t", "q_rms", "q_t_rms"];
 
+fn sum(terms: impl Iterator<Item = String>) -> String {
+    let terms: Vec<String> = terms.collect();
+    if terms.is_empty() { "0".to_owned() } else { terms.join(" + ") }
+}
+
 impl Family {
-    /// The bounds of the plant at (X, E), in the order of the fields of a specification. All are nondecreasing.
+    /// The number of states.
     #[must_use]
-    pub fn bounds(&self, x: f64, e: f64) -> [f64; 10] {
-        let omega = std::f64::consts::TAU / self.period;
-        let amplitude = |power: i32| {
-            self.harmonics.iter().map(move |h| h.amplitude.abs() * (f64::from(h.order) * omega).powi(power))
+    pub fn states(&self) -> usize {
+        self.jacobian.len()
+    }
+
+    /// Upper bounds of the plant's functions as expressions in X and E, in the order of the fields of a specification:
+    ///
+    /// |f| <= |F| X + E (|g| + g_1 phi) + kappa X^2/2, |df/de| <= |g| + g_1 phi, |d2f/dxdx| <= kappa + E g_1 |phi''|,
+    /// |d2f/dedx| <= g_1, |q| <= sum|a_k| + c r + (beta + delta r) phi_q, |dq/de| <= c + delta phi_q,
+    /// |dq/dx| <= beta + delta r, |dq/dt| <= sum k Om |a_k| + (speed of d) c r + (speed of b_q)(beta + delta r) phi_q, and
+    /// the last but one and the last of these with rms of A and A' in place of the sums; phi, phi_q and r stand for
+    /// their bounds on |x| <= X, |e| <= E.
+    #[must_use]
+    pub fn bounds(&self) -> [String; 10] {
+        let [v, x] = self.shapes.map(|shape| shape.bound("X"));
+        let r = self.saturation.bound("E");
+        let Family { jacobian_norm, g_1, kappa, beta, c, delta, .. } = self;
+        let g = format!("({} + {g_1}*{v})", self.g.1);
+        let input = format!("({beta} + {delta}*{r})");
+        let state_part = format!("{input}*{x} + {c}*{r}");
+        let [_, _, by_state, by_error] = self.factors.map(|factor| factor.speed(&self.period));
+        let drift = format!("{by_state}*{input}*{x} + {by_error}*{c}*{r}");
+        let size = |Harmonic { amplitude, factor }: &Harmonic, derivative: bool| match derivative {
+            false => format!("{amplitude}"),
+            true => format!("{amplitude}*{}", factor.speed(&self.period)),
         };
-        let rms = |power: i32| {
-            let mean = |(h, size): (&Harmonic, f64)| if h.order == 0 { size * size } else { size * size / 2.0 };
-            self.harmonics.iter().zip(amplitude(power)).map(mean).sum::<f64>().sqrt()
+        let sup = |derivative: bool| sum(self.harmonics.iter().map(|harmonic| size(harmonic, derivative)));
+        let rms = |derivative: bool| {
+            let square = |harmonic: &Harmonic| {
+                let mean = if harmonic.factor.order == 0 { "" } else { "/2" };
+                format!("({})^2{mean}", size(harmonic, derivative))
+            };
+            format!("sqrt({})", sum(self.harmonics.iter().map(square)))
         };
-        let (sup, slope): (f64, f64) = (amplitude(0).sum(), amplitude(1).sum());
-        let r = e.min(self.saturation);
-        let g = self.g[0].hypot(self.g[1]) + self.g_1 * x;
-        let state_part = (self.beta + self.d * r) * x + self.c * r;
         [
-            self.jacobian_norm * x + e * g + 0.5 * self.kappa * x * x,
+            format!("{jacobian_norm}*X + E*{g} + {kappa}*X^2/2"),
             g,
-            self.kappa,
-            self.g_1,
-            sup + state_part,
-            self.c + self.d * x,
-            self.beta + self.d * r,
-            slope,
-            rms(0) + state_part,
-            rms(1),
+            format!("{kappa} + E*{g_1}*{}", self.shapes[0].bend()),
+            g_1.to_string(),
+            format!("{} + {state_part}", sup(false)),
+            format!("{c} + {delta}*{x}"),
+            input,
+            format!("{} + {drift}", sup(true)),
+            format!("{} + {state_part}", rms(false)),
+            format!("{} + {drift}", rms(true)),
         ]
     }
 
-    /// The first bounding function that the plant is not shown to respect on X, E up to the reach of the claim.
-    ///
-    /// The bounds of the plant at the upper corner of each cell of a grid are compared with the bounding functions at
-    /// the lower corner; both are nondecreasing, so that the cells cover the region from 1e-4 of the reach on. Closer
-    /// to the axes, where both may tend to 0, the axes themselves are compared.
+    /// f and q as texts in t, x1, x2, ... and e.
     #[must_use]
-    pub fn exceeds(&self, claim: &Claim, compiled: &[FloatExpr]) -> Option<&'static str> {
-        let cells = claim.reach.map(|last| {
-            let count = (libm::log(1.0 / SMALLEST) / libm::log(RATIO)).ceil() as i32;
-            let mut cells = vec![[0.0, 0.0]];
-            cells.extend((0..count).rev().map(|k| [last * RATIO.powi(-k - 1), last * RATIO.powi(-k)]));
-            cells
-        });
-        for x in &cells[0] {
-            for e in &cells[1] {
-                let plant = self.bounds(x[1], e[1]);
-                for (index, (bound, expr)) in plant.iter().zip(compiled).enumerate() {
-                    let allowed = expr.eval(x[0], e[0]);
-                    // An undefined bounding function allows nothing.
-                    if bound.partial_cmp(&allowed).is_none_or(Ordering::is_gt) {
-                        return Some(CONDITIONS[index]);
-                    }
-                }
-            }
+    pub fn texts(&self) -> (Vec<String>, String) {
+        let [v, w, m] = &self.directions;
+        let along = |vector: &[Number]| {
+            format!("({})", sum(vector.iter().enumerate().map(|(i, part)| format!("{part}*x{}", i + 1))))
+        };
+        let [a, b, by_state, by_error] = self.factors.map(|factor| factor.text(&self.period));
+        let Family { g_1, kappa, beta, c, delta, .. } = self;
+        let error = self.saturation.of("e");
+        let mut q: Vec<String> = self
+            .harmonics
+            .iter()
+            .filter(|harmonic| harmonic.amplitude.value() != 0.0)
+            .map(|Harmonic { amplitude, factor }| format!("{amplitude}*{}", factor.text(&self.period)))
+            .collect();
+        q.push(format!("{c}*{by_error}*{error}"));
+        if self.states() == 0 {
+            return (Vec::new(), q.join(" + "));
         }
-        None
+        let [phi, phi_q] = [self.shapes[0].of(&along(v)), self.shapes[1].of(&along(m))];
+        let psi = match self.wave {
+            None => format!("{}^2/2", along(w)),
+            Some(wave) => format!("{wave}^2*(1 - cos({}/{wave}))", along(w)),
+        };
+        q.push(format!("({beta} + {delta}*{error})*{by_state}*{phi_q}"));
+        let row = |(i, entries): (usize, &Vec<String>)| {
+            let linear = sum(entries.iter().enumerate().map(|(j, entry)| format!("({entry})*x{}", j + 1)));
+            let (g, v, w) = (self.g.0[i], v[i], w[i]);
+            format!("{linear} + e*{a}*({g} + {g_1}*{v}*{phi}) + {kappa}*{w}*{b}*{psi}")
+        };
+        (self.jacobian.iter().enumerate().map(row).collect(), q.join(" + "))
     }
 }

@@ -1,17 +1,27 @@
 //! Trying to break a certificate: random plants inside its families, simulated a little above sigma*.
 //!
-//! Floating point decides nothing here: a trial that finds nothing proves nothing, and what it finds is a plant and an
-//! initial condition that anyone can simulate again. The base frequency is part of the claim and stays; the number of
-//! oscillators varies.
+//! That a plant lies within the families is proved; the simulation is floating point and decides nothing: a trial that
+//! finds nothing proves nothing, and what it finds is a plant and an initial condition that anyone can simulate again.
+//! The number of oscillators varies. The base frequency and the period are part of the claim and stay; other base
+//! frequencies are claims of their own, which [`with_base_frequency`] makes.
 
 mod claim;
 mod draw;
 mod family;
+mod frequency;
+mod jacobian;
+mod membership;
+mod random;
 mod report;
+mod shape;
 mod trial;
 
 pub use claim::Claim;
 pub use draw::{DrawnPlant, draw};
 pub use family::{Family, Harmonic};
+pub use frequency::{FrequencyError, with_base_frequency};
+pub use membership::respects;
+pub use random::Random;
 pub use report::{FORMAT, VERSION, counterexample_plant, json, text};
+pub use shape::{Factor, Number, Shape};
 pub use trial::{Finding, Outcome, Settings, Trial, Violation, falsify};

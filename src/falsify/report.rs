@@ -21,7 +21,7 @@ pub fn counterexample_plant(
     trial: &Trial,
     violation: Option<&Violation>,
 ) -> Result<Document, SpecErrors> {
-    let (f, q) = trial.plant.texts();
+    let (f, q) = trial.plant.family.texts();
     let states = f.len();
     let names: Vec<String> = (1..=states).map(|i| format!("x{i}")).collect();
     let (x, rest) = trial.start.split_at(states);
@@ -67,11 +67,12 @@ pub fn text(claim: &Claim, outcome: &Outcome) -> String {
     }
     let violated = outcome.findings.len() - held - unfinished.len();
     blocks.push(Block::says(format!(
-        "{} trials at sigma = {} (a little above sigma*), seed {}: in {held} every bound holds, in {violated} one does \
+        "{} trials at sigma = {} (a little above sigma*), base frequency {}, seed {}: in {held} every bound holds, in {violated} one does \
          not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
          proof.",
         outcome.settings.trials,
         claim.sigma,
+        claim.spec.internal_model.base_frequency.text,
         outcome.settings.seed,
         unfinished.len()
     )));
@@ -118,6 +119,7 @@ pub fn json(claim: &Claim, outcome: &Outcome) -> Value {
         .collect();
     object!({
         "format": FORMAT, "version": VERSION, "name": clean(&claim.spec.name), "sigma_star": claim.sigma,
+        "base_frequency": claim.spec.internal_model.base_frequency.text,
         "seed": outcome.settings.seed, "trials": trials, "refuted": outcome.counterexample().is_some(),
     })
 }

@@ -1,20 +1,20 @@
 //! One plant, one initial condition, one number of oscillators: simulated and checked.
 
 use super::claim::Claim;
-use super::draw::{DrawnPlant, compiled, draw, uniform};
+use super::draw::{DrawnPlant, draw};
+use super::random::Random;
 use super::report::counterexample_plant;
 use crate::plant::Plant;
 use crate::regulator::Regulator;
 use crate::simulate::{
     ClosedLoop, Orbit, Progress, Silent, SteadyState, SteadyStateError, Tolerance, rms, steady_state, sup, trajectory,
 };
-use rand_core::SeedableRng;
-use rand_xoshiro::Xoshiro256PlusPlus;
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 
 /// The numbers of oscillators that are tried.
 const OSCILLATORS: [u32; 6] = [0, 1, 2, 3, 5, 8];
+/// Draws before a trial is given up.
+const DRAWS: usize = 30;
 /// How far above sigma* a trial is.
 const ABOVE: f64 = 1.0 + 1e-6;
 /// What a bound may be exceeded by before it counts: integration and rounding.
@@ -108,13 +108,12 @@ pub fn falsify(claim: &Claim, settings: Settings, progress: &dyn Progress) -> Ou
 }
 
 fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
-    // Seeds and numbers are mixed, so that neighbouring trials share nothing.
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number);
-    let bounds = compiled(claim);
-    let Some(plant) = draw(claim, &bounds, &mut random) else {
-        return Finding::Unfinished("no plant of the drawn kind lies within the bounding functions".to_owned());
+    let mut random = Random::new(seed, number);
+    // A drawn matrix F may leave no room; another one may.
+    let Some(plant) = (0..DRAWS).find_map(|_| draw(claim, &mut random)) else {
+        return Finding::Unfinished("no plant of the drawn kind is proved to lie within the families".to_owned());
     };
-    let n_o = OSCILLATORS[(uniform(&mut random) * OSCILLATORS.len() as f64) as usize];
+    let n_o = OSCILLATORS[random.whole(0, OSCILLATORS.len() as u32 - 1) as usize];
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
     let start = start(claim, &plant, &regulator, &mut random);
@@ -136,15 +135,11 @@ fn regulator(claim: &Claim, sigma: f64, n_o: u32) -> Regulator {
 }
 
 /// A point of the boundary: |x| = X0, |e| = E0, |z|_N = Z0.
-fn start(claim: &Claim, plant: &DrawnPlant, regulator: &Regulator, random: &mut Xoshiro256PlusPlus) -> Vec<f64> {
+fn start(claim: &Claim, plant: &DrawnPlant, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
     let [x_0, e_0, z_0] = claim.initial;
-    let mut start = Vec::new();
-    let angle = TAU * uniform(random);
-    if plant.family.jacobian.is_some() {
-        start.extend([x_0 * libm::cos(angle), x_0 * libm::sin(angle)]);
-    }
-    start.push(if uniform(random) < 0.5 { e_0 } else { -e_0 });
-    let mut z: Vec<f64> = (0..regulator.dimension()).map(|_| 2.0 * uniform(random) - 1.0).collect();
+    let mut start: Vec<f64> = random.direction(plant.family.states()).iter().map(|part| x_0 * part.value()).collect();
+    start.push(if random.chance(0.5) { e_0 } else { -e_0 });
+    let mut z: Vec<f64> = (0..regulator.dimension()).map(|_| 2.0 * random.uniform() - 1.0).collect();
     let size = regulator.weighted_norm(&z);
     z.iter_mut().for_each(|part| *part *= if size > 0.0 { z_0 / size } else { 0.0 });
     start.extend(z);
@@ -215,6 +210,8 @@ fn check_orbit(
     checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
     checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
     checks.at_most("sup|zeta|_N of the periodic solution", zeta, claim.periodic[2]);
+    let z = largest(&|y| closed_loop.regulator.weighted_norm(&y[n + 1..]));
+    checks.at_most("sup|z|_N of the periodic solution", z, claim.periodic_z);
     checks.at_most("sup|e| against psi_1/sigma", e, claim.psi[0] / trial.sigma);
     checks.at_most("sup|x| against psi_x/sigma", x, claim.psi[1] / trial.sigma);
     if let Some([by_rms, by_sup]) = claim.matched_bounds(trial.sigma, trial.n_o) {
@@ -223,10 +220,12 @@ fn check_orbit(
     }
 }
 
-/// The first periods from the initial condition: within the error box around the periodic solution.
+/// The first periods from the initial condition: within the error box around the periodic solution, and the Lyapunov
+/// function never above its start. P_x is not known here, so at the start its upper bound counts, later the lower.
 fn check_approach(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop, orbit: &Orbit, checks: &mut Checks) {
     let n = closed_loop.states();
-    let (mut y, mut away) = (trial.start.clone(), [0.0_f64; 2]);
+    let m = closed_loop.regulator.m();
+    let (mut y, mut away, mut level) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2]);
     let period = closed_loop.period;
     for index in 0..PERIODS {
         let t = index as f64 * period;
@@ -234,14 +233,55 @@ fn check_approach(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop, orbit:
             checks.at_most("the solution from the initial set (it escapes)", f64::INFINITY, f64::MAX);
             return;
         };
-        for (sample, point) in samples.iter().zip(&orbit.samples) {
-            let x: Vec<f64> = sample[..n].iter().zip(&point[..n]).map(|(a, b)| a - b).collect();
-            away = [away[0].max(norm(&x)), away[1].max((sample[n] - point[n]).abs())];
+        for (at, (sample, point)) in samples.iter().zip(&orbit.samples).enumerate() {
+            let difference: Vec<f64> = sample.iter().zip(point).map(|(a, b)| a - b).collect();
+            let (x, e) = (norm(&difference[..n]), difference[n]);
+            away = [away[0].max(x), away[1].max(e.abs())];
+            if let Some([low, up, h]) = claim.lyapunov {
+                let zeta: Vec<f64> = difference[n + 1..].iter().zip(&m).map(|(z, m)| z - m * e).collect();
+                let rest = e * e + h * closed_loop.regulator.weighted_norm(&zeta).powi(2);
+                if index == 0 && at == 0 {
+                    level[0] = up * x * x + rest;
+                }
+                level[1] = level[1].max(low * x * x + rest);
+            }
         }
         y = samples.last().cloned().unwrap_or(y);
     }
-    if let Some([d_x, d_e]) = claim.error_box {
-        checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
-        checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    let [d_x, d_e] = claim.error_box;
+    checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
+    checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    if claim.lyapunov.is_some() {
+        checks.at_most("Lyapunov function on the way, against its start", level[1], level[0]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::Specification;
+
+    #[test]
+    fn bounds_are_exceeded_by_more_than_the_tolerance() {
+        for (found, holds) in [(0.5, true), (1.0 + 1e-7, true), (1.0 + 2e-6, false), (f64::NAN, false)] {
+            let mut checks = Checks { shares: Vec::new(), violation: None };
+            checks.at_most("quantity", found, 1.0);
+            assert_eq!(checks.violation.is_none(), holds, "{found}");
+        }
+    }
+
+    #[test]
+    fn trials_start_on_the_boundary() {
+        let spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
+        let mut claim = Claim::for_tests(spec, [3.0, 3.0]);
+        claim.initial = [2.0, 0.5, 7.0];
+        let mut random = Random::new(3, 4);
+        let plant = draw(&claim, &mut random).unwrap();
+        let regulator = regulator(&claim, claim.sigma, 3);
+        let start = start(&claim, &plant, &regulator, &mut random);
+        let n = plant.family.states();
+        assert!((norm(&start[..n]) - 2.0).abs() < 1e-5 && start[n].abs() == 0.5);
+        assert!((regulator.weighted_norm(&start[n + 1..]) - 7.0).abs() < 1e-12);
+        assert_eq!(start.len(), n + 1 + 7);
     }
 }

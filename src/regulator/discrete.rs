@@ -16,11 +16,11 @@ pub struct Discrete {
 }
 
 impl Discrete {
-    /// Whether every entry is a finite double.
+    /// Whether the sampling time is a positive double and every entry a finite one.
     #[must_use]
-    pub fn is_finite(&self) -> bool {
+    pub fn is_representable(&self) -> bool {
         let mut all = [self.step].into_iter().chain(self.rotations.iter().flatten().chain(&self.input).copied());
-        all.all(f64::is_finite)
+        self.step > 0.0 && all.all(f64::is_finite)
     }
 
     /// e^(Phi dt) = blkdiag(1, [[cos a, sin a], [-sin a, cos a]]) with a = l w dt.

@@ -40,11 +40,13 @@ impl Regulator {
         self.weights.len().checked_sub(1)
     }
 
-    /// Whether every parameter is a finite double; an exact number may be too large for one.
+    /// Whether every parameter is a positive finite double (mu of the high-gain feedback aside, which has none); an exact
+    /// number may be too large or too small for one.
     #[must_use]
-    pub fn is_finite(&self) -> bool {
-        let mut all = [self.sigma, self.mu].into_iter().chain(self.frequencies.iter().chain(&self.weights).copied());
-        all.all(f64::is_finite)
+    pub fn is_representable(&self) -> bool {
+        let ordinary = |value: &f64| *value > 0.0 && value.is_finite();
+        let mu = self.weights.is_empty() || ordinary(&self.mu);
+        mu && ordinary(&self.sigma) && self.frequencies.iter().chain(&self.weights).all(ordinary)
     }
 
     /// The dimension of z: 2 n_o + 1, or 0 for the high-gain feedback.
@@ -133,5 +135,11 @@ mod tests {
         let high_gain = Regulator::high_gain(3.0);
         assert_eq!((high_gain.oscillators(), high_gain.dimension()), (None, 0));
         assert_eq!(high_gain.internal_model_output(&[], 1.0), 0.0);
+        assert!(high_gain.is_representable() && regulator.is_representable());
+        for broken in [0.0, f64::INFINITY, f64::NAN] {
+            assert!(!Regulator::high_gain(broken).is_representable());
+            assert!(!Regulator { mu: broken, ..regulator.clone() }.is_representable());
+            assert!(!Regulator { frequencies: vec![2.0, broken], ..regulator.clone() }.is_representable());
+        }
     }
 }

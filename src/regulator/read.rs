@@ -30,7 +30,10 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<Regulator, Reported> {
             return Ok(weights);
         }
         let message = format!("{} weights for {} frequencies", weights.len(), expected - 1);
-        Err(errors.report(value.error(ErrorKind::Range, message).expected("expected one more than frequencies")))
+        let error = value.error(ErrorKind::Range, message).expected("expected one more than frequencies");
+        // The high-gain feedback u = -sigma e has no internal model, and so no file.
+        let help = "without an internal model use `simulate --high-gain --sigma V` instead of a file";
+        Err(errors.report(if weights.is_empty() { error.help(help) } else { error }))
     });
     file.finish(errors);
     Ok(Regulator { sigma: sigma?, mu: mu?, frequencies: frequencies?, weights: weights? })

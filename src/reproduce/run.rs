@@ -253,11 +253,13 @@ fn noise_range(plant: &Plant, (index, n_0, law, seed): Job, steps: usize) -> Opt
     let start = closed_loop.start(&plant.initial.x, plant.initial.e);
     let settings = NoiseSettings { power: POWER, seed };
     let run = noisy_run(&closed_loop, &start, PERIODS, steps, settings, law, &Silent).ok()?;
-    let range = |values: &[f64]| {
-        let last = &values[PERIODS - LAST_PERIODS..];
-        last.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(*value), high.max(*value)])
-    };
-    Some(NoiseRange { law, sup: range(&run.sup), rms: range(&run.rms) })
+    Some(NoiseRange { law, sup: last_range(&run.sup), rms: last_range(&run.rms) })
+}
+
+/// The smallest and the largest of the last periods.
+fn last_range(values: &[f64]) -> [f64; 2] {
+    let last = values.iter().rev().take(LAST_PERIODS);
+    last.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(*value), high.max(*value)])
 }
 
 #[cfg(test)]
@@ -270,6 +272,12 @@ mod tests {
         assert_eq!(units("0.3074", 0.30751), 1.0);
         assert_eq!(units("3.04e-8", 3.0263e-8), -1.0);
         assert_eq!(units("0.400", 0.40002), 0.0);
+    }
+
+    #[test]
+    fn ranges_are_over_the_last_periods() {
+        let values: Vec<f64> = (0..PERIODS).map(|period| (period as f64 - 140.0).abs()).collect();
+        assert_eq!(last_range(&values), [0.0, 20.0]);
     }
 
     #[test]

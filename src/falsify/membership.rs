@@ -1,0 +1,107 @@
+//! Whether a plant lies within the bounding functions: decided with outward rounding.
+
+use crate::enclosure::Enclosure;
+use crate::expr::{Expr, Variables};
+use rug::Rational;
+use std::collections::VecDeque;
+
+/// Bits of the enclosures.
+const PRECISION: u32 = 64;
+
+/// Boxes after which a plant is not accepted: one with a little more room needs a few dozen.
+const MAX_BOXES: usize = 200;
+
+/// A box of X and E.
+type Region = [[Rational; 2]; 2];
+
+/// Whether `bound(X, E) <= allowed(X, E)` for every (X, E) in [0, reach X] x [0, reach E], the axes and the origin
+/// included.
+///
+/// Guarantee: if true, it is proved. With D = allowed - bound, on a box with lower corner (X_0, E_0)
+/// `D(X, E) >= D(X_0, E_0) + (X - X_0) min(0, S_X) + (E - E_0) min(0, S_E)` where S_X and S_E are the least slopes of D on
+/// the box; boxes for which this does not give D >= 0 are halved. So D may vanish at the origin, where most bounds of f
+/// do. False where D < 0 somewhere, and where too many boxes would be needed.
+#[must_use]
+pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2]) -> bool {
+    let Ok(difference) = Expr::parse(&format!("({}) - ({bound})", allowed.text()), Variables::XAndE) else {
+        return false;
+    };
+    let whole: Region = reach.clone().map(|end| [Rational::new(), end]);
+    let mut queue = VecDeque::from([whole]);
+    let mut examined = 0;
+    while let Some(region) = queue.pop_front() {
+        examined += 1;
+        if examined > MAX_BOXES {
+            return false;
+        }
+        match lower_bound(&difference, &region) {
+            None => return false,
+            Some(least) if least >= 0.0 => {}
+            // The cut after which the halves are better: what costs in one variable may come from the other's width.
+            Some(_) => {
+                let cuts = [0, 1].map(|along| halves(&region, along));
+                let gains = cuts.each_ref().map(|parts| {
+                    let least = |part| lower_bound(&difference, part).unwrap_or(f64::NEG_INFINITY);
+                    parts.iter().map(least).sum::<f64>()
+                });
+                let [by_x, by_e] = cuts;
+                queue.extend(if gains[1] > gains[0] { by_e } else { by_x });
+            }
+        }
+    }
+    true
+}
+
+/// A lower bound of D on a region; `None` where D is negative at its lower corner.
+fn lower_bound(difference: &Expr, region: &Region) -> Option<f64> {
+    let side = |[low, high]: &[Rational; 2]| Enclosure::between(low, high, PRECISION);
+    let slopes = difference.enclose_slopes(&side(&region[0]), &side(&region[1]));
+    let corner = region.each_ref().map(|[low, _]| Enclosure::from_rational(low, PRECISION));
+    let at_corner = difference.enclose(&corner[0], &corner[1]);
+    let zero = Enclosure::zero(PRECISION);
+    if at_corner.lt(&zero).is_true() {
+        return None;
+    }
+    let widths = region.each_ref().map(|[low, high]| Enclosure::from_rational(&Rational::from(high - low), PRECISION));
+    let loss = slopes.slope_x.min(&zero) * &widths[0] + slopes.slope_e.min(&zero) * &widths[1];
+    let [direct, by_slopes] = [slopes.value, at_corner + loss].map(|bound| bound.lower_f64());
+    // An undefined bound is none.
+    Some(direct.max(by_slopes)).filter(|least| !least.is_nan()).or(Some(f64::NEG_INFINITY))
+}
+
+fn halves(region: &Region, along: usize) -> [Region; 2] {
+    let [low, high] = &region[along];
+    let middle = Rational::from(low + high) / 2u32;
+    let half = |ends: [Rational; 2]| {
+        let mut part = region.clone();
+        part[along] = ends;
+        part
+    };
+    [half([low.clone(), middle.clone()]), half([middle.clone(), high.clone()])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_fits_and_what_does_not() {
+        let reach = [Rational::from(10), Rational::from(10)];
+        for (bound, allowed, fits) in [
+            ("2*X + E/4", "2.1*X + E/4", true),
+            ("2*X + E/4", "2*X + E/4", true),
+            ("2*X + X^2/100", "2*X + E/4", false),
+            // Below almost everywhere: only close to X = 1, E = 0 the first is larger.
+            ("X*(2 - X)*(1 - min(E*1000, 1))", "0.999", false),
+            ("1.9*X + E*(0.1 + 0.9*min(X, 3))", "2*X + E*(X + 0.2)", true),
+            ("1.9*X + E*(0.1 + min(X, 3))", "2*X + X*E", false),
+            ("0.29 + min(E, 0.7)", "0.3 + atan(2*E)", true),
+            ("0.3 + min(E, 1.6)", "0.3 + atan(2*E)", false),
+            // An undefined bounding function allows nothing.
+            ("0", "1 + 0*sqrt(X - 1)", false),
+        ] {
+            let allowed = Expr::parse(allowed, Variables::XAndE).unwrap();
+            assert_eq!(respects(bound, &allowed, &reach), fits, "{bound}");
+        }
+    }
+}
