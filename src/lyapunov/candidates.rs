@@ -126,6 +126,10 @@ const ROOM: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-2];
 pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, LyapunovFailure> {
     let family = Family::new(jacobian, period, DEFAULT_PRECISION).ok_or(LyapunovFailure::NotFinite)?;
     let float = FloatFamily::new(&family);
+    // Steps in time are counted by the norm.
+    if !float.size.is_finite() {
+        return Err(LyapunovFailure::NotFinite);
+    }
     let floquet = float.floquet_exponents().ok_or(LyapunovFailure::NotFinite)?;
     let exponent = floquet.first().map_or(f64::NAN, |first| first[0]);
     if exponent.is_nan() || exponent >= 0.0 {
