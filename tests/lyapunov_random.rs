@@ -88,3 +88,21 @@ proptest! {
         prop_assert!((0.95..=1.0).contains(&rate), "{n}: {rate}");
     }
 }
+
+/// Entries from 1e-300 to 1e308: a proved rate, or one of the failures, whatever overflows on the way.
+#[test]
+fn jacobians_of_any_size_have_an_answer() {
+    for entry in ["-1e-300", "-1e150", "-1e200", "-1e308", "-1e400", "-1e300,-1", "-1e200 + cos(2*pi*t)"] {
+        let rows = |off: &str| vec![vec![entry.to_owned(), off.to_owned()], vec!["0".to_owned(), entry.to_owned()]];
+        for rows in [vec![vec![entry.to_owned()]], rows("0"), rows("1e200")] {
+            if let Ok(found) = find(&rows)
+                && let Some(proved) = found.prove(&found.found[0])
+            {
+                assert!(proved.alpha > 0 && proved.alpha.to_f64() <= -found.floquet[0][0], "{rows:?}");
+            }
+        }
+    }
+    // The largest that a norm in doubles allows: the rate of a diagonal matrix.
+    let found = find(&[vec!["-1e200".to_owned()]]).expect("a candidate");
+    assert!(found.prove(&found.found[0]).is_some_and(|proved| proved.alpha.to_f64() > 0.99e200));
+}

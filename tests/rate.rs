@@ -178,3 +178,38 @@ fn jacobians_of_all_kinds_on_the_command_line() {
         assert_eq!(decide(wrong).0, 2, "{wrong}");
     }
 }
+
+/// A filter with the pole -1/1000 is far slower than the loop: the report says that xi_1 is not part of the rate. One that is not
+/// stable is refused as by `certify`.
+#[test]
+fn the_states_behind_a_filter_are_not_claimed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(format!("{ROOT}/specs/relative-degree-4.json")).expect("shipped");
+    let coefficients = r#"["6", "11", "6"]"#;
+    assert!(text.contains(coefficients));
+    let with = |a: &str| {
+        let file = folder.path().join("spec.json");
+        std::fs::write(&file, text.replace(coefficients, a)).expect("written");
+        let file = file.to_str().expect("a plain name").to_owned();
+        let (code, report, _) = run(&["rate", &file, "--n-o", "0"]);
+        let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
+        let output = command.args(["rate", &file, "--n-o", "0"]).output().expect("it runs");
+        (code, report, String::from_utf8_lossy(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" "))
+    };
+    let (code, report, text) = with(r#"["1/1000"]"#);
+    assert_eq!((code, &report["state"]), (0, &Value::from("(x, e, z)")));
+    assert!(number(&report["rates"][0]["closed_loop"]) > 0.1, "{report}");
+    assert!(text.contains("at which (x, e, z) is proved") && text.contains("its rate is not in this table"), "{text}");
+    let (code, report, _) = with(r#"["-1"]"#);
+    assert_eq!((code, &report["errors"][0]["pointer"]), (2, &Value::from("/relative_degree/a")), "{report}");
+}
+
+/// The rate holds for the gain that is given, so the report names that one, with all its digits.
+#[test]
+fn the_gain_is_written_exactly() {
+    let sigma = "123.123456789123456789123456789";
+    let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
+    let output = command.current_dir(ROOT).args(["rate", "specs/no-x.json", "--n-o", "0", "--sigma", sigma]).output();
+    let text = String::from_utf8_lossy(&output.expect("it runs").stdout).into_owned();
+    assert!(text.lines().next().is_some_and(|title| title.ends_with(sigma)), "{text}");
+}

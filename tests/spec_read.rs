@@ -292,3 +292,18 @@ fn weights_are_read_into_their_families() {
     assert_eq!(total.decimals(), ["4.6123753486854883", "4.6123753486854884"]);
     assert_eq!(weights.weight(4, 64).decimals(), ["0.125", "0.125"]);
 }
+
+/// What is no entry of a Jacobian is told all three forms that are.
+#[test]
+fn an_entry_of_a_jacobian_of_another_type_is_told_what_may_stand_there() {
+    let triple = r#"{ "p_low": "1", "p_up": "1.5512", "alpha": "0.58" }"#;
+    for entry in ["null", "true", "{}"] {
+        let errors = with(triple, &format!("{{ \"jacobian\": [[{entry}]] }}")).expect_err(entry);
+        let [error] = errors.errors() else { panic!("{errors}") };
+        assert_eq!((error.kind, error.pointer.as_str()), (ErrorKind::Type, "/lyapunov/jacobian/0/0"));
+        assert!(
+            error.expected.as_ref().is_some_and(|expected| expected.contains("a number, an interval")),
+            "{error:?}"
+        );
+    }
+}

@@ -53,7 +53,7 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
             sigmas.push(found);
         }
         // Around the best one, a finer step.
-        if let Some(at) = (0..sigmas.len()).filter(|at| sigmas[*at].is_some_and(|sigma| sigma <= best)).next_back() {
+        if let Some(at) = (0..sigmas.len()).rfind(|at| sigmas[*at].is_some_and(|sigma| sigma <= best)) {
             let more = candidates.beside(at);
             sigmas.extend(more.iter().map(&mut sigma));
             candidates.found.extend(more);

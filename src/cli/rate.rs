@@ -7,7 +7,7 @@ use super::{input, output};
 use sigmastar::certificate::{Options, Verdict, certify};
 use sigmastar::data::Data;
 use sigmastar::rate::rates;
-use sigmastar::report::{RateReport, bounding_errors};
+use sigmastar::report::{RateReport, bounding_errors, filter_errors};
 use sigmastar::spec::Specification;
 
 /// Runs the command and returns the exit code.
@@ -29,6 +29,9 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     let run = certify(&spec, Options { compare: false, ..Options::default() }).map_err(|problems| {
         Failure::Documents(problems.iter().map(|problem| bounding_errors(&spec, problem)).collect())
     })?;
+    if let Some(errors) = filter_errors(&run) {
+        return Err(errors.into());
+    }
     let (Some(sigma_star), Some(proof)) = (run.sigma_star(), run.sharp.proved()) else {
         output::remark(&format!(
             "{}: without a certified gain there are no rates; see `sigmastar certify`",

@@ -5,7 +5,7 @@ use super::float::FloatFamily;
 use super::propose::{fourier, lyapunov_samples, smallest_ratio};
 use super::prove::{ProvedTriple, prove};
 use crate::enclosure::DEFAULT_PRECISION;
-use crate::number::{Direction, round_f64};
+use crate::number::{Direction, round_f64, write_exact};
 use crate::spec::model::{Constant, Jacobian, PeriodicMatrix};
 use faer::Mat;
 use rug::Rational;
@@ -87,8 +87,9 @@ impl Candidates {
 pub enum LyapunovFailure {
     /// Floating point says that the middle of the Jacobian is not stable; not proved.
     #[error(
-        "in floating point the middle of the Jacobian has the Floquet exponent {exponent}, which is not negative: there is \
-         no triple with alpha > 0"
+        "in floating point the middle of the Jacobian has the Floquet exponent {}, which is not negative: there is \
+         no triple with alpha > 0",
+        short(*exponent)
     )]
     NotStable {
         /// The largest real part, in 1/time.
@@ -98,11 +99,16 @@ pub enum LyapunovFailure {
     #[error("the Floquet exponents of the Jacobian cannot be computed in floating point")]
     NotFinite,
     /// Nothing that was proposed could be proved.
-    #[error("no P(t) that was tried is proved for every matrix of the Jacobian; its middle has the rate {rate}")]
+    #[error("no P(t) that was tried is proved for every matrix of the Jacobian; its middle has the rate {}", short(*rate))]
     NotFound {
         /// Minus the largest Floquet exponent of the middle, in 1/time.
         rate: f64,
     },
+}
+
+/// A number of a message, in few digits.
+fn short(value: f64) -> String {
+    round_f64(value, 6, Direction::Nearest).map_or_else(|| "unknown".to_owned(), |value| write_exact(&value))
 }
 
 /// Shares of the largest rate at which the smallest ratio is sought.
@@ -126,6 +132,10 @@ const ROOM: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-2];
 pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, LyapunovFailure> {
     let family = Family::new(jacobian, period, DEFAULT_PRECISION).ok_or(LyapunovFailure::NotFinite)?;
     let float = FloatFamily::new(&family);
+    // Steps in time are counted by the norm.
+    if !float.size.is_finite() {
+        return Err(LyapunovFailure::NotFinite);
+    }
     let floquet = float.floquet_exponents().ok_or(LyapunovFailure::NotFinite)?;
     let exponent = floquet.first().map_or(f64::NAN, |first| first[0]);
     if exponent.is_nan() || exponent >= 0.0 {

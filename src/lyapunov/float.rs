@@ -44,9 +44,11 @@ pub(super) fn combine(order: usize, matrices: &[Mat<f64>], factors: impl Iterato
     sum
 }
 
-/// The Frobenius norm.
+/// The Frobenius norm, relative to the largest entry so that no square overflows.
 fn norm(matrix: &Mat<f64>) -> f64 {
-    (0..matrix.ncols()).flat_map(|j| (0..matrix.nrows()).map(move |i| matrix[(i, j)].powi(2))).sum::<f64>().sqrt()
+    let entries = || (0..matrix.ncols()).flat_map(|j| (0..matrix.nrows()).map(move |i| matrix[(i, j)].abs()));
+    let largest = entries().fold(0.0, f64::max);
+    if largest == 0.0 { 0.0 } else { largest * entries().map(|entry| (entry / largest).powi(2)).sum::<f64>().sqrt() }
 }
 
 impl FloatFamily {

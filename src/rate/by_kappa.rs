@@ -94,8 +94,8 @@ impl RateByKappa {
         let mut eps = &self.h * 1024 / &largest;
         for (r, k) in [(&self.r_x, &self.k_x), (&self.r_e, &self.k_e)] {
             let coupling = (&lemma.gain * k).sqr() * 8;
-            // Without coupling there is no limit.
-            if coupling.is_positive().is_true() {
+            // Only where there is surely no coupling there is no limit; one that is not known limits eps to nothing.
+            if !coupling.upper().is_zero() {
                 eps = eps.min(&(r / coupling));
             }
         }
@@ -105,5 +105,26 @@ impl RateByKappa {
             .map_or_else(|| Enclosure::undefined(precision), |eps| Enclosure::from_rational(&eps, precision));
         let third = &eps / ((&self.h + &eps * largest) * 4);
         (&self.r_x / (&self.w_x * 4)).min(&(&self.r_e / 4)).min(&third)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// w_x = h = r_x = r_e = 1, P = I/2 and |P b| = 1: without coupling the rate is nearly 1/(4 p) = 1/2, but for r_e/4 = 1/4.
+    #[test]
+    fn only_a_coupling_of_zero_sets_no_limit() {
+        let one = || Enclosure::one(64);
+        let rate = |k_x: Enclosure| {
+            let by_kappa = RateByKappa { w_x: one(), h: one(), k_x, k_e: Enclosure::zero(64), r_x: one(), r_e: one() };
+            by_kappa.rate(&ProvedLyapunov { rate: Rational::new(), largest: Rational::from((1, 2)), gain: one() })
+        };
+        assert_eq!(rate(Enclosure::zero(64)).lower_f64(), 0.25);
+        // eps = 1/8: 1/8 / (4 (1 + 1/16)).
+        assert!((rate(one()).lower_f64() - 1.0 / 34.0).abs() < 1e-15);
+        for unknown in [Enclosure::between(&Rational::new(), &Rational::from(1), 64), Enclosure::undefined(64)] {
+            assert!(!rate(unknown).is_positive().is_true());
+        }
     }
 }

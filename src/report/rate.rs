@@ -14,6 +14,8 @@ pub struct RateReport {
     name: String,
     sigma: Rational,
     sigma_star: Rational,
+    /// Whether e is a filtered error: then xi_1, ..., xi_(r-1) are no part of what the rates speak of.
+    filtered: bool,
     rates: Vec<Rates>,
 }
 
@@ -22,7 +24,8 @@ impl RateReport {
     #[must_use]
     pub fn new(run: &Certification<'_>, sigma: &Rational, rates: Vec<Rates>) -> Option<RateReport> {
         let sigma_star = run.sigma_star()?.clone();
-        Some(RateReport { name: clean(&run.spec.name), sigma: sigma.clone(), sigma_star, rates })
+        let filtered = run.spec.relative_degree.is_some();
+        Some(RateReport { name: clean(&run.spec.name), sigma: sigma.clone(), sigma_star, filtered, rates })
     }
 }
 
@@ -59,11 +62,19 @@ impl Readable for RateReport {
                 rates.by_kappa.as_ref().map_or_else(unknown, margin),
             ]);
         }
-        vec![
-            Block::Title(format!("{}: rates at sigma = {}", self.name, exact(&self.sigma, Direction::Down))),
+        // A rate of the closed loop is proved for this gain, not for the one that it is rounded to.
+        let mut blocks = vec![Block::Title(format!("{}: rates at sigma = {}", self.name, write_exact(&self.sigma)))];
+        if self.filtered {
+            blocks.push(Block::says(
+                "The closed loop is that of x, e and z. With a relative degree above 1 the states xi_1, ..., xi_(r-1) follow from \
+                 e by the filter: they approach the periodic solution no faster than the filter itself lets them, and its rate \
+                 is not in this table.",
+            ));
+        }
+        blocks.extend([
             Block::says(format!(
                 "sigma* = {} serves every n_o; the rates tend to 0 as n_o grows. All in 1/time, proved and rounded down, but for \
-                 the spectral abscissa, which is floating point. The rate of the closed loop is that at which its state is \
+                 the spectral abscissa, which is floating point. The rate of the closed loop is that at which (x, e, z) is \
                  proved to approach the periodic solution from the initial set of the certificate, for this n_o and this gain: \
                  a lower bound for every plant with these bounding functions.",
                 exact(&self.sigma_star, Direction::Up)
@@ -78,7 +89,8 @@ impl Readable for RateReport {
                  inequality in the error box. By c and kappa: the Lyapunov function of the certificate and the paper's argument, \
                  with its constant repaired; at sigma* it is tiny, because C5 only just holds there.",
             ),
-        ]
+        ]);
+        blocks
     }
 
     /// As JSON: `{"format": "sigmastar/rates", "version": 1, ...}`.
@@ -97,7 +109,7 @@ impl Readable for RateReport {
             })
         };
         json!({
-            "format": "sigmastar/rates", "version": 1, "verdict": "certified",
+            "format": "sigmastar/rates", "version": 1, "verdict": "certified", "state": "(x, e, z)",
             "sigma": write_exact(&self.sigma), "sigma_star": write_exact(&self.sigma_star),
             "rates": self.rates.iter().map(one).collect::<Vec<_>>(),
         })

@@ -44,7 +44,7 @@ pub(super) fn read(value: &Value<'_>, period: Option<&Constant>, errors: &mut Er
 }
 
 fn read_entry(value: &Value<'_>, period: Option<&Constant>, errors: &mut Errors) -> Result<JacobianEntry, Reported> {
-    if value.text().is_none() && value.numeral().is_none() {
+    if value.type_name() == "an array" {
         return read_interval(value, errors);
     }
     let expr = expression(value, Variables::Time, "a number, an interval or a string with an expression in t", errors)?;
