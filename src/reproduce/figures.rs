@@ -40,11 +40,11 @@ pub fn figures() -> Result<Vec<(&'static str, Figure)>, SpecErrors> {
         ("figure-3-nominal.svg", spectrum(&title("base frequency 2 pi/T"), with_oscillators(1.0, &[0, 1, 2, 3, 4]))),
         (
             "figure-4-1-percent.svg",
-            spectrum(&title("base frequency 0.99 2 pi/T"), with_oscillators(0.99, &[0, 1, 2, 3])),
+            spectrum(&title("base frequency 0.99 * 2 pi/T"), with_oscillators(0.99, &[0, 1, 2, 3])),
         ),
         (
             "figure-5-5-percent.svg",
-            spectrum(&title("base frequency 0.95 2 pi/T"), with_oscillators(0.95, &[0, 1, 2, 3])),
+            spectrum(&title("base frequency 0.95 * 2 pi/T"), with_oscillators(0.95, &[0, 1, 2, 3])),
         ),
     ])
 }
