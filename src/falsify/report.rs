@@ -2,6 +2,7 @@
 
 use super::claim::Claim;
 use super::trial::{Finding, Outcome, Trial, Violation};
+use crate::number::{Direction, round_f64, write_exact};
 use crate::plant;
 use crate::report::blocks::{Block, Table, clean};
 use crate::spec::{Document, SpecErrors};
@@ -67,11 +68,11 @@ pub fn text(claim: &Claim, outcome: &Outcome) -> String {
     }
     let violated = outcome.findings.len() - held - unfinished.len();
     blocks.push(Block::says(format!(
-        "{} trials at sigma = {} (a little above sigma*), base frequency {}, seed {}: in {held} every bound holds, in {violated} one does \
-         not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
+        "{} trials at 1.000001 sigma*, sigma* = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
+         does not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
          proof.",
         outcome.settings.trials,
-        claim.sigma,
+        round_f64(claim.sigma, 9, Direction::Nearest).map_or_else(|| claim.sigma.to_string(), |sigma| write_exact(&sigma)),
         claim.spec.internal_model.base_frequency.text,
         outcome.settings.seed,
         unfinished.len()
