@@ -97,6 +97,9 @@ mod tests {
             ("1.9*X + E*(0.1 + min(X, 3))", "2*X + X*E", false),
             ("0.29 + min(E, 0.7)", "0.3 + atan(2*E)", true),
             ("0.3 + min(E, 1.6)", "0.3 + atan(2*E)", false),
+            // A narrow peak away from every corner, in one variable and in the other.
+            ("max(0, 1 - 10*abs(X - 3.1))", "0.5", false),
+            ("max(0, 1 - 10*abs(E - 3.1))", "0.5", false),
             // An undefined bounding function allows nothing.
             ("0", "1 + 0*sqrt(X - 1)", false),
         ] {
