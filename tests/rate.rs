@@ -63,6 +63,23 @@ fn at_the_certified_gain_the_rate_is_of_use() {
 }
 
 /// A plant without x is not held back by the alpha = 1 that stands in for it.
+/// The plant of the paper with its certified gain: over a period (T = 1) its slowest mode shrinks by no less than proved.
+#[test]
+fn the_plant_converges_no_slower_than_proved() {
+    let gain = ["--sigma", "47.2233"];
+    let (code, report, _) = run(&[&["rate", "specs/paper-example.json", "--n-o", "0,1,2,4"], &gain[..]].concat());
+    assert_eq!(code, 0);
+    for rate in report["rates"].as_array().expect("a list") {
+        let n_o = rate["n_o"].to_string();
+        let plant = ["simulate", "specs/plants/paper-example.json", "--n-o", &n_o];
+        let (code, simulated, _) = run(&[&plant, &gain[..]].concat());
+        assert_eq!(code, 0);
+        let multiplier = simulated["steady_state"]["multipliers"][0].as_f64().expect("a multiplier");
+        let proved = (-number(&rate["closed_loop"])).exp();
+        assert!(multiplier <= proved && multiplier > 0.6 * proved, "{n_o}: {multiplier} {proved}");
+    }
+}
+
 #[test]
 fn without_x_the_rate_is_that_of_error_and_internal_model() {
     let (code, report, _) = run(&["rate", "specs/no-x.json", "--n-o", "0,3"]);
