@@ -331,6 +331,10 @@ mod tests {
         let lopsided = family(&[&["-1", "0,1/2"], &["0", "-2,-1"]]);
         assert_eq!(prove(&lopsided, &witness((749, 1000))), Ok(()));
         assert!(prove(&lopsided, &witness((751, 1000))).is_err());
+        // The worst vertex has the lower end of one entry and the upper end of the other.
+        let mixed = family(&[&["-1", "-3/4,1/4"], &["0", "-2,-1"]]);
+        assert_eq!(prove(&mixed, &witness((624, 1000))), Ok(()));
+        assert!(prove(&mixed, &witness((626, 1000))).is_err());
         // p_up = 101/100 enters the ball.
         let ball =
             Family { deviation: Deviation::Ball(Enclosure::from_rational(&Rational::from((1, 4)), 128)), ..vertices };
