@@ -229,18 +229,18 @@ impl Factor {
     }
 }
 
-/// Whether every diagonal entry is at least the sum of the magnitudes of the others in its row.
+/// Whether every diagonal entry is at least the sum of the magnitudes of the others in its row; "no" where that sum is beyond
+/// the range of the integers.
 fn dominates(order: usize, lower: &[i128]) -> bool {
-    // Saturated sums only make the answer "no".
-    let mut others = vec![0_i128; order];
+    let mut others = vec![Some(0_i128); order];
     for i in 0..order {
         for (j, entry) in row(lower, i)[..i].iter().enumerate() {
-            let size = entry.saturating_abs();
-            others[i] = others[i].saturating_add(size);
-            others[j] = others[j].saturating_add(size);
+            for at in [i, j] {
+                others[at] = others[at].and_then(|sum| sum.checked_add(entry.checked_abs()?));
+            }
         }
     }
-    others.iter().enumerate().all(|(i, others)| row(lower, i)[i] >= *others)
+    others.iter().enumerate().all(|(i, others)| others.is_some_and(|others| row(lower, i)[i] >= others))
 }
 
 /// Whether an entry is less than 1 in magnitude, as every entry of a positive definite matrix with a diagonal below 1 is.
@@ -395,6 +395,27 @@ mod tests {
         assert_eq!(matrix.is_positive_definite(), Truth::Undecided);
         let more = |i: usize, j: usize| third(i, j) + Rational::from((i32::from(i == j), 1_000_000));
         assert_eq!(ScaledMatrix::from_rationals(3, more).expect("finite").is_positive_definite(), Truth::True);
+    }
+
+    #[test]
+    fn dominance_counts_both_triangles() {
+        for (lower, yes) in [
+            (&[1, 1, 1][..], true),
+            (&[1, -1, 1], true),
+            (&[0, 1, 5], false),
+            (&[5, -1, 0], false),
+            (&[2, 1, 1, -1, 0, 1], true),
+            (&[2, 1, 1, -2, 0, 9], false),
+            (&[2, 1, 9, 0, 2, 1], false),
+            (&[-1], false),
+            (&[0], true),
+            // Sums beyond the integers.
+            (&[i128::MAX, i128::MIN, i128::MAX], false),
+            (&[i128::MAX, i128::MAX, i128::MAX, 1, 0, 1], false),
+        ] {
+            let order = (1..4).find(|n| row_start(*n) == lower.len()).unwrap();
+            assert_eq!(dominates(order, lower), yes, "{lower:?}");
+        }
     }
 
     #[test]
