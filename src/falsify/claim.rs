@@ -103,7 +103,7 @@ impl Claim {
         let reach = match &spec.domain {
             Some(domain) => [&domain.x, &domain.e].map(data_end),
             // Rounded up: plants within the bounding functions on a larger box are within them on a smaller one.
-            None => [(x, x_p, error_box[0]), (e, e_p, error_box[1])].map(|(per, p, radius)| {
+            None => [(periodic[0], x_p, error_box[0]), (periodic[1], e_p, error_box[1])].map(|(per, p, radius)| {
                 Rational::from_f64((per + radius).max(p.to_f64()) * 1.001).unwrap_or_else(|| Rational::from(1))
             }),
         };

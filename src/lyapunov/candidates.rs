@@ -13,7 +13,8 @@ use thiserror::Error;
 
 /// What was found for a Jacobian, in floating point; [`Candidates::prove`] turns a candidate into a proved triple.
 pub struct Candidates {
-    /// Candidates, none with both a smaller rate and a larger ratio than another; the largest rate first. Not empty.
+    /// Candidates, the largest rate first; not empty. As [`candidates`] gives them, none has both a smaller rate and a larger
+    /// ratio than another; [`Candidates::beside`] finds more.
     pub found: Vec<Candidate>,
     /// The Floquet exponents of the middle of the Jacobian, (real, imaginary) in 1/time, the largest real part first:
     /// floating point, certified by nothing. Minus the first real part bounds every rate that can be proved.
@@ -55,7 +56,8 @@ impl Candidates {
         })
     }
 
-    /// Further candidates of the same degree, with rates between that of a candidate and those of its neighbours.
+    /// Further candidates of the same degree, with rates between that of a candidate and those of its neighbours; none where
+    /// the semidefinite program of that degree is too large.
     #[must_use]
     pub fn beside(&self, index: usize) -> Vec<Candidate> {
         let Some(here) = self.found.get(index) else { return Vec::new() };

@@ -160,21 +160,9 @@ pub(super) fn scalar_test(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure, m0: u
 
 #[cfg(test)]
 mod tests {
+    use super::super::weights_only::weights_only;
     use super::*;
-    use crate::spec::Specification;
     use crate::transfer::TradeOff;
-
-    fn specification(n0: &str, epsilon: &str, mu: &str) -> Specification {
-        let text = format!(
-            r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
-            "lyapunov": {{"p_low": "1", "p_up": "1", "alpha": "1"}},
-            "bounds": {{"f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "0", "q_x": "0", "q_t": "1"}},
-            "internal_model": {{"mu": "{mu}", "base_frequency": "1",
-              "weights": {{"family": "power", "n0": "{n0}", "epsilon": "{epsilon}"}}}},
-            "initial_set": {{"kind": "paper"}}}}"#
-        );
-        Specification::from_json("test", &text).unwrap()
-    }
 
     fn decimal(text: &str) -> Rational {
         crate::number::parse_decimal(text).unwrap()
@@ -184,7 +172,7 @@ mod tests {
     fn near_optimal_pairs_are_proved_and_smaller_ones_refused() {
         // nu = 1, n_0 = 2: the smallest k1 with k0 = 7 is about 17.6, with k0 = 1/2 (= T(0)) about 27.1. At k0 = T(0)
         // itself no box that contains x = 0 can be proved in this form.
-        let spec = specification("2", "1/2", "1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         for (k0, k1) in [("7", "17.7"), ("0.501", "27.3")] {
             let (k0, k1) = (decimal(k0), decimal(k1));
@@ -201,7 +189,7 @@ mod tests {
     #[test]
     fn the_proposed_curve_can_be_proved() {
         for (n0, epsilon, mu) in [("2", "1/2", "1"), ("2", "1", "0.159"), ("1.5", "1/10", "10"), ("5", "1/2", "0.01")] {
-            let spec = specification(n0, epsilon, mu);
+            let spec = weights_only(n0, epsilon, mu, "1");
             let data = Data::new(&spec, 128);
             let curve = TradeOff::curve(&data);
             for (k0, k1, _) in curve.candidates.iter().step_by(30) {
@@ -216,7 +204,7 @@ mod tests {
     /// n_0 = 2, eps = 1/2, nu = 1, m0 = 2 by the formulas of the derivation in doubles: `k0 = 1` leaves s > 0.
     #[test]
     fn the_scalar_test_is_the_one_of_the_derivation() {
-        let spec = specification("2", "1/2", "1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let weight = 2f64.powf(-1.5);
         let (a, b) = (4.0 * weight, 2.0 * weight);
@@ -242,7 +230,7 @@ mod tests {
 
     #[test]
     fn a_box_uses_the_least_bound_on_it_and_one_pole() {
-        let spec = specification("2", "1/2", "1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let sums = LorentzSums::new(&data, 4);
         let pair = [decimal("7"), decimal("18")].map(|k| data.rational(&k));
@@ -264,7 +252,7 @@ mod tests {
     /// The form divided by x^2 would hold: only the comparison at 0 itself refuses.
     #[test]
     fn k0_below_the_value_at_zero_is_refused() {
-        let spec = specification("2", "1/2", "1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let (k0, k1) = (decimal("0.5"), decimal("30"));
         let proof = BoxProof::find(&data, &k0, &k1).unwrap();
@@ -275,7 +263,7 @@ mod tests {
 
     #[test]
     fn damaged_proofs_are_refused() {
-        let spec = specification("2", "1/2", "1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let (k0, k1) = (decimal("7"), decimal("18"));
         let proof = BoxProof::find(&data, &k0, &k1).unwrap();

@@ -183,25 +183,12 @@ impl FloatSums {
 
 #[cfg(test)]
 mod tests {
+    use super::super::weights_only::weights_only;
     use super::*;
-    use crate::spec::Specification;
-
-    fn example() -> Specification {
-        Specification::from_json(
-            "test",
-            r#"{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
-            "lyapunov": {"p_low": "1", "p_up": "1", "alpha": "1"},
-            "bounds": {"f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "0", "q_x": "0", "q_t": "1"},
-            "internal_model": {"mu": "3/10", "base_frequency": "1",
-              "weights": {"family": "power", "n0": "2", "epsilon": "1/2"}},
-            "initial_set": {"kind": "paper"}}"#,
-        )
-        .unwrap()
-    }
 
     #[test]
     fn the_supremum_is_the_largest_of_the_members() {
-        let spec = example();
+        let spec = weights_only("2", "1/2", "3/10", "1");
         let sums = FloatSums::new(&Data::new(&spec, 128), 12);
         for x in [0.01, 0.3, 0.5, 0.77, 1.0, 1.49, 2.2, 7.6, 11.9, 13.3] {
             let members: Vec<f64> = (0..=12).map(|n| sums.transfer(x, n)).collect();
@@ -213,7 +200,7 @@ mod tests {
 
     #[test]
     fn peaks_are_zeros_of_g_where_t_is_its_slope() {
-        let spec = example();
+        let spec = weights_only("2", "1/2", "3/10", "1");
         let sums = FloatSums::new(&Data::new(&spec, 128), 12);
         for (m, n) in [(0, 1), (0, 12), (3, 4), (3, 9), (10, 12)] {
             let (x, width) = sums.peak(m, n);
@@ -224,7 +211,7 @@ mod tests {
 
     #[test]
     fn boxes_bound_the_values_in_them() {
-        let spec = example();
+        let spec = weights_only("2", "1/2", "3/10", "1");
         let data = Data::new(&spec, 128);
         let sums = FloatSums::new(&data, 40);
         let groups: Vec<(FloatGroup, Vec<usize>)> = vec![

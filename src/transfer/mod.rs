@@ -21,6 +21,8 @@ mod pole_sums;
 mod poles;
 mod printed;
 mod uniformity;
+#[cfg(test)]
+mod weights_only;
 
 pub use boxes::{BoxProof, MAX_BOXES, MAX_N0};
 pub use closed_form::closed_form_pair;

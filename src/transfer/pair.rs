@@ -251,21 +251,9 @@ pub fn prove_above(data: &Data<'_>, k0: f64, k1: f64, digits: u32) -> Option<(Ra
 
 #[cfg(test)]
 mod tests {
+    use super::super::weights_only::weights_only;
     use super::*;
-    use crate::spec::Specification;
     use crate::transfer::TradeOff;
-
-    fn specification(n0: &str, epsilon: &str, frequency: &str) -> Specification {
-        let text = format!(
-            r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
-            "lyapunov": {{"p_low": "1", "p_up": "1", "alpha": "1"}},
-            "bounds": {{"f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "0", "q_x": "0", "q_t": "1"}},
-            "internal_model": {{"mu": "1", "base_frequency": "{frequency}",
-              "weights": {{"family": "power", "n0": "{n0}", "epsilon": "{epsilon}"}}}},
-            "initial_set": {{"kind": "paper"}}}}"#
-        );
-        Specification::from_json("test", &text).unwrap()
-    }
 
     fn exact(data: &Data<'_>, text: &str) -> Rational {
         match text {
@@ -292,7 +280,7 @@ mod tests {
             ("50", "1", "1", "0.1"),
             ("1.01", "1/100", "3", "20"),
         ] {
-            let spec = specification(n0, epsilon, frequency);
+            let spec = weights_only(n0, epsilon, "1", frequency);
             let data = Data::new(&spec, 128);
             let k0 = exact(&data, k0);
             let case = format!("n0 {n0}, eps {epsilon}, w {frequency}, k0 {}", k0.to_f64());
@@ -310,7 +298,7 @@ mod tests {
         let cases =
             [("7.9", "0.02", "2/1000000", 1.0, 1.0, 4000, 1.01), ("728", "0.0988", "1/51", 1e-4, 1.0, 20_000, 4.0)];
         for (n0, epsilon, frequency, a, b, most, factor) in cases {
-            let spec = specification(n0, epsilon, frequency);
+            let spec = weights_only(n0, epsilon, "1", frequency);
             let data = Data::new(&spec, 128);
             let case = format!("n0 {n0}, eps {epsilon}, w {frequency}");
             let pair = cheapest_pair(&data, a, b).unwrap_or_else(|error| panic!("{case}: {error}"));
@@ -325,7 +313,7 @@ mod tests {
 
     #[test]
     fn the_obstacle_is_what_its_point_shows() {
-        let spec = specification("2", "1/2", "1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let pair = smallest_k1(&data, &Rational::from(7)).unwrap();
         let obstacle = pair.obstacle.as_ref().unwrap();
@@ -339,7 +327,7 @@ mod tests {
 
     #[test]
     fn the_status_of_a_named_pair_is_no_more_than_what_is_known() {
-        let spec = specification("2", "1/2", "1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let of = |low: i32, high: i32| Enclosure::between(&Rational::from(low), &Rational::from(high), 128);
         assert!(matches!(pair_status(&data, &of(7, 7), &of(18, 18)), PairStatus::Proved));
@@ -355,12 +343,12 @@ mod tests {
     #[test]
     fn data_beyond_doubles_are_told_apart_from_hard_ones() {
         for (n0, frequency) in [("2", "1e300"), ("2", "1e-300"), ("1e300", "1")] {
-            let spec = specification(n0, "1/2", frequency);
+            let spec = weights_only(n0, "1/2", "1", frequency);
             let data = Data::new(&spec, 128);
             let error = cheapest_pair(&data, 1.0, 1.0).unwrap_err();
             assert!(matches!(error, PairError::OutOfRange { .. }), "{n0} {frequency}: {error}");
         }
-        let spec = specification("2", "1/2", "1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let large = Rational::from_str_radix(&format!("1{}", "0".repeat(400)), 10).unwrap();
         let error = smallest_k1(&Data::new(&spec, 128), &large).unwrap_err();
         assert!(matches!(error, PairError::OutOfRange { .. }), "{error}");

@@ -201,25 +201,13 @@ fn beyond_last_pole(data: &Data<'_>, x: &Enclosure, gap: &Enclosure) -> [Enclosu
 
 #[cfg(test)]
 mod tests {
+    use super::super::weights_only::weights_only;
     use super::*;
-    use crate::spec::Specification;
     use crate::transfer::smallest_k1;
-
-    fn specification(mu: &str) -> Specification {
-        let text = format!(
-            r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
-            "lyapunov": {{"p_low": "1", "p_up": "1", "alpha": "1"}},
-            "bounds": {{"f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "0", "q_x": "0", "q_t": "1"}},
-            "internal_model": {{"mu": "{mu}", "base_frequency": "1",
-              "weights": {{"family": "power", "n0": "2", "epsilon": "1/2"}}}},
-            "initial_set": {{"kind": "paper"}}}}"#
-        );
-        Specification::from_json("test", &text).unwrap()
-    }
 
     #[test]
     fn lemmas_beyond_the_last_pole() {
-        let spec = specification("4");
+        let spec = weights_only("2", "1/2", "4", "1");
         let data = Data::new(&spec, 128);
         let of = |n: i32, d: i32| data.rational(&Rational::from((n, d)));
         // x = 7/2, N = 3: 1/(2 * 4 * 1/2) = 1/4 and (7/2)/(16 * 2 * 1/2) = 7/32.
@@ -241,7 +229,7 @@ mod tests {
     #[test]
     fn no_height_below_an_attained_ratio_is_proved() {
         for mu in ["1/10", "1", "10"] {
-            let spec = specification(mu);
+            let spec = weights_only("2", "1/2", mu, "1");
             let data = Data::new(&spec, 128);
             let k0 = 2 * (data.nu.sqr() * &data.n_0).recip();
             let k0 = k0.upper_rational().unwrap();
@@ -270,7 +258,7 @@ mod tests {
 
     #[test]
     fn a_k0_below_the_value_at_zero_is_refused() {
-        let spec = specification("1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let floats = FloatSums::new(&data, LAST_ALONE as usize);
         for n in [1, 3, 1000] {
@@ -287,7 +275,7 @@ mod tests {
     /// The bound that all large N share is one for each of them, and no N <= 32 uses it.
     #[test]
     fn together_and_alone_the_enclosures_agree() {
-        let spec = specification("1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let pair = smallest_k1(&data, &Rational::from(7)).unwrap();
         let counts = [1, 32, 33, 34, 60, 5000].map(OscillatorCount::Finite);
@@ -304,7 +292,7 @@ mod tests {
     #[test]
     fn the_last_pole_is_its_own_place() {
         // With so small a k1 the value at the last pole, 2/(nu^2 n_N) = 2 N^(3/2), stands out.
-        let spec = specification("1");
+        let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let n = 1_048_577;
         let (k0, k1) = (Rational::from(10_000_000_000_u64), Rational::from((1, 1_000_000_000)));
