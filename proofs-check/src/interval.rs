@@ -3,6 +3,7 @@
 //! An interval contains the true value, or is *undefined* (both ends NaN): then nothing is known, and nothing that is
 //! computed from it decides anything. What must be believed here: which end is rounded which way.
 
+use crate::effort;
 use rug::float::{Constant, Round, Special};
 use rug::ops::{DivAssignRound, Pow};
 use rug::{Float, Rational};
@@ -202,17 +203,29 @@ impl Interval {
 
     /// A function that increases on the interval, by its correctly rounded values at the ends.
     fn increasing(&self, f: impl Fn(Float, Round) -> Float) -> Interval {
-        Interval::new(f(self.lo.clone(), Round::Down), f(self.hi.clone(), Round::Up))
+        if effort::elementary(self.precision()) { self.rising(f) } else { Interval::undefined(self.precision()) }
     }
 
     /// The same for a function that decreases.
     fn decreasing(&self, f: impl Fn(Float, Round) -> Float) -> Interval {
+        if !effort::elementary(self.precision()) {
+            return Interval::undefined(self.precision());
+        }
         Interval::new(f(self.hi.clone(), Round::Down), f(self.lo.clone(), Round::Up))
+    }
+
+    /// [`Interval::increasing`] for functions that cost no more than a product.
+    fn cheaply_increasing(&self, f: impl Fn(Float, Round) -> Float) -> Interval {
+        if effort::arithmetic(self.precision()) { self.rising(f) } else { Interval::undefined(self.precision()) }
+    }
+
+    fn rising(&self, f: impl Fn(Float, Round) -> Float) -> Interval {
+        Interval::new(f(self.lo.clone(), Round::Down), f(self.hi.clone(), Round::Up))
     }
 
     /// x^2.
     pub fn sqr(&self) -> Interval {
-        self.abs().increasing(by(Float::square_round))
+        self.abs().cheaply_increasing(by(Float::square_round))
     }
 
     /// e^x. Beyond 2^32 in magnitude the ends are moved outward, so that nothing enormous is evaluated.
@@ -239,7 +252,7 @@ impl Interval {
 
     /// The square root; undefined where the number may be negative.
     pub fn sqrt(&self) -> Interval {
-        self.increasing(by(Float::sqrt_round))
+        self.cheaply_increasing(by(Float::sqrt_round))
     }
 
     /// arctan x.
@@ -259,7 +272,7 @@ impl Interval {
 
     /// The Riemann zeta function for s > 1, where it decreases; undefined otherwise.
     pub fn zeta(&self) -> Interval {
-        if self.lo > 1 && self.is_bounded() {
+        if self.lo > 1 && self.is_bounded() && effort::zeta(self.precision()) {
             self.decreasing(by(Float::zeta_round))
         } else {
             Interval::undefined(self.precision())
@@ -333,7 +346,9 @@ impl Interval {
     pub fn pow(&self, exponent: &Interval) -> Interval {
         let p = self.precision().max(exponent.precision());
         let defined = self.is_positive() || (self.is_nonnegative() && exponent.is_positive());
-        if !defined || !self.is_bounded() || !exponent.is_bounded() {
+        // Four corners, each rounded both ways.
+        let paid = (0..4).all(|_| effort::elementary(p));
+        if !paid || !defined || !self.is_bounded() || !exponent.is_bounded() {
             return Interval::undefined(p);
         }
         let corner = |x: &Float, y: &Float| {
@@ -347,16 +362,25 @@ impl Interval {
 
 fn add(a: &Interval, b: &Interval) -> Interval {
     let p = a.precision().max(b.precision());
+    if !effort::arithmetic(p) {
+        return Interval::undefined(p);
+    }
     Interval::new(rounded(p, &a.lo + &b.lo, Round::Down), rounded(p, &a.hi + &b.hi, Round::Up))
 }
 
 fn sub(a: &Interval, b: &Interval) -> Interval {
     let p = a.precision().max(b.precision());
+    if !effort::arithmetic(p) {
+        return Interval::undefined(p);
+    }
     Interval::new(rounded(p, &a.lo - &b.hi, Round::Down), rounded(p, &a.hi - &b.lo, Round::Up))
 }
 
 fn mul(a: &Interval, b: &Interval) -> Interval {
     let p = a.precision().max(b.precision());
+    if !effort::arithmetic(p) {
+        return Interval::undefined(p);
+    }
     if !a.is_defined() || !b.is_defined() {
         return Interval::undefined(p);
     }
@@ -377,6 +401,9 @@ fn mul(a: &Interval, b: &Interval) -> Interval {
 
 fn div(a: &Interval, b: &Interval) -> Interval {
     let p = a.precision().max(b.precision());
+    if !effort::arithmetic(p) {
+        return Interval::undefined(p);
+    }
     if !b.is_positive() {
         // Undefined where the divisor may be 0.
         return if b.hi < 0 { div(&-a, &-b) } else { Interval::undefined(p) };

@@ -8,8 +8,10 @@ use std::fmt;
 
 /// The largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
-/// The deepest nesting that is read.
-const MAX_NESTING: usize = 32;
+/// The deepest nesting that is read: twice that of a certificate.
+const MAX_NESTING: usize = 16;
+/// The longest key of an object, in bytes.
+const MAX_KEY: usize = 100;
 /// The most values that are read.
 const MAX_VALUES: usize = 200_000;
 /// The longest numeral in characters, and the largest decimal exponent, from which a rational is formed.
@@ -48,12 +50,18 @@ pub fn parse(bytes: &[u8]) -> Outcome<Json> {
 
 fn limits(bytes: &[u8]) -> Outcome<()> {
     let (mut depth, mut values, mut in_string, mut escaped) = (0_usize, 1_usize, false, false);
-    for byte in bytes {
+    // Where the last string begins and how long it is: before a colon it is a key.
+    let (mut begin, mut length) = (0, 0);
+    for (at, byte) in bytes.iter().enumerate() {
         match byte {
             _ if escaped => escaped = false,
             b'\\' if in_string => escaped = true,
-            b'"' => in_string = !in_string,
+            b'"' => {
+                in_string = !in_string;
+                (begin, length) = if in_string { (at, length) } else { (begin, at - begin - 1) };
+            }
             _ if in_string => {}
+            b':' if length > MAX_KEY => return bad("", format!("a key of an object has more than {MAX_KEY} bytes")),
             b'[' | b'{' => (depth, values) = (depth + 1, values + 1),
             b']' | b'}' => depth = depth.saturating_sub(1),
             b',' => values += 1,

@@ -1,12 +1,25 @@
-//! `proofs-check CERT.json [--verbose] [--format text|json]`: exit code 0 valid, 1 invalid, 2 bad-input, 3 undecided.
+//! `proofs-check CERT.json [--spec SPEC.json] [--verbose] [--format text|json]`: exit code 0 valid, 1 invalid, 2 bad-input,
+//! 3 undecided.
 
+use std::ffi::OsString;
+use std::fs::File;
 use std::io::Write;
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: proofs-check CERT.json [--verbose] [--format text|json]";
+const USAGE: &str = "usage: proofs-check CERT.json [--spec SPEC.json] [--verbose] [--format text|json]";
+
+const HELP: &str = "
+Decides the claim of a certificate again, and says what it is about and what it takes for granted.
+
+  --spec SPEC.json     the certificate must be about the data of this specification, else it is invalid
+  --verbose            the argument, line by line
+  --format text|json   the form of the answer
+
+exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided; figures on which no claim rests do not change them";
 
 fn main() -> ExitCode {
-    let (mut path, mut verbose, mut json) = (None, false, false);
+    let (mut path, mut spec, mut verbose, mut json): (Option<OsString>, Option<OsString>, _, _) =
+        (None, None, false, false);
     let mut arguments = std::env::args_os().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.to_str() {
@@ -15,19 +28,31 @@ fn main() -> ExitCode {
                 Some(format @ ("text" | "json")) => json = format == "json",
                 _ => return wrong_call("--format takes text or json"),
             },
+            Some("--spec") => match arguments.next() {
+                Some(file) => spec = Some(file),
+                None => return wrong_call("--spec takes a specification file"),
+            },
             Some("--help" | "-h") => {
-                println!("{USAGE}\n\nexit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided");
+                println!("{USAGE}\n{HELP}");
                 return ExitCode::SUCCESS;
             }
-            Some(flag) if flag.starts_with("--") => return wrong_call(&format!("unknown flag {flag}")),
+            Some(flag) if flag.starts_with('-') => return wrong_call(&format!("unknown flag {flag}")),
             _ if path.is_some() => return wrong_call("one certificate at a time"),
             _ => path = Some(argument),
         }
     }
     let Some(path) = path else { return wrong_call("no certificate is named") };
-    let report = match std::fs::File::open(&path).and_then(proofs_check::check_reader) {
+    let open = |path: &OsString| {
+        File::open(path).map_err(|error| format!("cannot read {}: {error}", std::path::Path::new(path).display()))
+    };
+    let read = open(&path).and_then(|mut certificate| {
+        let mut specification = spec.as_ref().map(open).transpose()?;
+        let specification = specification.as_mut().map(|file| file as &mut dyn std::io::Read);
+        proofs_check::check_reader(&mut certificate, specification).map_err(|error| format!("cannot read: {error}"))
+    });
+    let report = match read {
         Ok(report) => report,
-        Err(error) => return wrong_call(&format!("cannot read {}: {error}", path.display())),
+        Err(message) => return wrong_call(&message),
     };
     let text = if json { format!("{:#}\n", report.json()) } else { report.text(verbose) };
     // A closed stream is no reason to fail differently.

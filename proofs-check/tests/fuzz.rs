@@ -42,15 +42,15 @@ fn damaged_certificates() {
                 _ => bytes.truncate(at.max(1)),
             }
         }
-        if check(&bytes).verdict == Verdict::Valid {
+        let report = check(&bytes);
+        if report.verdict == Verdict::Valid && report.is_flawless() {
             valid.push(serde_json::from_slice::<Value>(&bytes).unwrap());
         }
     }
     // What survives differs in white space, or in free numbers that no stored value shows and that are proved again.
     let original: Value = serde_json::from_str(&original).unwrap();
     for mut survivor in valid {
-        for pointer in ["/witness/lmi", "/witness/exact_regulation", "/comparison", "/tool/version", "/precision_bits"]
-        {
+        for pointer in ["/witness/lmi", "/witness/exact_regulation", "/comparison", "/tool", "/precision_bits"] {
             let free = original.pointer(pointer).unwrap();
             *survivor.pointer_mut(pointer).unwrap() = free.clone();
         }

@@ -37,7 +37,7 @@ fn deep_nesting() {
 #[test]
 fn large_files() {
     assert!(refused(&vec![b' '; 100 << 20]).contains("bytes"));
-    let report = proofs_check::check_reader(std::io::repeat(b'[')).unwrap();
+    let report = proofs_check::check_reader(&mut std::io::repeat(b'['), None).unwrap();
     assert_eq!(report.verdict, BadInput);
     let million = format!("[{}0]", "0,".repeat(1_000_000));
     assert!(refused(million.as_bytes()).contains("values"));

@@ -10,7 +10,7 @@ use crate::constants::table::{At, Entry, Row, Value as Cell};
 use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational, write_exact};
-use crate::spec::model::InitialSet;
+use crate::spec::model::{InitialSet, LyapunovSource};
 use crate::transfer::{TransferProof, closed_form_pair};
 use rug::Rational;
 use serde_json::{Map, Value};
@@ -162,17 +162,32 @@ fn checkable(rows: &[Row]) -> Vec<Row> {
     rows.iter().map(keep).filter(some).collect()
 }
 
-/// The claim in words.
+/// The claim in words: with what it speaks of (period, regulator, data) and what of that is given and not proved.
 #[must_use]
 pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) -> String {
-    let model = &run.spec.internal_model;
-    let reach =
-        if model.matched { String::new() } else { " (the base frequency need not match the period)".to_owned() };
+    let spec = run.spec;
+    let model = &spec.internal_model;
+    let reach = if model.matched { "" } else { " (which need not match the period)" };
+    let domain = spec
+        .domain
+        .as_ref()
+        .map_or_else(String::new, |domain| format!(" (for |x| <= {}, |e| <= {})", domain.x.text, domain.e.text));
+    let triple = match &spec.lyapunov {
+        LyapunovSource::Given(triple) => format!(
+            "with the Lyapunov triple p_low = {}, p_up = {}, alpha = {} (given, not proved)",
+            triple.p_low.text, triple.p_up.text, triple.alpha.text
+        ),
+        LyapunovSource::Wanted(_) | LyapunovSource::Proved { .. } => {
+            "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
+        }
+    };
     format!(
-        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with mu = {} and base frequency {}{reach}, \
-         every plant within the bounding functions has a periodic solution of the closed loop to which every solution \
-         from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, at any initial time, converges exponentially.",
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+         frequency {}{reach}, every plant within the bounding functions{domain} and {triple} has a T-periodic \
+         solution of the closed loop to which every solution from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, at \
+         any initial time, converges exponentially.",
         write_exact(sigma),
+        spec.period.text,
         model.mu.text,
         model.base_frequency.text,
         write_exact(&set.x0),

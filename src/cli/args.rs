@@ -62,7 +62,8 @@ pub enum Command {
     /// Check a certificate with the independent checker
     ///
     /// Decides the claim again from the certificate alone, with none of the code that made it: the same as the program
-    /// `proofs-check`. Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
+    /// `proofs-check`. Says what is proved, of which specification, and what is assumed; figures on which no claim rests
+    /// have an answer of their own. Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
     Check(CheckArgs),
     /// Write the regulator of a specification: matrices, exact discretisation, C code
     ///
@@ -211,6 +212,10 @@ pub struct CheckArgs {
     /// Certificate (JSON), or `-` for standard input
     #[arg(value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
     pub certificate: PathBuf,
+
+    /// Specification that the certificate has to be about: other data make it invalid
+    #[arg(long, value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: Option<PathBuf>,
 
     /// Show the argument, line by line
     #[arg(short, long)]

@@ -4,25 +4,38 @@ use super::args::{CheckArgs, CheckFormat, Format};
 use super::failure::Failure;
 use super::output::{self, reason, shown};
 use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// Runs the command and returns the exit code: that of the independent checker.
 pub fn run(args: &CheckArgs) -> u8 {
     let json = args.format == CheckFormat::Json;
-    let read = if args.certificate == Path::new("-") {
-        proofs_check::check_reader(std::io::stdin().lock())
-    } else {
-        File::open(&args.certificate).and_then(proofs_check::check_reader)
-    };
-    match read {
+    match answer(args) {
         Ok(report) => {
             let text = if json { output::json_text(&report.json()) } else { report.text(args.verbose) };
             output::data(&text).map_or_else(|code| code, |()| report.verdict.exit_code())
         }
-        Err(error) => {
-            let message = format!("cannot read `{}`: {}", shown(&args.certificate), reason(&error));
-            let failure = Failure::call(message, "name a certificate that was written with `certify -o`");
-            failure.tell(if json { Format::Json } else { Format::Text }, false)
-        }
+        Err(failure) => failure.tell(if json { Format::Json } else { Format::Text }, false),
     }
+}
+
+fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
+    let mut certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
+    let specification =
+        args.spec.as_deref().map(|path| open(path, "name the specification that you have")).transpose()?;
+    proofs_check::check_reader(&mut certificate, specification.as_mut().map(|file| file as &mut dyn Read)).map_err(
+        |error| {
+            let message = format!("cannot read `{}`: {}", shown(&args.certificate), reason(&error));
+            Failure::call(message, "name files, not folders")
+        },
+    )
+}
+
+fn open(path: &Path, help: &'static str) -> Result<Box<dyn Read>, Failure> {
+    if path == Path::new("-") {
+        return Ok(Box::new(std::io::stdin().lock()));
+    }
+    let file = File::open(path)
+        .map_err(|error| Failure::call(format!("cannot read `{}`: {}", shown(path), reason(&error)), help))?;
+    Ok(Box::new(file))
 }

@@ -1,12 +1,13 @@
-//! Rule: the claim says what the witness proves, no less and no more.
+//! Rule: the claim says what the witness proves, and nothing that it does not.
 
-use super::stored::{text, upper_end};
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::json::Field;
-use crate::spec::{AskedSet, Constant};
-use crate::verdict::{Outcome, bad, invalid};
+use crate::json::{Field, Fields};
+use crate::spec::{AskedSet, Constant, Specification};
+use crate::verdict::{Outcome, bad, demand, invalid};
 use rug::Rational;
+
+const RULE: &str = "claim";
 
 /// The numbers of a claim.
 pub struct Claim<'a> {
@@ -16,18 +17,44 @@ pub struct Claim<'a> {
     pub sigma: Rational,
     /// X_0, E_0, Z_0.
     pub set: [Rational; 3],
+    /// Bounds of the periodic solution.
+    pub periodic: Field<'a>,
+    /// The claim in words.
+    pub statement: Field<'a>,
     sigma_text: &'a str,
     set_text: [&'a str; 3],
     verdict: Field<'a>,
     n_o: Field<'a>,
     mu: Field<'a>,
     kind: Field<'a>,
-    periodic: Field<'a>,
-    statement: Field<'a>,
+}
+
+/// The sizes |x|, |e|, |zeta|_N of the periodic solution that are proved.
+pub struct Sizes {
+    pub x: Interval,
+    pub e: Interval,
+    pub zeta: Interval,
+}
+
+impl Sizes {
+    /// With that of z = zeta + M e, under the names in a file.
+    pub fn named(&self, d: &Data<'_>) -> [(&'static str, Interval); 4] {
+        let z = &self.zeta + &d.n_bar * &self.e;
+        [("x", self.x.clone()), ("e", self.e.clone()), ("zeta", self.zeta.clone()), ("z", z)]
+    }
+}
+
+/// A text that is fixed by the rest of the certificate.
+pub fn reads(rule: &'static str, field: &Field<'_>, expected: &str) -> Outcome<()> {
+    if field.text()? == expected {
+        Ok(())
+    } else {
+        invalid(rule, &field.pointer, format!("it should read: {expected}"))
+    }
 }
 
 /// Reads X0, E0, Z0, and what is left besides.
-pub fn read_set<'a>(fields: &mut crate::json::Fields<'a>) -> Outcome<([Rational; 3], [&'a str; 3])> {
+pub fn read_set<'a>(fields: &mut Fields<'a>) -> Outcome<([Rational; 3], [&'a str; 3])> {
     let [x0, e0, z0] = [fields.required("X0")?, fields.required("E0")?, fields.required("Z0")?];
     let set = [x0.rational()?, e0.rational()?, z0.rational()?];
     if let Some(index) = set.iter().position(|value| *value < 0) {
@@ -68,39 +95,59 @@ impl<'a> Claim<'a> {
         Ok(claim)
     }
 
-    /// Compares every field with the specification and with the sizes |x|, |e|, |zeta|_N that are proved; `exact` are
-    /// rational bounds of the first two.
-    pub fn check(&self, d: &Data<'_>, sizes: [&Interval; 3], exact: [&Rational; 2]) -> Outcome<()> {
-        text(&self.verdict, "certified")?;
-        text(&self.n_o, "every n_o >= 0")?;
+    /// Compares every field with the specification, and demands that the stored sizes of the periodic solution bound those
+    /// that are proved; `exact` are rational bounds of |x| and |e|.
+    pub fn check(&self, d: &Data<'_>, sizes: &Sizes, exact: [&Rational; 2]) -> Outcome<()> {
+        reads(RULE, &self.verdict, "certified")?;
+        reads(RULE, &self.n_o, "every n_o >= 0")?;
         let spec = d.spec;
         let mu = Constant::read(&self.mu)?;
         let same =
             mu.text == spec.mu.text || mu.exact.as_ref().zip(spec.mu.exact.as_ref()).is_some_and(|(a, b)| a.equals(b));
         if !same {
-            return text(&self.mu, &spec.mu.text);
+            return reads(RULE, &self.mu, &spec.mu.text);
         }
         let kind = match spec.initial_set {
             AskedSet::Paper => "paper",
             AskedSet::AtRest(_) => "at-rest",
             AskedSet::Box(_) => "box",
         };
-        text(&self.kind, kind)?;
-        let [x, e, z] = sizes;
+        reads(RULE, &self.kind, kind)?;
         let mut fields = self.periodic.fields()?;
-        upper_end(&fields.required("x")?, x, Some(exact[0]))?;
-        upper_end(&fields.required("e")?, e, Some(exact[1]))?;
-        upper_end(&fields.required("zeta")?, z, None)?;
-        upper_end(&fields.required("z")?, &(z + &d.n_bar * e), None)?;
+        for (index, (name, mine)) in sizes.named(d).into_iter().enumerate() {
+            bounds(d, &fields.required(name)?, &mine, exact.get(index).copied())?;
+        }
         fields.finish()?;
-        let reach = if spec.matched { "" } else { " (the base frequency need not match the period)" };
-        let [x0, e0, z0] = self.set_text;
-        let statement = format!(
-            "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with mu = {} and base frequency {}{reach}, \
-             every plant within the bounding functions has a periodic solution of the closed loop to which every solution \
-             from |x| <= {x0}, |e| <= {e0}, sqrt(z'Nz) <= {z0}, at any initial time, converges exponentially.",
-            self.sigma_text, spec.mu.text, spec.base_frequency.text,
-        );
-        text(&self.statement, &statement)
+        reads(RULE, &self.statement, &self.in_words(spec))
     }
+
+    /// The claim in words, as the specification and the numbers of the claim make it.
+    fn in_words(&self, spec: &Specification) -> String {
+        let reach = if spec.matched { "" } else { " (which need not match the period)" };
+        let domain = spec
+            .domain
+            .as_ref()
+            .map_or_else(String::new, |[x, e]| format!(" (for |x| <= {}, |e| <= {})", x.text, e.text));
+        let triple = if spec.jacobian.is_some() {
+            "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
+        } else {
+            let [p_low, p_up, alpha] = [&spec.p_low, &spec.p_up, &spec.alpha].map(|constant| &constant.text);
+            format!("with the Lyapunov triple p_low = {p_low}, p_up = {p_up}, alpha = {alpha} (given, not proved)")
+        };
+        let [x0, e0, z0] = self.set_text;
+        format!(
+            "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+             frequency {}{reach}, every plant within the bounding functions{domain} and {triple} has a T-periodic \
+             solution of the closed loop to which every solution from |x| <= {x0}, |e| <= {e0}, sqrt(z'Nz) <= {z0}, at \
+             any initial time, converges exponentially.",
+            self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
+        )
+    }
+}
+
+/// A stored number is an upper bound of one that is enclosed, or of one that is known exactly to bound it.
+fn bounds(d: &Data<'_>, field: &Field<'_>, mine: &Interval, exact: Option<&Rational>) -> Outcome<()> {
+    let value = field.rational()?;
+    let truth = if exact.is_some_and(|exact| value >= *exact) { Some(true) } else { mine.le(&d.number(&value)) };
+    demand(truth, RULE, &field.pointer, format!("it bounds what is proved, {}", crate::verdict::shown(mine)))
 }

@@ -1,6 +1,6 @@
 //! The rules, one a file.
 pub mod claim;
-pub mod constants;
+pub mod derivation;
 pub mod existence;
 pub mod lmi;
 pub mod lyapunov;
@@ -9,5 +9,4 @@ pub mod repaired;
 pub mod set;
 pub mod sharp;
 pub mod stability;
-pub mod stored;
 pub mod transfer;

@@ -7,6 +7,7 @@ use super::set;
 use super::stability::{ErrorBox, distances, level};
 use crate::data::Data;
 use crate::interval::Interval;
+use crate::json::Field;
 use crate::spec::Bound;
 use crate::verdict::{Condition, Outcome, invalid};
 use rug::Rational;
@@ -20,6 +21,24 @@ pub struct Witness {
     pub d_e: Rational,
     pub w_x: Rational,
     pub h: Rational,
+}
+
+impl Witness {
+    /// Reads the part `exact_regulation`.
+    pub fn read(field: &Field<'_>) -> Outcome<Witness> {
+        let mut fields = field.fields()?;
+        let mut number = |name| -> Outcome<Rational> { fields.required(name)?.rational() };
+        let w = Witness {
+            sigma: number("sigma_star_oo")?,
+            d_x: number("D_x")?,
+            d_e: number("D_e")?,
+            w_x: number("w_x")?,
+            h: number("h")?,
+            pointer: field.pointer.clone(),
+        };
+        fields.finish()?;
+        Ok(w)
+    }
 }
 
 /// `z_oo = (1/mu) sqrt(b_q(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt(0,0)^2)`.

@@ -55,9 +55,19 @@ pub fn with(name: &str, object: &str, field: &str, value: impl Into<Value>) -> R
     check(certificate.to_string().as_bytes())
 }
 
+/// The claim is proved, and every figure agrees.
 #[track_caller]
 pub fn assert_valid(report: &Report) {
+    assert!(report.verdict == Verdict::Valid && report.is_flawless(), "{}", report.text(false));
+}
+
+/// The claim is proved, and the figures at these places differ, and no other.
+#[track_caller]
+pub fn assert_figures_differ(report: &Report, places: &[&str]) {
     assert_eq!(report.verdict, Verdict::Valid, "{}", report.text(false));
+    let figures = &report.proved.as_ref().expect("it is valid").figures;
+    let found: Vec<&str> = figures.findings.iter().map(|finding| finding.pointer.as_str()).collect();
+    assert!(figures.word() == "differ" && found == places, "{found:?}, not {places:?}");
 }
 
 /// The certificate is refused with this verdict and rule, at this place.

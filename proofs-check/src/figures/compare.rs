@@ -1,14 +1,15 @@
-//! Rule: everything that a certificate stores is what the checker computes.
+//! How a stored figure is compared with the one that is computed here.
 //!
 //! A stored enclosure must have its ends in order, meet the checker's own enclosure, and be no wider than its seventeen
-//! digits make it: relatively 1e-15. So a stored figure that is off by more than that is an error.
+//! digits make it: relatively 1e-15. So a stored figure that is off by more than that differs.
 
 use crate::interval::Interval;
 use crate::json::{Field, Fields, decimal};
 use crate::verdict::{Condition, Finding, Outcome, Verdict, bad, invalid, shown};
 use rug::{Float, Rational};
 
-const RULE: &str = "stored values";
+/// The name of what is compared here.
+pub const RULE: &str = "stored figures";
 
 /// Differs from what is computed.
 pub fn differs(field: &Field<'_>, stored: &str, computed: &Interval) -> Box<Finding> {
@@ -81,37 +82,28 @@ pub fn span(field: &Field<'_>, low: &Interval, high: &Interval) -> Outcome<()> {
     Ok(())
 }
 
-/// A stored upper end, rounded up to twelve digits: not below the number, and not more than rounding above it.
-pub fn upper_end(field: &Field<'_>, mine: &Interval, exact: Option<&Rational>) -> Outcome<()> {
+/// A stored upper bound of twelve digits lies no further above the number than its rounding.
+pub fn tight(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
     let value = field.rational()?;
-    // A number that is known exactly bounds itself; the enclosure's own rounding must not refuse it.
-    let bounds = mine.upper().is_some_and(|upper| value >= upper) || exact.is_some_and(|exact| value >= *exact);
     let near = mine.upper().is_some_and(|upper| value - upper <= tolerance(mine, 1e-11));
-    if bounds && near { Ok(()) } else { Err(differs(field, field.numeral()?, mine)) }
+    if near { Ok(()) } else { Err(differs(field, field.numeral()?, mine)) }
 }
 
-/// The stored list of conditions.
-pub fn conditions(list: &Field<'_>, computed: &[Condition]) -> Outcome<()> {
-    let stored = list.elements()?;
-    if stored.len() != computed.len() {
-        return invalid(RULE, &list.pointer, format!("{} conditions, not {}", stored.len(), computed.len()));
-    }
-    for (element, mine) in stored.iter().zip(computed) {
-        let mut fields: Fields<'_> = element.fields()?;
-        text(&fields.required("id")?, mine.id)?;
-        text(&fields.required("what")?, &mine.what)?;
-        text(&fields.required("relation")?, mine.symbol())?;
-        span(&fields.required("lhs")?, &mine.lhs, &mine.lhs)?;
-        span(&fields.required("rhs")?, &mine.rhs, &mine.rhs)?;
-        let (field, margin) = (fields.required("margin")?, &mine.rhs - &mine.lhs);
-        // The margin is rounded down, so it is the lower end of an enclosure.
-        if let (Some(value), Some(lower)) = (end(&field, margin.lo())?, margin.lower()) {
-            let apart = Rational::from(&value - &lower).abs();
-            if apart > tolerance(&margin, 1e-15) {
-                return Err(differs(&field, field.text()?, &margin));
-            }
+/// One condition of the stored list.
+pub fn condition(element: &Field<'_>, mine: &Condition) -> Outcome<()> {
+    let mut fields: Fields<'_> = element.fields()?;
+    text(&fields.required("id")?, mine.id)?;
+    text(&fields.required("what")?, &mine.what)?;
+    text(&fields.required("relation")?, mine.symbol())?;
+    span(&fields.required("lhs")?, &mine.lhs, &mine.lhs)?;
+    span(&fields.required("rhs")?, &mine.rhs, &mine.rhs)?;
+    let (field, margin) = (fields.required("margin")?, &mine.rhs - &mine.lhs);
+    // The margin is rounded down, so it is the lower end of an enclosure.
+    if let (Some(value), Some(lower)) = (end(&field, margin.lo())?, margin.lower()) {
+        let apart = Rational::from(&value - &lower).abs();
+        if apart > tolerance(&margin, 1e-15) {
+            return Err(differs(&field, field.text()?, &margin));
         }
-        fields.finish()?;
     }
-    Ok(())
+    fields.finish()
 }

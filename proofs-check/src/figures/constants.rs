@@ -1,17 +1,18 @@
-//! Rule: the table of constants, in the derivations and at the arguments it names (derivation, sections 2-6).
+//! The table of constants, in the derivations and at the arguments it names (docs/mathematics.md, sections 2-6).
 //!
-//! Guarantee: the table has exactly the rows and cells that the witnesses of the file determine, each with the figure,
-//! the status and the source that belong to it. A cell of a derivation's own numbers is there only if that derivation's
-//! witness is in the file and was proved.
+//! What agrees is the figure, the status and the source that the witnesses of the file determine. A cell of a
+//! derivation's own numbers is there only if that derivation's witness is in the file and is proved; a row or a cell that
+//! they do not determine differs.
 
-use super::existence::{Existence, beta_s, k_alpha, kappas, tau};
-use super::repaired::{Repaired, Witness as RepairedWitness};
-use super::sharp::{Sharp, Witness as SharpWitness};
-use super::stored::{span, text, tolerance};
-use super::transfer::closed_form;
+use super::compare::{span, text, tolerance};
+use super::unknown;
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::json::Field;
+use crate::json::{Field, join};
+use crate::rules::existence::{Existence, beta_s, k_alpha, kappas, tau};
+use crate::rules::repaired::{Repaired, Witness as RepairedWitness};
+use crate::rules::sharp::{Sharp, Witness as SharpWitness};
+use crate::rules::transfer::closed_form;
 use crate::spec::{Bound, Constant};
 use crate::verdict::{Outcome, demand, invalid};
 use rug::Rational;
@@ -264,34 +265,47 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     rows
 }
 
-/// Compares the stored table with the computed one.
-pub fn check(d: &Data<'_>, table: &Field<'_>, input: &Input<'_>) -> Outcome<usize> {
-    let mut stored = table.fields()?;
-    let mut cells = 0;
+/// Compares the stored table with the computed one; `note` receives each cell.
+pub fn check(d: &Data<'_>, table: &Field<'_>, input: &Input<'_>, note: &mut dyn FnMut(String, Outcome<()>)) {
+    let mut stored = match table.fields() {
+        Ok(stored) => stored,
+        Err(finding) => return note(table.pointer.clone(), Err(finding)),
+    };
     for (name, at, row) in common(d, input).into_iter().chain(own(d, input)) {
         if row.iter().all(Option::is_none) {
             continue;
         }
-        let mut fields = stored.required(&name)?.fields()?;
-        text(&fields.required("evaluated_at")?, at)?;
+        let place = join(&table.pointer, &name);
+        let mut fields = match stored.required(&name).and_then(|field| field.fields()) {
+            Ok(fields) => fields,
+            Err(finding) => {
+                note(place, Err(finding));
+                continue;
+            }
+        };
+        note(place.clone(), fields.required("evaluated_at").and_then(|field| text(&field, at)));
         for (derivation, cell) in ["printed", "repaired", "sharp"].into_iter().zip(row) {
-            let Some((value, is_sound, source)) = cell else { continue };
-            let mut cell = fields.required(derivation)?.fields()?;
-            let status = match (is_sound, &value) {
-                (true, _) => "sound",
-                (false, Value::Reason(..)) => "printed, infeasible",
-                (false, _) => "printed, unsound",
-            };
-            text(&cell.required("status")?, status)?;
-            text(&cell.required("source")?, source)?;
-            compare(d, &mut cell, value)?;
-            cell.finish()?;
-            cells += 1;
+            let Some(expected) = cell else { continue };
+            let outcome = fields.required(derivation).and_then(|field| entry(d, &field, expected));
+            note(join(&place, derivation), outcome);
         }
-        fields.finish()?;
+        unknown(fields, note);
     }
-    stored.finish()?;
-    Ok(cells)
+    unknown(stored, note);
+}
+
+/// One cell: its figure or reason, its status and its source.
+fn entry(d: &Data<'_>, field: &Field<'_>, (value, is_sound, source): (Value<'_>, bool, &str)) -> Outcome<()> {
+    let mut cell = field.fields()?;
+    let status = match (is_sound, &value) {
+        (true, _) => "sound",
+        (false, Value::Reason(..)) => "printed, infeasible",
+        (false, _) => "printed, unsound",
+    };
+    text(&cell.required("status")?, status)?;
+    text(&cell.required("source")?, source)?;
+    compare(d, &mut cell, value)?;
+    cell.finish()
 }
 
 fn compare(d: &Data<'_>, cell: &mut crate::json::Fields<'_>, value: Value<'_>) -> Outcome<()> {

@@ -1,0 +1,86 @@
+//! How much work an answer may take, counted in steps and never in time: the same file gets the same answer everywhere.
+//!
+//! Every operation on intervals is paid for, in proportion to what it costs at its precision. When all is spent, every
+//! operation gives the undefined interval, of which nothing can be proved or refuted; whoever asks then says `undecided`.
+//! So no rule, whatever a file makes it do, works for longer than the sum allows.
+
+use std::cell::Cell;
+
+/// What one question may cost: a few seconds of arithmetic.
+pub const LIMIT: u64 = 100_000_000;
+
+thread_local! {
+    /// What is left; unlimited outside of [`limited`], for whoever uses an interval by itself.
+    static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
+}
+
+fn words(precision: u32) -> u64 {
+    u64::from(precision).div_ceil(64)
+}
+
+/// Pays for a sum, product or quotient, one step a word of the precision; `false` when nothing is left.
+pub fn arithmetic(precision: u32) -> bool {
+    spend(words(precision))
+}
+
+/// Pays for an elementary function at both ends, whose cost grows with the square of the precision.
+pub fn elementary(precision: u32) -> bool {
+    let words = words(precision);
+    spend(10 * words + 12 * words * words)
+}
+
+/// Pays for what the zeta function costs more: its cost grows with the cube.
+pub fn zeta(precision: u32) -> bool {
+    spend(400 * words(precision).pow(3))
+}
+
+fn spend(steps: u64) -> bool {
+    LEFT.with(|left| {
+        let rest = left.get();
+        if rest == u64::MAX {
+            return true;
+        }
+        left.set(rest.saturating_sub(steps));
+        rest > steps
+    })
+}
+
+/// Whether everything is spent.
+pub fn exhausted() -> bool {
+    LEFT.with(|left| left.get() == 0)
+}
+
+/// Answers a question with at most `steps` steps; also says how many it took.
+pub fn limited<T>(steps: u64, question: impl FnOnce() -> T) -> (T, u64) {
+    let before = LEFT.with(|left| left.replace(steps));
+    let answer = question();
+    let left = LEFT.with(|left| left.replace(before));
+    (answer, steps - left)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::Interval;
+
+    #[test]
+    fn what_is_spent_proves_nothing() {
+        let two = Interval::int(2, 128);
+        let (sum, steps) = limited(LIMIT, || &two + &two);
+        assert!(sum.is_point() && steps == 2, "{steps}");
+        let ((first, second, done), steps) = limited(3, || (&two + &two, &two * &two, exhausted()));
+        assert!(first.is_point() && !second.is_defined() && done);
+        assert_eq!(steps, 3);
+        assert_eq!(second.lt(&first), None);
+        // Outside, nothing is limited.
+        assert!(!exhausted() && (&two * &two).is_point());
+    }
+
+    #[test]
+    fn functions_and_precision_cost_more() {
+        let two = |p| Interval::int(2, p);
+        let steps = |p| limited(LIMIT, || two(p).exp()).1;
+        let sum = |p| limited(LIMIT, || two(p) + two(p)).1;
+        assert!(sum(128) < steps(128) && 32 * steps(128) < steps(4096) && sum(128) < sum(4096));
+    }
+}

@@ -1,0 +1,238 @@
+//! The figures of a certificate on which no claim rests: the sides of its conditions, the table of constants, the other
+//! derivation for comparison, a second proof of C5, a remark. They are computed again, one by one, apart from the claim,
+//! and get an answer of their own. So a figure can neither take a true claim away nor pass unseen when it is wrong.
+
+mod compare;
+mod constants;
+mod no_plant;
+
+use crate::data::Data;
+use crate::effort;
+use crate::json::{Field, Fields, join};
+use crate::rules::claim::Sizes;
+use crate::rules::derivation::{Derivation, Proved, Witnesses};
+use crate::rules::lmi;
+use crate::spec::Specification;
+use crate::verdict::{Finding, Outcome, Verdict, finding};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+/// The precisions, in bits, at which figures are computed: it is enough that one of them gives the stored one. The second is
+/// for words that depend on a comparison, and those from the third on for what is still undecided.
+const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
+
+/// What was found out about the figures.
+#[derive(Clone, Debug, Default)]
+pub struct Figures {
+    /// How many were looked at.
+    pub checked: usize,
+    /// Those that are not as they are computed here, with what is wrong.
+    pub findings: Vec<Finding>,
+}
+
+impl Figures {
+    /// `agree`; `differ`, where one certainly does; else `undecided`.
+    pub fn word(&self) -> &'static str {
+        match self.findings.iter().any(differs) {
+            true => "differ",
+            false if self.findings.is_empty() => "agree",
+            false => "undecided",
+        }
+    }
+}
+
+fn differs(finding: &Finding) -> bool {
+    finding.verdict != Verdict::Undecided
+}
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let wrong = self.findings.iter().filter(|finding| differs(finding)).count();
+        match (wrong, self.findings.len() - wrong) {
+            (0, 0) => write!(f, "all {} agree", self.checked),
+            (0, open) => write!(f, "{open} undecided"),
+            (1, 0) => write!(f, "1 differs"),
+            (wrong, 0) => write!(f, "{wrong} differ"),
+            (wrong, open) => write!(f, "{wrong} differ{}, {open} undecided", if wrong == 1 { "s" } else { "" }),
+        }
+    }
+}
+
+/// The parts of a file that hold figures.
+pub struct Parts<'a> {
+    /// `/conditions`.
+    pub conditions: Option<Field<'a>>,
+    /// `/constants`.
+    pub constants: Option<Field<'a>>,
+    /// `/comparison`.
+    pub comparison: Option<Field<'a>>,
+    /// `/witness/lmi`.
+    pub multipliers: Option<Field<'a>>,
+    /// `/claim/periodic_solution`, whose truth is part of the claim; how tight it is, is not.
+    pub periodic: Field<'a>,
+    /// `/no_plant`.
+    pub no_plant: Option<Field<'a>>,
+}
+
+/// Figures by their places: `None` for one that is as it is computed here.
+type Answers = BTreeMap<String, Option<Box<Finding>>>;
+
+/// Computes all figures again; `main` is the derivation of the claim, which is proved.
+pub fn check(spec: &Specification, parts: &Parts<'_>, main: &Derivation) -> Figures {
+    let (answer, _) = effort::limited(effort::LIMIT, || {
+        let mut settled = BTreeSet::new();
+        let mut figures = Figures::default();
+        for precision in PRECISIONS {
+            let mut attempt = Attempt { d: &Data::new(spec, precision), parts, answers: Answers::new() };
+            attempt.run(main);
+            figures.checked = attempt.answers.len();
+            figures.findings.clear();
+            for (place, finding) in attempt.answers {
+                match finding {
+                    None => drop(settled.insert(place)),
+                    Some(finding) if !settled.contains(&place) => figures.findings.push(*finding),
+                    Some(_) => {}
+                }
+            }
+            let open = !figures.findings.iter().all(differs);
+            if figures.findings.is_empty() || effort::exhausted() || (precision > PRECISIONS[0] && !open) {
+                break;
+            }
+        }
+        figures
+    });
+    answer
+}
+
+/// All figures at one precision.
+struct Attempt<'a> {
+    d: &'a Data<'a>,
+    parts: &'a Parts<'a>,
+    answers: Answers,
+}
+
+impl Attempt<'_> {
+    fn note(&mut self, place: &str, outcome: Outcome<()>) {
+        self.answers.insert(place.to_owned(), outcome.err());
+    }
+
+    fn run(&mut self, main: &Derivation) {
+        // It was proved for the claim, if not at this precision.
+        let proved = match main.evaluate(self.d) {
+            Ok(proved) => proved,
+            Err(finding) => return self.note("", Err(finding)),
+        };
+        self.conditions(&proved);
+        self.tight(&proved.sizes());
+        self.multipliers(main, &proved);
+        let other = self.other(main);
+        self.constants(&[Some((main, &proved)), other.as_ref().map(|(other, proved)| (other, proved))]);
+        if let Some(field) = &self.parts.no_plant {
+            self.note(&field.pointer, no_plant::check(self.d, field));
+        }
+    }
+
+    fn conditions(&mut self, proved: &Proved) {
+        let Some(list) = &self.parts.conditions else { return self.note("/conditions", missing("/conditions")) };
+        let stored = match list.elements() {
+            Ok(stored) => stored,
+            Err(finding) => return self.note(&list.pointer, Err(finding)),
+        };
+        let computed = proved.conditions();
+        for (element, mine) in stored.iter().zip(computed) {
+            self.note(&element.pointer, compare::condition(element, mine));
+        }
+        if stored.len() != computed.len() {
+            let message = format!("{} conditions are stored, not {}", stored.len(), computed.len());
+            self.note(&list.pointer, Err(finding(Verdict::Invalid, compare::RULE, &list.pointer, message)));
+        }
+    }
+
+    /// The upper ends of the claim are no larger than their rounding makes them.
+    fn tight(&mut self, sizes: &Sizes) {
+        let Ok(mut fields) = self.parts.periodic.fields() else { return };
+        for (name, mine) in sizes.named(self.d) {
+            let Some(field) = fields.optional(name) else { continue };
+            self.note(&field.pointer, compare::tight(&field, &mine));
+        }
+    }
+
+    /// C5 as a matrix inequality.
+    fn multipliers(&mut self, main: &Derivation, proved: &Proved) {
+        let Some(field) = &self.parts.multipliers else { return };
+        let outcome = lmi::Witness::read(field).and_then(|w| match (&main.witnesses, proved) {
+            (Witnesses::Sharp(sharp), Proved::Sharp(proved)) => {
+                lmi::check(self.d, &proved.error_box, [&sharp.sigma, &sharp.w_x, &sharp.h], &w)
+            }
+            _ => Err(finding(Verdict::Invalid, compare::RULE, &field.pointer, "it belongs to the sharp derivation")),
+        });
+        self.note(&field.pointer, outcome);
+    }
+
+    /// The other derivation, if it is given and proved.
+    fn other(&mut self, main: &Derivation) -> Option<(Derivation, Proved)> {
+        let field = self.parts.comparison.as_ref()?;
+        let outcome = comparison(field, !main.is_sharp())
+            .and_then(|other| other.prove(self.d, &mut Vec::new()).map(|proved| (other, proved)));
+        match outcome {
+            Ok(pair) => {
+                self.note(&field.pointer, Ok(()));
+                Some(pair)
+            }
+            Err(finding) => {
+                self.note(&field.pointer, Err(finding));
+                None
+            }
+        }
+    }
+
+    fn constants(&mut self, derivations: &[Option<(&Derivation, &Proved)>; 2]) {
+        let Some(table) = &self.parts.constants else { return self.note("/constants", missing("/constants")) };
+        let mut input = constants::Input { sharp: None, repaired: None, regulation: None };
+        for (derivation, proved) in derivations.iter().flatten() {
+            match (&derivation.witnesses, proved) {
+                (Witnesses::Sharp(w), Proved::Sharp(proved)) => {
+                    input.sharp = Some((w, proved));
+                    input.regulation = derivation.regulation.as_ref().map(|w| &w.sigma);
+                }
+                (Witnesses::Repaired(w), Proved::Repaired(proved)) => input.repaired = Some((w, proved)),
+                _ => {}
+            }
+        }
+        let mut outcomes = Vec::new();
+        constants::check(self.d, table, &input, &mut |place, outcome| outcomes.push((place, outcome)));
+        outcomes.into_iter().for_each(|(place, outcome)| self.note(&place, outcome));
+    }
+}
+
+fn missing(pointer: &str) -> Outcome<()> {
+    Err(finding(Verdict::BadInput, "format", pointer, "this part of a certificate is missing"))
+}
+
+/// The free numbers of the derivation that the claim is not about.
+fn comparison(field: &Field<'_>, sharp: bool) -> Outcome<Derivation> {
+    let mut fields = field.fields()?;
+    let part = fields.required(if sharp { "sharp" } else { "repaired" })?;
+    fields.finish()?;
+    let mut fields = part.fields()?;
+    let sigma = fields.required("sigma_star")?.rational()?;
+    let mut set = fields.required("initial_set")?.fields()?;
+    let (numbers, _) = crate::rules::claim::read_set(&mut set)?;
+    set.finish()?;
+    let mut witness = fields.required("witness")?.fields()?;
+    fields.finish()?;
+    let derivation = Derivation::read(&mut witness, sharp, sigma, numbers)?;
+    witness.finish()?;
+    Ok(derivation)
+}
+
+/// What is left of an object is unknown; each is a figure that nothing stands behind.
+fn unknown(fields: Fields<'_>, note: &mut dyn FnMut(String, Outcome<()>)) {
+    let at = fields.pointer.clone();
+    for (key, _) in fields.rest() {
+        let place = join(&at, key);
+        let outcome =
+            Err(finding(Verdict::Invalid, compare::RULE, &place, "nothing in the certificate gives this figure"));
+        note(place, outcome);
+    }
+}

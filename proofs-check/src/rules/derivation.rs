@@ -1,0 +1,200 @@
+//! A derivation with its witness, as a certificate gives it: read, evaluated, and every condition demanded.
+//!
+//! Guarantee of [`Derivation::prove`]: all conditions of the derivation hold for the witness, the bounding functions are
+//! as they must be up to every argument that is used, and so the claim at `sigma` and `set` is proved.
+
+use super::claim::Sizes;
+use super::transfer::Proof;
+use super::{regulation, repaired, sharp};
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::json::{Field, Fields};
+use crate::monotone;
+use crate::spec::BOUND_NAMES;
+use crate::verdict::{Condition, Outcome, bad, invalid};
+use rug::Rational;
+
+/// The free numbers of one of the two derivations that can be claimed.
+pub enum Witnesses {
+    /// Sections 4 and 5.
+    Sharp(Box<sharp::Witness>),
+    /// The paper's architecture.
+    Repaired(Box<repaired::Witness>),
+}
+
+/// One derivation with its witness.
+pub struct Derivation {
+    pub witnesses: Witnesses,
+    /// Exact regulation, which a claim of the sharp derivation may add.
+    pub regulation: Option<Box<regulation::Witness>>,
+}
+
+/// What was evaluated of one derivation.
+pub enum Proved {
+    /// Sections 4 and 5.
+    Sharp(Box<sharp::Sharp>),
+    /// The paper's architecture.
+    Repaired(Box<repaired::Repaired>),
+}
+
+fn proof(field: &Field<'_>) -> Outcome<Proof> {
+    let mut fields = field.fields()?;
+    let kind = fields.required("proof")?;
+    let proof = match kind.text()? {
+        "closed-form" => Proof::ClosedForm,
+        "matched" => Proof::Matched(fields.required("K")?.whole()?),
+        "boxes" => {
+            let list = |field: Field<'_>| field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
+            let (m0, n0) = (fields.required("m0")?.whole()?, fields.required("N0")?.whole()?);
+            let breaks = fields.required("boxes")?.elements()?.into_iter().map(list).collect::<Outcome<_>>()?;
+            Proof::Boxes { m0, n0, breaks }
+        }
+        _ => return bad(&kind.pointer, "expected `closed-form`, `matched` or `boxes`"),
+    };
+    fields.finish()?;
+    Ok(proof)
+}
+
+impl Derivation {
+    /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
+    pub fn read(fields: &mut Fields<'_>, sharp: bool, sigma: Rational, set: [Rational; 3]) -> Outcome<Derivation> {
+        let pointer = fields.pointer.clone();
+        let mut number = |name: &str| fields.required(name)?.rational();
+        if !sharp {
+            let w = repaired::Witness {
+                x: number("X")?,
+                e: number("E")?,
+                level: number("L")?,
+                h: number("h")?,
+                p_x: number("p_x")?,
+                p_e: number("p_e")?,
+                k0: number("k0")?,
+                k1: number("k1")?,
+                transfer: proof(&fields.required("transfer")?)?,
+                pointer,
+                sigma,
+                set,
+            };
+            return Ok(Derivation { witnesses: Witnesses::Repaired(Box::new(w)), regulation: None });
+        }
+        let w = sharp::Witness {
+            x_p: number("X_p")?,
+            e_p: number("E_p")?,
+            d_x: number("D_x")?,
+            d_e: number("D_e")?,
+            p_x: number("p_x")?,
+            p_e: number("p_e")?,
+            w_x: number("w_x")?,
+            h: number("h")?,
+            k0: number("k0")?,
+            k1: number("k1")?,
+            transfer: proof(&fields.required("transfer")?)?,
+            pointer,
+            sigma,
+            set,
+        };
+        let regulation = fields.optional("exact_regulation").map(|field| regulation::Witness::read(&field));
+        let regulation = regulation.transpose()?.map(Box::new);
+        Ok(Derivation { witnesses: Witnesses::Sharp(Box::new(w)), regulation })
+    }
+
+    /// Whether it is the sharp one.
+    pub fn is_sharp(&self) -> bool {
+        matches!(self.witnesses, Witnesses::Sharp(_))
+    }
+
+    /// X_p and E_p of the witness, which bound the periodic solution exactly.
+    pub fn exact(&self) -> [&Rational; 2] {
+        match &self.witnesses {
+            Witnesses::Sharp(w) => [&w.x_p, &w.e_p],
+            Witnesses::Repaired(w) => [&w.x, &w.e],
+        }
+    }
+
+    /// Evaluates the conditions; the transfer bound is proved, and the others are left to be demanded.
+    pub fn evaluate(&self, d: &Data<'_>) -> Outcome<Proved> {
+        Ok(match &self.witnesses {
+            Witnesses::Sharp(w) => Proved::Sharp(Box::new(sharp::evaluate(d, w)?)),
+            Witnesses::Repaired(w) => Proved::Repaired(Box::new(repaired::evaluate(d, w)?)),
+        })
+    }
+
+    /// Proves the derivation: its conditions, and the bounding functions up to its arguments.
+    pub fn prove(&self, d: &Data<'_>, lines: &mut Vec<String>) -> Outcome<Proved> {
+        let proved = self.evaluate(d)?;
+        let (name, pointer, sigma, set) = match &self.witnesses {
+            Witnesses::Sharp(w) => ("sharp", &w.pointer, &w.sigma, &w.set),
+            Witnesses::Repaired(w) => ("repaired", &w.pointer, &w.sigma, &w.set),
+        };
+        lines.push(format!("{name} derivation, sigma = {sigma}"));
+        let (transfer, conditions, arguments) = proved.parts();
+        all(name, pointer, transfer.iter().chain(conditions), lines)?;
+        without_domain(d, arguments, lines)?;
+        if let Some(exact) = &self.regulation {
+            lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
+            let conditions = regulation::evaluate(d, set, exact)?;
+            all("exact regulation", &exact.pointer, conditions.iter(), lines)?;
+            without_domain(d, &[d.number(&exact.d_x), d.number(&exact.d_e)], lines)?;
+        }
+        Ok(proved)
+    }
+}
+
+impl Proved {
+    fn parts(&self) -> (&[Condition], &[Condition], &[Interval; 2]) {
+        match self {
+            Proved::Sharp(s) => (&s.transfer, &s.conditions, &s.arguments),
+            Proved::Repaired(r) => (&r.transfer, &r.conditions, &r.arguments),
+        }
+    }
+
+    /// The conditions, in the order of the file.
+    pub fn conditions(&self) -> &[Condition] {
+        self.parts().1
+    }
+
+    /// The largest X and E at which bounding functions are used.
+    pub fn arguments(&self) -> &[Interval; 2] {
+        self.parts().2
+    }
+
+    /// The sizes |x|, |e|, |zeta|_N of the periodic solution.
+    pub fn sizes(&self) -> Sizes {
+        let [x, e, zeta] = match self {
+            Proved::Sharp(s) => [&s.x_per, &s.e_per, &s.z],
+            Proved::Repaired(r) => [&r.existence.x_p, &r.existence.e_p, &r.z],
+        };
+        Sizes { x: x.clone(), e: e.clone(), zeta: zeta.clone() }
+    }
+}
+
+/// Without a domain the bounding functions are proved up to the arguments that are used.
+fn without_domain(d: &Data<'_>, [x, e]: &[Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
+    if d.spec.domain.is_some() { Ok(()) } else { bounding_functions(d, [x, e], lines) }
+}
+
+/// Proves every bounding function on [0, x] times [0, e].
+pub fn bounding_functions(d: &Data<'_>, [x, e]: [&Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
+    let (Some(x), Some(e)) = (x.upper(), e.upper()) else {
+        return invalid("bounding functions", "/witness", "an argument is not finite");
+    };
+    for (name, expr) in BOUND_NAMES.iter().zip(&d.spec.bounds) {
+        if let Some(expr) = expr {
+            monotone::prove(name, expr, &x, &e, d.precision)?;
+        }
+    }
+    let (x, e) = (x.to_f64(), e.to_f64());
+    lines.push(format!("bounding functions: finite, nonnegative, nondecreasing up to X = {x}, E = {e}"));
+    Ok(())
+}
+
+/// Writes down all conditions, then demands each.
+fn all<'c>(
+    rule: &'static str,
+    pointer: &str,
+    mut conditions: impl Iterator<Item = &'c Condition> + Clone,
+    lines: &mut Vec<String>,
+) -> Outcome<()> {
+    lines.extend(conditions.clone().map(Condition::line));
+    conditions.try_for_each(|condition| condition.demand(rule, pointer))
+}

@@ -1,0 +1,186 @@
+//! What a certificate is about: the claim in words, the specification, what it takes for granted; and whether that is the
+//! specification of somebody else's file.
+
+use crate::json::{Field, Json, join};
+use crate::rules::claim::Claim;
+use crate::rules::derivation::Derivation;
+use crate::spec::{BOUND_NAMES, Bound, Specification};
+use crate::verdict::{Outcome, invalid};
+use rug::Rational;
+
+const RULE: &str = "the specification that was asked for";
+
+/// The most characters of a free text that are shown.
+const MAX_SHOWN: usize = 200;
+
+/// What a certificate that is proved says, and of what.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The claim in words: proved.
+    pub statement: String,
+    /// What is proved besides: exact regulation.
+    pub also: Option<String>,
+    /// The SHA-256 of the specification's canonical form: right.
+    pub digest: String,
+    /// What is assumed and not proved, one a line.
+    pub assumed: Vec<String>,
+    /// Texts that anybody may write: `name`, `description`, `tool`.
+    pub free_texts: Vec<(&'static str, String)>,
+}
+
+impl Subject {
+    /// From a certificate that is proved; `arguments` are the largest X and E at which its bounding functions are used.
+    pub fn new(
+        embedded: &Field<'_>,
+        spec: &Specification,
+        claim: &Claim<'_>,
+        derivation: &Derivation,
+        digest: &str,
+        [tool, version]: [&str; 2],
+        arguments: [f64; 2],
+    ) -> Subject {
+        let text = |name: &str| {
+            let mut fields = embedded.fields().ok()?;
+            fields.optional(name).and_then(|field| field.text().ok()).map(printable)
+        };
+        let named = [("name", text("name")), ("description", text("description"))];
+        let mut free_texts: Vec<_> =
+            named.into_iter().filter_map(|(name, text)| text.map(|text| (name, text))).collect();
+        free_texts.push(("tool", format!("{} {}", printable(tool), printable(version))));
+        let also = derivation.regulation.as_ref().map(|w| {
+            format!(
+                "With infinitely many oscillators and any gain sigma >= {}, solutions from the same set are bounded, and \
+                 x and e tend to 0.",
+                w.sigma
+            )
+        });
+        Subject {
+            statement: printable_whole(claim.statement.text().unwrap_or_default()),
+            also,
+            digest: digest.to_owned(),
+            assumed: assumed(spec, arguments),
+            free_texts,
+        }
+    }
+}
+
+/// What the claim takes for granted (docs/trust.md).
+fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
+    let given = |bound: Bound| spec.bounds[bound as usize].is_some();
+    let names: Vec<&str> = BOUND_NAMES.iter().zip(&spec.bounds).filter(|(_, b)| b.is_some()).map(|(n, _)| *n).collect();
+    let where_ = match &spec.domain {
+        Some([x, e]) => format!("on the domain |x| <= {}, |e| <= {}", printable(&x.text), printable(&e.text)),
+        None => format!("for all X and E (no domain is stated; the main claim uses them up to X = {x:.6}, E = {e:.6})"),
+    };
+    let mut list = vec![
+        "the plant is x' = f(t,x,e), e' = q(t,x,e) + u with f, q C2, T-periodic in t, and f(t,0,0) = 0".to_owned(),
+        format!("the bounding functions ({}) bound that plant {where_}", names.join(", ")),
+    ];
+    if given(Bound::QRms) || given(Bound::QtRms) {
+        list.push("q_rms, q_t_rms bound mean squares over a period as the format says".to_owned());
+    }
+    list.push(if spec.jacobian.is_some() {
+        "df/dx(t,0,0) is at each t one of the matrices of `jacobian` (the Lyapunov triple is proved from that)"
+            .to_owned()
+    } else {
+        "the Lyapunov triple (p_low, p_up, alpha) holds for df/dx(t,0,0)".to_owned()
+    });
+    let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
+    list.push(format!(
+        "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}: no \
+         sampling, delay, saturation or noise"
+    ));
+    list
+}
+
+/// A free text on one line: control characters are escaped, and what is long is cut.
+fn printable(text: &str) -> String {
+    let shown: String = text.chars().take(MAX_SHOWN).collect();
+    let cut = if text.chars().nth(MAX_SHOWN).is_some() { "..." } else { "" };
+    format!("{}{cut}", printable_whole(&shown))
+}
+
+fn printable_whole(text: &str) -> String {
+    text.chars().flat_map(|c| if c.is_control() { c.escape_debug().collect() } else { vec![c] }).collect()
+}
+
+/// Demands that two specifications hold the same data. Free texts and the order of fields do not matter, and a number may
+/// be written in any way.
+///
+/// # Errors
+/// `invalid`, with the first place where they differ and what each says there.
+pub fn same_data(embedded: &Json, asked: &Json) -> Outcome<()> {
+    match difference(embedded, asked, "") {
+        None => Ok(()),
+        Some((place, ours, theirs)) => {
+            let message = format!("the certificate says {ours}, the specification that was asked for says {theirs}");
+            invalid(RULE, &format!("/specification{place}"), message)
+        }
+    }
+}
+
+/// Fields of a specification that hold no data.
+const FREE: [&str; 2] = ["/name", "/description"];
+
+fn difference(a: &Json, b: &Json, place: &str) -> Option<(String, String, String)> {
+    let differ = || Some((place.to_owned(), shown(Some(a)), shown(Some(b))));
+    match (a, b) {
+        (Json::Object(a), Json::Object(b)) => {
+            let find = |list: &[(String, Json)], key: &str| list.iter().position(|(other, _)| other == key);
+            let mut keys: Vec<&str> = a.iter().chain(b).map(|(key, _)| key.as_str()).collect();
+            keys.sort_unstable();
+            keys.dedup();
+            keys.into_iter().map(|key| (join(place, key), key)).filter(|(at, _)| !FREE.contains(&at.as_str())).find_map(
+                |(at, key)| match (find(a, key), find(b, key)) {
+                    (Some(i), Some(j)) => difference(&a[i].1, &b[j].1, &at),
+                    (i, j) => {
+                        let (ours, theirs) = (i.map(|i| &a[i].1), j.map(|j| &b[j].1));
+                        // Not matched is the default.
+                        let only = ours.or(theirs);
+                        let default = key == "matched" && matches!(only, Some(Json::Bool(false)));
+                        (!default).then(|| (at, shown(ours), shown(theirs)))
+                    }
+                },
+            )
+        }
+        (Json::Array(a), Json::Array(b)) if a.len() == b.len() => {
+            let pairs = a.iter().zip(b).enumerate();
+            pairs.into_iter().find_map(|(i, (a, b))| difference(a, b, &join(place, &i.to_string())))
+        }
+        (Json::Text(_) | Json::Number(_), Json::Text(_) | Json::Number(_)) => {
+            if same_numeral(a, b) {
+                None
+            } else {
+                differ()
+            }
+        }
+        (Json::Bool(a), Json::Bool(b)) if a == b => None,
+        (Json::Null, Json::Null) => None,
+        _ => differ(),
+    }
+}
+
+fn numeral(json: &Json) -> &str {
+    match json {
+        Json::Text(text) | Json::Number(text) => text,
+        _ => "",
+    }
+}
+
+/// The same text but for white space, or the same rational number.
+fn same_numeral(a: &Json, b: &Json) -> bool {
+    let bare = |json: &Json| numeral(json).split_whitespace().collect::<String>();
+    let rational = |json: &Json| -> Option<Rational> { Field { json, pointer: String::new() }.rational().ok() };
+    bare(a) == bare(b) || rational(a).zip(rational(b)).is_some_and(|(a, b)| a == b)
+}
+
+fn shown(json: Option<&Json>) -> String {
+    match json {
+        None => "nothing".to_owned(),
+        Some(Json::Text(text) | Json::Number(text)) => format!("`{}`", printable(text)),
+        Some(Json::Bool(value)) => value.to_string(),
+        Some(Json::Null) => "null".to_owned(),
+        Some(Json::Array(list)) => format!("a list of {}", list.len()),
+        Some(Json::Object(_)) => "an object".to_owned(),
+    }
+}
