@@ -16,7 +16,8 @@ fn a_claim_says_what_is_proved() {
         ("/claim/initial_set/kind", "box"),
         ("/claim/periodic_solution/x", "0.0926996163"),
         ("/claim/periodic_solution/e", "0.149832754"),
-        ("/claim/periodic_solution/zeta", "7.110508522"),
+        ("/claim/periodic_solution/zeta", "7.110508521"),
+        ("/claim/periodic_solution/z", "7.43"),
         ("/claim/statement", "Everything is stable."),
     ] {
         assert_refused(&changed(PAPER, pointer, value), Invalid, "claim", "/claim");

@@ -27,7 +27,7 @@ fn deep_nesting() {
     assert!(refused(deep(100_000).as_bytes()).contains("nested"));
     assert!(refused("{\"a\":".repeat(100_000).as_bytes()).contains("nested"));
     assert_refused(
-        &changed(PAPER, "/witness/D_x", serde_json::from_str::<serde_json::Value>(&deep(20)).unwrap()),
+        &changed(PAPER, "/witness/D_x", serde_json::from_str::<serde_json::Value>(&deep(10)).unwrap()),
         BadInput,
         "format",
         "/witness/D_x",

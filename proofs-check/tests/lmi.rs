@@ -2,11 +2,11 @@
 
 mod common;
 
-use common::{PAPER, assert_refused, assert_valid, certificate, changed, with};
+use common::{PAPER, assert_valid, certificate, changed, with};
 use proofs_check::interval::Interval;
 use proofs_check::json::decimal;
 use proofs_check::matrix::positive_definite;
-use proofs_check::verdict::Verdict::{BadInput, Invalid};
+use proofs_check::verdict::Verdict::{self, BadInput, Invalid};
 use serde_json::json;
 
 const RULE: &str = "matrix inequality of C5";
@@ -53,10 +53,14 @@ fn shipped_multipliers_are_right_and_may_be_left_out() {
     for name in [PAPER, LINEAR, NO_X] {
         let mut certificate = certificate(name);
         assert!(certificate["witness"]["lmi"].is_object(), "{name}");
-        let lines = proofs_check::check(certificate.to_string().as_bytes()).lines;
-        assert!(lines.iter().any(|line| line.contains("matrix inequality")), "{name}");
+        let figures = |certificate: &serde_json::Value| {
+            let report = proofs_check::check(certificate.to_string().as_bytes());
+            assert_valid(&report);
+            report.proved.expect("it is valid").figures.checked
+        };
+        let with = figures(&certificate);
         certificate["witness"].as_object_mut().unwrap().remove("lmi");
-        assert_valid(&proofs_check::check(certificate.to_string().as_bytes()));
+        assert_eq!(figures(&certificate), with - 1, "{name}: the matrix inequality is one figure");
     }
 }
 
@@ -70,7 +74,7 @@ fn each_multiplier_is_bounded_on_both_sides() {
                 let (n, d) = factor.split_once('/').unwrap_or((factor, "1"));
                 let value = value * decimal(n).unwrap() / decimal(d).unwrap();
                 let report = changed(name, &pointer, value.to_string());
-                assert_refused(&report, Invalid, RULE, "/witness/lmi");
+                second_proof_fails(&report, Invalid, RULE, "/witness/lmi");
             }
         }
     }
@@ -81,13 +85,25 @@ fn a_signal_that_vanishes_has_no_multiplier() {
     for multiplier in ["l_x", "l_f"] {
         let pointer = format!("/witness/lmi/{multiplier}");
         assert_eq!(certificate(NO_X).pointer(&pointer), Some(&json!("0")));
-        assert_refused(&changed(NO_X, &pointer, "1"), Invalid, RULE, &pointer);
+        second_proof_fails(&changed(NO_X, &pointer, "1"), Invalid, RULE, &pointer);
     }
 }
 
 #[test]
 fn fields() {
-    assert_refused(&with(PAPER, "/witness/lmi", "l_z", "1"), BadInput, "format", "/witness/lmi/l_z");
-    assert_refused(&with(PAPER, "/witness", "lmi", json!({"l_x": "1"})), BadInput, "format", "/witness/lmi");
-    assert_refused(&with("paper-example.repaired", "/witness", "lmi", json!({})), BadInput, "format", "/witness/lmi");
+    let at = "/witness/lmi";
+    second_proof_fails(&with(PAPER, at, "l_z", "1"), BadInput, "format", "/witness/lmi/l_z");
+    second_proof_fails(&with(PAPER, "/witness", "lmi", json!({"l_x": "1"})), BadInput, "format", at);
+    second_proof_fails(&with("paper-example.repaired", "/witness", "lmi", json!({})), BadInput, "format", at);
+    let multipliers = json!({"l_x": "1", "l_e": "1", "l_f": "1"});
+    second_proof_fails(&with("paper-example.repaired", "/witness", "lmi", multipliers), Invalid, "stored figures", at);
+}
+
+/// The claim stands by the closed form of C5; the multipliers are a figure that differs, and the only one.
+#[track_caller]
+fn second_proof_fails(report: &proofs_check::Report, verdict: Verdict, rule: &str, pointer: &str) {
+    let proved = report.proved.as_ref().unwrap_or_else(|| panic!("{}", report.text(false)));
+    let [finding] = &proved.figures.findings[..] else { panic!("{}", report.text(false)) };
+    assert_eq!((finding.verdict, finding.rule), (verdict, rule), "{}", finding.message);
+    assert!(finding.pointer.starts_with(pointer), "{}", finding.pointer);
 }

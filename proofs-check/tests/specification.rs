@@ -19,7 +19,7 @@ fn every_shipped_certificate_is_valid() {
     for name in names("certificates") {
         let report = check(text("certificates", &name).as_bytes());
         assert_valid(&report);
-        assert!(report.lines.len() > 20, "{name}: the argument has a line for every condition");
+        assert!(report.lines.len() > 15, "{name}: the argument has a line for every condition");
     }
 }
 
@@ -30,7 +30,7 @@ fn every_invalid_specification_is_refused() {
         let report = embedded(&text);
         let finding = report.finding.as_ref().expect(&name);
         // It must fall with the specification itself, not merely with the digest that no longer fits.
-        if report.verdict == Invalid && finding.rule == "stored values" {
+        if report.verdict == Invalid && finding.rule == "digest" {
             assert!(
                 ["decreasing-bound", "negative-bound", "not-hurwitz"].contains(&name.as_str()),
                 "{name}: only the digest"
@@ -57,21 +57,12 @@ fn ranges() {
     }
     // 2 pi in other words; the statement names it as it is written, so only that is refused.
     let report = changed(PAPER, &spec("internal_model/base_frequency"), "4*pi/2");
-    assert_refused(&report, Invalid, "stored values", "/claim/statement");
+    assert_refused(&report, Invalid, "claim", "/claim/statement");
 }
 
 #[test]
 fn unknown_fields_and_missing_ones() {
-    for object in [
-        "",
-        "/specification",
-        "/specification/bounds",
-        "/claim",
-        "/witness",
-        "/witness/transfer",
-        "/conditions/0",
-        "/tool",
-    ] {
+    for object in ["", "/specification", "/specification/bounds", "/claim", "/witness", "/witness/transfer", "/tool"] {
         assert_refused(&with(PAPER, object, "extra", 1), BadInput, "format", &format!("{object}/extra"));
     }
     assert_refused(
@@ -96,7 +87,7 @@ fn the_digest_is_over_numbers_as_written() {
         let changed = original.replacen(from, to, 1);
         assert_ne!(changed, original);
         let report = check(changed.as_bytes());
-        assert_refused(&report, Invalid, "stored values", "/specification_sha256");
+        assert_refused(&report, Invalid, "digest", "/specification_sha256");
     }
     // White space and the order of keys have no meaning.
     let loose = original.replacen("\"p_low\": 1,", "", 1).replacen("\"p_up\": 1,", "\"p_up\" :1,\"p_low\":1 ,", 1);
@@ -165,17 +156,13 @@ fn the_filter_is_hurwitz() {
 }
 
 #[test]
-fn certificates_of_every_version_of_the_tool_are_read() {
-    for version in ["0.1.0", "0.1.1", "1.0.0", "12.345.6789"] {
+fn certificates_of_every_tool_are_read() {
+    // Who wrote a certificate is a free text: it proves nothing.
+    for version in ["0.1.0", "12.345.6789", "", "1.0.0-beta"] {
         assert_valid(&changed(PAPER, "/tool/version", version));
     }
-    for version in
-        ["", "1", "1.0", "1.0.0.0", "1..0", "1.0.", ".1.0", "1.0.x", "v1.0.0", "1.0.0-beta", "1.0.0 ", "-1.0.0"]
-    {
-        assert_refused(&changed(PAPER, "/tool/version", version), BadInput, "format", "/tool/version");
-    }
-    let long = format!("1.0.{}", "9".repeat(1000));
-    assert_refused(&changed(PAPER, "/tool/version", long), BadInput, "format", "/tool/version");
+    let report = changed(PAPER, "/tool/name", "another");
+    assert_valid(&report);
+    assert!(report.text(false).contains("tool (free text): another 0.1.0"), "{}", report.text(false));
     assert_refused(&changed(PAPER, "/tool/version", 1), BadInput, "format", "/tool/version");
-    assert_refused(&changed(PAPER, "/tool/name", "other"), Invalid, "stored values", "/tool/name");
 }

@@ -17,8 +17,8 @@ use crate::verdict::{Finding, Outcome, Verdict, finding};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// The precisions, in bits, at which figures are computed: it is enough that one of them gives the stored one. The second is
-/// for words that depend on a comparison, and those from the third on for what is still undecided.
+/// The precisions, in bits, at which figures are computed: it is enough that one of them gives the stored one. Those from
+/// the second on are for what is undecided, and for words, which may depend on a comparison.
 const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
 
 /// What was found out about the figures.
@@ -94,8 +94,8 @@ pub fn check(spec: &Specification, parts: &Parts<'_>, main: &Derivation) -> Figu
                     Some(_) => {}
                 }
             }
-            let open = !figures.findings.iter().all(differs);
-            if figures.findings.is_empty() || effort::exhausted() || (precision > PRECISIONS[0] && !open) {
+            let open = |finding: &Finding| !differs(finding) || (finding.sides.is_none() && precision == PRECISIONS[0]);
+            if !figures.findings.iter().any(open) || effort::exhausted() {
                 break;
             }
         }
