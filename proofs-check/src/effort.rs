@@ -6,7 +6,8 @@
 
 use std::cell::Cell;
 
-/// What one question may cost: a few seconds of arithmetic.
+/// What the claim may cost, and again what the figures may: a few seconds of arithmetic. A certificate by boxes takes two
+/// hundredths of it.
 pub const LIMIT: u64 = 100_000_000;
 
 thread_local! {
@@ -26,7 +27,7 @@ pub fn arithmetic(precision: u32) -> bool {
 /// Pays for an elementary function at both ends, whose cost grows with the square of the precision.
 pub fn elementary(precision: u32) -> bool {
     let words = words(precision);
-    spend(10 * words + 12 * words * words)
+    spend(20 * words + 24 * words * words)
 }
 
 /// Pays for what the zeta function costs more: its cost grows with the cube.

@@ -47,10 +47,11 @@ pub fn check(bytes: &[u8]) -> Report {
 /// it is `invalid`.
 pub fn check_against(bytes: &[u8], specification: Option<&[u8]>) -> Report {
     let mut lines = Vec::new();
-    let (result, _) = effort::limited(effort::LIMIT, || {
+    let (result, steps) = effort::limited(effort::LIMIT, || {
         let asked = specification.map(asked_for).transpose()?;
         json::parse(bytes).and_then(|json| certificate::check(&json, asked.as_ref(), &mut lines))
     });
+    lines.push(format!("effort: {steps} of {} steps of interval arithmetic", effort::LIMIT));
     let (proved, finding) = match result {
         Ok(proved) => (Some(proved), None),
         Err(finding) => (None, Some(*finding)),

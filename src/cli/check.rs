@@ -21,7 +21,7 @@ pub fn run(args: &CheckArgs) -> u8 {
 
 fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
     let mut certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
-    let specification =
+    let mut specification =
         args.spec.as_deref().map(|path| open(path, "name the specification that you have")).transpose()?;
     proofs_check::check_reader(&mut certificate, specification.as_mut().map(|file| file as &mut dyn Read)).map_err(
         |error| {
