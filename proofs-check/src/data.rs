@@ -62,13 +62,14 @@ impl<'s> Data<'s> {
         self.number(&Rational::from((numerator, denominator)))
     }
 
-    /// A bounding function at (X, E); b_q and b_qt serve for rms bounds that are not given.
+    /// The positive part of a bounding function at (X, E); b_q and b_qt serve for rms bounds that are not given.
     pub fn bound(&self, which: Bound, x: &Interval, e: &Interval) -> Interval {
         let expr = match which {
             Bound::QRms => self.spec.bounds[which as usize].as_ref().or(self.spec.bounds[Bound::Q as usize].as_ref()),
             Bound::QtRms => self.spec.bounds[which as usize].as_ref().or(self.spec.bounds[Bound::Qt as usize].as_ref()),
             _ => self.spec.bounds[which as usize].as_ref(),
         };
-        expr.map_or_else(|| Interval::undefined(self.precision), |expr| expr.enclose(x, e))
+        let none = || Interval::undefined(self.precision);
+        expr.map_or_else(none, |expr| expr.enclose(x, e).max(&self.int(0)))
     }
 }

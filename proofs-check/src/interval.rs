@@ -32,6 +32,15 @@ fn by(f: fn(&mut Float, Round) -> Ordering) -> impl Fn(Float, Round) -> Float {
     }
 }
 
+/// The largest binary exponent, in magnitude, of a number from which a rational is formed.
+const MAX_RATIONAL: i32 = 1 << 20;
+
+/// The value as a rational; `None` for what is not finite, or would fill the memory.
+fn exactly(x: &Float) -> Option<Rational> {
+    let moderate = x.get_exp().is_none_or(|exponent| exponent.abs() <= MAX_RATIONAL);
+    if moderate { x.to_rational() } else { None }
+}
+
 /// The smaller of two ends, with all its bits. (`Float::min` would round it to the precision of the first.)
 fn lesser<'a>(a: &'a Float, b: &'a Float) -> &'a Float {
     if b < a { b } else { a }
@@ -70,6 +79,17 @@ impl Interval {
         Interval::new(rounded(precision, lo, Round::Down), rounded(precision, hi, Round::Up))
     }
 
+    /// A decimal numeral of at most a thousand characters, whatever its exponent; `None` if it is none.
+    pub fn decimal(text: &str, precision: u32) -> Option<Interval> {
+        let plain = |b: u8| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+' | b'e' | b'E');
+        let begins = text.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit());
+        if text.len() > 1000 || !begins || !text.bytes().all(plain) {
+            return None;
+        }
+        let end = |round| Some(Float::with_val_round(precision, Float::parse(text).ok()?, round).0);
+        Some(Interval::new(end(Round::Down)?, end(Round::Up)?))
+    }
+
     /// An integer.
     pub fn int(value: i64, precision: u32) -> Interval {
         Interval::new(rounded(precision, value, Round::Down), rounded(precision, value, Round::Up))
@@ -105,14 +125,14 @@ impl Interval {
         &self.hi
     }
 
-    /// The upper end as an exact rational, if finite.
+    /// The upper end as an exact rational, if it is finite and of moderate size.
     pub fn upper(&self) -> Option<Rational> {
-        self.hi.to_rational()
+        exactly(&self.hi)
     }
 
-    /// The lower end as an exact rational, if finite.
+    /// The lower end as an exact rational, if it is finite and of moderate size.
     pub fn lower(&self) -> Option<Rational> {
-        self.lo.to_rational()
+        exactly(&self.lo)
     }
 
     /// The upper end alone, for values of which only an upper bound is meant.

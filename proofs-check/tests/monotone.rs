@@ -39,6 +39,24 @@ fn proved() {
         "(1 + X)^E",
         "sqrt(2) - sqrt(2) + X",
         "5 + sin(X/10)",
+        // The growth of e^u, where u is negative.
+        "X^2*exp(-X/20)",
+        "X^3*E*exp(-X/10 - E/20)",
+        // Derivatives that vanish at an edge.
+        "(1 + X)*log(1 + X) - X",
+        "1 - cos(min(X, 3))",
+        "1 - cos(min(X, 3)) + E^2*(1 - cos(min(X, 3)))",
+        "X - sin(X)",
+        "X^2.5 - X^2/1e9 + X^2",
+        // Derivatives that vanish inside.
+        "X^3 - 3*X^2 + 3*X",
+        "X^3 - X^2 + X/3 + 1",
+        "(X^3 - X^2 + X/3)*(1 + E) + atan(X*E)",
+        "sqrt(1 + X^3 - X^2 + X/3) - E^2 + E + E^3/3",
+        "(X - 1/3)^5 + 1/243 + tanh(E)",
+        // Exactly 0 at the origin, which rounding leaves open.
+        "X + 0.1*exp(X) - 0.1 + E",
+        "X + sqrt(2)*sqrt(3) - sqrt(6)",
     ] {
         assert_eq!(verdict(text, 10, 10), None, "{text}");
     }
@@ -69,6 +87,12 @@ fn refuted() {
         "tanh(X) - X",
         "(2 + X)^(1 - X)",
         "min(X, 5 - X) + 20",
+        "X^2*exp(-X/4)",
+        "(1 + X)*log(1 + X) - 3*X",
+        "X^3 - 3*X^2 + 2.99*X",
+        "(X - 1)^2 + 1",
+        "(X - 1)^2*(X - 2) + 3",
+        "X + 0.1*exp(X) - 0.11 + E",
     ] {
         assert_eq!(verdict(text, 10, 10), Some(Invalid), "{text}");
     }
@@ -86,9 +110,9 @@ fn not_defined_somewhere_is_never_proved() {
 
 #[test]
 fn an_unsettled_function_is_undecided_with_its_place() {
-    // Nondecreasing, but the derivative vanishes inside at a place that no piece ends at: no cutting proves it. The second has
-    // a dip too narrow for the corners of the pieces to find and too real to be proved away.
-    for text in ["X^3 - X^2 + X/3 + 1", "X + 1e-9*sin(1e12*X)"] {
+    // Nondecreasing, but the derivative vanishes inside at a place that no piece ends at, and it is no polynomial: no cutting
+    // proves it. The second has a dip too narrow for the corners of the pieces to find and too real to be proved away.
+    for text in ["exp(X)*(X^2 - 8*X/3 + 25/9)", "X + 1e-9*sin(1e12*X)"] {
         let expr = Expr::parse(text, ARGUMENTS).unwrap();
         let finding = prove("q_e", &expr, &Rational::from(2), &Rational::from(2), 128).expect_err(text);
         assert_eq!((finding.verdict, finding.pointer.as_str()), (Undecided, "/specification/bounds/q_e"), "{text}");

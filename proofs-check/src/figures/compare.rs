@@ -4,27 +4,42 @@
 //! digits make it: relatively 1e-15. So a stored figure that is off by more than that differs.
 
 use crate::interval::Interval;
-use crate::json::{Field, Fields, decimal};
+use crate::json::{Field, Fields};
 use crate::verdict::{Condition, Finding, Outcome, Verdict, bad, invalid, shown};
-use rug::{Float, Rational};
+use rug::{Float, Integer, Rational};
 
 /// The name of what is compared here.
 pub const RULE: &str = "stored figures";
 
 /// Differs from what is computed.
 pub fn differs(field: &Field<'_>, stored: &str, computed: &Interval) -> Box<Finding> {
-    let gap = computed.lower().zip(decimal(stored)).map(|(mine, theirs)| (theirs - mine).to_f64());
+    let gap = number(stored).map_or("-".to_owned(), |theirs| shown(&(theirs - computed)));
     Box::new(Finding {
         verdict: Verdict::Invalid,
         rule: RULE,
         pointer: field.pointer.clone(),
         message: "the stored value is not the value that follows from the specification and the witness".to_owned(),
-        sides: Some([
-            stored.chars().take(60).collect(),
-            shown(computed),
-            gap.map_or("-".to_owned(), |g| format!("{g:e}")),
-        ]),
+        sides: Some([stored.chars().take(60).collect(), shown(computed), gap]),
     })
+}
+
+/// The precision, in bits, of a stored number: far more than its digits have.
+const PRECISION: u32 = 256;
+
+/// A decimal, or `p/q`, of any size.
+pub fn number(text: &str) -> Option<Interval> {
+    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
+    let (numerator, denominator) =
+        (Interval::decimal(numerator, PRECISION)?, Interval::decimal(denominator, PRECISION)?);
+    Some(numerator / denominator)
+}
+
+/// The stored number of a field.
+pub fn stored(field: &Field<'_>) -> Outcome<Interval> {
+    match number(field.numeral()?) {
+        Some(value) if value.is_bounded() => Ok(value),
+        _ => bad(&field.pointer, "expected a decimal number"),
+    }
 }
 
 /// A text that is fixed by the rest of the certificate.
@@ -36,27 +51,29 @@ pub fn text(field: &Field<'_>, expected: &str) -> Outcome<()> {
     }
 }
 
-/// How far two figures for the same number may lie apart: `digits` decimals, and the width of the checker's own.
-pub fn tolerance(value: &Interval, relative: f64) -> Rational {
-    let (Some(lo), Some(hi)) = (value.lower(), value.upper()) else { return Rational::new() };
-    let size = lo.clone().abs().max(hi.clone().abs());
-    let relative = Rational::from_f64(relative).unwrap_or_default();
-    size * relative + (hi - lo) * 4u32
+/// How far a stored figure of `digits` decimals may lie from the number: by its rounding, relatively 10^-digits, and by the
+/// width of the checker's own enclosure.
+pub fn tolerance(value: &Interval, digits: u32) -> Interval {
+    let width = point(value.hi()) - point(value.lo());
+    let unit = Interval::rational(&Rational::from((1, Integer::from(Integer::u_pow_u(10, digits)))), PRECISION);
+    (value.abs().ceiling() * unit + width * 4).ceiling()
 }
 
+fn point(end: &Float) -> Interval {
+    Interval::new(end.clone(), end.clone())
+}
+
+/// The decimals of an end of a stored enclosure that are certain.
+const DIGITS: u32 = 15;
+
 /// An end of a stored enclosure: a decimal, or `inf` where the checker finds no bound either.
-fn end(field: &Field<'_>, mine: &Float) -> Outcome<Option<Rational>> {
+fn end(field: &Field<'_>, mine: &Float) -> Outcome<Option<Interval>> {
     let text = field.text()?;
-    match decimal(text) {
-        Some(value) => Ok(Some(value)),
-        None if matches!(text, "inf" | "-inf")
-            && mine.is_infinite()
-            && text.starts_with('-') == mine.is_sign_negative() =>
-        {
-            Ok(None)
-        }
-        None if matches!(text, "inf" | "-inf" | "undefined") => invalid(RULE, &field.pointer, "it has a finite value"),
-        None => bad(&field.pointer, "expected a decimal number of moderate size"),
+    let same_infinity = mine.is_infinite() && text.starts_with('-') == mine.is_sign_negative();
+    match text {
+        "inf" | "-inf" if same_infinity => Ok(None),
+        "inf" | "-inf" | "undefined" => invalid(RULE, &field.pointer, "it has a finite value"),
+        _ => stored(field).map(Some),
     }
 }
 
@@ -67,25 +84,29 @@ pub fn span(field: &Field<'_>, low: &Interval, high: &Interval) -> Outcome<()> {
     if !low.is_defined() || !high.is_defined() {
         return text(lo, "undefined").and_then(|()| text(hi, "undefined"));
     }
+    // Each end lies on its side of the number, and no further from it than its digits make it.
     if let Some(value) = end(lo, low.lo())? {
-        let near = low.lower().is_some_and(|mine| Rational::from(&mine - &value) <= tolerance(low, 1e-15));
-        if !near || low.upper().is_some_and(|mine| value > mine) {
+        let near = (point(low.lo()) - &value).le(&tolerance(low, DIGITS)) == Some(true);
+        if !near || point(low.hi()).lt(&value) == Some(true) {
             return Err(differs(lo, lo.text()?, low));
         }
     }
     if let Some(value) = end(hi, high.hi())? {
-        let near = high.upper().is_some_and(|mine| Rational::from(&value - &mine) <= tolerance(high, 1e-15));
-        if !near || high.lower().is_some_and(|mine| value < mine) {
+        let near = (&value - point(high.hi())).le(&tolerance(high, DIGITS)) == Some(true);
+        if !near || value.lt(&point(high.lo())) == Some(true) {
             return Err(differs(hi, hi.text()?, high));
         }
     }
     Ok(())
 }
 
-/// A stored upper bound of twelve digits lies no further above the number than its rounding.
+/// The decimals of an upper bound in a claim.
+const CLAIM_DIGITS: u32 = 11;
+
+/// A stored upper bound lies no further above the number than its rounding.
 pub fn tight(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
-    let value = field.rational()?;
-    let near = mine.upper().is_some_and(|upper| value - upper <= tolerance(mine, 1e-11));
+    let above = stored(field)? - point(mine.hi());
+    let near = above.le(&tolerance(mine, CLAIM_DIGITS)) == Some(true);
     if near { Ok(()) } else { Err(differs(field, field.numeral()?, mine)) }
 }
 
@@ -99,9 +120,9 @@ pub fn condition(element: &Field<'_>, mine: &Condition) -> Outcome<()> {
     span(&fields.required("rhs")?, &mine.rhs, &mine.rhs)?;
     let (field, margin) = (fields.required("margin")?, &mine.rhs - &mine.lhs);
     // The margin is rounded down, so it is the lower end of an enclosure.
-    if let (Some(value), Some(lower)) = (end(&field, margin.lo())?, margin.lower()) {
-        let apart = Rational::from(&value - &lower).abs();
-        if apart > tolerance(&margin, 1e-15) {
+    if let Some(value) = end(&field, margin.lo())? {
+        let apart = (value - point(margin.lo())).abs();
+        if apart.le(&tolerance(&margin, DIGITS)) != Some(true) {
             return Err(differs(&field, field.text()?, &margin));
         }
     }

@@ -4,7 +4,7 @@
 //! derivation's own numbers is there only if that derivation's witness is in the file and is proved; a row or a cell that
 //! they do not determine differs.
 
-use super::compare::{span, text, tolerance};
+use super::compare::{number, span, stored, text, tolerance};
 use super::unknown;
 use crate::data::Data;
 use crate::interval::Interval;
@@ -30,8 +30,8 @@ enum Value<'a> {
     Span(Interval, Interval),
     /// The largest argument, below the limit if there is one, with a property that holds below it.
     Largest(Holds<'a>, Option<Rational>),
-    /// The smallest argument with a property that holds above it.
-    Least(Holds<'a>),
+    /// The smallest argument with a property that holds above it, and whether that is every positive one.
+    Least(Holds<'a>, Option<bool>),
     /// No solution; the text up to and after a figure, which bounds the number from above (true) or below.
     Reason(&'static str, Interval, bool, &'static str),
 }
@@ -199,12 +199,20 @@ fn sigma_p<'a>(d: &'a Data<'a>, ex: &'a Existence, sharp: bool) -> Value<'a> {
     // From 1 - tr + det > 0: gain ((1 - A) b_qe + B b_qx) < 1 - A.
     let free = 1 - xx;
     let demand = &free * ee + xe * ex_unit;
-    Value::Least(Box::new(move |sigma| {
+    let ex_size = if sharp { &ex.qr } else { &ex.q };
+    // As sigma tends to 0, beta_s grows beyond all bounds and tau tends to T^2/sqrt(720).
+    let no_size = ex_size.is_zero().then_some(true);
+    let always =
+        if sharp { either(no_size, (d.period.sqr() / d.int(720).sqrt() * &ex.q1).le(&ex.e_p)) } else { no_size };
+    let contracts = both(demand.is_zero().then_some(true), d.int(0).le(&free));
+    let at_zero = both(always, contracts);
+    let holds = move |sigma: &Interval| {
         let gain = beta_s(d, sigma) * if sharp { 1 } else { 2 };
-        let by_size = (&gain * if sharp { &ex.qr } else { &ex.q }).le(&ex.e_p);
+        let by_size = (&gain * ex_size).le(&ex.e_p);
         let size = if sharp { either(by_size, (tau(d, sigma) * &ex.q1).le(&ex.e_p)) } else { by_size };
         both(size, (gain * &demand).le(&free))
-    }))
+    };
+    Value::Least(Box::new(holds), at_zero)
 }
 
 /// Rows in which each derivation has its own free numbers. (The printed figures at the paper's own free numbers are in
@@ -313,13 +321,15 @@ fn compare(d: &Data<'_>, cell: &mut crate::json::Fields<'_>, value: Value<'_>) -
         Value::Number(value) => span(&cell.required("value")?, &value, &value),
         Value::Span(low, high) => span(&cell.required("value")?, &low, &high),
         Value::Reason(before, value, above, after) => reason(&cell.required("reason")?, before, &value, above, after),
-        Value::Least(holds) => threshold(d, &cell.required("value")?, &|at| holds(at).map(|holds| !holds)),
+        Value::Least(holds, at_zero) => {
+            threshold(&cell.required("value")?, &|at| holds(at).map(|holds| !holds), at_zero)
+        }
         Value::Largest(holds, limit) => {
             let top = limit.clone().unwrap_or_else(|| Rational::from(1) << 200);
             let words = if holds(&d.number(&top)) == Some(true) {
                 if limit.is_some() { "the whole domain" } else { "unbounded" }
             } else if holds(&d.number(&(top >> 400))) == Some(true) {
-                return threshold(d, &cell.required("value")?, &*holds);
+                return threshold(&cell.required("value")?, &*holds, Some(false));
             } else {
                 "no positive value"
             };
@@ -329,41 +339,40 @@ fn compare(d: &Data<'_>, cell: &mut crate::json::Fields<'_>, value: Value<'_>) -
 }
 
 /// A number that is the boundary of a property: it holds just below the stored enclosure and not just above, or the
-/// other way round. Nothing is searched.
-fn threshold(d: &Data<'_>, field: &Field<'_>, below: &dyn Fn(&Interval) -> Option<bool>) -> Outcome<()> {
+/// other way round. Nothing is searched. `at_zero`: whether the property changes at no positive number.
+fn threshold(field: &Field<'_>, below: &dyn Fn(&Interval) -> Option<bool>, at_zero: Option<bool>) -> Outcome<()> {
     let ends = field.elements()?;
     let [lo, hi] = &ends[..] else { return invalid(RULE, &field.pointer, "expected [lower end, upper end]") };
-    let (low, high) = (lo.rational()?, hi.rational()?);
-    let enclosure = Interval::between(&low, &high, d.precision);
-    let room = tolerance(&d.number(&high), 1e-15);
-    let wide = low > high || Rational::from(&high - &low) > room;
+    let (low, high) = (stored(lo)?, stored(hi)?);
+    if low.is_zero() && high.is_zero() {
+        return demand(at_zero, RULE, &field.pointer, "the property holds for every positive number");
+    }
+    let room = tolerance(&high, 15);
+    let narrow = low.is_positive() && low.le(&high) == Some(true) && (&high - &low).le(&room) == Some(true);
     let what =
         "the property that defines this number changes inside the stored enclosure, which is as narrow as its digits";
-    demand(Some(!wide && low >= 0), RULE, &field.pointer, what)?;
-    let (start, end) = (low.clone() - &room, high + room);
-    let begins = if low == 0 { Some(true) } else { below(&d.number(&start)) };
-    let ends = below(&d.number(&end)).map(|holds| !holds);
-    demand(both(begins, ends), RULE, &field.pointer, what).map_err(|mut finding| {
-        finding.sides = Some([crate::verdict::shown(&enclosure), "-".to_owned(), "-".to_owned()]);
+    let begins = below(&(&low - &room));
+    let ends = below(&(&high + &room)).map(|holds| !holds);
+    demand(both(Some(narrow), both(begins, ends)), RULE, &field.pointer, what).map_err(|mut finding| {
+        let sides = [low, high].map(|end| crate::verdict::shown(&end));
+        finding.sides = Some([sides.join(" to "), "-".to_owned(), "-".to_owned()]);
         finding
     })
 }
 
 /// A reason with a figure of six digits, which bounds the number from the side that the words say.
 fn reason(field: &Field<'_>, before: &str, value: &Interval, above: bool, after: &str) -> Outcome<()> {
-    let stored = field.text()?;
-    let figure = stored.strip_prefix(before).and_then(|rest| rest.strip_suffix(after)).and_then(crate::json::decimal);
-    let right = figure.zip(value.lower()).zip(value.upper()).is_some_and(|((figure, lower), upper)| {
-        let bounds = if above { figure >= upper } else { figure <= lower };
-        bounds && (figure - lower).abs() <= tolerance(value, 1e-5)
+    let words = field.text()?;
+    let figure = words.strip_prefix(before).and_then(|rest| rest.strip_suffix(after)).and_then(number);
+    let right = figure.is_some_and(|figure| {
+        // An exact number bounds itself, whatever rounding makes of it here.
+        let wrong = if above { figure.lt(value) } else { value.lt(&figure) };
+        wrong != Some(true) && (figure - value).abs().le(&tolerance(value, 5)) == Some(true)
     });
     if right {
         Ok(())
     } else {
-        invalid(
-            RULE,
-            &field.pointer,
-            format!("it should read: {before}(a bound of {}){after}", crate::verdict::shown(value)),
-        )
+        let expected = format!("it should read: {before}(a bound of {}){after}", crate::verdict::shown(value));
+        invalid(RULE, &field.pointer, expected)
     }
 }

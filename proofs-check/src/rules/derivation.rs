@@ -184,7 +184,7 @@ pub fn bounding_functions(d: &Data<'_>, [x, e]: [&Interval; 2], lines: &mut Vec<
         }
     }
     let (x, e) = (x.to_f64(), e.to_f64());
-    lines.push(format!("bounding functions: finite, nonnegative, nondecreasing up to X = {x}, E = {e}"));
+    lines.push(format!("bounding functions: finite, nondecreasing, nowhere certainly negative up to X = {x}, E = {e}"));
     Ok(())
 }
 

@@ -45,7 +45,7 @@ fn threshold(data: &Data<'_>, limit: Option<Rational>, holds: impl Fn(&Enclosure
     if !at(&low).is_true() {
         return Some(Value::Unavailable("no positive value".to_owned()));
     }
-    // First in the exponent, then in the mantissa: 60 + 60 halvings.
+    // First in the exponent: both ends of the answer lie between these.
     while high > Rational::from(&low * 2u32) {
         let exponent = |q: &Rational| i64::from(q.numer().significant_bits()) - i64::from(q.denom().significant_bits());
         let shift = ((exponent(&high) - exponent(&low)) / 2).clamp(1, 400) as u32;
@@ -56,18 +56,34 @@ fn threshold(data: &Data<'_>, limit: Option<Rational>, holds: impl Fn(&Enclosure
         match at(&middle) {
             Truth::True => low = middle,
             Truth::False => high = middle,
-            Truth::Undecided => break,
+            // The threshold itself, or next to it.
+            Truth::Undecided => {
+                let (half, double) = (Rational::from(&middle >> 1), Rational::from(&middle << 1));
+                if at(&half).is_true() && at(&double).is_false() {
+                    (low, high) = (half, double);
+                }
+                break;
+            }
         }
     }
-    for _ in 0..60 {
+    // Then in the mantissa, the last number at which it certainly holds and the first at which it certainly does not: at the
+    // threshold itself, which may be a number that is met, neither is certain.
+    let last = halve(low.clone(), high.clone(), |middle| at(middle).is_true());
+    let first = halve(low, high, |middle| !at(middle).is_false());
+    Some(Value::Number(Enclosure::new(data.rational(&last.0).lower().clone(), data.rational(&first.1).upper().clone())))
+}
+
+/// Sixty-four halvings of [low, high], in which `below` is true below a number and false above.
+fn halve(mut low: Rational, mut high: Rational, below: impl Fn(&Rational) -> bool) -> (Rational, Rational) {
+    for _ in 0..64 {
         let middle = Rational::from(&low + &high) / 2u32;
-        match at(&middle) {
-            Truth::True => low = middle,
-            Truth::False => high = middle,
-            Truth::Undecided => break,
+        if below(&middle) {
+            low = middle;
+        } else {
+            high = middle;
         }
     }
-    Some(Value::Number(Enclosure::between(&low, &high, data.precision)))
+    (low, high)
 }
 
 /// The X with `gain b_fxx(X,0) X = alpha`: x_p* with gain 2 K_alpha (paper) or c (sharp).
