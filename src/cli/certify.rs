@@ -3,7 +3,7 @@
 use super::args::{CertifyArgs, Format};
 use super::failure::Failure;
 use super::input;
-use super::output::{self, OutputFile};
+use super::output::{self, Input, OutputFile};
 use sigmastar::certificate::{
     Certification, certificate_json, certify, read_lyapunov, read_witness, recheck, resolve, resolve_with,
 };
@@ -17,7 +17,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
 
 fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     // What is wrong with the call is said before any work is done.
-    let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.spec, "the certificate")).transpose()?;
+    let output = args.output.as_deref().map(|path| OutputFile::new(path, Input::Specification(&args.spec), "the certificate")).transpose()?;
     let flags =
         [(TargetKind::Sup, "--target-sup", &args.target_sup), (TargetKind::Rms, "--target-rms", &args.target_rms)];
     let targets = flags

@@ -1,7 +1,7 @@
 //! A progress bar on standard error, for work above a second.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use sigmastar::simulate::Progress;
+use sigmastar::progress::Progress;
 use std::io::{IsTerminal, stderr};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};

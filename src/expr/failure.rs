@@ -114,6 +114,9 @@ pub enum Reason {
     /// The largest X or E is negative: there is no domain.
     #[error("the domain is empty")]
     Empty,
+    /// The largest X or E is not known to be finite.
+    #[error("the domain has no largest X or E that can be enclosed")]
+    Endless,
 }
 
 /// Why [`super::prove_bounding`] did not prove that an expression is a bounding function. Displayed as one sentence.
@@ -141,4 +144,18 @@ pub enum BoundingFailure {
         /// Why it got stuck.
         reason: Reason,
     },
+}
+
+impl BoundingFailure {
+    /// Nothing is decided, because the domain has no ends that can be enclosed.
+    #[must_use]
+    pub fn without_domain() -> BoundingFailure {
+        let point = || [Rational::new(), Rational::new()];
+        BoundingFailure::Undecided {
+            property: Property::Finite,
+            region: Box::new(DomainBox { x: point(), e: point() }),
+            span: None,
+            reason: Reason::Endless,
+        }
+    }
 }

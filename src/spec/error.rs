@@ -16,7 +16,7 @@ pub enum ErrorKind {
     Unreadable,
     /// The document exceeds a limit on size, nesting, number of values or length of a numeral.
     Limit,
-    /// The document is not UTF-8, or starts with a byte order mark.
+    /// The document is not UTF-8.
     Encoding,
     /// The document is not JSON.
     Syntax,
@@ -42,8 +42,6 @@ pub enum ErrorKind {
     Matched,
     /// The weights break one of the conditions W1-W3 or the strict decrease.
     Weights,
-    /// A documented form that this version does not read yet.
-    Unsupported,
     /// A condition that could be neither proved nor refuted at the highest precision.
     Undecided,
 }
@@ -68,7 +66,6 @@ impl ErrorKind {
             ErrorKind::Range => "out-of-range",
             ErrorKind::Matched => "not-matched",
             ErrorKind::Weights => "weights",
-            ErrorKind::Unsupported => "unsupported",
             ErrorKind::Undecided => "undecided",
         }
     }
