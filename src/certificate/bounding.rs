@@ -42,13 +42,9 @@ pub fn prove_up_to(spec: &Specification, x: &Rational, e: &Rational) -> Result<(
 }
 
 /// One proof for each bounding function that is given.
-fn all(
-    spec: &Specification,
-    proof: impl Fn(&Expr) -> Result<(), BoundingFailure>,
-) -> Result<(), Vec<BoundingProblem>> {
-    let problem = |(field, expr): (&'static str, &Expr)| {
-        proof(expr).err().map(|failure| BoundingProblem { field, failure })
-    };
+fn all(spec: &Specification, proof: impl Fn(&Expr) -> Result<(), BoundingFailure>) -> Result<(), Vec<BoundingProblem>> {
+    let problem =
+        |(field, expr): (&'static str, &Expr)| proof(expr).err().map(|failure| BoundingProblem { field, failure });
     let problems: Vec<BoundingProblem> = spec.bounds.named().filter_map(problem).collect();
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }

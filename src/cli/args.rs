@@ -532,8 +532,12 @@ mod tests {
     /// No flag with a number takes the minus sign in front of it for another flag.
     #[test]
     fn a_negative_number_is_a_value() {
-        for line in ["rate s --n-o -1", "transfer s --n-o -1..2", "controller s --sigma 1 --n-o -1", "certify s --precision-limit -1"]
-        {
+        for line in [
+            "rate s --n-o -1",
+            "transfer s --n-o -1..2",
+            "controller s --sigma 1 --n-o -1",
+            "certify s --precision-limit -1",
+        ] {
             match command().try_get_matches_from(["sigmastar"].into_iter().chain(line.split(' '))) {
                 Ok(_) => {}
                 Err(error) => assert_eq!(error.kind(), clap::error::ErrorKind::ValueValidation, "{line}: {error}"),

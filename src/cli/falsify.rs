@@ -17,7 +17,11 @@ pub fn run(args: &FalsifyArgs) -> u8 {
 
 fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let what = "the counterexample";
-    let output = args.output.as_deref().map(|path| OutputFile::new(path, Input::Certificate(&args.certificate), what)).transpose()?;
+    let output = args
+        .output
+        .as_deref()
+        .map(|path| OutputFile::new(path, Input::Certificate(&args.certificate), what))
+        .transpose()?;
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
     let mut claims = vec![Claim::from_document(&input::document(&args.certificate)?)?];

@@ -25,7 +25,7 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
         sigma.as_rational().cloned().ok_or_else(|| Failure::call("--sigma is not a rational number", help))
     });
     let sigma = sigma.transpose()?;
-    if let Some(proved) = triple(&spec, None)? {
+    if let Some(proved) = triple(&spec, None, false)? {
         spec = proved;
     }
     let run = certify(&spec, Options { compare: false, ..Options::default() }).map_err(|problems| {

@@ -19,7 +19,8 @@ pub fn run(args: &SimulateArgs) -> u8 {
 }
 
 fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
-    let csv_file = args.csv.as_deref().map(|path| OutputFile::new(path, Input::Plant(&args.plant), "the samples")).transpose()?;
+    let csv_file =
+        args.csv.as_deref().map(|path| OutputFile::new(path, Input::Plant(&args.plant), "the samples")).transpose()?;
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;

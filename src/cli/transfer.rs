@@ -8,8 +8,8 @@ use super::output::{self, Input, OutputFile};
 use super::progress::Bar;
 use sigmastar::certificate::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
-use sigmastar::report::{PairChoice, TransferReport, TransferRequest};
 use sigmastar::progress::Progress;
+use sigmastar::report::{PairChoice, TransferReport, TransferRequest};
 use sigmastar::spec::Specification;
 use sigmastar::transfer::PairError;
 
@@ -19,7 +19,11 @@ pub fn run(args: &TransferArgs) -> u8 {
 }
 
 fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
-    let plot = args.plot.as_deref().map(|path| OutputFile::new(path, Input::Specification(&args.spec), "the plot")).transpose()?;
+    let plot = args
+        .plot
+        .as_deref()
+        .map(|path| OutputFile::new(path, Input::Specification(&args.spec), "the plot"))
+        .transpose()?;
     let pair = match (&args.k0, &args.minimise) {
         (Some(text), _) => PairChoice::SmallestK1(input::positive("--k0", text)?),
         (None, Some(text)) => {

@@ -79,8 +79,9 @@ mod tests {
     /// There are such weights if and only if the spectral radius is below 1.
     fn propose_weights(matrix: &[Vec<Rational>]) -> Result<Vec<Rational>, SolverFailure> {
         let entry = |i: usize, k: usize| f64::from(u8::from(i == k)) - matrix[i][k].to_f64();
-        let constraints: Vec<AffineMatrix<f64>> =
-            (0..matrix.len()).map(|i| AffineMatrix::from_fn(1, matrix.len(), |_, _| -1.0, |k, _, _| entry(i, k))).collect();
+        let constraints: Vec<AffineMatrix<f64>> = (0..matrix.len())
+            .map(|i| AffineMatrix::from_fn(1, matrix.len(), |_, _| -1.0, |k, _, _| entry(i, k)))
+            .collect();
         rationals(&propose(&vec![1.0; matrix.len()], &constraints)?.x)
     }
 

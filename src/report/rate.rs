@@ -73,8 +73,9 @@ impl Readable for RateReport {
         }
         blocks.extend([
             Block::says(format!(
-                "sigma* = {} serves every n_o; the rates tend to 0 as n_o grows. All in 1/time, proved and rounded down, but for \
-                 the spectral abscissa, which is floating point. The rate of the closed loop is that at which (x, e, z) is \
+                "sigma* = {} serves every n_o; the rates tend to 0 as n_o grows. All in 1/time, computed with enclosures and \
+                 rounded down, but for the spectral abscissa, which is floating point; no certificate carries them, and no \
+                 independent program checks them. The rate of the closed loop is that at which (x, e, z) is \
                  proved to approach the periodic solution from the initial set of the certificate, for this n_o and this gain: \
                  a lower bound for every plant with these bounding functions.",
                 exact(&self.sigma_star, Direction::Up)
@@ -109,7 +110,7 @@ impl Readable for RateReport {
             })
         };
         json!({
-            "format": "sigmastar/rates", "version": 1, "verdict": "certified", "state": "(x, e, z)",
+            "format": "sigmastar/rates", "version": 1, "verdict": "proved", "independent_check": "none", "state": "(x, e, z)",
             "sigma": write_exact(&self.sigma), "sigma_star": write_exact(&self.sigma_star),
             "rates": self.rates.iter().map(one).collect::<Vec<_>>(),
         })

@@ -1,7 +1,7 @@
 //! Steady states: the T-periodic solution by Newton shooting.
 
-use super::adaptive::{IntegrationFailure, Tolerance, flow, flow_with_derivative};
 use super::ClosedLoop;
+use super::adaptive::{IntegrationFailure, Tolerance, flow, flow_with_derivative};
 use crate::progress::Progress;
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;

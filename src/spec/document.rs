@@ -87,7 +87,10 @@ impl Document {
                 let valid = String::from_utf8_lossy(&bytes[..at]);
                 let utf_16 = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]);
                 let (message, help) = if utf_16 {
-                    ("the file is UTF-16, not UTF-8".to_owned(), "save it as UTF-8; in PowerShell: `Set-Content -Encoding utf8`")
+                    (
+                        "the file is UTF-16, not UTF-8".to_owned(),
+                        "save it as UTF-8; in PowerShell: `Set-Content -Encoding utf8`",
+                    )
                 } else {
                     (format!("byte {at} (0x{:02x}) is not UTF-8", bytes[at]), "save the file as UTF-8")
                 };

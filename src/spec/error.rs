@@ -85,6 +85,8 @@ pub struct SpecError {
     pub span: Range<usize>,
     /// What is wrong, in one sentence.
     pub message: String,
+    /// The same with every digit, where the sentence has fewer.
+    pub in_full: Option<String>,
     /// What was expected in that place.
     pub expected: Option<String>,
     /// What to do about it.
@@ -100,7 +102,15 @@ impl SpecError {
         span: Range<usize>,
         message: impl Into<String>,
     ) -> SpecError {
-        SpecError { kind, pointer: pointer.into(), span, message: message.into(), expected: None, help: None }
+        SpecError {
+            kind,
+            pointer: pointer.into(),
+            span,
+            message: message.into(),
+            in_full: None,
+            expected: None,
+            help: None,
+        }
     }
 
     /// The same error, saying what was expected.
@@ -139,6 +149,15 @@ impl SpecErrors {
     /// The error that stopped the reading of a document.
     pub(super) fn single(origin: Arc<Source>, error: SpecError) -> SpecErrors {
         SpecErrors { origin, errors: vec![error], omitted: 0 }
+    }
+
+    /// The same, with the sentence in full of an error that stands alone.
+    #[must_use]
+    pub fn in_full(mut self, sentence: Option<String>) -> SpecErrors {
+        if let [error] = self.errors.as_mut_slice() {
+            error.in_full = sentence;
+        }
+        self
     }
 
     /// The errors, in file order; at least one and at most [`MAX_ERRORS`].
