@@ -14,7 +14,7 @@ use sigmastar::spec::{Document, Specification};
 use std::path::Path;
 use std::sync::LazyLock;
 
-const SPECS: [&str; 10] = [
+const SPECS: [&str; 13] = [
     "explicit-weights",
     "ill-conditioned",
     "linear",
@@ -23,6 +23,9 @@ const SPECS: [&str; 10] = [
     "paper-example-at-rest",
     "paper-example-rms",
     "paper-example-rms-at-rest",
+    "pendulum-modal",
+    "pendulum-scaled",
+    "relative-degree-2",
     "relative-degree-4",
     "short-period",
 ];

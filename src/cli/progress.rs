@@ -82,7 +82,7 @@ impl Working {
                 output::remark(&format!("{what}; this may take a minute"));
                 return;
             }
-            let spinner = ProgressBar::new_spinner().with_message(what);
+            let spinner = ProgressBar::new_spinner().with_message(what).with_elapsed(PATIENCE);
             // The template is a constant, and one that is read.
             if let Ok(style) = ProgressStyle::with_template("sigmastar: {msg} {spinner} {elapsed}") {
                 spinner.set_style(style);

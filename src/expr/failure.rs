@@ -209,7 +209,7 @@ impl BoundingFailure {
 mod tests {
     use super::*;
 
-    fn at(x: Rational, value: i32) -> Evaluation {
+    fn at(x: Rational, value: i64) -> Evaluation {
         Evaluation { x, e: Rational::new(), value: Enclosure::from_integer(value, 128) }
     }
 

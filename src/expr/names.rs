@@ -182,7 +182,7 @@ mod tests {
             assert_eq!(suggest(name).as_deref(), Some(meant), "{name}");
         }
         assert_eq!(suggest("t").as_deref(), Some("a bounding function holds for every t: take the supremum over t"));
-        assert_eq!(super::suggest("t", &Variables::Time), None);
+        assert_eq!(super::suggest("t", &Variables::Time).as_deref(), Some("write t"));
         assert_eq!(suggest("q"), None);
         assert_eq!(suggest("velocity"), None);
         assert_eq!(super::suggest("e", &Variables::None).as_deref(), Some("Euler's number is exp(1)"));

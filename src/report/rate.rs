@@ -14,7 +14,7 @@ pub struct RateReport {
     name: String,
     sigma: Rational,
     sigma_star: Rational,
-    /// Whether e is a filtered error: then xi_1, ..., xi_(r-1) are no part of what the rates speak of.
+    /// Whether e is a filtered error: then it depends on x whether the rates speak of xi_1, ..., xi_(r-1).
     filtered: bool,
     rates: Vec<Rates>,
 }
@@ -66,9 +66,10 @@ impl Readable for RateReport {
         let mut blocks = vec![Block::Title(format!("{}: rates at sigma = {}", self.name, write_exact(&self.sigma)))];
         if self.filtered {
             blocks.push(Block::says(
-                "The closed loop is that of x, e and z. With a relative degree above 1 the states xi_1, ..., xi_(r-1) follow from \
-                 e by the filter: they approach the periodic solution no faster than the filter itself lets them, and its rate \
-                 is not in this table.",
+                "The closed loop is that of x, e and z. With a relative degree above 1 the states xi_1, ..., xi_(r-1) belong to x, \
+                 and so to this table, where f or q depends on them. Where the specification leaves them out of x they follow \
+                 from e by the filter: they approach the periodic solution no faster than the filter itself lets them, and its \
+                 rate is not in this table.",
             ));
         }
         blocks.extend([
