@@ -27,7 +27,7 @@ pub fn bounding_errors(spec: &Specification, problem: &BoundingProblem) -> SpecE
     };
     let span = span.clone().unwrap_or(whole);
     spec.errors_at(&field, &span, kind, problem.failure.to_string(), Some(help.to_owned()))
-        .in_full(problem.failure.in_full())
+        .with_sentence_in_full(problem.failure.in_full())
 }
 
 /// A Jacobian without a proved triple, as an error at its place: undecided, for no search proves that there is none.
@@ -48,7 +48,7 @@ pub(super) fn errors_json<'e>(all: impl IntoIterator<Item = &'e SpecErrors>) -> 
                 "file": errors.label(),
                 "code": error.kind.code(),
                 "pointer": error.pointer,
-                "message": error.in_full.as_ref().unwrap_or(&error.message),
+                "message": errors.in_full(error),
                 "expected": error.expected,
                 "help": error.help,
                 "line": line,

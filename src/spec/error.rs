@@ -85,8 +85,6 @@ pub struct SpecError {
     pub span: Range<usize>,
     /// What is wrong, in one sentence.
     pub message: String,
-    /// The same with every digit, where the sentence has fewer.
-    pub in_full: Option<String>,
     /// What was expected in that place.
     pub expected: Option<String>,
     /// What to do about it.
@@ -102,15 +100,7 @@ impl SpecError {
         span: Range<usize>,
         message: impl Into<String>,
     ) -> SpecError {
-        SpecError {
-            kind,
-            pointer: pointer.into(),
-            span,
-            message: message.into(),
-            in_full: None,
-            expected: None,
-            help: None,
-        }
+        SpecError { kind, pointer: pointer.into(), span, message: message.into(), expected: None, help: None }
     }
 
     /// The same error, saying what was expected.
@@ -143,21 +133,29 @@ pub struct SpecErrors {
     pub(super) origin: Arc<Source>,
     pub(super) errors: Vec<SpecError>,
     pub(super) omitted: usize,
+    /// The sentence of an error that stands alone with every digit, where its message has fewer.
+    in_full: Option<String>,
 }
 
 impl SpecErrors {
     /// The error that stopped the reading of a document.
     pub(super) fn single(origin: Arc<Source>, error: SpecError) -> SpecErrors {
-        SpecErrors { origin, errors: vec![error], omitted: 0 }
+        SpecErrors { origin, errors: vec![error], omitted: 0, in_full: None }
     }
 
     /// The same, with the sentence in full of an error that stands alone.
     #[must_use]
-    pub fn in_full(mut self, sentence: Option<String>) -> SpecErrors {
-        if let [error] = self.errors.as_mut_slice() {
-            error.in_full = sentence;
+    pub fn with_sentence_in_full(self, in_full: Option<String>) -> SpecErrors {
+        SpecErrors { in_full, ..self }
+    }
+
+    /// The sentence of one of these errors with every digit of its numbers.
+    #[must_use]
+    pub fn in_full<'e>(&'e self, error: &'e SpecError) -> &'e str {
+        match (&self.in_full, self.errors.as_slice()) {
+            (Some(sentence), [_]) => sentence,
+            _ => &error.message,
         }
-        self
     }
 
     /// The errors, in file order; at least one and at most [`MAX_ERRORS`].
@@ -251,7 +249,12 @@ impl Errors {
             // `Err` carries a `Reported`, so the list is not empty here either.
             _ => {
                 self.list.sort_by_key(|error| (error.span.start, error.span.end));
-                Err(SpecErrors { origin: document.source().clone(), errors: self.list, omitted: self.omitted })
+                Err(SpecErrors {
+                    origin: document.source().clone(),
+                    errors: self.list,
+                    omitted: self.omitted,
+                    in_full: None,
+                })
             }
         }
     }
