@@ -13,7 +13,8 @@
 //! - [`rate`]: rates of convergence for a given number of oscillators;
 //! - [`report`], [`errata`]: what a person reads;
 //! - [`regulator`], [`plant`], [`simulate`], [`reproduce`], [`falsify`]: the regulator itself, and floating-point
-//!   simulations that show what a claim speaks of and try to break it; nothing rigorous depends on them.
+//!   simulations that show what a claim speaks of and try to break it; nothing rigorous depends on them;
+//! - [`progress`]: how long work says that it goes on.
 //!
 //! Nothing below the command line knows it, and every arrow goes one way.
 
@@ -27,7 +28,9 @@ pub mod falsify;
 pub mod lmi;
 pub mod lyapunov;
 pub mod number;
+mod palette;
 pub mod plant;
+pub mod progress;
 pub mod rate;
 pub mod regulator;
 pub mod report;

@@ -19,7 +19,7 @@ fn is_valid(name: &str, options: Options) {
 
 #[test]
 fn fresh_certificates_are_valid() {
-    for name in ["linear", "explicit-weights", "short-period"] {
+    for name in ["linear", "explicit-weights", "short-period", "pendulum", "pendulum-modal", "relative-degree-2"] {
         is_valid(name, Options::default());
     }
     let with = |derivation, transfer, compare| Options { derivation, transfer, compare, ..Options::default() };

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-const CERTIFIED: [&str; 11] = [
+const CERTIFIED: [&str; 15] = [
     "explicit-weights",
     "ill-conditioned",
     "linear",
@@ -15,6 +15,10 @@ const CERTIFIED: [&str; 11] = [
     "paper-example-jacobian",
     "paper-example-rms",
     "paper-example-rms-at-rest",
+    "pendulum",
+    "pendulum-modal",
+    "pendulum-scaled",
+    "relative-degree-2",
     "relative-degree-4",
     "short-period",
 ];

@@ -22,7 +22,7 @@ fn specifications() -> Vec<PathBuf> {
 #[test]
 fn the_matrix_inequality_confirms_every_certificate() {
     let files = specifications();
-    assert!(files.len() >= 10);
+    let mut set_by_c5 = 0;
     for path in files {
         let spec = Specification::load(&path).unwrap_or_else(|e| panic!("{}", e.render(false)));
         let spec = match resolve(&spec) {
@@ -34,11 +34,13 @@ fn the_matrix_inequality_confirms_every_certificate() {
         let data = Data::new(&spec, proof.precision);
         let check = cross_check(&proof.evaluation, &proof.witness, &data).expect("solved");
         assert!(check.fixed.relative_difference <= 1e-6, "{}: {check:?}", path.display());
-        // The search leaves nothing: no other weights in the same error box do with a smaller sigma.
+        // The search leaves nothing where C5 sets sigma*: no other weights in the same error box do with a smaller sigma.
         let free = check.free.as_ref().expect("solved");
         assert!(free.relative_difference <= 1e-6 && !check.contradicts(), "{}: {check:?}", path.display());
         let room = 1.0 - free.solver_sigma / check.fixed.solver_sigma;
-        assert!(room.abs() <= 1e-6, "{}: {room:e}", path.display());
+        let by_c5 = check.fixed.closed_form.upper_f64() > 0.99 * proof.witness.sigma.to_f64();
+        assert!(!by_c5 || room.abs() <= 1e-6, "{}: {room:e}", path.display());
+        set_by_c5 += usize::from(by_c5);
         assert!(check.multipliers.is_some(), "{}: {check:?}", path.display());
         // Below the threshold nothing is verified.
         let below = check.fixed.closed_form.lower_rational().expect("bounded") * Rational::from((999_999, 1_000_000));
@@ -46,4 +48,5 @@ fn the_matrix_inequality_confirms_every_certificate() {
         let check = cross_check(&proof.evaluation, &tampered, &data).expect("solved");
         assert!(check.multipliers.is_none(), "{}: {check:?}", path.display());
     }
+    assert!(set_by_c5 >= 10, "C5 sets sigma* on {set_by_c5} only");
 }

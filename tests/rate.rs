@@ -110,7 +110,28 @@ fn a_wrong_call_of_rate_is_bad_input() {
         assert_eq!((code, &report["verdict"]), (2, &Value::from("bad-input")), "{arguments:?}");
         assert!(report["errors"][0]["message"].as_str().is_some_and(|m| m.contains(part)), "{report}");
     }
-    assert_eq!(run(&["rate", "specs/paper-example.json", "--n-o", "201"]).0, 2);
+    for (list, part) in
+        [("201", "200"), ("0..201", "200"), ("inf", "200"), ("-1", "`-1`"), ("3..1", "`3..1`"), ("", "``")]
+    {
+        let (code, report, _) = run(&["rate", "specs/paper-example.json", "--n-o", list]);
+        assert_eq!(code, 2, "{list}");
+        assert!(report["errors"][0]["message"].as_str().is_some_and(|m| m.contains(part)), "{report}");
+    }
+}
+
+/// The list is read as that of `transfer`. No certificate carries a rate, so nothing in the report calls one certified.
+#[test]
+fn ranges_are_read_and_rates_are_not_called_certified() {
+    let (code, report, _) = run(&["rate", "specs/no-x.json", "--n-o", "3,0..1"]);
+    assert_eq!((code, &report["verdict"]), (0, &Value::from("proved")));
+    assert_eq!(report["independent_check"], "none");
+    let counts: Vec<_> = report["rates"].as_array().expect("rates").iter().map(|rate| rate["n_o"].as_u64()).collect();
+    assert_eq!(counts, [Some(3), Some(0), Some(1)]);
+    let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
+    let output =
+        command.current_dir(ROOT).args(["rate", "specs/no-x.json", "--n-o", "0..1"]).output().expect("it runs");
+    let text = String::from_utf8_lossy(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("no independent program checks them") && !text.contains("certified"), "{text}");
 }
 
 /// The shipped triple has alpha = 0.58 and p_up/p_low = 1.5512; the best constant P gives 0.58077 along x_0(t).
@@ -196,7 +217,8 @@ fn jacobians_of_all_kinds_on_the_command_line() {
     }
 }
 
-/// A filter with the pole -1/1000 is far slower than the loop: the report says that xi_1 is not part of the rate. One that is not
+/// A filter with the pole -1/1000 is far slower than the loop, and f and q do not depend on xi_1: the report says that xi_1 is
+/// then not part of the rate. One that is not
 /// stable is refused as by `certify`.
 #[test]
 fn the_states_behind_a_filter_are_not_claimed() {

@@ -59,7 +59,15 @@ fn what_is_not_json_is_refused_in_its_place() {
 
 #[test]
 fn encodings_are_refused() {
-    assert_eq!(kind_and_text("\u{feff}{}"), (ErrorKind::Encoding, "\u{feff}".to_owned()));
+    // A byte order mark is no part of the text, two are one too many.
+    let marked = Document::parse("x", "\u{feff}{\"a\": 1}").expect("read");
+    let plain = Document::parse("x", "{\"a\": 1}").expect("read");
+    assert_eq!((marked.text(), marked.root().sha256()), (plain.text(), plain.root().sha256()));
+    assert_eq!(kind_and_text("\u{feff}\u{feff}{}").0, ErrorKind::Syntax);
+    for bytes in [&b"\xff\xfe{\0}\0"[..], b"\xfe\xff\0{\0}"] {
+        let errors = Document::from_bytes("x", bytes).expect_err("not UTF-8");
+        assert_eq!(errors.errors()[0].message, "the file is UTF-16, not UTF-8");
+    }
     let errors = Document::from_bytes("x", b"{\"a\": \"\xff\"}").expect_err("not UTF-8");
     assert_eq!(errors.errors()[0].kind, ErrorKind::Encoding);
     assert_eq!(errors.errors()[0].message, "byte 7 (0xff) is not UTF-8");

@@ -1,10 +1,11 @@
 //! Steady states of the paper's example against an independent simulator and against long simulations.
 
 use sigmastar::plant::Plant;
+use sigmastar::progress::Silent;
 use sigmastar::regulator::Regulator;
 use sigmastar::simulate::{
-    ClosedLoop, Disturbance, FixedStep, Silent, SteadyFigures, SteadyState, SteadyStateError, Tolerance, flow,
-    steady_state, trajectory,
+    ClosedLoop, Disturbance, FixedStep, SteadyFigures, SteadyState, SteadyStateError, Tolerance, flow, steady_state,
+    trajectory,
 };
 use std::f64::consts::TAU;
 use std::path::Path;

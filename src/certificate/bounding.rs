@@ -1,6 +1,6 @@
 //! The proof that the bounding functions are what the derivation needs: finite, nonnegative, nondecreasing.
 
-use crate::expr::{BoundingFailure, ProofSettings, prove_bounding};
+use crate::expr::{BoundingFailure, Expr, ProofSettings, prove_bounding};
 use crate::spec::model::Specification;
 use rug::Rational;
 
@@ -26,10 +26,11 @@ pub fn prove_on_domain(spec: &Specification) -> Result<(), Vec<BoundingProblem>>
     let Some(domain) = &spec.domain else { return Ok(()) };
     let edge = |constant: &crate::spec::model::Constant| constant.enclose(PRECISION).upper_rational();
     // The reader has refused constants without a bounded enclosure; were one to slip through, nothing is proved.
-    let (Some(x), Some(e)) = (edge(&domain.x), edge(&domain.e)) else {
-        return prove_up_to(spec, &Rational::from(-1), &Rational::from(-1));
-    };
-    prove_up_to(spec, &x, &e)
+    let ends = edge(&domain.x).zip(edge(&domain.e));
+    all(spec, |expr| match &ends {
+        Some((x, e)) => prove_bounding(expr, x, e, &ProofSettings::default()),
+        None => Err(BoundingFailure::without_domain()),
+    })
 }
 
 /// Proves every bounding function on [0, x] x [0, e], with the guarantee of [`prove_on_domain`].
@@ -37,13 +38,39 @@ pub fn prove_on_domain(spec: &Specification) -> Result<(), Vec<BoundingProblem>>
 /// # Errors
 /// All bounding functions that fail, in the order of the fields; all of them where x or e is negative.
 pub fn prove_up_to(spec: &Specification, x: &Rational, e: &Rational) -> Result<(), Vec<BoundingProblem>> {
-    let problems: Vec<BoundingProblem> = spec
-        .bounds
-        .named()
-        .filter_map(|(field, expr)| {
-            let failure = prove_bounding(expr, x, e, &ProofSettings::default()).err()?;
-            Some(BoundingProblem { field, failure })
-        })
-        .collect();
+    all(spec, |expr| prove_bounding(expr, x, e, &ProofSettings::default()))
+}
+
+/// One proof for each bounding function that is given.
+fn all(spec: &Specification, proof: impl Fn(&Expr) -> Result<(), BoundingFailure>) -> Result<(), Vec<BoundingProblem>> {
+    let problem =
+        |(field, expr): (&'static str, &Expr)| proof(expr).err().map(|failure| BoundingProblem { field, failure });
+    let problems: Vec<BoundingProblem> = spec.bounds.named().filter_map(problem).collect();
     if problems.is_empty() { Ok(()) } else { Err(problems) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Variables;
+    use crate::spec::model::Constant;
+
+    #[test]
+    fn a_domain_without_an_end_proves_nothing() {
+        let mut spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
+        let mut domain = spec.domain.clone().unwrap_or_else(|| crate::spec::model::Domain {
+            x: Constant::rational(&Rational::from(1)),
+            e: Constant::rational(&Rational::from(1)),
+        });
+        spec.domain = Some(domain.clone());
+        assert!(prove_on_domain(&spec).is_ok());
+        let text = "1/0".to_owned();
+        domain.e = Constant { expr: Expr::parse(&text, Variables::None).unwrap(), text, exact: None };
+        spec.domain = Some(domain);
+        let problems = prove_on_domain(&spec).unwrap_err();
+        assert_eq!(problems.len(), spec.bounds.named().count());
+        for problem in problems {
+            assert_eq!(problem.failure, BoundingFailure::without_domain(), "{}", problem.field);
+        }
+    }
 }

@@ -1,10 +1,9 @@
 //! The one table of commands and flags: help, completions and the manual page are made from it.
 
-use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use sigmastar::certificate::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
-use sigmastar::rate::MAX_OSCILLATORS;
 use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
 use std::path::PathBuf;
 
@@ -12,6 +11,13 @@ use std::path::PathBuf;
 pub const EXIT_CODES: &str = "Exit codes:
   0  certified  the claim is proved
   1  refuted    it is proved not to hold
+  2  bad-input  the input or the call is wrong; nothing was written
+  3  undecided  nothing is claimed either way, and why is said";
+
+/// The exit codes of `transfer`, whose results go into no certificate.
+const TRANSFER_EXIT_CODES: &str = "Exit codes:
+  0  proved     the bound is proved, computed with enclosures; no independent program checks it
+  1  refuted    it is proved not to hold for this k0
   2  bad-input  the input or the call is wrong; nothing was written
   3  undecided  nothing is claimed either way, and why is said";
 
@@ -44,6 +50,16 @@ pub struct Cli {
     pub command: Command,
 }
 
+/// The command line of [`Cli`], on which a negative number after a flag is its value: `--n-o -1` is a number that is
+/// refused, not an unknown flag.
+pub fn command() -> clap::Command {
+    let number = |arg: clap::Arg| {
+        let has_value = arg.get_long().is_some() && arg.get_action().takes_values();
+        if has_value { arg.allow_negative_numbers(true) } else { arg }
+    };
+    Cli::command().mut_subcommands(|command| command.mut_args(number))
+}
+
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -53,11 +69,11 @@ pub enum Command {
     /// proved. The report goes to standard output, remarks and errors to standard error.
     #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
     Certify(Box<CertifyArgs>),
-    /// Certify the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
+    /// Prove the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
     ///
     /// Finds constants k0, k1 that are proved for every n_o and every frequency, says how much of the bound each n_o uses,
-    /// and holds the paper's constants against them.
-    #[command(after_help = TRANSFER_EXAMPLES, after_long_help = format!("{TRANSFER_EXAMPLES}\n\n{EXIT_CODES}"))]
+    /// and holds the paper's constants against them. Computed with enclosures; there is no file for the independent checker.
+    #[command(after_help = TRANSFER_EXAMPLES, after_long_help = format!("{TRANSFER_EXAMPLES}\n\n{TRANSFER_EXIT_CODES}"))]
     Transfer(TransferArgs),
     /// Check a certificate with the independent checker
     ///
@@ -94,6 +110,7 @@ pub enum Command {
     /// Prove rates of convergence for given numbers of oscillators
     ///
     /// They tend to 0 as n_o grows, while sigma* does not move. Printed next to the spectral abscissa of the oscillators.
+    /// Computed with enclosures; there is no file for the independent checker.
     Rate(RateArgs),
     /// Write a completion script for a shell to standard output
     Completions {
@@ -190,7 +207,7 @@ pub struct TransferArgs {
     pub minimise: Option<String>,
 
     /// Numbers of oscillators to look at: a list of numbers and ranges; `inf` is allowed
-    #[arg(long, value_name = "LIST", default_value = "0,1,2,3,5,10,20,50,1000000000,inf")]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true, default_value = "0,1,2,3,5,10,20,50,1000000000,inf")]
     pub n_o: String,
 
     /// Draw T for these n_o under the bound, as SVG, into this file
@@ -266,10 +283,9 @@ pub struct RateArgs {
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
-    /// Numbers of oscillators, separated by commas, each at most 200
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "0,1,2,4,8,16",
-          value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_OSCILLATORS)))]
-    pub n_o: Vec<u32>,
+    /// Numbers of oscillators, each at most 200: a list of numbers and ranges, such as `0,1,5..10`
+    #[arg(long, value_name = "LIST", default_value = "0,1,2,4,8,16", allow_hyphen_values = true)]
+    pub n_o: String,
 
     /// The gain, an exact constant of at least sigma*; sigma* itself if absent
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
@@ -512,10 +528,25 @@ pub enum Format {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_table_of_flags_is_consistent() {
-        Cli::command().debug_assert();
+        command().debug_assert();
+    }
+
+    /// No flag with a number takes the minus sign in front of it for another flag.
+    #[test]
+    fn a_negative_number_is_a_value() {
+        for line in [
+            "rate s --n-o -1",
+            "transfer s --n-o -1..2",
+            "controller s --sigma 1 --n-o -1",
+            "certify s --precision-limit -1",
+        ] {
+            match command().try_get_matches_from(["sigmastar"].into_iter().chain(line.split(' '))) {
+                Ok(_) => {}
+                Err(error) => assert_eq!(error.kind(), clap::error::ErrorKind::ValueValidation, "{line}: {error}"),
+            }
+        }
     }
 }

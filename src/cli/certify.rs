@@ -3,7 +3,8 @@
 use super::args::{CertifyArgs, Format};
 use super::failure::Failure;
 use super::input;
-use super::output::{self, OutputFile};
+use super::output::{self, Input, OutputFile};
+use super::progress::{Audience, Working};
 use sigmastar::certificate::{
     Certification, certificate_json, certify, read_lyapunov, read_witness, recheck, resolve, resolve_with,
 };
@@ -17,7 +18,11 @@ pub fn run(args: &CertifyArgs) -> u8 {
 
 fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     // What is wrong with the call is said before any work is done.
-    let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.spec, "the certificate")).transpose()?;
+    let output = args
+        .output
+        .as_deref()
+        .map(|path| OutputFile::new(path, Input::Specification(&args.spec), "the certificate"))
+        .transpose()?;
     let flags =
         [(TargetKind::Sup, "--target-sup", &args.target_sup), (TargetKind::Rms, "--target-rms", &args.target_rms)];
     let targets = flags
@@ -30,10 +35,12 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     }
     let mut spec = Specification::from_value(&input::document(&args.spec)?.root())?;
     let witness = args.witness.as_deref().map(input::document).transpose()?;
-    if let Some(proved) = triple(&spec, witness.as_ref())? {
+    if let Some(proved) = triple(&spec, witness.as_ref(), args.quiet)? {
         spec = proved;
     }
 
+    let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
+    let working = Working::new("searching the free numbers, deciding the conditions", audience);
     let run = match &witness {
         None => certify(&spec, args.options()),
         Some(document) => {
@@ -45,6 +52,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
             recheck(&spec, &witness, args.options())
         }
     };
+    drop(working);
     let run = run.map_err(|problems| {
         Failure::Documents(problems.iter().map(|problem| bounding_errors(&spec, problem)).collect())
     })?;
@@ -67,10 +75,15 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
 }
 
 /// The specification with a proved triple, where it has a Jacobian: that of the witness, or one that is found.
-pub(super) fn triple(spec: &Specification, witness: Option<&Document>) -> Result<Option<Specification>, Failure> {
+pub(super) fn triple(
+    spec: &Specification,
+    witness: Option<&Document>,
+    quiet: bool,
+) -> Result<Option<Specification>, Failure> {
     if spec.lyapunov.triple().is_some() {
         return Ok(None);
     }
+    let _working = seeking_triple(quiet);
     let outcome = match witness {
         Some(document) => {
             resolve_with(spec, &read_lyapunov(document)?).map(|outcome| outcome.map_err(|failure| failure.to_string()))
@@ -78,6 +91,12 @@ pub(super) fn triple(spec: &Specification, witness: Option<&Document>) -> Result
         None => resolve(spec).map(|found| found.map(|found| found.spec).map_err(|failure| failure.to_string())),
     };
     outcome.transpose().map_err(|message| jacobian_errors(spec, message).into())
+}
+
+/// Says that a triple is sought, where that takes long.
+pub(super) fn seeking_triple(quiet: bool) -> Working {
+    let audience = if quiet { Audience::Nobody } else { Audience::Everywhere };
+    Working::new("finding and proving the Lyapunov triple of the Jacobian", audience)
 }
 
 /// Writes the certificate, or says why there is none.

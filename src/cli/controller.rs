@@ -3,7 +3,7 @@
 use super::args::{ControllerArgs, ControllerFormat, Format};
 use super::failure::Failure;
 use super::input;
-use super::output::{self, OutputFile, shown};
+use super::output::{self, Input, OutputFile, shown};
 use sigmastar::regulator::export::{self, CSources, Export};
 use sigmastar::regulator::{Design, Discrete};
 use sigmastar::report::blocks::clean;
@@ -17,12 +17,14 @@ pub fn run(args: &ControllerArgs) -> u8 {
 
 fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let what = "the regulator";
-    let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.spec, what)).transpose()?;
+    let output =
+        args.output.as_deref().map(|path| OutputFile::new(path, Input::Specification(&args.spec), what)).transpose()?;
     let header = match args.format {
         ControllerFormat::C => Some(header_path(args)?),
         _ => None,
     };
-    let header = header.as_deref().map(|path| OutputFile::new(path, &args.spec, what)).transpose()?;
+    let header =
+        header.as_deref().map(|path| OutputFile::new(path, Input::Specification(&args.spec), what)).transpose()?;
     let sigma = input::positive("--sigma", &args.sigma)?;
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
     let spec = Specification::from_value(&input::document(&args.spec)?.root())?;

@@ -3,7 +3,7 @@
 use super::args::{FalsifyArgs, Format, SimulationFormat};
 use super::failure::Failure;
 use super::input;
-use super::output::{self, OutputFile};
+use super::output::{self, Input, OutputFile};
 use super::progress::Bar;
 use sigmastar::certificate::Verdict;
 use sigmastar::falsify::{
@@ -17,7 +17,11 @@ pub fn run(args: &FalsifyArgs) -> u8 {
 
 fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let what = "the counterexample";
-    let output = args.output.as_deref().map(|path| OutputFile::new(path, &args.certificate, what)).transpose()?;
+    let output = args
+        .output
+        .as_deref()
+        .map(|path| OutputFile::new(path, Input::Certificate(&args.certificate), what))
+        .transpose()?;
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
     let mut claims = vec![Claim::from_document(&input::document(&args.certificate)?)?];

@@ -50,8 +50,7 @@ pub fn target(kind: TargetKind, flag: &str, text: &str) -> Result<Target, Failur
 /// # Errors
 /// What is wrong with the constant, in its place.
 pub fn positive(flag: &str, text: &str) -> Result<Constant, Failure> {
-    let quoted = serde_json::json!({ flag: text }).to_string();
-    let document = Document::parse("<command line>", &quoted)?;
+    let document = Document::flag(flag, text);
     let mut errors = Errors::new();
     let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
     let value = positive_constant(&place, &mut errors);

@@ -1,6 +1,7 @@
 //! `sigmastar lyapunov`.
 
 use super::args::LyapunovArgs;
+use super::certify::seeking_triple;
 use super::failure::Failure;
 use super::{input, output};
 use sigmastar::certificate::resolve;
@@ -18,7 +19,9 @@ fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
         let message = "this specification gives its Lyapunov triple, and there is no Jacobian to find one for";
         Failure::call(message, "write \"lyapunov\": { \"jacobian\": [[...], ...] } in it")
     };
+    let working = seeking_triple(false);
     let resolution = resolve(&spec).ok_or_else(given)?;
+    drop(working);
     let resolution = resolution.map_err(|failure| jacobian_errors(&spec, failure.to_string()))?;
     let report = LyapunovReport::new(resolution).ok_or_else(given)?;
     let text = output::report(&report, args.format);

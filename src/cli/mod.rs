@@ -4,6 +4,7 @@ mod args;
 mod certify;
 mod check;
 mod controller;
+mod counts;
 mod errata;
 mod failure;
 mod falsify;
@@ -17,14 +18,15 @@ mod reproduce;
 mod simulate;
 mod transfer;
 
-use args::{Cli, Command};
-use clap::Parser;
+use args::{Cli, Command, command};
+use clap::FromArgMatches;
 use sigmastar::certificate::Verdict;
 use std::process::ExitCode;
 
 /// Runs the command of the process's arguments and returns its exit code.
 pub fn run() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let parsed = command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let cli = match parsed.map_err(|error| error.format(&mut command())) {
         Ok(cli) => cli,
         Err(error) => {
             // A closed stream is no reason to fail differently.

@@ -76,13 +76,46 @@ pub fn reason(error: &io::Error) -> String {
         ErrorKind::PermissionDenied => "permission is denied".to_owned(),
         ErrorKind::IsADirectory => "it is a folder".to_owned(),
         ErrorKind::StorageFull => "no space is left".to_owned(),
-        _ => error.to_string(),
+        ErrorKind::NotADirectory => "a part of the path is a file, not a folder".to_owned(),
+        ErrorKind::AlreadyExists => "it exists already".to_owned(),
+        ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
+        ErrorKind::InvalidFilename => "the name is too long, or no name here".to_owned(),
+        _ => {
+            // The system's words without its number.
+            let text = error.to_string();
+            text.split(" (os error").next().unwrap_or(&text).to_lowercase()
+        }
     }
 }
 
 /// A path as messages show it: control characters would move the cursor.
 pub fn shown(path: &Path) -> String {
     path.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// The file that a command reads, which none of its output may replace.
+#[derive(Clone, Copy, Debug)]
+pub enum Input<'p> {
+    /// There is none.
+    None,
+    /// A specification.
+    Specification(&'p Path),
+    /// A certificate.
+    Certificate(&'p Path),
+    /// A plant file.
+    Plant(&'p Path),
+}
+
+impl Input<'_> {
+    /// What the file is, and where.
+    fn file(&self) -> Option<(&'static str, &Path)> {
+        match self {
+            Input::None => None,
+            Input::Specification(path) => Some(("specification", path)),
+            Input::Certificate(path) => Some(("certificate", path)),
+            Input::Plant(path) => Some(("plant file", path)),
+        }
+    }
 }
 
 /// A file that is to be written, checked before the work starts.
@@ -99,7 +132,7 @@ impl OutputFile {
     ///
     /// # Errors
     /// The call is wrong; nothing was touched.
-    pub fn new(path: &Path, input: &Path, what: &str) -> Result<OutputFile, Failure> {
+    pub fn new(path: &Path, input: Input<'_>, what: &str) -> Result<OutputFile, Failure> {
         let name = shown(path);
         if path == Path::new("-") {
             let help = "name a file; for the report as JSON on standard output, use --format json";
@@ -112,8 +145,10 @@ impl OutputFile {
                 let what = if metadata.is_dir() { "a folder" } else { "not a regular file" };
                 return Err(Failure::call(format!("cannot write `{name}`: it is {what}"), "name a file"));
             }
-            if input.canonicalize().is_ok_and(|input| input == target) {
-                let message = format!("cannot write `{name}`: it is the specification itself");
+            if let Some((word, input)) = input.file()
+                && input.canonicalize().is_ok_and(|input| input == target)
+            {
+                let message = format!("cannot write `{name}`: it is the {word} itself");
                 return Err(Failure::call(message, "name another file"));
             }
         }
@@ -164,6 +199,10 @@ impl OutputFile {
 /// # Errors
 /// It cannot be created, or it is something else.
 pub fn folder(path: &Path) -> Result<(), Failure> {
+    if path.metadata().is_ok_and(|metadata| !metadata.is_dir()) {
+        let message = format!("cannot write into `{}`: it is a file, not a folder", shown(path));
+        return Err(Failure::call(message, "name a folder; it is created where it does not exist"));
+    }
     std::fs::create_dir_all(path).map_err(|error| {
         let message = format!("cannot create the folder `{}`: {}", shown(path), reason(&error));
         Failure::call(message, "name a folder that exists or can be created")

@@ -2,11 +2,12 @@
 
 use super::args::RateArgs;
 use super::certify::triple;
+use super::counts::finite_counts;
 use super::failure::Failure;
 use super::{input, output};
 use sigmastar::certificate::{Options, Verdict, certify};
 use sigmastar::data::Data;
-use sigmastar::rate::rates;
+use sigmastar::rate::{MAX_OSCILLATORS, rates};
 use sigmastar::report::{RateReport, bounding_errors, filter_errors};
 use sigmastar::spec::Specification;
 
@@ -16,6 +17,7 @@ pub fn run(args: &RateArgs) -> u8 {
 }
 
 fn attempt(args: &RateArgs) -> Result<u8, Failure> {
+    let n_o = finite_counts(&args.n_o, MAX_OSCILLATORS)?;
     let mut spec = Specification::from_value(&input::document(&args.spec)?.root())?;
     let sigma = args.sigma.as_ref().map(|text| input::positive("--sigma", text)).transpose()?;
     let sigma = sigma.map(|sigma| {
@@ -23,7 +25,7 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
         sigma.as_rational().cloned().ok_or_else(|| Failure::call("--sigma is not a rational number", help))
     });
     let sigma = sigma.transpose()?;
-    if let Some(proved) = triple(&spec, None)? {
+    if let Some(proved) = triple(&spec, None, false)? {
         spec = proved;
     }
     let run = certify(&spec, Options { compare: false, ..Options::default() }).map_err(|problems| {
@@ -45,7 +47,7 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
         return Err(Failure::call(message, "give a gain of at least sigma*, or leave the flag out for sigma* itself"));
     }
     let data = Data::new(&spec, proof.precision);
-    let found = rates(&data, proof, &sigma, &args.n_o);
+    let found = rates(&data, proof, &sigma, &n_o);
     let Some(report) = RateReport::new(&run, &sigma, found) else { return Ok(Verdict::Undecided.exit_code()) };
     let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| 0))

@@ -2,7 +2,7 @@
 
 use super::args::{Format, PartArg, ReproduceArgs};
 use super::failure::Failure;
-use super::output::{self, OutputFile};
+use super::output::{self, Input, OutputFile};
 use super::progress::Bar;
 use sigmastar::reproduce::{Parts, Settings, figures, json, markdown, reproduce};
 use std::path::Path;
@@ -39,6 +39,5 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
-    // There is no input that could be overwritten.
-    OutputFile::new(&folder.join(name), Path::new(""), "the report")?.write(text)
+    OutputFile::new(&folder.join(name), Input::None, "the report")?.write(text)
 }

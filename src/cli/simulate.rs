@@ -3,7 +3,7 @@
 use super::args::{Format, SimulateArgs, SimulationFormat};
 use super::failure::Failure;
 use super::input;
-use super::output::{self, OutputFile};
+use super::output::{self, Input, OutputFile};
 use super::progress::Bar;
 use sigmastar::certificate::Verdict;
 use sigmastar::plant::Plant;
@@ -19,7 +19,8 @@ pub fn run(args: &SimulateArgs) -> u8 {
 }
 
 fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
-    let csv_file = args.csv.as_deref().map(|path| OutputFile::new(path, &args.plant, "the samples")).transpose()?;
+    let csv_file =
+        args.csv.as_deref().map(|path| OutputFile::new(path, Input::Plant(&args.plant), "the samples")).transpose()?;
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
@@ -86,7 +87,7 @@ fn write_figures(
 ) -> Result<(), Failure> {
     for (name, figure) in figures(closed_loop, simulation) {
         let svg = figure.svg().map_err(|error| Failure::call(error.to_string(), "leave --plots out"))?;
-        OutputFile::new(&folder.join(name), input, "a figure")?.write(svg)?;
+        OutputFile::new(&folder.join(name), Input::Plant(input), "a figure")?.write(svg)?;
     }
     Ok(())
 }

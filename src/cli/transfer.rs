@@ -1,19 +1,17 @@
 //! `sigmastar transfer`.
 
 use super::args::{Format, TransferArgs};
+use super::counts::counts;
 use super::failure::Failure;
 use super::input;
-use super::output::{self, OutputFile};
+use super::output::{self, Input, OutputFile};
 use super::progress::Bar;
 use sigmastar::certificate::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
+use sigmastar::progress::Progress;
 use sigmastar::report::{PairChoice, TransferReport, TransferRequest};
-use sigmastar::simulate::Progress;
 use sigmastar::spec::Specification;
-use sigmastar::transfer::{OscillatorCount, PairError};
-
-/// The most numbers of oscillators that one call looks at.
-const MOST: usize = 10_000;
+use sigmastar::transfer::PairError;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &TransferArgs) -> u8 {
@@ -21,7 +19,11 @@ pub fn run(args: &TransferArgs) -> u8 {
 }
 
 fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
-    let plot = args.plot.as_deref().map(|path| OutputFile::new(path, &args.spec, "the plot")).transpose()?;
+    let plot = args
+        .plot
+        .as_deref()
+        .map(|path| OutputFile::new(path, Input::Specification(&args.spec), "the plot"))
+        .transpose()?;
     let pair = match (&args.k0, &args.minimise) {
         (Some(text), _) => PairChoice::SmallestK1(input::positive("--k0", text)?),
         (None, Some(text)) => {
@@ -78,51 +80,4 @@ fn no_pair(args: &TransferArgs, error: &PairError) -> u8 {
     output::error(&error.to_string(), help);
     output::remark(&verdict.to_string());
     verdict.exit_code()
-}
-
-/// Reads a list such as `0,1,5..10,inf`.
-fn counts(text: &str) -> Result<Vec<OscillatorCount>, Failure> {
-    let wrong = |part: &str| {
-        Failure::call(
-            format!("`{part}` is no number of oscillators and no range of them"),
-            "write a list such as `0,1,2,10..20,1000000000,inf`",
-        )
-    };
-    let mut all = Vec::new();
-    for part in text.split(',').map(str::trim) {
-        let number = |text: &str| text.parse::<u64>().map_err(|_| wrong(part));
-        if part == "inf" {
-            all.push(OscillatorCount::Infinite);
-        } else if let Some((first, last)) = part.split_once("..") {
-            let (first, last) = (number(first)?, number(last.trim_start_matches('='))?);
-            if first > last {
-                return Err(wrong(part));
-            }
-            all.extend((first..=last).take(MOST + 1).map(OscillatorCount::Finite));
-        } else {
-            all.push(OscillatorCount::Finite(number(part)?));
-        }
-        if all.len() > MOST {
-            let message = format!("more than {MOST} numbers of oscillators");
-            return Err(Failure::call(message, "ask for fewer: the pair holds for every number of oscillators anyway"));
-        }
-    }
-    Ok(all)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lists_and_ranges_are_read() {
-        let finite = |list: &[u64]| list.iter().copied().map(OscillatorCount::Finite).collect::<Vec<_>>();
-        assert_eq!(counts("0").unwrap(), finite(&[0]));
-        assert_eq!(counts("3, 5..7,1000000000").unwrap(), finite(&[3, 5, 6, 7, 1_000_000_000]));
-        assert_eq!(counts("5..=6").unwrap(), finite(&[5, 6]));
-        assert_eq!(counts("1,inf").unwrap()[1], OscillatorCount::Infinite);
-        for wrong in ["", "1,,2", "-1", "2..1", "a", "1..", "0..18446744073709551615", "1.5"] {
-            assert!(counts(wrong).is_err(), "{wrong}");
-        }
-    }
 }

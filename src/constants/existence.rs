@@ -153,8 +153,9 @@ impl PeriodicSolution {
 /// `(c/alpha) b_fe / (1 - (c/alpha) b_fxx X_p/2)`: sup|x| over sup|e| along the periodic solution, under C1.
 #[must_use]
 pub fn x_per_gain(data: &Data<'_>, bounds: &PeriodicBounds) -> Enclosure {
-    let k = gains::k_alpha_sharp(&data.c);
-    &k / &data.alpha * &bounds.f_e / (1 - bounds.quadratic_share(data, &k))
+    // Lemma K of the derivation: c in place of K_alpha.
+    let k = &data.c;
+    k / &data.alpha * &bounds.f_e / (1 - bounds.quadratic_share(data, k))
 }
 
 /// The level below which the error gain (beta_s or beta) makes the contraction matrix a contraction:
@@ -175,7 +176,7 @@ pub fn sigma_p_sharp(data: &Data<'_>, bounds: &PeriodicBounds) -> Enclosure {
     let (qr, q1) = (&bounds.q_rms, &bounds.q_rate_rms);
     let by_size = if *qr == zero { data.zero() } else { gains::beta_s_inverse(&(&bounds.e_p / qr), &data.period) };
     let by_rate = if *q1 == zero { data.zero() } else { gains::tau_inverse(&(&bounds.e_p / q1), &data.period) };
-    let unit = bounds.contraction(data, &gains::k_alpha_sharp(&data.c), 1, &Enclosure::one(data.precision));
+    let unit = bounds.contraction(data, &data.c, 1, &Enclosure::one(data.precision));
     let by_contraction =
         contraction_level(&unit).map_or_else(|| data.zero(), |level| gains::beta_s_inverse(&level, &data.period));
     by_size.min(&by_rate).max(&by_contraction)

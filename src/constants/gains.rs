@@ -6,18 +6,13 @@ use rug::Rational;
 /// `K_alpha = c (e^{alpha T} - 1 + c) e^{-alpha T}` (P:app:Kalpha1), a pure number.
 ///
 /// Hypotheses: c >= 1, alpha, T > 0. Guarantee: a T-periodic solution of chi' = F chi + g has
-/// sup|chi| <= (K_alpha/alpha) sup|g| when (P_low, P_up, alpha) holds for F. Sound; never less than [`k_alpha_sharp`].
+/// sup|chi| <= (K_alpha/alpha) sup|g| when (P_low, P_up, alpha) holds for F. Sound; never less than c, which
+/// serves as well (derivation, lemma K: differentiate sqrt(chi' P chi)).
 #[must_use]
 pub fn k_alpha(c: &Enclosure, alpha: &Enclosure, period: &Enclosure) -> Enclosure {
     // The same number in the form c (1 + (c - 1) e^{-alpha T}), which has no cancellation and no overflow.
     let decay = (-(alpha * period)).exp();
     c * (1 + (c - 1) * decay)
-}
-
-/// The sharp constant in place of K_alpha: c itself (derivation, lemma K: differentiate sqrt(chi' P chi)).
-#[must_use]
-pub fn k_alpha_sharp(c: &Enclosure) -> Enclosure {
-    c.clone()
 }
 
 /// `K_{alpha,2}` as printed (P:app:Kalpha2): `k sqrt(T (1 + e^{-alpha T}) / (2 (1 - e^{-alpha T})))`.
@@ -207,7 +202,6 @@ mod tests {
         let sigma = number(3.0);
         let q = (-6.0_f64).exp();
         assert!(close(&beta(&sigma, &t), (4.0 * (1.0 + q) / (3.0 * (1.0 - q))).sqrt(), 1e-14));
-        assert_eq!(k_alpha_sharp(&c), c);
     }
 
     #[test]

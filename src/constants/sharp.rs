@@ -89,7 +89,8 @@ impl SharpEvaluation {
     pub fn new(data: &Data<'_>, witness: &SharpWitness) -> SharpEvaluation {
         let number = |value: &Rational| data.rational(value);
         let sigma = number(&witness.sigma);
-        let k = gains::k_alpha_sharp(&data.c);
+        // Lemma K of the derivation: c in place of K_alpha.
+        let k = &data.c;
         let bounds = PeriodicBounds::new(data, number(&witness.x_p), number(&witness.e_p));
         let periodic = PeriodicSolution::new(data, &bounds, &sigma);
         let (kappa_0, kappa_1) = kappas(data, &number(&witness.k0), &number(&witness.k1));
@@ -127,13 +128,13 @@ impl SharpEvaluation {
         conditions.push(Condition::at_most(
             "C1",
             "(c/alpha)(b_fe E_p + b_fxx X_p^2/2) <= X_p",
-            bounds.invariance_lhs(data, &k),
+            bounds.invariance_lhs(data, k),
             bounds.x_p.clone(),
         ));
         conditions.push(Condition::less(
             "C1b",
             "(c/alpha) b_fxx X_p/2 < 1",
-            bounds.quadratic_share(data, &k),
+            bounds.quadratic_share(data, k),
             Enclosure::one(data.precision),
         ));
         conditions.push(Condition::at_most(
@@ -143,7 +144,7 @@ impl SharpEvaluation {
             bounds.e_p.clone(),
         ));
         let (p_x, p_e) = (number(&witness.p_x), number(&witness.p_e));
-        let matrix = bounds.contraction(data, &k, 1, &gains::beta_s(&sigma, &data.period));
+        let matrix = bounds.contraction(data, k, 1, &gains::beta_s(&sigma, &data.period));
         let [column_x, column_e] = matrix.weighted_columns(&p_x, &p_e);
         conditions.push(Condition::less("C3", "A p_x + beta_s b_qx p_e < p_x", column_x, p_x));
         conditions.push(Condition::less("C3b", "B p_x + beta_s b_qe p_e < p_e", column_e, p_e));

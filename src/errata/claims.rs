@@ -99,7 +99,7 @@ pub(super) fn e16(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "K_alpha against c, which is enough (P_up/P_low = 1.5512, alpha = 0.58, T = 1): K_alpha/c = 1 + (c-1) e^(-alpha T)",
-            k_alpha / gains::k_alpha_sharp(&c),
+            k_alpha / &c,
             Relation::Greater,
             1,
         ),

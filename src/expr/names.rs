@@ -58,6 +58,12 @@ pub(super) trait Scope {
     /// The names of the variables.
     fn names(&self) -> impl Iterator<Item = &str>;
 
+    /// What to write for a name that means something to a writer, but nothing here.
+    fn instead_of(&self, name: &str) -> Option<&'static str> {
+        let _ = name;
+        None
+    }
+
     /// A product of one-letter variables written without operators (`XE`), with them (`X*E`); any other name itself.
     fn spelled_out(&self, name: &str) -> String {
         let letters = || name.chars().map(String::from);
@@ -84,6 +90,15 @@ impl Scope for Variables {
             Variables::XAndE | Variables::Time => Ok(argument),
             Variables::None => Err((argument == Argument::E).then(|| "Euler's number is exp(1)".to_owned())),
         })
+    }
+
+    fn instead_of(&self, name: &str) -> Option<&'static str> {
+        let time = matches!(name, "t" | "time");
+        match self {
+            Variables::XAndE if time => Some("a bounding function holds for every t: take the supremum over t"),
+            Variables::None if time => Some("a constant holds for every t: take its largest value over t"),
+            _ => None,
+        }
     }
 
     fn operand(&self) -> &'static str {
@@ -115,6 +130,9 @@ fn known<S: Scope>(scope: &S) -> impl Iterator<Item = &str> {
 
 /// A suggestion for an unknown name, as a sentence.
 pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
+    if let Some(advice) = scope.instead_of(name) {
+        return Some(advice.to_owned());
+    }
     let lower = name.to_lowercase();
     if let Some((_, meant)) = ALIASES.iter().find(|(alias, _)| *alias == lower) {
         return Some(format!("write {meant}"));
@@ -163,6 +181,8 @@ mod tests {
         ] {
             assert_eq!(suggest(name).as_deref(), Some(meant), "{name}");
         }
+        assert_eq!(suggest("t").as_deref(), Some("a bounding function holds for every t: take the supremum over t"));
+        assert_eq!(super::suggest("t", &Variables::Time).as_deref(), Some("write t"));
         assert_eq!(suggest("q"), None);
         assert_eq!(suggest("velocity"), None);
         assert_eq!(super::suggest("e", &Variables::None).as_deref(), Some("Euler's number is exp(1)"));

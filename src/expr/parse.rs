@@ -12,7 +12,7 @@
 
 use super::exact::Constants;
 use super::lex::{Token, TokenKind, tokens};
-use super::names::{FOLDED, Scope, UNARY, suggest};
+use super::names::{FOLDED, Scope, UNARY, is_taken, suggest};
 use super::syntax::{Binary, Node, NodeKind, Unary, step};
 use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT};
 use crate::number::{Monomial, parse_decimal};
@@ -305,6 +305,35 @@ impl<S: Scope> Parser<'_, S> {
         ExprError { kind, span, expected: Some(expected), help: help.map(str::to_owned) }
     }
 
+    /// What to write where `right` follows the operand `left` without an operator.
+    fn between(&self, left: &str, right: &str, kind: TokenKind) -> String {
+        let product = |factor: &str| format!("write {left}*{factor}");
+        if kind != TokenKind::Name || is_taken(right) {
+            return product(right);
+        }
+        match self.scope.variable(right) {
+            Some(Err(Some(advice))) => return advice,
+            Some(_) => return product(right),
+            None => {}
+        }
+        let spelled_out = self.scope.spelled_out(right);
+        if spelled_out != right {
+            return product(&spelled_out);
+        }
+        let number = self.at.checked_sub(1).is_some_and(|at| self.tokens[at].kind == TokenKind::Numeral);
+        let called = self.tokens.get(self.at + 1).is_some_and(|next| next.kind == TokenKind::Symbol('('));
+        match suggest(right, self.scope) {
+            // A name with a well-known meaning, under another name here.
+            Some(advice) => match advice.strip_prefix("write ") {
+                Some(meant) => product(meant),
+                None if called || !number || !advice.starts_with("did you mean") => advice,
+                None => without_unit(left),
+            },
+            None if called || !number => product(right),
+            None => without_unit(left),
+        }
+    }
+
     /// What follows a complete operand and is neither an operator nor the end.
     fn unexpected_after_operand(&self, token: &Token) -> ExprError {
         let text = |span: &Range<usize>| shortened(&self.text[span.clone()]);
@@ -312,14 +341,18 @@ impl<S: Scope> Parser<'_, S> {
         match token.kind {
             TokenKind::Numeral | TokenKind::Name | TokenKind::Symbol('(') => {
                 let left = self.at.checked_sub(1).map_or_else(String::new, |at| text(&self.tokens[at].span));
-                let factor = if token.kind == TokenKind::Name { self.scope.spelled_out(&right) } else { right.clone() };
-                let help = Some(format!("write {left}*{factor}"));
+                let help = Some(self.between(&left, &right, token.kind));
                 let kind = ExprErrorKind::MissingOperator { left, right };
                 ExprError { kind, span: token.span.clone(), expected: Some(OPERATOR), help }
             }
             TokenKind::Symbol(symbol) => self.misplaced(symbol, token.span.clone(), OPERATOR),
         }
     }
+}
+
+/// The advice on a number with a unit behind it.
+fn without_unit(number: &str) -> String {
+    format!("numbers have no units: write {number} alone, in the same units of time, x and e as all other data")
 }
 
 /// A piece of a stranger's text, short enough for a message.
@@ -385,6 +418,8 @@ mod tests {
         let missing = |left: &str, right: &str| Kind::MissingOperator { left: left.into(), right: right.into() };
         let unexpected = |found: &str| Kind::Unexpected { found: found.into() };
         let unknown = |name: &str| Kind::UnknownName { name: name.into() };
+        const UNIT: &str = "numbers have no units: write 2 alone, in the same units of time, x and e as all other data";
+        const SUPREMUM: &str = "a bounding function holds for every t: take the supremum over t";
         for (text, kind, span, help) in [
             ("2X", missing("2", "X"), 1..2, Some("write 2*X")),
             ("2E", missing("2", "E"), 1..2, Some("write 2*E")),
@@ -394,6 +429,14 @@ mod tests {
             ("X(E)", missing("X", "("), 1..2, Some("write X*(")),
             ("(X)E", missing(")", "E"), 3..4, Some("write )*E")),
             ("(2 3)", missing("2", "3"), 3..4, Some("write 2*3")),
+            ("2 s", missing("2", "s"), 2..3, Some(UNIT)),
+            ("2 rad/s", missing("2", "rad"), 2..5, Some(UNIT)),
+            ("2 x", missing("2", "x"), 2..3, Some("write 2*X")),
+            ("2 ln(X)", missing("2", "ln"), 2..4, Some("write 2*log")),
+            ("2 sqr(X)", missing("2", "sqr"), 2..5, Some("did you mean sqrt?")),
+            ("(2) s", missing(")", "s"), 4..5, Some("write )*s")),
+            ("2 t", missing("2", "t"), 2..3, Some(SUPREMUM)),
+            ("3*cos(2*pi*t)", unknown("t"), 11..12, Some(SUPREMUM)),
             ("sqr(X)", unknown("sqr"), 0..3, Some("did you mean sqrt?")),
             ("1 + x", unknown("x"), 4..5, Some("write X")),
             ("ln(X)", unknown("ln"), 0..2, Some("write log")),
@@ -441,6 +484,12 @@ mod tests {
         for text in ["X", "1 + E"] {
             let error = Expr::parse(text, Variables::None).map(|_| ()).unwrap_err();
             assert!(matches!(error.kind, ExprErrorKind::VariableInConstant { .. }), "{text}");
+        }
+        for (text, help) in
+            [("2 s", "numbers have no units"), ("2e", "Euler's number is exp(1)"), ("t", "its largest value")]
+        {
+            let error = Expr::parse(text, Variables::None).map(|_| ()).unwrap_err();
+            assert!(error.help.is_some_and(|found| found.contains(help)), "{text}");
         }
         assert!(Expr::parse("2*pi", Variables::None).is_ok());
     }

@@ -99,7 +99,7 @@ fn refuted(property: Property, counterexample: Counterexample, span: Option<Rang
     BoundingFailure::Refuted { property, counterexample: Box::new(counterexample), span }
 }
 
-/// The point as degenerate enclosures.
+/// The sides of a box as enclosures, X first.
 pub(super) fn sides(region: &DomainBox, precision: u32) -> [Enclosure; 2] {
     [&region.x, &region.e].map(|ends| Enclosure::between(&ends[0], &ends[1], precision))
 }

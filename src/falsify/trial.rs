@@ -5,9 +5,10 @@ use super::draw::{DrawnPlant, draw};
 use super::random::Random;
 use super::report::counterexample_plant;
 use crate::plant::Plant;
+use crate::progress::{Progress, Silent};
 use crate::regulator::Regulator;
 use crate::simulate::{
-    ClosedLoop, Orbit, Progress, Silent, SteadyState, SteadyStateError, Tolerance, rms, steady_state, sup, trajectory,
+    ClosedLoop, Orbit, SteadyState, SteadyStateError, Tolerance, rms, steady_state, sup, trajectory,
 };
 use rayon::prelude::*;
 

@@ -7,7 +7,7 @@
 //! - [`level`]: the same together with the level condition C4, with the weights w_x, h free;
 //! - [`ldl`]: exact definiteness of small matrices, and their leading minors;
 //! - [`residual`]: definiteness of larger ones, exactly or within errors;
-//! - [`perron`]: C3 with weights, as a linear program and as a diagonal Stein inequality;
+//! - [`perron`]: C3 with weights, and as a diagonal Stein inequality;
 //! - [`cross_check`]: the matrix inequality against the closed form of C5 on a certificate.
 //!
 //! Nothing that comes out of the solver is a claim: it is rounded to rationals and verified, or dropped.
@@ -28,4 +28,4 @@ pub use ldl::{is_positive_definite, leading_minors};
 pub use level::{LevelData, WeightsProposal, propose_lyapunov_weights};
 pub use propose::{DecayProposal, propose_multipliers, propose_sigma};
 pub use residual::ScaledMatrix;
-pub use solve::{Candidate, SolverFailure, margin, minimise, propose};
+pub use solve::{Candidate, SolverFailure, margin, propose};

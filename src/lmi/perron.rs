@@ -1,4 +1,4 @@
-//! C3 as linear programs and matrix inequalities: weights, the enclosed spectral radius, and the diagonal Stein inequality.
+//! C3 with weights and as a matrix inequality: the enclosed spectral radius, and the diagonal Stein inequality.
 
 use super::affine::AffineMatrix;
 use super::ldl::is_positive_definite;
@@ -44,18 +44,6 @@ pub fn stein_holds(matrix: &[Vec<Rational>], d: &[Rational]) -> bool {
     is_positive_definite(&(0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect::<Vec<_>>())
 }
 
-/// Weights p > 0 with M p < p for a nonnegative matrix, by the linear program "minimise sum p subject to p - M p >= 1". A
-/// proposal, to be decided by [`spectral_radius`].
-///
-/// # Errors
-/// What the solver did instead of solving: there are such weights if and only if the spectral radius is below 1.
-pub fn propose_weights(matrix: &[Vec<Rational>]) -> Result<Vec<Rational>, SolverFailure> {
-    let entry = |i: usize, k: usize| f64::from(u8::from(i == k)) - matrix[i][k].to_f64();
-    let constraints: Vec<AffineMatrix<f64>> =
-        (0..matrix.len()).map(|i| AffineMatrix::from_fn(1, matrix.len(), |_, _| -1.0, |k, _, _| entry(i, k))).collect();
-    rationals(&propose(&vec![1.0; matrix.len()], &constraints)?.x)
-}
-
 /// d >= 1 with `D - M' D M > 0` and the least sum. A proposal, to be decided by [`stein_holds`].
 ///
 /// # Errors
@@ -83,6 +71,18 @@ mod tests {
 
     fn exact(rows: &[&[i32]], denominator: i32) -> Vec<Vec<Rational>> {
         rows.iter().map(|row| row.iter().map(|entry| Rational::from((*entry, denominator))).collect()).collect()
+    }
+
+    /// Weights p > 0 with M p < p for a nonnegative matrix, by the linear program "minimise sum p subject to p - M p >= 1". A
+    /// proposal, to be decided by [`spectral_radius`].
+    ///
+    /// There are such weights if and only if the spectral radius is below 1.
+    fn propose_weights(matrix: &[Vec<Rational>]) -> Result<Vec<Rational>, SolverFailure> {
+        let entry = |i: usize, k: usize| f64::from(u8::from(i == k)) - matrix[i][k].to_f64();
+        let constraints: Vec<AffineMatrix<f64>> = (0..matrix.len())
+            .map(|i| AffineMatrix::from_fn(1, matrix.len(), |_, _| -1.0, |k, _, _| entry(i, k)))
+            .collect();
+        rationals(&propose(&vec![1.0; matrix.len()], &constraints)?.x)
     }
 
     #[test]

@@ -83,25 +83,13 @@ pub struct Candidate {
     pub remark: Option<String>,
 }
 
-/// Minimises `cost . x` subject to `M(x)` positive semidefinite for every M of `constraints`, in floating point.
-///
-/// Guarantee: none about the result, which is a proposal to be verified; but it is finite, and the solver reached its
-/// full tolerance.
-///
-/// # Errors
-/// Every other outcome of the solver, by name, and data that are not finite or do not fit together.
-pub fn minimise(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Vec<f64>, SolverFailure> {
-    let candidate = propose(cost, constraints)?;
-    candidate.remark.map_or(Ok(candidate.x), |status| Err(SolverFailure::Stopped(status)))
-}
-
-/// The same, with the dual matrices, and with the last point of a solver that stopped at reduced accuracy or made no more
-/// progress: [`Candidate::remark`] then says so.
+/// Minimises `cost . x` subject to `M(x)` positive semidefinite for every M of `constraints`, in floating point. Where the
+/// solver stops at reduced accuracy or makes no more progress, its last point is given, and [`Candidate::remark`] says so.
 ///
 /// Guarantee: none about the result, which is a proposal to be verified; but it is finite.
 ///
 /// # Errors
-/// As for [`minimise`], but for `AlmostSolved` and `InsufficientProgress`.
+/// Every other outcome of the solver, by name, and data that are not finite or do not fit together.
 pub fn propose(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Candidate, SolverFailure> {
     if let Some(odd) = constraints.iter().find(|constraint| constraint.terms().len() != cost.len()) {
         return Err(SolverFailure::Shape { costs: cost.len(), variables: odd.terms().len() });
@@ -165,6 +153,12 @@ pub fn margin(size: f64, order: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The minimum, where the solver reaches its full tolerance.
+    fn minimise(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Vec<f64>, SolverFailure> {
+        let candidate = propose(cost, constraints)?;
+        candidate.remark.map_or(Ok(candidate.x), |status| Err(SolverFailure::Stopped(status)))
+    }
 
     /// `C + x A` of order 1.
     fn scalar(constant: f64, coefficient: f64) -> AffineMatrix<f64> {

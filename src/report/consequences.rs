@@ -113,8 +113,8 @@ impl Consequences {
                 table.push([n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)]);
             }
             blocks.push(Block::says(
-                "Certified bounds of the error along the periodic solution, at sigma* and for every larger sigma, by the \
-                 number of oscillators:",
+                "Bounds of the error along the periodic solution, at sigma* and for every larger sigma, by the number of \
+                 oscillators. They follow from the claim, are computed with enclosures, and have no independent check:",
             ));
             blocks.push(Block::Table(table));
         } else {

@@ -27,6 +27,7 @@ pub fn bounding_errors(spec: &Specification, problem: &BoundingProblem) -> SpecE
     };
     let span = span.clone().unwrap_or(whole);
     spec.errors_at(&field, &span, kind, problem.failure.to_string(), Some(help.to_owned()))
+        .with_sentence_in_full(problem.failure.in_full())
 }
 
 /// A Jacobian without a proved triple, as an error at its place: undecided, for no search proves that there is none.
@@ -37,7 +38,7 @@ pub fn jacobian_errors(spec: &Specification, message: impl Into<String>) -> Spec
     spec.errors_at("/lyapunov/jacobian", &(0..0), ErrorKind::Undecided, message, Some(help.to_owned()))
 }
 
-/// One object for each error, in order.
+/// One object for each error, in order; numbers have all their digits.
 pub(super) fn errors_json<'e>(all: impl IntoIterator<Item = &'e SpecErrors>) -> Value {
     let mut list = Vec::new();
     for errors in all {
@@ -47,7 +48,7 @@ pub(super) fn errors_json<'e>(all: impl IntoIterator<Item = &'e SpecErrors>) -> 
                 "file": errors.label(),
                 "code": error.kind.code(),
                 "pointer": error.pointer,
-                "message": error.message,
+                "message": errors.in_full(error),
                 "expected": error.expected,
                 "help": error.help,
                 "line": line,

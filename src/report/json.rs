@@ -5,10 +5,11 @@ use super::consequences::{Consequences, TargetKind, TargetOutcome, full};
 use super::failures::{bounding_errors, errors_json};
 use super::matrix_checks::checks_json;
 use super::number::estimate;
+use super::obstacles::advice;
 use super::relative_degree::gains_json;
 use super::sets::Sets;
 use super::verdict::{basis, largest_arguments, sentence};
-use crate::certificate::{Certification, Outcome, conditions_json, constants_json};
+use crate::certificate::{Certification, Outcome, Verdict, conditions_json, constants_json};
 use crate::constants::condition::Condition;
 use crate::enclosure::Enclosure;
 use crate::number::write_exact;
@@ -52,6 +53,9 @@ pub(super) fn report(report: &Report<'_>) -> Value {
     if !run.unproved_bounds.is_empty() {
         let errors: Vec<_> = run.unproved_bounds.iter().map(|problem| bounding_errors(run.spec, problem)).collect();
         set("errors", errors_json(&errors));
+    }
+    if run.verdict != Verdict::Certified {
+        set("advice", json!(advice(run, report.rechecked)));
     }
     set("conditions", conditions_with_truth(run.conditions()));
     set("matrix_inequalities", checks_json(run));

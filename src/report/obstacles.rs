@@ -3,12 +3,14 @@
 use super::blocks::{Block, clean};
 use super::number::{pair, upper};
 use super::verdict::largest_arguments;
-use crate::certificate::{Certification, Derivation, Outcome, Verdict};
+use crate::certificate::{Certification, Derivation, Outcome, TransferChoice, Verdict};
 use crate::constants::condition::Condition;
+use crate::data::Data;
 use crate::enclosure::Truth;
 use crate::expr::BoundingFailure;
 use crate::number::write_exact;
-use crate::search::Obstacle;
+use crate::search::{FloatModel, Obstacle, SmallerSet, smaller_set};
+use crate::transfer::TradeOff;
 
 /// The outcome of one derivation, without its type.
 enum Status<'r> {
@@ -111,7 +113,8 @@ fn describe(condition: &Condition) -> String {
     )
 }
 
-fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
+/// What to try where nothing is certified.
+pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
     let mut items: Vec<String> = Vec::new();
     let mut add = |text: &str| items.push(text.to_owned());
     match chosen(run) {
@@ -166,17 +169,45 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
                 let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));
                 add(&format!("a larger domain than X = {x}, E = {e}, if the bounding functions hold there"));
             }
-            add("a smaller initial set, for example `\"kind\": \"at-rest\"`");
+            add(&smaller(run));
         }
         Obstacle::Curvature => {
-            add(
-                "a smaller initial set, a larger alpha, or smaller f_xx and f_ex: the nonlinearity is too strong for it",
-            );
+            add(&smaller(run));
+            add("a larger alpha, or smaller f_xx and f_ex: the nonlinearity is too strong for this initial set");
         }
-        Obstacle::Coupling => add("a smaller initial set, or smaller q_x, f_e"),
+        Obstacle::Coupling => {
+            add(&smaller(run));
+            add("smaller q_x, f_e");
+        }
         Obstacle::Bounds => add("a `domain` on which the bounding functions are valid"),
     }
     if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper)) {
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
+    }
+}
+
+/// Which smaller initial set would do, in floating point.
+fn smaller(run: &Certification<'_>) -> String {
+    // The working precision of what only proposes.
+    let data = Data::new(run.spec, 64);
+    let matched = run.options.transfer == TransferChoice::Best && run.spec.internal_model.matched;
+    let repaired = run.options.derivation == Derivation::Repaired;
+    let trade_off = if matched && !repaired { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
+    match smaller_set(&FloatModel::new(&data, trade_off), repaired) {
+        SmallerSet::AtRest => "a smaller initial set: the floating-point search (an estimate, no proof) succeeds with \
+                               `\"initial_set\": { \"kind\": \"at-rest\" }`"
+            .to_owned(),
+        SmallerSet::Box(sizes) => {
+            let [x0, e0, z0] = sizes.each_ref().map(write_exact);
+            format!(
+                "a smaller initial set: the floating-point search (an estimate, no proof) succeeds up to about \
+                 `\"initial_set\": {{ \"kind\": \"box\", \"X0\": \"{x0}\", \"E0\": \"{e0}\", \"Z0\": \"{z0}\" }}`"
+            )
+        }
+        SmallerSet::None => {
+            "no smaller initial set alone: the floating-point search (an estimate, no proof) fails for every \
+                             size that was tried, a single point among them"
+                .to_owned()
+        }
     }
 }

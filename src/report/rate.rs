@@ -14,7 +14,7 @@ pub struct RateReport {
     name: String,
     sigma: Rational,
     sigma_star: Rational,
-    /// Whether e is a filtered error: then xi_1, ..., xi_(r-1) are no part of what the rates speak of.
+    /// Whether e is a filtered error: then it depends on x whether the rates speak of xi_1, ..., xi_(r-1).
     filtered: bool,
     rates: Vec<Rates>,
 }
@@ -66,15 +66,17 @@ impl Readable for RateReport {
         let mut blocks = vec![Block::Title(format!("{}: rates at sigma = {}", self.name, write_exact(&self.sigma)))];
         if self.filtered {
             blocks.push(Block::says(
-                "The closed loop is that of x, e and z. With a relative degree above 1 the states xi_1, ..., xi_(r-1) follow from \
-                 e by the filter: they approach the periodic solution no faster than the filter itself lets them, and its rate \
-                 is not in this table.",
+                "The closed loop is that of x, e and z. With a relative degree above 1 the states xi_1, ..., xi_(r-1) belong to x, \
+                 and so to this table, where f or q depends on them. Where the specification leaves them out of x they follow \
+                 from e by the filter: they approach the periodic solution no faster than the filter itself lets them, and its \
+                 rate is not in this table.",
             ));
         }
         blocks.extend([
             Block::says(format!(
-                "sigma* = {} serves every n_o; the rates tend to 0 as n_o grows. All in 1/time, proved and rounded down, but for \
-                 the spectral abscissa, which is floating point. The rate of the closed loop is that at which (x, e, z) is \
+                "sigma* = {} serves every n_o; the rates tend to 0 as n_o grows. All in 1/time, computed with enclosures and \
+                 rounded down, but for the spectral abscissa, which is floating point; no certificate carries them, and no \
+                 independent program checks them. The rate of the closed loop is that at which (x, e, z) is \
                  proved to approach the periodic solution from the initial set of the certificate, for this n_o and this gain: \
                  a lower bound for every plant with these bounding functions.",
                 exact(&self.sigma_star, Direction::Up)
@@ -109,7 +111,7 @@ impl Readable for RateReport {
             })
         };
         json!({
-            "format": "sigmastar/rates", "version": 1, "verdict": "certified", "state": "(x, e, z)",
+            "format": "sigmastar/rates", "version": 1, "verdict": "proved", "independent_check": "none", "state": "(x, e, z)",
             "sigma": write_exact(&self.sigma), "sigma_star": write_exact(&self.sigma_star),
             "rates": self.rates.iter().map(one).collect::<Vec<_>>(),
         })

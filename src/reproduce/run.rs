@@ -3,10 +3,10 @@
 use super::printed::{PAPER_PLANT, ROWS, Row, Table, last_place};
 use crate::number::Portable;
 use crate::plant::Plant;
+use crate::progress::{Progress, Silent};
 use crate::regulator::Regulator;
 use crate::simulate::{
-    BandLimitedNoise, ClosedLoop, Noise, NoiseSettings, Progress, Silent, SteadyFigures, SteadyStateError, noisy_run,
-    steady_state,
+    BandLimitedNoise, ClosedLoop, Noise, NoiseSettings, SteadyFigures, SteadyStateError, noisy_run, steady_state,
 };
 use crate::spec::SpecErrors;
 use rayon::prelude::*;

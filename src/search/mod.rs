@@ -11,6 +11,7 @@ mod printed;
 mod repaired;
 mod scan;
 mod sharp;
+mod smaller_set;
 
 pub use candidate::{AtSigma, Existence, Obstacle, SharpParameters};
 pub use exact::search_exact;
@@ -18,3 +19,4 @@ pub use model::{Datum, FloatModel};
 pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
 pub use sharp::{SharpProposal, at_sigma, largest_e, search_sharp, sensitivities};
+pub use smaller_set::{SmallerSet, smaller_set};

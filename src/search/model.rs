@@ -147,6 +147,12 @@ impl FloatModel {
         model
     }
 
+    /// The same model with another initial set.
+    #[must_use]
+    pub fn with_set(&self, set: FloatSet) -> FloatModel {
+        FloatModel { set, ..self.clone() }
+    }
+
     /// c = sqrt(P_up/P_low).
     #[must_use]
     pub fn c(&self) -> f64 {

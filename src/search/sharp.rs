@@ -49,6 +49,12 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
     proposal(model, best.0)
 }
 
+/// Whether the scan of the search finds a candidate.
+#[must_use]
+pub fn any_candidate(model: &FloatModel) -> bool {
+    scan::evaluate_all(&scan::x_values(model.domain.0), |&x_p| scan_column(model, x_p).is_ok()).contains(&true)
+}
+
 /// Good candidates that differ from each other, best first.
 fn spread(found: &[(f64, SharpParameters)]) -> Vec<SharpParameters> {
     let mut starts: Vec<SharpParameters> = Vec::new();

@@ -25,17 +25,3 @@ pub use orbit::{Orbit, amplitudes, rms, sup};
 pub use report::{FORMAT, VERSION, bode, csv, figures, json, spectrum, spectrum_curve, text};
 pub use run::{LongRun, Method, NoisyRun, Settings, Simulation, SteadyFigures, noisy_run, simulate};
 pub use steady::{SteadyState, SteadyStateError, steady_state};
-
-/// Hears of work done, for a progress bar.
-pub trait Progress: Sync {
-    /// One more unit of work is done.
-    fn advance(&self);
-}
-
-/// Nobody listens.
-#[derive(Clone, Copy, Debug)]
-pub struct Silent;
-
-impl Progress for Silent {
-    fn advance(&self) {}
-}

@@ -1,5 +1,6 @@
 //! Figures as SVG.
 
+use crate::palette::COLOURS;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use std::ops::Range;
@@ -7,16 +8,6 @@ use thiserror::Error;
 
 /// The size of a figure in pixels.
 const SIZE: (u32, u32) = (820, 480);
-
-/// Colours that stay apart in print and for most eyes (Okabe and Ito).
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-];
 
 /// Which axes are logarithmic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

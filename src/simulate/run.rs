@@ -3,9 +3,10 @@
 use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
 use super::orbit::{Orbit, amplitudes, rms, sup};
 use super::{
-    BandLimitedNoise, ClosedLoop, Disturbance, FixedStep, Noise, NoiseSettings, Progress, SteadyState,
-    SteadyStateError, steady_state,
+    BandLimitedNoise, ClosedLoop, Disturbance, FixedStep, Noise, NoiseSettings, SteadyState, SteadyStateError,
+    steady_state,
 };
+use crate::progress::Progress;
 
 /// How a long run is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

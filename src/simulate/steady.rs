@@ -1,7 +1,8 @@
 //! Steady states: the T-periodic solution by Newton shooting.
 
+use super::ClosedLoop;
 use super::adaptive::{IntegrationFailure, Tolerance, flow, flow_with_derivative};
-use super::{ClosedLoop, Progress};
+use crate::progress::Progress;
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 

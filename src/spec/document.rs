@@ -12,6 +12,9 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+/// The name of the document that a flag of the command line is.
+pub(super) const COMMAND_LINE: &str = "<command line>";
+
 /// The text of a document and the name under which errors show it.
 #[derive(Debug)]
 pub(super) struct Source {
@@ -39,19 +42,33 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads a document from its text; `label` is what errors call it, usually its path.
+    /// Reads a document from its text; `label` is what errors call it, usually its path. A byte order mark in front is
+    /// no part of the text (RFC 8259, section 8.1): places are counted, and digests formed, without it.
     ///
     /// # Errors
-    /// What is wrong with the text as JSON: a limit exceeded, a byte order mark, a syntax error, a duplicate key.
+    /// What is wrong with the text as JSON: a limit exceeded, a syntax error, a duplicate key.
     pub fn parse(label: &str, text: &str) -> Result<Document, SpecErrors> {
         if text.len() > MAX_BYTES {
             return Err(SpecErrors::single(source(label, ""), limits::too_large()));
         }
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = source(label, text);
         match json::parse(text) {
             Ok(root) => Ok(Document { source, root: Arc::new(root) }),
             Err(error) => Err(SpecErrors::single(source, error)),
         }
+    }
+
+    /// The value of a command-line flag, as an object whose only field has the name of the flag. Errors show the flag and
+    /// its value as they are typed.
+    #[must_use]
+    pub fn flag(flag: &str, value: &str) -> Document {
+        let text = format!("{flag} {value}");
+        // The text of a number is taken as it is, unlike that of a string, which has quotes and escapes.
+        let number = Node { span: text.len() - value.len()..text.len(), content: Content::Number(value.to_owned()) };
+        let member = json::Member { key: flag.to_owned(), key_span: 0..flag.len(), value: number };
+        let root = Node { span: 0..text.len(), content: Content::Object(vec![member]) };
+        Document { source: source(COMMAND_LINE, &text), root: Arc::new(root) }
     }
 
     /// Reads a document from bytes.
@@ -68,8 +85,16 @@ impl Document {
                 let at = error.valid_up_to();
                 // The valid part serves to show where the trouble starts.
                 let valid = String::from_utf8_lossy(&bytes[..at]);
-                let message = format!("byte {at} (0x{:02x}) is not UTF-8", bytes[at]);
-                let error = SpecError::new(ErrorKind::Encoding, "", at..at, message).help("save the file as UTF-8");
+                let utf_16 = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]);
+                let (message, help) = if utf_16 {
+                    (
+                        "the file is UTF-16, not UTF-8".to_owned(),
+                        "save it as UTF-8; in PowerShell: `Set-Content -Encoding utf8`",
+                    )
+                } else {
+                    (format!("byte {at} (0x{:02x}) is not UTF-8", bytes[at]), "save the file as UTF-8")
+                };
+                let error = SpecError::new(ErrorKind::Encoding, "", at..at, message).help(help);
                 Err(SpecErrors::single(source(label, &valid), error))
             }
         }

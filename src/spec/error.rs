@@ -16,7 +16,7 @@ pub enum ErrorKind {
     Unreadable,
     /// The document exceeds a limit on size, nesting, number of values or length of a numeral.
     Limit,
-    /// The document is not UTF-8, or starts with a byte order mark.
+    /// The document is not UTF-8.
     Encoding,
     /// The document is not JSON.
     Syntax,
@@ -42,8 +42,6 @@ pub enum ErrorKind {
     Matched,
     /// The weights break one of the conditions W1-W3 or the strict decrease.
     Weights,
-    /// A documented form that this version does not read yet.
-    Unsupported,
     /// A condition that could be neither proved nor refuted at the highest precision.
     Undecided,
 }
@@ -68,7 +66,6 @@ impl ErrorKind {
             ErrorKind::Range => "out-of-range",
             ErrorKind::Matched => "not-matched",
             ErrorKind::Weights => "weights",
-            ErrorKind::Unsupported => "unsupported",
             ErrorKind::Undecided => "undecided",
         }
     }
@@ -136,12 +133,29 @@ pub struct SpecErrors {
     pub(super) origin: Arc<Source>,
     pub(super) errors: Vec<SpecError>,
     pub(super) omitted: usize,
+    /// The sentence of an error that stands alone with every digit, where its message has fewer.
+    in_full: Option<String>,
 }
 
 impl SpecErrors {
     /// The error that stopped the reading of a document.
     pub(super) fn single(origin: Arc<Source>, error: SpecError) -> SpecErrors {
-        SpecErrors { origin, errors: vec![error], omitted: 0 }
+        SpecErrors { origin, errors: vec![error], omitted: 0, in_full: None }
+    }
+
+    /// The same, with the sentence in full of an error that stands alone.
+    #[must_use]
+    pub fn with_sentence_in_full(self, in_full: Option<String>) -> SpecErrors {
+        SpecErrors { in_full, ..self }
+    }
+
+    /// The sentence of one of these errors with every digit of its numbers.
+    #[must_use]
+    pub fn in_full<'e>(&'e self, error: &'e SpecError) -> &'e str {
+        match (&self.in_full, self.errors.as_slice()) {
+            (Some(sentence), [_]) => sentence,
+            _ => &error.message,
+        }
     }
 
     /// The errors, in file order; at least one and at most [`MAX_ERRORS`].
@@ -235,7 +249,12 @@ impl Errors {
             // `Err` carries a `Reported`, so the list is not empty here either.
             _ => {
                 self.list.sort_by_key(|error| (error.span.start, error.span.end));
-                Err(SpecErrors { origin: document.source().clone(), errors: self.list, omitted: self.omitted })
+                Err(SpecErrors {
+                    origin: document.source().clone(),
+                    errors: self.list,
+                    omitted: self.omitted,
+                    in_full: None,
+                })
             }
         }
     }

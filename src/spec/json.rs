@@ -43,10 +43,6 @@ pub(super) struct Member {
 /// # Errors
 /// The first thing that is wrong with the document as JSON.
 pub(super) fn parse(text: &str) -> Result<Node, SpecError> {
-    if text.starts_with('\u{feff}') {
-        return Err(SpecError::new(ErrorKind::Encoding, "", 0..3, "the document starts with a byte order mark")
-            .help("save it as UTF-8 without a byte order mark"));
-    }
     if text.trim().is_empty() {
         return Err(SpecError::new(ErrorKind::Syntax, "", 0..0, "the document is empty").help("expected a JSON object"));
     }

@@ -1,5 +1,6 @@
 //! Errors shown in their source.
 
+use super::document::COMMAND_LINE;
 use super::error::{SpecError, SpecErrors};
 use super::json::floor_boundary;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
@@ -55,7 +56,8 @@ impl SpecErrors {
                 }
             }
         };
-        if !error.pointer.is_empty() {
+        // A flag is shown as it was typed; a pointer would only repeat its name.
+        if !error.pointer.is_empty() && self.origin.label != COMMAND_LINE {
             group = group.element(Level::NOTE.message(format!("at {}", cut(&error.pointer))));
         }
         if let Some(help) = &error.help {

@@ -54,7 +54,7 @@ pub(super) fn gain_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
             At::Data,
             sound(k.clone(), "P:app:Kalpha1"),
             sound(k.clone(), "P:app:Kalpha1"),
-            sound(gains::k_alpha_sharp(c), "section 3, lemma K"),
+            sound(c.clone(), "section 3, lemma K"),
         ),
         row(
             "K_alpha2",

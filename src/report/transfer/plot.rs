@@ -2,27 +2,19 @@
 
 use crate::data::Data;
 use crate::number::Direction;
+use crate::palette::COLOURS;
 use crate::report::number::exact;
 use crate::transfer::{CertifiedPair, OscillatorCount, transfer_graph};
 use plotters::prelude::*;
 
 /// Width and height in pixels.
 const SIZE: (u32, u32) = (960, 640);
-/// The most curves that stay legible.
-const MOST: usize = 6;
+/// The most curves that stay legible: one of each colour.
+const MOST: usize = COLOURS.len();
 /// The x that are shown.
 const RANGE: (f64, f64) = (0.05, 30.0);
 /// Points of the envelope.
 const ENVELOPE: u32 = 200;
-/// Colours that stay apart for most eyes and in grey (after Okabe and Ito).
-const COLOURS: [RGBColor; MOST] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(86, 180, 233),
-    RGBColor(230, 159, 0),
-];
 
 /// At most [`MOST`] of the numbers asked for, evenly chosen, the last one among them.
 fn chosen(counts: &[OscillatorCount]) -> Vec<OscillatorCount> {

@@ -1,4 +1,4 @@
-//! The paper's own constants of the transfer bound beside the certified ones: which fail, and where.
+//! The paper's own constants of the transfer bound beside the proved ones: which fail, and where.
 
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
@@ -87,9 +87,9 @@ impl PrintedVerdict {
 
     pub(super) fn section(&self, data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
         let w = &data.base_frequency;
-        let mut constants = Table::new(&["<constant", "printed", "repaired", "certified"]);
-        let mut row = |name: &str, printed: &Enclosure, repaired: Enclosure, certified: Enclosure| {
-            constants.push([name.to_owned(), compact(printed), compact(&repaired), compact(&certified)]);
+        let mut constants = Table::new(&["<constant", "printed", "repaired", "proved"]);
+        let mut row = |name: &str, printed: &Enclosure, repaired: Enclosure, proved: Enclosure| {
+            constants.push([name.to_owned(), compact(printed), compact(&repaired), compact(&proved)]);
         };
         let (k0, k1) = (data.rational(&pair.k0), data.rational(&pair.k1));
         row("kappa_0", &self.constants.kappa_0, &self.repaired.0 / w.sqr(), k0 / w.sqr());
@@ -114,7 +114,7 @@ impl PrintedVerdict {
             checks.push([check.what.clone(), compact(&check.printed), compact(&check.needed), verdict.to_owned()]);
         }
         vec![
-            Block::Heading("Printed, repaired and certified constants".to_owned()),
+            Block::Heading("Printed, repaired and proved constants".to_owned()),
             Block::says(
                 "In the units of omega. The printed proof reads mu for nu = mu/w and drops the powers of w (E6); for \
                  m = 0, which it needs, its lambda is not defined (E7).",

@@ -25,6 +25,10 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
             upper(&kappa_0),
             upper(&kappa_1),
         )),
+        Block::says(
+            "Computed with enclosures. No independent program checks this report; where `certify` uses a pair, the checker \
+             decides that pair again from the certificate.",
+        ),
         Block::says(format!(
             "The proof: {} boxes over x in [0, {}] for each N < {} and for all N >= {} together, and one scalar test for \
              x beyond (m0 = {}, N0 = {}).",
@@ -75,7 +79,7 @@ pub(super) fn uniformity(rows: &[Row]) -> Vec<Block> {
     ]
 }
 
-/// Certified pairs along the curve.
+/// Proved pairs along the curve.
 pub(super) fn trade_off(data: &Data<'_>, pairs: &[CertifiedPair]) -> Vec<Block> {
     let mut table = Table::new(&["k0", "k1", "above the best, %", "m0", "N0", "boxes"]);
     for pair in pairs {
