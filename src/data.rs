@@ -133,12 +133,13 @@ impl<'s> Data<'s> {
         Enclosure::zero(self.precision)
     }
 
-    /// The value of a bounding function at (X, E).
+    /// The value of a bounding function at (X, E), which is the positive part of its expression: what bounds a norm still
+    /// does without its negative values. It matters where a value is 0 and rounding does not show it.
     ///
     /// Guarantee: contains the value for all X, E in the enclosures. It bounds the plant's function only where
     /// (X, E) lies in the domain of the specification and the bounding function was proved nondecreasing.
     #[must_use]
     pub fn bound(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
-        which.of(self.spec).enclose(x, e)
+        which.of(self.spec).enclose(x, e).max(&self.zero())
     }
 }

@@ -157,11 +157,23 @@ impl Existence {
         error_box(model, (x_per, e_per), [dist_x, dist_e, dist_z], rho, eta)
     }
 
+    /// No sigma below this one is feasible with this eta, whatever rho: C2 and C3, and the first term 1/(4 ht) of C5 with
+    /// the largest h. Positive, and in the scale of the data.
+    pub fn least(&self, model: &FloatModel, eta: f64) -> f64 {
+        let (_, e0, z0) = model.required_set(self.x_p, self.e_p, self.z);
+        // The largest dE and the smallest dZ of `at_sigma`.
+        let dist_e = (e0 + self.e_p).max(1e-6 * self.e_p);
+        let dist_z = (z0 + model.n_bar * e0 + self.z).max(1e-6 * model.n_bar * e0.max(1e-6 * self.e_p));
+        let h_over_mu = eta * dist_e * dist_e / (dist_z * dist_z * model.mu);
+        // Half of it leaves room for rounding, and a bracket for the bisection.
+        self.sigma_least.max(f64::MIN_POSITIVE).max(0.5 / (4.0 * h_over_mu)).min(1e290)
+    }
+
     /// The smallest sigma for given rho and eta, to the relative tolerance.
     pub fn sigma(&self, model: &FloatModel, rho: f64, eta: f64, tolerance: f64) -> Result<f64, Obstacle> {
         let needed = |sigma: f64| self.at_sigma(model, rho, eta, sigma).map(|at| at.threshold.max(self.sigma_least));
-        // Positive even where C2 and C3 hold for every sigma.
-        let mut low = self.sigma_least.max(1e-12 / model.period);
+        let least = self.least(model, eta);
+        let mut low = least;
         if let Ok(threshold) = needed(low)
             && threshold <= low
         {
@@ -177,12 +189,12 @@ impl Existence {
                 Ok(_) if high > 1e280 => return Err(Obstacle::Coupling),
                 _ => low = high,
             }
-            if high > 1e12 * self.sigma_least.max(1e-12) {
+            if high > 1e12 * least {
                 high *= 1e6;
             }
         }
         while high / low - 1.0 > tolerance {
-            let middle = (low * high).sqrt();
+            let middle = low.sqrt() * high.sqrt();
             if middle <= low || middle >= high {
                 break;
             }

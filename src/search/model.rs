@@ -153,12 +153,13 @@ impl FloatModel {
         (self.p_up / self.p_low).sqrt()
     }
 
-    /// The value of a bounding function.
+    /// The value of a bounding function: the positive part of its expression, NaN where that is undefined.
     #[must_use]
     pub fn bound(&self, which: Bound, x: f64, e: f64) -> f64 {
         // ORDER lists the variants in the order of their declaration.
         let bound = &self.bounds[which as usize];
-        bound.factor * bound.function.eval(x, e)
+        let value = bound.factor * bound.function.eval(x, e);
+        if value < 0.0 { 0.0 } else { value }
     }
 
     /// X_0, E_0, Z_0 for given X_p, E_p, Z.
