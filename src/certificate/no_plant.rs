@@ -275,7 +275,9 @@ mod tests {
         // A column that is large at one time only.
         let moving = r#"{ "jacobian": [["-1 + 3*sin(2*pi*t)"]] }"#;
         let reason = found(&spec(moving, "3.9*X", ["1", "0", "0", "1"], true)).unwrap();
-        assert!(matches!(reason.exceeded_by, ExceededBy::Jacobian { fraction, .. } if fraction == (3, 4)));
+        assert!(
+            matches!(reason.exceeded_by, ExceededBy::Jacobian { fraction, .. } if fraction == Rational::from((3, 4)))
+        );
     }
 
     #[test]
