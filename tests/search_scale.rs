@@ -39,6 +39,20 @@ fn tiny_gains_are_found() {
     }
 }
 
+/// A bound of the root mean square that is larger than that of the supremum does no harm.
+#[test]
+fn a_needless_rms_bound_changes_nothing() {
+    let text = include_str!("../specs/paper-example.json");
+    let (q, rms) = ("\"q\": \"4.822 + X + atan(E*(X + 0.189))\"", "\"q_rms\": \"1e4*(4.822 + X + E)\"");
+    assert!(text.contains(q));
+    let with = text.replace(q, &format!("{q}, {rms}, \"q_t_rms\": \"1e4 + 1e4*E\""));
+    let [plain, with] = [text, &with].map(|text| {
+        let spec = Specification::from_json("rms", text).unwrap();
+        sigma(&spec, Derivation::Sharp, TransferChoice::Best)
+    });
+    assert_eq!(plain, with);
+}
+
 /// Each transfer proof by itself, and the repaired derivation, give no smaller gain than the choice among them.
 #[test]
 fn the_best_is_not_above_any_other() {

@@ -169,7 +169,7 @@ fn sharp_witness(
 /// The free numbers of a repaired witness as a sharp one: w_x = 1, D_x = sqrt(L/P_low), D_e = sqrt(L), rounded up.
 ///
 /// Most conditions of the sharp derivation follow from their repaired counterparts; Z does not, as b_f(X,0) + b_fxx X^2 +
-/// b_fe E may exceed b_f(X,E), and a user's b_q_rms may exceed b_q. So it is decided like any other witness.
+/// b_fe E may exceed b_f(X,E). So it is decided like any other witness.
 pub(super) fn sharp_from_repaired(data: &Data<'_>, repaired: &RepairedWitness) -> Option<SharpWitness> {
     let level = data.rational(&repaired.level);
     Some(SharpWitness {

@@ -69,6 +69,8 @@ pub enum FloatSet {
 struct ScaledBound {
     function: FloatExpr,
     factor: f64,
+    /// A bound that serves where it is smaller.
+    supremum: Option<Bound>,
 }
 
 /// All data in floating point.
@@ -126,7 +128,11 @@ impl FloatModel {
             trade_off,
             bounds: ORDER
                 .iter()
-                .map(|which| ScaledBound { function: which.of(spec).to_float(), factor: 1.0 })
+                .map(|which| ScaledBound {
+                    function: which.of(spec).to_float(),
+                    factor: 1.0,
+                    supremum: which.supremum(spec),
+                })
                 .collect(),
         }
     }
@@ -159,7 +165,11 @@ impl FloatModel {
         // ORDER lists the variants in the order of their declaration.
         let bound = &self.bounds[which as usize];
         let value = bound.factor * bound.function.eval(x, e);
-        if value < 0.0 { 0.0 } else { value }
+        let value = if value < 0.0 { 0.0 } else { value };
+        match bound.supremum.map(|supremum| self.bound(supremum, x, e)) {
+            Some(supremum) if supremum < value => supremum,
+            _ => value,
+        }
     }
 
     /// X_0, E_0, Z_0 for given X_p, E_p, Z.
