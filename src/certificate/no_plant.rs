@@ -118,16 +118,17 @@ pub fn no_plant(data: &Data<'_>, used: Option<&(Rational, Rational)>) -> Option<
     }
     let largest = reach.map(|[x, _]| round_rational(&x, 2 * DIGITS, Direction::Down));
     let column = data.spec.lyapunov.jacobian().and_then(|jacobian| largest_column(data, jacobian));
-    candidates(data, largest.as_ref()).into_iter().find_map(|x| {
+    let decided = candidates(data, largest.as_ref()).into_iter().filter_map(|x| {
         let at = data.rational(&x);
         let rate = data.bound(Bound::F, &at, &data.zero()) / &at + data.bound(Bound::Fxx, &at, &data.zero()) * &at / 2;
         let alpha = Some(ExceededBy::Alpha { alpha: data.alpha.clone() });
         let exceeded_by = alpha.into_iter().chain(column.clone()).find(|least| least.value().gt(&rate).is_true())?;
         Some(NoPlant { x, rate_at_most: rate, exceeded_by })
-    })
+    });
+    decided.min_by(|a, b| a.rate_at_most.upper_f64().total_cmp(&b.rate_at_most.upper_f64()))
 }
 
-/// Values of X > 0 with the smallest rates first, as far as double precision tells.
+/// Values of X > 0 with small rates, as far as double precision tells.
 fn candidates(data: &Data<'_>, largest: Option<&Rational>) -> Vec<Rational> {
     let [f, f_xx] = [Bound::F, Bound::Fxx].map(|bound| bound.of(data.spec).to_float());
     let positive = |value: f64| if value < 0.0 { 0.0 } else { value };

@@ -29,7 +29,11 @@ pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2]) -> bool {
     };
     // max{allowed, 0} - bound is the larger of the two differences.
     let lower_bound = |region: &Region| {
-        let [by_function, by_zero] = [&difference, &negative].map(|difference| lower_bound(difference, region));
+        let side = |[low, high]: &[Rational; 2]| Enclosure::between(low, high, PRECISION);
+        // Where the bounding function may be undefined, so is its positive part.
+        let defined = difference.enclose(&side(&region[0]), &side(&region[1])).is_defined();
+        let by_function = lower_bound(&difference, region);
+        let by_zero = defined.then(|| lower_bound(&negative, region)).flatten();
         match (by_function, by_zero) {
             (Some(a), Some(b)) => Some(a.max(b)),
             (a, b) => a.or(b),
