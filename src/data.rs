@@ -59,9 +59,9 @@ pub enum Bound {
     Qx,
     /// b_qt.
     Qt,
-    /// b_q_rms, or b_q where absent.
+    /// b_q_rms, or b_q where absent or smaller.
     QRms,
-    /// b_qt_rms, or b_qt where absent.
+    /// b_qt_rms, or b_qt where absent or smaller.
     QtRms,
 }
 
@@ -81,6 +81,18 @@ impl Bound {
             Bound::Qt => &bounds.q_t,
             Bound::QRms => bounds.q_rms.as_ref().unwrap_or(&bounds.q),
             Bound::QtRms => bounds.q_t_rms.as_ref().unwrap_or(&bounds.q_t),
+        }
+    }
+}
+
+impl Bound {
+    /// For a root mean square with an expression of its own: the bound of the supremum, which bounds it too.
+    #[must_use]
+    pub fn supremum(self, spec: &Specification) -> Option<Bound> {
+        match self {
+            Bound::QRms => spec.bounds.q_rms.as_ref().map(|_| Bound::Q),
+            Bound::QtRms => spec.bounds.q_t_rms.as_ref().map(|_| Bound::Qt),
+            _ => None,
         }
     }
 }
@@ -133,12 +145,15 @@ impl<'s> Data<'s> {
         Enclosure::zero(self.precision)
     }
 
-    /// The value of a bounding function at (X, E).
+    /// The value of a bounding function at (X, E), which is the positive part of its expression: what bounds a norm still
+    /// does without its negative values. It matters where a value is 0 and rounding does not show it.
     ///
     /// Guarantee: contains the value for all X, E in the enclosures. It bounds the plant's function only where
     /// (X, E) lies in the domain of the specification and the bounding function was proved nondecreasing.
     #[must_use]
     pub fn bound(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
-        which.of(self.spec).enclose(x, e)
+        let value = |which: Bound| which.of(self.spec).enclose(x, e).max(&self.zero());
+        // The root mean square of a supremum is at most the supremum, should the data say otherwise.
+        which.supremum(self.spec).map_or_else(|| value(which), |supremum| value(which).min(&value(supremum)))
     }
 }

@@ -62,14 +62,22 @@ impl<'s> Data<'s> {
         self.number(&Rational::from((numerator, denominator)))
     }
 
-    /// The positive part of a bounding function at (X, E); b_q and b_qt serve for rms bounds that are not given.
+    /// The positive part of a bounding function at (X, E). A root mean square is at most the supremum, so b_q and b_qt serve
+    /// for rms bounds that are not given, or are larger.
     pub fn bound(&self, which: Bound, x: &Interval, e: &Interval) -> Interval {
-        let expr = match which {
-            Bound::QRms => self.spec.bounds[which as usize].as_ref().or(self.spec.bounds[Bound::Q as usize].as_ref()),
-            Bound::QtRms => self.spec.bounds[which as usize].as_ref().or(self.spec.bounds[Bound::Qt as usize].as_ref()),
-            _ => self.spec.bounds[which as usize].as_ref(),
+        let value = |which: Bound| {
+            let expr = self.spec.bounds[which as usize].as_ref()?;
+            Some(expr.enclose(x, e).max(&self.int(0)))
         };
-        let none = || Interval::undefined(self.precision);
-        expr.map_or_else(none, |expr| expr.enclose(x, e).max(&self.int(0)))
+        let supremum = match which {
+            Bound::QRms => value(Bound::Q),
+            Bound::QtRms => value(Bound::Qt),
+            _ => None,
+        };
+        let own = value(which);
+        match (own, supremum) {
+            (Some(own), Some(supremum)) => own.min(&supremum),
+            (own, supremum) => own.or(supremum).unwrap_or_else(|| Interval::undefined(self.precision)),
+        }
     }
 }

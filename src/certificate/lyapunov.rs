@@ -41,7 +41,7 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         let mut model = FloatModel::new(&data, trade_off);
         let mut sigma = |candidate: &Candidate| {
             (model.p_low, model.p_up, model.alpha) = (1.0, candidate.ratio, candidate.alpha);
-            search_sharp(&model).ok().map(|proposal| proposal.sigma)
+            search_sharp(&model, &[]).ok().map(|proposal| proposal.sigma)
         };
         let mut sigmas: Vec<Option<f64>> = Vec::new();
         // From the largest rate down; past the best, sigma* grows with the loss of rate.

@@ -1,9 +1,11 @@
 //! From a specification to a decided claim: search, rounding, rigorous decision, certificate file.
 
+mod best;
 mod bounding;
 mod decide;
 mod lyapunov;
 mod matrix_checks;
+mod no_plant;
 mod produce;
 mod read;
 mod round;
@@ -15,6 +17,7 @@ pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 pub use decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
 pub use lyapunov::{Resolution, lyapunov_json, matrix_json, resolve, resolve_with};
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
+pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
 pub use produce::{certify, recheck};
 pub use read::{WitnessFile, read_lyapunov, read_witness};
 pub use run::{
@@ -22,4 +25,4 @@ pub use run::{
     SharpProof, TransferChoice,
 };
 pub use verdict::Verdict;
-pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, statement};
+pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, no_plant_json, statement};

@@ -1,13 +1,15 @@
 //! The whole run: prove the bounding functions, search, round, decide, in each derivation.
 
+use super::best::{best_sharp, model, not_above};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::{decide_exact, decide_repaired, decide_sharp};
 use super::matrix_checks::MatrixChecks;
+use super::no_plant::no_plant;
 use super::read::WitnessFile;
-use super::round::{TransferKind, exact_claim, round_repaired, round_sharp};
+use super::round::{TransferKind, exact_claim, round_repaired};
 use super::run::{
     Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RelativeDegreeGains, RepairedProof,
-    SharpProof, TransferChoice,
+    SharpProof,
 };
 use super::verdict::Verdict;
 use crate::constants::condition::Condition;
@@ -21,9 +23,7 @@ use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
-use crate::search::{
-    FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, search_sharp, sensitivities,
-};
+use crate::search::{FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, sensitivities};
 use crate::spec::model::Specification;
 use crate::transfer::TradeOff;
 use rug::Rational;
@@ -39,46 +39,25 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     let data = Data::new(spec, options.ladder.start.max(53));
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
-    let kind = match options.transfer {
-        TransferChoice::Best if spec.internal_model.matched => TransferKind::Matched,
-        TransferChoice::Best | TransferChoice::Boxes => TransferKind::Boxes,
-        TransferChoice::ClosedForm => TransferKind::ClosedForm,
-    };
-    let model_for = |kind| {
-        let trade_off = match kind {
-            TransferKind::Matched => TradeOff::matched(&data),
-            TransferKind::Boxes => TradeOff::curve(&data),
-            TransferKind::ClosedForm => TradeOff::closed_form(&data),
-        };
-        FloatModel::new(&data, trade_off)
-    };
-    let search = |kind| {
-        let model = model_for(kind);
-        let proposal = search_sharp(&model);
-        let outcome = match &proposal {
-            Err(obstacle) => Outcome::NotFound(*obstacle),
-            Ok(proposal) => sharp_outcome(round_sharp(&data, &model, proposal, kind, options.ladder)),
-        };
-        (model, proposal.ok(), outcome)
-    };
+    let paper_model = model(&data, TransferKind::ClosedForm);
     let wanted = |derivation| options.compare || options.derivation == derivation;
+    // The repaired candidate is one of the sharp search, and its witness one of the sharp derivation.
+    let found = search_repaired(&paper_model);
+    let repaired = match &found {
+        Err(obstacle) => Outcome::NotFound(*obstacle),
+        Ok(proposal) => repaired_outcome(round_repaired(&data, &paper_model, proposal, options.ladder)),
+    };
     let (sharp_model, proposal, sharp) = if wanted(Derivation::Sharp) {
-        let first = search(kind);
-        // Where no proof by boxes is found within its effort, the closed form still proves something.
-        let fall_back = kind == TransferKind::Boxes && first.2.proved().is_none();
-        if fall_back { search(TransferKind::ClosedForm) } else { first }
+        let best = best_sharp(&data, options, found.as_ref().ok());
+        let outcome = match repaired.proved() {
+            Some(proof) => not_above(&data, options, best.outcome, &proof.witness),
+            None => best.outcome,
+        };
+        (best.model, best.proposal, outcome)
     } else {
-        (model_for(TransferKind::ClosedForm), None, Outcome::Skipped)
+        (model(&data, TransferKind::ClosedForm), None, Outcome::Skipped)
     };
-    let paper_model = FloatModel::new(&data, TradeOff::closed_form(&data));
-    let repaired = if wanted(Derivation::Repaired) {
-        match search_repaired(&paper_model) {
-            Err(obstacle) => Outcome::NotFound(obstacle),
-            Ok(proposal) => repaired_outcome(round_repaired(&data, &paper_model, &proposal, options.ladder)),
-        }
-    } else {
-        Outcome::Skipped
-    };
+    let repaired = if wanted(Derivation::Repaired) { repaired } else { Outcome::Skipped };
     let (sharp, repaired) = if spec.domain.is_none() {
         let chosen = options.derivation;
         let sharp = proved_up_to_arguments(spec, sharp, chosen == Derivation::Sharp, &mut unproved, sharp_arguments)?;
@@ -199,6 +178,9 @@ fn assemble<'s>(
         (Outcome::Proved(_), Some(proposal)) => sensitivities(model, proposal),
         _ => Vec::new(),
     };
+    // Without a domain, the claim is about the arguments it uses; without a claim, about all.
+    let used = sharp_used(&sharp).or_else(|| repaired_used(&repaired));
+    let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
     sensitivities.retain(|(_, gain)| *gain > 0.0);
     sensitivities.sort_by(|a, b| b.1.total_cmp(&a.1));
     Certification {
@@ -214,6 +196,7 @@ fn assemble<'s>(
         exact,
         exact_failing,
         checks,
+        no_plant,
         sensitivities,
         unproved_bounds: unproved,
         constants,
@@ -261,6 +244,14 @@ fn proved_up_to_arguments<P>(
     Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Obstacle::Bounds) })
 }
 
+fn sharp_used(outcome: &Outcome<SharpProof>) -> Option<(Rational, Rational)> {
+    outcome.proved().and_then(sharp_arguments)
+}
+
+fn repaired_used(outcome: &Outcome<RepairedProof>) -> Option<(Rational, Rational)> {
+    outcome.proved().and_then(repaired_arguments)
+}
+
 /// (max{X_p, X_b}, max{E_p, E_b}), rounded up.
 fn sharp_arguments(proof: &SharpProof) -> Option<(Rational, Rational)> {
     let (bounds, error_box) = (&proof.evaluation.bounds, &proof.evaluation.error_box);
@@ -278,7 +269,7 @@ fn failing(conditions: &[Condition]) -> Vec<Condition> {
     conditions.iter().filter(|condition| !condition.truth().is_true()).cloned().collect()
 }
 
-fn sharp_outcome(result: Option<(SharpWitness, SharpEvaluation, u32)>) -> Outcome<SharpProof> {
+pub(super) fn sharp_outcome(result: Option<(SharpWitness, SharpEvaluation, u32)>) -> Outcome<SharpProof> {
     let Some((witness, evaluation, precision)) = result else {
         return Outcome::NotFound(Obstacle::NotFinite);
     };

@@ -41,8 +41,16 @@ pub fn read_witness(document: &Document) -> Result<WitnessFile, SpecErrors> {
 fn read(root: &Value<'_>, errors: &mut Errors) -> Result<WitnessFile, Reported> {
     let mut file = root.object(errors)?;
     file.header(FORMAT, &[VERSION], errors)?;
-    let unused =
-        ["tool", "precision_bits", "specification", "specification_sha256", "comparison", "conditions", "constants"];
+    let unused = [
+        "tool",
+        "precision_bits",
+        "specification",
+        "specification_sha256",
+        "no_plant",
+        "comparison",
+        "conditions",
+        "constants",
+    ];
     for unused in unused {
         let _ = file.optional(unused);
     }

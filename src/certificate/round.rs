@@ -166,6 +166,29 @@ fn sharp_witness(
     })
 }
 
+/// The free numbers of a repaired witness as a sharp one: w_x = 1, D_x = sqrt(L/P_low), D_e = sqrt(L), rounded up.
+///
+/// Most conditions of the sharp derivation follow from their repaired counterparts; Z does not, as b_f(X,0) + b_fxx X^2 +
+/// b_fe E may exceed b_f(X,E). So it is decided like any other witness.
+pub(super) fn sharp_from_repaired(data: &Data<'_>, repaired: &RepairedWitness) -> Option<SharpWitness> {
+    let level = data.rational(&repaired.level);
+    Some(SharpWitness {
+        sigma: repaired.sigma.clone(),
+        x_p: repaired.x.clone(),
+        e_p: repaired.e.clone(),
+        d_x: upper(&(&level / &data.p_low).sqrt(), LONG_DIGITS)?,
+        d_e: upper(&level.sqrt(), LONG_DIGITS)?,
+        p_x: repaired.p_x.clone(),
+        p_e: repaired.p_e.clone(),
+        w_x: Rational::from(1),
+        h: repaired.h.clone(),
+        k0: repaired.k0.clone(),
+        k1: repaired.k1.clone(),
+        transfer: repaired.transfer.clone(),
+        set: repaired.set.clone(),
+    })
+}
+
 /// D_x, D_e, w_x, h of an error box whose level condition holds with a small slack after rounding.
 struct RoundedBox {
     d_x: Rational,
@@ -261,7 +284,8 @@ pub(super) fn exact_claim(
     let [dist_x, dist_e, dist_z] =
         distances(data, set, [&data.zero(), &data.zero(), &z]).map(|distance| distance.upper_f64());
     // Floors keep the box open where a distance is 0.
-    let dist_x = if dist_x > 0.0 { dist_x } else { dist_e.max(1e-9) * 1e-6 };
+    let scale = if dist_e > 0.0 { dist_e } else { 1.0 };
+    let dist_x = if dist_x > 0.0 { dist_x } else { scale * 1e-6 };
     let dist_e = if dist_e > 0.0 { dist_e } else { dist_x * 1e-6 };
     let dist_z = dist_z.max(1e-6 * model.n_bar * dist_e);
     let at = search_exact(model, [dist_x, dist_e, dist_z]).ok()?;

@@ -3,6 +3,7 @@
 use super::bounding::BoundingProblem;
 use super::decide::Ladder;
 use super::matrix_checks::MatrixChecks;
+use super::no_plant::NoPlant;
 use super::verdict::Verdict;
 use crate::constants::condition::Condition;
 use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness};
@@ -181,6 +182,8 @@ pub struct Certification<'s> {
     pub exact_failing: Vec<Condition>,
     /// What the matrix inequalities say; a disagreement keeps the sharp derivation from being certified.
     pub checks: MatrixChecks,
+    /// That no plant with a state x satisfies the data, where it is proved; the claim then says nothing about any.
+    pub no_plant: Option<NoPlant>,
     /// Which condition sets sigma*, according to the search.
     pub binding: Option<&'static str>,
     /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.

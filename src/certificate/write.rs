@@ -1,6 +1,7 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
 use super::lyapunov::lyapunov_json;
+use super::no_plant::{ExceededBy, NoPlant};
 use super::run::{Certification, Derivation};
 use crate::constants::condition::Condition;
 use crate::constants::exact_regulation::ExactWitness;
@@ -114,11 +115,29 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     ]);
     // The object was made above.
     if let Value::Object(fields) = &mut certificate {
+        fields.extend(run.no_plant.as_ref().map(|reason| ("no_plant".to_owned(), no_plant_json(reason))));
         fields.extend(comparison.map(|(name, part)| ("comparison".to_owned(), object([(name, part)]))));
         fields.insert("conditions".to_owned(), conditions_json(&conditions));
         fields.insert("constants".to_owned(), constants_json(&checkable(&run.constants)));
     }
     Some(certificate)
+}
+
+/// Why no plant with a state x satisfies the data: what a checker needs to decide it again.
+#[must_use]
+pub fn no_plant_json(reason: &NoPlant) -> Value {
+    let mut fields = object([("X", exact(&reason.x)), ("rate_at_most", interval(&reason.rate_at_most))]);
+    let more = match &reason.exceeded_by {
+        ExceededBy::Alpha { .. } => vec![("exceeded_by", text("alpha"))],
+        ExceededBy::Jacobian { fraction, column, .. } => {
+            vec![("exceeded_by", text("jacobian")), ("t", exact(fraction)), ("column", Value::from(*column))]
+        }
+    };
+    // The object was made above.
+    if let Value::Object(fields) = &mut fields {
+        fields.extend(more.into_iter().map(|(name, value)| (name.to_owned(), value)));
+    }
+    fields
 }
 
 /// The multipliers with which the matrix inequality of C5 was proved, for a claim of the sharp derivation.

@@ -41,6 +41,11 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
         ));
         return Ok(run.verdict.exit_code());
     };
+    if let Some(reason) = &run.no_plant {
+        // A rate of all of them would be one of a plant without x.
+        output::remark(&format!("{}: {reason}; there are no rates", Verdict::Undecided));
+        return Ok(Verdict::Undecided.exit_code());
+    }
     let sigma = sigma.unwrap_or_else(|| sigma_star.clone());
     if sigma < *sigma_star {
         let message = format!("--sigma is below the certified sigma* = {}", sigmastar::number::write_exact(sigma_star));

@@ -12,7 +12,6 @@ pub mod gains;
 pub mod printed;
 pub mod relative_degree;
 pub mod repaired;
-
 pub mod sharp;
 pub mod stability;
 pub mod table;

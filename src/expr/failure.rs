@@ -141,9 +141,6 @@ pub enum Reason {
     /// A box was bisected as often as is allowed and stayed undecided.
     #[error("bisection does not help there")]
     Depth,
-    /// The sign of a value is not decided at the highest precision.
-    #[error("its sign is not decided at {0} bits")]
-    Precision(u32),
     /// The largest X or E is negative: there is no domain.
     #[error("the domain is empty")]
     Empty,

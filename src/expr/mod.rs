@@ -26,6 +26,7 @@ mod names;
 mod parse;
 mod plant;
 mod point;
+mod polynomial;
 mod program;
 mod prove;
 mod refute;
@@ -43,7 +44,7 @@ pub use slope::Slopes;
 pub use trigonometric::{MAX_HARMONIC, NotTrigonometric, TrigonometricPolynomial};
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use syntax::Node;
 
 /// The longest expression read, in bytes.
@@ -77,6 +78,8 @@ pub struct Expr {
     text: Arc<str>,
     /// The operations in postfix order, as [`syntax::evaluate`] requires.
     nodes: Arc<[Node]>,
+    /// What [`polynomial::roles`] says of the nodes, once somebody asks.
+    roles: Arc<OnceLock<Box<[polynomial::Role]>>>,
 }
 
 impl Expr {
@@ -92,14 +95,18 @@ impl Expr {
     /// [`crate::number::parse_decimal`] is exceeded. Never panics.
     pub fn parse(text: &str, variables: Variables) -> Result<Expr, ExprError> {
         let nodes = parse::parse(text, &variables)?;
-        Ok(Expr { text: text.into(), nodes: nodes.into() })
+        Ok(Expr { text: text.into(), nodes: nodes.into(), roles: Arc::default() })
     }
 
     /// The constant 0.
     #[must_use]
     pub fn zero() -> Expr {
         let node = Node { kind: syntax::NodeKind::Number(rug::Rational::new()), span: 0..1 };
-        Expr { text: "0".into(), nodes: Arc::new([node]) }
+        Expr { text: "0".into(), nodes: Arc::new([node]), roles: Arc::default() }
+    }
+
+    fn roles(&self) -> &[polynomial::Role] {
+        self.roles.get_or_init(|| polynomial::roles(&self.nodes))
     }
 
     /// The source text, exactly as it was parsed.

@@ -45,6 +45,19 @@ impl PointValue {
     }
 }
 
+/// The value of a transcendental function at the rational argument where it is rational: many bounding functions vanish
+/// at the origin by such values.
+fn at_special(operation: Unary, argument: &Monomial) -> Option<Monomial> {
+    let argument = argument.as_rational()?;
+    let value = match operation {
+        Unary::Exp | Unary::Cos if *argument == 0 => 1,
+        Unary::Sin | Unary::Tan | Unary::Atan | Unary::Tanh if *argument == 0 => 0,
+        Unary::Log if *argument == 1 => 0,
+        _ => return None,
+    };
+    Some(Monomial::rational(Rational::from(value)))
+}
+
 struct PointAlgebra {
     exact: Exact,
     precision: u32,
@@ -88,7 +101,8 @@ impl Algebra for PointAlgebra {
             Unary::Log => a.is_not_positive(),
             _ => false,
         };
-        let exact = self.exact.unary(operation, a.exact);
+        let special = a.exact.as_ref().and_then(|argument| at_special(operation, argument));
+        let exact = special.or_else(|| self.exact.unary(operation, a.exact));
         self.settle(exact, || unary(operation, &a.value))
     }
 
@@ -116,6 +130,14 @@ impl Algebra for PointAlgebra {
 }
 
 impl Expr {
+    /// The value at an exact point: exact, up to the precision, where it is a rational number that exact arithmetic finds.
+    ///
+    /// Guarantee: as for [`Expr::enclose`].
+    #[must_use]
+    pub fn enclose_at(&self, x: &Rational, e: &Rational, precision: u32) -> Enclosure {
+        self.at_point(x, e, precision).0.value
+    }
+
     /// The value at an exact point, and the bytes of the first operation that is certainly undefined there, if any.
     pub(super) fn at_point(&self, x: &Rational, e: &Rational, precision: u32) -> (PointValue, Option<Range<usize>>) {
         let exact = Exact { x: Some(Monomial::rational(x.clone())), e: Some(Monomial::rational(e.clone())) };
@@ -170,6 +192,8 @@ mod tests {
             ("exp(X) - 1", Some(Ordering::Greater)),
             ("sin(X) - 1", Some(Ordering::Less)),
             ("log(exp(X)) - X", None),
+            ("X + 0.1*exp(X - 1/3) - 0.1 - cos(0)/3", Some(Ordering::Equal)),
+            ("log(3*X) + sin(3*X - 1) + tan(0) + atan(0) + tanh(0)", Some(Ordering::Equal)),
         ] {
             assert_eq!(at(text, (1, 3), (2, 1)).0.sign(), sign, "{text}");
         }

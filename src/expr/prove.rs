@@ -1,10 +1,12 @@
-//! The proof that an expression is a bounding function on a box: finite, nonnegative, nondecreasing.
+//! The proof that an expression is a bounding function on a box: finite, nondecreasing, nowhere certainly negative.
 //!
 //! The box is bisected until, on every piece, the expression is proved to be defined and its slopes in X and in E to
 //! be nonnegative. The pieces are closed and cover the box, so a segment parallel to an axis runs through finitely
 //! many of them, on each of which the expression is nondecreasing: it is nondecreasing along the segment. A defined
 //! expression is continuous, so it is bounded on the compact box. A nondecreasing expression has its least value at
-//! (0, 0), so its sign there settles nonnegativity.
+//! (0, 0): if it is negative anywhere, then there. Where that sign is not decided (it may be exactly 0), nothing is lost:
+//! the expression bounds a norm, so its positive part does too, and the positive part is what is used everywhere
+//! ([`crate::data::Data::bound`]).
 
 use super::Expr;
 use super::failure::{BoundingFailure, DomainBox, Property, Reason};
@@ -14,7 +16,6 @@ use super::slope::is_zero;
 use super::syntax::{Argument, NodeKind};
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION};
 use rug::Rational;
-use std::cmp::Ordering;
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -69,8 +70,8 @@ struct Obstacle {
     constant: [bool; 2],
 }
 
-/// Proves that the expression is a bounding function on `[0, x_max]` times `[0, e_max]`: defined and bounded,
-/// nonnegative, and nondecreasing in X and in E.
+/// Proves that the positive part of the expression is a bounding function on `[0, x_max]` times `[0, e_max]`: the
+/// expression is defined, bounded and nondecreasing in X and in E. It is refuted where it is certainly negative.
 ///
 /// `Ok` is a proof, and so is [`BoundingFailure::Refuted`]; [`BoundingFailure::Undecided`] claims nothing. The result
 /// depends on the arguments only. At most `max_boxes` boxes are examined (fewer for expressions of more than 200
@@ -91,28 +92,20 @@ pub fn prove_bounding(
         return Err(BoundingFailure::Undecided { property, region: Box::new(domain), span: None, reason });
     }
     let refuter = Refuter::new(expr, settings);
-    let at_origin = nonnegative_at_origin(expr, &refuter, settings);
-    if let Err(BoundingFailure::Refuted { .. }) = at_origin {
-        return at_origin;
-    }
-    subdivide(expr, &refuter, domain, settings)?;
-    at_origin
+    not_negative_at_origin(expr, &refuter, settings)?;
+    subdivide(expr, &refuter, domain, settings)
 }
 
-/// Decides the sign at (0, 0), raising the precision as needed.
-fn nonnegative_at_origin(expr: &Expr, refuter: &Refuter<'_>, settings: &ProofSettings) -> Result<(), BoundingFailure> {
+/// Refutes an expression that is negative at (0, 0), raising the precision as needed.
+fn not_negative_at_origin(expr: &Expr, refuter: &Refuter<'_>, settings: &ProofSettings) -> Result<(), BoundingFailure> {
     let zero = Rational::new();
     let mut precision = settings.precision;
     loop {
         refuter.evaluate(&zero, &zero, precision)?;
         let (at, _) = expr.at_point(&zero, &zero, precision);
-        if at.value.is_nonnegative().is_true() || matches!(at.sign(), Some(Ordering::Equal | Ordering::Greater)) {
+        let decided = at.value.is_nonnegative().is_true() || at.sign().is_some();
+        if decided || precision >= settings.max_precision {
             return Ok(());
-        }
-        if precision >= settings.max_precision {
-            let region = Box::new(DomainBox { x: [zero.clone(), zero.clone()], e: [zero.clone(), zero] });
-            let (property, reason) = (Property::Nonnegative, Reason::Precision(precision));
-            return Err(BoundingFailure::Undecided { property, region, span: None, reason });
         }
         precision = (precision.saturating_mul(2)).min(settings.max_precision);
     }

@@ -16,6 +16,7 @@
 use super::Expr;
 use super::enclose::{binary, power, unary};
 use super::growth;
+use super::polynomial::{Kind, Role};
 use super::syntax::{Algebra, Argument, Binary, Unary, evaluate};
 use crate::enclosure::Enclosure;
 use rug::float::Special;
@@ -180,16 +181,36 @@ fn extreme(operation: Binary, value: Enclosure, a: &Slopes, b: &Slopes) -> Slope
 struct Item {
     slopes: Slopes,
     growth: [Enclosure; 2],
+    /// The slopes of what is left of a sum without its polynomial parts; the sum of the two contains the slopes.
+    rest: Option<[Enclosure; 2]>,
 }
 
 struct SlopeAlgebra<'a> {
     sides: [&'a Enclosure; 2],
     precision: u32,
+    /// What the nodes are as polynomials, where that helps, and the next node.
+    roles: &'a [Role],
+    at: usize,
 }
 
 impl SlopeAlgebra<'_> {
-    /// Joins what the rules say about slopes with what they say about growth.
-    fn close(&self, mut slopes: Slopes, rule: [Enclosure; 2]) -> Item {
+    /// Joins what the rules say about slopes with what they say about growth and, at the end of a sum, about the
+    /// derivative of its polynomial parts. Called once for each node, in their order.
+    fn close(&mut self, mut slopes: Slopes, rule: [Enclosure; 2], rest: Option<[Enclosure; 2]>) -> Item {
+        let role = self.roles.get(self.at);
+        self.at += 1;
+        if let Some(role) = role.filter(|_| slopes.value.is_defined()) {
+            for (along, derivative) in role.derivatives.iter().enumerate() {
+                let (Some(derivative), Some(rest)) = (derivative, &rest) else { continue };
+                let collected = derivative.enclose(self.sides[along]) + &rest[along];
+                let slope = if along == 0 { &mut slopes.slope_x } else { &mut slopes.slope_e };
+                // On a side that is a single point there are no slopes, and nothing that two enclosures had in common.
+                let both = slope.intersect(&collected);
+                if both.is_defined() {
+                    *slope = both;
+                }
+            }
+        }
         let nonnegative = slopes.value.is_nonnegative().is_true();
         let mut growth = rule;
         for (along, growth) in growth.iter_mut().enumerate() {
@@ -202,18 +223,36 @@ impl SlopeAlgebra<'_> {
             *growth = growth::either(growth, &growth::from_slope(side, &slopes.value, slope));
             *slope = growth::tightened(slope.clone(), growth);
         }
-        Item { slopes, growth }
+        // What is no sum and no polynomial is a rest as a whole.
+        let whole = || [slopes.slope_x.clone(), slopes.slope_e.clone()];
+        let rest = role.map(|role| if matches!(role.kind, Kind::Rest) { whole() } else { rest.unwrap_or_else(whole) });
+        Item { slopes, growth, rest }
     }
 
-    fn constant(&self, value: Enclosure) -> Item {
-        self.close(Slopes::constant(value), [Enclosure::zero(self.precision), Enclosure::zero(self.precision)])
+    fn zeros(&self) -> [Enclosure; 2] {
+        [Enclosure::zero(self.precision), Enclosure::zero(self.precision)]
     }
 
-    fn seed(&self, along: usize) -> Item {
-        let mut unit = [Enclosure::zero(self.precision), Enclosure::zero(self.precision)];
+    /// The rest of a node: nothing for a polynomial, that of the operands for a sum.
+    fn rest(&self, of_operands: impl FnOnce() -> Option<[Enclosure; 2]>) -> Option<[Enclosure; 2]> {
+        match self.roles.get(self.at)?.kind {
+            Kind::Polynomial => Some(self.zeros()),
+            Kind::Sum => of_operands(),
+            Kind::Rest => None,
+        }
+    }
+
+    fn constant(&mut self, value: Enclosure) -> Item {
+        let rest = self.rest(|| None);
+        self.close(Slopes::constant(value), self.zeros(), rest)
+    }
+
+    fn seed(&mut self, along: usize) -> Item {
+        let mut unit = self.zeros();
         unit[along] = Enclosure::one(self.precision);
         let [slope_x, slope_e] = unit.clone();
-        self.close(Slopes::new(self.sides[along].clone(), slope_x, slope_e), unit)
+        let rest = self.rest(|| None);
+        self.close(Slopes::new(self.sides[along].clone(), slope_x, slope_e), unit, rest)
     }
 }
 
@@ -242,11 +281,17 @@ impl Algebra for SlopeAlgebra<'_> {
         }
         let quotients = quotients(operation, &a.slopes.value, &value);
         let growth = a.growth.map(|growth| growth::unary(operation, &growth));
-        self.close(Slopes::chain(value, &quotients, &a.slopes), growth)
+        // Of functions of one argument only the negative is a sum.
+        let rest = self.rest(|| a.rest.map(|rest| rest.map(|slope| slope.negate())));
+        self.close(Slopes::chain(value, &quotients, &a.slopes), growth, rest)
     }
 
     fn binary(&mut self, operation: Binary, a: Item, b: Item) -> Item {
         let mut growth = [0, 1].map(|along| growth::binary(operation, &a.growth[along], &b.growth[along]));
+        let rest = self.rest(|| {
+            let (a, b) = a.rest.as_ref().zip(b.rest.as_ref())?;
+            Some([0, 1].map(|along| binary(operation, &a[along], &b[along])))
+        });
         let (a_growth, a, b) = (a.growth, a.slopes, b.slopes);
         let value = binary(operation, &a.value, &b.value);
         if !value.is_defined() {
@@ -277,7 +322,7 @@ impl Algebra for SlopeAlgebra<'_> {
             }
             Binary::Min | Binary::Max => extreme(operation, value, &a, &b),
         };
-        self.close(slopes, growth)
+        self.close(slopes, growth, rest)
     }
 
     fn power(&mut self, base: Item, exponent: i32) -> Item {
@@ -287,7 +332,8 @@ impl Algebra for SlopeAlgebra<'_> {
         }
         let quotients = power_quotients(&base.slopes.value, exponent);
         let growth = base.growth.map(|growth| growth * i64::from(exponent));
-        self.close(Slopes::chain(value, &quotients, &base.slopes), growth)
+        let rest = self.rest(|| None);
+        self.close(Slopes::chain(value, &quotients, &base.slopes), growth, rest)
     }
 }
 
@@ -307,7 +353,8 @@ impl Expr {
     #[must_use]
     pub fn enclose_slopes(&self, x: &Enclosure, e: &Enclosure) -> Slopes {
         let precision = x.precision().max(e.precision());
-        evaluate(&self.nodes, &mut SlopeAlgebra { sides: [x, e], precision }).slopes
+        let mut algebra = SlopeAlgebra { sides: [x, e], precision, roles: self.roles(), at: 0 };
+        evaluate(&self.nodes, &mut algebra).slopes
     }
 }
 

@@ -6,7 +6,9 @@ use super::jacobian::{self, Clock};
 use super::membership::respects;
 use super::random::Random;
 use super::shape::{Factor, Number, Shape};
-use crate::data::Bound;
+use crate::certificate::has_states;
+use crate::data::{Bound, Data};
+use crate::enclosure::DEFAULT_PRECISION;
 use crate::expr::{Expr, Variables};
 use std::f64::consts::TAU;
 
@@ -32,6 +34,11 @@ pub struct DrawnPlant {
     pub family: Family,
 }
 
+/// The positive part, which is what a bounding function is; NaN stays.
+fn positive(value: f64) -> f64 {
+    if value < 0.0 { 0.0 } else { value }
+}
+
 /// The bounding functions of a claim, in the order of [`Family::bounds`].
 fn allowed(claim: &Claim) -> Vec<&Expr> {
     [Bound::F, Bound::Fe, Bound::Fxx, Bound::Fex, Bound::Q, Bound::Qe, Bound::Qx, Bound::Qt, Bound::QRms, Bound::QtRms]
@@ -50,14 +57,15 @@ fn allowed(claim: &Claim) -> Vec<&Expr> {
 pub fn draw(claim: &Claim, random: &mut Random) -> Option<DrawnPlant> {
     let allowed = allowed(claim);
     let [reach_x, reach_e] = claim.reach.each_ref().map(rug::Rational::to_f64);
-    let value = |index: usize, x: f64| allowed[index].to_float().eval(x, 0.0);
+    let value = |index: usize, x: f64| positive(allowed[index].to_float().eval(x, 0.0));
     let at_zero: Vec<f64> = (0..allowed.len()).map(|index| SHARE * value(index, 0.0)).collect();
     // The slope of a bounding function in X, where it is linear.
     let small = reach_x * 1e-3;
     let slope = |index: usize| SHARE * ((value(index, small) - value(index, 0.0)) / small).max(0.0);
 
     let clock = Clock { period: &claim.spec.period.text, multiple: [1, 1, 2, 3][random.whole(0, 3) as usize] };
-    let drawn = match value(0, reach_x) > 0.0 {
+    // Only data that speak of no state at all are those of a plant without one.
+    let drawn = match has_states(&Data::new(&claim.spec, DEFAULT_PRECISION), &claim.reach) {
         true => jacobian::draw(claim, clock, slope(0), random)?,
         false => jacobian::Drawn { rows: Vec::new(), norm: Number::default() },
     };
@@ -126,7 +134,7 @@ fn leaves_room(bound: &str, allowed: &Expr, reach: [f64; 2]) -> bool {
     (0..=GRID).all(|i| {
         (0..=GRID).all(|j| {
             let (x, e) = (along(reach[0], i), along(reach[1], j));
-            bound.eval(x, e) <= ROOM * allowed.eval(x, e)
+            bound.eval(x, e) <= ROOM * positive(allowed.eval(x, e))
         })
     })
 }

@@ -14,7 +14,7 @@ const MAX_BOXES: usize = 200;
 /// A box of X and E.
 type Region = [[Rational; 2]; 2];
 
-/// Whether `bound(X, E) <= allowed(X, E)` for every (X, E) in [0, reach X] x [0, reach E], the axes and the origin
+/// Whether `bound(X, E) <= max{allowed(X, E), 0}` for every (X, E) in [0, reach X] x [0, reach E], the axes and the origin
 /// included.
 ///
 /// Guarantee: if true, it is proved. With D = allowed - bound, on a box with lower corner (X_0, E_0)
@@ -23,8 +23,21 @@ type Region = [[Rational; 2]; 2];
 /// do. False where D < 0 somewhere, and where too many boxes would be needed.
 #[must_use]
 pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2]) -> bool {
-    let Ok(difference) = Expr::parse(&format!("({}) - ({bound})", allowed.text()), Variables::XAndE) else {
+    let texts = [format!("({}) - ({bound})", allowed.text()), format!("-({bound})")];
+    let [Ok(difference), Ok(negative)] = texts.map(|text| Expr::parse(&text, Variables::XAndE)) else {
         return false;
+    };
+    // max{allowed, 0} - bound is the larger of the two differences.
+    let lower_bound = |region: &Region| {
+        let side = |[low, high]: &[Rational; 2]| Enclosure::between(low, high, PRECISION);
+        // Where the bounding function may be undefined, so is its positive part.
+        let defined = difference.enclose(&side(&region[0]), &side(&region[1])).is_defined();
+        let by_function = lower_bound(&difference, region);
+        let by_zero = defined.then(|| lower_bound(&negative, region)).flatten();
+        match (by_function, by_zero) {
+            (Some(a), Some(b)) => Some(a.max(b)),
+            (a, b) => a.or(b),
+        }
     };
     let whole: Region = reach.clone().map(|end| [Rational::new(), end]);
     let mut queue = VecDeque::from([whole]);
@@ -34,14 +47,14 @@ pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2]) -> bool {
         if examined > MAX_BOXES {
             return false;
         }
-        match lower_bound(&difference, &region) {
+        match lower_bound(&region) {
             None => return false,
             Some(least) if least >= 0.0 => {}
             // The cut after which the halves are better: what costs in one variable may come from the other's width.
             Some(_) => {
                 let cuts = [0, 1].map(|along| halves(&region, along));
                 let gains = cuts.each_ref().map(|parts| {
-                    let least = |part| lower_bound(&difference, part).unwrap_or(f64::NEG_INFINITY);
+                    let least = |part| lower_bound(part).unwrap_or(f64::NEG_INFINITY);
                     parts.iter().map(least).sum::<f64>()
                 });
                 let [by_x, by_e] = cuts;
@@ -56,8 +69,8 @@ pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2]) -> bool {
 fn lower_bound(difference: &Expr, region: &Region) -> Option<f64> {
     let side = |[low, high]: &[Rational; 2]| Enclosure::between(low, high, PRECISION);
     let slopes = difference.enclose_slopes(&side(&region[0]), &side(&region[1]));
-    let corner = region.each_ref().map(|[low, _]| Enclosure::from_rational(low, PRECISION));
-    let at_corner = difference.enclose(&corner[0], &corner[1]);
+    // Exact where it can be: D may vanish there.
+    let at_corner = difference.enclose_at(&region[0][0], &region[1][0], PRECISION);
     let zero = Enclosure::zero(PRECISION);
     if at_corner.lt(&zero).is_true() {
         return None;
@@ -100,6 +113,12 @@ mod tests {
             // A narrow peak away from every corner, in one variable and in the other.
             ("max(0, 1 - 10*abs(X - 3.1))", "0.5", false),
             ("max(0, 1 - 10*abs(E - 3.1))", "0.5", false),
+            // 0 at the origin, where rounding alone would not show it.
+            ("0.9*X + E*0.9", "X + 0.1*exp(X) - 0.1 + E", true),
+            ("1.2*X", "X + 0.1*exp(X) - 0.1 + E", false),
+            // The positive part counts.
+            ("0*X", "X - 1", true),
+            ("X/2", "X - 1", false),
             // An undefined bounding function allows nothing.
             ("0", "1 + 0*sqrt(X - 1)", false),
         ] {

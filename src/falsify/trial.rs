@@ -4,6 +4,9 @@ use super::claim::Claim;
 use super::draw::{DrawnPlant, draw};
 use super::random::Random;
 use super::report::counterexample_plant;
+use crate::certificate::no_plant;
+use crate::data::Data;
+use crate::enclosure::DEFAULT_PRECISION;
 use crate::plant::Plant;
 use crate::progress::{Progress, Silent};
 use crate::regulator::Regulator;
@@ -94,9 +97,16 @@ impl Outcome {
     }
 }
 
-/// Runs the trials, in parallel; the outcome does not depend on how many at a time.
+/// Runs the trials, in parallel; the outcome does not depend on how many at a time. None is run where no plant with a
+/// state satisfies data that speak of one.
 #[must_use]
 pub fn falsify(claim: &Claim, settings: Settings, progress: &dyn Progress) -> Outcome {
+    let [x, e] = claim.reach.clone();
+    if let Some(reason) = no_plant(&Data::new(&claim.spec, DEFAULT_PRECISION), Some(&(x, e))) {
+        // A plant without x would show nothing about such data.
+        let findings = (0..settings.trials).map(|_| Finding::Unfinished(reason.to_string())).collect();
+        return Outcome { settings, findings };
+    }
     let findings = (1..=settings.trials)
         .into_par_iter()
         .map(|number| {

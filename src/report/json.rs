@@ -7,9 +7,10 @@ use super::matrix_checks::checks_json;
 use super::number::estimate;
 use super::obstacles::advice;
 use super::relative_degree::gains_json;
+use super::remarks::remarks;
 use super::sets::Sets;
-use super::verdict::{basis, largest_arguments, sentence};
-use crate::certificate::{Certification, Outcome, Verdict, conditions_json, constants_json};
+use super::verdict::{basis, exact_arguments, largest_arguments, sentence};
+use crate::certificate::{Certification, Outcome, Verdict, conditions_json, constants_json, no_plant_json};
 use crate::constants::condition::Condition;
 use crate::enclosure::Enclosure;
 use crate::number::write_exact;
@@ -35,6 +36,8 @@ pub(super) fn report(report: &Report<'_>) -> Value {
     set("version", json!(VERSION));
     set("verdict", json!(run.verdict.to_string()));
     set("statement", json!(sentence(run)));
+    set("remarks", json!(remarks(run)));
+    set("no_plant", run.no_plant.as_ref().map_or(Value::Null, no_plant_json));
     set("derivation", json!(run.options.derivation.name()));
     set("specification", json!({ "name": run.spec.name, "sha256": run.spec.sha256 }));
     if let (Some(sigma), Some(claimed), Some(sets)) = (run.sigma_star(), run.claimed_set(), Sets::new(run)) {
@@ -156,6 +159,10 @@ fn exact_regulation(run: &Certification<'_>) -> Value {
     match (&run.exact, run.sigma_star()) {
         (Some(claim), Some(_)) => json!({
             "sigma_star_oo": write_exact(&claim.witness.sigma),
+            "largest_arguments": exact_arguments(run).map(|arguments| {
+                let [x, e] = arguments.each_ref().map(full);
+                json!({ "X": x, "E": e })
+            }),
             "conditions": conditions_with_truth(&claim.evaluation.conditions),
         }),
         _ => Value::Null,

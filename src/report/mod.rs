@@ -20,6 +20,7 @@ mod obstacles;
 mod printed;
 mod rate;
 mod relative_degree;
+mod remarks;
 mod sensitivity;
 mod sets;
 mod text;

@@ -2,7 +2,7 @@
 
 use super::blocks::{Block, Table};
 use super::number::{exact, upper};
-use super::verdict::largest_arguments;
+use super::verdict::{exact_arguments, largest_arguments};
 use crate::certificate::{Certification, Derivation};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
@@ -49,8 +49,12 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     // The box is where solutions stay, so its radii are upper bounds.
     let [d_x, d_e] = sets.error_box.each_ref().map(upper);
     table.push(["error box around it (radii)".to_owned(), d_x, d_e, none(), none()]);
-    if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper)) {
-        table.push(["bounding functions used up to".to_owned(), x, e, none(), none()]);
+    let exact = exact_arguments(run);
+    let claim = if exact.is_some() { "bounding functions used up to, sigma*" } else { "bounding functions used up to" };
+    for (what, arguments) in [(claim, largest_arguments(run)), ("bounding functions used up to, sigma*_oo", exact)] {
+        if let Some([x, e]) = arguments.map(|arguments| arguments.each_ref().map(upper)) {
+            table.push([what.to_owned(), x, e, none(), none()]);
+        }
     }
     vec![
         Block::Heading(format!("sigma* = {} and the sets", write_exact(sigma))),

@@ -3,6 +3,7 @@
 use super::blocks::{Block, clean};
 use super::number::{exact, upper};
 use super::obstacles;
+use super::remarks::remarks;
 use crate::certificate::{Certification, Derivation, Outcome, Verdict};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
@@ -33,6 +34,7 @@ pub fn sentence(run: &Certification<'_>) -> String {
 /// The sentence, the derivation and the assumptions; without a certificate, what failed and what to try.
 pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     let mut blocks = vec![Block::says(sentence(run))];
+    blocks.extend(remarks(run).into_iter().map(Block::says));
     if run.verdict == Verdict::Certified {
         blocks.push(Block::says(
             "Here |z|_N = sqrt(z'Nz). The same sigma serves every plant that the bounding functions describe.",
@@ -63,13 +65,15 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         }
         _ => "the Lyapunov triple (p_low, p_up, alpha)",
     };
+    let further = exact_arguments(run).map(|arguments| arguments.each_ref().map(upper)).filter(|_| used.is_some());
     items.push(format!(
-        "Assumed of the plant: {of_the_zero_dynamics}, and that the bounding functions bound the plant{}.",
-        used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments"))
+        "Assumed of the plant: {of_the_zero_dynamics}, and that the bounding functions bound the plant{}{}.",
+        used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments")),
+        further.map_or_else(String::new, |[x, e]| format!("; exact regulation needs them for |x| <= {x}, |e| <= {e}")),
     ));
     items.push(
-        "Proved of the bounding functions: finite, nonnegative and nondecreasing there. Proved of the weights: W1 to \
-         W3."
+        "Proved of the bounding functions: finite and nondecreasing there; their positive parts are used. Proved of the \
+         weights: W1 to W3."
         .to_owned(),
     );
     let proof = match run.options.derivation {
@@ -90,21 +94,20 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
     items
 }
 
-/// The largest X and E at which a bounding function is used; upper bounds.
+/// The largest X and E at which exact regulation uses a bounding function; it does so for an error box of its own.
+pub(super) fn exact_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2]> {
+    let claim = run.exact.as_ref().filter(|_| run.options.derivation == Derivation::Sharp)?;
+    Some([&claim.witness.d_x, &claim.witness.d_e].map(|radius| Enclosure::from_rational(radius, run.precision)))
+}
+
+/// The largest X and E at which the claim for every n_o uses a bounding function; upper bounds.
 pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2]> {
     let [x, e] = match run.options.derivation {
         Derivation::Sharp => {
             let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.sharp else { return None };
             let evaluation = &proof.evaluation;
             let (x, e) = (&evaluation.error_box.x_b, &evaluation.error_box.e_b);
-            let [x, e] = [evaluation.bounds.x_p.max(x), evaluation.bounds.e_p.max(e)];
-            match &run.exact {
-                None => [x, e],
-                Some(claim) => {
-                    let number = |value| Enclosure::from_rational(value, proof.precision);
-                    [x.max(&number(&claim.witness.d_x)), e.max(&number(&claim.witness.d_e))]
-                }
-            }
+            [evaluation.bounds.x_p.max(x), evaluation.bounds.e_p.max(e)]
         }
         Derivation::Repaired => {
             let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.repaired else { return None };

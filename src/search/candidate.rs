@@ -20,6 +20,9 @@ pub struct SharpParameters {
 /// cannot destroy them.
 pub(super) const BELOW_ONE: f64 = 1.0 - 1e-6;
 
+/// The share of the smallest rate in the data below which a gain is as good as none.
+const NEGLIGIBLE: f64 = 1e-20;
+
 /// What stands in the way of a candidate; later ones come closer to a certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Obstacle {
@@ -157,11 +160,26 @@ impl Existence {
         error_box(model, (x_per, e_per), [dist_x, dist_e, dist_z], rho, eta)
     }
 
+    /// No sigma below this one is sought with this eta, whatever rho: less than C2 and C3 need, and than the first term
+    /// 1/(4 ht) of C5 with the largest h; nor any that is negligible beside every rate in the data, since where nothing in
+    /// them needs a gain the infimum is 0.
+    pub fn least(&self, model: &FloatModel, eta: f64) -> f64 {
+        let (_, e0, z0) = model.required_set(self.x_p, self.e_p, self.z);
+        // The largest dE and the smallest dZ of `at_sigma`.
+        let dist_e = (e0 + self.e_p).max(1e-6 * self.e_p);
+        let dist_z = (z0 + model.n_bar * e0 + self.z).max(1e-6 * model.n_bar * e0.max(1e-6 * self.e_p));
+        let h_over_mu = eta * dist_e * dist_e / (dist_z * dist_z * model.mu);
+        let rates = [model.period.recip(), model.alpha, model.mu, model.base_frequency];
+        let negligible = NEGLIGIBLE * rates.into_iter().fold(f64::INFINITY, f64::min);
+        // Half of it leaves room for rounding, and a bracket for the bisection.
+        self.sigma_least.max(negligible).max(0.5 / (4.0 * h_over_mu)).min(1e290)
+    }
+
     /// The smallest sigma for given rho and eta, to the relative tolerance.
     pub fn sigma(&self, model: &FloatModel, rho: f64, eta: f64, tolerance: f64) -> Result<f64, Obstacle> {
         let needed = |sigma: f64| self.at_sigma(model, rho, eta, sigma).map(|at| at.threshold.max(self.sigma_least));
-        // Positive even where C2 and C3 hold for every sigma.
-        let mut low = self.sigma_least.max(1e-12 / model.period);
+        let least = self.least(model, eta);
+        let mut low = least;
         if let Ok(threshold) = needed(low)
             && threshold <= low
         {
@@ -177,12 +195,12 @@ impl Existence {
                 Ok(_) if high > 1e280 => return Err(Obstacle::Coupling),
                 _ => low = high,
             }
-            if high > 1e12 * self.sigma_least.max(1e-12) {
+            if high > 1e12 * least {
                 high *= 1e6;
             }
         }
         while high / low - 1.0 > tolerance {
-            let middle = (low * high).sqrt();
+            let middle = low.sqrt() * high.sqrt();
             if middle <= low || middle >= high {
                 break;
             }

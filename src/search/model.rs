@@ -69,6 +69,8 @@ pub enum FloatSet {
 struct ScaledBound {
     function: FloatExpr,
     factor: f64,
+    /// A bound that serves where it is smaller.
+    supremum: Option<Bound>,
 }
 
 /// All data in floating point.
@@ -126,7 +128,11 @@ impl FloatModel {
             trade_off,
             bounds: ORDER
                 .iter()
-                .map(|which| ScaledBound { function: which.of(spec).to_float(), factor: 1.0 })
+                .map(|which| ScaledBound {
+                    function: which.of(spec).to_float(),
+                    factor: 1.0,
+                    supremum: which.supremum(spec),
+                })
                 .collect(),
         }
     }
@@ -159,12 +165,17 @@ impl FloatModel {
         (self.p_up / self.p_low).sqrt()
     }
 
-    /// The value of a bounding function.
+    /// The value of a bounding function: the positive part of its expression, NaN where that is undefined.
     #[must_use]
     pub fn bound(&self, which: Bound, x: f64, e: f64) -> f64 {
         // ORDER lists the variants in the order of their declaration.
         let bound = &self.bounds[which as usize];
-        bound.factor * bound.function.eval(x, e)
+        let value = bound.factor * bound.function.eval(x, e);
+        let value = if value < 0.0 { 0.0 } else { value };
+        match bound.supremum.map(|supremum| self.bound(supremum, x, e)) {
+            Some(supremum) if supremum < value => supremum,
+            _ => value,
+        }
     }
 
     /// X_0, E_0, Z_0 for given X_p, E_p, Z.
@@ -204,26 +215,78 @@ impl FloatModel {
         if level.is_infinite() {
             return 0.0;
         }
-        // Logarithmic bisection over everything a double can hold that makes sense as sigma T.
-        let (mut low, mut high) = (-640.0_f64, 640.0_f64);
+        // The logarithm of the gain against that of sigma T, over everything a double can hold: nearly straight at both
+        // ends, so that the secant of a bracket (halving the value at an end that stays, Illinois) needs a dozen steps.
         let sigma = |exponent: f64| exponent.portable_exp() / self.period;
-        if gain(sigma(high)) > level {
+        let excess = |exponent: f64| (gain(sigma(exponent)) / level).portable_ln().clamp(-LARGEST, LARGEST);
+        let mut low = (-640.0, excess(-640.0));
+        let mut high = (640.0, excess(640.0));
+        // NaN, from a gain of infinity over infinity, is no level reached.
+        if high.1.is_nan() || high.1 > 0.0 {
             return f64::INFINITY;
         }
-        if gain(sigma(low)) <= level {
+        if low.1 <= 0.0 {
             return 0.0;
         }
-        for _ in 0..64 {
-            let middle = 0.5 * (low + high);
-            if gain(sigma(middle)) <= level { high = middle } else { low = middle }
+        let mut kept = 0_i32;
+        let mut nudge = None;
+        for _ in 0..STEPS {
+            let secant = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1));
+            let middle = 0.5 * (low.0 + high.0);
+            let inside = |at: &f64| *at > low.0 && *at < high.0;
+            let Some(at) = [nudge.take().unwrap_or(secant), middle].into_iter().find(inside) else { break };
+            let value = excess(at);
+            if value <= 0.0 {
+                high = (at, value);
+                if value > -NEAR {
+                    break;
+                }
+                low.1 *= if kept > 0 { 0.5 } else { 1.0 };
+                kept = 1;
+            } else {
+                // So near that a little more is enough.
+                nudge = (value < NEAR).then_some(at + 4.0 * NEAR);
+                low = (at, value);
+                high.1 *= if kept < 0 { 0.5 } else { 1.0 };
+                kept = -1;
+            }
         }
-        sigma(high)
+        sigma(high.0)
     }
 }
+
+/// Relative accuracy of [`FloatModel::inverse`], where rounding allows it: far below the first slack of a rounded witness.
+const NEAR: f64 = 1e-14;
+/// The logarithm of a ratio of gains is cut off here.
+const LARGEST: f64 = 1e4;
+/// Steps of [`FloatModel::inverse`] at most.
+const STEPS: usize = 100;
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn gains_are_inverted() {
+        let text = include_str!("../../specs/linear.json");
+        let spec = crate::spec::Specification::from_json("linear", text).unwrap();
+        let data = Data::new(&spec, 64);
+        for period in [1e-40, 1e-30, 1e-3, 1.0, 70.0, 1e30] {
+            let model = FloatModel { period, ..FloatModel::new(&data, TradeOff::closed_form(&data)) };
+            for exponent in -120..=120 {
+                let sigma = 10f64.portable_pow(f64::from(exponent) / 4.0) / period;
+                let found = model.inverse(|s| model.beta_s(s), model.beta_s(sigma));
+                assert!((found / sigma - 1.0).abs() < 1e-12, "beta_s: T = {period}, sigma = {sigma}: {found}");
+                // For small sigma T tau hardly depends on sigma, and its closed form cancels.
+                let found = model.inverse(|s| model.tau(s), model.tau(sigma));
+                assert!(model.tau(found) <= model.tau(sigma) * (1.0 + 1e-8), "tau: {period} {sigma} {found}");
+                assert!(exponent < 8 || (found / sigma - 1.0).abs() < 1e-11, "tau: {period} {sigma} {found}");
+            }
+            assert_eq!(model.inverse(|s| model.beta_s(s), f64::INFINITY), 0.0);
+            assert_eq!(model.inverse(|s| model.beta_s(s), 0.0), f64::INFINITY);
+            assert_eq!(model.inverse(|s| model.tau(s), period * period), 0.0);
+        }
+    }
 
     #[test]
     fn bounds_are_addressed_by_their_declaration_order() {

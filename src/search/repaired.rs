@@ -1,6 +1,6 @@
 //! The search of the repaired derivation: X, E, L, h that make sigma* small.
 
-use super::candidate::{BELOW_ONE, Obstacle};
+use super::candidate::{BELOW_ONE, Obstacle, SharpParameters};
 use super::minimise::minimise;
 use super::model::FloatModel;
 use super::scan;
@@ -19,6 +19,16 @@ pub struct RepairedProposal {
     pub h: f64,
     /// The smallest sigma found.
     pub sigma: f64,
+    /// rho and eta with which the same level, D_x and h are those of a sharp candidate with w_x = 1.
+    shape: (f64, f64),
+}
+
+impl RepairedProposal {
+    /// The same free numbers as a candidate of the sharp derivation.
+    #[must_use]
+    pub fn as_sharp(&self) -> SharpParameters {
+        SharpParameters { x_p: self.x, e_p: self.e, rho: self.shape.0, eta: self.shape.1 }
+    }
 }
 
 /// K_alpha.
@@ -74,7 +84,9 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     if !sigma.is_finite() {
         return Err(Obstacle::NotFinite);
     }
-    Ok(RepairedProposal { x, e, h, sigma })
+    // D_x = sqrt(L/P_low) = rho c dX.
+    let rho = (level / model.p_up).sqrt() / dist_x;
+    Ok(RepairedProposal { x, e, h, sigma, shape: (rho, eta) })
 }
 
 /// The largest E with C1 and the first diagonal entry of the contraction matrix below 1.

@@ -24,11 +24,11 @@ const SHAPES: [(f64, f64); 6] = [(1.4, 1.0), (1.08, 0.05), (1.08, 20.0), (4.0, 0
 /// How many scanned candidates are refined.
 const REFINED: usize = 10;
 
-/// Searches for the smallest sigma.
+/// Searches for the smallest sigma; `known` are candidates from elsewhere, from which it is searched too.
 ///
 /// # Errors
 /// The obstacle of the candidate that came closest, when none is feasible.
-pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
+pub fn search_sharp(model: &FloatModel, known: &[SharpParameters]) -> Result<SharpProposal, Obstacle> {
     let xs = scan::x_values(model.domain.0);
     let columns = scan::evaluate_all(&xs, |&x_p| scan_column(model, x_p));
     let mut closest = Obstacle::NotFinite;
@@ -42,7 +42,8 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
     // Where X does not matter, prefer ordinary numbers.
     let unusual = |p: &SharpParameters| p.x_p.portable_ln().abs();
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(unusual(&a.1).total_cmp(&unusual(&b.1))));
-    let starts = spread(&found);
+    let mut starts = spread(&found);
+    starts.extend(known);
     let refined = scan::evaluate_all(&starts, |start| refine(model, start, 6));
     let best = refined.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(closest)?;
     let best = refine(model, &best.0, 12).filter(|again| again.1 < best.1).unwrap_or(best);
@@ -102,6 +103,9 @@ fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters
         };
         let mut best: Option<(f64, SharpParameters)> = None;
         for (rho, eta) in SHAPES {
+            if best.is_some_and(|(sigma, _)| existence.least(model, eta) >= sigma) {
+                continue;
+            }
             match existence.sigma(model, rho, eta, 1e-2) {
                 Ok(sigma) => {
                     if best.is_none_or(|(least, _)| sigma < least) {

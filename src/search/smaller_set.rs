@@ -67,7 +67,7 @@ pub fn smaller_set(model: &FloatModel, repaired: bool) -> SmallerSet {
 /// The box that is scaled: the user's numbers, or twice the bounds of the periodic solution where none is given.
 fn shape(model: &FloatModel, point: FloatSet) -> Option<[f64; 3]> {
     let twice = || {
-        let parameters = search_sharp(&model.with_set(point)).ok()?.parameters;
+        let parameters = search_sharp(&model.with_set(point), &[]).ok()?.parameters;
         Some([2.0 * parameters.x_p, 2.0 * parameters.e_p])
     };
     match model.set {

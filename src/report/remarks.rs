@@ -1,0 +1,26 @@
+//! What the data themselves are to be looked at for; no verdict depends on it.
+
+use crate::certificate::{Certification, ExceededBy};
+use crate::data::{Bound, Data};
+
+/// One sentence or two for each.
+pub(super) fn remarks(run: &Certification<'_>) -> Vec<String> {
+    let mut remarks = Vec::new();
+    if let Some(reason) = &run.no_plant {
+        let check = match reason.exceeded_by {
+            ExceededBy::Alpha { .. } => "f, f_xx, their domain, alpha, and the unit of time in each",
+            ExceededBy::Jacobian { .. } => "f, f_xx, their domain, the Jacobian, and the unit of time in each",
+        };
+        remarks.push(format!("Remark: {reason}. What is proved of all such plants is proved of none. Check {check}."));
+    }
+    let data = Data::new(run.spec, run.precision);
+    let at_origin = data.bound(Bound::F, &data.zero(), &data.zero());
+    if at_origin.is_positive().is_true() {
+        remarks.push(
+            "Remark: f(0,0) > 0, although |f(t,0,0)| = 0 for every plant of the family. Were the bounds taken before the \
+             shift by x_0(t), the periodic solution of x' = f(t,x,0)? They are to hold after it (erratum E18; the guide)."
+                .to_owned(),
+        );
+    }
+    remarks
+}
