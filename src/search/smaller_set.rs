@@ -97,11 +97,11 @@ mod tests {
     #[test]
     fn the_size_is_near_the_edge_of_success() {
         let asked = model(FloatSet::Box(1.0, 4.0, 0.0));
-        assert!(search_sharp(&asked).is_err());
+        assert!(search_sharp(&asked, &[]).is_err());
         let SmallerSet::Box(sizes) = smaller_set(&asked, false) else { panic!("a size is expected") };
         let [x0, e0, z0] = sizes.each_ref().map(Rational::to_f64);
         assert!(x0 > 0.0 && (e0 / x0 - 4.0).abs() < 0.4 && z0 == 0.0, "{x0} {e0} {z0}");
-        let succeeds = |factor: f64| search_sharp(&model(FloatSet::Box(factor * x0, factor * e0, 0.0))).is_ok();
+        let succeeds = |factor: f64| search_sharp(&model(FloatSet::Box(factor * x0, factor * e0, 0.0)), &[]).is_ok();
         assert!(succeeds(1.0) && !succeeds(1.15), "{x0} {e0}");
     }
 
