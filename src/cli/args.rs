@@ -296,6 +296,10 @@ pub struct ControllerArgs {
     #[arg(long, value_name = "DT", allow_hyphen_values = true)]
     pub discretise: Option<String>,
 
+    /// Also compare with this certificate: a remark says where sigma is below its sigma*
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub certificate: Option<PathBuf>,
+
     /// Form in which the regulator is written
     #[arg(long, value_enum, value_name = "NAME", default_value_t = ControllerFormat::Json)]
     pub format: ControllerFormat,

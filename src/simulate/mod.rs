@@ -26,7 +26,7 @@ pub use orbit::{Orbit, amplitudes, rms, sup};
 pub use report::{FORMAT, VERSION, bode, csv, figures, json, spectrum, spectrum_curve, text};
 pub use run::{LongRun, Method, NoisyRun, Settings, Simulation, SteadyFigures, noisy_run, simulate};
 pub use steady::{SteadyState, SteadyStateError, fixed_steady_state, steady_state};
-pub use stiffness::{MAX_FIXED_STEPS, enough_steps, is_stable, spectral_radius};
+pub use stiffness::{MAX_FIXED_STEPS, enough_steps, is_stable};
 
 /// Hears of work done, for a progress bar.
 pub trait Progress: Sync {

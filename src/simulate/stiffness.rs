@@ -1,6 +1,7 @@
 //! How fast the fastest mode of a closed loop is, and what a fixed step needs for it.
 
 use super::ClosedLoop;
+use crate::regulator::spectral_radius;
 use faer::Mat;
 
 /// The most fixed steps of a period.
@@ -9,17 +10,6 @@ pub const MAX_FIXED_STEPS: u32 = 1_000_000;
 /// The classical Runge-Kutta method is stable for h |lambda| up to this, wherever lambda is in the left half plane: its
 /// region of stability contains that half of the disc.
 const STABLE: f64 = 2.6;
-
-/// The largest modulus of the eigenvalues of a square matrix; `None` where an entry is not finite.
-#[must_use]
-pub fn spectral_radius(matrix: &Mat<f64>) -> Option<f64> {
-    // A NaN would not stop the iteration.
-    if !matrix.col_iter().all(|column| column.iter().all(|entry| entry.is_finite())) {
-        return None;
-    }
-    let eigenvalues = matrix.eigenvalues().ok()?;
-    Some(eigenvalues.iter().fold(0.0, |largest: f64, value| largest.max(value.re.hypot(value.im))))
-}
 
 /// The spectral radius of the Jacobian of the closed loop at a time and state; what follows y in `state` is left out.
 fn fastest_mode(closed_loop: &ClosedLoop, t: f64, state: &[f64]) -> Option<f64> {
@@ -78,12 +68,5 @@ mod tests {
         assert_eq!(steps(2601.0), (Some(2700), false));
         assert_eq!(steps(1.5e6), (Some(MAX_FIXED_STEPS), false));
         assert_eq!(steps(2.1e6), (None, false));
-    }
-
-    #[test]
-    fn radii() {
-        let matrix = Mat::from_fn(2, 2, |i, j| [[0.0, -2.0], [2.0, 0.0]][i][j]);
-        assert!((spectral_radius(&matrix).unwrap() - 2.0).abs() < 1e-14);
-        assert_eq!(spectral_radius(&Mat::from_fn(1, 1, |_, _| f64::NAN)), None);
     }
 }
