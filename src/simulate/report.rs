@@ -213,12 +213,18 @@ fn response(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let points = run.times.iter().zip(&run.states).map(|(t, y)| (*t, y[closed_loop.states()])).collect();
     Figure {
         title: "Regulated error".to_owned(),
-        x: "t".to_owned(),
-        y: "e".to_owned(),
+        x: format!("time t [unit of time of the plant file; period {}]", number_short(closed_loop.period)),
+        y: "e [unit of e]".to_owned(),
         scale: Scale::Linear,
         floor: 0.0,
         curves: vec![Curve { label: regulator_words(&closed_loop.regulator), points, marked: false }],
     }
+}
+
+/// A number in as few digits as it has, six at most.
+fn number_short(value: f64) -> String {
+    let text = format!("{value:.5e}");
+    text.parse().map_or(text, |value: f64| format!("{value:?}").trim_end_matches(".0").to_owned())
 }
 
 /// |c_k| over k, for a spectrum.
@@ -233,8 +239,8 @@ pub fn spectrum_curve(label: &str, amplitudes: &[f64]) -> Curve {
 pub fn spectrum(title: &str, curves: Vec<Curve>) -> Figure {
     Figure {
         title: title.to_owned(),
-        x: "harmonic k".to_owned(),
-        y: "|c_k|".to_owned(),
+        x: "harmonic k, of frequency k/T".to_owned(),
+        y: "|c_k| of e [unit of e]".to_owned(),
         scale: Scale::LogY,
         floor: SPECTRUM_FLOOR,
         curves,
@@ -260,15 +266,19 @@ pub fn bode(regulator: &Regulator) -> Figure {
     };
     let high_gain = Regulator::high_gain(regulator.sigma);
     let mut curves = vec![curve("high-gain feedback", &high_gain)];
+    let mut title = "From q to e, for e' = u + q".to_owned();
     if regulator.oscillators().is_some() {
         curves.push(curve("internal model", regulator));
+        title.push_str(" (the zeros are cut at the lower edge)");
     }
+    // Two decades below the feedback that has no zeros, wherever that is.
+    let least = omegas.iter().map(|&omega| magnitude(&high_gain, omega)).fold(f64::INFINITY, f64::min);
     Figure {
-        title: "From q to e, for e' = u + q".to_owned(),
-        x: "angular frequency".to_owned(),
-        y: "|e/q|".to_owned(),
+        title,
+        x: "angular frequency [rad per unit of time]".to_owned(),
+        y: "|e/q| [unit of time]".to_owned(),
         scale: Scale::LogLog,
-        floor: 1e-4,
+        floor: libm::pow(10.0, libm::log10(least).floor() - 2.0),
         curves,
     }
 }
