@@ -443,7 +443,8 @@ fn false_certificates_are_refuted_with_a_counterexample() {
         // A gain that is far too small, and nothing else wrong: sigma*/50 and less.
         ("paper-example", "/claim/sigma_star", "9/10", "|e - e_p| on the way, against D_e"),
         ("no-x", "/claim/sigma_star", "1/230", "|e - e_p| on the way, against D_e"),
-        ("linear", "/claim/sigma_star", "1/700", "Lyapunov function on the way, against its start"),
+        ("linear", "/claim/sigma_star", "1/10", "Lyapunov function on the way, against its start"),
+        ("linear", "/claim/sigma_star", "1/700", "|e - e_p| on the way, against D_e"),
         // A periodic solution far smaller than it is.
         ("no-x", "/witness/E_p", "0.002", "sup|e| of the periodic solution"),
         ("no-x", "/claim/periodic_solution/zeta", "1/10", "sup|zeta|_N of the periodic solution"),
@@ -477,7 +478,10 @@ fn a_counterexample_can_be_seen_in_its_samples() {
     let (_, report, counterexample) = falsify(&altered, folder.path(), "8", &[]);
     let found = report["trials"].as_array().unwrap().iter().find(|trial| trial["finding"] == "violated").unwrap();
     let csv = folder.path().join("samples.csv");
-    let again = simulated_again(&counterexample.unwrap(), &["--periods", "12", "--csv", csv.to_str().unwrap()]);
+    let again = simulated_again(
+        &counterexample.unwrap(),
+        &["--periods", "12", "--samples", "4096", "--csv", csv.to_str().unwrap()],
+    );
     let text = std::fs::read_to_string(csv).unwrap();
     let e = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap().abs());
     let largest = e.fold(0.0, f64::max);
