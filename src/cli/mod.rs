@@ -16,6 +16,7 @@ mod progress;
 mod rate;
 mod reproduce;
 mod simulate;
+mod temporary;
 mod transfer;
 
 use args::{Cli, Command, command};

@@ -12,6 +12,7 @@ use sigmastar::progress::Progress;
 use sigmastar::report::{PairChoice, TransferReport, TransferRequest};
 use sigmastar::spec::Specification;
 use sigmastar::transfer::PairError;
+use std::path::Path;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &TransferArgs) -> u8 {
@@ -19,11 +20,7 @@ pub fn run(args: &TransferArgs) -> u8 {
 }
 
 fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
-    let plot = args
-        .plot
-        .as_deref()
-        .map(|path| OutputFile::new(path, Input::Specification(&args.spec), "the plot"))
-        .transpose()?;
+    let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec)).transpose()?;
     let pair = match (&args.k0, &args.minimise) {
         (Some(text), _) => PairChoice::SmallestK1(input::positive("--k0", text)?),
         (None, Some(text)) => {
@@ -59,6 +56,16 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
     }
     let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
+}
+
+/// The file of the plot, whose name says what is in it.
+fn svg_file(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
+    let file = OutputFile::new(path, Input::Specification(input), "the plot")?;
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
+        return Ok(file);
+    }
+    let message = format!("`{}` does not end in `.svg`, and the plot is written as SVG only", file.name());
+    Err(Failure::call(message, "name a file that ends in `.svg`; other programs turn it into PNG or PDF"))
 }
 
 /// Says why there is no pair, and returns the exit code.

@@ -13,6 +13,7 @@
 //! Expressions come from strangers' files. Every limit that keeps them harmless is a public constant here; parsing
 //! and evaluation take time and memory linear in the number of nodes, apart from the arithmetic itself.
 
+mod coefficients;
 mod enclose;
 mod error;
 mod exact;
