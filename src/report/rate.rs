@@ -111,7 +111,7 @@ impl Readable for RateReport {
             })
         };
         json!({
-            "format": "sigmastar/rates", "version": 1, "verdict": "proved", "independent_check": "none", "state": "(x, e, z)",
+            "format": "sigmastar/rates", "version": 1, "verdict": "certified", "independent_check": "none", "state": "(x, e, z)",
             "sigma": write_exact(&self.sigma), "sigma_star": write_exact(&self.sigma_star),
             "rates": self.rates.iter().map(one).collect::<Vec<_>>(),
         })
