@@ -46,15 +46,15 @@ pub fn largest(admissible: impl Fn(f64) -> bool, limit: f64) -> Option<f64> {
     if admissible(cap) {
         return Some(cap);
     }
-    let (mut low, mut high) = ((cap * 1e-80).portable_ln(), cap.portable_ln());
-    if !admissible(low.portable_exp()) {
+    let (mut low, mut high) = (cap * 1e-80, cap);
+    if !admissible(low) {
         return None;
     }
     for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if admissible(middle.portable_exp()) { low = middle } else { high = middle }
+        let middle = low.sqrt() * high.sqrt();
+        if admissible(middle) { low = middle } else { high = middle }
     }
-    Some(low.portable_exp())
+    Some(low)
 }
 
 /// Evaluates `f` on all items in parallel, results in the order of the items.
