@@ -1,6 +1,6 @@
 //! The proof that the bounding functions are what the derivation needs: finite, nonnegative, nondecreasing.
 
-use crate::expr::{BoundingFailure, ProofSettings, prove_bounding};
+use crate::expr::{BoundingFailure, Expr, ProofSettings, Reason, prove_bounding};
 use crate::spec::model::Specification;
 use rug::Rational;
 
@@ -32,16 +32,31 @@ pub fn prove_on_domain(spec: &Specification) -> Result<(), Vec<BoundingProblem>>
     prove_up_to(spec, &x, &e)
 }
 
-/// Proves every bounding function on [0, x] x [0, e], with the guarantee of [`prove_on_domain`].
+/// What every bounding function may take of [`ProofSettings::max_operations`] at first: nearly all need far less.
+const FIRST_OPERATIONS: u64 = 30_000;
+
+/// What those that need more share, each up to its default: so ten hostile ones take no longer than two.
+const SHARED_OPERATIONS: u64 = 1_200_000;
+
+/// Proves every bounding function on [0, x] x [0, e], with the guarantee of [`prove_on_domain`]. What one of them may take
+/// depends on how many of them are hard, and not on their order.
 ///
 /// # Errors
 /// All bounding functions that fail, in the order of the fields; all of them where x or e is negative.
 pub fn prove_up_to(spec: &Specification, x: &Rational, e: &Rational) -> Result<(), Vec<BoundingProblem>> {
-    let problems: Vec<BoundingProblem> = spec
-        .bounds
-        .named()
-        .filter_map(|(field, expr)| {
-            let failure = prove_bounding(expr, x, e, &ProofSettings::default()).err()?;
+    let attempt = |expr: &Expr, max_operations: u64| {
+        prove_bounding(expr, x, e, &ProofSettings { max_operations, ..ProofSettings::default() }).err()
+    };
+    let unfinished =
+        |failure: &BoundingFailure| matches!(failure, BoundingFailure::Undecided { reason: Reason::Operations(_), .. });
+    let first: Vec<(&'static str, &Expr, BoundingFailure)> =
+        spec.bounds.named().filter_map(|(field, expr)| Some((field, expr, attempt(expr, FIRST_OPERATIONS)?))).collect();
+    let hard = first.iter().filter(|(.., failure)| unfinished(failure)).count() as u64;
+    let share = (SHARED_OPERATIONS / hard.max(1)).min(ProofSettings::default().max_operations);
+    let problems: Vec<BoundingProblem> = first
+        .into_iter()
+        .filter_map(|(field, expr, failure)| {
+            let failure = if unfinished(&failure) { attempt(expr, share)? } else { failure };
             Some(BoundingProblem { field, failure })
         })
         .collect();
