@@ -96,6 +96,8 @@ fn wrong_calls_are_bad_input() {
         &[EXAMPLE, "--n-o", "-1"],
         &[EXAMPLE, "--n-o", "0..99999999"],
         &[EXAMPLE, "--plot", "-"],
+        &[EXAMPLE, "--plot", "bound.png"],
+        &[EXAMPLE, "--plot", "bound"],
         &["specs/missing.json"],
         &["specs/invalid/unknown-field.json"],
     ] {

@@ -189,6 +189,135 @@ fn the_script_and_the_json_hold_the_same_numbers() {
     assert_eq!(json["Phi"][6][5].as_f64(), Some(-numbers(&json["frequencies"])[2]));
 }
 
+/// A regulator that the sampling ruins: the law as it is exported, checked against eigenvalues by hand in Rust's tests.
+#[test]
+fn every_export_says_what_the_sampling_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let spec = "specs/paper-example.json";
+    for (n_o, verdict) in [("1", "stable"), ("3", "unstable")] {
+        let call = [spec, "--sigma", "2", "--n-o", n_o, "--discretise", "1/10"];
+        let assert = controller(&call).assert().success();
+        let output = assert.get_output();
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let sampled = &json["discrete"]["sampled_loop"];
+        let radius = sampled["spectral_radius"].as_f64().unwrap();
+        assert_eq!((sampled["verdict"].as_str().unwrap(), radius >= 1.0), (verdict, verdict == "unstable"), "{radius}");
+        let said = String::from_utf8_lossy(&output.stderr).contains("is unstable: spectral radius");
+        assert_eq!(said, verdict == "unstable");
+        let words = format!("is {verdict}: spectral radius {radius}");
+        let matlab = controller(&call).args(["--format", "matlab"]).assert().success();
+        assert!(String::from_utf8_lossy(&matlab.get_output().stdout).contains(&words), "{words}");
+        let source = folder.path().join("regulator.c");
+        controller(&call).args(["--format", "c", "-o"]).arg(&source).assert().success();
+        assert!(std::fs::read_to_string(source.with_extension("h")).unwrap().contains(&words), "{words}");
+        let archive = folder.path().join("regulator.npz");
+        controller(&call).args(["--format", "npz", "-o"]).arg(&archive).assert().success();
+        let mut archive = ndarray_npy::NpzReader::new(std::fs::File::open(archive).unwrap()).unwrap();
+        let read: ndarray::Array0<f64> = archive.by_name("spectral_radius").unwrap();
+        let unstable: ndarray::Array0<bool> = archive.by_name("unstable").unwrap();
+        assert_eq!((read.into_scalar(), unstable.into_scalar()), (radius, verdict == "unstable"));
+    }
+}
+
+#[test]
+fn sampling_that_cannot_work_is_refused() {
+    let spec = "specs/paper-example.json";
+    for (sigma, n_o, step, message) in [
+        ("58", "1", "1/10", "h sigma = 5.8"),
+        ("20", "0", "1/10", "h sigma = 2.0"),
+        ("2", "5", "1/10", "oscillator 5 turns by 0.5"),
+        ("2", "9", "1/10", "at most 4 oscillators"),
+    ] {
+        let assert = controller(&[spec, "--sigma", sigma, "--n-o", n_o, "--discretise", step]).assert();
+        assert
+            .code(2)
+            .stdout("")
+            .stderr(predicate::str::contains(message).and(predicate::str::contains("sampling time")));
+    }
+    // Between 1 and 2 it is said.
+    let assert = controller(&[spec, "--sigma", "15", "--n-o", "0", "--discretise", "1/10"]).assert();
+    assert.success().stderr(predicate::str::contains("1.500: above 1"));
+    controller(&[spec, "--sigma", "5", "--n-o", "0", "--discretise", "1/10"]).assert().success().stderr("");
+}
+
+#[test]
+fn a_gain_below_the_certificate_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("certificate.json");
+    let mut certify = Command::cargo_bin("sigmastar").unwrap();
+    certify.current_dir(ROOT).args(["certify", "specs/linear.json", "--no-compare", "-q", "-o"]).arg(&file);
+    certify.assert().success();
+    let call = |spec: &str, sigma: &str| {
+        let assert = controller(&[spec, "--sigma", sigma, "--n-o", "1", "--certificate"]).arg(&file).assert().success();
+        String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+    };
+    assert!(call("specs/linear.json", "7/5").contains("sigma = 1.4 is below sigma* = 1.42"));
+    assert_eq!(call("specs/linear.json", "3/2"), "");
+    assert!(call("specs/no-x.json", "3/2").contains("another specification"));
+}
+
+#[cfg(unix)]
+#[test]
+fn the_header_stays_where_the_source_cannot_be_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = folder.path().join("regulator.c");
+    let call = |n_o: &str| {
+        let program = assert_cmd::cargo::cargo_bin("sigmastar");
+        let mut shell = Process::new("bash");
+        // Files of at most 16 KiB: the header fits, the source of 200 oscillators does not, as on a disk that is full.
+        let script = "trap '' XFSZ; ulimit -f 16; exec \"$@\"";
+        shell.args(["-c", script, "bash"]).arg(program).current_dir(ROOT);
+        shell.args([
+            "controller",
+            "specs/paper-example.json",
+            "--sigma",
+            "2",
+            "--discretise",
+            "1/1000",
+            "--format",
+            "c",
+        ]);
+        shell.args(["--n-o", n_o, "-o"]).arg(&source).output().unwrap()
+    };
+    let read = || ["c", "h"].map(|extension| std::fs::read_to_string(source.with_extension(extension)).unwrap());
+    assert!(call("1").status.success());
+    let before = read();
+    let failed = call("200");
+    let told = String::from_utf8_lossy(&failed.stderr).into_owned();
+    assert_eq!(failed.status.code(), Some(2), "{told}");
+    assert!(told.contains("none of the files that belong together was changed"), "{told}");
+    assert_eq!(read(), before);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+}
+
+#[test]
+fn a_source_does_not_compile_with_the_header_of_another() {
+    if !installed("gcc", &["--version"]) {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let source = folder.path().join("regulator.c");
+    let write = |sigma: &str| {
+        let call =
+            ["specs/linear.json", "--sigma", sigma, "--n-o", "1", "--discretise", "1/100", "--format", "c", "-o"];
+        controller(&call).arg(&source).assert().success();
+    };
+    let compiles = || {
+        let gcc = Process::new("gcc")
+            .args(["-std=c99", "-Wall", "-pedantic", "-Werror", "-fsyntax-only"])
+            .arg(&source)
+            .output();
+        gcc.unwrap().status.success()
+    };
+    write("2");
+    assert!(compiles());
+    let old = std::fs::read(&source).unwrap();
+    write("3");
+    assert!(compiles());
+    std::fs::write(&source, old).unwrap();
+    assert!(!compiles());
+}
+
 #[test]
 fn the_same_call_gives_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();

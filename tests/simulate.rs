@@ -87,6 +87,156 @@ fn the_two_methods_and_the_seeds() {
     assert!((3.0..6.0).contains(&largest), "{largest}");
 }
 
+/// The last period of the paper's plant from its initial condition, with large gains. The references are by an implicit
+/// method (Radau IIA of order 5, relative tolerance 1e-10).
+#[test]
+fn large_gains_are_simulated_right_or_not_at_all() {
+    let base = ["simulate", EXAMPLE, "--n-o", "2", "--periods", "3", "--format", "json", "-q"];
+    let run = |sigma: &str, more: &[&str]| {
+        let output = sigmastar(&[&base[..], &["--sigma", sigma], more].concat()).output().unwrap();
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        (output.status.code().unwrap(), report)
+    };
+    let sup = |report: &Value| report["long_run"]["sup_e_last_period"].as_f64().unwrap();
+    for (sigma, reference) in [("300", 4.102479182e-3), ("3000", 4.105378834e-4), ("10000", 1.231568013e-4)] {
+        let (code, report) = run(sigma, &[]);
+        assert!(code == 0 && (sup(&report) / reference - 1.0).abs() < 1e-5, "{sigma}: {report}");
+    }
+    // Here the tolerance does not decide the figures any more: the way out is a number of steps, and it is enough.
+    let (code, report) = run("100000", &[]);
+    assert_eq!(code, 3);
+    let error = report["long_run"]["error"].as_str().unwrap();
+    assert!(
+        error.contains("the loop is stiff") && error.contains("another tolerance gives another solution"),
+        "{error}"
+    );
+    let help = report["long_run"]["help"].as_str().unwrap();
+    let steps = help.strip_prefix("--fixed ").unwrap().split(' ').next().unwrap();
+    let (code, report) = run("100000", &["--fixed", steps]);
+    assert!(code == 0 && (sup(&report) / 1.231546147e-5 - 1.0).abs() < 1e-5, "{report}");
+    // A step beyond the stability of the method is told, and not what came out of it.
+    let (code, report) = run("100000", &["--fixed", "20000"]);
+    let error = report["long_run"]["error"].as_str().unwrap();
+    assert!(code == 3 && error.contains("20000 steps per period are too few"), "{report}");
+    // No number of steps is enough.
+    let (code, report) = run("10000000", &[]);
+    let help = report["long_run"]["help"].as_str().unwrap();
+    assert!(code == 3 && help.contains("take a smaller gain"), "{report}");
+}
+
+/// A steady state by fixed steps, where steps with control are too many: that of the high-gain limit e = q/sigma.
+#[test]
+fn a_stiff_loop_has_a_steady_state_by_fixed_steps() {
+    let base = ["simulate", "specs/plants/linear.json", "--high-gain", "--sigma", "1000000", "--periods", "1", "-q"];
+    let base = [&base[..], &["--format", "json", "--samples", "10"]].concat();
+    let output = sigmastar(&base).assert().code(3).get_output().stdout.clone();
+    let report: Value = serde_json::from_slice(&output).unwrap();
+    assert_eq!(report["steady_state"]["help"], "--fixed 1000000 resolves the fastest mode of the loop");
+    let report = json(&[&base[..], &["--fixed", "1000000"]].concat());
+    let sup = report["steady_state"]["sup_e"].as_f64().unwrap();
+    // q = 1 + tanh(3 sin(2 pi t)), and e = q/sigma to within q'/sigma^2.
+    assert!((sup / (1e-6 * (1.0 + 3.0_f64.tanh())) - 1.0).abs() < 1e-4, "{sup}");
+}
+
+#[test]
+fn noise_with_too_few_steps_is_told() {
+    let call = ["simulate", EXAMPLE, "--sigma", "300", "--n-o", "1", "--periods", "2", "--noise-power", "1e-3"];
+    let assert = sigmastar(&call).args(["--noise-steps", "100"]).assert().code(3);
+    assert.stdout(
+        predicate::str::contains("100 steps per period are too few").and(predicate::str::contains("--noise-steps")),
+    );
+}
+
+#[test]
+fn remarks_and_failures_follow_the_flags() {
+    let raised =
+        ["simulate", EXAMPLE, "--sigma", "2", "--n-o", "0", "--periods", "1", "--fixed", "50", "--samples", "80"];
+    let assert = sigmastar(&raised).args(["--format", "json"]).assert().success();
+    let output = assert.get_output();
+    assert!(String::from_utf8_lossy(&output.stderr).contains("--fixed 50 is raised to 80 steps per period"));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let method = &report["long_run"]["method"];
+    assert_eq!((method["asked"].as_u64(), method["steps_per_period"].as_u64()), (Some(50), Some(80)), "{method}");
+    sigmastar(&raised).arg("--quiet").assert().success().stderr("");
+    // Failures are JSON under --format json, in both commands, and --quiet leaves nothing beside it.
+    for command in [&["simulate", "-", "--sigma", "2", "--n-o", "1"][..], &["falsify", "-"]] {
+        for (text, code) in [("{", "syntax"), ("{\"format\": 1}", "")] {
+            let assert =
+                sigmastar(command).args(["--format", "json", "-q"]).write_stdin(text).assert().code(2).stderr("");
+            let report: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+            let error = &report["errors"][0];
+            assert!(report["verdict"] == "bad-input" && error["message"].is_string(), "{code}: {report}");
+        }
+        let assert = sigmastar(command).write_stdin("{").assert().code(2).stdout("");
+        assert.stderr(predicate::str::contains("bad-input: nothing was written"));
+    }
+    // A file that is not there is a call.
+    for command in [&["simulate", "nothing.json", "--sigma", "2", "--n-o", "1"][..], &["falsify", "nothing.json"]] {
+        let assert = sigmastar(command).args(["--format", "json", "-q"]).assert().code(2).stderr("");
+        let report: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+        assert_eq!(report["errors"][0]["code"], "call");
+    }
+}
+
+#[test]
+fn a_regulator_of_another_base_frequency_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(Path::new(ROOT).join("specs/paper-example.json")).unwrap();
+    let spec = folder.path().join("spec.json");
+    let detuned = text.replacen("\"2*pi\"", "\"19*pi/10\"", 1).replacen("\"matched\": true", "\"matched\": false", 1);
+    assert_ne!(detuned, text);
+    std::fs::write(&spec, detuned).unwrap();
+    let other = folder.path().join("other.json");
+    let call = |spec: &str| {
+        sigmastar(&["controller", spec, "--sigma", "2", "--n-o", "1", "-o"]).arg(&other).assert().success();
+        let run = sigmastar(&["simulate", EXAMPLE, "--periods", "1", "--controller"]).arg(&other).assert().success();
+        String::from_utf8(run.get_output().stderr.clone()).unwrap()
+    };
+    assert!(call(spec.to_str().unwrap()).contains("is 5.969"));
+    assert_eq!(call("specs/paper-example.json"), "");
+}
+
+/// An interruption while a large file is written: it is not there, and no temporary file either.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("samples.csv");
+    let mut interrupted = false;
+    // The file may be complete before the signal comes; then there is another try.
+    for _ in 0..10 {
+        let program = assert_cmd::cargo::cargo_bin("sigmastar");
+        let mut child = std::process::Command::new(program)
+            .args(["simulate", "specs/plants/linear.json", "--sigma", "2", "--high-gain", "--periods", "10", "-q"])
+            .args(["--samples", "100000", "--fixed", "100000", "--csv"])
+            .arg(&csv)
+            .current_dir(ROOT)
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        let names = || -> Vec<String> {
+            let entries = std::fs::read_dir(folder.path()).unwrap();
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+        };
+        while child.try_wait().unwrap().is_none() {
+            if !interrupted && names().iter().any(|name| name.starts_with(".sigmastar-")) {
+                let sent = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+                assert!(sent.is_ok());
+                break;
+            }
+        }
+        interrupted = child.wait().unwrap().code() == Some(130);
+        let names = names();
+        assert!(names.iter().all(|name| !name.starts_with(".sigmastar-")), "{names:?}");
+        if interrupted {
+            assert_eq!(names, Vec::<String>::new());
+            break;
+        }
+        let _ = std::fs::remove_file(&csv);
+    }
+    assert!(interrupted);
+}
+
 #[test]
 fn wrong_plants_and_calls_are_refused() {
     let text = std::fs::read_to_string(Path::new(ROOT).join(EXAMPLE)).unwrap();
@@ -204,6 +354,55 @@ fn shipped_certificates_withstand_the_trials() {
     }
 }
 
+/// Only F = -20 has the rate 20 within |f| <= 20 X: no other plant fits.
+fn tight() -> Value {
+    let mut spec: Value = serde_json::from_str(include_str!("../specs/linear.json")).unwrap();
+    spec["lyapunov"] = serde_json::json!({ "p_low": "1", "p_up": "1", "alpha": "20" });
+    for (field, text) in [("f", "20*X + 2000*E"), ("f_e", "2000"), ("q", "1 + X/1000 + E/4"), ("q_x", "1/1000")] {
+        spec["bounds"][field] = Value::String(text.to_owned());
+    }
+    spec
+}
+
+fn certified(spec: &Value, folder: &Path) -> Value {
+    let (file, certificate) = (folder.join("spec.json"), folder.join("certificate.json"));
+    std::fs::write(&file, spec.to_string()).unwrap();
+    let mut command = sigmastar(&["certify", "--no-compare", "-q", "-o"]);
+    command.arg(&certificate).arg(&file).assert().success();
+    serde_json::from_slice(&std::fs::read(certificate).unwrap()).unwrap()
+}
+
+#[test]
+fn a_tight_f_leaves_its_linear_member() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut certificate = certified(&tight(), folder.path());
+    let (code, report, _) = falsify(&certificate, folder.path(), "3", &[]);
+    let trials = report["trials"].as_array().unwrap();
+    assert!(code == 0 && trials.iter().all(|trial| trial["finding"] == "holds"), "{report}");
+    // What it is, from a claim that is false.
+    certificate["claim"]["periodic_solution"]["z"] = Value::String("1/1000".to_owned());
+    let (code, report, counterexample) = falsify(&certificate, folder.path(), "1", &[]);
+    assert_eq!(code, 1, "{report}");
+    let plant: Value = serde_json::from_str(&counterexample.unwrap()).unwrap();
+    let (f, q) = (plant["f"][0].as_str().unwrap(), plant["q"].as_str().unwrap());
+    assert!(f.starts_with("(-(20))*x1 + e*1*((2000.0)"), "{f}");
+    assert!(q.contains("(0.25)*1*e") && q.contains("((0.001)"), "{q}");
+}
+
+/// A loop that cannot be simulated is no counterexample.
+#[test]
+fn what_is_too_stiff_refutes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut spec: Value = serde_json::from_str(include_str!("../specs/linear.json")).unwrap();
+    spec["bounds"]["f"] = Value::String("20*X + 2000*E".to_owned());
+    spec["bounds"]["f_e"] = Value::String("2000".to_owned());
+    let (code, report, counterexample) = falsify(&certified(&spec, folder.path()), folder.path(), "2", &[]);
+    assert_eq!((code, counterexample), (3, None), "{report}");
+    for trial in report["trials"].as_array().unwrap() {
+        assert_eq!(trial["reason"], "the closed loop at this gain is too stiff to be simulated");
+    }
+}
+
 #[test]
 fn other_base_frequencies_are_certified_and_tried() {
     let folder = tempfile::tempdir().unwrap();
@@ -244,7 +443,8 @@ fn false_certificates_are_refuted_with_a_counterexample() {
         // A gain that is far too small, and nothing else wrong: sigma*/50 and less.
         ("paper-example", "/claim/sigma_star", "9/10", "|e - e_p| on the way, against D_e"),
         ("no-x", "/claim/sigma_star", "1/230", "|e - e_p| on the way, against D_e"),
-        ("linear", "/claim/sigma_star", "1/700", "Lyapunov function on the way, against its start"),
+        ("linear", "/claim/sigma_star", "1/10", "Lyapunov function on the way, against its start"),
+        ("linear", "/claim/sigma_star", "1/700", "|e - e_p| on the way, against D_e"),
         // A periodic solution far smaller than it is.
         ("no-x", "/witness/E_p", "0.002", "sup|e| of the periodic solution"),
         ("no-x", "/claim/periodic_solution/zeta", "1/10", "sup|zeta|_N of the periodic solution"),
@@ -278,7 +478,10 @@ fn a_counterexample_can_be_seen_in_its_samples() {
     let (_, report, counterexample) = falsify(&altered, folder.path(), "8", &[]);
     let found = report["trials"].as_array().unwrap().iter().find(|trial| trial["finding"] == "violated").unwrap();
     let csv = folder.path().join("samples.csv");
-    let again = simulated_again(&counterexample.unwrap(), &["--periods", "12", "--csv", csv.to_str().unwrap()]);
+    let again = simulated_again(
+        &counterexample.unwrap(),
+        &["--periods", "12", "--samples", "4096", "--csv", csv.to_str().unwrap()],
+    );
     let text = std::fs::read_to_string(csv).unwrap();
     let e = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap().abs());
     let largest = e.fold(0.0, f64::max);

@@ -105,10 +105,26 @@ fn samples_between_steps_are_as_good_as_steps() {
     let (closed_loop, steady, _) = steady(regulator(2.0, 2, TAU));
     let samples = trajectory(&closed_loop, 0.0, 1.0, 4096, &steady.start, Tolerance::TIGHT).unwrap();
     assert_eq!(samples.len(), 4097);
-    for at in [1, 517, 1023, 2049, 3001, 4095] {
+    for at in [1, 517, 1023, 2049, 3001, 4095, 4096] {
         let exact = flow(&closed_loop, 0.0, at as f64 / 4096.0, &steady.start, Tolerance::TIGHT).unwrap();
         let error = exact.iter().zip(&samples[at]).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
         assert!(error < 2e-13, "{at}: {error}");
+    }
+}
+
+/// The end of a trajectory is where the next one starts: as good as any other sample, also where the steps are much
+/// shorter than the samples are apart.
+#[test]
+fn the_last_sample_is_integrated_and_not_extrapolated() {
+    let plant = example();
+    let closed_loop = ClosedLoop::new(&plant, Regulator { sigma: 500.0, ..regulator(2.0, 2, TAU) });
+    let start = closed_loop.start(&plant.initial.x, plant.initial.e);
+    for (samples, duration) in [(5, 1.0), (20, 1.0), (200, 1.0), (3, 1e-10), (200, 1e-9)] {
+        let sampled = trajectory(&closed_loop, 0.0, duration, samples, &start, Tolerance::ORDINARY).unwrap();
+        assert_eq!(sampled.len(), samples + 1);
+        let exact = flow(&closed_loop, 0.0, duration, &start, Tolerance::ORDINARY).unwrap();
+        let error = exact.iter().zip(&sampled[samples]).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
+        assert!(error < 1e-7, "{samples} {duration}: {error}");
     }
 }
 

@@ -6,6 +6,7 @@ use sigmastar::certificate::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar::rate::MAX_OSCILLATORS;
 use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
+use sigmastar::simulate::MAX_FIXED_STEPS;
 use std::path::PathBuf;
 
 /// The exit codes, as help and manual page tell them.
@@ -295,6 +296,10 @@ pub struct ControllerArgs {
     #[arg(long, value_name = "DT", allow_hyphen_values = true)]
     pub discretise: Option<String>,
 
+    /// Also compare with this certificate: a remark says where sigma is below its sigma*
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub certificate: Option<PathBuf>,
+
     /// Form in which the regulator is written
     #[arg(long, value_enum, value_name = "NAME", default_value_t = ControllerFormat::Json)]
     pub format: ControllerFormat,
@@ -332,8 +337,9 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "P", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub periods: u32,
 
-    /// Integrate the run with this many classical Runge-Kutta steps per period instead of adaptive steps of order 8
-    #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    /// Integrate the run with this many classical Runge-Kutta steps per period instead of adaptive steps of order 8;
+    /// raised to a multiple of --samples
+    #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_FIXED_STEPS)))]
     pub fixed: Option<u32>,
 
     /// Samples per period in the CSV file and the time response
@@ -383,8 +389,17 @@ pub struct SimulateArgs {
 pub enum SimulationFormat {
     /// Plain text for a terminal
     Text,
-    /// JSON
+    /// JSON, also for failures
     Json,
+}
+
+impl From<SimulationFormat> for Format {
+    fn from(format: SimulationFormat) -> Format {
+        match format {
+            SimulationFormat::Text => Format::Text,
+            SimulationFormat::Json => Format::Json,
+        }
+    }
 }
 
 /// The flags of `reproduce`.

@@ -3,11 +3,13 @@
 use super::args::{ControllerArgs, ControllerFormat, Format};
 use super::failure::Failure;
 use super::input;
-use super::output::{self, OutputFile, shown};
+use super::output::{self, OutputFile, shown, write_together};
+use sigmastar::certificate::{WitnessFile, read_witness};
+use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar::regulator::export::{self, CSources, Export};
-use sigmastar::regulator::{Design, Discrete};
+use sigmastar::regulator::{Design, Discrete, Regulator, SampledLoop};
 use sigmastar::report::blocks::clean;
-use sigmastar::spec::Specification;
+use sigmastar::spec::{Constant, Document, Specification};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
@@ -25,18 +27,39 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let header = header.as_deref().map(|path| OutputFile::new(path, &args.spec, what)).transpose()?;
     let sigma = input::positive("--sigma", &args.sigma)?;
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
+    let certificate = args.certificate.as_deref().map(input::document).transpose()?;
     let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
 
     let design = Design::new(&spec.internal_model, &sigma, args.n_o);
     let regulator = design.regulator();
+    if let Some(step) = &step {
+        design.check_sampling(step).map_err(|error| Failure::call(error.to_string(), error.way_out()))?;
+    }
     let discrete = step.map(|step| design.discretise(&step));
-    if !regulator.is_representable() || !discrete.as_ref().is_none_or(Discrete::is_representable) {
-        return Err(Failure::call(
+    let beyond = || {
+        Failure::call(
             "a number of this regulator is beyond double precision",
             "use units of time in which the gains, frequencies and sampling time have ordinary magnitudes",
-        ));
+        )
+    };
+    if !regulator.is_representable() || !discrete.as_ref().is_none_or(Discrete::is_representable) {
+        return Err(beyond());
     }
-    let export = Export { name: &clean(&spec.name), regulator: &regulator, discrete: discrete.as_ref() };
+    let discrete = match discrete {
+        None => None,
+        Some(discrete) => {
+            let sampled = SampledLoop::new(&regulator, &discrete).ok_or_else(beyond)?;
+            Some((discrete, sampled))
+        }
+    };
+    if let Some(document) = &certificate {
+        compare(document, &spec, &sigma)?;
+    }
+    if let Some((discrete, sampled)) = &discrete {
+        remarks(&regulator, discrete, *sampled);
+    }
+    let discrete = discrete.as_ref().map(|(discrete, sampled)| (discrete, *sampled));
+    let export = Export { name: &clean(&spec.name), regulator: &regulator, discrete };
     let text = match args.format {
         ControllerFormat::Json => output::json_text(&export::json(&export)),
         ControllerFormat::Matlab => export::matlab(&export),
@@ -83,6 +106,39 @@ fn c(export: &Export<'_>, source: Option<&OutputFile>, header: Option<&OutputFil
         return Err(Failure::call(format!("`{name}` cannot be included by C code"), "name a file without quotes"));
     }
     let CSources { header: header_text, source: source_text } = export::c_sources(export, &name).ok_or_else(needed)?;
-    header.write(header_text)?;
-    source.write(source_text).map(|()| 0)
+    write_together(&[(header, header_text.as_bytes()), (source, source_text.as_bytes())]).map(|()| 0)
+}
+
+/// Says what makes a sampled regulator work badly, or not at all.
+fn remarks(regulator: &Regulator, discrete: &Discrete, sampled: SampledLoop) {
+    let product = regulator.sigma * discrete.step;
+    if product > 1.0 {
+        output::remark(&format!(
+            "sigma times the sampling time is {product:.3}: above 1 the error changes its sign at every sample; sample faster"
+        ));
+    }
+    if sampled.is_unstable() {
+        output::remark(&format!("{sampled}; sample faster, or use fewer oscillators; the export says so too"));
+    }
+}
+
+/// Says where the certificate does not speak of this regulator.
+fn compare(document: &Document, spec: &Specification, sigma: &Constant) -> Result<(), Failure> {
+    let sigma_star = match read_witness(document)? {
+        WitnessFile::Sharp { witness, .. } => witness.sigma,
+        WitnessFile::Repaired { witness } => witness.sigma,
+    };
+    let digest = document.at("/specification_sha256");
+    if digest.is_none_or(|digest| digest.text() != Some(&spec.sha256)) {
+        output::remark("the certificate was made for another specification: it says nothing about this regulator");
+    }
+    let sigma = sigma.enclose(DEFAULT_PRECISION);
+    if !sigma.ge(&Enclosure::from_rational(&sigma_star, DEFAULT_PRECISION)).is_true() {
+        output::remark(&format!(
+            "sigma = {} is below sigma* = {} of the certificate: nothing is certified with it",
+            sigma.midpoint_f64(),
+            sigma_star.to_f64()
+        ));
+    }
+    Ok(())
 }

@@ -12,7 +12,7 @@ use sigmastar::falsify::{
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &FalsifyArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(Format::Text, args.quiet))
+    attempt(args).unwrap_or_else(|failure| failure.tell(Format::from(args.format), args.quiet))
 }
 
 fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {

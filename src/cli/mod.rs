@@ -15,6 +15,7 @@ mod progress;
 mod rate;
 mod reproduce;
 mod simulate;
+mod temporary;
 mod transfer;
 
 use args::{Cli, Command};

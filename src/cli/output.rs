@@ -2,6 +2,7 @@
 
 use super::args::Format;
 use super::failure::Failure;
+use super::temporary::{Temporary, place};
 use sigmastar::certificate::Verdict;
 use sigmastar::report::Readable;
 use sigmastar::spec::SpecErrors;
@@ -138,25 +139,34 @@ impl OutputFile {
     /// # Errors
     /// The file system's reason.
     pub fn write(&self, content: impl AsRef<[u8]>) -> Result<(), Failure> {
-        let write = || {
-            let mut builder = tempfile::Builder::new();
-            #[cfg(unix)]
-            {
-                use std::os::unix::fs::PermissionsExt;
-                // As for any new file, the user's mask applies.
-                builder.permissions(std::fs::Permissions::from_mode(0o666));
-            }
-            let mut file = builder.prefix(".sigmastar-").tempfile_in(&self.folder)?;
-            file.write_all(content.as_ref())?;
-            file.as_file().sync_all()?;
-            file.persist(&self.target).map_err(|error| error.error)?;
-            Ok(())
-        };
-        write().map_err(|error: io::Error| {
-            let message = format!("cannot write `{}`: {}", self.name(), reason(&error));
-            Failure::call(message, "check the permissions of the folder and the space left there")
-        })
+        write_together(&[(self, content.as_ref())])
     }
+
+    fn failure(&self, error: &io::Error, more: &str) -> Failure {
+        let message = format!("cannot write `{}`: {}{more}", self.name(), reason(error));
+        Failure::call(message, "check the permissions of the folder and the space left there")
+    }
+}
+
+/// Writes files that belong together: all of them appear, or none is touched.
+///
+/// # Errors
+/// The file system's reason, and which file stays changed where one cannot be put back.
+pub fn write_together(files: &[(&OutputFile, &[u8])]) -> Result<(), Failure> {
+    let more = if files.len() > 1 { "; none of the files that belong together was changed" } else { "" };
+    let mut temporaries = Vec::new();
+    for (file, content) in files {
+        let temporary = Temporary::write(&file.folder, content).map_err(|error| file.failure(&error, more))?;
+        temporaries.push((temporary, file.target.as_path()));
+    }
+    place(temporaries).map_err(|failure| {
+        let left: Vec<String> = failure.left.iter().map(|index| format!("`{}`", files[*index].0.name())).collect();
+        let more = match left.is_empty() {
+            true => more.to_owned(),
+            false => format!("; what was in {} before could not be put back", left.join(" and ")),
+        };
+        files[failure.index].0.failure(&failure.error, &more)
+    })
 }
 
 /// A folder for files that are made, created where it does not exist.

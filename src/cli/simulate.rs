@@ -3,7 +3,7 @@
 use super::args::{Format, SimulateArgs, SimulationFormat};
 use super::failure::Failure;
 use super::input;
-use super::output::{self, OutputFile};
+use super::output::{self, OutputFile, shown};
 use super::progress::Bar;
 use sigmastar::certificate::Verdict;
 use sigmastar::plant::Plant;
@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SimulateArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
+    attempt(args).unwrap_or_else(|failure| failure.tell(Format::from(args.format), args.quiet))
 }
 
 fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
@@ -50,6 +50,9 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         noise_steps: args.noise_steps as usize,
         harmonics: args.harmonics as usize,
     };
+    if !args.quiet {
+        remarks(&plant, &regulator, &settings, args);
+    }
     let closed_loop = ClosedLoop::new(&plant, regulator);
     let start = closed_loop.start_of(&plant.initial).ok_or_else(|| {
         let (given, needed) = (plant.initial.z.len(), closed_loop.regulator.dimension());
@@ -74,8 +77,34 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     if let Err(code) = output::data(&report) {
         return Ok(code);
     }
-    let complete = simulation.steady.is_ok() && simulation.long.is_ok();
+    let noisy = simulation.noisy.as_ref().is_none_or(Result::is_ok);
+    let complete = simulation.steady.is_ok() && simulation.long.is_ok() && noisy;
+    if !complete && !args.quiet {
+        output::remark("undecided: a part of the simulation has no figures; the report says why and what to try");
+    }
     Ok(if complete { 0 } else { Verdict::Undecided.exit_code() })
+}
+
+/// What is done otherwise than the call may suggest.
+fn remarks(plant: &Plant, regulator: &Regulator, settings: &Settings, args: &SimulateArgs) {
+    if let (Some(asked), Some(steps)) = (args.fixed, settings.fixed_steps())
+        && steps != asked as usize
+    {
+        let samples = settings.samples;
+        output::remark(&format!(
+            "--fixed {asked} is raised to {steps} steps per period, a multiple of --samples {samples}"
+        ));
+    }
+    let base = plant.internal_model.base_frequency.to_f64();
+    if let (Some(path), Some(first)) = (&args.controller, regulator.frequencies.first())
+        // The file holds the exact number rounded once.
+        && (first - base).abs() > 1e-12 * base
+    {
+        output::remark(&format!(
+            "the base frequency of `{}` is {first}, that of the plant file is {base}: the regulator is simulated as it is",
+            shown(path)
+        ));
+    }
 }
 
 fn write_figures(

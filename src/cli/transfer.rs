@@ -11,6 +11,7 @@ use sigmastar::report::{PairChoice, TransferReport, TransferRequest};
 use sigmastar::simulate::Progress;
 use sigmastar::spec::Specification;
 use sigmastar::transfer::{OscillatorCount, PairError};
+use std::path::Path;
 
 /// The most numbers of oscillators that one call looks at.
 const MOST: usize = 10_000;
@@ -21,7 +22,7 @@ pub fn run(args: &TransferArgs) -> u8 {
 }
 
 fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
-    let plot = args.plot.as_deref().map(|path| OutputFile::new(path, &args.spec, "the plot")).transpose()?;
+    let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec)).transpose()?;
     let pair = match (&args.k0, &args.minimise) {
         (Some(text), _) => PairChoice::SmallestK1(input::positive("--k0", text)?),
         (None, Some(text)) => {
@@ -57,6 +58,16 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
     }
     let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
+}
+
+/// The file of the plot, whose name says what is in it.
+fn svg_file(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
+    let file = OutputFile::new(path, input, "the plot")?;
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
+        return Ok(file);
+    }
+    let message = format!("`{}` does not end in `.svg`, and the plot is written as SVG only", file.name());
+    Err(Failure::call(message, "name a file that ends in `.svg`; other programs turn it into PNG or PDF"))
 }
 
 /// Says why there is no pair, and returns the exit code.

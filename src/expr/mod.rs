@@ -26,6 +26,7 @@ mod names;
 mod parse;
 mod plant;
 mod point;
+mod polynomial;
 mod program;
 mod prove;
 mod refute;

@@ -11,7 +11,7 @@ use crate::expr::{Expr, Variables};
 use std::f64::consts::TAU;
 
 /// What is kept of a bounding function at first.
-const SHARE: f64 = 0.98;
+pub(super) const SHARE: f64 = 0.98;
 
 /// What is kept of a coefficient that is too large.
 const FACTOR: f64 = 0.93;
@@ -33,7 +33,7 @@ pub struct DrawnPlant {
 }
 
 /// The bounding functions of a claim, in the order of [`Family::bounds`].
-fn allowed(claim: &Claim) -> Vec<&Expr> {
+pub(super) fn allowed(claim: &Claim) -> Vec<&Expr> {
     [Bound::F, Bound::Fe, Bound::Fxx, Bound::Fex, Bound::Q, Bound::Qe, Bound::Qx, Bound::Qt, Bound::QRms, Bound::QtRms]
         .iter()
         .map(|bound| bound.of(&claim.spec))
@@ -84,7 +84,7 @@ pub fn draw(claim: &Claim, random: &mut Random) -> Option<DrawnPlant> {
     let mut family = Family {
         period: clock.period.to_owned(),
         jacobian: drawn.rows,
-        jacobian_norm: drawn.norm,
+        jacobian_norm: drawn.norm.to_string(),
         g: (random.direction(n).iter().map(|part| part.times(g_size)).collect(), Number::new(g_size)),
         g_1: Number::new(g_1),
         kappa: Number::new(kappa),
@@ -99,23 +99,25 @@ pub fn draw(claim: &Claim, random: &mut Random) -> Option<DrawnPlant> {
         harmonics: harmonics(clock.multiple, random),
     };
     fill(&mut family, &at_zero, claim.spec.period.to_f64());
+    fit(&mut family, &allowed, claim).then_some(DrawnPlant { family })
+}
+
+/// Makes a family smaller until nothing exceeds what is allowed; false where that is not proved of any size.
+pub(super) fn fit(family: &mut Family, allowed: &[&Expr], claim: &Claim) -> bool {
+    let reach = claim.reach.each_ref().map(rug::Rational::to_f64);
     // A bound only falls as coefficients become smaller, so what fits once need not be looked at again.
-    for (index, allowed) in allowed.iter().enumerate() {
-        let fits = (0..ATTEMPTS).any(|_| {
+    allowed.iter().enumerate().all(|(index, allowed)| {
+        (0..ATTEMPTS).any(|_| {
             let bound = &family.bounds()[index];
             // The norm of F is given, so f may have no room to spare.
-            let room = CONDITIONS[index] == "f" || leaves_room(bound, allowed, [reach_x, reach_e]);
+            let room = CONDITIONS[index] == "f" || leaves_room(bound, allowed, reach);
             let fits = room && respects(bound, allowed, &claim.reach);
             if !fits {
-                shrink(&mut family, CONDITIONS[index]);
+                shrink(family, CONDITIONS[index]);
             }
             fits
-        });
-        if !fits {
-            return None;
-        }
-    }
-    Some(DrawnPlant { family })
+        })
+    })
 }
 
 /// Whether a bound stays a little below what is allowed at the points of a grid, so that the proof is short.
@@ -132,7 +134,7 @@ fn leaves_room(bound: &str, allowed: &Expr, reach: [f64; 2]) -> bool {
 }
 
 /// One to four harmonics of neighbouring orders, now and then with a constant.
-fn harmonics(multiple: u32, random: &mut Random) -> Vec<Harmonic> {
+pub(super) fn harmonics(multiple: u32, random: &mut Random) -> Vec<Harmonic> {
     let mut harmonics = Vec::new();
     if random.chance(0.3) {
         harmonics.push(Harmonic { amplitude: Number::new(random.uniform()), factor: Factor::ONE });
@@ -146,7 +148,7 @@ fn harmonics(multiple: u32, random: &mut Random) -> Vec<Harmonic> {
 }
 
 /// Scales A so that the first of its four bounds is reached.
-fn fill(family: &mut Family, at_zero: &[f64], period: f64) {
+pub(super) fn fill(family: &mut Family, at_zero: &[f64], period: f64) {
     let speed = |harmonic: &Harmonic| f64::from(harmonic.factor.order) * TAU / period;
     let sizes = |weight: &dyn Fn(&Harmonic) -> f64| {
         let all = family.harmonics.iter().map(|harmonic| harmonic.amplitude.value() * weight(harmonic));

@@ -24,8 +24,8 @@ pub struct Family {
     pub period: String,
     /// F, row by row; empty without states.
     pub jacobian: Vec<Vec<String>>,
-    /// An upper bound of sup_t |F(t)|.
-    pub jacobian_norm: Number,
+    /// An upper bound of sup_t |F(t)|, as an expression.
+    pub jacobian_norm: String,
     /// g and an upper bound of its norm.
     pub g: (Vec<Number>, Number),
     /// g_1 >= 0.
@@ -97,7 +97,7 @@ impl Family {
             format!("sqrt({})", sum(self.harmonics.iter().map(square)))
         };
         [
-            format!("{jacobian_norm}*X + E*{g} + {kappa}*X^2/2"),
+            format!("({jacobian_norm})*X + E*{g} + {kappa}*X^2/2"),
             g,
             format!("{kappa} + E*{g_1}*{}", self.shapes[0].bend()),
             g_1.to_string(),

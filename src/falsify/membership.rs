@@ -20,12 +20,16 @@ type Region = [[Rational; 2]; 2];
 /// Guarantee: if true, it is proved. With D = allowed - bound, on a box with lower corner (X_0, E_0)
 /// `D(X, E) >= D(X_0, E_0) + (X - X_0) min(0, S_X) + (E - E_0) min(0, S_E)` where S_X and S_E are the least slopes of D on
 /// the box; boxes for which this does not give D >= 0 are halved. So D may vanish at the origin, where most bounds of f
-/// do. False where D < 0 somewhere, and where too many boxes would be needed.
+/// do. Where D is a polynomial with rational coefficients, none of them negative, that is decided exactly, so that D may be
+/// 0 all over. False where D < 0 somewhere, and where too many boxes would be needed.
 #[must_use]
 pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2]) -> bool {
     let Ok(difference) = Expr::parse(&format!("({}) - ({bound})", allowed.text()), Variables::XAndE) else {
         return false;
     };
+    if difference.has_no_negative_coefficient() {
+        return true;
+    }
     let whole: Region = reach.clone().map(|end| [Rational::new(), end]);
     let mut queue = VecDeque::from([whole]);
     let mut examined = 0;
@@ -90,6 +94,9 @@ mod tests {
         for (bound, allowed, fits) in [
             ("2*X + E/4", "2.1*X + E/4", true),
             ("2*X + E/4", "2*X + E/4", true),
+            // Equal, and neither number a double.
+            ("0.1*X + E*(1/3)", "X/10 + E/3", true),
+            ("0.1*X + E*0.333333334", "X/10 + E/3", false),
             ("2*X + X^2/100", "2*X + E/4", false),
             // Below almost everywhere: only close to X = 1, E = 0 the first is larger.
             ("X*(2 - X)*(1 - min(E*1000, 1))", "0.999", false),

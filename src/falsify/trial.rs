@@ -2,12 +2,14 @@
 
 use super::claim::Claim;
 use super::draw::{DrawnPlant, draw};
+use super::linear::linear_member;
 use super::random::Random;
 use super::report::counterexample_plant;
 use crate::plant::Plant;
 use crate::regulator::Regulator;
 use crate::simulate::{
-    ClosedLoop, Orbit, Progress, Silent, SteadyState, SteadyStateError, Tolerance, rms, steady_state, sup, trajectory,
+    ClosedLoop, IntegrationFailure, Orbit, Progress, Silent, SteadyState, SteadyStateError, Tolerance, rms,
+    steady_state, sup, trajectory,
 };
 use rayon::prelude::*;
 
@@ -109,8 +111,11 @@ pub fn falsify(claim: &Claim, settings: Settings, progress: &dyn Progress) -> Ou
 
 fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     let mut random = Random::new(seed, number);
-    // A drawn matrix F may leave no room; another one may.
-    let Some(plant) = (0..DRAWS).find_map(|_| draw(claim, &mut random)) else {
+    // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
+    // and where none does the linear member is left.
+    let first = if number == 1 { linear_member(claim, &mut random) } else { None };
+    let drawn = first.or_else(|| (0..DRAWS).find_map(|_| draw(claim, &mut random)));
+    let Some(plant) = drawn.or_else(|| linear_member(claim, &mut random)) else {
         return Finding::Unfinished("no plant of the drawn kind is proved to lie within the families".to_owned());
     };
     let n_o = OSCILLATORS[random.whole(0, OSCILLATORS.len() as u32 - 1) as usize];
@@ -167,21 +172,39 @@ fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
     let escape = |quantity| Violation { quantity, bound: f64::MAX, found: f64::INFINITY };
     let steady = match steady_state(closed_loop, &trial.start, &Silent) {
         Ok(steady) => steady,
-        Err(SteadyStateError::Integration(_)) => {
+        Err(SteadyStateError::Integration(IntegrationFailure::Escaped { .. })) => {
             return Finding::Violated(Box::new(trial), escape("the solution from the initial set (it escapes)"));
         }
+        // That an integration does not come to its end says nothing about the solution.
+        Err(SteadyStateError::Integration(failure)) => return too_stiff(&failure),
         Err(error @ SteadyStateError::NoConvergence { .. }) => return Finding::Unfinished(error.to_string()),
     };
-    let Ok(orbit) = Orbit::new(closed_loop, &steady) else {
-        return Finding::Unfinished("the periodic solution could not be sampled".to_owned());
+    let orbit = match Orbit::new(closed_loop, &steady) {
+        Ok(orbit) => orbit,
+        Err(failure) => return too_stiff(&failure),
     };
     let mut checks = Checks { shares: Vec::new(), violation: None };
     check_orbit(claim, &trial, closed_loop, &steady, &orbit, &mut checks);
-    check_approach(claim, &trial, closed_loop, &orbit, &mut checks);
+    if let Err(failure) = check_approach(claim, &trial, closed_loop, &orbit, &mut checks) {
+        return too_stiff(&failure);
+    }
     match checks.violation {
         Some(violation) => Finding::Violated(Box::new(trial), violation),
         None => Finding::Holds { shares: checks.shares },
     }
+}
+
+/// A trial whose simulation the machine could not finish.
+fn too_stiff(failure: &IntegrationFailure) -> Finding {
+    // Without the time and the size, so that trials with the same reason are told together.
+    Finding::Unfinished(match failure {
+        IntegrationFailure::Escaped { .. } => failure.to_string(),
+        IntegrationFailure::TooManySteps { .. }
+        | IntegrationFailure::Stiff { .. }
+        | IntegrationFailure::StepTooLong { .. } => {
+            "the closed loop at this gain is too stiff to be simulated".to_owned()
+        }
+    })
 }
 
 fn norm(values: &[f64]) -> f64 {
@@ -222,16 +245,29 @@ fn check_orbit(
 
 /// The first periods from the initial condition: within the error box around the periodic solution, and the Lyapunov
 /// function never above its start. P_x is not known here, so at the start its upper bound counts, later the lower.
-fn check_approach(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop, orbit: &Orbit, checks: &mut Checks) {
+///
+/// # Errors
+/// An integration that did not come to its end, the solution still within bounds.
+fn check_approach(
+    claim: &Claim,
+    trial: &Trial,
+    closed_loop: &ClosedLoop,
+    orbit: &Orbit,
+    checks: &mut Checks,
+) -> Result<(), IntegrationFailure> {
     let n = closed_loop.states();
     let m = closed_loop.regulator.m();
     let (mut y, mut away, mut level) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2]);
     let period = closed_loop.period;
     for index in 0..PERIODS {
         let t = index as f64 * period;
-        let Ok(samples) = trajectory(closed_loop, t, period, SAMPLES, &y, Tolerance::ORDINARY) else {
-            checks.at_most("the solution from the initial set (it escapes)", f64::INFINITY, f64::MAX);
-            return;
+        let samples = match trajectory(closed_loop, t, period, SAMPLES, &y, Tolerance::ORDINARY) {
+            Ok(samples) => samples,
+            Err(IntegrationFailure::Escaped { .. }) => {
+                checks.at_most("the solution from the initial set (it escapes)", f64::INFINITY, f64::MAX);
+                return Ok(());
+            }
+            Err(failure) => return Err(failure),
         };
         for (at, (sample, point)) in samples.iter().zip(&orbit.samples).enumerate() {
             let difference: Vec<f64> = sample.iter().zip(point).map(|(a, b)| a - b).collect();
@@ -254,6 +290,7 @@ fn check_approach(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop, orbit:
     if claim.lyapunov.is_some() {
         checks.at_most("Lyapunov function on the way, against its start", level[1], level[0]);
     }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -65,6 +65,11 @@ impl<'m> Design<'m> {
         Discrete { step: step.midpoint_f64(), rotations, input }
     }
 
+    /// sigma, the base frequency and n_o.
+    pub(super) fn rates(&self) -> (&Enclosure, Enclosure, u32) {
+        (&self.sigma, self.model.base_frequency.enclose(PRECISION), self.n_o)
+    }
+
     fn frequencies(&self) -> Vec<Enclosure> {
         let base = self.model.base_frequency.enclose(PRECISION);
         (1..=i64::from(self.n_o)).map(|l| l * &base).collect()

@@ -11,8 +11,10 @@ mod discrete;
 pub mod export;
 mod law;
 mod read;
+mod sampled;
 
 pub use design::{Design, MAX_EXPORTED_OSCILLATORS};
 pub use discrete::{Discrete, Stepper};
 pub use law::Regulator;
 pub use read::read_regulator;
+pub use sampled::{SampledLoop, SamplingError, spectral_radius};

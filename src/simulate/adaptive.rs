@@ -1,5 +1,6 @@
 //! The Dormand-Prince method of order 8(5,3) with step control (library `ode_solvers`).
 
+use super::stiffness::{MAX_FIXED_STEPS, enough_steps};
 use super::{ClosedLoop, Disturbance};
 use crate::expr::Evaluator;
 use nalgebra::{DMatrix, DVector};
@@ -10,11 +11,23 @@ use std::cell::RefCell;
 use thiserror::Error;
 
 /// The most steps of one integration.
-const MAX_STEPS: u32 = 100_000;
+const MAX_STEPS: u32 = 40_000;
 
-/// Steps after which the integrator tests for stiffness; a closed loop with a large gain is a little stiff, which
-/// costs steps and nothing else.
-const STIFFNESS_TEST: u32 = u32::MAX;
+/// Whether the integrator ends where stability and not accuracy limits its steps (Hairer's estimate of h |lambda|, at
+/// every accepted step): then the error estimate is the only guard, and the integration is done again to see whether it
+/// is one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum StiffnessTest {
+    EveryStep,
+    Never,
+}
+
+/// Two tolerances agree on a component of size s where they differ by no more than this many relative tolerances of s,
+/// and a tenth of one of the largest component: about five digits of an ordinary run.
+const AGREEMENT: f64 = 1e4;
+
+/// No agreement is asked for below this share of the largest component, which is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Beyond this size a solution counts as escaped.
 const ESCAPE: f64 = 1e100;
@@ -33,6 +46,12 @@ impl Tolerance {
     pub const TIGHT: Tolerance = Tolerance { relative: 1e-15, absolute: 1e-16 };
     /// For long runs.
     pub const ORDINARY: Tolerance = Tolerance { relative: 1e-9, absolute: 1e-11 };
+
+    /// Half of this tolerance, or twice where half is below rounding: what a repeated integration is done with.
+    fn other(self) -> Tolerance {
+        let factor = if self.relative > 1e-14 { 0.5 } else { 2.0 };
+        Tolerance { relative: factor * self.relative, absolute: factor * self.absolute }
+    }
 }
 
 /// Why an integration did not reach its end.
@@ -49,7 +68,49 @@ pub enum IntegrationFailure {
     TooManySteps {
         /// The last time that was reached.
         t: f64,
+        /// Fixed steps per period that resolve the loop, if there is such a number.
+        fixed_steps: Option<u32>,
     },
+    /// The loop is stiff, and the step control does not hold its tolerance.
+    #[error(
+        "the loop is stiff (stability limits the steps), and another tolerance gives another solution near t = {t:.6}: \
+         they differ by {difference:.1e}"
+    )]
+    Stiff {
+        /// The end of the integration.
+        t: f64,
+        /// The largest difference of a component.
+        difference: f64,
+        /// Fixed steps per period that resolve the loop, if there is such a number.
+        fixed_steps: Option<u32>,
+    },
+    /// A fixed step beyond the stability of its method.
+    #[error("{steps} steps per period are too few for this loop: the method is not stable with them")]
+    StepTooLong {
+        /// The steps per period.
+        steps: usize,
+        /// Fixed steps per period that resolve the loop, if there is such a number.
+        fixed_steps: Option<u32>,
+    },
+}
+
+impl IntegrationFailure {
+    /// What to try; `flag` is the flag that sets the steps per period.
+    #[must_use]
+    pub fn way_out(&self, flag: &str) -> String {
+        match self {
+            IntegrationFailure::Escaped { .. } => "check the plant, or take a larger gain".to_owned(),
+            IntegrationFailure::TooManySteps { fixed_steps, .. }
+            | IntegrationFailure::Stiff { fixed_steps, .. }
+            | IntegrationFailure::StepTooLong { fixed_steps, .. } => match fixed_steps {
+                Some(steps) => format!("{flag} {steps} resolves the fastest mode of the loop"),
+                None => format!(
+                    "the fastest mode of the loop needs more than the {MAX_FIXED_STEPS} steps per period that {flag} \
+                     takes; take a smaller gain"
+                ),
+            },
+        }
+    }
 }
 
 /// The closed loop alone, or with its variational equations: t, then y, then the columns of Y with Y' = J(t, y) Y.
@@ -60,32 +121,23 @@ struct Equations<'l> {
     closed_loop: &'l ClosedLoop,
     evaluator: RefCell<Evaluator>,
     variational: bool,
+    /// The unit of the independent variable: the library adds it up, and tests its end with an absolute tolerance.
+    unit: f64,
 }
 
 impl System<f64, DVector<f64>> for &Equations<'_> {
     fn system(&self, _: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
         let mut evaluator = self.evaluator.borrow_mut();
-        let d = self.closed_loop.dimension();
         dy[0] = 1.0;
-        let (t, y, dy) = (y[0], &y.as_slice()[1..], &mut dy.as_mut_slice()[1..]);
-        if !self.variational {
+        let (t, state) = (y[0], &y.as_slice()[1..]);
+        let slope = &mut dy.as_mut_slice()[1..];
+        if self.variational {
+            self.closed_loop.variational(&mut evaluator, t, state, slope);
+        } else {
             evaluator.set_time(t);
-            self.closed_loop.right_side(&mut evaluator, y, Disturbance::default(), dy);
-            return;
+            self.closed_loop.right_side(&mut evaluator, state, Disturbance::default(), slope);
         }
-        let (values, jacobian) = self.closed_loop.linearise(&mut evaluator, t, &y[..d]);
-        dy[..d].copy_from_slice(&values);
-        // Most rows have two entries, so they are picked out once for all columns.
-        let rows = jacobian.chunks_exact(d).enumerate();
-        let entries: Vec<(usize, usize, f64)> = rows
-            .flat_map(|(i, row)| row.iter().enumerate().filter(|(_, j)| **j != 0.0).map(move |(k, j)| (i, k, *j)))
-            .collect();
-        for (column, derivative) in y[d..].chunks_exact(d).zip(dy[d..].chunks_exact_mut(d)) {
-            derivative.fill(0.0);
-            for (i, k, entry) in &entries {
-                derivative[*i] += entry * column[*k];
-            }
-        }
+        *dy *= self.unit;
     }
 
     fn solout(&mut self, _t: f64, y: &DVector<f64>, _dy: &DVector<f64>) -> bool {
@@ -93,28 +145,101 @@ impl System<f64, DVector<f64>> for &Equations<'_> {
     }
 }
 
-/// Where and how finely a solution is put out.
-struct Output {
-    kind: OutputType,
-    spacing: f64,
-    largest_step: f64,
+/// From where to where, and what is put out: the state at the end, or samples at every unit.
+#[derive(Clone, Copy)]
+struct Span {
+    t: f64,
+    unit: f64,
+    units: usize,
 }
 
-/// Integrates y from t to `end` and returns the states that were put out, the one at the end among them.
+impl Span {
+    fn end(self) -> f64 {
+        self.t + self.unit * self.units as f64
+    }
+}
+
+/// Why one attempt ended.
+enum Stop {
+    Failed(IntegrationFailure),
+    Stiff,
+}
+
+/// Integrates y over a span: the states at t, t + unit, ..., the end, or with one unit the state at the end alone.
+///
+/// Where stability limits the steps, it is done again with this tolerance and another one, and what is returned is what
+/// both agree on.
 fn integrate(
-    equations: &Equations<'_>,
-    t: f64,
-    end: f64,
+    closed_loop: &ClosedLoop,
+    variational: bool,
+    span: Span,
     y: &[f64],
     tolerance: Tolerance,
-    output: Output,
 ) -> Result<Vec<Vec<f64>>, IntegrationFailure> {
-    let start = DVector::from_iterator(1 + y.len(), [t].into_iter().chain(y.iter().copied()));
+    let run = |tolerance, test| attempt(closed_loop, variational, span, y, tolerance, test);
+    // Nothing ends for stiffness where it is not tested.
+    let untested = |tolerance| {
+        run(tolerance, StiffnessTest::Never).map_err(|stop| match stop {
+            Stop::Failed(failure) => failure,
+            Stop::Stiff => IntegrationFailure::Escaped { t: span.t },
+        })
+    };
+    match run(tolerance, StiffnessTest::EveryStep) {
+        Ok(states) => Ok(states),
+        Err(Stop::Failed(failure)) => Err(failure),
+        Err(Stop::Stiff) => {
+            let (states, others) = (untested(tolerance)?, untested(tolerance.other())?);
+            match disagreement(&states, &others, tolerance) {
+                None => Ok(states),
+                Some(difference) => {
+                    let fixed_steps = enough_steps(closed_loop, span.t, [y, last(&others)]);
+                    Err(IntegrationFailure::Stiff { t: span.end(), difference, fixed_steps })
+                }
+            }
+        }
+    }
+}
+
+/// The largest difference of two solutions in a component in which they do not agree; `None` where they do in all.
+fn disagreement(states: &[Vec<f64>], others: &[Vec<f64>], tolerance: Tolerance) -> Option<f64> {
+    let components = last(states).len();
+    let largest = |i: usize| states.iter().chain(others).fold(0.0_f64, |size, y| size.max(y[i].abs()));
+    let sizes: Vec<f64> = (0..components).map(largest).collect();
+    let floor = (0.1 * tolerance.relative).max(ROUNDING) * sizes.iter().fold(1.0_f64, |size, other| size.max(*other));
+    let difference = |i: usize| states.iter().zip(others).fold(0.0_f64, |most, (a, b)| most.max((a[i] - b[i]).abs()));
+    (0..components)
+        .map(|i| (difference(i), AGREEMENT * tolerance.relative * sizes[i] + floor))
+        .filter(|(difference, allowed)| difference > allowed)
+        .map(|(difference, _)| difference)
+        .max_by(f64::total_cmp)
+}
+
+fn last(states: &[Vec<f64>]) -> &[f64] {
+    states.last().map_or(&[], Vec::as_slice)
+}
+
+/// One integration.
+fn attempt(
+    closed_loop: &ClosedLoop,
+    variational: bool,
+    span: Span,
+    y: &[f64],
+    tolerance: Tolerance,
+    test: StiffnessTest,
+) -> Result<Vec<Vec<f64>>, Stop> {
+    let evaluator = if variational { closed_loop.derivative_evaluator() } else { closed_loop.evaluator() };
+    let equations = Equations { closed_loop, evaluator: RefCell::new(evaluator), variational, unit: span.unit };
+    let start = DVector::from_iterator(1 + y.len(), [span.t].into_iter().chain(y.iter().copied()));
+    let dense = span.units > 1;
+    // Once the last sample before the end is out, version 0.6.2 of the library puts the end out too, extrapolated from
+    // whatever step it is in. So the integration goes on for one sample more, and that one is dropped.
+    let length = if dense { span.units + 1 } else { 1 };
+    let (kind, largest_step) = if dense { (OutputType::Dense, 8.0) } else { (OutputType::Sparse, 1.0) };
     let mut method = Dop853::from_param(
-        equations,
-        t,
-        end,
-        output.spacing,
+        &equations,
+        0.0,
+        length as f64,
+        1.0,
         start,
         tolerance.relative,
         tolerance.absolute,
@@ -122,27 +247,32 @@ fn integrate(
         0.0,
         0.333,
         6.0,
-        output.largest_step,
+        largest_step,
         0.0,
         MAX_STEPS,
-        STIFFNESS_TEST,
-        output.kind,
+        if test == StiffnessTest::EveryStep { 1 } else { u32::MAX },
+        kind,
     );
     let outcome = method.integrate();
     let (times, states) = method.results().get();
-    match outcome {
-        Ok(_) => {}
-        Err(IntegrationError::MaxNumStepReached { x, .. }) if !states.last().is_none_or(is_escaping) => {
-            return Err(IntegrationFailure::TooManySteps { t: x });
-        }
-        Err(
-            IntegrationError::MaxNumStepReached { x, .. }
-            | IntegrationError::StepSizeUnderflow { x }
-            | IntegrationError::StiffnessDetected { x },
-        ) => return Err(IntegrationFailure::Escaped { t: x }),
+    let escaped = |x: f64| Stop::Failed(IntegrationFailure::Escaped { t: span.t + span.unit * x });
+    // What happens after the end does not matter.
+    let states =
+        if dense { &states[..states.len().min(span.units + 1)] } else { &states[states.len().saturating_sub(1)..] };
+    let reached = if dense { states.len() > span.units } else { times.last().is_some_and(|x| (x - 1.0).abs() < 1e-9) };
+    if states.iter().any(is_escaping) {
+        return Err(escaped(times.last().copied().unwrap_or(0.0)));
     }
-    if states.last().is_none_or(is_escaping) || times.last().is_none_or(|last| (last - end).abs() > 1e-9 * (end - t)) {
-        return Err(IntegrationFailure::Escaped { t: times.last().copied().unwrap_or(t) });
+    match outcome {
+        Err(IntegrationError::StiffnessDetected { .. }) => return Err(Stop::Stiff),
+        _ if reached => {}
+        Ok(_) => return Err(escaped(times.last().copied().unwrap_or(0.0))),
+        Err(IntegrationError::MaxNumStepReached { x, .. }) => {
+            let here = states.last().map_or(y, |state| &state.as_slice()[1..]);
+            let fixed_steps = enough_steps(closed_loop, span.t, [y, here]);
+            return Err(Stop::Failed(IntegrationFailure::TooManySteps { t: span.t + span.unit * x, fixed_steps }));
+        }
+        Err(IntegrationError::StepSizeUnderflow { x }) => return Err(escaped(x)),
     }
     Ok(states.iter().map(|state| state.as_slice()[1..].to_vec()).collect())
 }
@@ -162,9 +292,7 @@ pub fn flow(
     y: &[f64],
     tolerance: Tolerance,
 ) -> Result<Vec<f64>, IntegrationFailure> {
-    let equations = Equations { closed_loop, evaluator: RefCell::new(closed_loop.evaluator()), variational: false };
-    let output = Output { kind: OutputType::Sparse, spacing: duration, largest_step: duration };
-    let mut states = integrate(&equations, t, t + duration, y, tolerance, output)?;
+    let mut states = integrate(closed_loop, false, Span { t, unit: duration, units: 1 }, y, tolerance)?;
     Ok(states.pop().unwrap_or_default())
 }
 
@@ -178,13 +306,10 @@ pub fn flow_with_derivative(
     tolerance: Tolerance,
 ) -> Result<(Vec<f64>, DMatrix<f64>), IntegrationFailure> {
     let d = closed_loop.dimension();
-    let equations =
-        Equations { closed_loop, evaluator: RefCell::new(closed_loop.derivative_evaluator()), variational: true };
     let mut start = y.to_vec();
     start.extend(DMatrix::<f64>::identity(d, d).as_slice());
-    let period = closed_loop.period;
-    let output = Output { kind: OutputType::Sparse, spacing: period, largest_step: period };
-    let mut states = integrate(&equations, 0.0, period, &start, tolerance, output)?;
+    let span = Span { t: 0.0, unit: closed_loop.period, units: 1 };
+    let mut states = integrate(closed_loop, true, span, &start, tolerance)?;
     let end = states.pop().unwrap_or_default();
     Ok((end[..d].to_vec(), DMatrix::from_column_slice(d, d, &end[d..])))
 }
@@ -204,14 +329,8 @@ pub fn trajectory(
     y: &[f64],
     tolerance: Tolerance,
 ) -> Result<Vec<Vec<f64>>, IntegrationFailure> {
-    let equations = Equations { closed_loop, evaluator: RefCell::new(closed_loop.evaluator()), variational: false };
-    let samples = samples.max(1);
-    let spacing = duration / samples as f64;
-    let output = Output { kind: OutputType::Dense, spacing, largest_step: (8.0 * spacing).min(duration) };
-    let mut states = integrate(&equations, t, t + duration, y, tolerance, output)?;
-    // Accumulated rounding of the times may put the last sample out twice or just before the end.
-    if states.len() > samples + 1 {
-        states.drain(samples..states.len() - 1);
+    if samples <= 1 {
+        return Ok(vec![y.to_vec(), flow(closed_loop, t, duration, y, tolerance)?]);
     }
-    Ok(states)
+    integrate(closed_loop, false, Span { t, unit: duration / samples as f64, units: samples }, y, tolerance)
 }

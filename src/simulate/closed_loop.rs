@@ -184,6 +184,25 @@ impl ClosedLoop {
         }
         (dy, jacobian)
     }
+
+    /// The slopes of y and of the columns of Y with Y' = J(t, y) Y, which follow y in `state`. `evaluator` is one of
+    /// [`ClosedLoop::derivative_evaluator`].
+    pub(super) fn variational(&self, evaluator: &mut Evaluator, t: f64, state: &[f64], slope: &mut [f64]) {
+        let d = self.dimension();
+        let (values, jacobian) = self.linearise(evaluator, t, &state[..d]);
+        slope[..d].copy_from_slice(&values);
+        // Most rows have two entries, so they are picked out once for all columns.
+        let rows = jacobian.chunks_exact(d).enumerate();
+        let entries: Vec<(usize, usize, f64)> = rows
+            .flat_map(|(i, row)| row.iter().enumerate().filter(|(_, j)| **j != 0.0).map(move |(k, j)| (i, k, *j)))
+            .collect();
+        for (column, derivative) in state[d..].chunks_exact(d).zip(slope[d..].chunks_exact_mut(d)) {
+            derivative.fill(0.0);
+            for (i, k, entry) in &entries {
+                derivative[*i] += entry * column[*k];
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -14,17 +14,19 @@ mod report;
 
 mod run;
 mod steady;
+mod stiffness;
 
 pub use adaptive::{IntegrationFailure, Tolerance, flow, flow_with_derivative, trajectory};
 pub use bode::{frequencies, magnitude};
 pub use closed_loop::{ClosedLoop, Disturbance, Noise};
-pub use fixed::FixedStep;
+pub use fixed::{FixedStep, fixed_flow, fixed_flow_with_derivative};
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};
 
 pub use report::{FORMAT, VERSION, bode, csv, figures, json, spectrum, spectrum_curve, text};
 pub use run::{LongRun, Method, NoisyRun, Settings, Simulation, SteadyFigures, noisy_run, simulate};
-pub use steady::{SteadyState, SteadyStateError, steady_state};
+pub use steady::{SteadyState, SteadyStateError, fixed_steady_state, steady_state};
+pub use stiffness::{MAX_FIXED_STEPS, enough_steps, is_stable};
 
 /// Hears of work done, for a progress bar.
 pub trait Progress: Sync {

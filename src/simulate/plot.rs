@@ -1,12 +1,17 @@
 //! Figures as SVG.
 
+use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use std::ops::Range;
 use thiserror::Error;
 
 /// The size of a figure in pixels.
-const SIZE: (u32, u32) = (820, 480);
+const SIZE: (u32, u32) = (820, 500);
+
+/// The library puts points on whole pixels, which makes steps of smooth curves: figures are drawn this much larger and
+/// shown at their size.
+pub(crate) const DETAIL: u32 = 4;
 
 /// Colours that stay apart in print and for most eyes (Okabe and Ito).
 const COLOURS: [RGBColor; 6] = [
@@ -87,16 +92,31 @@ impl Figure {
         if all().next().is_none() {
             return Err(PlotError::Empty { title: self.title.clone() });
         }
-        let x = range(all().map(|point| point.0), self.scale == Scale::LogLog, 0.0);
-        let y = range(all().map(|point| point.1), self.scale != Scale::Linear, 0.06);
+        let marked = curves.iter().any(|curve| curve.marked);
+        let x = match self.scale {
+            Scale::LogLog => decades(all().map(|point| point.0)),
+            // Marks keep off the frame.
+            _ if marked => {
+                let (first, last) = ends(all().map(|point| point.0));
+                first - 0.5..last + 0.5
+            }
+            _ => range(all().map(|point| point.0), 0.0),
+        };
+        let y = match self.scale {
+            Scale::Linear => range(all().map(|point| point.1), 0.06),
+            Scale::LogY | Scale::LogLog => decades(all().map(|point| point.1)),
+        };
+        // A tick near 0 of a linear axis is 0; a logarithmic axis has none.
+        let span = |range: &Range<f64>, linear: bool| if linear { range.end - range.start } else { 0.0 };
+        let spans = [span(&x, self.scale != Scale::LogLog), span(&y, self.scale == Scale::Linear)];
         let mut text = String::new();
         let drawn = match self.scale {
-            Scale::Linear => self.draw(&mut text, x, y, &curves),
-            Scale::LogY => self.draw(&mut text, x, y.log_scale(), &curves),
-            Scale::LogLog => self.draw(&mut text, x.log_scale(), y.log_scale(), &curves),
+            Scale::Linear => self.draw(&mut text, x, y, spans, &curves),
+            Scale::LogY => self.draw(&mut text, x, y.log_scale(), spans, &curves),
+            Scale::LogLog => self.draw(&mut text, x.log_scale(), y.log_scale(), spans, &curves),
         };
         drawn.map_err(|reason| PlotError::Drawing { title: self.title.clone(), reason })?;
-        Ok(text)
+        Ok(at_size(text, SIZE))
     }
 
     fn drawable(&self, curve: &Curve) -> Curve {
@@ -109,7 +129,14 @@ impl Figure {
         Curve { points, ..curve.clone() }
     }
 
-    fn draw<X, Y>(&self, text: &mut String, x: X, y: Y, curves: &[Curve]) -> Result<(), String>
+    fn draw<X, Y>(
+        &self,
+        text: &mut String,
+        x: X,
+        y: Y,
+        [x_span, y_span]: [f64; 2],
+        curves: &[Curve],
+    ) -> Result<(), String>
     where
         X: AsRangedCoord<Value = f64>,
         Y: AsRangedCoord<Value = f64>,
@@ -117,69 +144,136 @@ impl Figure {
         Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
         let words = |error: &dyn std::fmt::Display| error.to_string();
-        let area = SVGBackend::with_string(text, SIZE).into_drawing_area();
-        area.fill(&WHITE).map_err(|error| words(&error))?;
+        let area = canvas(text, SIZE).map_err(|error| words(&error))?;
+        let coloured = |index: usize| COLOURS[index % COLOURS.len()];
+        let entries: Vec<(String, RGBColor)> =
+            curves.iter().enumerate().map(|(index, curve)| (curve.label.clone(), coloured(index))).collect();
+        let marked = curves.iter().any(|curve| curve.marked);
+        let area = heading(&area, &self.title, &entries).map_err(|error| words(&error))?;
         let mut chart = ChartBuilder::on(&area)
-            .caption(&self.title, ("sans-serif", 18))
-            .margin(12)
-            .x_label_area_size(46)
-            .y_label_area_size(78)
+            .margin(12 * DETAIL)
+            .margin_top(4 * DETAIL)
+            .margin_right(24 * DETAIL)
+            .x_label_area_size(46 * DETAIL)
+            .y_label_area_size(82 * DETAIL)
             .build_cartesian_2d(x, y)
             .map_err(|error| words(&error))?;
         chart
             .configure_mesh()
             .x_desc(&self.x)
             .y_desc(&self.y)
-            .x_label_formatter(&|value| tick(*value))
-            .y_label_formatter(&|value| tick(*value))
-            .label_style(("sans-serif", 13))
-            .axis_desc_style(("sans-serif", 15))
-            .light_line_style(RGBColor(242, 242, 242))
-            .bold_line_style(RGBColor(220, 220, 220))
+            // Between separate places there is nothing to name.
+            .x_label_formatter(&|value| match marked && (value - value.round()).abs() > 1e-9 {
+                true => String::new(),
+                false => tick(*value, x_span),
+            })
+            .y_label_formatter(&|value| tick(*value, y_span))
+            .label_style(("sans-serif", 13 * DETAIL))
+            .axis_desc_style(("sans-serif", 15 * DETAIL))
+            .axis_style(BLACK.stroke_width(DETAIL))
+            .set_all_tick_mark_size(5 * DETAIL)
+            .light_line_style(RGBColor(242, 242, 242).stroke_width(DETAIL))
+            .bold_line_style(RGBColor(220, 220, 220).stroke_width(DETAIL))
             .draw()
             .map_err(|error| words(&error))?;
         for (index, curve) in curves.iter().enumerate() {
-            let colour = COLOURS[index % COLOURS.len()];
-            let style = colour.stroke_width(2);
-            chart
-                .draw_series(LineSeries::new(curve.points.iter().copied(), style))
-                .map_err(|error| words(&error))?
-                .label(&curve.label)
-                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], style));
+            let colour = coloured(index);
+            let line = LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2 * DETAIL));
+            chart.draw_series(line).map_err(|error| words(&error))?;
             if curve.marked {
-                let markers = curve.points.iter().map(|&point| Circle::new(point, 4, colour.filled()));
+                let markers = curve.points.iter().map(|&point| Circle::new(point, 4 * DETAIL, colour.filled()));
                 chart.draw_series(markers).map_err(|error| words(&error))?;
             }
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(RGBColor(200, 200, 200))
-            .label_font(("sans-serif", 13))
-            .draw()
-            .map_err(|error| words(&error))?;
         area.present().map_err(|error| words(&error))
     }
 }
 
-/// The range of some values, with a margin; never empty.
-fn range(values: impl Iterator<Item = f64>, logarithmic: bool, margin: f64) -> Range<f64> {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)));
-    if logarithmic {
-        let factor = libm::pow(high / low, margin).max(1.0 + margin);
-        return low / factor..high * factor;
-    }
-    let room = ((high - low) * margin).max(1e-300);
-    if high > low { low - room..high + room } else { low - 1.0..high + 1.0 }
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type AreaError = DrawingAreaErrorKind<std::io::Error>;
+
+/// An empty figure of a size in pixels, drawn [`DETAIL`] times larger.
+pub(crate) fn canvas(text: &mut String, (width, height): (u32, u32)) -> Result<Area<'_>, AreaError> {
+    let area = SVGBackend::with_string(text, (width * DETAIL, height * DETAIL)).into_drawing_area();
+    area.fill(&WHITE)?;
+    Ok(area)
 }
 
-/// A number at an axis.
-fn tick(value: f64) -> String {
-    if value != 0.0 && !(1e-3..1e4).contains(&value.abs()) {
-        return format!("{value:.0e}");
+/// The figure of [`canvas`] shown at its size.
+pub(crate) fn at_size(text: String, (width, height): (u32, u32)) -> String {
+    let drawn = format!("width=\"{}\" height=\"{}\"", width * DETAIL, height * DETAIL);
+    text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1)
+}
+
+/// Draws the title and, below it, what each colour is; returns the area that is left, so that no legend lies on a curve.
+pub(crate) fn heading<'a>(area: &Area<'a>, title: &str, entries: &[(String, RGBColor)]) -> Result<Area<'a>, AreaError> {
+    let unit = DETAIL as i32;
+    let (width, _) = area.dim_in_pixel();
+    let style = |size: u32| ("sans-serif", size * DETAIL).into_font().color(&BLACK);
+    let (title_width, _) = area.estimate_text_size(title, &style(18))?;
+    area.draw(&Text::new(title.to_owned(), ((width as i32 - title_width as i32) / 2, 14 * unit), style(18)))?;
+    // Rows of entries: a line, a gap, the text, a gap.
+    let left = 82 * unit + 12 * unit;
+    let (mut x, mut y) = (left, 44 * unit);
+    for (label, colour) in entries {
+        let (label_width, _) = area.estimate_text_size(label, &style(13))?;
+        let entry = 30 * unit + label_width as i32 + 22 * unit;
+        if x > left && x + entry > width as i32 {
+            (x, y) = (left, y + 20 * unit);
+        }
+        let line = vec![(x, y + 7 * unit), (x + 24 * unit, y + 7 * unit)];
+        area.draw(&PathElement::new(line, colour.stroke_width(3 * DETAIL)))?;
+        area.draw(&Text::new(label.clone(), (x + 30 * unit, y), style(13)))?;
+        x += entry;
     }
-    let text = format!("{value:.3}");
+    Ok(area.split_vertically(y + 22 * unit).1)
+}
+
+/// The range of some values, with a margin; never empty.
+fn range(values: impl Iterator<Item = f64>, margin: f64) -> Range<f64> {
+    let (low, high) = ends(values);
+    let room = (high - low) * margin;
+    if high - low > 1e-12 * low.abs().max(high.abs()) {
+        return low - room..high + room;
+    }
+    // A constant is in the middle of a range of its own size.
+    let size = if high == 0.0 { 1.0 } else { 0.5 * high.abs() };
+    low - size..high + size
+}
+
+/// The decades that hold some positive values, two at least: a logarithmic axis has its ticks at their ends.
+fn decades(values: impl Iterator<Item = f64>) -> Range<f64> {
+    let (low, high) = ends(values);
+    // A power of ten is not exact. At the lower edge it belongs to the decade above, and at the upper edge there is
+    // room, so that no curve lies on the frame.
+    let (first, last) = ((libm::log10(low) + 1e-9).floor(), (libm::log10(high) + 0.05).ceil());
+    let missing = (2.0 - (last - first)).max(0.0);
+    let (first, last) = (first - (missing / 2.0).ceil(), last + (missing / 2.0).floor());
+    // The ticks at both ends are within.
+    libm::pow(10.0, first) * (1.0 - 1e-6)..libm::pow(10.0, last) * (1.0 + 1e-6)
+}
+
+fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)))
+}
+
+/// A number at an axis; `span` is the length of a linear one.
+fn tick(value: f64, span: f64) -> String {
+    // Ticks are multiples of a step that is no double: what should be 0 is a rounding.
+    if value.abs() <= 1e-9 * span {
+        return "0".to_owned();
+    }
+    if value != 0.0 && !(1e-3..1e4).contains(&value.abs()) {
+        // As many digits as tell neighbours apart.
+        let digits =
+            if span > 0.0 { (libm::log10(value.abs() / span).ceil() + 1.0).clamp(0.0, 6.0) as usize } else { 0 };
+        let text = format!("{value:.digits$e}");
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let mantissa =
+            if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+        return format!("{mantissa}e{exponent}");
+    }
+    let text = format!("{value:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -214,8 +308,51 @@ mod tests {
 
     #[test]
     fn ticks_are_short() {
-        for (value, text) in [(0.0, "0"), (0.5, "0.5"), (-2.0, "-2"), (1e-4, "1e-4"), (1e5, "1e5"), (0.001, "0.001")] {
-            assert_eq!(tick(value), text);
+        for (value, span, text) in [
+            (0.0, 1.0, "0"),
+            (-1.1e-16, 5.0, "0"),
+            (-1.1e-16, 1e-15, "-1.1e-16"),
+            (0.5, 1.0, "0.5"),
+            (-2.0, 5.0, "-2"),
+            (1e-4, 0.0, "1e-4"),
+            (9.999_999_999_999_999e197, 0.0, "1e198"),
+            (1e5, 0.0, "1e5"),
+            (0.001, 1.0, "0.001"),
+            (1.5e-5, 3e-5, "1.5e-5"),
+            (12_500.0, 1e4, "1.25e4"),
+            (123_400.0, 400.0, "1.234e5"),
+        ] {
+            assert_eq!(tick(value, span), text);
         }
+    }
+
+    #[test]
+    fn axes_have_ticks_whatever_the_values() {
+        let decades = |values: &[f64]| decades(values.iter().copied());
+        let close = |a: Range<f64>, b: Range<f64>| (a.start / b.start - 1.0).abs() + (a.end / b.end - 1.0).abs() < 1e-5;
+        assert!(close(decades(&[0.5, 30.0]), 0.1..100.0));
+        assert!(close(decades(&[1e-3, 1e3]), 1e-3..1e4));
+        assert!(close(decades(&[0.5]), 0.01..1.0));
+        assert!(close(decades(&[1e-4, 1e-4]), 1e-5..1e-3), "{:?}", decades(&[1e-4]));
+        let range = |values: &[f64]| range(values.iter().copied(), 0.0);
+        assert_eq!((range(&[0.0]), range(&[-2.0, -2.0]), range(&[1.0, 3.0])), (-1.0..1.0, -3.0..-1.0, 1.0..3.0));
+        assert_eq!(range(&[1e-9]), 0.5e-9..1.5e-9);
+        // A flat spectrum has figures at its axis.
+        let svg = figure(Scale::LogY, &[(0.0, 0.5), (1.0, 0.5)]).svg().unwrap();
+        assert!([">\n0.01\n<", ">\n0.1\n<", ">\n1\n<"].iter().all(|tick| svg.contains(tick)), "{svg}");
+    }
+
+    #[test]
+    fn the_legend_is_above_the_curves() {
+        let svg = figure(Scale::Linear, &[(0.0, 1.0), (1.0, 1.0)]).svg().unwrap();
+        let lines: Vec<&str> = svg.lines().collect();
+        let label = lines.iter().position(|line| *line == "curve").unwrap();
+        let height =
+            |line: &str| -> f64 { line.split_once(" y=\"").unwrap().1.split('"').next().unwrap().parse().unwrap() };
+        let highest = lines
+            .iter()
+            .filter(|line| line.starts_with("<circle"))
+            .map(|line| line.split_once("cy=\"").unwrap().1.split('"').next().unwrap().parse::<f64>().unwrap());
+        assert!(height(lines[label - 1]) + 13.0 * f64::from(DETAIL) < highest.fold(f64::INFINITY, f64::min));
     }
 }

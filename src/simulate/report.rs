@@ -1,8 +1,8 @@
 //! What a person, or a script, reads about a simulation.
 
 use super::plot::{Curve, Figure, Scale};
-use super::run::{LongRun, NoisyRun, Simulation, SteadyFigures};
-use super::{ClosedLoop, Disturbance, SteadyState, frequencies, magnitude};
+use super::run::{LongRun, Method, NoisyRun, Simulation, SteadyFigures};
+use super::{ClosedLoop, Disturbance, IntegrationFailure, SteadyState, frequencies, magnitude};
 use crate::plant::Plant;
 use crate::regulator::Regulator;
 use crate::report::blocks::{Block, Table, clean};
@@ -47,21 +47,30 @@ pub fn blocks(plant: &Plant, closed_loop: &ClosedLoop, simulation: &Simulation) 
     ];
     match &simulation.steady {
         Ok((steady, figures)) => blocks.extend(steady_blocks(steady, figures)),
-        Err(error) => blocks.push(Block::says(format!("None was found: {error}."))),
+        Err(error) => blocks.push(Block::says(format!("None was found: {error}{}.", advice(error.way_out("--fixed"))))),
     }
     blocks.push(Block::Heading("From the initial condition".to_owned()));
     match &simulation.long {
         Ok(run) => blocks.push(Block::says(long_words(run))),
-        Err(error) => blocks.push(Block::says(format!("It ended early: {error}."))),
+        Err(error) => blocks.push(ended_early(error, "--fixed")),
     }
     if let Some(noisy) = &simulation.noisy {
         blocks.push(Block::Heading("With measurement noise".to_owned()));
         match noisy {
             Ok(run) => blocks.push(Block::says(noisy_words(run))),
-            Err(error) => blocks.push(Block::says(format!("It ended early: {error}."))),
+            Err(error) => blocks.push(ended_early(error, "--noise-steps")),
         }
     }
     blocks
+}
+
+/// Why there are no figures, and what to try.
+fn ended_early(error: &IntegrationFailure, flag: &str) -> Block {
+    Block::says(format!("It has no figures: {error}{}.", advice(Some(error.way_out(flag)))))
+}
+
+fn advice(way_out: Option<String>) -> String {
+    way_out.map_or_else(String::new, |help| format!("; {help}"))
 }
 
 fn steady_blocks(steady: &SteadyState, figures: &SteadyFigures) -> Vec<Block> {
@@ -129,18 +138,26 @@ pub fn json(plant: &Plant, closed_loop: &ClosedLoop, simulation: &Simulation) ->
             "sup_e": figures.sup, "rms_e": figures.rms, "amplitudes": figures.amplitudes,
             "residual": steady.residual, "multipliers": steady.multipliers, "start": steady.start,
         }),
-        Err(error) => object!({ "error": error.to_string() }),
+        Err(error) => object!({ "error": error.to_string(), "help": error.way_out("--fixed") }),
+    };
+    let failure =
+        |error: &IntegrationFailure, flag| object!({ "error": error.to_string(), "help": error.way_out(flag) });
+    let method = match simulation.settings.method {
+        Method::Adaptive => object!({ "name": "dormand-prince-8" }),
+        Method::Fixed(asked) => object!({
+            "name": "runge-kutta-4", "steps_per_period": simulation.settings.fixed_steps(), "asked": asked,
+        }),
     };
     let long = match &simulation.long {
         Ok(run) => object!({
             "periods": run.return_distances.len(), "sup_e_last_period": run.sup, "rms_e_last_period": run.rms,
-            "return_distances": run.return_distances, "settled_period": run.settled,
+            "return_distances": run.return_distances, "settled_period": run.settled, "method": method,
         }),
-        Err(error) => object!({ "error": error.to_string() }),
+        Err(error) => failure(error, "--fixed"),
     };
     let noisy = simulation.noisy.as_ref().map(|noisy| match noisy {
         Ok(run) => object!({ "sup_v": run.largest_noise, "sup_e": run.sup, "rms_e": run.rms }),
-        Err(error) => object!({ "error": error.to_string() }),
+        Err(error) => failure(error, "--noise-steps"),
     });
     object!({
         "format": FORMAT, "version": VERSION, "name": clean(&plant.name),
@@ -196,12 +213,18 @@ fn response(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let points = run.times.iter().zip(&run.states).map(|(t, y)| (*t, y[closed_loop.states()])).collect();
     Figure {
         title: "Regulated error".to_owned(),
-        x: "t".to_owned(),
-        y: "e".to_owned(),
+        x: format!("time t [unit of time of the plant file; period {}]", number_short(closed_loop.period)),
+        y: "e [unit of e]".to_owned(),
         scale: Scale::Linear,
         floor: 0.0,
         curves: vec![Curve { label: regulator_words(&closed_loop.regulator), points, marked: false }],
     }
+}
+
+/// A number in as few digits as it has, six at most.
+fn number_short(value: f64) -> String {
+    let text = format!("{value:.5e}");
+    text.parse().map_or(text, |value: f64| format!("{value:?}").trim_end_matches(".0").to_owned())
 }
 
 /// |c_k| over k, for a spectrum.
@@ -216,8 +239,8 @@ pub fn spectrum_curve(label: &str, amplitudes: &[f64]) -> Curve {
 pub fn spectrum(title: &str, curves: Vec<Curve>) -> Figure {
     Figure {
         title: title.to_owned(),
-        x: "harmonic k".to_owned(),
-        y: "|c_k|".to_owned(),
+        x: "harmonic k, of frequency k/T".to_owned(),
+        y: "|c_k| of e [unit of e]".to_owned(),
         scale: Scale::LogY,
         floor: SPECTRUM_FLOOR,
         curves,
@@ -243,15 +266,19 @@ pub fn bode(regulator: &Regulator) -> Figure {
     };
     let high_gain = Regulator::high_gain(regulator.sigma);
     let mut curves = vec![curve("high-gain feedback", &high_gain)];
+    let mut title = "From q to e, for e' = u + q".to_owned();
     if regulator.oscillators().is_some() {
         curves.push(curve("internal model", regulator));
+        title.push_str(" (the zeros are cut at the lower edge)");
     }
+    // Two decades below the feedback that has no zeros, wherever that is.
+    let least = omegas.iter().map(|&omega| magnitude(&high_gain, omega)).fold(f64::INFINITY, f64::min);
     Figure {
-        title: "From q to e, for e' = u + q".to_owned(),
-        x: "angular frequency".to_owned(),
-        y: "|e/q|".to_owned(),
+        title,
+        x: "angular frequency [rad per unit of time]".to_owned(),
+        y: "|e/q| [unit of time]".to_owned(),
         scale: Scale::LogLog,
-        floor: 1e-4,
+        floor: libm::pow(10.0, libm::log10(least).floor() - 2.0),
         curves,
     }
 }

@@ -1,10 +1,11 @@
 //! One simulation: a steady state, a long run from the initial condition, and a run with noise.
 
 use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
+use super::fixed::checked;
 use super::orbit::{Orbit, amplitudes, rms, sup};
 use super::{
     BandLimitedNoise, ClosedLoop, Disturbance, FixedStep, Noise, NoiseSettings, Progress, SteadyState,
-    SteadyStateError, steady_state,
+    SteadyStateError, fixed_steady_state, steady_state,
 };
 
 /// How a long run is integrated.
@@ -23,8 +24,7 @@ pub struct Settings {
     pub periods: usize,
     /// Its method.
     pub method: Method,
-    /// Samples of a period in the long run, at least 1; with the fixed step, every step is one of them or the
-    /// number of steps is a multiple.
+    /// Samples of a period in the long run, at least 1.
     pub samples: usize,
     /// Noise, if any, and where it enters.
     pub noise: Option<(NoiseSettings, Noise)>,
@@ -32,6 +32,18 @@ pub struct Settings {
     pub noise_steps: usize,
     /// How many Fourier coefficients are reported.
     pub harmonics: usize,
+}
+
+impl Settings {
+    /// The steps per period of the fixed method in use: the number asked for, raised to a multiple of the samples.
+    #[must_use]
+    pub fn fixed_steps(&self) -> Option<usize> {
+        let samples = self.samples.max(1);
+        match self.method {
+            Method::Adaptive => None,
+            Method::Fixed(steps) => Some(steps.div_ceil(samples).max(1) * samples),
+        }
+    }
 }
 
 /// A run from the initial condition without noise.
@@ -65,6 +77,8 @@ pub struct NoisyRun {
 /// The outcome of a simulation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
+    /// What was asked for.
+    pub settings: Settings,
     /// The steady state, or why there is none.
     pub steady: Result<(SteadyState, SteadyFigures), SteadyStateError>,
     /// The long run, or why it ended early.
@@ -96,8 +110,11 @@ impl SteadyFigures {
         steady: &SteadyState,
         harmonics: usize,
     ) -> Result<SteadyFigures, IntegrationFailure> {
-        let error = Orbit::new(closed_loop, steady)?.error();
-        Ok(SteadyFigures { sup: sup(&error), rms: rms(&error), amplitudes: amplitudes(&error, harmonics), error })
+        Ok(SteadyFigures::of(Orbit::new(closed_loop, steady)?.error(), harmonics))
+    }
+
+    fn of(error: Vec<f64>, harmonics: usize) -> SteadyFigures {
+        SteadyFigures { sup: sup(&error), rms: rms(&error), amplitudes: amplitudes(&error, harmonics), error }
     }
 }
 
@@ -108,11 +125,24 @@ pub fn simulate(closed_loop: &ClosedLoop, start: &[f64], settings: &Settings, pr
         let figures = SteadyFigures::new(closed_loop, &steady, settings.harmonics)?;
         Ok((steady, figures))
     });
+    // A loop that is too stiff for steps with control may have fixed ones.
+    let steady = match (steady, settings.fixed_steps()) {
+        (
+            Err(SteadyStateError::Integration(
+                IntegrationFailure::TooManySteps { .. } | IntegrationFailure::Stiff { .. },
+            )),
+            Some(steps),
+        ) => fixed_steady_state(closed_loop, start, steps, progress).map(|steady| {
+            let figures = SteadyFigures::of(Orbit::fixed(closed_loop, &steady, steps).error(), settings.harmonics);
+            (steady, figures)
+        }),
+        (steady, _) => steady,
+    };
     let long = long_run(closed_loop, start, settings, progress);
     let noisy = settings.noise.map(|(noise, enters)| {
         noisy_run(closed_loop, start, settings.periods, settings.noise_steps, noise, enters, progress)
     });
-    Simulation { steady, long, noisy }
+    Simulation { settings: *settings, steady, long, noisy }
 }
 
 fn long_run(
@@ -131,12 +161,7 @@ fn long_run(
         return_distances: Vec::new(),
         settled: None,
     };
-    let mut fixed = match settings.method {
-        Method::Fixed(steps) => {
-            Some((steps.div_ceil(samples), FixedStep::new(closed_loop, steps.div_ceil(samples) * samples)))
-        }
-        Method::Adaptive => None,
-    };
+    let mut fixed = settings.fixed_steps().map(|steps| (steps / samples, FixedStep::new(closed_loop, steps)));
     let period = closed_loop.period;
     for index in 0..settings.periods.max(1) {
         let t = index as f64 * period;
@@ -151,8 +176,10 @@ fn long_run(
                     }
                     states.push(y.clone());
                 }
-                if !y.iter().all(|value| value.is_finite()) {
-                    return Err(IntegrationFailure::Escaped { t });
+                // The Jacobian at the ends of the run stands for those between; a run that left all bounds is one too.
+                let ends = index == 0 || index + 1 == settings.periods || !y.iter().all(|value| value.is_finite());
+                if ends {
+                    checked(closed_loop, *stride * samples, t, &before, &y)?;
                 }
                 states
             }
@@ -193,6 +220,7 @@ pub fn noisy_run(
     let mut y = start.to_vec();
     let mut run = NoisyRun { sup: Vec::new(), rms: Vec::new(), largest_noise: 0.0 };
     for period in 0..periods {
+        let before = y.clone();
         let (mut largest, mut squares) = (0.0_f64, 0.0);
         for step in 0..steps_per_period {
             let v = noise.sample();
@@ -202,8 +230,8 @@ pub fn noisy_run(
             largest = largest.max(e.abs());
             squares += e * e;
         }
-        if !y.iter().all(|value| value.is_finite()) {
-            return Err(IntegrationFailure::Escaped { t: period as f64 * closed_loop.period });
+        if period == 0 || period + 1 == periods || !y.iter().all(|value| value.is_finite()) {
+            checked(closed_loop, steps_per_period, period as f64 * closed_loop.period, &before, &y)?;
         }
         run.sup.push(largest);
         run.rms.push((squares / steps_per_period as f64).sqrt());

@@ -1,6 +1,7 @@
 //! Steady states: the T-periodic solution by Newton shooting.
 
 use super::adaptive::{IntegrationFailure, Tolerance, flow, flow_with_derivative};
+use super::fixed::{FixedStep, fixed_flow, fixed_flow_with_derivative};
 use super::{ClosedLoop, Progress};
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
@@ -43,6 +44,17 @@ pub enum SteadyStateError {
     },
 }
 
+impl SteadyStateError {
+    /// What to try, where that is known; `flag` is the flag that sets the steps per period.
+    #[must_use]
+    pub fn way_out(&self, flag: &str) -> Option<String> {
+        match self {
+            SteadyStateError::Integration(failure) => Some(failure.way_out(flag)),
+            SteadyStateError::NoConvergence { .. } => None,
+        }
+    }
+}
+
 /// Finds the T-periodic solution that a simulation from `start` approaches: y(T; y0) = y0 by Newton's method with the
 /// variational equations. The time to simulate until it shows would be set by the slowest multiplier; this is not.
 ///
@@ -53,17 +65,46 @@ pub fn steady_state(
     start: &[f64],
     progress: &dyn Progress,
 ) -> Result<SteadyState, SteadyStateError> {
+    let approach = |period: u32, y: &[f64]| {
+        flow(closed_loop, f64::from(period) * closed_loop.period, closed_loop.period, y, Tolerance::ORDINARY)
+    };
+    let shoot = |y: &[f64]| shoot(closed_loop, y, &|y| flow_with_derivative(closed_loop, y, Tolerance::TIGHT));
+    search(start, approach, shoot, progress)
+}
+
+/// The same by fixed steps, for loops that are too stiff for steps with control: the periodic solution of the method,
+/// which differs from the one of the loop by its error of order 4.
+///
+/// # Errors
+/// [`SteadyStateError`], as above; and steps that are too long for the loop.
+pub fn fixed_steady_state(
+    closed_loop: &ClosedLoop,
+    start: &[f64],
+    steps: usize,
+    progress: &dyn Progress,
+) -> Result<SteadyState, SteadyStateError> {
+    let mut method = FixedStep::new(closed_loop, steps);
+    let shoot = |y: &[f64]| shoot(closed_loop, y, &|y| fixed_flow_with_derivative(closed_loop, steps, y));
+    search(start, |_, y| fixed_flow(&mut method, y), shoot, progress)
+}
+
+/// Approaches by simulation and then shoots, again from further along where that fails.
+fn search(
+    start: &[f64],
+    mut approach: impl FnMut(u32, &[f64]) -> Result<Vec<f64>, IntegrationFailure>,
+    shoot: impl Fn(&[f64]) -> Result<SteadyState, SteadyStateError>,
+    progress: &dyn Progress,
+) -> Result<SteadyState, SteadyStateError> {
     let mut y = start.to_vec();
     let mut periods = 0;
     let mut outcome = Err(SteadyStateError::NoConvergence { residual: f64::INFINITY });
     for more in APPROACHES {
         for _ in 0..more {
-            let t = f64::from(periods) * closed_loop.period;
-            y = flow(closed_loop, t, closed_loop.period, &y, Tolerance::ORDINARY)?;
+            y = approach(periods, &y)?;
             periods += 1;
             progress.advance();
         }
-        outcome = shoot(closed_loop, &y);
+        outcome = shoot(&y);
         if outcome.is_ok() {
             break;
         }
@@ -71,13 +112,16 @@ pub fn steady_state(
     outcome
 }
 
+/// The flow over a period with its derivative.
+type Flow<'f> = dyn Fn(&[f64]) -> Result<(Vec<f64>, DMatrix<f64>), IntegrationFailure> + 'f;
+
 /// Newton's method for y(T; y0) - y0 = 0.
-fn shoot(closed_loop: &ClosedLoop, guess: &[f64]) -> Result<SteadyState, SteadyStateError> {
+fn shoot(closed_loop: &ClosedLoop, guess: &[f64], flow: &Flow<'_>) -> Result<SteadyState, SteadyStateError> {
     let d = closed_loop.dimension();
     let mut y = DVector::from_column_slice(guess);
     let mut best: Option<(f64, DVector<f64>, DMatrix<f64>)> = None;
     for _ in 0..MAX_ITERATIONS {
-        let (end, monodromy) = flow_with_derivative(closed_loop, y.as_slice(), Tolerance::TIGHT)?;
+        let (end, monodromy) = flow(y.as_slice())?;
         let defect = DVector::from_vec(end) - &y;
         let residual = defect.amax();
         let worse = best.as_ref().is_some_and(|(smallest, ..)| residual >= *smallest);

@@ -1,7 +1,8 @@
 //! The discrete regulator as C99 without dependencies.
 
 use super::{Export, decimal};
-use crate::regulator::{Discrete, Regulator};
+use crate::regulator::{Discrete, Regulator, SampledLoop};
+use sha2::{Digest, Sha256};
 
 /// A header and its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,25 +21,37 @@ pub struct CSources {
 /// literals, so that no decimal is rounded again.
 #[must_use]
 pub fn c_sources(export: &Export<'_>, header_name: &str) -> Option<CSources> {
-    let discrete = export.discrete?;
+    let (discrete, sampled) = export.discrete?;
     let regulator = export.regulator;
     // A comment could be closed by the name, or end in a line splice.
     let name: String = export.name.replace("*/", "* /").replace("/*", "/ *").replace(['\\', '?'], " ");
-    Some(CSources {
-        header: header(regulator, discrete, &name),
-        source: source(regulator, discrete, &name, header_name),
-    })
+    let source = source(regulator, discrete);
+    let id = identity(&source);
+    let top = format!(
+        "/* Regulator for: {name} */\n#include \"{header_name}\"\n\n#if SIGMASTAR_CONTROLLER_ID != {id}\n\
+         #error \"this source and its header are of different regulators\"\n#endif\n\n"
+    );
+    Some(CSources { header: header(regulator, discrete, sampled, &name, &id), source: top + &source })
 }
 
-fn header(regulator: &Regulator, discrete: &Discrete, name: &str) -> String {
+/// A number that the header and the source share, so that two which do not belong together do not compile.
+fn identity(source: &str) -> String {
+    let digest = Sha256::digest(source);
+    let word = digest.iter().take(4).fold(0_u32, |word, byte| (word << 8) | u32::from(*byte));
+    format!("0x{word:08x}UL")
+}
+
+fn header(regulator: &Regulator, discrete: &Discrete, sampled: SampledLoop, name: &str, id: &str) -> String {
     let n_o = regulator.oscillators().unwrap_or(0);
     let dimension = regulator.dimension();
     format!(
         "/* Regulator for: {name}\n\
          \x20* sigma = {}, mu = {}, n_o = {n_o}, sampling time {}.\n\
+         \x20* In floating point, {sampled}.\n\
          \x20* Call sigmastar_step once per sample with the measured error; apply the control that it returns. */\n\
          #ifndef SIGMASTAR_CONTROLLER_H\n\
          #define SIGMASTAR_CONTROLLER_H\n\n\
+         #define SIGMASTAR_CONTROLLER_ID {id}\n\
          #define SIGMASTAR_OSCILLATORS {n_o}\n\
          #define SIGMASTAR_STATES {dimension}\n\
          #define SIGMASTAR_SAMPLING_TIME {} /* {} */\n\n\
@@ -57,10 +70,9 @@ fn header(regulator: &Regulator, discrete: &Discrete, name: &str) -> String {
     )
 }
 
-fn source(regulator: &Regulator, discrete: &Discrete, name: &str, header_name: &str) -> String {
+fn source(regulator: &Regulator, discrete: &Discrete) -> String {
     let (cosines, sines): (Vec<f64>, Vec<f64>) = discrete.rotations.iter().map(|[c, s]| (*c, *s)).unzip();
-    let mut source = format!("/* Regulator for: {name} */\n#include \"{header_name}\"\n\n");
-    source.push_str(
+    let mut source = String::from(
         "/* The same bits on every machine need each operation rounded on its own: GCC does so with -std=c99 or\n\
          \x20* -ffp-contract=off, other compilers follow this pragma. */\n",
     );

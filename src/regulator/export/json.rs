@@ -9,17 +9,20 @@ pub const FORMAT: &str = "sigmastar/controller";
 /// The version that is written.
 pub const VERSION: u64 = 1;
 
-/// The regulator as JSON: parameters, matrices row by row, and the discretisation where there is one. Every number is
-/// a double in the fewest digits that give it back.
+/// The regulator as JSON: parameters, matrices row by row, and the discretisation with the
+/// spectral radius of its loop where there is one. Every number is a double in the fewest digits that give it back.
 #[must_use]
 pub fn json(export: &Export<'_>) -> Value {
     let regulator = export.regulator;
-    let discrete = export.discrete.map(|discrete| {
+    let discrete = export.discrete.map(|(discrete, sampled)| {
         object!({
             "hold": "zero-order",
             "step": discrete.step,
             "Phi": rows(&discrete.transition()),
             "Gamma": discrete.input,
+            "sampled_loop": {
+                "plant": "e' = u", "spectral_radius": sampled.spectral_radius(), "verdict": sampled.verdict(),
+            },
         })
     });
     object!({

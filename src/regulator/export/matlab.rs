@@ -3,7 +3,7 @@
 use super::{Export, decimal};
 
 /// A script that sets `sigma`, `mu`, `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N` and, with a discretisation,
-/// `step`, `Phi_d`, `Gamma_d`. It uses base functions only and runs in MATLAB and in Octave.
+/// `step`, `spectral_radius` (of the sampled loop on e' = u), `Phi_d`, `Gamma_d`. It uses base functions only and runs in MATLAB and in Octave.
 #[must_use]
 pub fn matlab(export: &Export<'_>) -> String {
     let regulator = export.regulator;
@@ -25,9 +25,11 @@ pub fn matlab(export: &Export<'_>) -> String {
     script.push_str(&format!("M = [{}]';\n", row(&regulator.m())));
     script.push_str(&format!("N = diag([{}]);\n", row(&regulator.n_diagonal())));
     script.push_str(&format!("Gamma = -(Phi + sigma*eye({dimension}))*M;\n"));
-    if let Some(discrete) = export.discrete {
+    if let Some((discrete, sampled)) = export.discrete {
         script.push_str("% With e constant over each sample: z_next = Phi_d*z + Gamma_d*e\n");
+        script.push_str(&format!("% In floating point, {sampled}\n"));
         script.push_str(&format!("step = {};\n", decimal(discrete.step)));
+        script.push_str(&format!("spectral_radius = {};\n", decimal(sampled.spectral_radius())));
         script.push_str(&format!("Phi_d = eye({dimension});\n"));
         for (at, [cosine, sine]) in discrete.rotations.iter().enumerate() {
             let (first, second) = (2 * at + 2, 2 * at + 3);

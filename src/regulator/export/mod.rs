@@ -10,7 +10,7 @@ pub use json::{FORMAT, VERSION, json};
 pub use matlab::matlab;
 pub use npz::npz;
 
-use super::{Discrete, Regulator};
+use super::{Discrete, Regulator, SampledLoop};
 
 /// What is written out.
 #[derive(Clone, Copy, Debug)]
@@ -19,8 +19,8 @@ pub struct Export<'r> {
     pub name: &'r str,
     /// The regulator.
     pub regulator: &'r Regulator,
-    /// Its discretisation, where one was asked for.
-    pub discrete: Option<&'r Discrete>,
+    /// Its discretisation and what that does to the loop, where one was asked for.
+    pub discrete: Option<(&'r Discrete, SampledLoop)>,
 }
 
 /// A double in the fewest digits that give it back.

@@ -6,7 +6,8 @@ use ndarray_npy::{NpzWriter, WriteNpzError};
 use std::io::Cursor;
 
 /// The regulator as a NumPy `.npz` archive (stored, no time stamps): `sigma`, `mu`, `frequencies`, `weights`, `Phi`,
-/// `Gamma`, `M`, `N` and, with a discretisation, `step`, `Phi_d`, `Gamma_d`.
+/// `Gamma`, `M`, `N` and, with a discretisation, `step`, `Phi_d`, `Gamma_d`, and of the sampled loop on e' = u
+/// `spectral_radius` and `unstable` (a Boolean).
 ///
 /// # Errors
 /// None is known: the archive is written to memory.
@@ -22,7 +23,9 @@ pub fn npz(export: &Export<'_>) -> Result<Vec<u8>, WriteNpzError> {
     archive.add_array("Gamma", &vector(&regulator.gamma()))?;
     archive.add_array("M", &vector(&regulator.m()))?;
     archive.add_array("N", &Array2::from_diag(&vector(&regulator.n_diagonal())))?;
-    if let Some(discrete) = export.discrete {
+    if let Some((discrete, sampled)) = export.discrete {
+        archive.add_array("spectral_radius", &Array0::from_elem((), sampled.spectral_radius()))?;
+        archive.add_array("unstable", &Array0::from_elem((), sampled.is_unstable()))?;
         archive.add_array("step", &Array0::from_elem((), discrete.step))?;
         archive.add_array("Phi_d", &discrete.transition())?;
         archive.add_array("Gamma_d", &vector(&discrete.input))?;

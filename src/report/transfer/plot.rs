@@ -3,6 +3,7 @@
 use crate::data::Data;
 use crate::number::Direction;
 use crate::report::number::exact;
+use crate::simulate::plot::{DETAIL, at_size, canvas, heading};
 use crate::transfer::{CertifiedPair, OscillatorCount, transfer_graph};
 use plotters::prelude::*;
 
@@ -39,7 +40,7 @@ fn chosen(counts: &[OscillatorCount]) -> Vec<OscillatorCount> {
 pub fn plot_svg(data: &Data<'_>, pair: &CertifiedPair, counts: &[OscillatorCount]) -> Result<String, String> {
     let mut svg = String::new();
     draw(&mut svg, data, pair, &chosen(counts)).map_err(|error| error.to_string())?;
-    Ok(svg)
+    Ok(at_size(svg, SIZE))
 }
 
 fn draw(
@@ -55,53 +56,43 @@ fn draw(
     let values = || graphs.iter().flatten().map(|(_, value)| *value).filter(|value| *value > 0.0);
     // Deep valleys would flatten everything else.
     let lowest = values().fold(k0, f64::min).max(k0 * 1e-5);
-    let area = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    area.fill(&WHITE)?;
+    let area = canvas(svg, SIZE)?;
     let [k0_text, k1_text] = [&pair.k0, &pair.k1].map(|k| exact(k, Direction::Up));
     let title = format!("T_N(x) under k0 + k1 x^2 with k0 = {k0_text}, k1 = {k1_text}");
+    let bound = ("k0 + k1 x^2, every N".to_owned(), BLACK);
+    let curves = counts.iter().zip(COLOURS).map(|(n_o, colour)| (format!("N = {n_o}"), colour));
+    let entries: Vec<(String, RGBColor)> = [bound].into_iter().chain(curves).collect();
+    let area = heading(&area, &title, &entries)?;
     let mut chart = ChartBuilder::on(&area)
-        .caption(title, ("sans-serif", 20))
-        .margin(12)
-        .x_label_area_size(48)
-        .y_label_area_size(72)
+        .margin(12 * DETAIL)
+        .margin_top(4 * DETAIL)
+        .margin_right(24 * DETAIL)
+        .x_label_area_size(48 * DETAIL)
+        .y_label_area_size(72 * DETAIL)
         .build_cartesian_2d((from..to).log_scale(), (lowest..2.0 * envelope(to)).log_scale())?;
     chart
         .configure_mesh()
-        .x_desc("x = omega / base frequency")
-        .y_desc("T_N(x)")
+        .x_desc("x = omega / base frequency [pure number]")
+        .y_desc("T_N(x) [pure number]")
         .x_label_formatter(&|x| short(*x))
         .y_label_formatter(&|y| short(*y))
-        .label_style(("sans-serif", 14))
-        .axis_desc_style(("sans-serif", 16))
-        .light_line_style(RGBColor(238, 238, 238))
-        .bold_line_style(RGBColor(205, 205, 205))
+        .label_style(("sans-serif", 14 * DETAIL))
+        .axis_desc_style(("sans-serif", 16 * DETAIL))
+        .axis_style(BLACK.stroke_width(DETAIL))
+        .set_all_tick_mark_size(5 * DETAIL)
+        .light_line_style(RGBColor(238, 238, 238).stroke_width(DETAIL))
+        .bold_line_style(RGBColor(205, 205, 205).stroke_width(DETAIL))
         .draw()?;
-    let legend = |colour: RGBColor, width: u32| {
-        move |(x, y): (i32, i32)| PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(width))
-    };
     // Few oscillators last: their curves leave the common one early and stay visible on top of it.
-    for ((n_o, graph), colour) in counts.iter().zip(graphs).zip(COLOURS).rev() {
+    for (graph, colour) in graphs.into_iter().zip(COLOURS).rev() {
         let shown = graph.into_iter().filter(|(_, value)| *value >= lowest);
-        chart
-            .draw_series(LineSeries::new(shown, colour.stroke_width(1)))?
-            .label(format!("N = {n_o}"))
-            .legend(legend(colour, 2));
+        chart.draw_series(LineSeries::new(shown, colour.stroke_width(DETAIL + 1)))?;
     }
     let line = (0..=ENVELOPE).map(|k| {
         let x = from * (to / from).powf(f64::from(k) / f64::from(ENVELOPE));
         (x, envelope(x))
     });
-    chart
-        .draw_series(LineSeries::new(line, BLACK.stroke_width(2)))?
-        .label("k0 + k1 x^2, every N")
-        .legend(legend(BLACK, 2));
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .background_style(WHITE.mix(0.9))
-        .border_style(RGBColor(160, 160, 160))
-        .label_font(("sans-serif", 14))
-        .draw()?;
+    chart.draw_series(LineSeries::new(line, BLACK.stroke_width(2 * DETAIL)))?;
     area.present()?;
     Ok(())
 }
