@@ -105,7 +105,7 @@ pub fn place(mut files: Vec<(Temporary, &Path)>) -> Result<(), PlaceError> {
         // Nothing is renamed after the last one, so only those before it may have to be put back.
         let kept = if index < last { keep(target) } else { Ok(None) };
         let renamed = kept.and_then(|kept| match temporary.file.take() {
-            Some(file) => file.persist(&*target).map(|_| kept).map_err(|error| error.error),
+            Some(file) => file.persist(*target).map(|_| kept).map_err(|error| error.error),
             None => Ok(kept),
         });
         match renamed {
