@@ -1,6 +1,6 @@
 //! The proof that the bounding functions are what the derivation needs: finite, nonnegative, nondecreasing.
 
-use crate::expr::{BoundingFailure, Expr, ProofSettings, prove_bounding};
+use crate::expr::{BoundingFailure, Expr, ProofSettings, Reason, prove_bounding};
 use crate::spec::model::Specification;
 use rug::Rational;
 
@@ -27,25 +27,48 @@ pub fn prove_on_domain(spec: &Specification) -> Result<(), Vec<BoundingProblem>>
     let edge = |constant: &crate::spec::model::Constant| constant.enclose(PRECISION).upper_rational();
     // The reader has refused constants without a bounded enclosure; were one to slip through, nothing is proved.
     let ends = edge(&domain.x).zip(edge(&domain.e));
-    all(spec, |expr| match &ends {
-        Some((x, e)) => prove_bounding(expr, x, e, &ProofSettings::default()),
+    all(spec, |expr, settings| match &ends {
+        Some((x, e)) => prove_bounding(expr, x, e, settings),
         None => Err(BoundingFailure::without_domain()),
     })
 }
 
-/// Proves every bounding function on [0, x] x [0, e], with the guarantee of [`prove_on_domain`].
+/// What every bounding function may take of [`ProofSettings::max_operations`] at first: nearly all need far less.
+const FIRST_OPERATIONS: u64 = 30_000;
+
+/// What those that need more share, each up to its default: so ten hostile ones take no longer than two.
+const SHARED_OPERATIONS: u64 = 1_200_000;
+
+/// Proves every bounding function on [0, x] x [0, e], with the guarantee of [`prove_on_domain`]. What one of them may take
+/// depends on how many of them are hard, and not on their order.
 ///
 /// # Errors
 /// All bounding functions that fail, in the order of the fields; all of them where x or e is negative.
 pub fn prove_up_to(spec: &Specification, x: &Rational, e: &Rational) -> Result<(), Vec<BoundingProblem>> {
-    all(spec, |expr| prove_bounding(expr, x, e, &ProofSettings::default()))
+    all(spec, |expr, settings| prove_bounding(expr, x, e, settings))
 }
 
-/// One proof for each bounding function that is given.
-fn all(spec: &Specification, proof: impl Fn(&Expr) -> Result<(), BoundingFailure>) -> Result<(), Vec<BoundingProblem>> {
-    let problem =
-        |(field, expr): (&'static str, &Expr)| proof(expr).err().map(|failure| BoundingProblem { field, failure });
-    let problems: Vec<BoundingProblem> = spec.bounds.named().filter_map(problem).collect();
+/// One proof for each bounding function that is given; those that need more than most share what is left for them.
+fn all(
+    spec: &Specification,
+    proof: impl Fn(&Expr, &ProofSettings) -> Result<(), BoundingFailure>,
+) -> Result<(), Vec<BoundingProblem>> {
+    let attempt = |expr: &Expr, max_operations: u64| {
+        proof(expr, &ProofSettings { max_operations, ..ProofSettings::default() }).err()
+    };
+    let unfinished =
+        |failure: &BoundingFailure| matches!(failure, BoundingFailure::Undecided { reason: Reason::Operations(_), .. });
+    let first: Vec<(&'static str, &Expr, BoundingFailure)> =
+        spec.bounds.named().filter_map(|(field, expr)| Some((field, expr, attempt(expr, FIRST_OPERATIONS)?))).collect();
+    let hard = first.iter().filter(|(.., failure)| unfinished(failure)).count() as u64;
+    let share = (SHARED_OPERATIONS / hard.max(1)).min(ProofSettings::default().max_operations);
+    let problems: Vec<BoundingProblem> = first
+        .into_iter()
+        .filter_map(|(field, expr, failure)| {
+            let failure = if unfinished(&failure) { attempt(expr, share)? } else { failure };
+            Some(BoundingProblem { field, failure })
+        })
+        .collect();
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 

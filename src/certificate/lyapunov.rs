@@ -4,7 +4,7 @@ use crate::data::Data;
 use crate::enclosure::MAX_PRECISION;
 use crate::lyapunov::{Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, candidates, prove};
 use crate::number::write_exact;
-use crate::search::{FloatModel, search_sharp};
+use crate::search::{FloatModel, SharpParameters, search_sharp, search_sharp_near};
 use crate::spec::model::{Constant, Lyapunov, LyapunovSource, PeriodicMatrix, Specification};
 use crate::transfer::TradeOff;
 use rug::Rational;
@@ -23,6 +23,26 @@ pub struct Resolution {
 /// So many candidates in a row without a smaller sigma* end the search for one.
 const GIVE_UP: usize = 3;
 
+/// Full searches for one Jacobian: from the first candidate that has a sigma*, the others are reached by local steps.
+const MAX_SEARCHES: usize = 8;
+
+/// 0, 1, ..., count - 1, the ends and middles first: 0, the last, the middle, the quarters, ...
+fn spread(count: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = Vec::new();
+    let last = count.saturating_sub(1);
+    let mut parts = 1;
+    while order.len() < count {
+        for part in 0..=parts {
+            let at = last * part / parts;
+            if !order.contains(&at) {
+                order.push(at);
+            }
+        }
+        parts *= 2;
+    }
+    order
+}
+
 /// Finds and proves a triple for the Jacobian of a specification: of the candidates, the one whose sigma* comes out smallest
 /// in floating point.
 ///
@@ -39,10 +59,25 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         let trade_off =
             if spec.internal_model.matched { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
         let mut model = FloatModel::new(&data, trade_off);
+        let (mut searches, mut start): (usize, Option<(f64, SharpParameters)>) = (0, None);
         let mut sigma = |candidate: &Candidate| {
             (model.p_low, model.p_up, model.alpha) = (1.0, candidate.ratio, candidate.alpha);
-            search_sharp(&model, &[]).ok().map(|proposal| proposal.sigma)
+            let near = start.and_then(|(_, parameters)| search_sharp_near(&model, &parameters));
+            let found = near.or_else(|| {
+                let search = searches < MAX_SEARCHES;
+                searches += usize::from(search);
+                if search { search_sharp(&model, &[]).ok() } else { None }
+            })?;
+            if start.is_none_or(|(least, _)| found.sigma < least) {
+                start = Some((found.sigma, found.parameters));
+            }
+            Some(found.sigma)
         };
+        // A start for the others: the first candidate has a sigma*, or one spread over all of them.
+        spread(candidates.found.len())
+            .into_iter()
+            .take(MAX_SEARCHES)
+            .find(|at| sigma(&candidates.found[*at]).is_some());
         let mut sigmas: Vec<Option<f64>> = Vec::new();
         // From the largest rate down; past the best, sigma* grows with the loss of rate.
         let (mut best, mut worse) = (f64::INFINITY, 0);

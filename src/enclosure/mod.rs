@@ -30,6 +30,13 @@ pub const DEFAULT_PRECISION: u32 = 128;
 /// The precision in bits at which raising it further is given up and the answer stays undecided.
 pub const MAX_PRECISION: u32 = 1024;
 
+/// The largest binary exponent, in magnitude, of an end point that is made an exact rational.
+///
+/// An MPFR number reaches 2^(2^30) in a few words, but its rational needs as many bits as its exponent says: `exp(7e8)`
+/// would become 128 MB, and a bisection over such numbers would never end. The limit is about 10^19728, far beyond every
+/// numeral that is read (10^4000).
+pub const MAX_EXACT_EXPONENT: i32 = 1 << 16;
+
 /// A closed interval proved to contain a real quantity, or the undefined enclosure.
 ///
 /// Invariant: either both ends are NaN (undefined), or `lower <= upper`, the lower end is not `+inf` and the upper
@@ -121,16 +128,19 @@ impl Enclosure {
         &self.upper
     }
 
-    /// The upper end as an exact rational; `None` when undefined or unbounded above.
+    /// A rational that is not below the quantity: the upper end exactly, where its exponent is at most
+    /// [`MAX_EXACT_EXPONENT`] in magnitude. A smaller end is rounded up to 0 or to the smallest power of 2 in range;
+    /// `None` when undefined, unbounded above or beyond the range.
     #[must_use]
     pub fn upper_rational(&self) -> Option<Rational> {
-        self.upper.to_rational()
+        exact(&self.upper, Round::Up)
     }
 
-    /// The lower end as an exact rational; `None` when undefined or unbounded below.
+    /// A rational that is not above the quantity, in the same way; `None` when undefined, unbounded below or beyond the
+    /// range.
     #[must_use]
     pub fn lower_rational(&self) -> Option<Rational> {
-        self.lower.to_rational()
+        exact(&self.lower, Round::Down)
     }
 
     /// The precision in bits of the end points.
@@ -272,6 +282,23 @@ impl Enclosure {
         let greatest = self.upper.to_integer_round(Round::Down)?.0;
         (least <= greatest).then_some((least, greatest))
     }
+}
+
+/// An end point as a rational of bounded size, rounded in the given direction where it is too close to 0.
+fn exact(end: &Float, round: Round) -> Option<Rational> {
+    let Some(exponent) = end.get_exp() else { return end.to_rational() };
+    if exponent > MAX_EXACT_EXPONENT {
+        return None;
+    }
+    if exponent >= -MAX_EXACT_EXPONENT {
+        return end.to_rational();
+    }
+    let least = || Rational::from(1) >> (MAX_EXACT_EXPONENT as u32);
+    Some(match (round, end.is_sign_negative()) {
+        (Round::Up, false) => least(),
+        (Round::Down, true) => -least(),
+        _ => Rational::new(),
+    })
 }
 
 /// Enclosures compare as sets: equal when both ends agree (the undefined enclosure equals itself).

@@ -138,6 +138,9 @@ pub enum Reason {
     /// The allowed number of boxes was used up.
     #[error("the limit of {0} boxes was reached")]
     Boxes(usize),
+    /// The allowed number of operations of the expression was used up.
+    #[error("the limit of {0} operations of the expression was reached; a simpler upper bound of it may do")]
+    Operations(u64),
     /// A box was bisected as often as is allowed and stayed undecided.
     #[error("bisection does not help there")]
     Depth,

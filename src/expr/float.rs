@@ -69,6 +69,12 @@ pub(super) fn binary(operation: Binary, a: f64, b: f64) -> f64 {
 }
 
 impl FloatExpr {
+    /// The number of operations, numbers and variables among them.
+    #[must_use]
+    pub fn operations(&self) -> usize {
+        self.program.len()
+    }
+
     /// The value at a point, approximately; takes no memory from the heap.
     #[must_use]
     pub fn eval(&self, x: f64, e: f64) -> f64 {

@@ -149,6 +149,12 @@ impl Program {
         self.outputs.len()
     }
 
+    /// The number of operations of one evaluation, those that depend on the time alone among them.
+    #[must_use]
+    pub fn operations(&self) -> usize {
+        self.time_code.len() + self.code.len()
+    }
+
     /// The number of values that [`Evaluator::time_values`] gives.
     #[must_use]
     pub fn time_values(&self) -> usize {

@@ -13,7 +13,7 @@ use super::failure::{BoundingFailure, DomainBox, Property, Reason};
 use super::jet::Jet;
 use super::refute::{Refuter, sides};
 use super::slope::is_zero;
-use super::syntax::{Argument, NodeKind};
+use super::syntax::{Argument, Binary, NodeKind, Unary};
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION};
 use rug::Rational;
 use std::collections::VecDeque;
@@ -22,8 +22,11 @@ use std::ops::Range;
 /// How much work a proof may take.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProofSettings {
-    /// Boxes left undecided before giving up; fewer for expressions of more than 200 operations.
+    /// Boxes left undecided before giving up.
     pub max_boxes: usize,
+    /// Operations of the expression before giving up, over all its executions: one counts once for every 128 bits of
+    /// precision, and [`FUNCTION_WEIGHT`] times where it is a function such as exp.
+    pub max_operations: u64,
     /// Bisections that may lead to one box.
     pub max_depth: u32,
     /// Bits of the first attempts.
@@ -34,19 +37,30 @@ pub struct ProofSettings {
 
 impl Default for ProofSettings {
     fn default() -> ProofSettings {
-        ProofSettings { max_boxes: 20_000, max_depth: 160, precision: DEFAULT_PRECISION, max_precision: MAX_PRECISION }
+        ProofSettings {
+            max_boxes: 20_000,
+            max_operations: 600_000,
+            max_depth: 160,
+            precision: DEFAULT_PRECISION,
+            max_precision: MAX_PRECISION,
+        }
     }
 }
 
 /// Bisections after which the working precision is raised by as many bits as they may have cost.
 const RAISE_EVERY: u32 = 16;
 
-/// Boxes times operations in the expression that a proof may take: fewer boxes for expressions of more than 200
-/// operations, so that hostile ones end within seconds too.
-const MAX_WORK: usize = 4_000_000;
+/// What a function such as exp or a power counts in [`ProofSettings::max_operations`].
+pub const FUNCTION_WEIGHT: u64 = 4;
+
+/// Executions that the last search for counterexamples may take, in units of the largest number of a whole proof.
+const LAST_SHARE: u64 = 4;
 
 /// Undecided boxes at which counterexamples are sought when the search ends.
 const LAST_ATTEMPTS: usize = 64;
+
+/// Executions of [`Refuter::corners`].
+const CORNERS: u64 = 5;
 
 /// How much longer (relative to the domain, as a power of 2) one side of a box may become than the other.
 const MAX_IMBALANCE: i32 = 24;
@@ -58,6 +72,28 @@ struct Piece {
     cuts: [i32; 2],
     /// Whether being nondecreasing in X and in E is already proved; on a piece it then holds on every part.
     monotone: [bool; 2],
+}
+
+/// The operations that a proof has taken.
+struct Work {
+    per_execution: u64,
+    done: u64,
+}
+
+impl Work {
+    fn new(expr: &Expr) -> Work {
+        let weight = |kind: &NodeKind| match kind {
+            NodeKind::Number(_) | NodeKind::Pi | NodeKind::Variable(_) | NodeKind::Unary(Unary::Neg | Unary::Abs) => 1,
+            NodeKind::Unary(_) | NodeKind::Power(_) | NodeKind::Binary(Binary::Pow) => FUNCTION_WEIGHT,
+            NodeKind::Binary(_) => 1,
+        };
+        Work { per_execution: expr.nodes.iter().map(|node| weight(&node.kind)).sum(), done: 0 }
+    }
+
+    fn count(&mut self, executions: u64, precision: u32) {
+        let each = self.per_execution.saturating_mul(u64::from(precision.div_ceil(DEFAULT_PRECISION)));
+        self.done = self.done.saturating_add(each.saturating_mul(executions));
+    }
 }
 
 /// What keeps a piece from being settled.
@@ -74,8 +110,8 @@ struct Obstacle {
 /// expression is defined, bounded and nondecreasing in X and in E. It is refuted where it is certainly negative.
 ///
 /// `Ok` is a proof, and so is [`BoundingFailure::Refuted`]; [`BoundingFailure::Undecided`] claims nothing. The result
-/// depends on the arguments only. At most `max_boxes` boxes are examined (fewer for expressions of more than 200
-/// operations), each with a bounded number of evaluations of the expression.
+/// depends on the arguments only. At most `max_boxes` boxes are examined, and the work ends with the box that takes it
+/// beyond `max_operations`.
 ///
 /// # Errors
 /// [`BoundingFailure`]: refuted, with exact points that prove it; or undecided, with the box where the proof got
@@ -123,27 +159,33 @@ fn subdivide(
     // First in, first out: the widest boxes come first, so that a limit is met with evenly small ones.
     let mut queue = VecDeque::from([Piece { region: domain, depth: 0, cuts: [0, 0], monotone }]);
     let mut stuck: Vec<(Piece, Obstacle)> = Vec::new();
-    let max_boxes = settings.max_boxes.min(MAX_WORK / expr.nodes.len().max(1));
+    let max_boxes = settings.max_boxes;
+    let mut work = Work::new(expr);
     let mut examined = 0;
     while let Some(mut piece) = queue.pop_front() {
         let precision = precision_at(piece.depth, settings);
-        let Some(obstacle) = examine(expr, &mut piece, precision) else { continue };
+        let Some(obstacle) = examine(expr, &mut piece, precision, &mut work) else { continue };
         if piece.depth == 0 {
             refuter.grid(&piece.region)?;
         } else if refuter.is_suspicious(&piece.region) {
+            work.count(CORNERS, precision);
             refuter.corners(&piece.region, precision)?;
         }
         examined += 1;
-        if examined >= max_boxes {
-            let reason = Reason::Boxes(max_boxes);
+        let limit = if examined >= max_boxes {
+            Some(Reason::Boxes(max_boxes))
+        } else {
+            (work.done >= settings.max_operations).then_some(Reason::Operations(settings.max_operations))
+        };
+        if let Some(reason) = limit {
             stuck.push((piece, obstacle));
-            return Err(give_up(refuter, stuck, reason, settings));
+            return Err(give_up(refuter, stuck, reason, settings, &mut work));
         }
         match bisect(&piece, &obstacle, settings) {
             Some(halves) => queue.extend(halves),
             None => {
                 // The last resort of a piece that is not divided is the highest precision.
-                if let Some(obstacle) = examine(expr, &mut piece, settings.max_precision) {
+                if let Some(obstacle) = examine(expr, &mut piece, settings.max_precision, &mut work) {
                     stuck.push((piece, obstacle));
                 }
             }
@@ -152,7 +194,7 @@ fn subdivide(
             break;
         }
     }
-    if stuck.is_empty() { Ok(()) } else { Err(give_up(refuter, stuck, Reason::Depth, settings)) }
+    if stuck.is_empty() { Ok(()) } else { Err(give_up(refuter, stuck, Reason::Depth, settings, &mut work)) }
 }
 
 fn precision_at(depth: u32, settings: &ProofSettings) -> u32 {
@@ -165,8 +207,14 @@ fn give_up(
     mut stuck: Vec<(Piece, Obstacle)>,
     reason: Reason,
     settings: &ProofSettings,
+    work: &mut Work,
 ) -> BoundingFailure {
+    work.done = 0;
     for (piece, _) in &stuck {
+        if work.done > settings.max_operations / LAST_SHARE {
+            break;
+        }
+        work.count(CORNERS, settings.max_precision);
         if let Err(refuted) = refuter.corners(&piece.region, settings.max_precision) {
             return refuted;
         }
@@ -185,8 +233,9 @@ fn is_nonnegative(value: &Enclosure) -> bool {
 }
 
 /// Tries to settle a piece; records what is proved, and returns what is not.
-fn examine(expr: &Expr, piece: &mut Piece, precision: u32) -> Option<Obstacle> {
+fn examine(expr: &Expr, piece: &mut Piece, precision: u32, work: &mut Work) -> Option<Obstacle> {
     let [x, e] = sides(&piece.region, precision);
+    work.count(1, precision);
     let slopes = expr.enclose_slopes(&x, &e);
     if !slopes.value.is_defined() {
         let (_, span) = expr.enclose_blaming(&x, &e);
@@ -201,9 +250,12 @@ fn examine(expr: &Expr, piece: &mut Piece, precision: u32) -> Option<Obstacle> {
     if piece.monotone == [true, true] {
         return None;
     }
+    work.count(1, precision);
     let jet = expr.enclose_jet(&x, &e);
     for side in [0, 1] {
         if !piece.monotone[side] {
+            // At most; a derivative may be settled by the first.
+            work.count(3, precision);
             piece.monotone[side] = derivative_is_nonnegative(expr, [&x, &e], &jet, side);
         }
     }

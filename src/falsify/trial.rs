@@ -209,6 +209,7 @@ fn too_stiff(failure: &IntegrationFailure) -> Finding {
     // Without the time and the size, so that trials with the same reason are told together.
     Finding::Unfinished(match failure {
         IntegrationFailure::Escaped { .. } => failure.to_string(),
+        IntegrationFailure::TooMuchWork { .. } => "the simulation of the closed loop takes too much work".to_owned(),
         IntegrationFailure::TooManySteps { .. }
         | IntegrationFailure::Stiff { .. }
         | IntegrationFailure::StepTooLong { .. } => {

@@ -72,6 +72,9 @@ fn settings() -> Result<DefaultSettings<f64>, SolverFailure> {
 /// three problems in a hundred end with reduced accuracy, and at 1e-8 a minimum may be off by some 1e-7.
 const TOLERANCE: f64 = 3e-9;
 
+/// The order of a block from which on its variables keep their zeros.
+const LARGE_BLOCK: usize = 7;
+
 /// What the solver proposes for a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
@@ -96,10 +99,14 @@ pub fn propose(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Candid
     }
     // Clarabel's form: s = b - A x in the cone, so b is the constant and the columns of A are minus the coefficients.
     let b: Vec<f64> = constraints.iter().flat_map(|constraint| constraint.constant().cone_vector()).collect();
+    // With many large blocks the factorisation must eliminate the rows of the blocks first, each block by itself. Where
+    // its variables have fewer entries than a block has rows, its ordering (AMD) takes the variables first, and that fills
+    // in everything between all blocks: ten times the work and more.
+    let keep_zeros = constraints.len() > 2 && constraints.iter().any(|constraint| constraint.order() >= LARGE_BLOCK);
     let (mut column_starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
     for variable in 0..cost.len() {
         let column = constraints.iter().flat_map(|constraint| constraint.terms()[variable].cone_vector());
-        for (row, value) in column.enumerate().filter(|(_, value)| *value != 0.0) {
+        for (row, value) in column.enumerate().filter(|(_, value)| keep_zeros || *value != 0.0) {
             rows.push(row);
             values.push(-value);
         }

@@ -2,7 +2,7 @@
 
 use super::family::{Deviation, Family};
 use super::float::FloatFamily;
-use super::propose::{fourier, lyapunov_samples, smallest_ratio};
+use super::propose::{fourier, lyapunov_samples, program_cost, smallest_ratio};
 use super::prove::{ProvedTriple, prove};
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::number::{Direction, round_f64, write_exact};
@@ -119,6 +119,14 @@ const SHARES: [f64; 12] = [0.9998, 0.98, 0.94, 0.88, 0.8, 0.7, 0.6, 0.5, 0.4, 0.
 /// Degrees of P(t) that a semidefinite program is tried for, where F varies.
 const DEGREES: [usize; 4] = [0, 1, 2, 4];
 
+/// What all semidefinite programs for one Jacobian may cost together, in the unit of [`program_cost`]: some seconds. Where
+/// less is left than [`FEWEST_PROGRAMS`] of a degree cost, that degree is left to the periodic Lyapunov equation.
+const MAX_PROGRAM_COST: u64 = 150_000_000;
+const FEWEST_PROGRAMS: u64 = 8;
+
+/// Bisections for the largest rate of a degree.
+const BISECTIONS: u64 = 12;
+
 /// Degrees of P(t) that the periodic Lyapunov equation is cut off at.
 const CUTS: [usize; 7] = [1, 2, 4, 8, 12, 16, 24];
 
@@ -145,9 +153,9 @@ pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, 
     }
     let limit = -exponent;
     let mut proposals = Vec::new();
-    let mut best = 0.0;
+    let (mut best, mut left) = (0.0, MAX_PROGRAM_COST);
     for degree in DEGREES.into_iter().take_while(|degree| float.degree() > 0 || *degree == 0) {
-        let reached = by_programs(&float, degree, limit, &mut proposals);
+        let reached = by_programs(&float, degree, limit, &mut left, &mut proposals);
         // A higher degree is tried while it may reach a larger rate.
         best = f64::max(best, reached);
         if best > 0.97 * limit {
@@ -173,8 +181,22 @@ pub fn floquet_exponents(jacobian: &Jacobian, period: &Constant) -> Option<Vec<[
     FloatFamily::new(&Family::new(jacobian, period, DEFAULT_PRECISION)?).floquet_exponents()
 }
 
-/// Collects the P(t) of a degree with the smallest ratio at shares of the largest rate; returns the rate.
-fn by_programs(family: &FloatFamily, degree: usize, limit: f64, proposals: &mut Vec<Vec<Mat<f64>>>) -> f64 {
+/// Collects the P(t) of a degree with the smallest ratio at shares of the largest rate; returns the rate. With fewer
+/// programs where not all can be paid for out of `left`.
+fn by_programs(
+    family: &FloatFamily,
+    degree: usize,
+    limit: f64,
+    left: &mut u64,
+    proposals: &mut Vec<Vec<Mat<f64>>>,
+) -> f64 {
+    let Some(cost) = program_cost(family, degree) else { return 0.0 };
+    let programs = (*left / cost).min(BISECTIONS + SHARES.len() as u64);
+    if programs < FEWEST_PROGRAMS {
+        return 0.0;
+    }
+    let bisections = programs / 2;
+    let shares = (programs - bisections) as usize;
     let at = |alpha: f64| {
         let p = smallest_ratio(family, degree, alpha)?;
         let alpha = family.assess(&p)?.alpha;
@@ -182,8 +204,9 @@ fn by_programs(family: &FloatFamily, degree: usize, limit: f64, proposals: &mut 
     };
     // The largest rate, by bisection on whether there is an answer.
     let (mut low, mut high) = (0.0, limit);
-    for _ in 0..12 {
+    for _ in 0..bisections {
         let middle = (low + high) / 2.0;
+        *left -= cost;
         match at(middle) {
             Some(_) => low = middle,
             None => high = middle,
@@ -192,7 +215,10 @@ fn by_programs(family: &FloatFamily, degree: usize, limit: f64, proposals: &mut 
     if low == 0.0 {
         return 0.0;
     }
-    proposals.extend(SHARES.iter().filter_map(|share| at(share * low)).map(|(p, _)| p));
+    *left -= shares as u64 * cost;
+    // Fewer shares are spread over the same range.
+    let chosen = (0..shares).map(|k| SHARES[k * SHARES.len() / shares]);
+    proposals.extend(chosen.filter_map(|share| at(share * low)).map(|(p, _)| p));
     low
 }
 

@@ -7,8 +7,40 @@ use faer::Mat;
 use std::f64::consts::TAU;
 
 /// The most unknowns and the most entries of all constraints together for which a semidefinite program is solved.
-const MAX_UNKNOWNS: usize = 120;
-const MAX_ROWS: usize = 6_000;
+const MAX_UNKNOWNS: u64 = 120;
+const MAX_ROWS: u64 = 6_000;
+
+/// What a row costs besides the factorisation, in the same unit.
+const ROW_OVERHEAD: u64 = 1_000;
+
+/// The sizes of the semidefinite program of a degree.
+struct Sizes {
+    /// Entries of a symmetric matrix of the order.
+    triangle: u64,
+    unknowns: u64,
+    samples: u64,
+    /// Entries of all constraints.
+    rows: u64,
+}
+
+impl Sizes {
+    /// `None` where the program is too large to be solved.
+    fn new(family: &FloatFamily, degree: usize) -> Option<Sizes> {
+        let triangle = (family.order * (family.order + 1) / 2) as u64;
+        let unknowns = (2 * degree as u64 + 1) * triangle + 1;
+        let together = (degree + family.degree()) as u64;
+        let samples = if together == 0 { 1 } else { 8 * together };
+        let rows = samples * (family.vertices.len() as u64 + 2) * triangle;
+        (unknowns <= MAX_UNKNOWNS && rows <= MAX_ROWS).then_some(Sizes { triangle, unknowns, samples, rows })
+    }
+}
+
+/// What one semidefinite program of a degree costs, in entries that its factorisation touches: every row of a constraint
+/// meets the rows of its own block and all unknowns. `None` where it is too large to be solved.
+pub(super) fn program_cost(family: &FloatFamily, degree: usize) -> Option<u64> {
+    let Sizes { triangle, unknowns, rows, .. } = Sizes::new(family, degree)?;
+    Some(rows * (triangle * triangle + triangle * unknowns + unknowns * unknowns + ROW_OVERHEAD))
+}
 
 /// The P(t) of a degree with the smallest ratio p_up/p_low for a given rate, by a semidefinite program: the coefficients of
 /// 1, cos, sin, ...; `None` where the solver has none, or the program is too large.
@@ -19,12 +51,8 @@ pub(super) fn smallest_ratio(family: &FloatFamily, degree: usize, alpha: f64) ->
     let n = family.order;
     let triangle: Vec<(usize, usize)> = (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
     let slots = 2 * degree + 1;
-    let unknowns = slots * triangle.len() + 1;
-    let together = degree + family.degree();
-    let samples = if together == 0 { 1 } else { 8 * together };
-    if unknowns > MAX_UNKNOWNS || samples * (family.vertices.len() + 2) * triangle.len() > MAX_ROWS {
-        return None;
-    }
+    let sizes = Sizes::new(family, degree)?;
+    let (unknowns, samples) = (sizes.unknowns as usize, sizes.samples as usize);
     let last = unknowns - 1;
     // What is demanded is relative to the size of the equation, so that the unit of time does not matter.
     let size = family.size + family.frequency * degree as f64;

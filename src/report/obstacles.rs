@@ -156,6 +156,7 @@ pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
 fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn FnMut(&str)) {
     let domain = run.spec.domain.as_ref();
     match obstacle {
+        Obstacle::Magnitude => add("units of time, x, e and q in which the numbers are of ordinary size"),
         Obstacle::NotFinite => {
             add("check the bounding functions and the magnitude of the data: no finite values were found")
         }

@@ -26,6 +26,8 @@ const NEGLIGIBLE: f64 = 1e-20;
 /// What stands in the way of a candidate; later ones come closer to a certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Obstacle {
+    /// A number is beyond what the search can work with.
+    Magnitude,
     /// A bounding function is not finite there.
     NotFinite,
     /// C1 or C3 fails for every sigma.
@@ -47,6 +49,10 @@ impl Obstacle {
     #[must_use]
     pub fn describe(self) -> &'static str {
         match self {
+            Obstacle::Magnitude => {
+                "a number of the specification, or a bounding function at X = E = 0, is beyond the range of double \
+                 precision, in which the search works: use units in which the numbers are of ordinary size"
+            }
             Obstacle::NotFinite => "the bounding functions are not finite at any arguments tried",
             Obstacle::Existence => "C1 or C3: no X_p, E_p tried admits a periodic solution by contraction",
             Obstacle::DomainX => "domain X: the error box around the initial set leaves it",

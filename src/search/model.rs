@@ -1,5 +1,6 @@
 //! The specification in floating point, for searches only.
 
+use super::effort::Effort;
 use crate::data::{Bound, Data};
 use crate::expr::FloatExpr;
 use crate::number::Portable;
@@ -135,6 +136,26 @@ impl FloatModel {
                 })
                 .collect(),
         }
+    }
+
+    /// How thoroughly this model is searched.
+    #[must_use]
+    pub fn effort(&self) -> Effort {
+        Effort::new(self.bounds.iter().map(|bound| bound.function.operations()).sum())
+    }
+
+    /// Whether every number, and every bounding function at X = E = 0, is one that doubles can work with.
+    #[must_use]
+    pub fn is_in_range(&self) -> bool {
+        let numbers = [self.period, self.p_low, self.p_up, self.alpha, self.mu, self.base_frequency, self.n_bar];
+        let set = match self.set {
+            FloatSet::Paper => [0.0; 3],
+            FloatSet::AtRest(x0, e0) => [x0.unwrap_or(0.0), e0.unwrap_or(0.0), 0.0],
+            FloatSet::Box(x0, e0, z0) => [x0, e0, z0],
+        };
+        numbers.iter().all(|value| value.is_normal())
+            && set.iter().all(|value| value.is_finite())
+            && self.bounds.iter().all(|bound| bound.function.eval(0.0, 0.0) != f64::INFINITY)
     }
 
     /// The same model with one datum improved by the relative amount `by` (alpha up, everything else down).

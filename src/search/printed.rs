@@ -74,6 +74,7 @@ fn evaluate(model: &FloatModel, kappas: (f64, f64), x: f64, e: f64, share: f64) 
 /// another printed condition fails everywhere.
 #[must_use]
 pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProposal> {
+    let effort = model.effort();
     let printed = printed_transfer(data);
     let kappas = (printed.kappa_0.midpoint_f64(), printed.kappa_1.midpoint_f64());
     let gain = |x: f64| {
@@ -89,11 +90,10 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
         };
         scan::largest(admissible, model.domain.1 / 6.0)
     };
-    let xs = scan::x_values(model.domain.0);
+    let xs = scan::x_values(model.domain.0, effort.x_step);
     let columns = scan::evaluate_all(&xs, |&x| {
         let e_max = largest_e(x)?;
-        scan::e_depths()
-            .iter()
+        scan::e_depths(effort.e_step)
             .flat_map(|depth| [1.0, 0.1].map(|share| (depth, share)))
             .filter_map(|(depth, share)| {
                 Some((evaluate(model, kappas, x, e_max * (-depth).portable_exp(), share)?, share))
@@ -109,6 +109,12 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
     };
     let depth = (largest_e(start.x_a)? / start.e_a).portable_ln().max(1e-9);
     let first = [start.x_a.portable_ln(), parameter_of(depth), (-share.portable_ln()).sqrt()];
-    let refined = minimise(|p| decode(p).map(|f| f.sigma.portable_ln()), &first, &[0.3, 0.5, 0.3], 6);
+    let refined = minimise(
+        |p| decode(p).map(|f| f.sigma.portable_ln()),
+        &first,
+        &[0.3, 0.5, 0.3],
+        effort.restarts(6),
+        effort.iterations,
+    );
     refined.and_then(|(best, _)| decode(&best)).filter(|best| best.sigma <= start.sigma).or(Some(start))
 }

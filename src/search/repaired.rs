@@ -120,12 +120,16 @@ pub fn perron_repaired(model: &FloatModel, x: f64, e: f64, sigma: f64) -> (f64, 
 /// The obstacle of the candidate that came closest, when none is feasible.
 pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle> {
     const ETAS: [f64; 5] = [1e-6, 1e-3, 0.1, 1.0, 30.0];
-    let xs = scan::x_values(model.domain.0);
+    if !model.is_in_range() {
+        return Err(Obstacle::Magnitude);
+    }
+    let effort = model.effort();
+    let xs = scan::x_values(model.domain.0, effort.x_step);
     let columns = scan::evaluate_all(&xs, |&x| {
         let mut closest = Obstacle::Existence;
         let mut best: Option<(RepairedProposal, f64)> = None;
         let e_max = largest_e_repaired(model, x).ok_or(closest)?;
-        for depth in scan::e_depths() {
+        for depth in scan::e_depths(effort.e_step) {
             for eta in ETAS {
                 match evaluate(model, x, e_max * (-depth).portable_exp(), eta) {
                     Ok(found) if best.is_none_or(|(least, _)| found.sigma < least.sigma) => best = Some((found, eta)),
@@ -158,7 +162,8 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
             |p| decode(p).map(|f| f.sigma.portable_ln() + scan::preference(f.x) + scan::preference(f.e)),
             &first,
             &[0.3, 0.5, 0.5],
-            6,
+            effort.restarts(6),
+            effort.iterations,
         )?;
         decode(&best)
     });

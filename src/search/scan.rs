@@ -12,10 +12,10 @@ const E_DEPTHS: [f64; 30] = [
     66.0, 75.0, 85.0, 95.0, 105.0, 115.0, 125.0, 135.0, 145.0, 155.0,
 ];
 
-/// The scanned values of X that lie inside the domain, the domain's own scale included.
-pub fn x_values(limit: f64) -> Vec<f64> {
+/// Every so many of the scanned values of X that lie inside the domain, the domain's own scale included.
+pub fn x_values(limit: f64, step: usize) -> Vec<f64> {
     let mut values: Vec<f64> =
-        X_EXPONENTS.map(|k| 10f64.portable_pow(f64::from(k) / 3.0)).filter(|x| *x < limit).collect();
+        X_EXPONENTS.step_by(step).map(|k| 10f64.portable_pow(f64::from(k) / 3.0)).filter(|x| *x < limit).collect();
     if limit.is_finite() {
         values.extend([0.003, 0.01, 0.03, 0.1, 0.2, 0.4].map(|share| share * limit));
     }
@@ -34,9 +34,9 @@ pub fn preference(argument: f64) -> f64 {
     1e-11 * argument.portable_ln().powi(2)
 }
 
-/// E depths for the scan.
-pub fn e_depths() -> &'static [f64] {
-    &E_DEPTHS
+/// Every so many of the E depths of the scan.
+pub fn e_depths(step: usize) -> impl Iterator<Item = &'static f64> + Clone {
+    E_DEPTHS.iter().step_by(step)
 }
 
 /// The largest E <= limit with `admissible(E)`, for a property that holds below a threshold: by bisection of the

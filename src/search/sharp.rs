@@ -21,15 +21,16 @@ pub struct SharpProposal {
 /// Starting values of (rho, eta) for the scan.
 const SHAPES: [(f64, f64); 6] = [(1.4, 1.0), (1.08, 0.05), (1.08, 20.0), (4.0, 0.05), (4.0, 20.0), (1.005, 1e-4)];
 
-/// How many scanned candidates are refined.
-const REFINED: usize = 10;
-
 /// Searches for the smallest sigma; `known` are candidates from elsewhere, from which it is searched too.
 ///
 /// # Errors
 /// The obstacle of the candidate that came closest, when none is feasible.
 pub fn search_sharp(model: &FloatModel, known: &[SharpParameters]) -> Result<SharpProposal, Obstacle> {
-    let xs = scan::x_values(model.domain.0);
+    if !model.is_in_range() {
+        return Err(Obstacle::Magnitude);
+    }
+    let effort = model.effort();
+    let xs = scan::x_values(model.domain.0, effort.x_step);
     let columns = scan::evaluate_all(&xs, |&x_p| scan_column(model, x_p));
     let mut closest = Obstacle::NotFinite;
     let mut found: Vec<(f64, SharpParameters)> = Vec::new();
@@ -42,7 +43,7 @@ pub fn search_sharp(model: &FloatModel, known: &[SharpParameters]) -> Result<Sha
     // Where X does not matter, prefer ordinary numbers.
     let unusual = |p: &SharpParameters| p.x_p.portable_ln().abs();
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(unusual(&a.1).total_cmp(&unusual(&b.1))));
-    let mut starts = spread(&found);
+    let mut starts = spread(&found, effort.refined);
     starts.extend(known);
     let refined = scan::evaluate_all(&starts, |start| refine(model, start, 6));
     let best = refined.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(closest)?;
@@ -53,11 +54,20 @@ pub fn search_sharp(model: &FloatModel, known: &[SharpParameters]) -> Result<Sha
 /// Whether the scan of the search finds a candidate.
 #[must_use]
 pub fn any_candidate(model: &FloatModel) -> bool {
-    scan::evaluate_all(&scan::x_values(model.domain.0), |&x_p| scan_column(model, x_p).is_ok()).contains(&true)
+    let xs = scan::x_values(model.domain.0, model.effort().x_step);
+    model.is_in_range() && scan::evaluate_all(&xs, |&x_p| scan_column(model, x_p).is_ok()).contains(&true)
+}
+
+/// The proposal that local minimisation reaches from the free numbers of a neighbouring problem; `None` where they are not
+/// feasible here. For many similar problems, of which only the first is worth a search.
+#[must_use]
+pub fn search_sharp_near(model: &FloatModel, start: &SharpParameters) -> Option<SharpProposal> {
+    let (best, _) = refine(model, start, 6)?;
+    proposal(model, best).ok()
 }
 
 /// Good candidates that differ from each other, best first.
-fn spread(found: &[(f64, SharpParameters)]) -> Vec<SharpParameters> {
+fn spread(found: &[(f64, SharpParameters)], count: usize) -> Vec<SharpParameters> {
     let mut starts: Vec<SharpParameters> = Vec::new();
     for (_, candidate) in found {
         let near = |other: &SharpParameters| {
@@ -69,7 +79,7 @@ fn spread(found: &[(f64, SharpParameters)]) -> Vec<SharpParameters> {
         if !starts.iter().any(near) {
             starts.push(*candidate);
         }
-        if starts.len() == REFINED {
+        if starts.len() == count {
             break;
         }
     }
@@ -91,9 +101,10 @@ pub fn largest_e(model: &FloatModel, x_p: f64) -> Option<f64> {
 /// The best candidates for one X_p, or the closest obstacle.
 fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters)>, Obstacle> {
     let e_max = largest_e(model, x_p).ok_or(Obstacle::Existence)?;
+    let effort = model.effort();
     let mut closest = Obstacle::Existence;
     let mut found = Vec::new();
-    for depth in scan::e_depths() {
+    for depth in scan::e_depths(effort.e_step) {
         let existence = match Existence::new(model, x_p, e_max * (-depth).portable_exp()) {
             Ok(existence) => existence,
             Err(obstacle) => {
@@ -102,7 +113,7 @@ fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters
             }
         };
         let mut best: Option<(f64, SharpParameters)> = None;
-        for (rho, eta) in SHAPES {
+        for (rho, eta) in SHAPES.into_iter().take(effort.shapes) {
             if best.is_some_and(|(sigma, _)| existence.least(model, eta) >= sigma) {
                 continue;
             }
@@ -148,7 +159,8 @@ fn refine(model: &FloatModel, start: &SharpParameters, restarts: usize) -> Optio
     let depth = (largest_e(model, start.x_p)? / start.e_p).portable_ln().max(1e-9);
     let first =
         [start.x_p.portable_ln(), parameter_of(depth), (start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
-    let (best, value) = minimise(cost, &first, &[0.3, 0.5, 0.5, 0.5], restarts)?;
+    let effort = model.effort();
+    let (best, value) = minimise(cost, &first, &[0.3, 0.5, 0.5, 0.5], effort.restarts(restarts), effort.iterations)?;
     Some((decode(&best)?, value))
 }
 
@@ -179,9 +191,12 @@ pub fn at_sigma(
 }
 
 /// By how much (relatively) sigma* falls when one datum improves by 1 %, for every datum, in the order of
-/// [`Datum::ALL`]; floating point, a local re-optimisation from the proposal.
+/// [`Datum::ALL`]; floating point, a local re-optimisation from the proposal. None where the bounding functions are long.
 #[must_use]
 pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum, f64)> {
+    if !model.effort().sensitivities() {
+        return Vec::new();
+    }
     scan::evaluate_all(&Datum::ALL, |&datum| {
         let improved = model.improved(datum, 0.01);
         let gain =

@@ -1,5 +1,6 @@
 //! The Dormand-Prince method of order 8(5,3) with step control (library `ode_solvers`).
 
+use super::effort::{MAX_NUMBERS, MAX_OPERATIONS};
 use super::stiffness::{MAX_FIXED_STEPS, enough_steps};
 use super::{ClosedLoop, Disturbance};
 use crate::expr::Evaluator;
@@ -7,11 +8,21 @@ use nalgebra::{DMatrix, DVector};
 use ode_solvers::OutputType;
 use ode_solvers::dop_shared::{IntegrationError, System};
 use ode_solvers::dop853::Dop853;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use thiserror::Error;
 
 /// The most steps of one integration.
 const MAX_STEPS: u32 = 40_000;
+
+/// Evaluations of the right side in a step.
+const STAGES: u64 = 12;
+
+/// Numbers in the states of one integration of variational equations, which are cut into blocks of columns: the library
+/// keeps the states of all steps, some thousands.
+const BLOCK_NUMBERS: usize = 4096;
+
+/// The most columns of a block.
+const BLOCK_COLUMNS: usize = 32;
 
 /// Whether the integrator ends where stability and not accuracy limits its steps (Hairer's estimate of h |lambda|, at
 /// every accepted step): then the error estimate is the only guard, and the integration is done again to see whether it
@@ -46,6 +57,8 @@ impl Tolerance {
     pub const TIGHT: Tolerance = Tolerance { relative: 1e-15, absolute: 1e-16 };
     /// For long runs.
     pub const ORDINARY: Tolerance = Tolerance { relative: 1e-9, absolute: 1e-11 };
+    /// For derivatives, which Newton's method only needs to converge, and Floquet multipliers to be read.
+    pub const DERIVATIVE: Tolerance = Tolerance { relative: 1e-12, absolute: 1e-13 };
 
     /// Half of this tolerance, or twice where half is below rounding: what a repeated integration is done with.
     fn other(self) -> Tolerance {
@@ -84,6 +97,15 @@ pub enum IntegrationFailure {
         /// Fixed steps per period that resolve the loop, if there is such a number.
         fixed_steps: Option<u32>,
     },
+    /// More operations than a simulation may take.
+    #[error(
+        "it takes more than {MAX_OPERATIONS} operations or {MAX_NUMBERS} numbers to keep, which grow with the oscillators, \
+         the states, the right sides and the steps; stopped at t = {t:.6}"
+    )]
+    TooMuchWork {
+        /// The last time that was reached.
+        t: f64,
+    },
     /// A fixed step beyond the stability of its method.
     #[error("{steps} steps per period are too few for this loop: the method is not stable with them")]
     StepTooLong {
@@ -100,6 +122,10 @@ impl IntegrationFailure {
     pub fn way_out(&self, flag: &str) -> String {
         match self {
             IntegrationFailure::Escaped { .. } => "check the plant, or take a larger gain".to_owned(),
+            IntegrationFailure::TooMuchWork { .. } => {
+                "take fewer oscillators, periods or samples, or a plant with fewer states or shorter right sides"
+                    .to_owned()
+            }
             IntegrationFailure::TooManySteps { fixed_steps, .. }
             | IntegrationFailure::Stiff { fixed_steps, .. }
             | IntegrationFailure::StepTooLong { fixed_steps, .. } => match fixed_steps {
@@ -123,11 +149,14 @@ struct Equations<'l> {
     variational: bool,
     /// The unit of the independent variable: the library adds it up, and tests its end with an absolute tolerance.
     unit: f64,
+    /// How often the right side was evaluated.
+    evaluations: Cell<u64>,
 }
 
 impl System<f64, DVector<f64>> for &Equations<'_> {
     fn system(&self, _: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
         let mut evaluator = self.evaluator.borrow_mut();
+        self.evaluations.set(self.evaluations.get() + 1);
         dy[0] = 1.0;
         let (t, state) = (y[0], &y.as_slice()[1..]);
         let slope = &mut dy.as_mut_slice()[1..];
@@ -228,7 +257,17 @@ fn attempt(
     test: StiffnessTest,
 ) -> Result<Vec<Vec<f64>>, Stop> {
     let evaluator = if variational { closed_loop.derivative_evaluator() } else { closed_loop.evaluator() };
-    let equations = Equations { closed_loop, evaluator: RefCell::new(evaluator), variational, unit: span.unit };
+    let equations = Equations {
+        closed_loop,
+        evaluator: RefCell::new(evaluator),
+        variational,
+        unit: span.unit,
+        evaluations: Cell::new(0),
+    };
+    // What is left to be spent, and what the library may keep: the states of all steps.
+    let columns = y.len() / closed_loop.dimension() - 1;
+    let kept = MAX_NUMBERS as u64 / y.len() as u64;
+    let affordable = (closed_loop.stages_left(columns) / STAGES).min(kept).min(u64::from(MAX_STEPS)) as u32;
     let start = DVector::from_iterator(1 + y.len(), [span.t].into_iter().chain(y.iter().copied()));
     let dense = span.units > 1;
     // Once the last sample before the end is out, version 0.6.2 of the library puts the end out too, extrapolated from
@@ -249,11 +288,12 @@ fn attempt(
         6.0,
         largest_step,
         0.0,
-        MAX_STEPS,
+        affordable,
         if test == StiffnessTest::EveryStep { 1 } else { u32::MAX },
         kind,
     );
     let outcome = method.integrate();
+    closed_loop.count_stages(equations.evaluations.get(), columns);
     let (times, states) = method.results().get();
     let escaped = |x: f64| Stop::Failed(IntegrationFailure::Escaped { t: span.t + span.unit * x });
     // What happens after the end does not matter.
@@ -267,6 +307,9 @@ fn attempt(
         Err(IntegrationError::StiffnessDetected { .. }) => return Err(Stop::Stiff),
         _ if reached => {}
         Ok(_) => return Err(escaped(times.last().copied().unwrap_or(0.0))),
+        Err(IntegrationError::MaxNumStepReached { x, .. }) if affordable < MAX_STEPS => {
+            return Err(Stop::Failed(IntegrationFailure::TooMuchWork { t: span.t + span.unit * x }));
+        }
         Err(IntegrationError::MaxNumStepReached { x, .. }) => {
             let here = states.last().map_or(y, |state| &state.as_slice()[1..]);
             let fixed_steps = enough_steps(closed_loop, span.t, [y, here]);
@@ -296,22 +339,25 @@ pub fn flow(
     Ok(states.pop().unwrap_or_default())
 }
 
-/// y(T) from y(0), with the derivative dy(T)/dy(0) from the variational equations.
+/// The derivative dy(T)/dy(0) at y(0), from the variational equations; block by block of its columns.
 ///
 /// # Errors
 /// [`IntegrationFailure`].
-pub fn flow_with_derivative(
+pub fn derivative(
     closed_loop: &ClosedLoop,
     y: &[f64],
     tolerance: Tolerance,
-) -> Result<(Vec<f64>, DMatrix<f64>), IntegrationFailure> {
+) -> Result<DMatrix<f64>, IntegrationFailure> {
     let d = closed_loop.dimension();
-    let mut start = y.to_vec();
-    start.extend(DMatrix::<f64>::identity(d, d).as_slice());
+    let columns = (BLOCK_NUMBERS / d).saturating_sub(1).clamp(1, BLOCK_COLUMNS);
     let span = Span { t: 0.0, unit: closed_loop.period, units: 1 };
-    let mut states = integrate(closed_loop, true, span, &start, tolerance)?;
-    let end = states.pop().unwrap_or_default();
-    Ok((end[..d].to_vec(), DMatrix::from_column_slice(d, d, &end[d..])))
+    let mut entries = Vec::with_capacity(d * d);
+    for block in DMatrix::<f64>::identity(d, d).as_slice().chunks(columns * d) {
+        let start = [y, block].concat();
+        let states = integrate(closed_loop, true, span, &start, tolerance)?;
+        entries.extend_from_slice(&last(&states)[d..]);
+    }
+    Ok(DMatrix::from_vec(d, d, entries))
 }
 
 /// States at t, t + duration/samples, ..., t + duration: `samples` + 1 of them.

@@ -1,5 +1,6 @@
 //! The plant with its regulator.
 
+use super::effort::Effort;
 use crate::expr::{Evaluator, Program};
 use crate::plant::{Initial, Plant};
 use crate::regulator::Regulator;
@@ -44,6 +45,7 @@ pub struct ClosedLoop {
     states: usize,
     values: Arc<Program>,
     derivatives: Arc<Program>,
+    pub(super) effort: Arc<Effort>,
 }
 
 impl ClosedLoop {
@@ -56,6 +58,7 @@ impl ClosedLoop {
             states: plant.states(),
             values: Arc::new(plant.program()),
             derivatives: Arc::new(plant.program_with_derivatives()),
+            effort: Arc::default(),
         }
     }
 
@@ -107,6 +110,12 @@ impl ClosedLoop {
     #[must_use]
     pub fn time_values(&self) -> usize {
         self.values.time_values()
+    }
+
+    /// The operations of one evaluation of f and q, or of them with their derivatives.
+    pub(super) fn operations(&self, derivatives: bool) -> u64 {
+        let program = if derivatives { &self.derivatives } else { &self.values };
+        program.operations() as u64
     }
 
     /// The control u for a state.
@@ -185,22 +194,28 @@ impl ClosedLoop {
         (dy, jacobian)
     }
 
-    /// The slopes of y and of the columns of Y with Y' = J(t, y) Y, which follow y in `state`. `evaluator` is one of
+    /// The slopes of y and of columns of Y with Y' = J(t, y) Y, which follow y in `state`. `evaluator` is one of
     /// [`ClosedLoop::derivative_evaluator`].
+    ///
+    /// The regulator is linear, so what it does to y it does to every column: the cost of a column grows with the dimension,
+    /// not with its square.
     pub(super) fn variational(&self, evaluator: &mut Evaluator, t: f64, state: &[f64], slope: &mut [f64]) {
-        let d = self.dimension();
-        let (values, jacobian) = self.linearise(evaluator, t, &state[..d]);
-        slope[..d].copy_from_slice(&values);
-        // Most rows have two entries, so they are picked out once for all columns.
-        let rows = jacobian.chunks_exact(d).enumerate();
-        let entries: Vec<(usize, usize, f64)> = rows
-            .flat_map(|(i, row)| row.iter().enumerate().filter(|(_, j)| **j != 0.0).map(move |(k, j)| (i, k, *j)))
-            .collect();
-        for (column, derivative) in state[d..].chunks_exact(d).zip(slope[d..].chunks_exact_mut(d)) {
-            derivative.fill(0.0);
-            for (i, k, entry) in &entries {
-                derivative[*i] += entry * column[*k];
+        let (n, d) = (self.states, self.dimension());
+        let mut outputs = vec![0.0; (n + 1) * (n + 2)];
+        evaluator.set_time(t);
+        evaluator.evaluate(&state[..n], state[n], &mut outputs);
+        let (values, blocks) = outputs.split_at(n + 1);
+        for (index, (y, dy)) in state.chunks_exact(d).zip(slope.chunks_exact_mut(d)).enumerate() {
+            let (plant, dz) = dy.split_at_mut(n + 1);
+            if index == 0 {
+                plant.copy_from_slice(values);
+            } else {
+                plant.fill(0.0);
+                for (part, block) in y.iter().zip(blocks.chunks_exact(n + 1)).filter(|(part, _)| **part != 0.0) {
+                    plant.iter_mut().zip(block).for_each(|(slope, derivative)| *slope += part * derivative);
+                }
             }
+            self.add_regulator(y, Disturbance::default(), &mut plant[n], dz);
         }
     }
 }

@@ -88,21 +88,19 @@ impl<'l> FixedStep<'l> {
 /// [`IntegrationFailure`]: a solution that escapes, or steps that are too long for the loop.
 pub fn fixed_flow(method: &mut FixedStep<'_>, y: &[f64]) -> Result<Vec<f64>, IntegrationFailure> {
     let mut end = y.to_vec();
+    method.closed_loop.pay_fixed(0.0, method.steps_per_period, 0)?;
     (0..method.steps_per_period).for_each(|step| method.step(step, &mut end, Disturbance::default()));
     checked(method.closed_loop, method.steps_per_period, 0.0, y, &end)?;
     Ok(end)
 }
 
-/// y(T) from y(0), with the derivative dy(T)/dy(0) from the variational equations, by fixed steps.
+/// The derivative dy(T)/dy(0) at y(0), from the variational equations by fixed steps.
 ///
 /// # Errors
 /// Those of [`fixed_flow`].
-pub fn fixed_flow_with_derivative(
-    closed_loop: &ClosedLoop,
-    steps: usize,
-    y: &[f64],
-) -> Result<(Vec<f64>, DMatrix<f64>), IntegrationFailure> {
+pub fn fixed_derivative(closed_loop: &ClosedLoop, steps: usize, y: &[f64]) -> Result<DMatrix<f64>, IntegrationFailure> {
     let d = closed_loop.dimension();
+    closed_loop.pay_fixed(0.0, steps, d)?;
     let mut evaluator = closed_loop.derivative_evaluator();
     let mut state = y.to_vec();
     state.extend(DMatrix::<f64>::identity(d, d).as_slice());
@@ -120,7 +118,7 @@ pub fn fixed_flow_with_derivative(
         combine(&mut state, h, [&k1, &k2, &k3, &k4]);
     }
     checked(closed_loop, steps, 0.0, y, &state)?;
-    Ok((state[..d].to_vec(), DMatrix::from_column_slice(d, d, &state[d..])))
+    Ok(DMatrix::from_column_slice(d, d, &state[d..]))
 }
 
 /// Whether a period of fixed steps from `y` to `end` counts.

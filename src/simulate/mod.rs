@@ -6,6 +6,7 @@
 mod adaptive;
 mod bode;
 mod closed_loop;
+mod effort;
 mod fixed;
 mod noise;
 mod orbit;
@@ -16,10 +17,11 @@ mod run;
 mod steady;
 mod stiffness;
 
-pub use adaptive::{IntegrationFailure, Tolerance, flow, flow_with_derivative, trajectory};
+pub use adaptive::{IntegrationFailure, Tolerance, derivative, flow, trajectory};
 pub use bode::{frequencies, magnitude};
 pub use closed_loop::{ClosedLoop, Disturbance, Noise};
-pub use fixed::{FixedStep, fixed_flow, fixed_flow_with_derivative};
+pub use effort::{MAX_NUMBERS, MAX_OPERATIONS};
+pub use fixed::{FixedStep, fixed_derivative, fixed_flow};
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};
 

@@ -1,6 +1,7 @@
 //! One simulation: a steady state, a long run from the initial condition, and a run with noise.
 
 use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
+use super::effort::MAX_NUMBERS;
 use super::fixed::checked;
 use super::orbit::{Orbit, amplitudes, rms, sup};
 use super::{
@@ -146,6 +147,9 @@ pub fn simulate(closed_loop: &ClosedLoop, start: &[f64], settings: &Settings, pr
     Simulation { settings: *settings, steady, long, noisy }
 }
 
+/// Numbers that the samples of a long run may fill; written as text they take twenty bytes each.
+const MAX_SAMPLED: usize = MAX_NUMBERS / 2;
+
 fn long_run(
     closed_loop: &ClosedLoop,
     start: &[f64],
@@ -153,6 +157,11 @@ fn long_run(
     progress: &dyn Progress,
 ) -> Result<LongRun, IntegrationFailure> {
     let samples = settings.samples.max(1);
+    closed_loop.renew_effort();
+    let numbers = settings.periods.max(1).saturating_mul(samples).saturating_mul(closed_loop.dimension());
+    if numbers > MAX_SAMPLED {
+        return Err(IntegrationFailure::TooMuchWork { t: 0.0 });
+    }
     let mut y = start.to_vec();
     let mut run = LongRun {
         times: vec![0.0],
@@ -170,6 +179,7 @@ fn long_run(
         let states = match &mut fixed {
             None => trajectory(closed_loop, t, period, samples, &y, Tolerance::ORDINARY)?.split_off(1),
             Some((stride, method)) => {
+                closed_loop.pay_fixed(t, *stride * samples, 0)?;
                 let mut states = Vec::with_capacity(samples);
                 for sample in 0..samples {
                     for step in 0..*stride {
@@ -220,7 +230,9 @@ pub fn noisy_run(
     let mut noise = BandLimitedNoise::new(settings, method.step_length());
     let mut y = start.to_vec();
     let mut run = NoisyRun { sup: Vec::new(), rms: Vec::new(), largest_noise: 0.0 };
+    closed_loop.renew_effort();
     for period in 0..periods {
+        closed_loop.pay_fixed(period as f64 * closed_loop.period, steps_per_period, 0)?;
         let before = y.clone();
         let (mut largest, mut squares) = (0.0_f64, 0.0);
         for step in 0..steps_per_period {

@@ -1,17 +1,25 @@
 //! Steady states: the T-periodic solution by Newton shooting.
 
 use super::ClosedLoop;
-use super::adaptive::{IntegrationFailure, Tolerance, flow, flow_with_derivative};
-use super::fixed::{FixedStep, fixed_flow, fixed_flow_with_derivative};
+use super::adaptive::{IntegrationFailure, Tolerance, derivative, flow};
+use super::fixed::{FixedStep, fixed_derivative, fixed_flow};
 use crate::progress::Progress;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 use thiserror::Error;
 
 /// Periods that are simulated before Newton's method is tried, and then again before the second and third try.
 const APPROACHES: [usize; 3] = [10, 30, 90];
 
-/// Steps of Newton's method in one try.
-const MAX_ITERATIONS: usize = 12;
+/// Derivatives that Newton's method takes in one try, and steps.
+const MAX_DERIVATIVES: usize = 12;
+const MAX_STEPS: usize = 60;
+
+/// A step that leaves at most this share of the residual was worth it: the next one uses the same derivative.
+const ENOUGH: f64 = 0.1;
+
+/// Relative to 1 + max|y|, the derivatives at two points this close to each other have the same multipliers, to the digits
+/// that are shown.
+const CLOSE_BY: f64 = 1e-9;
 
 /// A residual at which Newton's method has nothing left to do, relative to 1 + max|y|. It is below rounding: as the
 /// slowest multiplier comes close to 1 the residual understates the error, so steps go on while they help.
@@ -69,7 +77,11 @@ pub fn steady_state(
     let approach = |period: u32, y: &[f64]| {
         flow(closed_loop, f64::from(period) * closed_loop.period, closed_loop.period, y, Tolerance::ORDINARY)
     };
-    let shoot = |y: &[f64]| shoot(closed_loop, y, &|y| flow_with_derivative(closed_loop, y, Tolerance::TIGHT));
+    closed_loop.renew_effort();
+    let shoot = |y: &[f64]| {
+        let end = |y: &[f64]| flow(closed_loop, 0.0, closed_loop.period, y, Tolerance::TIGHT);
+        shoot(y, end, |y| derivative(closed_loop, y, Tolerance::DERIVATIVE))
+    };
     search(start, approach, shoot, progress)
 }
 
@@ -85,7 +97,11 @@ pub fn fixed_steady_state(
     progress: &dyn Progress,
 ) -> Result<SteadyState, SteadyStateError> {
     let mut method = FixedStep::new(closed_loop, steps);
-    let shoot = |y: &[f64]| shoot(closed_loop, y, &|y| fixed_flow_with_derivative(closed_loop, steps, y));
+    closed_loop.renew_effort();
+    let shoot = |y: &[f64]| {
+        let mut method = FixedStep::new(closed_loop, steps);
+        shoot(y, |y| fixed_flow(&mut method, y), |y| fixed_derivative(closed_loop, steps, y))
+    };
     search(start, |_, y| fixed_flow(&mut method, y), shoot, progress)
 }
 
@@ -113,35 +129,56 @@ fn search(
     outcome
 }
 
-/// The flow over a period with its derivative.
-type Flow<'f> = dyn Fn(&[f64]) -> Result<(Vec<f64>, DMatrix<f64>), IntegrationFailure> + 'f;
-
-/// Newton's method for y(T; y0) - y0 = 0.
-fn shoot(closed_loop: &ClosedLoop, guess: &[f64], flow: &Flow<'_>) -> Result<SteadyState, SteadyStateError> {
-    let d = closed_loop.dimension();
+/// Newton's method for y(T; y0) - y0 = 0, with `end` for y(T; y0) and `derivative` for dy(T)/dy0.
+///
+/// The derivative costs as much as all flows together, so a step uses the last one again while that helps
+/// ([`ENOUGH`]); the one at the solution gives the multipliers.
+fn shoot(
+    guess: &[f64],
+    mut end: impl FnMut(&[f64]) -> Result<Vec<f64>, IntegrationFailure>,
+    derivative: impl Fn(&[f64]) -> Result<DMatrix<f64>, IntegrationFailure>,
+) -> Result<SteadyState, SteadyStateError> {
     let mut y = DVector::from_column_slice(guess);
-    let mut best: Option<(f64, DVector<f64>, DMatrix<f64>)> = None;
-    for _ in 0..MAX_ITERATIONS {
-        let (end, monodromy) = flow(y.as_slice())?;
-        let defect = DVector::from_vec(end) - &y;
+    let mut best: Option<(f64, DVector<f64>)> = None;
+    let mut known: Option<Known> = None;
+    let mut derivatives = 0;
+    for _ in 0..MAX_STEPS {
+        let defect = DVector::from_vec(end(y.as_slice())?) - &y;
         let residual = defect.amax();
-        let worse = best.as_ref().is_some_and(|(smallest, ..)| residual >= *smallest);
-        let done = residual <= CONVERGED * (1.0 + y.amax());
+        let scale = 1.0 + y.amax();
+        let previous = best.as_ref().map(|(smallest, _)| *smallest);
+        let worse = previous.is_some_and(|smallest| residual >= smallest);
+        let accepted = previous.is_some_and(|smallest| smallest <= ACCEPTED * scale);
         if !worse {
-            best = Some((residual, y.clone(), monodromy.clone()));
+            best = Some((residual, y.clone()));
         }
         // Once rounding is all that is left, further steps only move about.
-        if done || (worse && best.as_ref().is_some_and(|(residual, y, _)| *residual <= ACCEPTED * (1.0 + y.amax()))) {
+        if residual <= CONVERGED * scale || (worse && accepted) {
             break;
         }
-        let Some(step) = (DMatrix::identity(d, d) - monodromy).lu().solve(&defect) else { break };
+        let near = known.as_ref().is_some_and(|known| known.is_near(&y));
+        let helped =
+            previous.is_none_or(|smallest| residual <= ENOUGH * smallest) || (residual <= ACCEPTED * scale && near);
+        if !helped || known.is_none() {
+            if derivatives == MAX_DERIVATIVES {
+                break;
+            }
+            derivatives += 1;
+            known = Some(Known::new(&y, derivative(y.as_slice())?));
+        }
+        let Some(step) = known.as_ref().and_then(|known| known.factors.solve(&defect)) else { break };
         y += step;
         if !y.iter().all(|value| value.is_finite()) {
             break;
         }
     }
     match best {
-        Some((residual, y, monodromy)) if residual <= ACCEPTED * (1.0 + y.amax()) => {
+        Some((residual, y)) if residual <= ACCEPTED * (1.0 + y.amax()) => {
+            // A derivative from close by is the one here.
+            let monodromy = match known.filter(|known| known.is_near(&y)) {
+                Some(known) => known.monodromy,
+                None => derivative(y.as_slice())?,
+            };
             let mut multipliers: Vec<f64> =
                 monodromy.complex_eigenvalues().iter().map(|multiplier| multiplier.norm()).collect();
             multipliers.sort_by(|a, b| b.total_cmp(a));
@@ -151,5 +188,24 @@ fn shoot(closed_loop: &ClosedLoop, guess: &[f64], flow: &Flow<'_>) -> Result<Ste
             let residual = other.map_or(f64::INFINITY, |(residual, ..)| residual);
             Err(SteadyStateError::NoConvergence { residual })
         }
+    }
+}
+
+/// A derivative that was computed, and where.
+struct Known {
+    at: DVector<f64>,
+    monodromy: DMatrix<f64>,
+    /// Of I - monodromy.
+    factors: LU<f64, Dyn, Dyn>,
+}
+
+impl Known {
+    fn new(at: &DVector<f64>, monodromy: DMatrix<f64>) -> Known {
+        let d = monodromy.nrows();
+        Known { at: at.clone(), factors: (DMatrix::identity(d, d) - &monodromy).lu(), monodromy }
+    }
+
+    fn is_near(&self, y: &DVector<f64>) -> bool {
+        (&self.at - y).amax() <= CLOSE_BY * (1.0 + y.amax())
     }
 }

@@ -1,7 +1,7 @@
 //! A document and its values, each with its place.
 
 use super::error::{ErrorKind, Errors, Reported, SpecError, SpecErrors};
-use super::json::{self, Content, Node};
+use super::json::{self, Content, Member, Node};
 use super::limits::{self, MAX_BYTES};
 use super::object::Object;
 use crate::expr::ExprError;
@@ -342,7 +342,7 @@ impl<'d> Value<'d> {
 
     /// The member of an object, if the value is one and has it.
     pub(super) fn member(&self, name: &str) -> Option<Value<'d>> {
-        self.members().find(|(key, _)| *key == name).map(|(_, value)| value)
+        self.raw_members().iter().find(|member| member.key == name).map(|member| self.of_member(member))
     }
 
     /// The element of an array, if the value is one and has it.
@@ -352,19 +352,23 @@ impl<'d> Value<'d> {
 
     /// The members of an object in the order of the document; none for other values.
     pub(super) fn members(&self) -> impl Iterator<Item = (&'d str, Value<'d>)> + '_ {
-        let members = match &self.node.content {
+        self.raw_members().iter().map(|member| (member.key.as_str(), self.of_member(member)))
+    }
+
+    fn raw_members(&self) -> &'d [Member] {
+        match &self.node.content {
             Content::Object(members) => members.as_slice(),
             _ => &[],
-        };
-        members.iter().map(|member| {
-            let value = Value {
-                document: self.document,
-                node: &member.value,
-                pointer: format!("{}/{}", self.pointer, json::escape_pointer(&member.key)),
-                key: Some(member.key_span.clone()),
-            };
-            (member.key.as_str(), value)
-        })
+        }
+    }
+
+    fn of_member(&self, member: &'d Member) -> Value<'d> {
+        Value {
+            document: self.document,
+            node: &member.value,
+            pointer: format!("{}/{}", self.pointer, json::escape_pointer(&member.key)),
+            key: Some(member.key_span.clone()),
+        }
     }
 
     /// Where an error about a field that this object lacks should point: at its key, or its opening bracket.

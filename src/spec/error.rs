@@ -239,6 +239,11 @@ impl Errors {
         Reported(())
     }
 
+    /// Counts errors that are not recorded one by one, beyond others that are.
+    pub(super) fn count(&mut self, more: usize) {
+        self.omitted += more;
+    }
+
     /// The outcome of reading `document`: the value if nothing was reported.
     ///
     /// # Errors

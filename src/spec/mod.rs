@@ -33,7 +33,7 @@ pub use model::{
     Bounds, Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource,
     PeriodicMatrix, RelativeDegree, Specification,
 };
-pub use object::Object;
+pub use object::{MAX_UNKNOWN, Object};
 pub use power_tail::power_tail;
 pub(crate) use read::read_internal_model;
 pub use read::{FORMAT, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};

@@ -3,6 +3,10 @@
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported, SpecError, list, nearest, shown};
 
+/// The most unknown fields of one object that are reported one by one: a suggestion compares a name with every known
+/// one, and nobody reads thousands.
+pub const MAX_UNKNOWN: usize = 5;
+
 /// An object that is read field by field. Every field that is asked for counts as known; [`Object::finish`] refuses
 /// the others, so a misspelt field can never be silently ignored.
 ///
@@ -93,31 +97,31 @@ impl<'d> Object<'d> {
         found.and(version)
     }
 
-    /// Refuses the fields that were not asked for, each with its nearest known neighbour.
+    /// Refuses the fields that were not asked for: the first [`MAX_UNKNOWN`] each with its nearest known neighbour, the
+    /// others by their number.
     pub fn finish(self, errors: &mut Errors) {
         self.finish_as("here", errors);
     }
 
     /// The same, where the known fields depend on something: `place` completes "the fields known ...".
     pub fn finish_as(self, place: &str, errors: &mut Errors) {
-        for (key, value) in self.value.members() {
-            if self.known.contains(&key) {
-                continue;
-            }
+        let mut unknown = self.value.members().filter(|(key, _)| !self.known.contains(key));
+        // A field that is there already is less likely to be what was meant.
+        let absent: Vec<&str> = self.known.iter().copied().filter(|name| self.value.member(name).is_none()).collect();
+        for (key, value) in unknown.by_ref().take(MAX_UNKNOWN) {
             let error = SpecError::new(
                 ErrorKind::UnknownField,
                 value.pointer(),
                 value.key_span(),
                 format!("unknown field `{}`", shown(key)),
             );
-            // A field that is there already is less likely to be what was meant.
-            let absent = self.known.iter().copied().filter(|name| self.value.member(name).is_none());
-            let near = nearest(key, absent).or_else(|| nearest(key, self.known.iter().copied()));
+            let near = nearest(key, absent.iter().copied()).or_else(|| nearest(key, self.known.iter().copied()));
             errors.report(match near {
                 Some(name) => error.expected(format!("did you mean `{name}`?")),
                 None => error.help(format!("the fields known {place} are {}", list(&self.known))),
             });
         }
+        errors.count(unknown.count());
     }
 }
 

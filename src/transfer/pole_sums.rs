@@ -184,6 +184,10 @@ impl PoleSums {
     /// The first pole of the Euler-Maclaurin formula, more than x by enough for corrections as small as the last bits
     /// (they shrink to exp(-2 pi (L - x))) and so much larger than x that the geometric series converge quickly.
     fn first_of_tail(&self, x: &Enclosure) -> Option<u64> {
+        // Compared first: an integer of a huge number would need as many bits as its exponent says.
+        if *x.upper() > MAX_DIRECT_POLES {
+            return None;
+        }
         let above = x.upper().to_integer_round(Round::Up)?.0.to_u64()?;
         let gap = u64::from(self.powers.exponent().precision() / 6 + 8);
         let first = above.checked_add(gap.max(above / 2))?.max(self.listed.len() as u64);

@@ -348,12 +348,15 @@ fn threshold(field: &Field<'_>, below: &dyn Fn(&Interval) -> Option<bool>, at_ze
         return demand(at_zero, RULE, &field.pointer, "the property holds for every positive number");
     }
     let room = tolerance(&high, 15);
-    let narrow = low.is_positive() && low.le(&high) == Some(true) && (&high - &low).le(&room) == Some(true);
+    let ordered = low.is_positive() && low.le(&high) == Some(true);
+    // Or as narrow as the data let it be: everywhere inside, the property is open at this precision.
+    let open = |at: Interval| below(&at).is_none();
+    let narrow = (&high - &low).le(&room) == Some(true) || (open(&low + &room) && open(&high - &room));
     let what =
         "the property that defines this number changes inside the stored enclosure, which is as narrow as its digits";
     let begins = below(&(&low - &room));
     let ends = below(&(&high + &room)).map(|holds| !holds);
-    demand(both(Some(narrow), both(begins, ends)), RULE, &field.pointer, what).map_err(|mut finding| {
+    demand(both(Some(ordered && narrow), both(begins, ends)), RULE, &field.pointer, what).map_err(|mut finding| {
         let sides = [low, high].map(|end| crate::verdict::shown(&end));
         finding.sides = Some([sides.join(" to "), "-".to_owned(), "-".to_owned()]);
         finding

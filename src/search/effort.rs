@@ -1,0 +1,73 @@
+//! How thorough a search is: less so for long bounding functions, so that the work stays bounded.
+
+/// Operations of all bounding functions together up to which a search is thorough.
+const THOROUGH: usize = 600;
+
+/// The numbers of candidates and steps of a search.
+///
+/// A search evaluates the bounding functions some million times. With k times [`THOROUGH`] operations each evaluation costs
+/// k times as much, so about k times fewer candidates are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Every so many values of X are scanned.
+    pub x_step: usize,
+    /// Every so many depths of E_p are scanned.
+    pub e_step: usize,
+    /// Starting values of (rho, eta) for each.
+    pub shapes: usize,
+    /// Scanned candidates that are refined.
+    pub refined: usize,
+    /// Restarts of a refinement, out of those that are asked for.
+    pub restarts_share: usize,
+    /// Iterations of a refinement between restarts.
+    pub iterations: u64,
+}
+
+impl Effort {
+    /// The effort for bounding functions of so many operations together.
+    #[must_use]
+    pub fn new(operations: usize) -> Effort {
+        let less = operations.div_ceil(THOROUGH).max(1);
+        Effort {
+            x_step: less.min(4),
+            e_step: less.div_ceil(4).min(4),
+            shapes: if less == 1 { 6 } else { (4 / less).max(1) },
+            refined: (10 / less).max(1),
+            restarts_share: less,
+            iterations: (400 / less as u64).max(40),
+        }
+    }
+
+    /// The restarts of a refinement for which so many are asked.
+    #[must_use]
+    pub fn restarts(self, asked: usize) -> usize {
+        asked / self.restarts_share
+    }
+
+    /// Whether every datum is worth a refinement of its own, to see its influence.
+    #[must_use]
+    pub fn sensitivities(self) -> bool {
+        self.restarts_share <= 4
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The candidates of a scan times the operations of the bounding functions.
+    fn work(operations: usize) -> usize {
+        let effort = Effort::new(operations);
+        (240 / effort.x_step) * (30 / effort.e_step) * effort.shapes * operations
+    }
+
+    #[test]
+    fn the_work_of_a_search_is_bounded() {
+        let thorough = work(THOROUGH);
+        for operations in [THOROUGH + 1, 1_000, 2_000, 3_000, 5_000, 10_000, 20_000, 50_000] {
+            assert!(work(operations) <= 2 * thorough, "{operations}: {}", work(operations));
+        }
+        assert_eq!(Effort::new(0), Effort::new(THOROUGH));
+        assert_eq!(Effort::new(1).restarts(12), 12);
+    }
+}

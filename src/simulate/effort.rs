@@ -1,0 +1,62 @@
+//! What a simulation may cost, counted in operations, so that the answer does not depend on the machine.
+
+use super::ClosedLoop;
+use super::adaptive::IntegrationFailure;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Elementary operations that a steady state, a long run and a run with noise may take each: about half a minute.
+pub const MAX_OPERATIONS: u64 = 40_000_000_000;
+
+/// Numbers that one integration, or a long run, may keep: 256 MiB.
+pub const MAX_NUMBERS: usize = 1 << 25;
+
+/// Additions and multiplications of a step of order 8 outside the right side, for each component and stage.
+const STAGE: u64 = 9;
+
+/// The operations that were spent. One closed loop is simulated by one thread, so the count does not depend on how many
+/// threads there are.
+#[derive(Debug, Default)]
+pub(super) struct Effort(AtomicU64);
+
+impl Effort {
+    fn spent(&self) -> u64 {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl ClosedLoop {
+    /// Starts counting anew, for another part of a simulation.
+    pub(super) fn renew_effort(&self) {
+        self.effort.0.store(0, Ordering::Relaxed);
+    }
+
+    /// The operations of one stage of a step: the right side and what the method does with it, with so many columns of
+    /// variational equations beside the state.
+    pub(super) fn stage_cost(&self, columns: usize) -> u64 {
+        let (n, d, columns) = (self.states() as u64 + 1, self.dimension() as u64, columns as u64);
+        self.operations(columns > 0) + columns * n * n + (1 + columns) * d * (5 + STAGE)
+    }
+
+    /// The stages that are left to be spent.
+    pub(super) fn stages_left(&self, columns: usize) -> u64 {
+        MAX_OPERATIONS.saturating_sub(self.effort.spent()) / self.stage_cost(columns)
+    }
+
+    /// Counts stages that were made.
+    pub(super) fn count_stages(&self, stages: u64, columns: usize) {
+        self.effort.0.fetch_add(stages.saturating_mul(self.stage_cost(columns)), Ordering::Relaxed);
+    }
+
+    /// Counts fixed steps of four stages that are about to be made from the time t.
+    ///
+    /// # Errors
+    /// [`IntegrationFailure::TooMuchWork`] where they are more than what is left.
+    pub(super) fn pay_fixed(&self, t: f64, steps: usize, columns: usize) -> Result<(), IntegrationFailure> {
+        let stages = 4 * steps as u64;
+        if stages > self.stages_left(columns) {
+            return Err(IntegrationFailure::TooMuchWork { t });
+        }
+        self.count_stages(stages, columns);
+        Ok(())
+    }
+}
