@@ -11,7 +11,7 @@ use crate::rules::lyapunov;
 use crate::sha256;
 use crate::spec::{Specification, header};
 use crate::subject::{Subject, same_data};
-use crate::verdict::{Finding, Outcome, Verdict, bad, finding};
+use crate::verdict::{Finding, Outcome, Verdict, bad};
 
 /// The precisions that a certificate may name, in bits: those at which it may have been written.
 const PRECISIONS: std::ops::RangeInclusive<u32> = 128..=4096;
@@ -74,10 +74,7 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
         // More bits do not help where the cutting of a box came to its end.
         let undecided = |finding: &Finding| finding.verdict == Verdict::Undecided && finding.rule != monotone::RULE;
         let open = result.as_ref().is_err_and(|finding| undecided(finding));
-        if effort::exhausted() {
-            return Err(exhausted());
-        }
-        if !open || precision >= last {
+        if !open || precision >= last || effort::exhausted() {
             *lines = attempt;
             break result?;
         }
@@ -85,11 +82,7 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
     };
     // Last, because it may take the longest.
     if let Some((jacobian, witness)) = &spec.jacobian {
-        let proved = lyapunov::prove(jacobian, &spec.period, witness);
-        if effort::exhausted() {
-            return Err(exhausted());
-        }
-        lines.push(format!("Lyapunov triple: {}", proved?));
+        lines.push(format!("Lyapunov triple: {}", lyapunov::prove(jacobian, &spec.period, witness)?));
     }
     let subject = Subject::new(&embedded, &spec, &claim, &derivation, &digest, [tool_name, tool_version], arguments);
     if let Some(other) = other {
@@ -98,11 +91,6 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
     let figures = figures::check(&spec, &parts, &derivation);
     lines.push(format!("figures on which no claim rests: {figures}"));
     Ok(Proved { subject, figures })
-}
-
-fn exhausted() -> Box<Finding> {
-    let message = format!("not decided within {} steps of interval arithmetic", effort::LIMIT);
-    finding(Verdict::Undecided, "effort", "", message)
 }
 
 /// The claim at one precision; the largest X and E at which bounding functions are used.

@@ -36,6 +36,8 @@ pub struct Report {
     pub proved: Option<Proved>,
     /// The argument, line by line, as far as it went.
     pub lines: Vec<String>,
+    /// The steps that the claim took ([`effort`]).
+    pub steps: u64,
 }
 
 /// Checks the bytes of a certificate file.
@@ -46,18 +48,30 @@ pub fn check(bytes: &[u8]) -> Report {
 /// The same, and whether the certificate is about the data of `specification`, the bytes of a specification file: if not,
 /// it is `invalid`.
 pub fn check_against(bytes: &[u8], specification: Option<&[u8]>) -> Report {
+    check_within(bytes, specification, effort::LIMIT)
+}
+
+/// The same with another limit than [`effort::LIMIT`] on the steps that the claim may take.
+pub fn check_within(bytes: &[u8], specification: Option<&[u8]>, limit: u64) -> Report {
     let mut lines = Vec::new();
-    let (result, steps) = effort::limited(effort::LIMIT, || {
+    let (result, steps) = effort::limited(limit, || {
         let asked = specification.map(asked_for).transpose()?;
-        json::parse(bytes).and_then(|json| certificate::check(&json, asked.as_ref(), &mut lines))
+        let result = json::parse(bytes).and_then(|json| certificate::check(&json, asked.as_ref(), &mut lines));
+        // What an undefined interval made of a rule says nothing about the file.
+        if effort::exhausted() { result.map_err(|_| exhausted()) } else { result }
     });
-    lines.push(format!("effort: {steps} of {} steps of interval arithmetic", effort::LIMIT));
+    lines.push(format!("effort: {steps} of {limit} steps of interval arithmetic"));
     let (proved, finding) = match result {
         Ok(proved) => (Some(proved), None),
         Err(finding) => (None, Some(*finding)),
     };
     let verdict = finding.as_ref().map_or(Verdict::Valid, |finding| finding.verdict);
-    Report { verdict, finding, proved, lines }
+    Report { verdict, finding, proved, lines, steps }
+}
+
+fn exhausted() -> Box<Finding> {
+    let message = "not decided within the steps of interval arithmetic that an answer may take";
+    verdict::finding(Verdict::Undecided, "effort", "", message)
 }
 
 /// Reads a specification to compare with; editors may have put a byte order mark before it.

@@ -6,6 +6,12 @@ use common::{PAPER, assert_refused, certificate, changed, text, with};
 use proofs_check::check;
 use proofs_check::verdict::Verdict::{BadInput, Invalid, Undecided};
 
+fn ratio(text: &str) -> rug::Rational {
+    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
+    let part = |text| proofs_check::json::decimal(text).expect("a decimal");
+    part(numerator) / part(denominator)
+}
+
 fn refused(bytes: &[u8]) -> String {
     let report = check(bytes);
     assert_eq!(report.verdict, BadInput);
@@ -32,6 +38,51 @@ fn deep_nesting() {
         "format",
         "/witness/D_x",
     );
+}
+
+#[test]
+fn long_keys() {
+    let key = "k".repeat(2_000_000);
+    assert!(refused(format!("{{\"{key}\": 1}}").as_bytes()).contains("key"));
+    let nested = format!("{{\"{}\":", "k".repeat(200_000)).repeat(10) + "1" + &"}".repeat(10);
+    assert!(refused(nested.as_bytes()).contains("key"));
+    // A quote, a colon or a bracket inside a string begins nothing.
+    let report = changed(PAPER, "/specification/name", format!("\"{}\": [{{", "k".repeat(200)));
+    assert_eq!(report.verdict, proofs_check::verdict::Verdict::Valid, "{}", report.text(false));
+}
+
+#[test]
+fn effort_is_counted() {
+    let certificate = text("certificates", PAPER);
+    let whole = check(certificate.as_bytes());
+    assert!((1_000..1_000_000).contains(&whole.steps), "{}", whole.steps);
+    // Whatever is left out of it, the answer is that nothing is decided; what is spent never exceeds what may be.
+    for limit in (0..whole.steps).step_by(whole.steps as usize / 40) {
+        let report = proofs_check::check_within(certificate.as_bytes(), None, limit);
+        assert!(report.verdict == Undecided && report.steps <= limit, "{limit}: {}", report.text(false));
+    }
+    let report = proofs_check::check_within(certificate.as_bytes(), None, whole.steps + 1);
+    assert_eq!((report.verdict, report.steps), (whole.verdict, whole.steps));
+}
+
+#[test]
+fn thousands_of_boxes() {
+    // Every box of a valid certificate cut into many: as true as before, and within the steps, at any precision it names.
+    let mut certificate = certificate(common::BOXES);
+    for list in certificate["witness"]["transfer"]["boxes"].as_array_mut().unwrap() {
+        let points: Vec<rug::Rational> =
+            list.as_array().unwrap().iter().map(|point| ratio(point.as_str().unwrap())).collect();
+        let cut = |pair: &[rug::Rational]| {
+            let (a, step) = (pair[0].clone(), rug::Rational::from(&pair[1] - &pair[0]) / 60u32);
+            (0..60u32).map(|i| (rug::Rational::from(&step * i) + &a).to_string()).collect::<Vec<_>>()
+        };
+        let mut fine: Vec<String> = points.windows(2).flat_map(cut).collect();
+        fine.extend(points.last().map(ToString::to_string));
+        *list = fine.into();
+    }
+    certificate["precision_bits"] = 4096.into();
+    let report = check(certificate.to_string().as_bytes());
+    assert!(report.is_flawless() && report.steps < proofs_check::effort::LIMIT / 5, "{}", report.text(false));
 }
 
 #[test]
