@@ -37,6 +37,9 @@ fn whatever_is_certified_is_valid() {
         let text = mutants::specification(seed).to_string();
         let Some(certificate) = certificate(seed, &text) else { continue };
         certified += 1;
+        if certified % 100 == 0 {
+            eprintln!("seed {seed}: {certified} certified so far");
+        }
         let report = proofs_check::check(certificate.as_bytes());
         if !report.is_flawless() {
             eprintln!("seed {seed}: {}{text}\n", report.text(false));

@@ -175,9 +175,10 @@ fn the_number_of_errors_is_bounded() {
     let mut errors = Errors::new();
     let outcome = document.root().object(&mut errors).map(|object| object.finish(&mut errors));
     let errors = errors.conclude(&document, outcome).expect_err("unknown fields");
-    assert_eq!((errors.errors().len(), errors.omitted()), (MAX_ERRORS, 100 - MAX_ERRORS));
-    assert!(errors.render(false).ends_with("68 more errors are not shown\n"));
-    assert!(errors.to_string().ends_with("68 more errors are not shown"));
+    // The first few with a suggestion, the rest counted: a suggestion for each would take time that grows with their number.
+    assert_eq!((errors.errors().len(), errors.omitted()), (5, 95));
+    assert!(errors.render(false).ends_with("95 more errors are not shown\n"));
+    assert!(errors.to_string().ends_with("95 more errors are not shown"));
 }
 
 #[test]

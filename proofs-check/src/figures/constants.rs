@@ -349,9 +349,10 @@ fn threshold(field: &Field<'_>, below: &dyn Fn(&Interval) -> Option<bool>, at_ze
     }
     let room = tolerance(&high, 15);
     let ordered = low.is_positive() && low.le(&high) == Some(true);
-    // Or as narrow as the data let it be: everywhere inside, the property is open at this precision.
+    // Or as narrow as the data let it be: in its middle quarter the property is open at this precision.
+    let width = &high - &low;
     let open = |at: Interval| below(&at).is_none();
-    let narrow = (&high - &low).le(&room) == Some(true) || (open(&low + &room) && open(&high - &room));
+    let narrow = width.le(&room) == Some(true) || (open(&low + &width * 3 / 8) && open(&high - &width * 3 / 8));
     let what =
         "the property that defines this number changes inside the stored enclosure, which is as narrow as its digits";
     let begins = below(&(&low - &room));
