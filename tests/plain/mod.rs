@@ -194,7 +194,14 @@ impl<'s> Spec<'s> {
         let point = |v: &R| Enclosure::new(v.0.clone(), v.0.clone());
         let value = |expr: &Expr| {
             let value = expr.enclose(&point(x), &point(e));
-            if value.is_bounded() { R(Float::with_val(BITS, value.lower())) } else { r(f64::NAN) }
+            // The positive part, as section 1 of the mathematics says.
+            let value = if value.is_bounded() { R(Float::with_val(BITS, value.lower())) } else { r(f64::NAN) };
+            if value < r(0.0) { r(0.0) } else { value }
+        };
+        // A root mean square is at most the supremum.
+        let rms = |expr: &Option<Expr>, supremum: &Expr| {
+            let supremum = value(supremum);
+            expr.as_ref().map(value).filter(|own| *own < supremum).unwrap_or(supremum)
         };
         let b = &self.spec.bounds;
         At {
@@ -206,8 +213,8 @@ impl<'s> Spec<'s> {
             qe: value(&b.q_e),
             qx: value(&b.q_x),
             qt: value(&b.q_t),
-            qr: value(b.q_rms.as_ref().unwrap_or(&b.q)),
-            qtr: value(b.q_t_rms.as_ref().unwrap_or(&b.q_t)),
+            qr: rms(&b.q_rms, &b.q),
+            qtr: rms(&b.q_t_rms, &b.q_t),
         }
     }
 
