@@ -1,4 +1,4 @@
-//! The certificate file (docs/formats.md), and the order in which the rules are applied to it.
+//! The certificate file, and the order in which the rules are applied to it.
 
 use crate::data::Data;
 use crate::effort;

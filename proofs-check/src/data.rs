@@ -1,4 +1,4 @@
-//! The data of a specification, enclosed at one working precision (derivation, section 1).
+//! The data of a specification, enclosed at one working precision (docs/mathematics.md, section 1).
 
 use crate::interval::Interval;
 use crate::spec::{Bound, Specification};

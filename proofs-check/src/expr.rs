@@ -7,7 +7,7 @@
 //! power   = primary ("^" signed)?
 //! primary = numeral | "pi" | variable | name "(" sum ("," sum)* ")" | "(" sum ")"
 //! ```
-//! (`^` binds tighter than a sign before it and associates to the right, as formats.md says.)
+//! (`^` binds tighter than a sign before it and associates to the right, as docs/guide.md says.)
 
 use crate::exact::Exact;
 use crate::interval::Interval;

@@ -1,4 +1,4 @@
-//! Rule: the embedded specification is well-formed (formats.md), and its data lie in their ranges (derivation, section 1).
+//! Rule: the embedded specification is well-formed (docs/guide.md), and its data lie in their ranges (docs/mathematics.md, section 1).
 //!
 //! Guarantee: no unknown field, every number exact, T, w, mu, alpha, P_low > 0, P_up >= P_low, weights with W1-W3
 //! ([`crate::weights`]), and `matched` only where base_frequency * period = 2 pi exactly.
@@ -307,7 +307,7 @@ fn read_set(field: &Field<'_>) -> Outcome<AskedSet> {
     Ok(set)
 }
 
-/// The filter e = xi_r + sum a_i xi_i: s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 must be Hurwitz (derivation, section 6),
+/// The filter e = xi_r + sum a_i xi_i: s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 must be Hurwitz (docs/mathematics.md, section 6),
 /// decided by Routh's array in rationals.
 fn filter(field: &Field<'_>) -> Outcome<()> {
     let mut fields = field.fields()?;

@@ -51,7 +51,7 @@ impl Subject {
             format!(
                 "With infinitely many oscillators and any gain sigma >= {}, solutions from the same set are bounded, and \
                  x and e tend to 0.",
-                w.sigma
+                w.sigma_text
             )
         });
         Subject {

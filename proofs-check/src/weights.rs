@@ -1,4 +1,4 @@
-//! Rule: the weights satisfy W1-W3 and decrease strictly (derivation, section 1), and what the other rules need of them.
+//! Rule: the weights satisfy W1-W3 and decrease strictly (docs/mathematics.md, section 1), and what the other rules need of them.
 //!
 //! Power family n_l = l^-(1+eps): the three hold for 0 < eps <= 1, and n_0 > 1 = n_1 is left. Explicit list with tail
 //! c l^-p: for c > 0, 1 < p <= 2 the tail satisfies them by itself; left are n_l > 0, n_0 > n_1, and W2, W3 from each

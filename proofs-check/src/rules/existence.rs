@@ -1,4 +1,4 @@
-//! Rules C1-C3: existence and size of the periodic solution (derivation, sections 3 and 4).
+//! Rules C1-C3: existence and size of the periodic solution (docs/mathematics.md, sections 3 and 4).
 
 use crate::data::Data;
 use crate::interval::Interval;

@@ -1,4 +1,4 @@
-//! C5 as a matrix inequality, where the certificate has multipliers for it (derivation, section 5).
+//! C5 as a matrix inequality, where the certificate has multipliers for it (docs/mathematics.md, section 5).
 //!
 //! Guarantee: with v = (xi, et, s, u_x, u_e, phi), the form of C5 plus `l_x (u_x^2 - k_x^2 xi^2) + l_e (u_e^2 - k_e^2 et^2) +
 //! l_f (phi^2 - k_f^2 et^2)` is positive definite. So C5 holds by it too, whatever the closed form says: the terms added

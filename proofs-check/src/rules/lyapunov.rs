@@ -1,4 +1,4 @@
-//! The Lyapunov triple of a specification with a Jacobian (derivation, sections 1 and 7, L1).
+//! The Lyapunov triple of a specification with a Jacobian (docs/mathematics.md, sections 1 and 7, L1).
 //!
 //! Guarantee: `P_low I <= P(t) <= P_up I` and `P' + P F + F'P <= -2 alpha P` for every t and every F(t) of the Jacobian, whose
 //! interval entries may change with time; P has the period T by its form, and so have the functions in F, which is proved

@@ -1,4 +1,4 @@
-//! Exact regulation with infinitely many oscillators (derivation, section 6, Theorem 2).
+//! Exact regulation with infinitely many oscillators (docs/mathematics.md, section 6, Theorem 2).
 //!
 //! Guarantee, for a matched base frequency: with n_o infinite, for every sigma' >= sigma, solutions from the claimed
 //! set are bounded and x, e -> 0. C1-C3 are not used; the error box is around 0.
@@ -17,6 +17,8 @@ use rug::Rational;
 pub struct Witness {
     pub pointer: String,
     pub sigma: Rational,
+    /// sigma*_oo as it is written.
+    pub sigma_text: String,
     pub d_x: Rational,
     pub d_e: Rational,
     pub w_x: Rational,
@@ -27,9 +29,11 @@ impl Witness {
     /// Reads the part `exact_regulation`.
     pub fn read(field: &Field<'_>) -> Outcome<Witness> {
         let mut fields = field.fields()?;
+        let sigma = fields.required("sigma_star_oo")?;
         let mut number = |name| -> Outcome<Rational> { fields.required(name)?.rational() };
         let w = Witness {
-            sigma: number("sigma_star_oo")?,
+            sigma: sigma.rational()?,
+            sigma_text: sigma.numeral()?.to_owned(),
             d_x: number("D_x")?,
             d_e: number("D_e")?,
             w_x: number("w_x")?,

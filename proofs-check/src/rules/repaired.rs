@@ -1,4 +1,4 @@
-//! The repaired derivation: the paper's architecture, every condition from the witness (derivation, sections 4 and 5).
+//! The repaired derivation: the paper's architecture, every condition from the witness (docs/mathematics.md, sections 4 and 5).
 //!
 //! Guarantee: that of [`super::sharp`] with X, E in place of x_per, e_per.
 

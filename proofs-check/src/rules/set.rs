@@ -1,4 +1,4 @@
-//! Rules on the claimed initial set, the domain and the signs of the witness (derivation, sections 1 and 5).
+//! Rules on the claimed initial set, the domain and the signs of the witness (docs/mathematics.md, sections 1 and 5).
 
 use crate::data::Data;
 use crate::interval::Interval;

@@ -1,4 +1,4 @@
-//! The sharp derivation: every condition from the witness (derivation, sections 4 and 5).
+//! The sharp derivation: every condition from the witness (docs/mathematics.md, sections 4 and 5).
 //!
 //! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for every n_o >= 0 and
 //! every sigma' >= sigma there is a T-periodic solution with |x| <= x_per, |e| <= e_per, |zeta|_N <= Z, and every

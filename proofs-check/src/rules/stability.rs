@@ -1,4 +1,4 @@
-//! Rules C4 and C5 of the sharp derivation (derivation, section 5).
+//! Rules C4 and C5 of the sharp derivation (docs/mathematics.md, section 5).
 
 use crate::data::Data;
 use crate::interval::Interval;

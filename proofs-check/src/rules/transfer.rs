@@ -1,4 +1,4 @@
-//! Rule T: T_N(x) <= k0 + k1 x^2 for every N >= 0 and every x that occurs (derivation, section 2).
+//! Rule T: T_N(x) <= k0 + k1 x^2 for every N >= 0 and every x that occurs (docs/mathematics.md, section 2).
 //!
 //! Guarantee: closed form and boxes, for every x >= 0; matched, for every integer x >= 0, which are all that occur when
 //! base_frequency = 2 pi/T. Every comparison is evaluated once; there is no search.
