@@ -1,9 +1,7 @@
 //! The strict reader of JSON: limits, encodings, syntax, places, and that it never panics.
 
 use proptest::prelude::*;
-use sigmastar::spec::{
-    Document, ErrorKind, Errors, MAX_BYTES, MAX_ERRORS, MAX_NESTING, MAX_VALUES, SpecErrors, Specification,
-};
+use sigmastar::spec::{Document, ErrorKind, Errors, MAX_BYTES, MAX_NESTING, MAX_VALUES, SpecErrors, Specification};
 
 fn refused(text: &str) -> SpecErrors {
     Document::parse("test.json", text).expect_err(text)
