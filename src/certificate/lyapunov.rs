@@ -18,13 +18,15 @@ pub struct Resolution {
     pub candidates: Candidates,
     /// sigma* of each candidate in floating point, where the search was run and found one; in the order of the candidates.
     pub sigmas: Vec<Option<f64>>,
+    /// Full searches for a sigma*, of [`MAX_SEARCHES`].
+    pub searches: usize,
 }
 
 /// So many candidates in a row without a smaller sigma* end the search for one.
 const GIVE_UP: usize = 3;
 
 /// Full searches for one Jacobian: from the first candidate that has a sigma*, the others are reached by local steps.
-const MAX_SEARCHES: usize = 8;
+pub const MAX_SEARCHES: usize = 8;
 
 /// 0, 1, ..., count - 1, the ends and middles first: 0, the last, the middle, the quarters, ...
 fn spread(count: usize) -> Vec<usize> {
@@ -101,7 +103,7 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         // Stable: where no sigma* is found, the largest rate comes first.
         order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
         let triple = candidates.first_proved(order.iter().map(|at| &candidates.found[*at]))?;
-        Ok(Resolution { spec: with_triple(spec, &triple), candidates, sigmas })
+        Ok(Resolution { spec: with_triple(spec, &triple), candidates, sigmas, searches })
     }))
 }
 

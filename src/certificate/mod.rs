@@ -15,7 +15,7 @@ mod write;
 
 pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 pub use decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
-pub use lyapunov::{Resolution, lyapunov_json, matrix_json, resolve, resolve_with};
+pub use lyapunov::{MAX_SEARCHES, Resolution, lyapunov_json, matrix_json, resolve, resolve_with};
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
 pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
 pub use produce::{certify, recheck};

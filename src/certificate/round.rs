@@ -80,11 +80,7 @@ pub(super) enum TransferKind {
 }
 
 /// The transfer constants proposed by the trade-off, rounded up, with their proof.
-fn transfer_pair(
-    data: &Data<'_>,
-    pair: (f64, f64, u32),
-    kind: TransferKind,
-) -> Option<(Rational, Rational, TransferProof)> {
+fn transfer_pair(data: &Data<'_>, pair: (f64, f64, u32), kind: TransferKind) -> Option<ProvedPair> {
     let up = |value: f64| round_f64(value * (1.0 + 1e-12), SHORT_DIGITS, Direction::Up);
     match kind {
         TransferKind::ClosedForm => {
@@ -100,6 +96,12 @@ fn transfer_pair(
     }
 }
 
+/// k0 and k1 with their proof.
+type ProvedPair = (Rational, Rational, TransferProof);
+
+/// The pair of a proposal, and what was proved for it.
+type KnownPair = ((f64, f64, u32), Option<ProvedPair>);
+
 /// Rounds a sharp proposal and decides it; the first attempt that is proved, or the last one.
 pub(super) fn round_sharp(
     data: &Data<'_>,
@@ -109,8 +111,9 @@ pub(super) fn round_sharp(
     ladder: Ladder,
 ) -> Option<(SharpWitness, SharpEvaluation, u32)> {
     let mut last = None;
+    let mut known = None;
     for slack in SLACKS {
-        let Some(witness) = sharp_witness(data, model, proposal, kind, slack) else { continue };
+        let Some(witness) = sharp_witness(data, model, proposal, kind, slack, &mut known) else { continue };
         let (evaluation, precision) = decide_sharp(data.spec, &witness, ladder);
         let proved = evaluation.truth().is_true();
         last = Some((witness, evaluation, precision));
@@ -127,13 +130,18 @@ fn sharp_witness(
     proposal: &SharpProposal,
     kind: TransferKind,
     slack: f64,
+    known: &mut Option<KnownPair>,
 ) -> Option<SharpWitness> {
     let sigma = rounded_sigma(proposal.sigma, slack)?;
     let x_p = nearest(proposal.parameters.x_p, SHORT_DIGITS)?;
     let e_p = rounded_e(proposal.parameters.e_p, largest_e(model, x_p.to_f64())?)?;
     let parameters = SharpParameters { x_p: x_p.to_f64(), e_p: e_p.to_f64(), ..proposal.parameters };
     let (existence, at) = at_sigma(model, &parameters, sigma.to_f64()).ok()?;
-    let (k0, k1, transfer) = transfer_pair(data, existence.pair, kind)?;
+    // The slack does not move the pair, nor the boxes that prove it.
+    if known.as_ref().is_none_or(|(pair, _)| *pair != existence.pair) {
+        *known = Some((existence.pair, transfer_pair(data, existence.pair, kind)));
+    }
+    let (k0, k1, transfer) = known.as_ref().and_then(|(_, proved)| proved.clone())?;
 
     let bounds = PeriodicBounds::new(data, data.rational(&x_p), data.rational(&e_p));
     let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));

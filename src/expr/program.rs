@@ -46,6 +46,9 @@ struct Instruction {
     b: u32,
 }
 
+/// What a sine, a power or the like costs, in additions.
+const FUNCTION_WEIGHT: usize = 10;
+
 /// Several expressions of a plant, compiled together: equal parts are computed once, and what depends on the time
 /// alone is computed once for each time.
 ///
@@ -149,10 +152,15 @@ impl Program {
         self.outputs.len()
     }
 
-    /// The number of operations of one evaluation, those that depend on the time alone among them.
+    /// The number of operations of one evaluation, those that depend on the time alone among them; an elementary function
+    /// counts as [`FUNCTION_WEIGHT`] additions.
     #[must_use]
     pub fn operations(&self) -> usize {
-        self.time_code.len() + self.code.len()
+        let weight = |instruction: &Instruction| match instruction.operation {
+            Operation::Unary(_) | Operation::Binary(_) => FUNCTION_WEIGHT,
+            _ => 1,
+        };
+        self.time_code.iter().chain(&self.code).map(weight).sum()
     }
 
     /// The number of values that [`Evaluator::time_values`] gives.

@@ -49,12 +49,12 @@ pub(super) fn allowed(claim: &Claim) -> Vec<&Expr> {
 
 /// Draws a plant: each coefficient is a random share of what the bounding functions allow at small arguments, then what
 /// exceeds one somewhere is made smaller until nothing does. `None` where the plants of this kind do not fit into the
-/// families, or could not be proved to.
+/// families, or could not be proved to with the operations that are `left`.
 ///
 /// Guarantee: P_x exists and every bounding function holds up to the reach of the claim, the axes included, proved for
 /// the coefficients as [`Family::texts`] writes them.
 #[must_use]
-pub fn draw(claim: &Claim, random: &mut Random) -> Option<DrawnPlant> {
+pub fn draw(claim: &Claim, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
     let allowed = allowed(claim);
     let [reach_x, reach_e] = claim.reach.each_ref().map(rug::Rational::to_f64);
     let value = |index: usize, x: f64| positive(allowed[index].to_float().eval(x, 0.0));
@@ -107,11 +107,12 @@ pub fn draw(claim: &Claim, random: &mut Random) -> Option<DrawnPlant> {
         harmonics: harmonics(clock.multiple, random),
     };
     fill(&mut family, &at_zero, claim.spec.period.to_f64());
-    fit(&mut family, &allowed, claim).then_some(DrawnPlant { family })
+    fit(&mut family, &allowed, claim, left).then_some(DrawnPlant { family })
 }
 
-/// Makes a family smaller until nothing exceeds what is allowed; false where that is not proved of any size.
-pub(super) fn fit(family: &mut Family, allowed: &[&Expr], claim: &Claim) -> bool {
+/// Makes a family smaller until nothing exceeds what is allowed; false where that is not proved of any size with the
+/// operations that are `left`.
+pub(super) fn fit(family: &mut Family, allowed: &[&Expr], claim: &Claim, left: &mut u64) -> bool {
     let reach = claim.reach.each_ref().map(rug::Rational::to_f64);
     // A bound only falls as coefficients become smaller, so what fits once need not be looked at again.
     allowed.iter().enumerate().all(|(index, allowed)| {
@@ -119,7 +120,7 @@ pub(super) fn fit(family: &mut Family, allowed: &[&Expr], claim: &Claim) -> bool
             let bound = &family.bounds()[index];
             // The norm of F is given, so f may have no room to spare.
             let room = CONDITIONS[index] == "f" || leaves_room(bound, allowed, reach);
-            let fits = room && respects(bound, allowed, &claim.reach);
+            let fits = room && respects(bound, allowed, &claim.reach, left);
             if !fits {
                 shrink(family, CONDITIONS[index]);
             }
@@ -205,6 +206,7 @@ fn shrink(family: &mut Family, condition: &str) {
 mod tests {
     use super::*;
     use crate::expr::{Evaluator, PlantExpr, PlantNames, Program};
+    use crate::falsify::membership::MAX_OPERATIONS;
     use crate::spec::Specification;
     use std::sync::Arc;
 
@@ -219,7 +221,7 @@ mod tests {
         let mut random = Random::new(5, 6);
         let (mut kinds, mut touched) = ([0; 4], [0.0_f64; 10]);
         for _ in 0..12 {
-            let plant = draw(&claim, &mut random).expect("plants fit");
+            let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).expect("plants fit");
             let family = &plant.family;
             let n = family.states();
             kinds[n] += 1;
@@ -292,9 +294,12 @@ mod tests {
     #[test]
     fn without_states_and_with_a_jacobian() {
         let mut random = Random::new(1, 1);
-        let none = draw(&claim(include_str!("../../specs/no-x.json")), &mut random).unwrap();
+        let none = draw(&claim(include_str!("../../specs/no-x.json")), &mut random, &mut { MAX_OPERATIONS }).unwrap();
         assert_eq!((none.family.states(), none.family.texts().0.len()), (0, 0));
         // A Jacobian without a proved triple draws nothing.
-        assert!(draw(&claim(include_str!("../../specs/paper-example-jacobian.json")), &mut random).is_none());
+        assert!(
+            draw(&claim(include_str!("../../specs/paper-example-jacobian.json")), &mut random, &mut { MAX_OPERATIONS })
+                .is_none()
+        );
     }
 }

@@ -24,7 +24,7 @@ const ROUNDED: f64 = 1.0 - 1e-7;
 ///
 /// Guarantee: as for [`draw`](super::draw).
 #[must_use]
-pub fn linear_member(claim: &Claim, random: &mut Random) -> Option<DrawnPlant> {
+pub fn linear_member(claim: &Claim, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
     let allowed = allowed(claim);
     let [reach_x, reach_e] = claim.reach.each_ref().map(rug::Rational::to_f64);
     let value = |index: usize, x: f64, e: f64| allowed[index].to_float().eval(x, e);
@@ -70,20 +70,21 @@ pub fn linear_member(claim: &Claim, random: &mut Random) -> Option<DrawnPlant> {
         fill(&mut family, &at_zero, claim.spec.period.to_f64());
         family
     };
-    let proved = |family: &Family| {
-        family.bounds().iter().zip(&allowed).all(|(bound, allowed)| respects(bound, allowed, &claim.reach))
+    let proved = |family: &Family, left: &mut u64| {
+        family.bounds().iter().zip(&allowed).all(|(bound, allowed)| respects(bound, allowed, &claim.reach, left))
     };
     let exact = of_gains(1.0);
-    if proved(&exact) {
+    if proved(&exact, left) {
         return Some(DrawnPlant { family: exact });
     }
     let mut rounded = of_gains(ROUNDED);
-    (proved(&rounded) || fit(&mut rounded, &allowed, claim)).then_some(DrawnPlant { family: rounded })
+    (proved(&rounded, left) || fit(&mut rounded, &allowed, claim, left)).then_some(DrawnPlant { family: rounded })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::falsify::membership::MAX_OPERATIONS;
     use crate::spec::Specification;
 
     /// The linear specification with other bounds of f.
@@ -105,7 +106,8 @@ mod tests {
             ("1/3", "X/3 + 2*E/3", "2/3", 0.666_666_6),
             ("1/2", "2*X + min(E, 1)/4", "1/4", 0.25 / 4.0),
         ] {
-            let family = linear_member(&claim(alpha, f, f_e), &mut Random::new(1, 1)).expect(f).family;
+            let family =
+                linear_member(&claim(alpha, f, f_e), &mut Random::new(1, 1), &mut { MAX_OPERATIONS }).expect(f).family;
             assert_eq!(family.jacobian, [[format!("-({alpha})")]]);
             assert!((family.g.1.value() / g - 1.0).abs() < 1e-15, "{f}: {}", family.g.1);
             // q of linear.json: 3 + X + E/4.
@@ -119,7 +121,13 @@ mod tests {
     #[test]
     fn a_rate_that_f_does_not_allow_has_no_member() {
         // |F| >= alpha and |F x| <= f contradict each other.
-        assert!(linear_member(&claim("20", "19.9*X + 2000*E", "2000"), &mut Random::new(1, 1)).is_none());
-        assert!(linear_member(&claim("20", "20*X + 2000*E", "2000"), &mut Random::new(1, 1)).is_some());
+        assert!(
+            linear_member(&claim("20", "19.9*X + 2000*E", "2000"), &mut Random::new(1, 1), &mut { MAX_OPERATIONS })
+                .is_none()
+        );
+        assert!(
+            linear_member(&claim("20", "20*X + 2000*E", "2000"), &mut Random::new(1, 1), &mut { MAX_OPERATIONS })
+                .is_some()
+        );
     }
 }

@@ -8,6 +8,9 @@ use std::collections::VecDeque;
 /// Bits of the enclosures.
 const PRECISION: u32 = 64;
 
+/// Executions of an operation that the proofs of all draws of one trial may take together.
+pub(super) const MAX_OPERATIONS: u64 = 500_000;
+
 /// Boxes after which a plant is not accepted: one with a little more room needs a few dozen.
 const MAX_BOXES: usize = 200;
 
@@ -21,9 +24,9 @@ type Region = [[Rational; 2]; 2];
 /// `D(X, E) >= D(X_0, E_0) + (X - X_0) min(0, S_X) + (E - E_0) min(0, S_E)` where S_X and S_E are the least slopes of D on
 /// the box; boxes for which this does not give D >= 0 are halved. So D may vanish at the origin, where most bounds of f
 /// do. Where D is a polynomial with rational coefficients, none of them negative, that is decided exactly, so that D may be
-/// 0 all over. False where D < 0 somewhere, and where too many boxes would be needed.
+/// 0 all over. False where D < 0 somewhere, and where too many boxes would be needed, or more operations than are `left`.
 #[must_use]
-pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2]) -> bool {
+pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2], left: &mut u64) -> bool {
     let texts = [format!("({}) - ({bound})", allowed.text()), format!("-({bound})")];
     let [Ok(difference), Ok(negative)] = texts.map(|text| Expr::parse(&text, Variables::XAndE)) else {
         return false;
@@ -46,8 +49,12 @@ pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2]) -> bool {
     let whole: Region = reach.clone().map(|end| [Rational::new(), end]);
     let mut queue = VecDeque::from([whole]);
     let mut examined = 0;
+    // The box itself, and where it is halved the four halves; each by the value and the slopes of both differences.
+    let operations = 15 * difference.to_float().operations() as u64;
     while let Some(region) = queue.pop_front() {
         examined += 1;
+        let Some(less) = left.checked_sub(operations) else { return false };
+        *left = less;
         if examined > MAX_BOXES {
             return false;
         }
@@ -102,6 +109,19 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_work_is_counted_and_limited() {
+        let (reach, allowed) = ([Rational::from(10), Rational::from(10)], "1.0001*X*E/(1 + X*E)");
+        let allowed = Expr::parse(allowed, Variables::XAndE).unwrap();
+        let mut left = MAX_OPERATIONS;
+        assert!(!respects("X*E/(1 + X*E)", &allowed, &reach, &mut left));
+        let used = MAX_OPERATIONS - left;
+        assert!(used > 0 && used < MAX_OPERATIONS / 2, "{used}");
+        let mut short = used / 3;
+        assert!(!respects("X*E/(1 + X*E)", &allowed, &reach, &mut short));
+        assert!(short < used / 3);
+    }
+
+    #[test]
     fn what_fits_and_what_does_not() {
         let reach = [Rational::from(10), Rational::from(10)];
         for (bound, allowed, fits) in [
@@ -130,7 +150,7 @@ mod tests {
             ("0", "1 + 0*sqrt(X - 1)", false),
         ] {
             let allowed = Expr::parse(allowed, Variables::XAndE).unwrap();
-            assert_eq!(respects(bound, &allowed, &reach), fits, "{bound}");
+            assert_eq!(respects(bound, &allowed, &reach, &mut { MAX_OPERATIONS }), fits, "{bound}");
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::claim::Claim;
 use super::draw::{DrawnPlant, draw};
 use super::linear::linear_member;
+use super::membership::MAX_OPERATIONS;
 use super::random::Random;
 use super::report::counterexample_plant;
 use crate::certificate::no_plant;
@@ -123,9 +124,10 @@ fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     let mut random = Random::new(seed, number);
     // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
     // and where none does the linear member is left.
-    let first = if number == 1 { linear_member(claim, &mut random) } else { None };
-    let drawn = first.or_else(|| (0..DRAWS).find_map(|_| draw(claim, &mut random)));
-    let Some(plant) = drawn.or_else(|| linear_member(claim, &mut random)) else {
+    let first = if number == 1 { linear_member(claim, &mut random, &mut { MAX_OPERATIONS }) } else { None };
+    let mut left = MAX_OPERATIONS;
+    let drawn = first.or_else(|| (0..DRAWS).find_map(|_| draw(claim, &mut random, &mut left)));
+    let Some(plant) = drawn.or_else(|| linear_member(claim, &mut random, &mut { MAX_OPERATIONS })) else {
         return Finding::Unfinished("no plant of the drawn kind is proved to lie within the families".to_owned());
     };
     let n_o = OSCILLATORS[random.whole(0, OSCILLATORS.len() as u32 - 1) as usize];
@@ -324,7 +326,7 @@ mod tests {
         let mut claim = Claim::for_tests(spec, [3.0, 3.0]);
         claim.initial = [2.0, 0.5, 7.0];
         let mut random = Random::new(3, 4);
-        let plant = draw(&claim, &mut random).unwrap();
+        let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).unwrap();
         let regulator = regulator(&claim, claim.sigma, 3);
         let start = start(&claim, &plant, &regulator, &mut random);
         let n = plant.family.states();

@@ -3,7 +3,7 @@
 use super::family::{Deviation, Family};
 use super::float::FloatFamily;
 use super::propose::{fourier, lyapunov_samples, program_cost, smallest_ratio};
-use super::prove::{ProvedTriple, prove};
+use super::prove::{ProvedTriple, is_provable, prove};
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::number::{Direction, round_f64, write_exact};
 use crate::spec::model::{Constant, Jacobian, PeriodicMatrix};
@@ -19,6 +19,9 @@ pub struct Candidates {
     /// The Floquet exponents of the middle of the Jacobian, (real, imaginary) in 1/time, the largest real part first:
     /// floating point, certified by nothing. Minus the first real part bounds every rate that can be proved.
     pub floquet: Vec<[f64; 2]>,
+    /// What the semidefinite programs cost, of [`MAX_PROGRAM_COST`]; those of [`Candidates::beside`] a quarter of it more at
+    /// most.
+    pub cost: u64,
     family: Family,
 }
 
@@ -62,6 +65,11 @@ impl Candidates {
     pub fn beside(&self, index: usize) -> Vec<Candidate> {
         let Some(here) = self.found.get(index) else { return Vec::new() };
         let float = FloatFamily::new(&self.family);
+        // Up to four programs.
+        let affordable = |cost: u64| cost <= MAX_PROGRAM_COST / 16;
+        if !program_cost(&float, here.matrix.harmonics.len()).is_some_and(affordable) {
+            return Vec::new();
+        }
         let neighbours = [index.checked_sub(1), index.checked_add(1)];
         let ends = neighbours.iter().flatten().filter_map(|at| self.found.get(*at)).map(|candidate| candidate.alpha);
         let rates = ends.flat_map(|end| [1.0, 2.0].map(|part| here.alpha + part / 3.0 * (end - here.alpha)));
@@ -119,9 +127,9 @@ const SHARES: [f64; 12] = [0.9998, 0.98, 0.94, 0.88, 0.8, 0.7, 0.6, 0.5, 0.4, 0.
 /// Degrees of P(t) that a semidefinite program is tried for, where F varies.
 const DEGREES: [usize; 4] = [0, 1, 2, 4];
 
-/// What all semidefinite programs for one Jacobian may cost together, in the unit of [`program_cost`]: some seconds. Where
-/// less is left than [`FEWEST_PROGRAMS`] of a degree cost, that degree is left to the periodic Lyapunov equation.
-const MAX_PROGRAM_COST: u64 = 150_000_000;
+/// What all semidefinite programs for one Jacobian may cost together, in entries that their factorisations touch: some
+/// seconds. Where less is left than [`FEWEST_PROGRAMS`] of a degree cost, that degree is left to the periodic Lyapunov equation.
+pub const MAX_PROGRAM_COST: u64 = 150_000_000;
 const FEWEST_PROGRAMS: u64 = 8;
 
 /// Bisections for the largest rate of a degree.
@@ -172,7 +180,7 @@ pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, 
         better
     });
     let none = LyapunovFailure::NotFound { rate: limit };
-    if found.is_empty() { Err(none) } else { Ok(Candidates { found, floquet, family }) }
+    if found.is_empty() { Err(none) } else { Ok(Candidates { found, floquet, cost: MAX_PROGRAM_COST - left, family }) }
 }
 
 /// The Floquet exponents of the middle of a Jacobian as in [`Candidates::floquet`]; `None` if they cannot be computed.
@@ -191,6 +199,9 @@ fn by_programs(
     proposals: &mut Vec<Vec<Mat<f64>>>,
 ) -> f64 {
     let Some(cost) = program_cost(family, degree) else { return 0.0 };
+    if !is_provable(family.order, degree + family.degree(), family.vertices.len()) {
+        return 0.0;
+    }
     let programs = (*left / cost).min(BISECTIONS + SHARES.len() as u64);
     if programs < FEWEST_PROGRAMS {
         return 0.0;
@@ -231,7 +242,10 @@ fn by_equation(family: &FloatFamily, limit: f64, proposals: &mut Vec<Vec<Mat<f64
             continue;
         }
         let reaches = |p: &Vec<Mat<f64>>| family.assess(p).is_some_and(|given| given.alpha >= 0.999 * share * limit);
-        proposals.extend(CUTS.into_iter().map(|degree| fourier(&samples, degree)).find(reaches));
+        let degrees = CUTS
+            .into_iter()
+            .filter(|degree| is_provable(family.order, degree + family.degree(), family.vertices.len()));
+        proposals.extend(degrees.map(|degree| fourier(&samples, degree)).find(reaches));
     }
 }
 

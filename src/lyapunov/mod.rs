@@ -12,6 +12,6 @@ mod float;
 mod propose;
 mod prove;
 
-pub use candidates::{Candidate, Candidates, LyapunovFailure, candidates, floquet_exponents};
+pub use candidates::{Candidate, Candidates, LyapunovFailure, MAX_PROGRAM_COST, candidates, floquet_exponents};
 pub use family::{Deviation, Family};
 pub use prove::{NotProved, ProvedTriple, prove};

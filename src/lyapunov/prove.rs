@@ -37,6 +37,11 @@ pub enum NotProved {
     /// Matrices that are not symmetric, or not of the order of the Jacobian, or numbers that are not positive.
     #[error("P is not symmetric of the order of the Jacobian, or p_low, p_up or alpha is not positive")]
     Shape,
+    /// More work than a proof may take.
+    #[error(
+        "the proof would take more than {MAX_COST} multiplications: P or the Jacobian has too many harmonics for its order"
+    )]
+    TooMuchWork,
     /// One of the inequalities.
     #[error("{what} is not proved at the angle 2 pi t/period = {angle}")]
     Inequality {
@@ -45,6 +50,31 @@ pub enum NotProved {
         /// Near which angle, in radians.
         angle: f64,
     },
+}
+
+/// What the cells of a proof may cost at least, in multiplications; a proof whose cells, none of them halved, cost more is
+/// not tried.
+const MAX_COST: u64 = 20_000_000;
+
+/// What the halves of its cells may cost: so many times what the cells do, or this much together.
+const HALVES: u64 = 8;
+const COST_OF_HALVES: u64 = 8_000_000;
+
+/// The cells that [0, 2 pi] is cut into at first, for matrices of this degree.
+fn cells(degree: usize) -> u64 {
+    8 * (degree as u64 + 1)
+}
+
+/// What the cells of a proof cost, none of them halved: for so many matrices of an order and degree the sines and cosines,
+/// the entries, the definiteness at both ends.
+fn proof_cost(order: usize, degree: usize, matrices: u64) -> u64 {
+    let (n, k) = (order as u64, degree as u64 + 1);
+    cells(degree) * matrices * (100 + (n * (n + 1) + 8) * k + n * n * n)
+}
+
+/// Whether a P(t) of a degree is worth proposing for a family: its proof would not take too much work.
+pub(super) fn is_provable(order: usize, degree: usize, vertices: usize) -> bool {
+    proof_cost(order, degree, vertices as u64) <= MAX_COST
 }
 
 /// Cells are halved at most this many times.
@@ -89,8 +119,8 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
             entry
         })
     };
-    shifted(1, &Rational::from(-p_low)).is_positive_definite("p_low I <= P")?;
-    shifted(-1, p_up).is_positive_definite("P <= p_up I")?;
+    shifted(1, &Rational::from(-p_low)).is_positive_definite("p_low I <= P", 1)?;
+    shifted(-1, p_up).is_positive_definite("P <= p_up I", 1)?;
     let twice_alpha = rational(alpha) * 2;
     let centre = Entries::new(order, |i, j| {
         let mut sum = p[i][j].derivative().scaled(&family.frequency).plus(&p[i][j].scaled(&twice_alpha), 1);
@@ -115,7 +145,7 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
                 }
                 entry
             });
-            at_vertex.is_positive_definite(DECAY)
+            at_vertex.is_positive_definite(DECAY, vertices.len() as u64)
         }),
         Deviation::Ball(radius) => {
             let taken = rational(p_up) * radius * 2;
@@ -126,7 +156,7 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
                 }
                 entry
             });
-            at_worst.is_positive_definite(DECAY)
+            at_worst.is_positive_definite(DECAY, 1)
         }
     }
 }
@@ -148,34 +178,52 @@ impl Entries {
         &self.lower[row * (row + 1) / 2 + column]
     }
 
-    /// Proves that the matrix is positive definite at every angle.
-    fn is_positive_definite(&self, what: &'static str) -> Result<(), NotProved> {
+    /// Proves that the matrix, one of so many, is positive definite at every angle.
+    fn is_positive_definite(&self, what: &'static str, matrices: u64) -> Result<(), NotProved> {
         let degree = self.lower.iter().map(|entry| entry.harmonics.len()).max().unwrap_or(0);
         let failure = |angle: f64| NotProved::Inequality { what, angle };
         if degree == 0 {
             let proved = definite(self.order, |i, j| self.at(i, j).mean.clone());
             return if proved { Ok(()) } else { Err(failure(0.0)) };
         }
+        let cost = proof_cost(self.order, degree, matrices);
+        if cost > MAX_COST {
+            return Err(NotProved::TooMuchWork);
+        }
         let curvature = self.curvature();
-        let cells = 8 * (degree as i64 + 1);
+        let count = cells(degree) as u32;
+        let most = (HALVES.max(COST_OF_HALVES / cost) * u64::from(count)) as usize;
         // 2 pi < 62832/10000.
-        let width = Rational::from((62_832, 10_000)) / cells;
-        (0..cells).into_par_iter().try_for_each(|cell| {
-            let mut stack: Vec<(Rational, Rational, u32)> =
-                vec![(Rational::from(&width * cell) + Rational::from(&width / 2), width.clone() / 2, 0)];
-            while let Some((angle, half, halvings)) = stack.pop() {
-                if self.holds_on(&angle, &half, degree, &curvature) {
-                    continue;
-                }
-                if halvings == MAX_HALVINGS {
-                    return Err(failure(angle.to_f64()));
-                }
-                let quarter: Rational = half / 2;
-                stack.push((Rational::from(&angle - &quarter), quarter.clone(), halvings + 1));
-                stack.push((angle + &quarter, quarter, halvings + 1));
+        let half = Rational::from((62_832, 20_000)) / count;
+        let mut pending: Vec<Rational> = (0..count).map(|cell| Rational::from(&half * (2 * cell + 1))).collect();
+        let mut half = half;
+        let mut examined = 0;
+        // Level by level, so that what is examined does not depend on the number of threads.
+        for _ in 0..=MAX_HALVINGS {
+            examined += pending.len();
+            let outcomes: Vec<Option<bool>> = pending
+                .par_iter()
+                .map(|angle| {
+                    let holds = |half: &Rational| self.holds_on(angle, half, degree, &curvature);
+                    // What fails at a single angle fails on every half around it.
+                    if holds(&half) { Some(true) } else { holds(&Rational::new()).then_some(false) }
+                })
+                .collect();
+            if let Some(at) = outcomes.iter().position(Option::is_none) {
+                return Err(failure(pending[at].to_f64()));
             }
-            Ok(())
-        })
+            let quarter = Rational::from(&half / 2u32);
+            let open = pending.iter().zip(&outcomes).filter(|(_, outcome)| **outcome == Some(false));
+            pending = open
+                .flat_map(|(angle, _)| [Rational::from(angle - &quarter), Rational::from(angle + &quarter)])
+                .collect();
+            half = quarter;
+            let Some(first) = pending.first() else { return Ok(()) };
+            if examined + pending.len() > most {
+                return Err(failure(first.to_f64()));
+            }
+        }
+        Err(failure(pending.first().map_or(0.0, Rational::to_f64)))
     }
 
     /// Row sums of the bounds of the second derivative: `sum_j sum_k k^2 (|a_k| + |b_k|)` over the entries of each row.
@@ -195,12 +243,11 @@ impl Entries {
     fn holds_on(&self, angle: &Rational, half: &Rational, degree: usize, curvature: &[Enclosure]) -> bool {
         let precision = curvature[0].precision();
         let angle = Enclosure::from_rational(angle, precision);
-        let waves: Vec<[Enclosure; 2]> = (1..=degree as i64)
-            .map(|k| {
-                let angle = &angle * k;
-                [angle.cos(), angle.sin()]
-            })
-            .collect();
+        // By the addition theorem: a sine or cosine costs as much as fifty products.
+        let first = [angle.cos(), angle.sin()];
+        let next =
+            |[cos, sin]: &[Enclosure; 2]| Some([cos * &first[0] - sin * &first[1], sin * &first[0] + cos * &first[1]]);
+        let waves: Vec<[Enclosure; 2]> = std::iter::successors(Some(first.clone()), next).take(degree).collect();
         let value_and_slope: Vec<[Enclosure; 2]> = self
             .lower
             .iter()

@@ -4,14 +4,15 @@ use super::ClosedLoop;
 use super::adaptive::IntegrationFailure;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Elementary operations that a steady state, a long run and a run with noise may take each: about half a minute.
-pub const MAX_OPERATIONS: u64 = 40_000_000_000;
+/// Elementary operations that a steady state, a long run and a run with noise may take each: some ten seconds.
+pub const MAX_OPERATIONS: u64 = 10_000_000_000;
 
 /// Numbers that one integration, or a long run, may keep: 256 MiB.
 pub const MAX_NUMBERS: usize = 1 << 25;
 
-/// Additions and multiplications of a step of order 8 outside the right side, for each component and stage.
-const STAGE: u64 = 9;
+/// What a step of order 8 costs outside the right side, for each component and stage: nine additions and multiplications
+/// of whole vectors, three of which take as long as one by itself.
+const STAGE: u64 = 3;
 
 /// The operations that were spent. One closed loop is simulated by one thread, so the count does not depend on how many
 /// threads there are.
@@ -28,6 +29,12 @@ impl ClosedLoop {
     /// Starts counting anew, for another part of a simulation.
     pub(super) fn renew_effort(&self) {
         self.effort.0.store(0, Ordering::Relaxed);
+    }
+
+    /// The operations that the part of a simulation begun last has taken, of [`MAX_OPERATIONS`].
+    #[must_use]
+    pub fn spent(&self) -> u64 {
+        self.effort.spent()
     }
 
     /// The operations of one stage of a step: the right side and what the method does with it, with so many columns of
