@@ -120,3 +120,13 @@ fn an_unsettled_function_is_undecided_with_its_place() {
         assert!(finding.message.contains("is not proved on ["), "{}", finding.message);
     }
 }
+
+#[test]
+fn polynomials_too_large_to_add_are_not_forgotten() {
+    // Each fits the limits, their sum does not: it is a rest as a whole, and with it the derivative at 1 is about -1.6.
+    let large = |digit: &str, ends: &str| digit.repeat(649) + ends;
+    let slopes = format!("{}*X/{} + {}*X/{}", large("7", "1"), large("9", "1"), large("8", "3"), large("9", "7"));
+    assert_eq!(verdict(&format!("X^3 - 3*X^2 + 3*X - ({slopes})"), 10, 1), Some(Invalid));
+    assert_eq!(verdict(&format!("X^3 - 3*X^2 + 3*X + ({slopes})"), 10, 1), None);
+    assert_eq!(verdict(&format!("X^3 - 3*X^2 + 3*X - ({slopes}) + 2*X"), 10, 1), None);
+}

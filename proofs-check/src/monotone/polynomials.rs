@@ -23,11 +23,21 @@ struct Factored {
     factors: Vec<(Polynomial, i32)>,
 }
 
+/// What is left of an operation when its polynomials are taken away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rest {
+    /// Nothing.
+    Nothing,
+    /// What is left of its operands: it is a sum.
+    Operands,
+    /// Everything: it has no polynomials.
+    Everything,
+}
+
 /// One operation's place in the sums of an expression.
 #[derive(Clone, Debug)]
 struct Place {
-    /// Whether nothing is left of it when its polynomials are taken away.
-    is_polynomial: bool,
+    rest: Rest,
     /// The derivatives of its polynomials in X and in E, where a sum ends and a factor is repeated.
     derivatives: [Option<Factored>; 2],
 }
@@ -67,21 +77,25 @@ impl Polynomials {
         let root = expr.fold(|op, a: Option<Split>, b: Option<Split>| {
             let found = split(op, &a, &b).filter(|(polynomials, _)| polynomials.iter().all(is_moderate));
             // A sum ends where something else is made of it.
-            let goes_on = found.as_ref().is_some_and(|(_, rest)| !rest || matches!(op, Op::Add | Op::Sub | Op::Neg));
-            if !goes_on {
+            if found.is_none() {
                 [&a, &b].into_iter().flatten().for_each(|part| finish(&mut places, part));
             }
-            let (polynomials, rest) = found.unwrap_or_else(|| ([Vec::new(), Vec::new()], true));
-            places.push(Place { is_polynomial: !rest, derivatives: [None, None] });
-            Split { at: places.len() - 1, polynomials, rest }
+            let rest = match &found {
+                Some((_, false)) => Rest::Nothing,
+                Some((_, true)) => Rest::Operands,
+                None => Rest::Everything,
+            };
+            places.push(Place { rest, derivatives: [None, None] });
+            let (polynomials, _) = found.unwrap_or_default();
+            Split { at: places.len() - 1, polynomials, rest: rest != Rest::Nothing }
         });
         root.iter().for_each(|part| finish(&mut places, part));
         Polynomials { places }
     }
 
-    /// Whether the operation at this position is a polynomial altogether.
-    pub(super) fn is_polynomial(&self, at: usize) -> bool {
-        self.places[at].is_polynomial
+    /// What is left of the operation at this position without its polynomials.
+    pub(super) fn rest(&self, at: usize) -> Rest {
+        self.places[at].rest
     }
 
     /// The slopes along an axis of the polynomials in the sum that ends at this position, if they are worth a look.
@@ -104,7 +118,8 @@ fn is_moderate(p: &Polynomial) -> bool {
     p.len() <= MAX_DEGREE + 1 && p.iter().fold(0_u32, |sum, a| sum.saturating_add(bits(a))) <= MAX_BITS
 }
 
-/// The polynomials of an operation, and whether a rest is left; `None` where it is no sum and no polynomial.
+/// The polynomials of an operation, and whether a rest is left, which only a sum may have; `None` where it is no sum and no
+/// polynomial.
 fn split(op: &Op, a: &Option<Split>, b: &Option<Split>) -> Option<([Polynomial; 2], bool)> {
     let one = |along: usize, p: Polynomial| {
         let mut polynomials = [Vec::new(), Vec::new()];

@@ -6,7 +6,7 @@
 //! *growth*, for u >= 0 on a side in [0, oo): an interval [r, s] with (b/a)^r u(a) <= u(b) <= (b/a)^s u(a) for 0 < a < b
 //! (so X^2/(1 + X) has growth 2 - [0, 1]); r >= 0 means nondecreasing, also where slopes cancel.
 
-use super::polynomials::Polynomials;
+use super::polynomials::{Polynomials, Rest};
 use crate::expr::{Expr, Op, interval_op};
 use crate::interval::Interval;
 
@@ -132,12 +132,11 @@ fn apply(
             }
         };
         let mut slope = if slope.is_defined() { slope } else { Interval::entire(p) };
-        let is_sum = matches!(op, Op::Add | Op::Sub | Op::Neg);
-        let rest = match (op, &b) {
-            _ if polynomials.is_polynomial(at) => zero.clone(),
-            (Op::Neg, _) => -&a.rest[side],
-            (Op::Add, Some(b)) => &a.rest[side] + &b.rest[side],
-            (Op::Sub, Some(b)) => &a.rest[side] - &b.rest[side],
+        let rest = match (polynomials.rest(at), op, &b) {
+            (Rest::Nothing, ..) => zero.clone(),
+            (Rest::Operands, Op::Neg, _) => -&a.rest[side],
+            (Rest::Operands, Op::Add, Some(b)) => &a.rest[side] + &b.rest[side],
+            (Rest::Operands, Op::Sub, Some(b)) => &a.rest[side] - &b.rest[side],
             _ => none.clone(),
         };
         if let Some(polynomial) = polynomials.slopes(at, side, sides[side]) {
@@ -169,7 +168,7 @@ fn apply(
             let common = by_sign.intersect(&by_ratio);
             rule = if common.is_defined() { common } else { by_sign };
         }
-        part.rest[side] = if is_sum || polynomials.is_polynomial(at) { rest } else { slope.clone() };
+        part.rest[side] = if polynomials.rest(at) == Rest::Everything { slope.clone() } else { rest };
         part.slope[side] = slope;
         part.growth[side] = rule;
     }
