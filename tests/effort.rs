@@ -212,5 +212,5 @@ fn a_simulation_beyond_the_limit_is_undecided() {
         .args(["--samples", &samples[..samples.len() - 4]])
         .assert()
         .code(3)
-        .stdout(predicates::str::contains("fewer oscillators"));
+        .stdout(predicates::str::contains("33554432 numbers to keep"));
 }
