@@ -87,6 +87,13 @@ fn data_of_plants_are_left_alone() {
         assert_eq!((code, &report["no_plant"]), (Some(0), &Value::Null), "{spec}");
         assert!(report["remarks"].as_array().unwrap().is_empty(), "{spec}");
     }
+    // A domain whose E is out of range still limits X: within X <= 10 this |f| <= 1 allows alpha = 0.05.
+    let path = write(folder.path(), r#"{ "p_low": "1", "p_up": "1", "alpha": "0.05" }"#, "1", "0");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace(r#""X": "1e6", "E": "1e6""#, r#""X": "10", "E": "exp(1e5)""#)).unwrap();
+    let (_, json, _) = run(&["certify", &path, "--format", "json"]);
+    let report: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(report["no_plant"], Value::Null);
     // f(0,0) > 0 is no error, and a hint.
     let path = write(folder.path(), r#"{ "p_low": "1", "p_up": "1", "alpha": "1" }"#, "0.01 + 2*X", "0.001");
     let (code, json, _) = run(&["certify", &path, "--format", "json"]);

@@ -106,11 +106,14 @@ pub fn has_states(data: &Data<'_>, reach: &[Rational; 2]) -> bool {
 /// Guarantee: `Some` is a proof, decided over enclosures at the exact X. `None` says nothing.
 #[must_use]
 pub fn no_plant(data: &Data<'_>, used: Option<&(Rational, Rational)>) -> Option<NoPlant> {
-    let domain = data.spec.domain.as_ref();
-    // Rounded down, so that X lies in the domain.
-    let inner = domain.and_then(|domain| {
-        Some([domain.x.enclose(data.precision).lower_rational()?, domain.e.enclose(data.precision).lower_rational()?])
-    });
+    // Rounded down, so that X lies in the domain; of a domain whose ends are out of range nothing is said.
+    let inner = match &data.spec.domain {
+        Some(domain) => Some([
+            domain.x.enclose(data.precision).lower_rational()?,
+            domain.e.enclose(data.precision).lower_rational()?,
+        ]),
+        None => None,
+    };
     let reach = inner.or_else(|| used.map(|(x, e)| [x.clone(), e.clone()]));
     let one = || Rational::from(1);
     if !has_states(data, reach.as_ref().unwrap_or(&[one(), one()])) {

@@ -179,7 +179,10 @@ fn assemble<'s>(
         _ => Vec::new(),
     };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
-    let used = sharp_used(&sharp).or_else(|| repaired_used(&repaired));
+    let used = match options.derivation {
+        Derivation::Repaired => repaired_used(&repaired).or_else(|| sharp_used(&sharp)),
+        Derivation::Sharp | Derivation::Printed => sharp_used(&sharp).or_else(|| repaired_used(&repaired)),
+    };
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
     sensitivities.retain(|(_, gain)| *gain > 0.0);
     sensitivities.sort_by(|a, b| b.1.total_cmp(&a.1));

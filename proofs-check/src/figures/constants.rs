@@ -326,12 +326,14 @@ fn compare(d: &Data<'_>, cell: &mut crate::json::Fields<'_>, value: Value<'_>) -
         }
         Value::Largest(holds, limit) => {
             let top = limit.clone().unwrap_or_else(|| Rational::from(1) << 200);
-            let words = if holds(&d.number(&top)) == Some(true) {
-                if limit.is_some() { "the whole domain" } else { "unbounded" }
-            } else if holds(&d.number(&(top >> 400))) == Some(true) {
-                return threshold(&cell.required("value")?, &*holds, Some(false));
-            } else {
-                "no positive value"
+            let words = match holds(&d.number(&top)) {
+                Some(true) if limit.is_some() => "the whole domain",
+                Some(true) => "unbounded",
+                None => "not decided",
+                Some(false) if holds(&d.number(&(top >> 400))) == Some(true) => {
+                    return threshold(&cell.required("value")?, &*holds, Some(false));
+                }
+                Some(false) => "no positive value",
             };
             text(&cell.required("reason")?, words)
         }

@@ -41,6 +41,9 @@ fn threshold(data: &Data<'_>, limit: Option<Rational>, holds: impl Fn(&Enclosure
             "unbounded".to_owned()
         }));
     }
+    if !at(&high).is_false() {
+        return Some(Value::Unavailable("not decided".to_owned()));
+    }
     let mut low = Rational::from(&high >> 400);
     if !at(&low).is_true() {
         return Some(Value::Unavailable("no positive value".to_owned()));
