@@ -227,3 +227,25 @@ fn the_program() {
         assert!(code == Some(2) && out.is_empty() && error.contains("usage"), "{wrong:?}");
     }
 }
+
+#[test]
+fn a_figure_that_is_not_known_settles_nothing() {
+    // Exactly 0.58, but at 128 bits no more than a number below 1e22 in magnitude: more bits are needed before a figure is
+    // compared, and then a wrong one is seen.
+    let alpha = "(1e60+0.58)-1e60";
+    let mut certificate = certificate(PAPER);
+    certificate["specification"]["lyapunov"]["alpha"] = alpha.into();
+    let statement =
+        certificate["claim"]["statement"].as_str().unwrap().replace("alpha = 0.58", &format!("alpha = {alpha}"));
+    certificate["claim"]["statement"] = statement.into();
+    rehash(&mut certificate);
+    assert_valid(&proofs_check::check(certificate.to_string().as_bytes()));
+    for wrong in [json!(["2", "2"]), json!(["undefined", "undefined"])] {
+        let mut forged = certificate.clone();
+        forged["constants"]["K_alpha"]["repaired"]["value"] = wrong;
+        let report = proofs_check::check(forged.to_string().as_bytes());
+        let figures = report.proved.expect("the claim stands").figures;
+        assert!(figures.word() == "differ" && figures.findings.len() == 1, "{figures}");
+        assert!(figures.findings[0].pointer.starts_with("/constants/K_alpha/repaired"), "{figures}");
+    }
+}

@@ -5,7 +5,7 @@
 
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
-use crate::verdict::{Condition, Finding, Outcome, Verdict, bad, invalid, shown};
+use crate::verdict::{Condition, Finding, Outcome, Verdict, bad, finding, invalid, shown};
 use rug::{Float, Integer, Rational};
 
 /// The name of what is compared here.
@@ -63,6 +63,24 @@ fn point(end: &Float) -> Interval {
     Interval::new(end.clone(), end.clone())
 }
 
+/// The decimals to which a figure must be known here before a stored one is compared with it.
+pub const PRECISE_DIGITS: u32 = 6;
+
+/// At this precision, in bits, nothing more can be asked for.
+const LAST_PRECISION: u32 = 1024;
+
+/// Demands that a figure is known well enough to tell a right one from a wrong one: else more bits are needed.
+pub fn precise(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
+    let width = point(mine.hi()) - point(mine.lo());
+    let unit = Interval::rational(&Rational::from((1, Integer::from(Integer::u_pow_u(10, PRECISE_DIGITS)))), PRECISION);
+    let known = mine.is_bounded() && width.le(&(mine.abs().ceiling() * unit)) == Some(true);
+    if known || mine.precision() >= LAST_PRECISION {
+        return Ok(());
+    }
+    let message = "this figure is not known well enough to compare with it";
+    Err(finding(Verdict::Undecided, RULE, &field.pointer, message))
+}
+
 /// The decimals of an end of a stored enclosure that are certain.
 const DIGITS: u32 = 15;
 
@@ -82,6 +100,11 @@ pub fn span(field: &Field<'_>, low: &Interval, high: &Interval) -> Outcome<()> {
     let ends = field.elements()?;
     let [lo, hi] = &ends[..] else { return bad(&field.pointer, "expected [lower end, upper end]") };
     if !low.is_defined() || !high.is_defined() {
+        let last = low.precision().max(high.precision()) >= LAST_PRECISION;
+        if !last {
+            let message = "this figure is not known well enough to compare with it";
+            return Err(finding(Verdict::Undecided, RULE, &field.pointer, message));
+        }
         return text(lo, "undefined").and_then(|()| text(hi, "undefined"));
     }
     // Each end lies on its side of the number, and no further from it than its digits make it.
@@ -105,6 +128,7 @@ const CLAIM_DIGITS: u32 = 11;
 
 /// A stored upper bound lies no further above the number than its rounding.
 pub fn tight(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
+    precise(field, mine)?;
     let above = stored(field)? - point(mine.hi());
     let near = above.le(&tolerance(mine, CLAIM_DIGITS)) == Some(true);
     if near { Ok(()) } else { Err(differs(field, field.numeral()?, mine)) }

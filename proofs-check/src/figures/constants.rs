@@ -4,7 +4,7 @@
 //! derivation's own numbers is there only if that derivation's witness is in the file and is proved; a row or a cell that
 //! they do not determine differs.
 
-use super::compare::{number, span, stored, text, tolerance};
+use super::compare::{PRECISE_DIGITS, number, precise, span, stored, text, tolerance};
 use super::unknown;
 use crate::data::Data;
 use crate::interval::Interval;
@@ -291,7 +291,7 @@ pub fn check(d: &Data<'_>, table: &Field<'_>, input: &Input<'_>, note: &mut dyn 
                 continue;
             }
         };
-        note(place.clone(), fields.required("evaluated_at").and_then(|field| text(&field, at)));
+        note(join(&place, "evaluated_at"), fields.required("evaluated_at").and_then(|field| text(&field, at)));
         for (derivation, cell) in ["printed", "repaired", "sharp"].into_iter().zip(row) {
             let Some(expected) = cell else { continue };
             let outcome = fields.required(derivation).and_then(|field| entry(d, &field, expected));
@@ -318,8 +318,14 @@ fn entry(d: &Data<'_>, field: &Field<'_>, (value, is_sound, source): (Value<'_>,
 
 fn compare(d: &Data<'_>, cell: &mut crate::json::Fields<'_>, value: Value<'_>) -> Outcome<()> {
     match value {
-        Value::Number(value) => span(&cell.required("value")?, &value, &value),
-        Value::Span(low, high) => span(&cell.required("value")?, &low, &high),
+        Value::Number(value) => {
+            let field = cell.required("value")?;
+            precise(&field, &value).and_then(|()| span(&field, &value, &value))
+        }
+        Value::Span(low, high) => {
+            let field = cell.required("value")?;
+            precise(&field, &low).and_then(|()| precise(&field, &high)).and_then(|()| span(&field, &low, &high))
+        }
         Value::Reason(before, value, above, after) => reason(&cell.required("reason")?, before, &value, above, after),
         Value::Least(holds, at_zero) => {
             threshold(&cell.required("value")?, &|at| holds(at).map(|holds| !holds), at_zero)
@@ -354,7 +360,9 @@ fn threshold(field: &Field<'_>, below: &dyn Fn(&Interval) -> Option<bool>, at_ze
     // Or as narrow as the data let it be: in its middle quarter the property is open at this precision.
     let width = &high - &low;
     let open = |at: Interval| below(&at).is_none();
-    let narrow = width.le(&room) == Some(true) || (open(&low + &width * 3 / 8) && open(&high - &width * 3 / 8));
+    let within = width.le(&tolerance(&high, PRECISE_DIGITS)) == Some(true);
+    let narrow =
+        width.le(&room) == Some(true) || (within && open(&low + &width * 3 / 8) && open(&high - &width * 3 / 8));
     let what =
         "the property that defines this number changes inside the stored enclosure, which is as narrow as its digits";
     let begins = below(&(&low - &room));
@@ -368,6 +376,7 @@ fn threshold(field: &Field<'_>, below: &dyn Fn(&Interval) -> Option<bool>, at_ze
 
 /// A reason with a figure of six digits, which bounds the number from the side that the words say.
 fn reason(field: &Field<'_>, before: &str, value: &Interval, above: bool, after: &str) -> Outcome<()> {
+    precise(field, value)?;
     let words = field.text()?;
     let figure = words.strip_prefix(before).and_then(|rest| rest.strip_suffix(after)).and_then(number);
     let right = figure.is_some_and(|figure| {
