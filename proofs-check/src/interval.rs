@@ -299,37 +299,43 @@ impl Interval {
         }
     }
 
-    /// cos x: by its values at the ends where it is monotone, else within as much of one as x is (its slope is at most 1).
+    /// cos x = cos(pi q) with q = x/pi: by its values at the ends, and the extremes between them.
     pub fn cos(&self) -> Interval {
-        self.wave(Float::cos_round, |x| -x.rough(Float::sin_round))
+        self.wave(Float::cos_round, self / &Interval::pi(self.precision()))
     }
 
-    /// sin x, in the same way.
+    /// sin x = cos(pi q) with q = x/pi - 1/2, in the same way.
     pub fn sin(&self) -> Interval {
-        self.wave(Float::sin_round, |x| x.rough(Float::cos_round))
+        let p = self.precision();
+        let half = Interval::rational(&Rational::from((1, 2)), p);
+        self.wave(Float::sin_round, self / &Interval::pi(p) - half)
     }
 
-    fn wave(&self, f: fn(&mut Float, Round) -> Ordering, slope: impl Fn(&Interval) -> Interval) -> Interval {
-        let (rough, slope) = (self.rough(f), slope(self));
-        match (slope.is_nonnegative(), slope.is_nonpositive()) {
-            (true, _) => self.increasing(by(f)),
-            (_, true) => self.decreasing(by(f)),
-            _ => rough,
-        }
-    }
-
-    /// A function with values in [-1, 1] and a slope of at most 1: the value at the lower end, and the width of x.
-    fn rough(&self, f: fn(&mut Float, Round) -> Ordering) -> Interval {
+    /// f(x) = cos(pi q), which has its extremes (-1)^m at the integers q = m.
+    ///
+    /// | integers m that q may pass | enclosure                                    |
+    /// |----------------------------|----------------------------------------------|
+    /// | none: floors of q agree    | from one end's value to the other's          |
+    /// | one, m                     | the same, and (-1)^m                         |
+    /// | more, or x beyond 2^32     | [-1, 1] (enormous arguments are not reduced) |
+    fn wave(&self, f: fn(&mut Float, Round) -> Ordering, q: Interval) -> Interval {
         let p = self.precision();
         let all = Interval::int(-1, p).hull(&Interval::int(1, p));
-        // Enormous arguments are not reduced.
-        let far = self.hi > (1i64 << 32) || self.lo < -(1i64 << 32);
-        if !self.is_defined() || far {
-            return if far { all } else { self.clone() };
+        if !self.is_defined() || !q.is_defined() {
+            return Interval::undefined(p);
         }
-        let left = Interval { lo: self.lo.clone(), hi: self.lo.clone() };
-        let reach = self - &left;
-        (left.increasing(by(f)) + (-&reach).hull(&reach)).intersect(&all)
+        let (first, last) = (q.lo.clone().floor(), q.hi.clone().floor());
+        let near = |x: &Float| x.clone().abs() <= 1u64 << 32;
+        if !near(&self.lo) || !near(&self.hi) || last.clone() - &first > 1 {
+            return all;
+        }
+        let at = |end: &Float| Interval { lo: end.clone(), hi: end.clone() }.increasing(by(f));
+        let ends = at(&self.lo).hull(&at(&self.hi));
+        let odd = last.to_integer().is_none_or(|m| m.is_odd());
+        match first == last {
+            true => ends,
+            false => ends.hull(&Interval::int(if odd { -1 } else { 1 }, p)),
+        }
     }
 
     /// tan x; undefined where cos x may be 0.

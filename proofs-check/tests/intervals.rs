@@ -119,3 +119,31 @@ fn operands_of_different_precision_lose_nothing() {
     assert_eq!((-&wide).min(&-&narrow).upper().unwrap(), -beyond.clone());
     assert!(!wide.intersect(&narrow).is_defined() && !narrow.intersect(&wide).is_defined());
 }
+
+/// The range of a wave over an interval is met to rounding: where it is monotone, across one extreme, across many.
+#[test]
+fn waves_have_their_true_ranges() {
+    let over = |f: Unary, lo: i64, hi: i64| f(&Interval::between(&Rational::from(lo), &Rational::from(hi), 64));
+    let cases: [(Unary, i64, i64, f64, f64); 12] = [
+        (Interval::cos, 0, 1, 1f64.cos(), 1.0),
+        (Interval::cos, 0, 3, 3f64.cos(), 1.0),
+        (Interval::cos, -1, 2, 2f64.cos(), 1.0),
+        (Interval::cos, 3, 4, -1.0, 4f64.cos()),
+        (Interval::cos, 4, 6, 4f64.cos(), 6f64.cos()),
+        (Interval::cos, 0, 7, -1.0, 1.0),
+        (Interval::cos, 1_000_001, 1_000_002, 1_000_002f64.cos(), 1_000_001f64.cos()),
+        (Interval::sin, 0, 1, 0.0, 1f64.sin()),
+        (Interval::sin, -2, 1, -1.0, 1f64.sin()),
+        (Interval::sin, 1, 3, 3f64.sin(), 1.0),
+        (Interval::sin, 2, 4, 4f64.sin(), 2f64.sin()),
+        (Interval::sin, 2, 8, -1.0, 1.0),
+    ];
+    for (f, lo, hi, least, most) in cases {
+        let range = over(f, lo, hi);
+        let (below, above) = (range.lo().to_f64(), range.hi().to_f64());
+        assert!((below - least).abs() < 1e-15 && (above - most).abs() < 1e-15, "[{lo}, {hi}]: {below} {above}");
+    }
+    // What is not reduced is within [-1, 1].
+    let enormous = over(Interval::sin, 1 << 40, 1 << 40);
+    assert_eq!((enormous.lo().to_f64(), enormous.hi().to_f64()), (-1.0, 1.0));
+}
