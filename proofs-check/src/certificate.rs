@@ -28,8 +28,8 @@ pub struct Proved {
 }
 
 /// Applies every rule; `lines` receives the argument, line by line. `other` is a specification that the certificate has
-/// to be about.
-pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outcome<Proved> {
+/// to be about; `figures_limit`, the steps that the figures may take.
+pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut Vec<String>) -> Outcome<Proved> {
     let mut file = Field { json, pointer: String::new() }.fields()?;
     header(&mut file, "sigmastar/certificate")?;
     let mut tool = file.required("tool")?.fields()?;
@@ -88,7 +88,7 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
     if let Some(other) = other {
         same_data(embedded.json, other)?;
     }
-    let figures = figures::check(&spec, &parts, &derivation);
+    let figures = figures::check(&spec, &parts, &derivation, figures_limit);
     lines.push(format!("figures on which no claim rests: {figures}"));
     Ok(Proved { subject, figures })
 }

@@ -51,12 +51,12 @@ pub fn check_against(bytes: &[u8], specification: Option<&[u8]>) -> Report {
     check_within(bytes, specification, effort::LIMIT)
 }
 
-/// The same with another limit than [`effort::LIMIT`] on the steps that the claim may take.
+/// The same with another limit than [`effort::LIMIT`] on the steps that the claim may take, and again the figures.
 pub fn check_within(bytes: &[u8], specification: Option<&[u8]>, limit: u64) -> Report {
     let mut lines = Vec::new();
     let (result, steps) = effort::limited(limit, || {
         let asked = specification.map(asked_for).transpose()?;
-        let result = json::parse(bytes).and_then(|json| certificate::check(&json, asked.as_ref(), &mut lines));
+        let result = json::parse(bytes).and_then(|json| certificate::check(&json, asked.as_ref(), limit, &mut lines));
         // What an undefined interval made of a rule says nothing about the file.
         if effort::exhausted() { result.map_err(|_| exhausted()) } else { result }
     });

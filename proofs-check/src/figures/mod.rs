@@ -77,9 +77,9 @@ pub struct Parts<'a> {
 /// Figures by their places: `None` for one that is as it is computed here.
 type Answers = BTreeMap<String, Option<Box<Finding>>>;
 
-/// Computes all figures again; `main` is the derivation of the claim, which is proved.
-pub fn check(spec: &Specification, parts: &Parts<'_>, main: &Derivation) -> Figures {
-    let (answer, _) = effort::limited(effort::LIMIT, || {
+/// Computes all figures again within `limit` steps; `main` is the derivation of the claim, which is proved.
+pub fn check(spec: &Specification, parts: &Parts<'_>, main: &Derivation, limit: u64) -> Figures {
+    let (answer, _) = effort::limited(limit, || {
         let mut settled = BTreeSet::new();
         let mut figures = Figures::default();
         for precision in PRECISIONS {
