@@ -2,42 +2,67 @@
 
 use crate::enclosure::Enclosure;
 use crate::expr::Expr;
+use crate::real::Real;
 use crate::spec::model::{Constant, Lyapunov, Specification};
+use std::ops::Deref;
 
-/// The numbers of a specification as enclosures, and the quantities that follow from them alone.
+/// The numbers of a specification, and the quantities that follow from them alone, over one kind of [`Real`].
 ///
 /// Units: `period` is a time; `alpha`, `mu`, `base_frequency` are 1/time; `p_low`, `p_up` are |x|^-2 times anything;
 /// the weights are pure numbers.
+#[derive(Clone, Debug)]
+pub struct Numbers<R> {
+    /// The period T.
+    pub period: R,
+    /// P_low.
+    pub p_low: R,
+    /// P_up.
+    pub p_up: R,
+    /// alpha.
+    pub alpha: R,
+    /// mu.
+    pub mu: R,
+    /// The base frequency w.
+    pub base_frequency: R,
+    /// c = sqrt(P_up / P_low) >= 1.
+    pub c: R,
+    /// nu = mu / w.
+    pub nu: R,
+    /// n_0.
+    pub n_0: R,
+    /// n_1.
+    pub n_1: R,
+    /// Nbar^2, the sum of all weights.
+    pub n_bar_squared: R,
+    /// Nbar.
+    pub n_bar: R,
+}
+
+/// What the formulas of a derivation are evaluated for: the numbers of a specification, and its bounding functions.
+pub trait Problem<R: Real> {
+    /// The numbers.
+    fn numbers(&self) -> &Numbers<R>;
+    /// The value of a bounding function at (X, E).
+    fn bound(&self, which: Bound, x: &R, e: &R) -> R;
+}
+
+/// A specification, enclosed at one working precision.
 #[derive(Clone, Debug)]
 pub struct Data<'s> {
     /// The specification itself.
     pub spec: &'s Specification,
     /// The working precision in bits.
     pub precision: u32,
-    /// The period T.
-    pub period: Enclosure,
-    /// P_low.
-    pub p_low: Enclosure,
-    /// P_up.
-    pub p_up: Enclosure,
-    /// alpha.
-    pub alpha: Enclosure,
-    /// mu.
-    pub mu: Enclosure,
-    /// The base frequency w.
-    pub base_frequency: Enclosure,
-    /// c = sqrt(P_up / P_low) >= 1.
-    pub c: Enclosure,
-    /// nu = mu / w.
-    pub nu: Enclosure,
-    /// n_0.
-    pub n_0: Enclosure,
-    /// n_1.
-    pub n_1: Enclosure,
-    /// Nbar^2, the sum of all weights.
-    pub n_bar_squared: Enclosure,
-    /// Nbar.
-    pub n_bar: Enclosure,
+    /// Its numbers.
+    pub numbers: Numbers<Enclosure>,
+}
+
+impl Deref for Data<'_> {
+    type Target = Numbers<Enclosure>;
+
+    fn deref(&self) -> &Numbers<Enclosure> {
+        &self.numbers
+    }
 }
 
 /// One of the bounding functions of a specification.
@@ -115,9 +140,7 @@ impl<'s> Data<'s> {
         // p_low <= p_up was proved when the specification was read, so the ratio is at least 1.
         let at_least_one = Enclosure::entire(precision).max(&Enclosure::one(precision));
         let c = (&p_up / &p_low).sqrt().intersect(&at_least_one);
-        Data {
-            spec,
-            precision,
+        let numbers = Numbers {
             period: spec.period.enclose(precision),
             alpha: number(|triple| &triple.alpha),
             c,
@@ -130,7 +153,8 @@ impl<'s> Data<'s> {
             p_up,
             mu,
             base_frequency,
-        }
+        };
+        Data { spec, precision, numbers }
     }
 
     /// An exact number at the working precision.
@@ -144,14 +168,19 @@ impl<'s> Data<'s> {
     pub fn zero(&self) -> Enclosure {
         Enclosure::zero(self.precision)
     }
+}
 
-    /// The value of a bounding function at (X, E), which is the positive part of its expression: what bounds a norm still
-    /// does without its negative values. It matters where a value is 0 and rounding does not show it.
+impl Problem<Enclosure> for Data<'_> {
+    fn numbers(&self) -> &Numbers<Enclosure> {
+        &self.numbers
+    }
+
+    /// The positive part of the expression: what bounds a norm still does without its negative values. It matters where a
+    /// value is 0 and rounding does not show it.
     ///
     /// Guarantee: contains the value for all X, E in the enclosures. It bounds the plant's function only where
     /// (X, E) lies in the domain of the specification and the bounding function was proved nondecreasing.
-    #[must_use]
-    pub fn bound(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
+    fn bound(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
         let value = |which: Bound| which.of(self.spec).enclose(x, e).max(&self.zero());
         // The root mean square of a supremum is at most the supremum, should the data say otherwise.
         which.supremum(self.spec).map_or_else(|| value(which), |supremum| value(which).min(&value(supremum)))

@@ -4,8 +4,9 @@
 //!
 //! - [`spec`]: a bounding specification is read strictly, every number exact;
 //! - [`expr`], [`number`], [`enclosure`]: bounding functions, exact numbers, rigorous interval arithmetic over MPFR;
+//! - [`real`]: what enclosures and doubles have in common, so that every formula is written once;
 //! - [`data`]: the numbers of a specification, enclosed at one precision;
-//! - [`transfer`], [`constants`]: the transfer bound, then the constants and conditions in three derivations;
+//! - [`transfer`], [`derivation`]: the transfer bound, then the constants and conditions in three derivations;
 //! - [`lmi`]: the linear matrix inequality of C5, proposed by a solver and verified exactly, as a cross-check;
 //! - [`lyapunov`]: P_x(t) and the Lyapunov triple for a Jacobian, proposed by a solver and proved for every t;
 //! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
@@ -19,8 +20,8 @@
 //! Nothing below the command line knows it, and every arrow goes one way.
 
 pub mod certificate;
-pub mod constants;
 pub mod data;
+pub mod derivation;
 pub mod enclosure;
 pub mod errata;
 pub mod expr;
@@ -32,6 +33,7 @@ mod palette;
 pub mod plant;
 pub mod progress;
 pub mod rate;
+pub mod real;
 pub mod regulator;
 pub mod report;
 pub mod reproduce;

@@ -2,8 +2,8 @@
 
 use rug::Rational;
 use sigmastar::certificate::{Options, certify, resolve};
-use sigmastar::constants::sharp::SharpWitness;
 use sigmastar::data::Data;
+use sigmastar::derivation::sharp::SharpWitness;
 use sigmastar::lmi::cross_check;
 use sigmastar::spec::Specification;
 use std::path::{Path, PathBuf};

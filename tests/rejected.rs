@@ -2,11 +2,11 @@
 
 use rug::Rational;
 use sigmastar::certificate::{Ladder, decide_exact, decide_repaired, decide_sharp};
-use sigmastar::constants::consequences::{Psi, error_bounds, smallest_n_o};
-use sigmastar::constants::exact_regulation::ExactWitness;
-use sigmastar::constants::repaired::RepairedWitness;
-use sigmastar::constants::sharp::{ClaimedSet, SharpWitness};
 use sigmastar::data::Data;
+use sigmastar::derivation::consequences::{Psi, error_bounds, smallest_n_o};
+use sigmastar::derivation::exact_regulation::ExactWitness;
+use sigmastar::derivation::repaired::RepairedWitness;
+use sigmastar::derivation::sharp::{ClaimedSet, SharpWitness};
 use sigmastar::enclosure::{Enclosure, Truth};
 use sigmastar::spec::Specification;
 use sigmastar::transfer::TransferProof;

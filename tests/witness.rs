@@ -9,7 +9,7 @@ use serde_json::Value;
 use sigmastar::certificate::{
     Certification, Derivation, Options, TransferChoice, Verdict, certificate_json, certify, read_witness, recheck,
 };
-use sigmastar::constants::condition::Condition;
+use sigmastar::derivation::condition::Condition;
 use sigmastar::spec::{Document, Specification};
 use std::path::Path;
 use std::sync::LazyLock;

@@ -4,8 +4,8 @@ use super::decide::decide_sharp;
 use super::produce::sharp_outcome;
 use super::round::{TransferKind, round_sharp, sharp_from_repaired};
 use super::run::{Options, Outcome, SharpProof, TransferChoice};
-use crate::constants::repaired::RepairedWitness;
 use crate::data::Data;
+use crate::derivation::repaired::RepairedWitness;
 use crate::search::{FloatModel, RepairedProposal, SharpParameters, SharpProposal, search_sharp};
 use crate::transfer::TradeOff;
 

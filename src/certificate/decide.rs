@@ -1,9 +1,9 @@
 //! Deciding a claim from its rational witness, at a precision that rises while the answer is undecided.
 
-use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness};
-use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::data::Data;
+use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
+use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
+use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::enclosure::{DEFAULT_PRECISION, MAX_PRECISION, Truth};
 use crate::spec::model::Specification;
 

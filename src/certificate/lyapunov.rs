@@ -60,10 +60,10 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         // The transfer constants hardly move the best triple: the cheap ones do.
         let trade_off =
             if spec.internal_model.matched { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
-        let mut model = FloatModel::new(&data, trade_off);
+        let model = FloatModel::new(&data, trade_off);
         let (mut searches, mut start): (usize, Option<(f64, SharpParameters)>) = (0, None);
         let mut sigma = |candidate: &Candidate| {
-            (model.p_low, model.p_up, model.alpha) = (1.0, candidate.ratio, candidate.alpha);
+            let model = model.with_triple(candidate.ratio, candidate.alpha);
             let near = start.and_then(|(_, parameters)| search_sharp_near(&model, &parameters));
             let found = near.or_else(|| {
                 let search = searches < MAX_SEARCHES;

@@ -13,7 +13,7 @@
 //! is proved about all of them is proved about none. Data without x (no Jacobian, and b_f, b_fe, b_fxx, b_fex, b_qx all 0)
 //! are those of a plant without states.
 
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
 use crate::enclosure::Enclosure;
 use crate::lyapunov::Family;
 use crate::number::{Direction, Portable, round_f64, round_rational, write_exact};

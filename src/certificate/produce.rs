@@ -12,20 +12,20 @@ use super::run::{
     SharpProof,
 };
 use super::verdict::Verdict;
-use crate::constants::condition::Condition;
-use crate::constants::exact_regulation::ExactWitness;
-use crate::constants::printed::{PrintedEvaluation, level_condition};
-use crate::constants::relative_degree::{RelativeDegreeError, k_2, k_infinity};
-use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
-use crate::constants::table::{Row, TableInput, table};
 use crate::data::Data;
+use crate::derivation::condition::Condition;
+use crate::derivation::exact_regulation::ExactWitness;
+use crate::derivation::printed::{PrintedEvaluation, level_condition};
+use crate::derivation::relative_degree::{RelativeDegreeError, k_2, k_infinity};
+use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
+use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
+use crate::derivation::table::{Row, TableInput, table};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
 use crate::search::{FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, sensitivities};
 use crate::spec::model::Specification;
-use crate::transfer::TradeOff;
+use crate::transfer::{TradeOff, printed_transfer};
 use rug::Rational;
 
 /// Certifies a specification: search, then rigorous decision.
@@ -296,7 +296,9 @@ fn printed_figure(data: &Data<'_>, model: &FloatModel) -> PrintedFigure {
         let short = |value: f64| round_f64(value, 8, Direction::Nearest);
         let (x_a, e_a) = (short(proposal.x_a)?, round_f64(proposal.e_a, 8, Direction::Down)?);
         let h = data.rational(&round_f64(proposal.h, 8, Direction::Down)?);
-        Some(PrintedEvaluation::new(data, &data.rational(&x_a), &data.rational(&e_a), Some(&h)))
+        let printed = printed_transfer(data);
+        let kappas = [&printed.kappa_0, &printed.kappa_1];
+        Some(PrintedEvaluation::new(data, kappas, &data.rational(&x_a), &data.rational(&e_a), |_| h))
     });
     let sigma = evaluation
         .as_ref()

@@ -1,9 +1,9 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
 use super::write::{FORMAT, VERSION};
-use crate::constants::exact_regulation::ExactWitness;
-use crate::constants::repaired::RepairedWitness;
-use crate::constants::sharp::{ClaimedSet, SharpWitness};
+use crate::derivation::exact_regulation::ExactWitness;
+use crate::derivation::repaired::RepairedWitness;
+use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::lyapunov::ProvedTriple;
 use crate::spec::model::PeriodicMatrix;
 use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};

@@ -4,16 +4,17 @@
 //! numbers for it, rounds, and asks for a rigorous decision; the first witness that is proved is returned.
 
 use super::decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
-use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness, steady_state_norm};
-use crate::constants::existence::{PeriodicBounds, PeriodicSolution, kappas};
-use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness, distances};
 use crate::data::Data;
+use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness, steady_state_norm};
+use crate::derivation::existence::{PeriodicBounds, PeriodicSolution, kappas};
+use crate::derivation::initial_set::{Size, required_set};
+use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
+use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{
-    FloatModel, RepairedProposal, SharpParameters, SharpProposal, at_sigma, largest_e, largest_e_repaired,
-    perron_repaired, search_exact,
+    FloatModel, RepairedProposal, SharpParameters, SharpProposal, active_level, at_sigma, largest_e,
+    largest_e_repaired, perron_repaired, search_exact, weight_h,
 };
 use crate::spec::model::InitialSet;
 use crate::transfer::{TransferProof, closed_form_pair, prove_above};
@@ -51,24 +52,12 @@ fn rounded_e(e_p: f64, largest: f64) -> Option<Rational> {
 
 /// The claimed set for X_p, E_p and Z: what the specification requires, rounded up where it is not a short rational.
 fn claimed_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -> Option<ClaimedSet> {
-    let user = |constant: &crate::spec::model::Constant| match constant.as_rational() {
-        Some(exact) => Some(exact.clone()),
-        None => upper(&constant.enclose(data.precision), LONG_DIGITS),
-    };
-    let twice = |value: &Rational| Rational::from(value * 2u32);
-    Some(match &data.spec.initial_set {
-        InitialSet::Paper => ClaimedSet {
-            x0: twice(x_p),
-            e0: twice(e_p),
-            z0: upper(&(2 * (z + &data.n_bar * data.rational(e_p))), SHORT_DIGITS)?,
-        },
-        InitialSet::AtRest { x0, e0 } => ClaimedSet {
-            x0: x0.as_ref().map_or_else(|| Some(twice(x_p)), user)?,
-            e0: e0.as_ref().map_or_else(|| Some(twice(e_p)), user)?,
-            z0: Rational::new(),
-        },
-        InitialSet::Box { x0, e0, z0 } => ClaimedSet { x0: user(x0)?, e0: user(e0)?, z0: user(z0)? },
-    })
+    let digits = if matches!(data.spec.initial_set, InitialSet::Paper) { SHORT_DIGITS } else { LONG_DIGITS };
+    let [x0, e0, z0] = required_set(data, x_p, e_p, z).map(|size| match size {
+        Size::Exact(exact) => Some(exact),
+        Size::Enclosed(value) => upper(&value, digits),
+    });
+    Some(ClaimedSet { x0: x0?, e0: e0?, z0: z0? })
 }
 
 /// Which proof of the transfer bound the sharp derivation uses.
@@ -151,11 +140,11 @@ fn sharp_witness(
     // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.
     let periodic = PeriodicSolution::new(data, &bounds, &data.rational(&sigma));
     let [dist_x, dist_e, dist_z] =
-        distances(data, &set, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
-    let d_x = at.d_x.max(at.rho * model.c() * dist_x);
+        set.distances(data, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
+    let d_x = at.d_x.max(at.rho * model.c * dist_x);
     let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
     let error_box = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
-    let (p_x, p_e) = existence.perron(model, sigma.to_f64());
+    let [p_x, p_e] = existence.perron(model, sigma.to_f64());
     let scale = p_x.max(p_e);
     Some(SharpWitness {
         sigma,
@@ -216,12 +205,12 @@ fn rounded_box(
     let d_x = nearest(d_x, LONG_DIGITS)?;
     // Enough for rounding, and well below the room that candidates keep.
     let enlarged = 1.0 + (0.1 * slack).clamp(1e-11, 1e-7);
-    let level = (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho)) * enlarged;
+    let level = active_level(eta, dist_e, rho) * enlarged;
     let width = d_x.to_f64();
     Some(RoundedBox {
         d_e: nearest(level.sqrt(), LONG_DIGITS)?,
         w_x: nearest(level / (model.p_low * width * width), LONG_DIGITS)?,
-        h: nearest(eta * dist_e * dist_e / (dist_z * dist_z), LONG_DIGITS)?,
+        h: nearest(weight_h(eta, dist_e, dist_z), LONG_DIGITS)?,
         d_x,
     })
 }
@@ -260,11 +249,11 @@ fn repaired_witness(
     let z = bounds.z_squared_printed(data, &kappa_0, &kappa_1).sqrt();
     let set = claimed_set(data, &x, &e, &z)?;
     let h = nearest(proposal.h, LONG_DIGITS)?;
-    let [dist_x, dist_e, dist_z] = distances(data, &set, [&data.rational(&x), &data.rational(&e), &z]);
+    let [dist_x, dist_e, dist_z] = set.distances(data, [&data.rational(&x), &data.rational(&e), &z]);
     let start = &data.p_up * dist_x.sqr() + dist_e.sqr() + data.rational(&h) * dist_z.sqr();
     let level = start.upper_rational()? * Rational::from_f64(1.0 + 1e-11)?;
     let sigma = rounded_sigma(proposal.sigma, slack)?;
-    let (p_x, p_e) = perron_repaired(model, x.to_f64(), e.to_f64(), sigma.to_f64());
+    let [p_x, p_e] = perron_repaired(model, x.to_f64(), e.to_f64(), sigma.to_f64());
     let scale = p_x.max(p_e);
     Some(RepairedWitness {
         sigma,
@@ -290,7 +279,7 @@ pub(super) fn exact_claim(
 ) -> Option<(ExactWitness, ExactEvaluation, u32)> {
     let z = steady_state_norm(data);
     let [dist_x, dist_e, dist_z] =
-        distances(data, set, [&data.zero(), &data.zero(), &z]).map(|distance| distance.upper_f64());
+        set.distances(data, [&data.zero(), &data.zero(), &z]).map(|distance| distance.upper_f64());
     // Floors keep the box open where a distance is 0.
     let scale = if dist_e > 0.0 { dist_e } else { 1.0 };
     let dist_x = if dist_x > 0.0 { dist_x } else { scale * 1e-6 };

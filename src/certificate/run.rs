@@ -5,14 +5,14 @@ use super::decide::Ladder;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
 use super::verdict::Verdict;
-use crate::constants::condition::Condition;
-use crate::constants::exact_regulation::{ExactEvaluation, ExactWitness};
-use crate::constants::printed::{Infeasible, PrintedEvaluation};
-use crate::constants::relative_degree::RelativeDegreeError;
-use crate::constants::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::constants::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
-use crate::constants::table::Row;
 use crate::data::Data;
+use crate::derivation::condition::Condition;
+use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
+use crate::derivation::printed::{Infeasible, PrintedEvaluation};
+use crate::derivation::relative_degree::RelativeDegreeError;
+use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
+use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
+use crate::derivation::table::Row;
 use crate::enclosure::Enclosure;
 use crate::search::{Datum, Obstacle};
 use crate::spec::model::Specification;
@@ -106,7 +106,7 @@ pub struct PrintedFigure {
     /// Why P:eq:boundx_bounde_1 has no solution.
     pub refutation: Option<Infeasible>,
     /// The constants at the free numbers that are best without that condition, when there are any.
-    pub evaluation: Option<PrintedEvaluation>,
+    pub evaluation: Option<PrintedEvaluation<Enclosure>>,
     /// The figure that the other conditions would give: max(sigma_p*, sigma_a*).
     pub sigma: Option<Enclosure>,
 }
@@ -249,7 +249,7 @@ impl Certification<'_> {
             }
             _ => return None,
         };
-        let n_bar = Data::new(self.spec, precision).n_bar;
+        let n_bar = Data::new(self.spec, precision).numbers.n_bar;
         let z = &zeta + n_bar * &e;
         Some([x, e, zeta, z])
     }

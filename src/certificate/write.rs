@@ -3,12 +3,12 @@
 use super::lyapunov::lyapunov_json;
 use super::no_plant::{ExceededBy, NoPlant};
 use super::run::{Certification, Derivation};
-use crate::constants::condition::Condition;
-use crate::constants::exact_regulation::ExactWitness;
-use crate::constants::repaired::RepairedWitness;
-use crate::constants::sharp::{ClaimedSet, SharpWitness};
-use crate::constants::table::{At, Entry, Row, Value as Cell};
 use crate::data::Data;
+use crate::derivation::condition::Condition;
+use crate::derivation::exact_regulation::ExactWitness;
+use crate::derivation::repaired::RepairedWitness;
+use crate::derivation::sharp::{ClaimedSet, SharpWitness};
+use crate::derivation::table::{At, Entry, Row, Value as Cell};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational, write_exact};
 use crate::spec::model::{InitialSet, LyapunovSource};

@@ -4,8 +4,8 @@ use super::evidence::{Evidence, Relation};
 use super::kappa::{pole_sums, value_at_zero};
 use super::numbers::{integer, power, quotient, ratio};
 use super::{Bearing, Class, Erratum, ForData, is_constant, vanishes};
-use crate::constants::gains;
 use crate::data::{Bound, Data};
+use crate::derivation::gains;
 use rug::Rational;
 
 /// The printed formula of both thresholds, P:eq:ineq_bounds_sigma and P:eq:bound_sigma_inf, for P_up = P_low = alpha = mu =

@@ -3,7 +3,7 @@
 use super::evidence::{Evidence, Relation};
 use super::numbers::ratio;
 use super::{Bearing, Class, Erratum, ForData};
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
 use rug::Rational;
 
 /// E5: `1 > -det` where `1 > det` is meant.

@@ -3,7 +3,7 @@
 use super::evidence::{Evidence, Relation};
 use super::numbers::{integer, pi, power, quotient, ratio};
 use super::{Bearing, Class, Erratum, ForData};
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
 use rug::Rational;
 
 /// E18: the example has f(t,0,0) != 0.

@@ -3,7 +3,7 @@
 use super::evidence::{Evidence, Relation};
 use super::numbers::{PRECISION, integer, pi, ratio, rational};
 use super::{Bearing, Class, Erratum, ForData};
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
 use crate::enclosure::Truth;
 use rug::Rational;
 

@@ -1,9 +1,9 @@
 //! What a certificate claims, as a simulation can check it.
 
 use crate::certificate::{Derivation, WitnessFile, read_lyapunov, read_witness, resolve_with};
-use crate::constants::consequences::{ErrorBounds, Psi, error_bounds};
-use crate::constants::existence::PeriodicBounds;
 use crate::data::Data;
+use crate::derivation::consequences::{ErrorBounds, Psi, error_bounds};
+use crate::derivation::existence::PeriodicBounds;
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
 use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
 use rug::Rational;

@@ -4,9 +4,9 @@ use super::decay::{DecayData, verify_decay};
 use super::level::{LevelData, propose_lyapunov_weights};
 use super::propose::{propose_multipliers, propose_sigma};
 use super::solve::SolverFailure;
-use crate::constants::sharp::{SharpEvaluation, SharpWitness, distances};
-use crate::constants::stability::DecayCondition;
 use crate::data::Data;
+use crate::derivation::sharp::{SharpEvaluation, SharpWitness};
+use crate::derivation::stability::DecayCondition;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64};
 use rug::Rational;
@@ -120,7 +120,7 @@ fn best_weights(
     decay: &DecayData,
 ) -> Result<Figures, SolverFailure> {
     let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
-    let [dist_x, dist_e, dist_z] = distances(data, &witness.set, periodic).map(|distance| distance.upper_f64());
+    let [dist_x, dist_e, dist_z] = witness.set.distances(data, periodic).map(|distance| distance.upper_f64());
     let (p_low, p_up) = (data.p_low.midpoint_f64(), data.p_up.midpoint_f64());
     let (d_x, d_e) = (witness.d_x.to_f64(), witness.d_e.to_f64());
     let level = LevelData {

@@ -2,8 +2,8 @@
 
 use super::affine::AffineMatrix;
 use super::ldl::is_positive_definite;
-use crate::constants::stability::ErrorBox;
 use crate::data::Data;
+use crate::derivation::stability::ErrorBox;
 use crate::enclosure::Enclosure;
 use rug::Rational;
 
@@ -48,7 +48,7 @@ enum Signal {
 impl DecayData {
     /// The bounds of C5 on an error box; `None` if one of them is not bounded.
     #[must_use]
-    pub fn new(data: &Data<'_>, error_box: &ErrorBox, w_x: &Rational, h: &Rational) -> Option<DecayData> {
+    pub fn new(data: &Data<'_>, error_box: &ErrorBox<Enclosure>, w_x: &Rational, h: &Rational) -> Option<DecayData> {
         let upper = Enclosure::upper_rational;
         Some(DecayData {
             w_x: w_x.clone(),

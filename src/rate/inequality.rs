@@ -27,8 +27,8 @@
 //!   whole line satisfies unless n = 0. Then xi, u_x and phi are left out, and with them the bound alpha - gam of the rate.
 
 use super::oscillators::Oscillators;
-use crate::constants::stability::ErrorBox;
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
+use crate::derivation::stability::ErrorBox;
 use crate::enclosure::{Enclosure, Truth};
 use crate::lmi::ScaledMatrix;
 use faer::Mat;
@@ -50,7 +50,7 @@ pub struct LoopBounds {
 impl LoopBounds {
     /// The bounds on an error box; `None` if one of them is not bounded.
     #[must_use]
-    pub fn new(data: &Data<'_>, error_box: &ErrorBox) -> Option<LoopBounds> {
+    pub fn new(data: &Data<'_>, error_box: &ErrorBox<Enclosure>) -> Option<LoopBounds> {
         let has_x = data.bound(Bound::F, &error_box.x_b, &error_box.e_b).upper_rational()? != 0;
         let gain = |k: &Enclosure, present: bool| if present { k.upper_rational() } else { Some(Rational::new()) };
         Some(LoopBounds {

@@ -3,9 +3,9 @@
 use super::blocks::{Block, Table};
 use super::number::upper;
 use crate::certificate::{Certification, Derivation};
-use crate::constants::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
-use crate::constants::existence::PeriodicBounds;
 use crate::data::Data;
+use crate::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
+use crate::derivation::existence::PeriodicBounds;
 use crate::enclosure::Enclosure;
 use crate::spec::Constant;
 
@@ -71,7 +71,7 @@ impl Consequences {
     #[must_use]
     pub fn new(run: &Certification<'_>, targets: &[Target]) -> Option<Consequences> {
         run.sigma_star()?;
-        let (bounds, sigma, e_per, precision): (&PeriodicBounds, _, _, _) = match run.options.derivation {
+        let (bounds, sigma, e_per, precision): (&PeriodicBounds<Enclosure>, _, _, _) = match run.options.derivation {
             Derivation::Sharp => {
                 let proof = run.sharp.proved()?;
                 let evaluation = &proof.evaluation;

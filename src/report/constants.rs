@@ -3,7 +3,7 @@
 use super::blocks::{Block, Table};
 use super::number::{compact, estimate};
 use crate::certificate::Certification;
-use crate::constants::table::{At, Entry, Row, Status, Value};
+use crate::derivation::table::{At, Entry, Row, Status, Value};
 
 /// The tables, one for each place of evaluation, with notes and sources.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {

@@ -11,7 +11,7 @@ use super::remarks::remarks;
 use super::sets::Sets;
 use super::verdict::{basis, exact_arguments, largest_arguments, sentence};
 use crate::certificate::{Certification, Outcome, Verdict, conditions_json, constants_json, no_plant_json};
-use crate::constants::condition::Condition;
+use crate::derivation::condition::Condition;
 use crate::enclosure::Enclosure;
 use crate::number::write_exact;
 use rug::Rational;

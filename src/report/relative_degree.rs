@@ -4,7 +4,7 @@ use super::blocks::Block;
 use super::consequences::full;
 use super::number::upper;
 use crate::certificate::{Certification, RelativeDegreeGains};
-use crate::constants::relative_degree::RelativeDegreeError;
+use crate::derivation::relative_degree::RelativeDegreeError;
 use crate::enclosure::Enclosure;
 use crate::spec::{ErrorKind, SpecErrors};
 use serde_json::{Value, json};

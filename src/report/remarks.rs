@@ -1,7 +1,7 @@
 //! What the data themselves are to be looked at for; no verdict depends on it.
 
 use crate::certificate::{Certification, ExceededBy};
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
 
 /// One sentence or two for each.
 pub(super) fn remarks(run: &Certification<'_>) -> Vec<String> {

@@ -1,7 +1,12 @@
 //! One candidate of the sharp derivation in floating point.
 
 use super::model::FloatModel;
-use crate::data::Bound;
+use super::root::crossing;
+use crate::derivation::existence::{LeastSigma, PeriodicBounds, PeriodicSolution, kappas};
+use crate::derivation::gains;
+use crate::derivation::initial_set::distances;
+use crate::derivation::stability::{DecayCondition, ErrorBox};
+use crate::number::Portable;
 
 /// The four numbers that remain when C4 is active in both members (derivation, section 5).
 #[derive(Clone, Copy, Debug)]
@@ -65,104 +70,82 @@ impl Obstacle {
 }
 
 /// The part of a candidate that does not depend on sigma, rho and eta.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Existence {
-    pub x_p: f64,
-    pub e_p: f64,
-    q_rms: f64,
-    q_rate: f64,
-    x_gain: f64,
+    bounds: PeriodicBounds<f64>,
+    least: LeastSigma<f64>,
     /// Z.
     pub z: f64,
     /// k0, k1 and K.
     pub pair: (f64, f64, u32),
     /// The smallest sigma with C2 and C3.
     pub sigma_least: f64,
-    a: f64,
-    b: f64,
-    q_e: f64,
-    q_x: f64,
 }
 
 /// The error box of a candidate at one sigma.
 #[derive(Clone, Copy, Debug)]
 pub struct AtSigma {
-    pub d_x: f64,
-    pub e_per: f64,
-    pub x_per: f64,
     pub rho: f64,
     pub eta: f64,
+    pub d_x: f64,
     pub dist_e: f64,
     pub dist_z: f64,
     /// The right side of C5.
     pub threshold: f64,
 }
 
+/// The smallest distance of the initial set from the periodic solution, as a share of the latter's size.
+const FLOOR: f64 = 1e-6;
+
 impl Existence {
     /// C1-C3 and Z at (X_p, E_p).
     pub fn new(model: &FloatModel, x_p: f64, e_p: f64) -> Result<Existence, Obstacle> {
-        let at = |which| model.bound(which, x_p, e_p);
-        let gain = model.c() / model.alpha;
-        let f_xx = model.bound(Bound::Fxx, x_p, 0.0);
-        let (f_e, f_ex, q_e, q_x, q_rms) =
-            (at(Bound::Fe), at(Bound::Fex), at(Bound::Qe), at(Bound::Qx), at(Bound::QRms));
-        let x_rate = model.bound(Bound::F, x_p, 0.0) + f_xx * x_p * x_p + f_e * e_p;
-        let q_rate = at(Bound::QtRms) + q_x * x_rate + q_e * q_rms;
-        if ![f_xx, f_e, f_ex, q_e, q_x, q_rms, q_rate].iter().all(|v| v.is_finite()) {
+        let bounds = PeriodicBounds::new(model, x_p, e_p);
+        let PeriodicBounds { f_xx, f_e, f_ex, q_e, q_x, q_rms, q_rate_rms, .. } = &bounds;
+        if ![f_xx, f_e, f_ex, q_e, q_x, q_rms, q_rate_rms].iter().all(|v| v.is_finite()) {
             return Err(Obstacle::NotFinite);
         }
-        let share = gain * f_xx * x_p / 2.0;
-        let (a, b) = (gain * (f_ex * e_p + f_xx * x_p), gain * f_e);
-        let invariant = gain * (f_e * e_p + f_xx * x_p * x_p / 2.0) <= x_p && share < 1.0;
-        if !invariant || a >= BELOW_ONE {
+        if !(demand(model, &bounds) <= 1.0 && bounds.quadratic_share(model, &model.c) < 1.0) {
             return Err(Obstacle::Existence);
         }
-        let w2 = model.base_frequency * model.base_frequency;
-        let (size, rate) = (q_rms * q_rms / w2, q_rate * q_rate / (w2 * w2));
+        // What a unit of k0 and of k1 adds to Z^2.
+        let (size, rate) = kappas(model, &(q_rms * q_rms), &(q_rate_rms * q_rate_rms));
         let pair = model.trade_off.best(size, rate);
-        let z = (model.period / (2.0 * model.mu) * q_rms * q_rms + pair.0 * size + pair.1 * rate).sqrt();
-        let by_size = model.inverse(|s| model.beta_s(s) * q_rms, e_p);
-        let by_rate = model.inverse(|s| model.tau(s) * q_rate, e_p);
-        let contraction = q_e * (1.0 - a) + b * q_x;
-        let by_contraction =
-            if contraction > 0.0 { model.inverse(|s| model.beta_s(s), (1.0 - a) / contraction) } else { 0.0 };
-        let sigma_least = by_size.min(by_rate).max(by_contraction * (1.0 + 1e-9));
+        let (kappa_0, kappa_1) = kappas(model, &pair.0, &pair.1);
+        let z = bounds.z_squared_sharp(model, &kappa_0, &kappa_1).sqrt();
+        let least = LeastSigma::sharp(model, &bounds);
+        let sigma_least = least.by_size.max(least.by_contraction * (1.0 + 1e-9));
         if !sigma_least.is_finite() || !z.is_finite() {
             return Err(Obstacle::Existence);
         }
-        let x_gain = gain * f_e / (1.0 - share);
-        Ok(Existence { x_p, e_p, q_rms, q_rate, x_gain, z, pair, sigma_least, a, b, q_e, q_x })
+        Ok(Existence { bounds, least, z, pair, sigma_least })
+    }
+
+    /// E_p.
+    pub fn e_p(&self) -> f64 {
+        self.bounds.e_p
     }
 
     /// Whether C2, rather than C3, sets the least sigma.
-    pub fn bound_by_size(&self, model: &FloatModel) -> bool {
-        let beta = model.beta_s(self.sigma_least);
-        (beta * self.q_rms).min(model.tau(self.sigma_least) * self.q_rate) > self.e_p * (1.0 - 1e-6)
+    pub fn bound_by_size(&self) -> bool {
+        self.least.by_size >= self.least.by_contraction
     }
 
-    /// Weights p_x, p_e for C3: the solution of (I - M') p = (1/X_p, 1/E_p), positive because M is a contraction.
-    pub fn perron(&self, model: &FloatModel, sigma: f64) -> (f64, f64) {
-        let beta = model.beta_s(sigma);
-        let (c, d) = (beta * self.q_x, beta * self.q_e);
-        let det = (1.0 - self.a) * (1.0 - d) - self.b * c;
-        let (u, v) = (1.0 / self.x_p, 1.0 / self.e_p);
-        (((1.0 - d) * u + c * v) / det, (self.b * u + (1.0 - self.a) * v) / det)
-    }
-
-    /// e_per and x_per at sigma.
-    pub fn periodic(&self, model: &FloatModel, sigma: f64) -> (f64, f64) {
-        let e_per = self.e_p.min(model.beta_s(sigma) * self.q_rms).min(model.tau(sigma) * self.q_rate);
-        (e_per, self.x_p.min(self.x_gain * e_per))
+    /// Weights p_x, p_e for C3.
+    pub fn perron(&self, model: &FloatModel, sigma: f64) -> [f64; 2] {
+        let matrix = self.bounds.contraction(model, &model.c, 1, &gains::beta_s(&sigma, &model.period));
+        matrix.perron_weights(&self.bounds.x_p.recip(), &self.bounds.e_p.recip())
     }
 
     /// The error box and the threshold of C5 at sigma.
     pub fn at_sigma(&self, model: &FloatModel, rho: f64, eta: f64, sigma: f64) -> Result<AtSigma, Obstacle> {
-        let (e_per, x_per) = self.periodic(model, sigma);
-        let (x0, e0, z0) = model.required_set(self.x_p, self.e_p, self.z);
+        let PeriodicSolution { x_per, e_per, .. } = PeriodicSolution::new(model, &self.bounds, &sigma);
+        let [x0, e0, z0] = model.required_set(self.bounds.x_p, self.bounds.e_p, self.z);
+        let [dist_x, dist_e, dist_z] = distances(model, [&x0, &e0, &z0], [&x_per, &e_per, &self.z]);
         // Floors keep the box open where a distance is 0; a larger distance only strengthens C4.
-        let dist_x = (x0 + x_per).max(1e-6 * self.x_p);
-        let dist_e = (e0 + e_per).max(1e-6 * self.e_p);
-        let dist_z = (z0 + model.n_bar * e0 + self.z).max(1e-6 * model.n_bar * dist_e);
+        let dist_x = dist_x.max(FLOOR * self.bounds.x_p);
+        let dist_e = dist_e.max(FLOOR * self.bounds.e_p);
+        let dist_z = dist_z.max(FLOOR * model.n_bar * dist_e);
         error_box(model, (x_per, e_per), [dist_x, dist_e, dist_z], rho, eta)
     }
 
@@ -170,11 +153,12 @@ impl Existence {
     /// 1/(4 ht) of C5 with the largest h; nor any that is negligible beside every rate in the data, since where nothing in
     /// them needs a gain the infimum is 0.
     pub fn least(&self, model: &FloatModel, eta: f64) -> f64 {
-        let (_, e0, z0) = model.required_set(self.x_p, self.e_p, self.z);
+        let (x_p, e_p) = (self.bounds.x_p, self.bounds.e_p);
+        let [_, e0, z0] = model.required_set(x_p, e_p, self.z);
         // The largest dE and the smallest dZ of `at_sigma`.
-        let dist_e = (e0 + self.e_p).max(1e-6 * self.e_p);
-        let dist_z = (z0 + model.n_bar * e0 + self.z).max(1e-6 * model.n_bar * e0.max(1e-6 * self.e_p));
-        let h_over_mu = eta * dist_e * dist_e / (dist_z * dist_z * model.mu);
+        let dist_e = (e0 + e_p).max(FLOOR * e_p);
+        let dist_z = (z0 + model.n_bar * e0 + self.z).max(FLOOR * model.n_bar * e0.max(FLOOR * e_p));
+        let h_over_mu = weight_h(eta, dist_e, dist_z) / model.mu;
         let rates = [model.period.recip(), model.alpha, model.mu, model.base_frequency];
         let negligible = NEGLIGIBLE * rates.into_iter().fold(f64::INFINITY, f64::min);
         // Half of it leaves room for rounding, and a bracket for the bisection.
@@ -184,39 +168,49 @@ impl Existence {
     /// The smallest sigma for given rho and eta, to the relative tolerance.
     pub fn sigma(&self, model: &FloatModel, rho: f64, eta: f64, tolerance: f64) -> Result<f64, Obstacle> {
         let needed = |sigma: f64| self.at_sigma(model, rho, eta, sigma).map(|at| at.threshold.max(self.sigma_least));
+        let excess = |sigma: f64| needed(sigma).map(|needed| (needed / sigma).portable_ln());
         let least = self.least(model, eta);
-        let mut low = least;
-        if let Ok(threshold) = needed(low)
-            && threshold <= low
-        {
-            return Ok(low);
+        let mut low = (least, excess(least));
+        if matches!(low.1, Ok(value) if value <= 0.0) {
+            return Ok(least);
         }
-        let mut high = low;
-        loop {
-            high *= 4.0;
-            match needed(high) {
-                Ok(threshold) if threshold <= high => break,
+        let high = loop {
+            // The threshold hardly depends on sigma: what it asks for here is nearly enough.
+            let asked = low.1.map_or(0.0, |value| low.0 * value.portable_exp() * (1.0 + 1e-9));
+            let leap = if low.0 > 1e12 * least { 4e6 } else { 4.0 };
+            let next = if asked > low.0 && asked < 1e280 { asked } else { low.0 * leap };
+            let found = (next, excess(next));
+            match found.1 {
+                Ok(value) if value <= 0.0 => break (next, value),
                 // The obstacle at the largest sigma is the one that counts: e_per, x_per are smallest there.
-                Err(obstacle) if high > 1e200 => return Err(obstacle),
-                Ok(_) if high > 1e280 => return Err(Obstacle::Coupling),
-                _ => low = high,
+                Err(obstacle) if next > 1e200 => return Err(obstacle),
+                Ok(_) if next > 1e280 => return Err(Obstacle::Coupling),
+                _ => low = found,
             }
-            if high > 1e12 * least {
-                high *= 1e6;
-            }
-        }
-        while high / low - 1.0 > tolerance {
-            let middle = low.sqrt() * high.sqrt();
-            if middle <= low || middle >= high {
-                break;
-            }
-            match needed(middle) {
-                Ok(threshold) if threshold <= middle => high = middle,
-                _ => low = middle,
-            }
-        }
-        Ok(high)
+        };
+        let at = |exponent: f64| least * exponent.portable_exp();
+        let exponent = |sigma: f64| (sigma / least).portable_ln();
+        let ends = [(exponent(low.0), low.1.unwrap_or(f64::INFINITY)), (exponent(high.0), high.1)];
+        let found = at(crossing(|t| excess(at(t)).unwrap_or(f64::INFINITY), ends[0], ends[1], tolerance));
+        Ok(found.min(high.0))
     }
+}
+
+/// The larger one of the two shares of C1 and of A < 1, to be at most 1 (A with room for rounding).
+pub fn demand(model: &FloatModel, bounds: &PeriodicBounds<f64>) -> f64 {
+    let invariance = bounds.invariance_lhs(model, &model.c) / bounds.x_p;
+    let contraction = bounds.contraction(model, &model.c, 1, &0.0).xx / BELOW_ONE;
+    if invariance >= contraction || invariance.is_nan() { invariance } else { contraction }
+}
+
+/// h with h dZ^2 = eta dE^2.
+pub fn weight_h(eta: f64, dist_e: f64, dist_z: f64) -> f64 {
+    eta * dist_e * dist_e / (dist_z * dist_z)
+}
+
+/// D_e^2 = w_x P_low D_x^2, at which both members of C4 are equal, for D_x = rho c dX and h dZ^2 = eta dE^2.
+pub fn active_level(eta: f64, dist_e: f64, rho: f64) -> f64 {
+    (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho))
 }
 
 /// D_x = rho c dX, h from eta, and the threshold of C5 with the level condition active.
@@ -227,38 +221,31 @@ pub fn error_box(
     rho: f64,
     eta: f64,
 ) -> Result<AtSigma, Obstacle> {
-    let d_x = rho * model.c() * dist_x;
-    let level = (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho));
-    let (x_b, e_b) = (x_per + d_x, e_per + level.sqrt());
-    if x_b > model.domain.0 * (1.0 - 1e-7) {
+    let d_x = rho * model.c * dist_x;
+    let level = active_level(eta, dist_e, rho);
+    let d_e = level.sqrt();
+    if x_per + d_x > model.domain.0 * (1.0 - 1e-7) {
         return Err(Obstacle::DomainX);
     }
-    if e_b > model.domain.1 * (1.0 - 1e-7) {
+    if e_per + d_e > model.domain.1 * (1.0 - 1e-7) {
         return Err(Obstacle::DomainE);
     }
-    let gamma = model.c()
-        * (model.bound(Bound::Fxx, x_per, 0.0) * x_per
-            + model.bound(Bound::Fex, x_per, e_per) * e_per
-            + model.bound(Bound::Fxx, x_b, e_per) * d_x / 2.0);
-    let k_x = model.bound(Bound::Qx, x_b, e_b) / model.p_low.sqrt();
-    let (k_e, k_f) = (model.bound(Bound::Qe, x_b, e_b), model.bound(Bound::Fe, x_b, e_b));
+    let error_box = ErrorBox::new(model, &x_per, &e_per, &d_x, &d_e);
+    let ErrorBox { gamma, k_x, k_e, k_f, .. } = &error_box;
     if ![gamma, k_x, k_e, k_f].iter().all(|v| v.is_finite()) {
         return Err(Obstacle::NotFinite);
     }
-    if gamma >= model.alpha * BELOW_ONE {
+    if *gamma >= model.alpha * BELOW_ONE {
         return Err(Obstacle::Curvature);
     }
     let w_x = level / (model.p_low * d_x * d_x);
-    let h_over_mu = eta * dist_e * dist_e / (dist_z * dist_z * model.mu);
-    let margin = 4.0 * w_x * (model.alpha - gamma) - h_over_mu * k_x * k_x;
+    let decay = DecayCondition::new(model, &error_box, &w_x, &weight_h(eta, dist_e, dist_z));
+    let margin = decay.curvature - decay.coupling;
     if margin.is_nan() || margin <= (1.0 - BELOW_ONE) * 4.0 * w_x * model.alpha {
         return Err(Obstacle::Coupling);
     }
-    let one_plus = 1.0 + h_over_mu * k_e;
-    let cross = w_x * model.p_up.sqrt() * k_f + k_x * one_plus / 2.0;
-    let threshold = one_plus * one_plus / (4.0 * h_over_mu) + cross * cross / margin;
-    if !threshold.is_finite() {
+    if !decay.sigma_threshold.is_finite() {
         return Err(Obstacle::NotFinite);
     }
-    Ok(AtSigma { d_x, e_per, x_per, rho, eta, dist_e, dist_z, threshold })
+    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, threshold: decay.sigma_threshold })
 }

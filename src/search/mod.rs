@@ -10,11 +10,12 @@ mod minimise;
 mod model;
 mod printed;
 mod repaired;
+mod root;
 mod scan;
 mod sharp;
 mod smaller_set;
 
-pub use candidate::{AtSigma, Existence, Obstacle, SharpParameters};
+pub use candidate::{AtSigma, Existence, Obstacle, SharpParameters, active_level, weight_h};
 pub use exact::search_exact;
 pub use model::{Datum, FloatModel};
 pub use printed::{PrintedProposal, search_printed};

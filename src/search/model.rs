@@ -1,11 +1,13 @@
 //! The specification in floating point, for searches only.
 
 use super::effort::Effort;
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Numbers, Problem};
+use crate::derivation::initial_set::paper_z0;
+use crate::enclosure::Enclosure;
 use crate::expr::FloatExpr;
-use crate::number::Portable;
 use crate::spec::model::InitialSet;
 use crate::transfer::TradeOff;
+use std::ops::Deref;
 
 /// A datum of the specification whose influence on sigma* is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,17 +56,6 @@ impl Datum {
     }
 }
 
-/// The initial set in floating point.
-#[derive(Clone, Copy, Debug)]
-pub enum FloatSet {
-    /// The paper's set.
-    Paper,
-    /// Controller at rest; the user's X_0, E_0 where given.
-    AtRest(Option<f64>, Option<f64>),
-    /// The user's box.
-    Box(f64, f64, f64),
-}
-
 /// A bounding function, times a factor for sensitivities.
 #[derive(Clone, Debug)]
 struct ScaledBound {
@@ -77,27 +68,40 @@ struct ScaledBound {
 /// All data in floating point.
 #[derive(Clone, Debug)]
 pub struct FloatModel {
-    /// T.
-    pub period: f64,
-    /// P_low.
-    pub p_low: f64,
-    /// P_up.
-    pub p_up: f64,
-    /// alpha.
-    pub alpha: f64,
-    /// mu.
-    pub mu: f64,
-    /// w.
-    pub base_frequency: f64,
-    /// Nbar.
-    pub n_bar: f64,
+    numbers: Numbers<f64>,
     /// The largest X and E allowed, infinite without a domain.
     pub domain: (f64, f64),
     /// The initial set.
-    pub set: FloatSet,
+    pub set: InitialSet<f64>,
     /// The admissible pairs (k0, k1).
     pub trade_off: TradeOff,
     bounds: Vec<ScaledBound>,
+}
+
+impl Deref for FloatModel {
+    type Target = Numbers<f64>;
+
+    fn deref(&self) -> &Numbers<f64> {
+        &self.numbers
+    }
+}
+
+impl Problem<f64> for FloatModel {
+    fn numbers(&self) -> &Numbers<f64> {
+        &self.numbers
+    }
+
+    /// The positive part of the expression, NaN where that is undefined.
+    fn bound(&self, which: Bound, x: &f64, e: &f64) -> f64 {
+        // ORDER lists the variants in the order of their declaration.
+        let bound = &self.bounds[which as usize];
+        let value = bound.factor * bound.function.eval(*x, *e);
+        let value = if value < 0.0 { 0.0 } else { value };
+        match bound.supremum.map(|supremum| self.bound(supremum, x, e)) {
+            Some(supremum) if supremum < value => supremum,
+            _ => value,
+        }
+    }
 }
 
 const ORDER: [Bound; 10] =
@@ -109,23 +113,28 @@ impl FloatModel {
     pub fn new(data: &Data<'_>, trade_off: TradeOff) -> FloatModel {
         let float = |constant: &crate::spec::model::Constant| constant.to_f64();
         let spec = data.spec;
+        let [period, p_low, p_up, alpha, mu, base_frequency, c, nu, n_0, n_1, n_bar_squared, n_bar] = [
+            &data.period,
+            &data.p_low,
+            &data.p_up,
+            &data.alpha,
+            &data.mu,
+            &data.base_frequency,
+            &data.c,
+            &data.nu,
+            &data.n_0,
+            &data.n_1,
+            &data.n_bar_squared,
+            &data.n_bar,
+        ]
+        .map(Enclosure::midpoint_f64);
         FloatModel {
-            period: data.period.midpoint_f64(),
-            p_low: data.p_low.midpoint_f64(),
-            p_up: data.p_up.midpoint_f64(),
-            alpha: data.alpha.midpoint_f64(),
-            mu: data.mu.midpoint_f64(),
-            base_frequency: data.base_frequency.midpoint_f64(),
-            n_bar: data.n_bar.midpoint_f64(),
+            numbers: Numbers { period, p_low, p_up, alpha, mu, base_frequency, c, nu, n_0, n_1, n_bar_squared, n_bar },
             domain: spec
                 .domain
                 .as_ref()
                 .map_or((f64::INFINITY, f64::INFINITY), |domain| (float(&domain.x), float(&domain.e))),
-            set: match &spec.initial_set {
-                InitialSet::Paper => FloatSet::Paper,
-                InitialSet::AtRest { x0, e0 } => FloatSet::AtRest(x0.as_ref().map(float), e0.as_ref().map(float)),
-                InitialSet::Box { x0, e0, z0 } => FloatSet::Box(float(x0), float(e0), float(z0)),
-            },
+            set: spec.initial_set.map(float),
             trade_off,
             bounds: ORDER
                 .iter()
@@ -148,11 +157,7 @@ impl FloatModel {
     #[must_use]
     pub fn is_in_range(&self) -> bool {
         let numbers = [self.period, self.p_low, self.p_up, self.alpha, self.mu, self.base_frequency, self.n_bar];
-        let set = match self.set {
-            FloatSet::Paper => [0.0; 3],
-            FloatSet::AtRest(x0, e0) => [x0.unwrap_or(0.0), e0.unwrap_or(0.0), 0.0],
-            FloatSet::Box(x0, e0, z0) => [x0, e0, z0],
-        };
+        let set = self.set.required([0.0; 2], || 0.0, 0.0);
         numbers.iter().all(|value| value.is_normal())
             && set.iter().all(|value| value.is_finite())
             && self.bounds.iter().all(|bound| bound.function.eval(0.0, 0.0) != f64::INFINITY)
@@ -163,8 +168,11 @@ impl FloatModel {
     pub fn improved(&self, datum: Datum, by: f64) -> FloatModel {
         let mut model = self.clone();
         match datum {
-            Datum::Alpha => model.alpha *= 1.0 + by,
-            Datum::PUp => model.p_up = (model.p_up * (1.0 - by)).max(model.p_low),
+            Datum::Alpha => model.numbers.alpha *= 1.0 + by,
+            Datum::PUp => {
+                model.numbers.p_up = (model.p_up * (1.0 - by)).max(model.p_low);
+                model.numbers.c = (model.p_up / model.p_low).sqrt();
+            }
             Datum::Bound(which) => {
                 for (bound, _) in model.bounds.iter_mut().zip(ORDER).filter(|(_, name)| *name == which) {
                     bound.factor *= 1.0 - by;
@@ -174,138 +182,47 @@ impl FloatModel {
         model
     }
 
+    /// The same model with another Lyapunov triple, P_low = 1.
+    #[must_use]
+    pub fn with_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
+        let mut model = self.clone();
+        model.numbers = Numbers { p_low: 1.0, p_up: ratio, c: ratio.sqrt(), alpha, ..model.numbers };
+        model
+    }
+
     /// The same model with another initial set.
     #[must_use]
-    pub fn with_set(&self, set: FloatSet) -> FloatModel {
+    pub fn with_set(&self, set: InitialSet<f64>) -> FloatModel {
         FloatModel { set, ..self.clone() }
-    }
-
-    /// c = sqrt(P_up/P_low).
-    #[must_use]
-    pub fn c(&self) -> f64 {
-        (self.p_up / self.p_low).sqrt()
-    }
-
-    /// The value of a bounding function: the positive part of its expression, NaN where that is undefined.
-    #[must_use]
-    pub fn bound(&self, which: Bound, x: f64, e: f64) -> f64 {
-        // ORDER lists the variants in the order of their declaration.
-        let bound = &self.bounds[which as usize];
-        let value = bound.factor * bound.function.eval(x, e);
-        let value = if value < 0.0 { 0.0 } else { value };
-        match bound.supremum.map(|supremum| self.bound(supremum, x, e)) {
-            Some(supremum) if supremum < value => supremum,
-            _ => value,
-        }
     }
 
     /// X_0, E_0, Z_0 for given X_p, E_p, Z.
     #[must_use]
-    pub fn required_set(&self, x_p: f64, e_p: f64, z: f64) -> (f64, f64, f64) {
-        match self.set {
-            FloatSet::Paper => (2.0 * x_p, 2.0 * e_p, 2.0 * (z + self.n_bar * e_p)),
-            FloatSet::AtRest(x0, e0) => (x0.unwrap_or(2.0 * x_p), e0.unwrap_or(2.0 * e_p), 0.0),
-            FloatSet::Box(x0, e0, z0) => (x0, e0, z0),
-        }
-    }
-
-    /// beta_s(sigma).
-    #[must_use]
-    pub fn beta_s(&self, sigma: f64) -> f64 {
-        (self.period / (2.0 * sigma) / (sigma * self.period / 2.0).portable_tanh()).sqrt()
-    }
-
-    /// tau(sigma).
-    #[must_use]
-    pub fn tau(&self, sigma: f64) -> f64 {
-        let y = sigma * self.period;
-        let ratio = if y < 0.1 {
-            1.0 / 720.0 - y * y / 30_240.0 + y.powi(4) / 1_209_600.0
-        } else {
-            (1.0 / 12.0 - 1.0 / (2.0 * y * (y / 2.0).portable_tanh()) + 1.0 / (y * y)) / (y * y)
-        };
-        self.period * self.period * ratio.max(0.0).sqrt()
-    }
-
-    /// The smallest sigma with `gain(sigma) <= level`, for a decreasing gain; infinite when there is none.
-    #[must_use]
-    pub fn inverse(&self, gain: impl Fn(f64) -> f64, level: f64) -> f64 {
-        if level.is_nan() || level <= 0.0 {
-            return f64::INFINITY;
-        }
-        if level.is_infinite() {
-            return 0.0;
-        }
-        // The logarithm of the gain against that of sigma T, over everything a double can hold: nearly straight at both
-        // ends, so that the secant of a bracket (halving the value at an end that stays, Illinois) needs a dozen steps.
-        let sigma = |exponent: f64| exponent.portable_exp() / self.period;
-        let excess = |exponent: f64| (gain(sigma(exponent)) / level).portable_ln().clamp(-LARGEST, LARGEST);
-        let mut low = (-640.0, excess(-640.0));
-        let mut high = (640.0, excess(640.0));
-        // NaN, from a gain of infinity over infinity, is no level reached.
-        if high.1.is_nan() || high.1 > 0.0 {
-            return f64::INFINITY;
-        }
-        if low.1 <= 0.0 {
-            return 0.0;
-        }
-        let mut kept = 0_i32;
-        let mut nudge = None;
-        for _ in 0..STEPS {
-            let secant = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1));
-            let middle = 0.5 * (low.0 + high.0);
-            let inside = |at: &f64| *at > low.0 && *at < high.0;
-            let Some(at) = [nudge.take().unwrap_or(secant), middle].into_iter().find(inside) else { break };
-            let value = excess(at);
-            if value <= 0.0 {
-                high = (at, value);
-                if value > -NEAR {
-                    break;
-                }
-                low.1 *= if kept > 0 { 0.5 } else { 1.0 };
-                kept = 1;
-            } else {
-                // So near that a little more is enough.
-                nudge = (value < NEAR).then_some(at + 4.0 * NEAR);
-                low = (at, value);
-                high.1 *= if kept < 0 { 0.5 } else { 1.0 };
-                kept = -1;
-            }
-        }
-        sigma(high.0)
+    pub fn required_set(&self, x_p: f64, e_p: f64, z: f64) -> [f64; 3] {
+        self.set.required([2.0 * x_p, 2.0 * e_p], || paper_z0(self, &e_p, &z), 0.0)
     }
 }
-
-/// Relative accuracy of [`FloatModel::inverse`], where rounding allows it: far below the first slack of a rounded witness.
-const NEAR: f64 = 1e-14;
-/// The logarithm of a ratio of gains is cut off here.
-const LARGEST: f64 = 1e4;
-/// Steps of [`FloatModel::inverse`] at most.
-const STEPS: usize = 100;
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::derivation::gains::{beta_s, beta_s_inverse, tau, tau_inverse};
+    use crate::number::Portable;
 
+    /// The gains and their inverses over the range of scales that specifications have.
     #[test]
     fn gains_are_inverted() {
-        let text = include_str!("../../specs/linear.json");
-        let spec = crate::spec::Specification::from_json("linear", text).unwrap();
-        let data = Data::new(&spec, 64);
-        for period in [1e-40, 1e-30, 1e-3, 1.0, 70.0, 1e30] {
-            let model = FloatModel { period, ..FloatModel::new(&data, TradeOff::closed_form(&data)) };
+        for period in [1e-40_f64, 1e-30, 1e-3, 1.0, 70.0, 1e30] {
             for exponent in -120..=120 {
                 let sigma = 10f64.portable_pow(f64::from(exponent) / 4.0) / period;
-                let found = model.inverse(|s| model.beta_s(s), model.beta_s(sigma));
+                let found = beta_s_inverse(&beta_s(&sigma, &period), &period);
                 assert!((found / sigma - 1.0).abs() < 1e-12, "beta_s: T = {period}, sigma = {sigma}: {found}");
-                // For small sigma T tau hardly depends on sigma, and its closed form cancels.
-                let found = model.inverse(|s| model.tau(s), model.tau(sigma));
-                assert!(model.tau(found) <= model.tau(sigma) * (1.0 + 1e-8), "tau: {period} {sigma} {found}");
-                assert!(exponent < 8 || (found / sigma - 1.0).abs() < 1e-11, "tau: {period} {sigma} {found}");
+                // For small sigma T tau hardly depends on sigma.
+                let found = tau_inverse(&tau(&sigma, &period), &period);
+                assert!(tau(&found, &period) <= tau(&sigma, &period) * (1.0 + 1e-12), "tau: {period} {sigma} {found}");
+                assert!(exponent < 0 || (found / sigma - 1.0).abs() < 1e-11, "tau: {period} {sigma} {found}");
             }
-            assert_eq!(model.inverse(|s| model.beta_s(s), f64::INFINITY), 0.0);
-            assert_eq!(model.inverse(|s| model.beta_s(s), 0.0), f64::INFINITY);
-            assert_eq!(model.inverse(|s| model.tau(s), period * period), 0.0);
+            assert_eq!(tau_inverse(&(period * period), &period), 0.0);
         }
     }
 

@@ -2,9 +2,12 @@
 
 use super::minimise::minimise;
 use super::model::FloatModel;
+use super::repaired::largest_e_repaired;
 use super::scan;
 use super::sharp::{depth_of, parameter_of};
-use crate::data::{Bound, Data};
+use crate::data::Data;
+use crate::derivation::printed::{PrintedEvaluation, error_box};
+use crate::enclosure::Enclosure;
 use crate::number::Portable;
 use crate::transfer::printed_transfer;
 
@@ -23,51 +26,14 @@ pub struct PrintedProposal {
 
 /// The printed sigma at x_a, e_a, `share` of the largest printed h; `None` where a printed condition other than
 /// P:eq:boundx_bounde_1 fails or an argument leaves the domain.
-fn evaluate(model: &FloatModel, kappas: (f64, f64), x: f64, e: f64, share: f64) -> Option<PrintedProposal> {
-    let at = |which| model.bound(which, x, e);
-    let c = model.c();
-    let gain = c * (1.0 + (c - 1.0) * (-model.alpha * model.period).portable_exp()) / model.alpha;
-    let f_xx = model.bound(Bound::Fxx, x, 0.0);
-    let (q, q_e, q_x) = (at(Bound::Q), at(Bound::Qe), at(Bound::Qx));
-    let bracket = at(Bound::Fex) * e + 2.0 * f_xx * x;
-    if gain * (at(Bound::Fe) * e + f_xx * x * x / 2.0) > x || gain * bracket >= 1.0 {
-        return None;
-    }
-    let determinant = gain * (at(Bound::Fe) * q_x - bracket * q_e);
-    let beta = |s: f64| 2.0 * model.beta_s(s);
-    let mut sigma = model.inverse(beta, e / q);
-    if q_e + determinant > 0.0 {
-        sigma = sigma.max(model.inverse(beta, (1.0 - gain * bracket) / (q_e + determinant)));
-    }
-    if determinant < 0.0 {
-        return None;
-    }
-    if determinant > 0.0 {
-        sigma = sigma.max(model.inverse(beta, 1.0 / determinant));
-    }
-    let z2 = (model.period / model.mu + kappas.0 + 54.0 * kappas.1 * q_e * q_e) * q * q
-        + 3.0 * kappas.1 * (at(Bound::Qt).powi(2) + (q_x * at(Bound::F)).powi(2));
-    let zeta_a = z2.sqrt() + 2.0 * model.n_bar * e;
-    let (x_b, e_b) = ((3.0 * std::f64::consts::SQRT_2 * c + 2.0) * x, 6.0 * e);
+fn evaluate(model: &FloatModel, kappas: [&f64; 2], x: f64, e: f64, share: f64) -> Option<PrintedProposal> {
+    let (x_b, e_b) = error_box(model, &x, &e);
     if x_b > model.domain.0 || e_b > model.domain.1 {
         return None;
     }
-    let rho_0 = model.p_up / (2.0 * model.p_low)
-        * (model.bound(Bound::Fxx, x, e) * x
-            + at(Bound::Fex) * e
-            + model.p_low * model.bound(Bound::Fxx, x_b, e) * (x_b + x));
-    if rho_0 > model.alpha * model.p_low / 3.0 * (1.0 - 1e-9) {
-        return None;
-    }
-    let (q_x_b, q_e_b) = (model.bound(Bound::Qx, x_b, e_b), model.bound(Bound::Qe, x_b, e_b));
-    let exit = (model.p_low * (x_b - x).powi(2)).min((e_b - e).powi(2)) / (3.0 * zeta_a).powi(2);
-    let limit = exit.min(model.mu * model.alpha * model.p_low / (q_x_b * q_x_b)) / 3.0;
-    let h = limit * share;
-    let curvature = model.alpha * model.p_low - rho_0 - h / model.mu * q_x_b * q_x_b;
-    let rho_12 = model.p_up * model.bound(Bound::Fe, x_b, e_b) + q_x_b;
-    let sigma_a = rho_12 * rho_12 / (2.0 * curvature) + model.mu / (2.0 * h) + q_e_b + h / model.mu * q_e_b * q_e_b;
-    let sigma = sigma.max(sigma_a);
-    sigma.is_finite().then_some(PrintedProposal { x_a: x, e_a: e, h, sigma })
+    let found = PrintedEvaluation::new(model, kappas, &x, &e, |largest| share * largest);
+    let sigma = found.sigma_p.ok()?.max(found.sigma_a.ok()?);
+    sigma.is_finite().then_some(PrintedProposal { x_a: x, e_a: e, h: found.point.h, sigma })
 }
 
 /// Searches for the smallest figure that the printed formulas give when P:eq:boundx_bounde_1 is left out; `None` when
@@ -76,20 +42,9 @@ fn evaluate(model: &FloatModel, kappas: (f64, f64), x: f64, e: f64, share: f64) 
 pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProposal> {
     let effort = model.effort();
     let printed = printed_transfer(data);
-    let kappas = (printed.kappa_0.midpoint_f64(), printed.kappa_1.midpoint_f64());
-    let gain = |x: f64| {
-        let c = model.c();
-        let k = c * (1.0 + (c - 1.0) * (-model.alpha * model.period).portable_exp()) / model.alpha;
-        (k, model.bound(Bound::Fxx, x, 0.0))
-    };
-    let largest_e = |x: f64| {
-        let (k, f_xx) = gain(x);
-        let admissible = |e: f64| {
-            k * (model.bound(Bound::Fe, x, e) * e + f_xx * x * x / 2.0) <= x
-                && k * (model.bound(Bound::Fex, x, e) * e + 2.0 * f_xx * x) < 1.0
-        };
-        scan::largest(admissible, model.domain.1 / 6.0)
-    };
+    let kappas = [&printed.kappa_0, &printed.kappa_1].map(Enclosure::midpoint_f64);
+    let kappas = kappas.each_ref();
+    let largest_e = |x: f64| largest_e_repaired(model, x).map(|e| e.min(model.domain.1 / 6.0));
     let xs = scan::x_values(model.domain.0, effort.x_step);
     let columns = scan::evaluate_all(&xs, |&x| {
         let e_max = largest_e(x)?;

@@ -1,11 +1,14 @@
 //! The search of the repaired derivation: X, E, L, h that make sigma* small.
 
-use super::candidate::{BELOW_ONE, Obstacle, SharpParameters};
+use super::candidate::{BELOW_ONE, Obstacle, SharpParameters, weight_h};
 use super::minimise::minimise;
 use super::model::FloatModel;
 use super::scan;
 use super::sharp::{depth_of, parameter_of};
-use crate::data::Bound;
+use crate::derivation::existence::{LeastSigma, PeriodicBounds, kappas};
+use crate::derivation::gains::{beta, k_alpha};
+use crate::derivation::initial_set::distances;
+use crate::derivation::lyapunov_matrix::{LyapunovMatrix, LyapunovPoint};
 use crate::number::Portable;
 
 /// The free numbers of the repaired derivation in floating point.
@@ -31,38 +34,30 @@ impl RepairedProposal {
     }
 }
 
-/// K_alpha.
-fn k_alpha(model: &FloatModel) -> f64 {
-    let c = model.c();
-    c * (1.0 + (c - 1.0) * (-model.alpha * model.period).portable_exp())
+fn k_of(model: &FloatModel) -> f64 {
+    k_alpha(&model.c, &model.alpha, &model.period)
+}
+
+/// The larger one of the two shares of C1 and of Y_xx < 1, to be at most 1 (Y_xx with room for rounding).
+fn demand(model: &FloatModel, bounds: &PeriodicBounds<f64>) -> f64 {
+    let k = k_of(model);
+    let invariance = bounds.invariance_lhs(model, &k) / bounds.x_p;
+    let contraction = bounds.contraction(model, &k, 2, &0.0).xx / BELOW_ONE;
+    if invariance >= contraction || invariance.is_nan() { invariance } else { contraction }
 }
 
 /// All quantities for given X, E and eta with h dZ^2 = eta dE^2.
 fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProposal, Obstacle> {
-    let at = |which| model.bound(which, x, e);
-    let gain = k_alpha(model) / model.alpha;
-    let f_xx = model.bound(Bound::Fxx, x, 0.0);
-    let (f, f_e, f_ex) = (at(Bound::F), at(Bound::Fe), at(Bound::Fex));
-    let (q, q_e, q_x, q_t) = (at(Bound::Q), at(Bound::Qe), at(Bound::Qx), at(Bound::Qt));
-    let (a, b) = (gain * (f_ex * e + 2.0 * f_xx * x), gain * f_e);
-    if gain * (f_e * e + f_xx * x * x / 2.0) > x || a >= BELOW_ONE {
+    let bounds = PeriodicBounds::new(model, x, e);
+    if !(demand(model, &bounds) <= 1.0) {
         return Err(Obstacle::Existence);
     }
-    let w2 = model.base_frequency * model.base_frequency;
     let pair = model.trade_off.best(1.0, 1.0);
-    let (kappa_0, kappa_1) = (pair.0 / w2, pair.1 / (w2 * w2));
-    let z = ((model.period / model.mu + kappa_0 + 54.0 * kappa_1 * q_e * q_e) * q * q
-        + 3.0 * kappa_1 * (q_t * q_t + q_x * q_x * f * f))
-        .sqrt();
-    let contraction = q_e * (1.0 - a) + b * q_x;
-    let beta = |s: f64| 2.0 * model.beta_s(s);
-    let by_contraction = if contraction > 0.0 { model.inverse(beta, (1.0 - a) / contraction) } else { 0.0 };
-    let sigma_p = model.inverse(|s| beta(s) * q, e).max(by_contraction * (1.0 + 1e-9));
-
-    let (x0, e0, z0) = model.required_set(x, e, z);
-    let (dist_x, dist_e) = (x0 + x, e0 + e);
-    let dist_z = (z0 + model.n_bar * e0 + z).max(1e-6 * model.n_bar * dist_e);
-    let h = eta * dist_e * dist_e / (dist_z * dist_z);
+    let (kappa_0, kappa_1) = kappas(model, &pair.0, &pair.1);
+    let z = bounds.z_squared_printed(model, &kappa_0, &kappa_1).sqrt();
+    let [x0, e0, z0] = model.required_set(x, e, z);
+    let [dist_x, dist_e, dist_z] = distances(model, [&x0, &e0, &z0], [&x, &e, &z]);
+    let h = weight_h(eta, dist_e, dist_z.max(1e-6 * model.n_bar * dist_e));
     let level = model.p_up * dist_x * dist_x + (1.0 + eta) * dist_e * dist_e;
     let (x_b, e_b) = (x + (level / model.p_low).sqrt(), e + level.sqrt());
     if x_b > model.domain.0 * (1.0 - 1e-7) {
@@ -71,16 +66,13 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     if e_b > model.domain.1 * (1.0 - 1e-7) {
         return Err(Obstacle::DomainE);
     }
-    let rho_0 =
-        model.p_up * (model.bound(Bound::Fxx, x, e) * x + f_ex * e + model.bound(Bound::Fxx, x_b, e) * (x_b + x) / 2.0);
-    let (q_x_b, q_e_b) = (model.bound(Bound::Qx, x_b, e_b), model.bound(Bound::Qe, x_b, e_b));
-    let curvature = model.alpha * model.p_low - rho_0 - h / model.mu * q_x_b * q_x_b;
+    let lyapunov = LyapunovMatrix::new(model, &LyapunovPoint { x, e, x_b, e_b, h }, false);
+    let curvature = lyapunov.curvature;
     if curvature.is_nan() || curvature <= (1.0 - BELOW_ONE) * model.alpha * model.p_low {
         return Err(Obstacle::Curvature);
     }
-    let rho_12 = model.p_up * model.bound(Bound::Fe, x_b, e_b) + q_x_b;
-    let rho_22 = q_e_b + h / model.mu * q_e_b * q_e_b;
-    let sigma = sigma_p.max(rho_22 + model.mu / (2.0 * h) + rho_12 * rho_12 / (4.0 * curvature));
+    let least = LeastSigma::repaired(model, &bounds);
+    let sigma = least.by_size.max(least.by_contraction * (1.0 + 1e-9)).max(lyapunov.sigma_a);
     if !sigma.is_finite() {
         return Err(Obstacle::NotFinite);
     }
@@ -92,26 +84,14 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
 /// The largest E with C1 and the first diagonal entry of the contraction matrix below 1.
 #[must_use]
 pub fn largest_e_repaired(model: &FloatModel, x: f64) -> Option<f64> {
-    let gain = k_alpha(model) / model.alpha;
-    let f_xx = model.bound(Bound::Fxx, x, 0.0);
-    let admissible = |e: f64| {
-        gain * (model.bound(Bound::Fe, x, e) * e + f_xx * x * x / 2.0) <= x
-            && gain * (model.bound(Bound::Fex, x, e) * e + 2.0 * f_xx * x) < BELOW_ONE
-    };
-    scan::largest(admissible, model.domain.1)
+    scan::largest(|e| demand(model, &PeriodicBounds::new(model, x, e)), model.domain.1)
 }
 
-/// Weights p_x, p_e for C3 at sigma: the solution of (I - Y') p = (1/X, 1/E), positive where Y is a contraction.
+/// Weights p_x, p_e for C3 at sigma.
 #[must_use]
-pub fn perron_repaired(model: &FloatModel, x: f64, e: f64, sigma: f64) -> (f64, f64) {
-    let at = |which| model.bound(which, x, e);
-    let gain = k_alpha(model) / model.alpha;
-    let beta = 2.0 * model.beta_s(sigma);
-    let a = gain * (at(Bound::Fex) * e + 2.0 * model.bound(Bound::Fxx, x, 0.0) * x);
-    let (b, c, d) = (gain * at(Bound::Fe), beta * at(Bound::Qx), beta * at(Bound::Qe));
-    let det = (1.0 - a) * (1.0 - d) - b * c;
-    let (u, v) = (1.0 / x, 1.0 / e);
-    (((1.0 - d) * u + c * v) / det, (b * u + (1.0 - a) * v) / det)
+pub fn perron_repaired(model: &FloatModel, x: f64, e: f64, sigma: f64) -> [f64; 2] {
+    let matrix = PeriodicBounds::new(model, x, e).contraction(model, &k_of(model), 2, &beta(&sigma, &model.period));
+    matrix.perron_weights(&x.recip(), &e.recip())
 }
 
 /// Searches for the smallest sigma of the repaired derivation.

@@ -1,5 +1,6 @@
 //! The coarse scan that precedes local minimisation: many orders of magnitude in X and E.
 
+use super::root::crossing;
 use crate::number::Portable;
 use rayon::prelude::*;
 
@@ -39,23 +40,22 @@ pub fn e_depths(step: usize) -> impl Iterator<Item = &'static f64> + Clone {
     E_DEPTHS.iter().step_by(step)
 }
 
-/// The largest E <= limit with `admissible(E)`, for a property that holds below a threshold: by bisection of the
-/// logarithm over 80 decades; `None` if it fails at the smallest.
-pub fn largest(admissible: impl Fn(f64) -> bool, limit: f64) -> Option<f64> {
+/// The largest E <= limit with `demand(E) <= 1`, for a function that increases: to rounding, over 80 decades; `None` if the
+/// smallest is too large.
+pub fn largest(demand: impl Fn(f64) -> f64, limit: f64) -> Option<f64> {
     let cap = limit.min(1e40);
-    if admissible(cap) {
+    // From the largest E downwards, so that the excess decreases.
+    let excess = |depth: f64| demand(cap * (-depth).portable_exp()).portable_ln();
+    let (first, last) = (demand(cap).portable_ln(), excess(DEPTH));
+    if first <= 0.0 {
         return Some(cap);
     }
-    let (mut low, mut high) = (cap * 1e-80, cap);
-    if !admissible(low) {
-        return None;
-    }
-    for _ in 0..60 {
-        let middle = low.sqrt() * high.sqrt();
-        if admissible(middle) { low = middle } else { high = middle }
-    }
-    Some(low)
+    let first = if first.is_nan() { f64::INFINITY } else { first };
+    (last <= 0.0).then(|| cap * (-crossing(excess, (0.0, first), (DEPTH, last), 1e-13)).portable_exp())
 }
+
+/// 80 decades.
+const DEPTH: f64 = 184.2;
 
 /// Evaluates `f` on all items in parallel, results in the order of the items.
 pub fn evaluate_all<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {

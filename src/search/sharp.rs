@@ -1,10 +1,10 @@
 //! The search of the sharp derivation: X_p, E_p, rho, eta that make sigma* small.
 
-use super::candidate::{AtSigma, BELOW_ONE, Existence, Obstacle, SharpParameters};
+use super::candidate::{AtSigma, Existence, Obstacle, SharpParameters, demand};
 use super::minimise::minimise;
 use super::model::{Datum, FloatModel};
 use super::scan;
-use crate::data::Bound;
+use crate::derivation::existence::PeriodicBounds;
 use crate::number::Portable;
 
 /// The best candidate of a search.
@@ -89,13 +89,7 @@ fn spread(found: &[(f64, SharpParameters)], count: usize) -> Vec<SharpParameters
 /// The largest E_p with C1 and A < 1 at X_p.
 #[must_use]
 pub fn largest_e(model: &FloatModel, x_p: f64) -> Option<f64> {
-    let gain = model.c() / model.alpha;
-    let f_xx = model.bound(Bound::Fxx, x_p, 0.0);
-    let admissible = |e: f64| {
-        gain * (model.bound(Bound::Fe, x_p, e) * e + f_xx * x_p * x_p / 2.0) <= x_p
-            && gain * (model.bound(Bound::Fex, x_p, e) * e + f_xx * x_p) < BELOW_ONE
-    };
-    scan::largest(admissible, model.domain.1)
+    scan::largest(|e| demand(model, &PeriodicBounds::new(model, x_p, e)), model.domain.1)
 }
 
 /// The best candidates for one X_p, or the closest obstacle.
@@ -120,7 +114,7 @@ fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters
             match existence.sigma(model, rho, eta, 1e-2) {
                 Ok(sigma) => {
                     if best.is_none_or(|(least, _)| sigma < least) {
-                        best = Some((sigma, SharpParameters { x_p, e_p: existence.e_p, rho, eta }));
+                        best = Some((sigma, SharpParameters { x_p, e_p: existence.e_p(), rho, eta }));
                     }
                 }
                 Err(obstacle) => closest = closest.max(obstacle),
@@ -169,7 +163,7 @@ fn proposal(model: &FloatModel, parameters: SharpParameters) -> Result<SharpProp
     let sigma = existence.sigma(model, parameters.rho, parameters.eta, 1e-13)?;
     let binding = if sigma > existence.sigma_least * (1.0 + 1e-6) {
         "C5 (decay in the error box)"
-    } else if existence.bound_by_size(model) {
+    } else if existence.bound_by_size() {
         "C2 and C5 (size of the periodic error, decay in the error box)"
     } else {
         "C3 and C5 (contraction, decay in the error box)"

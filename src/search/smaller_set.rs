@@ -1,9 +1,10 @@
 //! How much smaller an initial set would have to be, in floating point.
 
-use super::model::{FloatModel, FloatSet};
+use super::model::FloatModel;
 use super::repaired::search_repaired;
 use super::sharp::{any_candidate, search_sharp};
 use crate::number::{Direction, Portable, round_f64};
+use crate::spec::model::InitialSet;
 use rug::Rational;
 
 /// The scalings that are tried reach down to 2 to this power.
@@ -32,14 +33,14 @@ pub enum SmallerSet {
 /// Guarantee: none. This is floating point, and what it proposes has to be certified.
 #[must_use]
 pub fn smaller_set(model: &FloatModel, repaired: bool) -> SmallerSet {
-    let finds = |set: FloatSet| {
+    let finds = |set: InitialSet<f64>| {
         let model = model.with_set(set);
         if repaired { search_repaired(&model).is_ok() } else { any_candidate(&model) }
     };
-    if matches!(model.set, FloatSet::Paper) && finds(FloatSet::AtRest(None, None)) {
+    if matches!(model.set, InitialSet::Paper) && finds(InitialSet::AtRest { x0: None, e0: None }) {
         return SmallerSet::AtRest;
     }
-    let point = FloatSet::Box(0.0, 0.0, 0.0);
+    let point = InitialSet::Box { x0: 0.0, e0: 0.0, z0: 0.0 };
     if !finds(point) {
         return SmallerSet::None;
     }
@@ -47,7 +48,7 @@ pub fn smaller_set(model: &FloatModel, repaired: bool) -> SmallerSet {
     let scaled = |exponent: f64| [x0, e0, z0].map(|size| size * 2f64.portable_pow(exponent));
     let succeeds = |exponent: f64| {
         let [x0, e0, z0] = scaled(exponent);
-        finds(FloatSet::Box(x0, e0, z0))
+        finds(InitialSet::Box { x0, e0, z0 })
     };
     let (mut low, mut high) = (LEAST_EXPONENT, 0.0);
     if !succeeds(low) {
@@ -65,16 +66,16 @@ pub fn smaller_set(model: &FloatModel, repaired: bool) -> SmallerSet {
 }
 
 /// The box that is scaled: the user's numbers, or twice the bounds of the periodic solution where none is given.
-fn shape(model: &FloatModel, point: FloatSet) -> Option<[f64; 3]> {
+fn shape(model: &FloatModel, point: InitialSet<f64>) -> Option<[f64; 3]> {
     let twice = || {
         let parameters = search_sharp(&model.with_set(point), &[]).ok()?.parameters;
         Some([2.0 * parameters.x_p, 2.0 * parameters.e_p])
     };
     match model.set {
-        FloatSet::Box(x0, e0, z0) => Some([x0, e0, z0]),
-        FloatSet::AtRest(Some(x0), Some(e0)) => Some([x0, e0, 0.0]),
-        FloatSet::AtRest(x0, e0) => twice().map(|[x, e]| [x0.unwrap_or(x), e0.unwrap_or(e), 0.0]),
-        FloatSet::Paper => twice().map(|[x, e]| [x, e, 0.0]),
+        InitialSet::Box { x0, e0, z0 } => Some([x0, e0, z0]),
+        InitialSet::AtRest { x0: Some(x0), e0: Some(e0) } => Some([x0, e0, 0.0]),
+        InitialSet::AtRest { x0, e0 } => twice().map(|[x, e]| [x0.unwrap_or(x), e0.unwrap_or(e), 0.0]),
+        InitialSet::Paper => twice().map(|[x, e]| [x, e, 0.0]),
     }
 }
 
@@ -86,7 +87,7 @@ mod tests {
     use crate::transfer::TradeOff;
 
     /// The paper's example on the domain X = E = 1 with another initial set.
-    fn model(set: FloatSet) -> FloatModel {
+    fn model(set: InitialSet<f64>) -> FloatModel {
         let text = include_str!("../../specs/paper-example.json");
         let text = text.replace(r#""X": "10", "E": "10""#, r#""X": "1", "E": "1""#);
         let spec = Specification::from_json("example", &text).unwrap();
@@ -96,18 +97,20 @@ mod tests {
 
     #[test]
     fn the_size_is_near_the_edge_of_success() {
-        let asked = model(FloatSet::Box(1.0, 4.0, 0.0));
+        let asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
         assert!(search_sharp(&asked, &[]).is_err());
         let SmallerSet::Box(sizes) = smaller_set(&asked, false) else { panic!("a size is expected") };
         let [x0, e0, z0] = sizes.each_ref().map(Rational::to_f64);
         assert!(x0 > 0.0 && (e0 / x0 - 4.0).abs() < 0.4 && z0 == 0.0, "{x0} {e0} {z0}");
-        let succeeds = |factor: f64| search_sharp(&model(FloatSet::Box(factor * x0, factor * e0, 0.0)), &[]).is_ok();
+        let succeeds = |factor: f64| {
+            search_sharp(&model(InitialSet::Box { x0: factor * x0, e0: factor * e0, z0: 0.0 }), &[]).is_ok()
+        };
         assert!(succeeds(1.0) && !succeeds(1.15), "{x0} {e0}");
     }
 
     #[test]
     fn no_size_where_a_point_fails() {
-        let mut asked = model(FloatSet::Box(1.0, 4.0, 0.0));
+        let mut asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
         // Data for which no comparison holds.
         asked.alpha = f64::NAN;
         assert_eq!(smaller_set(&asked, false), SmallerSet::None);

@@ -235,25 +235,25 @@ pub struct InternalModel {
 }
 
 /// The initial conditions |x| <= X0, |e| <= E0, |z|_N <= Z0 that the domain of attraction must cover.
-#[derive(Clone, Debug)]
-pub enum InitialSet {
+#[derive(Clone, Copy, Debug)]
+pub enum InitialSet<N = Constant> {
     /// X0 = 2 X_p, E0 = 2 E_p, Z0 = 2 (Z + Nbar E_p), as in theorem 1 of the paper.
     Paper,
     /// The controller starts at rest: Z0 = 0; X0 and E0 from the user, or 2 X_p and 2 E_p.
     AtRest {
         /// The user's X0.
-        x0: Option<Constant>,
+        x0: Option<N>,
         /// The user's E0.
-        e0: Option<Constant>,
+        e0: Option<N>,
     },
     /// A box given by the user.
     Box {
         /// X0.
-        x0: Constant,
+        x0: N,
         /// E0.
-        e0: Constant,
+        e0: N,
         /// Z0.
-        z0: Constant,
+        z0: N,
     },
 }
 

@@ -9,7 +9,7 @@ pub use plot::plot_svg;
 
 use super::Readable;
 use super::blocks::{Block, clean};
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational};
 use crate::spec::Specification;

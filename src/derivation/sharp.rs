@@ -4,8 +4,9 @@ use super::condition::{self, Condition};
 use super::contraction::ContractionMatrix;
 use super::existence::{PeriodicBounds, PeriodicSolution, kappas};
 use super::gains;
+use super::initial_set::{distances, set_conditions};
 use super::stability::{DecayCondition, ErrorBox, level_condition};
-use super::{domain_conditions, set_conditions, sign_conditions};
+use super::{domain_conditions, sign_conditions};
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
@@ -20,6 +21,15 @@ pub struct ClaimedSet {
     pub e0: Rational,
     /// Z_0.
     pub z0: Rational,
+}
+
+impl ClaimedSet {
+    /// dX, dE, dZ ([`distances`]) from a periodic solution bounded by x_per, e_per, Z.
+    #[must_use]
+    pub fn distances(&self, data: &Data<'_>, periodic: [&Enclosure; 3]) -> [Enclosure; 3] {
+        let [x0, e0, z0] = [&self.x0, &self.e0, &self.z0].map(|size| data.rational(size));
+        distances(data, [&x0, &e0, &z0], periodic)
+    }
 }
 
 /// The free numbers of the sharp derivation, exactly.
@@ -59,9 +69,9 @@ pub struct SharpEvaluation {
     /// sigma.
     pub sigma: Enclosure,
     /// The bounding functions at (X_p, E_p).
-    pub bounds: PeriodicBounds,
+    pub bounds: PeriodicBounds<Enclosure>,
     /// e_per and x_per at sigma.
-    pub periodic: PeriodicSolution,
+    pub periodic: PeriodicSolution<Enclosure>,
     /// kappa_0 = k0/w^2.
     pub kappa_0: Enclosure,
     /// kappa_1 = k1/w^4.
@@ -69,11 +79,11 @@ pub struct SharpEvaluation {
     /// Z.
     pub z: Enclosure,
     /// The contraction matrix of C3 at sigma.
-    pub contraction: ContractionMatrix,
+    pub contraction: ContractionMatrix<Enclosure>,
     /// The error box.
-    pub error_box: ErrorBox,
+    pub error_box: ErrorBox<Enclosure>,
     /// C5.
-    pub decay: DecayCondition,
+    pub decay: DecayCondition<Enclosure>,
     /// All conditions in order.
     pub conditions: Vec<Condition>,
 }
@@ -149,7 +159,7 @@ impl SharpEvaluation {
         conditions.push(Condition::less("C3", "A p_x + beta_s b_qx p_e < p_x", column_x, p_x));
         conditions.push(Condition::less("C3b", "B p_x + beta_s b_qe p_e < p_e", column_e, p_e));
 
-        let [dist_x, dist_e, dist_z] = distances(data, &witness.set, [&periodic.x_per, &periodic.e_per, &z]);
+        let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&periodic.x_per, &periodic.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less(
             "C4",
@@ -188,12 +198,4 @@ impl SharpEvaluation {
     pub fn truth(&self) -> Truth {
         condition::all(&self.conditions)
     }
-}
-
-/// dX = X_0 + x_per, dE = E_0 + e_per, dZ = Z_0 + Nbar E_0 + Z: how far the initial set is from the periodic solution.
-#[must_use]
-pub fn distances(data: &Data<'_>, set: &ClaimedSet, periodic: [&Enclosure; 3]) -> [Enclosure; 3] {
-    let [x_per, e_per, z] = periodic;
-    let (x0, e0, z0) = (data.rational(&set.x0), data.rational(&set.e0), data.rational(&set.z0));
-    [x0 + x_per, &e0 + e_per, z0 + &data.n_bar * &e0 + z]
 }

@@ -25,7 +25,7 @@ pub struct Psi {
 impl Psi {
     /// Evaluates the three constants. Hypotheses: C1-C3.
     #[must_use]
-    pub fn new(data: &Data<'_>, bounds: &PeriodicBounds) -> Psi {
+    pub fn new(data: &Data<'_>, bounds: &PeriodicBounds<Enclosure>) -> Psi {
         let psi_1 = &data.period * &bounds.q_rate_rms / Enclosure::from_integer(12, data.precision).sqrt();
         let omega = fundamental(data);
         Psi { psi_x: x_per_gain(data, bounds) * &psi_1, psi_1, psi_2: &data.period * bounds.q_rms.sqr() / omega.sqr() }
@@ -59,7 +59,7 @@ pub struct ErrorBounds {
 #[must_use]
 pub fn error_bounds(
     data: &Data<'_>,
-    bounds: &PeriodicBounds,
+    bounds: &PeriodicBounds<Enclosure>,
     sigma: &Enclosure,
     e_per: &Enclosure,
     n_o: u64,

@@ -4,7 +4,7 @@ use super::condition::{self, Condition};
 use super::sharp::ClaimedSet;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 
@@ -76,7 +76,7 @@ impl ExactEvaluation {
             ));
         }
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
-        let [dist_x, dist_e, dist_z] = super::sharp::distances(data, set, [&data.zero(), &data.zero(), &z]);
+        let [dist_x, dist_e, dist_z] = set.distances(data, [&data.zero(), &data.zero(), &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));
         conditions.push(Condition::less(

@@ -112,7 +112,7 @@ pub struct TableInput<'a> {
     /// The repaired evaluation, when there is one.
     pub repaired: Option<&'a RepairedEvaluation>,
     /// The printed evaluation at its own free numbers, when some were found.
-    pub printed: Option<&'a PrintedEvaluation>,
+    pub printed: Option<&'a PrintedEvaluation<Enclosure>>,
     /// The claimed sigma of each derivation: printed figure, repaired, sharp.
     pub sigmas: [Option<Enclosure>; 3],
     /// sigma*_oo.

@@ -1,10 +1,11 @@
 //! The rows in which each derivation is evaluated at the free numbers that suit it best.
 
 use super::{At, Row, Status, TableInput, infeasible, number, printed, row, sound};
-use crate::constants::existence::{sigma_p_repaired, sigma_p_sharp};
-use crate::constants::printed::{Infeasible, PrintedEvaluation, level_condition, level_condition_infinite};
-use crate::constants::repaired::{LyapunovMatrix, RepairedEvaluation};
-use crate::constants::sharp::SharpEvaluation;
+use crate::derivation::existence::LeastSigma;
+use crate::derivation::lyapunov_matrix::LyapunovMatrix;
+use crate::derivation::printed::{Infeasible, PrintedEvaluation, level_condition, level_condition_infinite};
+use crate::derivation::repaired::RepairedEvaluation;
+use crate::derivation::sharp::SharpEvaluation;
 use crate::enclosure::Enclosure;
 use rug::Rational;
 
@@ -17,7 +18,7 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
     rows.push(row("x_a, e_a of P:eq:boundx_bounde_1", At::Own, from_level("P:eq:boundx_bounde_1"), None, None));
     let sharp_value =
         |of: &dyn Fn(&SharpEvaluation) -> Enclosure, source| input.sharp.and_then(|sharp| sound(of(sharp), source));
-    let paper_value = |of: &dyn Fn(&PrintedEvaluation) -> Enclosure, source| {
+    let paper_value = |of: &dyn Fn(&PrintedEvaluation<Enclosure>) -> Enclosure, source| {
         input.printed.and_then(|p| number(of(p), Status::PrintedUnsound, source))
     };
     let repaired_value =
@@ -100,8 +101,8 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         "sigma_p*",
         At::Own,
         input.printed.and_then(|p| result(&p.sigma_p, "P:19")),
-        repaired_value(&|r| sigma_p_repaired(data, &r.bounds), "section 4, C2 and C3 with beta, K_alpha"),
-        sharp_value(&|s| sigma_p_sharp(data, &s.bounds), "section 4, C2 and C3"),
+        repaired_value(&|r| LeastSigma::repaired(data, &r.bounds).sigma_p(), "section 4, C2 and C3 with beta, K_alpha"),
+        sharp_value(&|s| LeastSigma::sharp(data, &s.bounds).sigma_p(), "section 4, C2 and C3"),
     ));
     rows.push(row(
         "sigma_a*",

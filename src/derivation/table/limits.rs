@@ -2,8 +2,8 @@
 
 use super::common::Common;
 use super::{At, Entry, Row, Status, Value, row};
-use crate::constants::existence::PeriodicBounds;
-use crate::data::{Bound, Data};
+use crate::data::{Bound, Data, Problem};
+use crate::derivation::existence::PeriodicBounds;
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 
@@ -96,7 +96,7 @@ fn largest_x(data: &Data<'_>, gain: &Enclosure, factor: i64) -> Option<Value> {
 }
 
 /// The largest E with the two conditions of e_p*(X_p); factor 2 (paper) or 1 (sharp) in front of b_fxx X_p.
-fn largest_e(data: &Data<'_>, gain: &Enclosure, factor: i64, bounds: &PeriodicBounds) -> Option<Value> {
+fn largest_e(data: &Data<'_>, gain: &Enclosure, factor: i64, bounds: &PeriodicBounds<Enclosure>) -> Option<Value> {
     let limit = data.spec.domain.as_ref().and_then(|domain| domain.e.as_rational().cloned());
     let x_p = &bounds.x_p;
     let invariance = &data.alpha / gain * x_p - &bounds.f_xx * x_p.sqr() / 2;

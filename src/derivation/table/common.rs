@@ -1,18 +1,18 @@
 //! The rows in which all three derivations are evaluated at the same arguments.
 
 use super::{At, Row, Status, TableInput, number, printed, row, sound};
-use crate::constants::consequences::Psi;
-use crate::constants::contraction::ContractionMatrix;
-use crate::constants::existence::{PeriodicBounds, kappas};
-use crate::constants::gains;
 use crate::data::Data;
+use crate::derivation::consequences::Psi;
+use crate::derivation::contraction::ContractionMatrix;
+use crate::derivation::existence::{PeriodicBounds, kappas};
+use crate::derivation::gains;
 use crate::enclosure::Enclosure;
 use crate::transfer::{PrintedTransfer, closed_form_pair, lambda_interval, printed_transfer};
 
 /// The three derivations at common arguments.
 pub(super) struct Common {
     sigma: Enclosure,
-    pub(super) bounds: PeriodicBounds,
+    pub(super) bounds: PeriodicBounds<Enclosure>,
     pub(super) k_alpha: Enclosure,
     closed: (Enclosure, Enclosure),
     sharp: (Enclosure, Enclosure),
@@ -79,7 +79,7 @@ pub(super) fn contraction_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
     let paper = common.bounds.contraction(data, &common.k_alpha, 2, &gains::beta(&common.sigma, &data.period));
     let sharp = common.bounds.contraction(data, &data.c, 1, &gains::beta_s(&common.sigma, &data.period));
     let label = "P:eq:def_ypsilon";
-    let three = |name: &str, of: &dyn Fn(&ContractionMatrix) -> Enclosure| {
+    let three = |name: &str, of: &dyn Fn(&ContractionMatrix<Enclosure>) -> Enclosure| {
         row(name, At::Common, sound(of(&paper), label), sound(of(&paper), label), sound(of(&sharp), "section 4, C3"))
     };
     let mut rows = vec![
@@ -139,8 +139,8 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
         sound(common.z_sharp.clone(), "section 4"),
     ));
     let n_bar = &data.n_bar;
-    let paper_r_e = &common.bounds.q + n_bar * &common.z_printed;
-    let repaired_r_e = &common.bounds.q + &data.mu * n_bar * &common.z_repaired;
+    let paper_r_e = common.bounds.q(data) + n_bar * &common.z_printed;
+    let repaired_r_e = common.bounds.q(data) + &data.mu * n_bar * &common.z_repaired;
     let k = &common.k_alpha;
     let gain = k * &common.bounds.f_e / (&data.alpha - k * &common.bounds.f_xx * &common.bounds.x_p / 2);
     let psi = Psi::new(data, &common.bounds);
@@ -159,7 +159,7 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
         sound(psi.psi_x, "section 6"),
     ));
     let t_over_two_pi = &data.period / (2 * Enclosure::pi(data.precision));
-    let psi_2_printed = t_over_two_pi.sqr() * common.bounds.q.sqr();
+    let psi_2_printed = t_over_two_pi.sqr() * common.bounds.q(data).sqr();
     let matched = data.spec.internal_model.matched;
     let psi_2 = |value: Enclosure| if matched { sound(value, "section 6, with T") } else { None };
     rows.push(row(

@@ -1,72 +1,87 @@
 //! The contraction matrix of the existence proof, its spectral radius, Perron weights and the Jury pair.
 
 use crate::enclosure::{Enclosure, Truth};
+use crate::real::{Operand, Real};
 
 /// The nonnegative matrix `[[xx, xe], [ex, ee]]` with |(x+, e+)| differences <= matrix times differences
 /// (P:eq:def_ypsilon), in sup norms. Entries xx, ee are pure numbers, xe has units |x|/|e|, ex |e|/|x|.
 #[derive(Clone, Debug)]
-pub struct ContractionMatrix {
+pub struct ContractionMatrix<R> {
     /// Upsilon_xx.
-    pub xx: Enclosure,
+    pub xx: R,
     /// Upsilon_xe.
-    pub xe: Enclosure,
+    pub xe: R,
     /// Upsilon_ex.
-    pub ex: Enclosure,
+    pub ex: R,
     /// Upsilon_ee.
-    pub ee: Enclosure,
+    pub ee: R,
 }
 
-impl ContractionMatrix {
+impl<R: Real> ContractionMatrix<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
     /// The trace.
     #[must_use]
-    pub fn trace(&self) -> Enclosure {
+    pub fn trace(&self) -> R {
         &self.xx + &self.ee
     }
 
     /// The determinant, negative for the matrices that arise from strong cross couplings.
     #[must_use]
-    pub fn determinant(&self) -> Enclosure {
+    pub fn determinant(&self) -> R {
         &self.xx * &self.ee - &self.xe * &self.ex
     }
 
     /// The spectral radius `tr/2 + sqrt(((xx - ee)/2)^2 + xe ex)`, exact for nonnegative matrices (Perron-Frobenius).
     #[must_use]
-    pub fn spectral_radius(&self) -> Enclosure {
-        let half_difference = (&self.xx - &self.ee) / 2;
-        self.trace() / 2 + (half_difference.sqr() + &self.xe * &self.ex).sqrt()
+    pub fn spectral_radius(&self) -> R {
+        let half_difference = (&self.xx - &self.ee) / R::int(2);
+        self.trace() / R::int(2) + (half_difference.sqr() + &self.xe * &self.ex).sqrt()
     }
 
     /// `1 - tr + det`, the first Jury quantity; positive together with `det < 1` if and only if the spectral radius
     /// of this nonnegative matrix is below 1.
     #[must_use]
-    pub fn jury_first(&self) -> Enclosure {
-        1 - self.trace() + self.determinant()
+    pub fn jury_first(&self) -> R {
+        R::int(1) - self.trace() + self.determinant()
     }
 
     /// `1 - det`, the second Jury quantity as it should be.
     #[must_use]
-    pub fn jury_second(&self) -> Enclosure {
-        1 - self.determinant()
+    pub fn jury_second(&self) -> R {
+        R::int(1) - self.determinant()
     }
 
     /// `1 + det`: what the printed second inequality `1 > -det` tests (P:eq:ypsilon_xx, erratum E5). It does not
     /// exclude a spectral radius above 1.
     #[must_use]
-    pub fn jury_second_printed(&self) -> Enclosure {
-        1 + self.determinant()
-    }
-
-    /// Whether the Jury pair proves a spectral radius below 1.
-    #[must_use]
-    pub fn is_contraction(&self) -> Truth {
-        self.jury_first().is_positive().and(self.jury_second().is_positive())
+    pub fn jury_second_printed(&self) -> R {
+        R::int(1) + self.determinant()
     }
 
     /// The two left sides of (C3), `xx p_x + ex p_e` to be below `p_x` and `xe p_x + ee p_e` to be below `p_e`
     /// (Collatz-Wielandt: for positive p this proves a spectral radius below 1).
     #[must_use]
-    pub fn weighted_columns(&self, p_x: &Enclosure, p_e: &Enclosure) -> [Enclosure; 2] {
+    pub fn weighted_columns(&self, p_x: &R, p_e: &R) -> [R; 2] {
         [&self.xx * p_x + &self.ex * p_e, &self.xe * p_x + &self.ee * p_e]
+    }
+
+    /// Weights for which both left sides of (C3) are below p by the shares u, v: `p = (I - M')^-1 (u, v)`, positive where
+    /// this matrix is a contraction and u, v are positive.
+    #[must_use]
+    pub fn perron_weights(&self, u: &R, v: &R) -> [R; 2] {
+        let determinant = self.jury_first();
+        let free = |entry: &R| R::int(1) - entry;
+        [(free(&self.ee) * u + &self.ex * v) / &determinant, (&self.xe * u + free(&self.xx) * v) / determinant]
+    }
+}
+
+impl ContractionMatrix<Enclosure> {
+    /// Whether the Jury pair proves a spectral radius below 1.
+    #[must_use]
+    pub fn is_contraction(&self) -> Truth {
+        self.jury_first().is_positive().and(self.jury_second().is_positive())
     }
 }
 
@@ -76,7 +91,7 @@ mod tests {
     use proptest::prelude::*;
     use rug::Rational;
 
-    fn matrix(entries: [f64; 4]) -> ContractionMatrix {
+    fn matrix(entries: [f64; 4]) -> ContractionMatrix<Enclosure> {
         let [xx, xe, ex, ee] = entries.map(|v| Enclosure::from_rational(&Rational::from_f64(v).unwrap(), 128));
         ContractionMatrix { xx, xe, ex, ee }
     }

@@ -1,0 +1,174 @@
+//! Doubles as reals: proposals for a search, the same bits on every machine. They decide nothing.
+
+use super::Real;
+use super::series::COEFFICIENTS;
+use crate::number::Portable;
+
+/// Steps of the iterations below at most; they need a handful.
+const STEPS: usize = 40;
+
+/// Relative changes at which they end.
+const NEAR: f64 = 4.0 * f64::EPSILON;
+
+impl Real for f64 {
+    fn int(value: i64) -> f64 {
+        value as f64
+    }
+
+    fn unknown() -> f64 {
+        f64::NAN
+    }
+
+    fn sqr(&self) -> f64 {
+        self * self
+    }
+
+    fn sqrt(&self) -> f64 {
+        f64::sqrt(*self)
+    }
+
+    fn exp(&self) -> f64 {
+        self.portable_exp()
+    }
+
+    fn coth(&self) -> f64 {
+        self.portable_tanh().recip()
+    }
+
+    fn min(&self, other: &f64) -> f64 {
+        if self < other || self.is_nan() { *self } else { *other }
+    }
+
+    fn max(&self, other: &f64) -> f64 {
+        if self > other || self.is_nan() { *self } else { *other }
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == 0.0
+    }
+
+    fn is_certainly_positive(&self) -> bool {
+        *self > 0.0
+    }
+
+    /// Newton's method for u tanh u = 1/v, from above; u tanh u is between u^2/(1 + u) and u.
+    fn coth_ratio_inverse(&self) -> f64 {
+        let target = self.recip();
+        if !self.is_certainly_positive() || target == 0.0 || target.is_infinite() {
+            // Beyond the range of doubles the root is target or its square root.
+            return if *self > 0.0 { target.max(f64::MIN_POSITIVE) } else { f64::NAN };
+        }
+        let mut u = 0.5 * (target + target.sqrt() * (target + 4.0).sqrt());
+        for _ in 0..STEPS {
+            // tanh is 1 to all digits there.
+            let tanh = if u > 20.0 { 1.0 } else { u.portable_tanh() };
+            let step = (u * tanh - target) / (tanh + u * (1.0 - tanh * tanh));
+            u -= step;
+            if step.abs() <= NEAR * u {
+                break;
+            }
+        }
+        u
+    }
+
+    /// The closed form loses all digits for small arguments, where the series has them.
+    fn oscillator_sum(&self) -> f64 {
+        let y = *self;
+        if y < 1.0 {
+            let square = y * y;
+            COEFFICIENTS.iter().rev().fold(0.0, |sum, (n, d)| sum * square + *n as f64 / *d as f64)
+        } else {
+            (1.0 / 12.0 - (y / 2.0).coth() / (2.0 * y) + 1.0 / (y * y)) / (y * y)
+        }
+    }
+
+    /// The secant method for `sqrt(1/S(y) - 720)`, nearly a straight line: its slope falls from sqrt(120/7) to sqrt(12).
+    fn oscillator_sum_inverse_of_square(&self) -> f64 {
+        let wanted = (self * self).recip() - 720.0;
+        if !self.is_certainly_positive() || wanted.is_nan() {
+            return f64::NAN;
+        }
+        if wanted <= 0.0 {
+            return 0.0;
+        }
+        if wanted.is_infinite() {
+            return f64::INFINITY;
+        }
+        let wanted = wanted.sqrt();
+        let line = |y: f64| (y.oscillator_sum().recip() - 720.0).max(0.0).sqrt();
+        let mut slope = (120.0_f64 / 7.0).sqrt();
+        let mut y = wanted / slope;
+        let mut value = line(y);
+        for _ in 0..STEPS {
+            let next = y + (wanted - value) / slope;
+            if (next - y).abs() <= NEAR * y {
+                break;
+            }
+            let reached = line(next);
+            let secant = (reached - value) / (next - y);
+            // Rounding, not the function, where it is outside of what the slope can be.
+            slope = if (3.0..5.0).contains(&secant) { secant } else { slope };
+            (y, value) = (next, reached);
+        }
+        y
+    }
+
+    fn above(&self) -> String {
+        format!("{self:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::enclosure::Enclosure;
+    use proptest::prelude::*;
+    use rug::Rational;
+
+    fn exactly(value: f64) -> Enclosure {
+        Enclosure::from_rational(&Rational::from_f64(value).unwrap(), 256)
+    }
+
+    fn near(value: f64, enclosure: &Enclosure, relative: f64) -> bool {
+        let middle = enclosure.midpoint_f64();
+        enclosure.is_bounded() && (value - middle).abs() <= relative * middle.abs()
+    }
+
+    proptest! {
+        /// The same function over both kinds of numbers.
+        #[test]
+        fn doubles_are_near_enclosures(exponent in -30.0_f64..30.0) {
+            let x = 10f64.powf(exponent);
+            let wide = exactly(x);
+            prop_assert!(near(x.coth(), &Real::coth(&wide), 1e-15));
+            prop_assert!(near(x.oscillator_sum(), &wide.oscillator_sum(), 4e-13));
+            prop_assert!(near(x.coth_ratio_inverse(), &wide.coth_ratio_inverse(), 1e-14));
+        }
+
+        #[test]
+        fn the_sum_is_inverted(exponent in -12.0_f64..18.0) {
+            let y = 10f64.powf(exponent);
+            let level = y.oscillator_sum().sqrt();
+            let found = level.oscillator_sum_inverse_of_square();
+            // For small y the sum hardly depends on it.
+            prop_assert!((found.oscillator_sum().sqrt() / level - 1.0).abs() < 1e-12, "{y} {found}");
+            prop_assert!(y < 0.1 || (found / y - 1.0).abs() < 1e-10, "{y} {found}");
+        }
+    }
+
+    #[test]
+    fn the_ends_of_the_range() {
+        assert_eq!(0.0_f64.coth_ratio_inverse().to_bits(), f64::NAN.to_bits());
+        assert!((-1.0_f64).coth_ratio_inverse().is_nan() && f64::NAN.oscillator_sum_inverse_of_square().is_nan());
+        assert!((1e-300_f64.coth_ratio_inverse() / 1e300 - 1.0).abs() < 1e-12);
+        assert!((1e300_f64.coth_ratio_inverse() / 1e-150 - 1.0).abs() < 1e-12);
+        assert_eq!(1.0_f64.oscillator_sum_inverse_of_square(), 0.0);
+    }
+
+    #[test]
+    fn nothing_known_stays_nothing_known() {
+        for (a, b) in [(f64::NAN, 1.0), (1.0, f64::NAN)] {
+            assert!(Real::min(&a, &b).is_nan() && Real::max(&a, &b).is_nan());
+        }
+    }
+}
