@@ -258,8 +258,8 @@ fn repaired_used(outcome: &Outcome<RepairedProof>) -> Option<(Rational, Rational
 /// (max{X_p, X_b}, max{E_p, E_b}), rounded up.
 fn sharp_arguments(proof: &SharpProof) -> Option<(Rational, Rational)> {
     let (bounds, error_box) = (&proof.evaluation.bounds, &proof.evaluation.error_box);
-    let x = bounds.x_p.max(&error_box.x_b).upper_rational();
-    x.zip(bounds.e_p.max(&error_box.e_b).upper_rational())
+    let x = bounds.state.x_p.max(&error_box.x_b).upper_rational();
+    x.zip(bounds.state.e_p.max(&error_box.e_b).upper_rational())
 }
 
 /// (X_b, E_b), rounded up; X <= X_b and E <= E_b.

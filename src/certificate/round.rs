@@ -13,8 +13,8 @@ use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{
-    FloatModel, RepairedProposal, SharpParameters, SharpProposal, active_level, at_sigma, largest_e,
-    largest_e_repaired, perron_repaired, search_exact, weight_h,
+    FloatModel, RepairedProposal, SharpParameters, SharpProposal, active_level, at_sigma, largest_e_repaired,
+    largest_e_sharp, perron_repaired, search_exact, weight_h,
 };
 use crate::spec::model::InitialSet;
 use crate::transfer::{TransferProof, closed_form_pair, prove_above};
@@ -123,7 +123,7 @@ fn sharp_witness(
 ) -> Option<SharpWitness> {
     let sigma = rounded_sigma(proposal.sigma, slack)?;
     let x_p = nearest(proposal.parameters.x_p, SHORT_DIGITS)?;
-    let e_p = rounded_e(proposal.parameters.e_p, largest_e(model, x_p.to_f64())?)?;
+    let e_p = rounded_e(proposal.parameters.e_p, largest_e_sharp(model, x_p.to_f64())?)?;
     let parameters = SharpParameters { x_p: x_p.to_f64(), e_p: e_p.to_f64(), ..proposal.parameters };
     let (existence, at) = at_sigma(model, &parameters, sigma.to_f64()).ok()?;
     // The slack does not move the pair, nor the boxes that prove it.

@@ -245,7 +245,7 @@ impl Certification<'_> {
             (Verdict::Certified, Derivation::Repaired) => {
                 let proof = self.repaired.proved()?;
                 let bounds = &proof.evaluation.bounds;
-                (bounds.x_p.clone(), bounds.e_p.clone(), proof.evaluation.z.clone(), proof.precision)
+                (bounds.state.x_p.clone(), bounds.state.e_p.clone(), proof.evaluation.z.clone(), proof.precision)
             }
             _ => return None,
         };

@@ -5,50 +5,31 @@ use super::gains;
 use crate::data::{Bound, Numbers, Problem};
 use crate::real::{Operand, Real};
 
-/// The bounding functions at (X_p, E_p), b_fxx at (X_p, 0), and the norms of the right sides that follow.
+/// What the data say about x' at (X_p, E_p).
 #[derive(Clone, Debug)]
-pub struct PeriodicBounds<R> {
+pub struct StateBounds<R> {
     /// X_p.
     pub x_p: R,
     /// E_p.
     pub e_p: R,
-    /// b_f(X_p, 0).
-    pub f: R,
     /// b_fe(X_p, E_p).
     pub f_e: R,
     /// b_fxx(X_p, 0).
     pub f_xx: R,
     /// b_fex(X_p, E_p).
     pub f_ex: R,
-    /// b_qe(X_p, E_p).
-    pub q_e: R,
-    /// b_qx(X_p, E_p).
-    pub q_x: R,
-    /// qr = b_q_rms(X_p, E_p), a bound of rms(q).
-    pub q_rms: R,
-    /// x1 = b_f(X_p,0) + b_fxx X_p^2 + b_fe E_p, a bound of |x'|.
-    pub x_rate: R,
-    /// q1 = b_qt_rms + b_qx x1 + b_qe qr, a bound of rms(dq/dt) along the solution.
-    pub q_rate_rms: R,
 }
 
-impl<R: Real> PeriodicBounds<R>
+impl<R: Real> StateBounds<R>
 where
     for<'a> &'a R: Operand<R>,
 {
     /// Evaluates the bounding functions.
-    ///
-    /// Guarantee: when (X_p, E_p) lies in the domain, every member bounds what it says for all T-periodic (x, e) of
-    /// the set |x| <= X_p, |e| <= E_p, |x'| <= x1, rms(e') <= qr.
     #[must_use]
-    pub fn new(problem: &impl Problem<R>, x_p: R, e_p: R) -> PeriodicBounds<R> {
+    pub fn new(problem: &impl Problem<R>, x_p: R, e_p: R) -> StateBounds<R> {
         let at_box = |which| problem.bound(which, &x_p, &e_p);
-        let at_zero_error = |which| problem.bound(which, &x_p, &R::int(0));
-        let (f, f_xx, f_e) = (at_zero_error(Bound::F), at_zero_error(Bound::Fxx), at_box(Bound::Fe));
-        let (q_e, q_x, q_rms) = (at_box(Bound::Qe), at_box(Bound::Qx), at_box(Bound::QRms));
-        let x_rate = &f + &f_xx * x_p.sqr() + &f_e * &e_p;
-        let q_rate_rms = at_box(Bound::QtRms) + &q_x * &x_rate + &q_e * &q_rms;
-        PeriodicBounds { f_ex: at_box(Bound::Fex), f, f_e, f_xx, q_e, q_x, q_rms, x_rate, q_rate_rms, x_p, e_p }
+        let f_xx = problem.bound(Bound::Fxx, &x_p, &R::int(0));
+        StateBounds { f_e: at_box(Bound::Fe), f_ex: at_box(Bound::Fex), f_xx, x_p, e_p }
     }
 
     /// The left side of (C1) and of P:12: `(k/alpha)(b_fe E_p + b_fxx X_p^2/2)`, to be at most X_p; k = c or K_alpha.
@@ -63,14 +44,56 @@ where
         k / &problem.numbers().alpha * &self.f_xx * &self.x_p / R::int(2)
     }
 
+    /// `(k/alpha)(b_fex E_p + factor b_fxx X_p)`, the first entry of the contraction matrix, to be below 1 in (C3); `factor`
+    /// is 1 (sharp) or 2 (P:eq:def_ypsilon).
+    #[must_use]
+    pub fn contraction_xx(&self, problem: &impl Problem<R>, k: &R, factor: i64) -> R {
+        k / &problem.numbers().alpha * (&self.f_ex * &self.e_p + R::int(factor) * (&self.f_xx * &self.x_p))
+    }
+}
+
+/// The bounding functions at (X_p, E_p), b_fxx at (X_p, 0), and the norms of the right sides that follow.
+#[derive(Clone, Debug)]
+pub struct PeriodicBounds<R> {
+    /// Those of x'.
+    pub state: StateBounds<R>,
+    /// b_qe(X_p, E_p).
+    pub q_e: R,
+    /// b_qx(X_p, E_p).
+    pub q_x: R,
+    /// qr = b_q_rms(X_p, E_p), a bound of rms(q).
+    pub q_rms: R,
+    /// q1 = b_qt_rms + b_qx x1 + b_qe qr, a bound of rms(dq/dt) along the solution; x1 = b_f(X_p,0) + b_fxx X_p^2 + b_fe E_p
+    /// is a bound of |x'|.
+    pub q_rate_rms: R,
+}
+
+impl<R: Real> PeriodicBounds<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// Evaluates the bounding functions.
+    ///
+    /// Guarantee: when (X_p, E_p) lies in the domain, every member bounds what it says for all T-periodic (x, e) of
+    /// the set |x| <= X_p, |e| <= E_p, |x'| <= x1, rms(e') <= qr.
+    #[must_use]
+    pub fn new(problem: &impl Problem<R>, x_p: R, e_p: R) -> PeriodicBounds<R> {
+        let state = StateBounds::new(problem, x_p, e_p);
+        let StateBounds { x_p, e_p, f_e, f_xx, .. } = &state;
+        let at_box = |which| problem.bound(which, x_p, e_p);
+        let (q_e, q_x, q_rms) = (at_box(Bound::Qe), at_box(Bound::Qx), at_box(Bound::QRms));
+        let x_rate = problem.bound(Bound::F, x_p, &R::int(0)) + f_xx * x_p.sqr() + f_e * e_p;
+        let q_rate_rms = at_box(Bound::QtRms) + &q_x * x_rate + &q_e * &q_rms;
+        PeriodicBounds { state, q_e, q_x, q_rms, q_rate_rms }
+    }
+
     /// The contraction matrix with gain k (c or K_alpha), `factor` 1 (sharp) or 2 (P:eq:def_ypsilon) in front of
     /// b_fxx X_p, and `error_gain` beta_s(sigma) or beta(sigma).
     #[must_use]
     pub fn contraction(&self, problem: &impl Problem<R>, k: &R, factor: i64, error_gain: &R) -> ContractionMatrix<R> {
-        let gain = k / &problem.numbers().alpha;
         ContractionMatrix {
-            xx: &gain * (&self.f_ex * &self.e_p + R::int(factor) * (&self.f_xx * &self.x_p)),
-            xe: gain * &self.f_e,
+            xx: self.state.contraction_xx(problem, k, factor),
+            xe: k / &problem.numbers().alpha * &self.state.f_e,
             ex: error_gain * &self.q_x,
             ee: error_gain * &self.q_e,
         }
@@ -90,7 +113,7 @@ where
     #[must_use]
     pub fn z_squared_printed(&self, problem: &impl Problem<R>, kappa_0: &R, kappa_1: &R) -> R {
         let Numbers { period, mu, .. } = problem.numbers();
-        let at_box = |which| problem.bound(which, &self.x_p, &self.e_p);
+        let at_box = |which| problem.bound(which, &self.state.x_p, &self.state.e_p);
         (period / mu + kappa_0 + R::int(54) * (kappa_1 * self.q_e.sqr())) * at_box(Bound::Q).sqr()
             + R::int(3) * (kappa_1 * (at_box(Bound::Qt).sqr() + self.q_x.sqr() * at_box(Bound::F).sqr()))
     }
@@ -98,7 +121,7 @@ where
     /// b_q(X_p, E_p), which the paper has in place of the root mean square.
     #[must_use]
     pub fn q(&self, problem: &impl Problem<R>) -> R {
-        problem.bound(Bound::Q, &self.x_p, &self.e_p)
+        problem.bound(Bound::Q, &self.state.x_p, &self.state.e_p)
     }
 }
 
@@ -135,8 +158,8 @@ where
     pub fn new(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>, sigma: &R) -> PeriodicSolution<R> {
         let by_size = gains::beta_s(sigma, &problem.numbers().period) * &bounds.q_rms;
         let by_rate = gains::tau(sigma, &problem.numbers().period) * &bounds.q_rate_rms;
-        let e_per = bounds.e_p.min(&by_size).min(&by_rate);
-        let x_per = bounds.x_p.min(&(x_per_gain(problem, bounds) * &e_per));
+        let e_per = bounds.state.e_p.min(&by_size).min(&by_rate);
+        let x_per = bounds.state.x_p.min(&(x_per_gain(problem, bounds) * &e_per));
         PeriodicSolution { by_size, by_rate, e_per, x_per }
     }
 }
@@ -149,7 +172,7 @@ where
 {
     // Lemma K of the derivation: c in place of K_alpha.
     let Numbers { c, alpha, .. } = problem.numbers();
-    c / alpha * &bounds.f_e / (R::int(1) - bounds.quadratic_share(problem, c))
+    c / alpha * &bounds.state.f_e / (R::int(1) - bounds.state.quadratic_share(problem, c))
 }
 
 /// The infima of the sigma with C2 and C3 at (X_p, E_p), each by itself.
@@ -170,8 +193,8 @@ where
     #[must_use]
     pub fn sharp(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>) -> LeastSigma<R> {
         let Numbers { period, c, .. } = problem.numbers();
-        let by_size = reached(&bounds.e_p, &bounds.q_rms, |level| gains::beta_s_inverse(level, period));
-        let by_rate = reached(&bounds.e_p, &bounds.q_rate_rms, |level| gains::tau_inverse(level, period));
+        let by_size = reached(&bounds.state.e_p, &bounds.q_rms, |level| gains::beta_s_inverse(level, period));
+        let by_rate = reached(&bounds.state.e_p, &bounds.q_rate_rms, |level| gains::tau_inverse(level, period));
         let [free, demand] = contraction_level(&bounds.contraction(problem, c, 1, &R::int(1)));
         let by_contraction = reached(&free, &demand, |level| gains::beta_s_inverse(level, period));
         LeastSigma { by_size: by_size.min(&by_rate), by_contraction }
@@ -182,7 +205,7 @@ where
     #[must_use]
     pub fn repaired(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>) -> LeastSigma<R> {
         let Numbers { period, c, alpha, .. } = problem.numbers();
-        let by_size = reached(&bounds.e_p, &bounds.q(problem), |level| gains::beta_inverse(level, period));
+        let by_size = reached(&bounds.state.e_p, &bounds.q(problem), |level| gains::beta_inverse(level, period));
         let k = gains::k_alpha(c, alpha, period);
         let [free, demand] = contraction_level(&bounds.contraction(problem, &k, 2, &R::int(1)));
         let by_contraction = reached(&free, &demand, |level| gains::beta_inverse(level, period));

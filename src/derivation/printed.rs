@@ -157,16 +157,16 @@ where
     let Numbers { period, c, alpha, .. } = problem.numbers();
     let k = gains::k_alpha(c, alpha, period);
     let gain = &k / alpha;
-    if (bounds.invariance_lhs(problem, &k) - &bounds.x_p).is_certainly_positive() {
+    if (bounds.state.invariance_lhs(problem, &k) - &bounds.state.x_p).is_certainly_positive() {
         return Err(Infeasible::Existence { what: "(12)" });
     }
-    let bracket = &bounds.f_ex * &bounds.e_p + R::int(2) * (&bounds.f_xx * &bounds.x_p);
+    let bracket = &bounds.state.f_ex * &bounds.state.e_p + R::int(2) * (&bounds.state.f_xx * &bounds.state.x_p);
     let free = R::int(1) - &gain * &bracket;
     if free.is_zero() || (-free.clone()).is_certainly_positive() {
         return Err(Infeasible::Existence { what: "(14)" });
     }
-    let determinant = gain * (&bounds.f_e * &bounds.q_x - &bracket * &bounds.q_e);
-    let mut sigma = gains::beta_inverse(&(&bounds.e_p / bounds.q(problem)), period);
+    let determinant = gain * (&bounds.state.f_e * &bounds.q_x - &bracket * &bounds.q_e);
+    let mut sigma = gains::beta_inverse(&(&bounds.state.e_p / bounds.q(problem)), period);
     let second = &bounds.q_e + &determinant;
     if second.is_certainly_positive() {
         sigma = sigma.max(&gains::beta_inverse(&(free / second), period));

@@ -105,7 +105,7 @@ impl RepairedEvaluation {
         conditions.push(Condition::at_most(
             "C1",
             "(K_alpha/alpha)(b_fe E + b_fxx X^2/2) <= X",
-            bounds.invariance_lhs(data, &k),
+            bounds.state.invariance_lhs(data, &k),
             x.clone(),
         ));
         conditions.push(Condition::at_most("C2", "beta(sigma) b_q <= E", &beta * bounds.q(data), e.clone()));

@@ -127,7 +127,11 @@ impl SharpEvaluation {
             ],
         );
         conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
-        conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
+        conditions.extend(domain_conditions(
+            data,
+            bounds.state.x_p.max(&error_box.x_b),
+            bounds.state.e_p.max(&error_box.e_b),
+        ));
         let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer);
         conditions.push(Condition::at_most(
             "T",
@@ -138,20 +142,20 @@ impl SharpEvaluation {
         conditions.push(Condition::at_most(
             "C1",
             "(c/alpha)(b_fe E_p + b_fxx X_p^2/2) <= X_p",
-            bounds.invariance_lhs(data, k),
-            bounds.x_p.clone(),
+            bounds.state.invariance_lhs(data, k),
+            bounds.state.x_p.clone(),
         ));
         conditions.push(Condition::less(
             "C1b",
             "(c/alpha) b_fxx X_p/2 < 1",
-            bounds.quadratic_share(data, k),
+            bounds.state.quadratic_share(data, k),
             Enclosure::one(data.precision),
         ));
         conditions.push(Condition::at_most(
             "C2",
             "min{beta_s(sigma) qr, tau(sigma) q1} <= E_p",
             periodic.by_size.min(&periodic.by_rate),
-            bounds.e_p.clone(),
+            bounds.state.e_p.clone(),
         ));
         let (p_x, p_e) = (number(&witness.p_x), number(&witness.p_e));
         let matrix = bounds.contraction(data, k, 1, &gains::beta_s(&sigma, &data.period));

@@ -125,7 +125,7 @@ impl Claim {
         let [x_p, e_p] = &self.witness;
         let bounds = PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p));
         let sigma = data.rational(&Rational::from_f64(sigma)?);
-        let e_per: Enclosure = bounds.e_p.clone();
+        let e_per: Enclosure = bounds.state.e_p.clone();
         let ErrorBounds { rms, sup } = error_bounds(&data, &bounds, &sigma, &e_per, u64::from(n_o));
         Some([rms.upper_f64(), sup.upper_f64()])
     }

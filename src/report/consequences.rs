@@ -81,7 +81,7 @@ impl Consequences {
                 let proof = run.repaired.proved()?;
                 let evaluation = &proof.evaluation;
                 // The repaired conditions imply C1-C3 with E in place of e_per.
-                (&evaluation.bounds, &evaluation.sigma, &evaluation.bounds.e_p, proof.precision)
+                (&evaluation.bounds, &evaluation.sigma, &evaluation.bounds.state.e_p, proof.precision)
             }
             Derivation::Printed => return None,
         };

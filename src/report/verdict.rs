@@ -107,7 +107,7 @@ pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2
             let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.sharp else { return None };
             let evaluation = &proof.evaluation;
             let (x, e) = (&evaluation.error_box.x_b, &evaluation.error_box.e_b);
-            [evaluation.bounds.x_p.max(x), evaluation.bounds.e_p.max(e)]
+            [evaluation.bounds.state.x_p.max(x), evaluation.bounds.state.e_p.max(e)]
         }
         Derivation::Repaired => {
             let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.repaired else { return None };

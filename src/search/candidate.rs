@@ -2,7 +2,8 @@
 
 use super::model::FloatModel;
 use super::root::crossing;
-use crate::derivation::existence::{LeastSigma, PeriodicBounds, PeriodicSolution, kappas};
+use super::scan;
+use crate::derivation::existence::{LeastSigma, PeriodicBounds, PeriodicSolution, StateBounds, kappas};
 use crate::derivation::gains;
 use crate::derivation::initial_set::distances;
 use crate::derivation::stability::{DecayCondition, ErrorBox};
@@ -101,11 +102,12 @@ impl Existence {
     /// C1-C3 and Z at (X_p, E_p).
     pub fn new(model: &FloatModel, x_p: f64, e_p: f64) -> Result<Existence, Obstacle> {
         let bounds = PeriodicBounds::new(model, x_p, e_p);
-        let PeriodicBounds { f_xx, f_e, f_ex, q_e, q_x, q_rms, q_rate_rms, .. } = &bounds;
-        if ![f_xx, f_e, f_ex, q_e, q_x, q_rms, q_rate_rms].iter().all(|v| v.is_finite()) {
+        let PeriodicBounds { state, q_e, q_x, q_rms, q_rate_rms } = &bounds;
+        if ![&state.f_xx, &state.f_e, &state.f_ex, q_e, q_x, q_rms, q_rate_rms].iter().all(|v| v.is_finite()) {
             return Err(Obstacle::NotFinite);
         }
-        if !(demand(model, &bounds) <= 1.0 && bounds.quadratic_share(model, &model.c) < 1.0) {
+        let admitted = demand(model, state, model.c, 1) <= 1.0 && state.quadratic_share(model, &model.c) < 1.0;
+        if !admitted {
             return Err(Obstacle::Existence);
         }
         // What a unit of k0 and of k1 adds to Z^2.
@@ -123,7 +125,7 @@ impl Existence {
 
     /// E_p.
     pub fn e_p(&self) -> f64 {
-        self.bounds.e_p
+        self.bounds.state.e_p
     }
 
     /// Whether C2, rather than C3, sets the least sigma.
@@ -134,17 +136,17 @@ impl Existence {
     /// Weights p_x, p_e for C3.
     pub fn perron(&self, model: &FloatModel, sigma: f64) -> [f64; 2] {
         let matrix = self.bounds.contraction(model, &model.c, 1, &gains::beta_s(&sigma, &model.period));
-        matrix.perron_weights(&self.bounds.x_p.recip(), &self.bounds.e_p.recip())
+        matrix.perron_weights(&self.bounds.state.x_p.recip(), &self.bounds.state.e_p.recip())
     }
 
     /// The error box and the threshold of C5 at sigma.
     pub fn at_sigma(&self, model: &FloatModel, rho: f64, eta: f64, sigma: f64) -> Result<AtSigma, Obstacle> {
         let PeriodicSolution { x_per, e_per, .. } = PeriodicSolution::new(model, &self.bounds, &sigma);
-        let [x0, e0, z0] = model.required_set(self.bounds.x_p, self.bounds.e_p, self.z);
+        let [x0, e0, z0] = model.required_set(self.bounds.state.x_p, self.bounds.state.e_p, self.z);
         let [dist_x, dist_e, dist_z] = distances(model, [&x0, &e0, &z0], [&x_per, &e_per, &self.z]);
         // Floors keep the box open where a distance is 0; a larger distance only strengthens C4.
-        let dist_x = dist_x.max(FLOOR * self.bounds.x_p);
-        let dist_e = dist_e.max(FLOOR * self.bounds.e_p);
+        let dist_x = dist_x.max(FLOOR * self.bounds.state.x_p);
+        let dist_e = dist_e.max(FLOOR * self.bounds.state.e_p);
         let dist_z = dist_z.max(FLOOR * model.n_bar * dist_e);
         error_box(model, (x_per, e_per), [dist_x, dist_e, dist_z], rho, eta)
     }
@@ -153,7 +155,7 @@ impl Existence {
     /// 1/(4 ht) of C5 with the largest h; nor any that is negligible beside every rate in the data, since where nothing in
     /// them needs a gain the infimum is 0.
     pub fn least(&self, model: &FloatModel, eta: f64) -> f64 {
-        let (x_p, e_p) = (self.bounds.x_p, self.bounds.e_p);
+        let (x_p, e_p) = (self.bounds.state.x_p, self.bounds.state.e_p);
         let [_, e0, z0] = model.required_set(x_p, e_p, self.z);
         // The largest dE and the smallest dZ of `at_sigma`.
         let dist_e = (e0 + e_p).max(FLOOR * e_p);
@@ -196,11 +198,17 @@ impl Existence {
     }
 }
 
-/// The larger one of the two shares of C1 and of A < 1, to be at most 1 (A with room for rounding).
-pub fn demand(model: &FloatModel, bounds: &PeriodicBounds<f64>) -> f64 {
-    let invariance = bounds.invariance_lhs(model, &model.c) / bounds.x_p;
-    let contraction = bounds.contraction(model, &model.c, 1, &0.0).xx / BELOW_ONE;
+/// The larger one of the two shares of C1 and of a first entry of the contraction matrix below 1 (with room for rounding), to
+/// be at most 1: k = c and `factor` 1 for the sharp derivation, K_alpha and 2 for the others.
+pub fn demand(model: &FloatModel, state: &StateBounds<f64>, k: f64, factor: i64) -> f64 {
+    let invariance = state.invariance_lhs(model, &k) / state.x_p;
+    let contraction = state.contraction_xx(model, &k, factor) / BELOW_ONE;
     if invariance >= contraction || invariance.is_nan() { invariance } else { contraction }
+}
+
+/// The largest E with a demand of at most 1 at X.
+pub fn largest_e(model: &FloatModel, x: f64, k: f64, factor: i64) -> Option<f64> {
+    scan::largest(|e| demand(model, &StateBounds::new(model, x, e), k, factor), model.domain.1)
 }
 
 /// h with h dZ^2 = eta dE^2.

@@ -1,5 +1,7 @@
 //! How thorough a search is: less so for long bounding functions, so that the work stays bounded.
 
+use super::minimise::Descent;
+
 /// Operations of all bounding functions together up to which a search is thorough.
 const THOROUGH: usize = 600;
 
@@ -17,6 +19,8 @@ pub struct Effort {
     pub shapes: usize,
     /// Scanned candidates that are refined.
     pub refined: usize,
+    /// Of these, those that are refined to the last digit.
+    pub finished: usize,
     /// Restarts of a refinement, out of those that are asked for.
     pub restarts_share: usize,
     /// Iterations of a refinement between restarts.
@@ -33,15 +37,22 @@ impl Effort {
             e_step: less.div_ceil(4).min(4),
             shapes: if less == 1 { 6 } else { (4 / less).max(1) },
             refined: (10 / less).max(1),
+            finished: (3 / less).max(1),
             restarts_share: less,
             iterations: (400 / less as u64).max(40),
         }
     }
 
-    /// The restarts of a refinement for which so many are asked.
+    /// A refinement to the last digit, for which so many restarts are asked.
     #[must_use]
-    pub fn restarts(self, asked: usize) -> usize {
-        asked / self.restarts_share
+    pub fn descent(self, restarts: usize) -> Descent {
+        Descent { restarts: restarts / self.restarts_share, iterations: self.iterations, tolerance: 1e-11 }
+    }
+
+    /// A refinement that only tells which candidates are worth one.
+    #[must_use]
+    pub fn rough_descent(self) -> Descent {
+        Descent { tolerance: 1e-4, ..self.descent(1) }
     }
 
     /// Whether every datum is worth a refinement of its own, to see its influence.
@@ -68,6 +79,6 @@ mod tests {
             assert!(work(operations) <= 2 * thorough, "{operations}: {}", work(operations));
         }
         assert_eq!(Effort::new(0), Effort::new(THOROUGH));
-        assert_eq!(Effort::new(1).restarts(12), 12);
+        assert_eq!(Effort::new(1).descent(12).restarts, 12);
     }
 }

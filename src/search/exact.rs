@@ -29,12 +29,6 @@ pub fn search_exact(model: &FloatModel, distances: [f64; 3]) -> Result<AtSigma, 
     let effort = model.effort();
     let decode = |p: &[f64]| evaluate(1.0 + p[0].portable_exp().max(1e-6), p[1].portable_exp()).ok();
     let first = [(start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
-    let refined = minimise(
-        |p| decode(p).map(|at| at.threshold.portable_ln()),
-        &first,
-        &[0.4, 0.4],
-        effort.restarts(8),
-        effort.iterations,
-    );
+    let refined = minimise(|p| decode(p).map(|at| at.threshold.portable_ln()), &first, &[0.4, 0.4], effort.descent(8));
     Ok(refined.and_then(|(best, _)| decode(&best)).filter(|at| at.threshold <= start.threshold).unwrap_or(start))
 }

@@ -20,5 +20,5 @@ pub use exact::search_exact;
 pub use model::{Datum, FloatModel};
 pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
-pub use sharp::{SharpProposal, at_sigma, largest_e, search_sharp, search_sharp_near, sensitivities};
+pub use sharp::{SharpProposal, at_sigma, largest_e_sharp, search_sharp, search_sharp_near, sensitivities};
 pub use smaller_set::{SmallerSet, smaller_set};

@@ -64,12 +64,6 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
     };
     let depth = (largest_e(start.x_a)? / start.e_a).portable_ln().max(1e-9);
     let first = [start.x_a.portable_ln(), parameter_of(depth), (-share.portable_ln()).sqrt()];
-    let refined = minimise(
-        |p| decode(p).map(|f| f.sigma.portable_ln()),
-        &first,
-        &[0.3, 0.5, 0.3],
-        effort.restarts(6),
-        effort.iterations,
-    );
+    let refined = minimise(|p| decode(p).map(|f| f.sigma.portable_ln()), &first, &[0.3, 0.5, 0.3], effort.descent(6));
     refined.and_then(|(best, _)| decode(&best)).filter(|best| best.sigma <= start.sigma).or(Some(start))
 }

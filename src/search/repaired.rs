@@ -1,6 +1,6 @@
 //! The search of the repaired derivation: X, E, L, h that make sigma* small.
 
-use super::candidate::{BELOW_ONE, Obstacle, SharpParameters, weight_h};
+use super::candidate::{BELOW_ONE, Obstacle, SharpParameters, demand, largest_e, weight_h};
 use super::minimise::minimise;
 use super::model::FloatModel;
 use super::scan;
@@ -10,6 +10,7 @@ use crate::derivation::gains::{beta, k_alpha};
 use crate::derivation::initial_set::distances;
 use crate::derivation::lyapunov_matrix::{LyapunovMatrix, LyapunovPoint};
 use crate::number::Portable;
+use std::cmp::Ordering;
 
 /// The free numbers of the repaired derivation in floating point.
 #[derive(Clone, Copy, Debug)]
@@ -38,18 +39,10 @@ fn k_of(model: &FloatModel) -> f64 {
     k_alpha(&model.c, &model.alpha, &model.period)
 }
 
-/// The larger one of the two shares of C1 and of Y_xx < 1, to be at most 1 (Y_xx with room for rounding).
-fn demand(model: &FloatModel, bounds: &PeriodicBounds<f64>) -> f64 {
-    let k = k_of(model);
-    let invariance = bounds.invariance_lhs(model, &k) / bounds.x_p;
-    let contraction = bounds.contraction(model, &k, 2, &0.0).xx / BELOW_ONE;
-    if invariance >= contraction || invariance.is_nan() { invariance } else { contraction }
-}
-
 /// All quantities for given X, E and eta with h dZ^2 = eta dE^2.
 fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProposal, Obstacle> {
     let bounds = PeriodicBounds::new(model, x, e);
-    if !(demand(model, &bounds) <= 1.0) {
+    if demand(model, &bounds.state, k_of(model), 2).partial_cmp(&1.0).is_none_or(Ordering::is_gt) {
         return Err(Obstacle::Existence);
     }
     let pair = model.trade_off.best(1.0, 1.0);
@@ -84,7 +77,7 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
 /// The largest E with C1 and the first diagonal entry of the contraction matrix below 1.
 #[must_use]
 pub fn largest_e_repaired(model: &FloatModel, x: f64) -> Option<f64> {
-    scan::largest(|e| demand(model, &PeriodicBounds::new(model, x, e)), model.domain.1)
+    largest_e(model, x, k_of(model), 2)
 }
 
 /// Weights p_x, p_e for C3 at sigma.
@@ -142,8 +135,7 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
             |p| decode(p).map(|f| f.sigma.portable_ln() + scan::preference(f.x) + scan::preference(f.e)),
             &first,
             &[0.3, 0.5, 0.5],
-            effort.restarts(6),
-            effort.iterations,
+            effort.descent(6),
         )?;
         decode(&best)
     });

@@ -1,10 +1,9 @@
 //! The search of the sharp derivation: X_p, E_p, rho, eta that make sigma* small.
 
-use super::candidate::{AtSigma, Existence, Obstacle, SharpParameters, demand};
-use super::minimise::minimise;
+use super::candidate::{AtSigma, Existence, Obstacle, SharpParameters, largest_e};
+use super::minimise::{Descent, minimise};
 use super::model::{Datum, FloatModel};
 use super::scan;
-use crate::derivation::existence::PeriodicBounds;
 use crate::number::Portable;
 
 /// The best candidate of a search.
@@ -45,9 +44,13 @@ pub fn search_sharp(model: &FloatModel, known: &[SharpParameters]) -> Result<Sha
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(unusual(&a.1).total_cmp(&unusual(&b.1))));
     let mut starts = spread(&found, effort.refined);
     starts.extend(known);
-    let refined = scan::evaluate_all(&starts, |start| refine(model, start, 6));
+    let rough = scan::evaluate_all(&starts, |start| refine(model, start, effort.rough_descent()));
+    let mut rough: Vec<_> = rough.into_iter().flatten().collect();
+    rough.sort_by(|a, b| a.1.total_cmp(&b.1));
+    rough.truncate(effort.finished);
+    let refined = scan::evaluate_all(&rough, |(start, _)| refine(model, start, effort.descent(6)));
     let best = refined.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(closest)?;
-    let best = refine(model, &best.0, 12).filter(|again| again.1 < best.1).unwrap_or(best);
+    let best = refine(model, &best.0, effort.descent(12)).filter(|again| again.1 < best.1).unwrap_or(best);
     proposal(model, best.0)
 }
 
@@ -62,7 +65,7 @@ pub fn any_candidate(model: &FloatModel) -> bool {
 /// feasible here. For many similar problems, of which only the first is worth a search.
 #[must_use]
 pub fn search_sharp_near(model: &FloatModel, start: &SharpParameters) -> Option<SharpProposal> {
-    let (best, _) = refine(model, start, 6)?;
+    let (best, _) = refine(model, start, model.effort().descent(6))?;
     proposal(model, best).ok()
 }
 
@@ -88,13 +91,13 @@ fn spread(found: &[(f64, SharpParameters)], count: usize) -> Vec<SharpParameters
 
 /// The largest E_p with C1 and A < 1 at X_p.
 #[must_use]
-pub fn largest_e(model: &FloatModel, x_p: f64) -> Option<f64> {
-    scan::largest(|e| demand(model, &PeriodicBounds::new(model, x_p, e)), model.domain.1)
+pub fn largest_e_sharp(model: &FloatModel, x_p: f64) -> Option<f64> {
+    largest_e(model, x_p, model.c, 1)
 }
 
 /// The best candidates for one X_p, or the closest obstacle.
 fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters)>, Obstacle> {
-    let e_max = largest_e(model, x_p).ok_or(Obstacle::Existence)?;
+    let e_max = largest_e_sharp(model, x_p).ok_or(Obstacle::Existence)?;
     let effort = model.effort();
     let mut closest = Obstacle::Existence;
     let mut found = Vec::new();
@@ -136,10 +139,10 @@ pub(super) fn parameter_of(depth: f64) -> f64 {
 }
 
 /// Minimises ln sigma over (ln X_p, ln of E_p's depth, ln(rho - 1), ln eta) from a start.
-fn refine(model: &FloatModel, start: &SharpParameters, restarts: usize) -> Option<(SharpParameters, f64)> {
+fn refine(model: &FloatModel, start: &SharpParameters, descent: Descent) -> Option<(SharpParameters, f64)> {
     let decode = |p: &[f64]| {
         let x_p = scan::in_range(p[0].portable_exp())?;
-        let e_p = largest_e(model, x_p)? * (-depth_of(p[1])).portable_exp();
+        let e_p = largest_e_sharp(model, x_p)? * (-depth_of(p[1])).portable_exp();
         // rho too close to 1 would leave no room between the two members of C4.
         let excess = p[2].portable_exp().max(1e-6);
         Some(SharpParameters { x_p, e_p, rho: 1.0 + excess, eta: p[3].portable_exp() })
@@ -150,11 +153,10 @@ fn refine(model: &FloatModel, start: &SharpParameters, restarts: usize) -> Optio
         let sigma = existence.sigma(model, parameters.rho, parameters.eta, 1e-12).ok()?;
         Some(sigma.portable_ln() + scan::preference(parameters.x_p) + scan::preference(parameters.e_p))
     };
-    let depth = (largest_e(model, start.x_p)? / start.e_p).portable_ln().max(1e-9);
+    let depth = (largest_e_sharp(model, start.x_p)? / start.e_p).portable_ln().max(1e-9);
     let first =
         [start.x_p.portable_ln(), parameter_of(depth), (start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
-    let effort = model.effort();
-    let (best, value) = minimise(cost, &first, &[0.3, 0.5, 0.5, 0.5], effort.restarts(restarts), effort.iterations)?;
+    let (best, value) = minimise(cost, &first, &[0.3, 0.5, 0.5, 0.5], descent)?;
     Some((decode(&best)?, value))
 }
 
@@ -193,8 +195,8 @@ pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum
     }
     scan::evaluate_all(&Datum::ALL, |&datum| {
         let improved = model.improved(datum, 0.01);
-        let gain =
-            refine(&improved, &proposal.parameters, 1).map_or(0.0, |(_, ln)| 1.0 - ln.portable_exp() / proposal.sigma);
+        let gain = refine(&improved, &proposal.parameters, model.effort().descent(1))
+            .map_or(0.0, |(_, ln)| 1.0 - ln.portable_exp() / proposal.sigma);
         (datum, gain.max(0.0))
     })
 }

@@ -142,7 +142,8 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
     let paper_r_e = common.bounds.q(data) + n_bar * &common.z_printed;
     let repaired_r_e = common.bounds.q(data) + &data.mu * n_bar * &common.z_repaired;
     let k = &common.k_alpha;
-    let gain = k * &common.bounds.f_e / (&data.alpha - k * &common.bounds.f_xx * &common.bounds.x_p / 2);
+    let gain =
+        k * &common.bounds.state.f_e / (&data.alpha - k * &common.bounds.state.f_xx * &common.bounds.state.x_p / 2);
     let psi = Psi::new(data, &common.bounds);
     rows.push(row(
         "r_e = psi_1",

@@ -98,9 +98,9 @@ fn largest_x(data: &Data<'_>, gain: &Enclosure, factor: i64) -> Option<Value> {
 /// The largest E with the two conditions of e_p*(X_p); factor 2 (paper) or 1 (sharp) in front of b_fxx X_p.
 fn largest_e(data: &Data<'_>, gain: &Enclosure, factor: i64, bounds: &PeriodicBounds<Enclosure>) -> Option<Value> {
     let limit = data.spec.domain.as_ref().and_then(|domain| domain.e.as_rational().cloned());
-    let x_p = &bounds.x_p;
-    let invariance = &data.alpha / gain * x_p - &bounds.f_xx * x_p.sqr() / 2;
-    let contraction = &data.alpha / gain - factor * (&bounds.f_xx * x_p);
+    let x_p = &bounds.state.x_p;
+    let invariance = &data.alpha / gain * x_p - &bounds.state.f_xx * x_p.sqr() / 2;
+    let contraction = &data.alpha / gain - factor * (&bounds.state.f_xx * x_p);
     threshold(data, limit, |e| {
         (e * data.bound(Bound::Fe, x_p, e)).le(&invariance).and((e * data.bound(Bound::Fex, x_p, e)).lt(&contraction))
     })
