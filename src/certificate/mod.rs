@@ -3,6 +3,7 @@
 mod best;
 mod bounding;
 mod decide;
+mod figures;
 mod lyapunov;
 mod matrix_checks;
 mod no_plant;

@@ -3,6 +3,7 @@
 use super::best::{best_sharp, model, not_above};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::{decide_exact, decide_repaired, decide_sharp};
+use super::figures::Figures;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
 use super::read::WitnessFile;
@@ -18,8 +19,7 @@ use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::printed::{PrintedEvaluation, level_condition};
 use crate::derivation::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
-use crate::derivation::table::{Row, TableInput, table};
+use crate::derivation::sharp::{SharpEvaluation, SharpWitness};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
@@ -173,7 +173,9 @@ fn assemble<'s>(
         Derivation::Printed if printed.refutation.is_some() => Verdict::Refuted,
         Derivation::Printed => Verdict::Undecided,
     };
-    let constants = constants(data, &sharp, &repaired, &printed, exact.as_ref());
+    let figures = Figures { sharp, repaired, printed: &printed, exact: exact.as_ref() };
+    let (figures, constants) = figures.evaluated(spec, data.precision, options.ladder);
+    let Figures { sharp, repaired, .. } = figures;
     let mut sensitivities = match (&sharp, &proposal) {
         (Outcome::Proved(_), Some(proposal)) => sensitivities(model, proposal),
         _ => Vec::new(),
@@ -191,7 +193,7 @@ fn assemble<'s>(
         options,
         verdict,
         binding: proposal.map(|proposal| proposal.binding),
-        precision: data.precision,
+        precision: constants.precision,
         sharp,
         repaired,
         printed,
@@ -202,7 +204,7 @@ fn assemble<'s>(
         no_plant,
         sensitivities,
         unproved_bounds: unproved,
-        constants,
+        constants: constants.rows,
     }
 }
 
@@ -304,47 +306,4 @@ fn printed_figure(data: &Data<'_>, model: &FloatModel) -> PrintedFigure {
         .as_ref()
         .and_then(|evaluation| Some(evaluation.sigma_p.as_ref().ok()?.max(evaluation.sigma_a.as_ref().ok()?)));
     PrintedFigure { refutation, evaluation, sigma: sigma.filter(Enclosure::is_bounded) }
-}
-
-/// The table, at the witness of the sharp derivation or, failing that, of the repaired one.
-fn constants(
-    data: &Data<'_>,
-    sharp: &Outcome<SharpProof>,
-    repaired: &Outcome<RepairedProof>,
-    printed: &PrintedFigure,
-    exact: Option<&ExactClaim>,
-) -> Vec<Row> {
-    let (sharp, repaired) = (sharp.proved(), repaired.proved());
-    let common = match (sharp, repaired) {
-        (Some(proof), _) => {
-            let w = &proof.witness;
-            Some(([w.x_p.clone(), w.e_p.clone(), w.sigma.clone()], (w.k0.clone(), w.k1.clone())))
-        }
-        (None, Some(proof)) => {
-            let w = &proof.witness;
-            Some(([w.x.clone(), w.e.clone(), w.sigma.clone()], (w.k0.clone(), w.k1.clone())))
-        }
-        (None, None) => None,
-    };
-    let Some((common, sharp_pair)) = common else { return Vec::new() };
-    let numbers = |set: &ClaimedSet| [set.x0.clone(), set.e0.clone(), set.z0.clone()];
-    table(&TableInput {
-        data,
-        common,
-        sharp_pair,
-        sharp: sharp.map(|proof| &proof.evaluation),
-        sharp_free: sharp.map(|proof| {
-            let w = &proof.witness;
-            [w.h.clone(), w.w_x.clone(), w.d_x.clone(), w.d_e.clone()]
-        }),
-        sets: [repaired.map(|proof| numbers(&proof.witness.set)), sharp.map(|proof| numbers(&proof.witness.set))],
-        repaired: repaired.map(|proof| &proof.evaluation),
-        printed: printed.evaluation.as_ref(),
-        sigmas: [
-            printed.sigma.clone(),
-            repaired.map(|proof| data.rational(&proof.witness.sigma)),
-            sharp.map(|proof| data.rational(&proof.witness.sigma)),
-        ],
-        sigma_exact: exact.map(|claim| claim.witness.sigma.clone()),
-    })
 }

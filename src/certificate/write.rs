@@ -317,7 +317,7 @@ pub fn constants_json(rows: &[Row]) -> Value {
 
 fn entry_json(entry: &Entry) -> Value {
     let (name, value) = match &entry.value {
-        Cell::Number(value) => ("value", interval(value)),
+        Cell::Number(value) | Cell::Span(value) => ("value", interval(value)),
         Cell::Infeasible(reason) | Cell::Unavailable(reason) => ("reason", text(reason.clone())),
     };
     object([(name, value), ("status", text(entry.status.name())), ("source", text(entry.source))])

@@ -56,7 +56,7 @@ fn heading(at: At) -> &'static str {
 fn cells(row: &Row, notes: &mut Vec<(String, Vec<String>)>) -> [String; 6] {
     let mut cell = |derivation: &str, entry: &Option<Entry>| match entry {
         None => "-".to_owned(),
-        Some(Entry { value: Value::Number(value), status, .. }) => {
+        Some(Entry { value: Value::Number(value) | Value::Span(value), status, .. }) => {
             let mark = if *status == Status::Sound { "" } else { " (!)" };
             format!("{}{mark}", compact(value))
         }

@@ -177,10 +177,10 @@ impl Existence {
             return Ok(least);
         }
         let high = loop {
-            // The threshold hardly depends on sigma: what it asks for here is nearly enough.
+            // The threshold hardly depends on sigma: where that is near, what it asks for here is enough.
             let asked = low.1.map_or(0.0, |value| low.0 * value.portable_exp() * (1.0 + 1e-9));
             let leap = if low.0 > 1e12 * least { 4e6 } else { 4.0 };
-            let next = if asked > low.0 && asked < 1e280 { asked } else { low.0 * leap };
+            let next = if asked > low.0 && asked < low.0 * leap { asked } else { low.0 * leap };
             let found = (next, excess(next));
             match found.1 {
                 Ok(value) if value <= 0.0 => break (next, value),

@@ -37,7 +37,7 @@ impl Effort {
             e_step: less.div_ceil(4).min(4),
             shapes: if less == 1 { 6 } else { (4 / less).max(1) },
             refined: (10 / less).max(1),
-            finished: (3 / less).max(1),
+            finished: (4 / less).max(1),
             restarts_share: less,
             iterations: (400 / less as u64).max(40),
         }
@@ -52,7 +52,7 @@ impl Effort {
     /// A refinement that only tells which candidates are worth one.
     #[must_use]
     pub fn rough_descent(self) -> Descent {
-        Descent { tolerance: 1e-4, ..self.descent(1) }
+        Descent { tolerance: 1e-6, ..self.descent(3) }
     }
 
     /// Whether every datum is worth a refinement of its own, to see its influence.

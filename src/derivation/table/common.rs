@@ -1,6 +1,6 @@
 //! The rows in which all three derivations are evaluated at the same arguments.
 
-use super::{At, Row, Status, TableInput, number, printed, row, sound};
+use super::{At, Entry, Row, Status, TableInput, Value, number, printed, row, sound};
 use crate::data::Data;
 use crate::derivation::consequences::Psi;
 use crate::derivation::contraction::ContractionMatrix;
@@ -113,7 +113,8 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
     for m in [1, 2, 3] {
         if let Some((low, high)) = lambda_interval(transfer, m) {
             let name = format!("lambda interval, m = {m}");
-            rows.push(row(&name, At::Data, number(low.hull(&high), status, "P:eq:ineq_lambda"), None, None));
+            let span = Entry { value: Value::Span(low.hull(&high)), status, source: "P:eq:ineq_lambda" };
+            rows.push(row(&name, At::Data, Some(span), None, None));
         }
     }
     rows.push(row(

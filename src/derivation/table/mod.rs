@@ -15,8 +15,10 @@ use rug::Rational;
 /// A value of the table.
 #[derive(Clone, Debug)]
 pub enum Value {
-    /// An enclosure.
+    /// A number, enclosed.
     Number(Enclosure),
+    /// All numbers of an interval, enclosed.
+    Span(Enclosure),
     /// The defining condition has no solution.
     Infeasible(String),
     /// There is no value here, for the stated reason.

@@ -1,0 +1,119 @@
+//! What is reported of a proof beside its claim, at a precision at which it is known well.
+
+use super::decide::{Ladder, decide_repaired, decide_sharp};
+use super::run::{ExactClaim, Outcome, PrintedFigure, RepairedProof, SharpProof};
+use crate::data::Data;
+use crate::derivation::condition::Condition;
+use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::table::{Row, TableInput, Value, table};
+use crate::enclosure::Enclosure;
+use crate::spec::model::Specification;
+use rug::Rational;
+
+/// Binary digits that a reported number has, where the precision allows it.
+const DIGITS: u32 = 56;
+
+/// What the table of constants is made from.
+pub(super) struct Figures<'a> {
+    pub(super) sharp: Outcome<SharpProof>,
+    pub(super) repaired: Outcome<RepairedProof>,
+    pub(super) printed: &'a PrintedFigure,
+    pub(super) exact: Option<&'a ExactClaim>,
+}
+
+/// The table of constants, and the precision at which it was evaluated.
+pub(super) struct Table {
+    pub(super) precision: u32,
+    pub(super) rows: Vec<Row>,
+}
+
+impl Figures<'_> {
+    /// The proofs and the table, evaluated again at a doubled precision while a number is not known to [`DIGITS`]: where a
+    /// bounding function cancels, fewer bits decide a condition than tell its sides.
+    pub(super) fn evaluated(mut self, spec: &Specification, start: u32, ladder: Ladder) -> (Self, Table) {
+        let mut precision = start;
+        loop {
+            let rows = constants(&Data::new(spec, precision), &self);
+            if precision >= ladder.limit || !self.is_rough(&rows) {
+                return (self, Table { precision, rows });
+            }
+            precision = (2 * precision).min(ladder.limit);
+            let ladder = Ladder { start: precision, ..ladder };
+            if let Outcome::Proved(proof) = &mut self.sharp {
+                let (evaluation, decided_at) = decide_sharp(spec, &proof.witness, ladder);
+                if evaluation.truth().is_true() {
+                    (proof.evaluation, proof.precision) = (evaluation, decided_at);
+                }
+            }
+            if let Outcome::Proved(proof) = &mut self.repaired {
+                let (evaluation, decided_at) = decide_repaired(spec, &proof.witness, ladder);
+                if evaluation.truth().is_true() {
+                    (proof.evaluation, proof.precision) = (evaluation, decided_at);
+                }
+            }
+        }
+    }
+
+    fn is_rough(&self, rows: &[Row]) -> bool {
+        let cells = rows.iter().flat_map(|row| [&row.printed, &row.repaired, &row.sharp]).flatten();
+        let mut numbers = cells.filter_map(|cell| match &cell.value {
+            Value::Number(value) => Some(value),
+            Value::Span(_) | Value::Infeasible(_) | Value::Unavailable(_) => None,
+        });
+        let sides = |conditions: &[Condition]| conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs));
+        numbers.any(rough)
+            || self.sharp.proved().is_some_and(|proof| {
+                let periodic = &proof.evaluation.periodic;
+                rough(&periodic.x_per) || rough(&periodic.e_per) || sides(&proof.evaluation.conditions)
+            })
+            || self.repaired.proved().is_some_and(|proof| sides(&proof.evaluation.conditions))
+    }
+}
+
+/// Whether a number that has bounds is known to less than [`DIGITS`].
+fn rough(value: &Enclosure) -> bool {
+    if !value.is_bounded() {
+        return false;
+    }
+    let end = |end: &rug::Float| Enclosure::new(end.clone(), end.clone());
+    let width = end(value.upper()) - end(value.lower());
+    let unit = Enclosure::from_rational(&(Rational::from(1) >> DIGITS), DIGITS);
+    !width.le(&(value.abs().ceiling() * unit)).is_true()
+}
+
+/// The table, at the witness of the sharp derivation or, failing that, of the repaired one.
+fn constants(data: &Data<'_>, figures: &Figures<'_>) -> Vec<Row> {
+    let (sharp, repaired, printed) = (figures.sharp.proved(), figures.repaired.proved(), figures.printed);
+    let common = match (sharp, repaired) {
+        (Some(proof), _) => {
+            let w = &proof.witness;
+            Some(([w.x_p.clone(), w.e_p.clone(), w.sigma.clone()], (w.k0.clone(), w.k1.clone())))
+        }
+        (None, Some(proof)) => {
+            let w = &proof.witness;
+            Some(([w.x.clone(), w.e.clone(), w.sigma.clone()], (w.k0.clone(), w.k1.clone())))
+        }
+        (None, None) => None,
+    };
+    let Some((common, sharp_pair)) = common else { return Vec::new() };
+    let numbers = |set: &ClaimedSet| [set.x0.clone(), set.e0.clone(), set.z0.clone()];
+    table(&TableInput {
+        data,
+        common,
+        sharp_pair,
+        sharp: sharp.map(|proof| &proof.evaluation),
+        sharp_free: sharp.map(|proof| {
+            let w = &proof.witness;
+            [w.h.clone(), w.w_x.clone(), w.d_x.clone(), w.d_e.clone()]
+        }),
+        sets: [repaired.map(|proof| numbers(&proof.witness.set)), sharp.map(|proof| numbers(&proof.witness.set))],
+        repaired: repaired.map(|proof| &proof.evaluation),
+        printed: printed.evaluation.as_ref(),
+        sigmas: [
+            printed.sigma.clone(),
+            repaired.map(|proof| data.rational(&proof.witness.sigma)),
+            sharp.map(|proof| data.rational(&proof.witness.sigma)),
+        ],
+        sigma_exact: figures.exact.map(|claim| claim.witness.sigma.clone()),
+    })
+}
