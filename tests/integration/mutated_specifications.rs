@@ -4,7 +4,8 @@ use crate::mutants;
 use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify, resolve};
 use sigmastar::spec::Specification;
 
-/// Cases of an ordinary run; `SIGMASTAR_MUTANTS=FIRST..LAST` chooses other seeds.
+/// Cases of an ordinary run; with `SIGMASTAR_MUTANTS=FIRST..LAST cargo test --release --test integration mutated` the seeds
+/// are others.
 const SEEDS: std::ops::Range<u64> = 0..80;
 
 fn seeds() -> std::ops::Range<u64> {
