@@ -15,7 +15,7 @@ fn with_spectrum(n: usize, values: impl Fn(usize) -> f64) -> Mat<f64> {
     &scaled * q.transpose()
 }
 
-#[path = "../tests/sdpa/mod.rs"]
+#[path = "../tests/integration/sdpa/mod.rs"]
 #[allow(dead_code)]
 mod sdpa;
 

@@ -1,0 +1,136 @@
+//! Where each bounding function is taken: with functions that tell all arguments apart, against floating point.
+
+use crate::common::{BOXES, PAPER, certificate};
+use proofs_check::data::Data;
+use proofs_check::interval::Interval;
+use proofs_check::json::{Field, parse};
+use proofs_check::rules::existence::Existence;
+use proofs_check::rules::repaired;
+use proofs_check::rules::stability::ErrorBox;
+use proofs_check::rules::transfer::{self, Proof};
+use proofs_check::spec::Specification;
+use rug::Rational;
+use serde_json::{Value, json};
+
+fn specification(document: &Value) -> Specification {
+    let (json, none) = (parse(document.to_string().as_bytes()).unwrap(), parse(b"{}").unwrap());
+    let field = |json| Field { json, pointer: String::new() };
+    Specification::read(&field(&json), &mut field(&none).fields().unwrap()).unwrap_or_else(|e| panic!("{e:?}"))
+}
+
+/// The paper's specification with T = 1, P_low = 1, P_up = 4, alpha = 1/2, and a bounding function for each letter.
+fn apart() -> Specification {
+    let mut document = certificate(PAPER)["specification"].clone();
+    document["lyapunov"] = json!({ "p_low": "1", "p_up": "4", "alpha": "1/2" });
+    document["bounds"] = json!({
+        "f": "1 + 2*X + 3*E", "f_e": "2 + 3*X + 5*E", "f_xx": "3 + 5*X + 7*E", "f_ex": "5 + 7*X + 11*E",
+        "q": "7 + 11*X + 13*E", "q_e": "11 + 13*X + 17*E", "q_x": "13 + 17*X + 19*E", "q_t": "17 + 19*X + 23*E",
+        "q_rms": "1 + X + 2*E", "q_t_rms": "2 + 3*X + E"
+    });
+    specification(&document)
+}
+
+#[track_caller]
+fn close(value: &Interval, expected: f64) {
+    let (lo, hi) = (value.lo().to_f64(), value.hi().to_f64());
+    assert!((lo - expected).abs() + (hi - expected).abs() <= 1e-12 * expected.abs(), "[{lo}, {hi}], not {expected}");
+}
+
+#[test]
+fn existence() {
+    let spec = apart();
+    let d = Data::new(&spec, 128);
+    let ex = Existence::new(&d, d.ratio(1, 4), d.ratio(1, 8));
+    let (x, e) = (0.25, 0.125);
+    let at = |c: f64, cx: f64, ce: f64| c + cx * x + ce * e;
+    let (f_e, f_xx, q_x, q_e) = (at(2.0, 3.0, 5.0), 3.0 + 5.0 * x, at(13.0, 17.0, 19.0), at(11.0, 13.0, 17.0));
+    let (qr, f_ex) = (at(1.0, 1.0, 2.0), at(5.0, 7.0, 11.0));
+    let x1 = 1.0 + 2.0 * x + f_xx * x * x + f_e * e;
+    let q1 = at(2.0, 3.0, 1.0) + q_x * x1 + q_e * qr;
+    close(&ex.qr, qr);
+    close(&ex.q1, q1);
+    close(&ex.invariance(&d, &d.c), 4.0 * (f_e * e + f_xx * x * x / 2.0));
+    close(&ex.share(&d, &d.c), 4.0 * f_xx * x / 2.0);
+    let [xx, xe, ex_gain, ee] = ex.contraction(&d, &d.c, 1, &d.int(3));
+    close(&xx, 4.0 * (f_ex * e + f_xx * x));
+    close(&xe, 4.0 * f_e);
+    close(&ex_gain, 3.0 * q_x);
+    close(&ee, 3.0 * q_e);
+    let kappa = [d.int(2), d.int(3)];
+    close(&ex.z_squared(&d, &kappa), 2.5 * qr * qr + 3.0 * q1 * q1);
+    let (q, q_t, f) = (at(7.0, 11.0, 13.0), at(17.0, 19.0, 23.0), at(1.0, 2.0, 3.0));
+    let paper = (1.0 + 2.0 + 162.0 * q_e * q_e) * q * q + 9.0 * (q_t * q_t + q_x * q_x * f * f);
+    close(&ex.z_squared_paper(&d, &kappa), paper);
+}
+
+#[test]
+fn error_box() {
+    let spec = apart();
+    let d = Data::new(&spec, 128);
+    let (x, e, dx, de) = (0.25, 0.125, 0.5, 1.0);
+    let error_box = ErrorBox::new(&d, [&d.ratio(1, 4), &d.ratio(1, 8)], &d.ratio(1, 2), &d.int(1));
+    let (x_b, e_b) = (x + dx, e + de);
+    let bends = (3.0 + 5.0 * x) * x + (3.0 + 5.0 * x_b + 7.0 * e) * dx / 2.0;
+    close(&error_box.gam, 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e) * e));
+    close(&error_box.k_x, 13.0 + 17.0 * x_b + 19.0 * e_b);
+    close(&error_box.k_e, 11.0 + 13.0 * x_b + 17.0 * e_b);
+    close(&error_box.k_f, 2.0 + 3.0 * x_b + 5.0 * e_b);
+}
+
+#[test]
+fn repaired_form() {
+    let spec = apart();
+    let d = Data::new(&spec, 128);
+    let number = |n: i32, m: i32| Rational::from((n, m));
+    let k = transfer::closed_form(&d).map(|k| k.upper().unwrap());
+    let w = repaired::Witness {
+        pointer: String::new(),
+        sigma: number(100, 1),
+        set: [number(1, 2), number(1, 4), number(0, 1)],
+        x: number(1, 4),
+        e: number(1, 8),
+        level: number(9, 4),
+        h: number(1, 2),
+        p_x: number(1, 1),
+        p_e: number(1, 1),
+        k0: k[0].clone(),
+        k1: k[1].clone(),
+        transfer: Proof::ClosedForm,
+    };
+    let proved = repaired::evaluate(&d, &w).unwrap();
+    let (x, e, x_b, e_b, mu) = (0.25, 0.125, 1.75, 1.625, 1.0);
+    let inner = (3.0 + 5.0 * x + 7.0 * e) * x + (5.0 + 7.0 * x + 11.0 * e) * e;
+    let rho_0 = 4.0 * (inner + (3.0 + 5.0 * x_b + 7.0 * e) * (x_b + x) / 2.0);
+    let (q_x, q_e) = (13.0 + 17.0 * x_b + 19.0 * e_b, 11.0 + 13.0 * x_b + 17.0 * e_b);
+    let (f_e, ht) = (2.0 + 3.0 * x_b + 5.0 * e_b, 0.5 / mu);
+    let expected = [rho_0, rho_0 + ht * q_x * q_x, 4.0 * f_e + q_x, q_e + ht * q_e * q_e];
+    proved.rho.iter().zip(expected).for_each(|(rho, expected)| close(rho, expected));
+}
+
+/// The scalar test of the boxes, with s = A_m0 - k0 > 0 (mu = 20, k0 = 1) and with s = 0 (mu = 1, k0 = 20).
+#[test]
+fn scalar_test() {
+    for (mu, k0) in [(20, 1), (1, 20)] {
+        let mut document = certificate(BOXES)["specification"].clone();
+        document["internal_model"]["mu"] = json!(mu);
+        let spec = specification(&document);
+        let d = Data::new(&spec, 128);
+        let (k1, m0) = (1000, 3);
+        let breaks: Vec<Rational> = (0..=160).map(|j| Rational::from((j, 64))).collect();
+        let proof = Proof::Boxes { m0, n0: 4, breaks: vec![breaks; 4] };
+        let steps = transfer::check(&d, &Rational::from(k0), &Rational::from(k1), &proof, "").unwrap();
+        let pi = std::f64::consts::PI;
+        let (m, nu, n_0, n_1) = (f64::from(m0), f64::from(mu) / (2.0 * pi), 2.0, 1.0);
+        let (k0, k1) = (f64::from(k0), f64::from(k1));
+        let (n_m, left) = (m.powf(-1.5), m - 0.5);
+        let slope = (pi * pi - 4.0) / 2.0 * n_1 + (n_0 - n_1 / 2.0) / (left * left);
+        let s = f64::max(slope - k0, 0.0);
+        let sum = (n_0 + n_1 * (2.35 + 1.5 * m.ln())) / left + n_1 / (m * (4.0 * m - 1.0));
+        let distance = (m * n_m / (2.0 * m * (k1 * left * left - s))).sqrt();
+        let at_pole = 2.0 / (m * m * n_m) * (1.0 / (nu * nu) + sum * sum) + s / (m * m);
+        let step = |name: &str| steps.iter().find(|step| step.what.contains(name)).unwrap();
+        close(&step("twice the distance").lhs, 2.0 * distance);
+        close(&step("at the pole").lhs, at_pole);
+        close(&step("at the pole").rhs, k1 * (1.0 - distance / m).powi(2));
+    }
+}

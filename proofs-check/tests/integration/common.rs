@@ -1,0 +1,78 @@
+//! Certificates to start from, and edits of them.
+
+use proofs_check::json::Json;
+use proofs_check::verdict::Verdict;
+use proofs_check::{Report, check, sha256};
+use serde_json::Value;
+use std::path::PathBuf;
+
+pub const PAPER: &str = "paper-example.sharp";
+pub const REPAIRED: &str = "paper-example.repaired";
+pub const BOXES: &str = "paper-example.boxes";
+
+pub fn folder(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests").join(name)
+}
+
+pub fn names(of: &str) -> Vec<String> {
+    let stem = |path: PathBuf| path.file_stem().expect("a file").to_string_lossy().into_owned();
+    let mut names: Vec<_> = std::fs::read_dir(folder(of)).unwrap().map(|entry| stem(entry.unwrap().path())).collect();
+    names.sort();
+    assert!(!names.is_empty());
+    names
+}
+
+pub fn text(of: &str, name: &str) -> String {
+    std::fs::read_to_string(folder(of).join(format!("{name}.json"))).unwrap()
+}
+
+pub fn certificate(name: &str) -> Value {
+    serde_json::from_str(&text("certificates", name)).unwrap()
+}
+
+/// Puts the right digest of the (changed) specification in.
+pub fn rehash(certificate: &mut Value) {
+    let mut canonical = String::new();
+    let json: Json = proofs_check::json::parse(certificate["specification"].to_string().as_bytes()).unwrap();
+    json.canonical(&mut canonical);
+    certificate["specification_sha256"] = sha256::hex_digest(canonical.as_bytes()).into();
+}
+
+/// The answer after a change at a JSON pointer, with the digest made right again.
+pub fn changed(name: &str, pointer: &str, value: impl Into<Value>) -> Report {
+    let mut certificate = certificate(name);
+    *certificate.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer} exists")) = value.into();
+    rehash(&mut certificate);
+    check(certificate.to_string().as_bytes())
+}
+
+/// Sets a field that need not be there yet.
+pub fn with(name: &str, object: &str, field: &str, value: impl Into<Value>) -> Report {
+    let mut certificate = certificate(name);
+    certificate.pointer_mut(object).unwrap()[field] = value.into();
+    rehash(&mut certificate);
+    check(certificate.to_string().as_bytes())
+}
+
+/// The claim is proved, and every figure agrees.
+#[track_caller]
+pub fn assert_valid(report: &Report) {
+    assert!(report.verdict == Verdict::Valid && report.is_flawless(), "{}", report.text(false));
+}
+
+/// The claim is proved, and the figures at these places differ, and no other.
+#[track_caller]
+pub fn assert_figures_differ(report: &Report, places: &[&str]) {
+    assert_eq!(report.verdict, Verdict::Valid, "{}", report.text(false));
+    let figures = &report.proved.as_ref().expect("it is valid").figures;
+    let found: Vec<&str> = figures.findings.iter().map(|finding| finding.pointer.as_str()).collect();
+    assert!(figures.word() == "differ" && found == places, "{found:?}, not {places:?}");
+}
+
+/// The certificate is refused with this verdict and rule, at this place.
+#[track_caller]
+pub fn assert_refused(report: &Report, verdict: Verdict, rule: &str, pointer: &str) {
+    let finding = report.finding.as_ref().expect("it must be refused");
+    assert_eq!((report.verdict, finding.rule), (verdict, rule), "{}", report.text(false));
+    assert!(finding.pointer.starts_with(pointer), "{} is not below {pointer}", finding.pointer);
+}

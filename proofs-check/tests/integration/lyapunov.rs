@@ -1,0 +1,238 @@
+//! Rule: the Lyapunov triple of a specification with a Jacobian.
+
+use crate::common::{assert_refused, assert_valid, certificate, changed, with};
+use proofs_check::check;
+use proofs_check::json::{Field, parse};
+use proofs_check::rules::lyapunov::{Witness, prove};
+use proofs_check::spec::{Constant, Entry, Jacobian};
+use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
+use serde_json::{Value, json};
+
+const RULE: &str = "Lyapunov triple";
+const INTERVALS: &str = "paper-example-jacobian.sharp";
+const PERIODIC: &str = "periodic-jacobian.sharp";
+
+fn constant(value: &Value) -> Constant {
+    let json = parse(value.to_string().as_bytes()).unwrap();
+    Constant::read(&Field { json: &json, pointer: String::new() }).unwrap()
+}
+
+/// The answer about a Jacobian of period 1 and a witness.
+fn verdict(jacobian: &Value, witness: &Value) -> Result<String, Verdict> {
+    let entry = |value: &Value| match value {
+        Value::Array(ends) => Entry::Between([constant(&ends[0]), constant(&ends[1])]),
+        _ => {
+            Entry::Function(proofs_check::expr::Expr::parse(value.as_str().unwrap(), proofs_check::expr::TIME).unwrap())
+        }
+    };
+    let row = |row: &Value| row.as_array().unwrap().iter().map(entry).collect();
+    let jacobian: Jacobian = jacobian.as_array().unwrap().iter().map(row).collect();
+    let json = parse(witness.to_string().as_bytes()).unwrap();
+    let field = Field { json: &json, pointer: String::new() };
+    let (witness, _) = Witness::read(&field, jacobian.len()).map_err(|finding| finding.verdict)?;
+    prove(&jacobian, &constant(&json!("1")), &witness).map_err(|finding| finding.verdict)
+}
+
+fn scalar(p_low: &str, p_up: &str, alpha: &str) -> Value {
+    json!({ "P": [["1"]], "p_low": p_low, "p_up": p_up, "alpha": alpha })
+}
+
+#[track_caller]
+fn holds(jacobian: &Value, witness: &Value) {
+    assert_eq!(verdict(jacobian, witness).err(), None);
+}
+
+#[track_caller]
+fn fails(jacobian: &Value, witness: &Value, expected: Verdict) {
+    assert_eq!(verdict(jacobian, witness).err(), Some(expected));
+}
+
+#[test]
+fn a_constant_rate_up_to_its_value() {
+    let f = json!([["-1/3"]]);
+    holds(&f, &scalar("0.99", "1.01", "0.333333"));
+    fails(&f, &scalar("0.99", "1.01", "0.333334"), Invalid);
+    fails(&f, &scalar("1.01", "1.02", "0.1"), Invalid);
+    fails(&f, &scalar("0.98", "0.99", "0.1"), Invalid);
+    // Equality is true, and not proved.
+    fails(&f, &scalar("1", "1.01", "0.1"), Undecided);
+    fails(&f, &scalar("0.99", "1.01", "1/3"), Undecided);
+    for alpha in ["0", "-1"] {
+        fails(&f, &scalar("0.99", "1.01", alpha), Invalid);
+    }
+}
+
+/// [[-1, d], [0, -1]] with P = I has the rate 1 - |d|/2; with P = diag(1, 4) and d = 1 it is 1 - 1/4.
+#[test]
+fn matrices() {
+    let f = |d: &str| json!([["-1", d], ["0", "-1"]]);
+    let w = |p: &str, p_up: &str, alpha: &str| json!({ "P": [["1", "0"], ["0", p]], "p_low": "0.99", "p_up": p_up, "alpha": alpha });
+    holds(&f("1"), &w("1", "1.01", "0.499"));
+    fails(&f("1"), &w("1", "1.01", "0.501"), Invalid);
+    holds(&f("1"), &w("4", "4.01", "0.749"));
+    fails(&f("1"), &w("4", "4.01", "0.751"), Invalid);
+    fails(&f("1"), &w("4", "3.99", "0.5"), Invalid);
+    // Transposed, the other diagonal is the good one: P F and not F P.
+    let transposed = json!([["-1", "0"], ["1", "-1"]]);
+    fails(&transposed, &w("4", "4.01", "0.749"), Invalid);
+    fails(&transposed, &w("4", "4.01", "1/1000"), Invalid);
+    // P has an off-diagonal part: eigenvalues 1/2 and 3/2.
+    let p = |p_low: &str, p_up: &str| json!({ "P": [["1", "1/2"], ["1/2", "1"]], "p_low": p_low, "p_up": p_up, "alpha": "1/2" });
+    holds(&f("0"), &p("0.499", "1.501"));
+    fails(&f("0"), &p("0.501", "1.501"), Invalid);
+    fails(&f("0"), &p("0.499", "1.499"), Invalid);
+    let odd = json!({ "P": [["1", "1/2"], ["0", "1"]], "p_low": "0.1", "p_up": "3", "alpha": "1/10" });
+    fails(&f("0"), &odd, Invalid);
+    for p in [json!([["1"]]), json!([["1", "0"]]), json!([["1", "0"], ["0"]]), json!([])] {
+        fails(&f("0"), &json!({ "P": p, "p_low": "0.1", "p_up": "3", "alpha": "1/10" }), BadInput);
+    }
+}
+
+#[test]
+fn every_vertex_of_the_intervals_counts() {
+    let w = |alpha: &str| json!({ "P": [["1", "0"], ["0", "1"]], "p_low": "0.99", "p_up": "1.01", "alpha": alpha });
+    for ends in [["-1", "0"], ["0", "1"], ["-1", "1"], ["1/2", "1"]] {
+        let f = json!([["-1", ends], ["0", "-1"]]);
+        holds(&f, &w("0.499"));
+        fails(&f, &w("0.501"), Invalid);
+    }
+    // Two entries at once: 1 - (|d| + |e|)/2.
+    for (d, e) in [(["0", "1/2"], ["0", "1"]), (["-1/2", "0"], ["-1", "0"]), (["-1/2", "1/2"], ["0", "1"])] {
+        let f = json!([["-1", d], [e, "-1"]]);
+        holds(&f, &w("0.249"));
+        fails(&f, &w("0.251"), Invalid);
+    }
+    let diagonal = json!([[["-2", "-1"], "0"], ["0", ["-3", "-1/2"]]]);
+    holds(&diagonal, &w("0.499"));
+    fails(&diagonal, &w("0.501"), Invalid);
+}
+
+#[test]
+fn beyond_six_intervals_a_ball() {
+    let off = json!(["-1/10", "1/10"]);
+    let f = json!([["-1", off, off], [off, ["-1.1", "-0.9"], off], [off, off, "-1"]]);
+    let w = |p_up: &str, alpha: &str| json!({ "P": [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]], "p_low": "0.99", "p_up": p_up, "alpha": alpha });
+    // 1 - p_up sqrt(7)/10; a failure refutes nothing.
+    holds(&f, &w("1.001", "0.735"));
+    fails(&f, &w("1.001", "0.736"), Undecided);
+    fails(&f, &w("2", "0.735"), Undecided);
+}
+
+/// x' = (-2 + sin a) x with P = 1 + cos(a)/2, a = 2 pi t: P' = -pi sin a, so that the rate is 2 - sin a + pi sin a/(2 + cos a).
+#[test]
+fn a_periodic_matrix() {
+    let rate = |a: f64| 2.0 - a.sin() + std::f64::consts::PI * a.sin() / (2.0 + a.cos());
+    let least = (0..100_000).map(|k| rate(f64::from(k) * 6.283_185_3e-5)).fold(f64::INFINITY, f64::min);
+    let f = json!([["-2 + sin(2*pi*t)"]]);
+    let w = |p_low: &str, p_up: &str, alpha: f64| {
+        let harmonics = json!([{ "cos": [["1/2"]], "sin": [["0"]] }]);
+        json!({ "P": [["1"]], "harmonics": harmonics, "p_low": p_low, "p_up": p_up, "alpha": format!("{alpha:.6}") })
+    };
+    holds(&f, &w("0.49", "1.51", least - 1e-3));
+    fails(&f, &w("0.49", "1.51", least + 1e-3), Invalid);
+    fails(&f, &w("0.51", "1.51", 0.5), Invalid);
+    fails(&f, &w("0.49", "1.49", 0.5), Invalid);
+}
+
+/// The same functions of t written in other ways, and entries that are not of the period or not read.
+#[test]
+fn functions_of_t() {
+    let w = scalar("0.99", "1.01", "0.9");
+    for text in [
+        "-2 + cos(2*pi*t)",
+        "-1 - 2*sin(pi*t)^2",
+        "-(2 - sin(2*pi*t + 1)/1)",
+        "-2 + 2*sin(2*pi*t)*cos(2*pi*t)",
+        "-2 + cos(2*pi*t)*abs(0-1)",
+        "-2 + sin(2*pi*t)^1 + 0*t",
+        "-2 + (cos(2*pi*t)^2)^2",
+    ] {
+        holds(&json!([[text]]), &w);
+        fails(&json!([[text]]), &scalar("0.99", "1.01", "1.1"), Invalid);
+    }
+    for text in ["-2 + cos(pi*t)", "-2 + t/10", "-2 + sin(6*t)/10"] {
+        fails(&json!([[text]]), &w, Invalid);
+    }
+    // Equal at all sevenths of a period, and not proved to have it.
+    for text in ["-2 + t*sin(14*pi*t)/10", "-2 + sin(14*pi*t)*cos(pi*t)/10", "-2 + sin(7*t*(2*pi)*(1 + 0*t))/10*t"] {
+        fails(&json!([[text]]), &w, Undecided);
+    }
+    // Both factors change their signs, or the line has no slope.
+    for text in ["-2 + sin(pi*t)*cos(3*pi*t)/2", "-2 + cos(pi*t - t*pi + 1)/2", "-2 - sin(pi*(1 - 2*t)/1)/2"] {
+        holds(&json!([[text]]), &w);
+    }
+    // Only what is smooth is followed.
+    for text in ["-2 + abs(sin(2*pi*t))", "-2 + 1/(2 + cos(2*pi*t))", "-2 + exp(cos(2*pi*t))/9", "log(t - t)"] {
+        fails(&json!([[text]]), &w, Undecided);
+    }
+}
+
+/// A dip between the sampled ends: on t in [0, 1] the ends and the middle are fine.
+#[test]
+fn a_dip_between_the_ends_of_a_cell() {
+    let f = json!([["-2 + sin(8*pi*t)^2"]]);
+    holds(&f, &scalar("0.99", "1.01", "0.99"));
+    fails(&f, &scalar("0.99", "1.01", "1.001"), Invalid);
+    let f = json!([["-2 + sin(8*pi*t)^60"]]);
+    fails(&f, &scalar("0.99", "1.01", "1.001"), Invalid);
+}
+
+/// The curvature of a product is in the product of the slopes: around its zero, which no cell ends at, sin^2 is small on an
+/// interval much narrower than the first cells with good ends.
+#[test]
+fn a_narrow_dip_of_a_product() {
+    for square in ["sin(2*pi*t + 1)*sin(2*pi*t + 1)", "sin(2*pi*t + 1)^2"] {
+        let f = json!([[format!("-1 - {square}")]]);
+        holds(&f, &scalar("0.99", "1.01", "0.9999"));
+        fails(&f, &scalar("0.99", "1.01", "1.000001"), Invalid);
+    }
+}
+
+#[test]
+fn bounded_effort() {
+    // The margin vanishes at one time that no cell ends at.
+    let f = json!([["-2 + cos(2*pi*t + 1)"]]);
+    fails(&f, &scalar("0.99", "1.01", "1"), Undecided);
+}
+
+#[test]
+fn the_claim_uses_the_proved_triple() {
+    for name in [INTERVALS, PERIODIC, "paper-example-jacobian.repaired"] {
+        assert_valid(&check(certificate(name).to_string().as_bytes()));
+        for (field, factor) in [("p_low", 0.999), ("p_up", 1.001), ("alpha", 0.999)] {
+            // Another true triple does not fit the stored figures.
+            let pointer = format!("/witness/lyapunov/{field}");
+            let value: f64 = certificate(name).pointer(&pointer).unwrap().as_str().unwrap().parse().unwrap();
+            let report = changed(name, &pointer, format!("{:.9}", value * factor));
+            assert_eq!(report.verdict, Invalid, "{name} {field}");
+            assert_ne!(report.finding.unwrap().rule, RULE, "{name} {field}");
+            let report = changed(name, &pointer, format!("{:.9}", value * (2.0 - factor.powi(20))));
+            assert_eq!(report.verdict, Invalid, "{name} {field}");
+        }
+    }
+}
+
+#[test]
+fn fields() {
+    let lyapunov = "/witness/lyapunov";
+    let mut without = certificate(INTERVALS);
+    without["witness"].as_object_mut().unwrap().remove("lyapunov");
+    assert_refused(&check(without.to_string().as_bytes()), BadInput, "format", "/witness");
+    assert_refused(&with(INTERVALS, lyapunov, "beta", "1"), BadInput, "format", lyapunov);
+    // Where the user gives the triple there is nothing to prove, and both at once are refused.
+    let part = certificate(INTERVALS)["witness"]["lyapunov"].clone();
+    assert_refused(&with("linear.sharp", "/witness", "lyapunov", part), BadInput, "format", lyapunov);
+    let given = with(INTERVALS, "/specification/lyapunov", "alpha", "1/2");
+    assert_refused(&given, BadInput, "format", "/specification/lyapunov/alpha");
+    let at = "/specification/lyapunov/jacobian";
+    for jacobian in [json!([]), json!([["-1"], ["-1"]]), json!([["-1", "0"]]), json!([["-1", ["0"]], ["0", "-1"]])] {
+        assert_refused(&changed(INTERVALS, at, jacobian), BadInput, "format", at);
+    }
+    let twisted = json!([["-1", ["1", "0"]], ["0", "-1"]]);
+    assert_refused(&changed(INTERVALS, at, twisted), Invalid, "specification", at);
+    for text in ["X", "E", "t*", "x", "cos(t"] {
+        assert_refused(&changed(PERIODIC, at, json!([[text]])), BadInput, "format", at);
+    }
+    let many: Vec<Value> = vec![json!({ "cos": [["0"]], "sin": [["0"]] }); 65];
+    assert_refused(&with(PERIODIC, lyapunov, "harmonics", many), BadInput, "format", "/witness/lyapunov/harmonics");
+}

@@ -1,0 +1,15 @@
+//! The integration tests: one program, so that the libraries are linked once.
+
+mod arguments;
+mod claim;
+mod common;
+mod forged;
+mod fuzz;
+mod hostile;
+mod intervals;
+mod lmi;
+mod lyapunov;
+mod monotone;
+mod mutations;
+mod specification;
+mod transfer;

@@ -1,0 +1,58 @@
+//! Certificates as they are written today, read by the independent checker; and the command `check`.
+
+use crate::support::{program, specification, specification_text};
+use predicates::str::{contains, is_empty, starts_with};
+use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify};
+use sigmastar::spec::Specification;
+
+/// The certificate of a shipped specification.
+fn certificate(name: &str, options: Options) -> String {
+    certificate_json(&certify(&specification(name), options).unwrap()).expect("it certifies").to_string()
+}
+
+fn is_valid(name: &str, options: Options) {
+    let report = proofs_check::check(certificate(name, options).as_bytes());
+    assert!(report.is_flawless(), "{name}: {}", report.text(false));
+}
+
+#[test]
+fn fresh_certificates_are_valid() {
+    for name in ["linear", "explicit-weights", "short-period", "pendulum", "pendulum-modal", "relative-degree-2"] {
+        is_valid(name, Options::default());
+    }
+    let with = |derivation, transfer, compare| Options { derivation, transfer, compare, ..Options::default() };
+    is_valid("no-x", with(Derivation::Repaired, TransferChoice::Best, true));
+    is_valid("linear", with(Derivation::Sharp, TransferChoice::Boxes, false));
+    is_valid("ill-conditioned", with(Derivation::Sharp, TransferChoice::ClosedForm, false));
+}
+
+#[test]
+fn numbers_reach_the_checker_as_they_are_written() {
+    let text =
+        specification_text("linear").replace("\"q_x\": 1", "\"q_x\": 1E0").replace("\"f_xx\": 0", "\"f_xx\": 0.0e+05");
+    assert!(text.contains("1E0") && text.contains("0.0e+05"));
+    let spec = Specification::from_json("test", &text).unwrap();
+    let options = Options { compare: false, ..Options::default() };
+    let certificate = certificate_json(&certify(&spec, options).unwrap()).unwrap().to_string();
+    assert!(certificate.contains("1E0") && certificate.contains("0.0e+05"));
+    let report = proofs_check::check(certificate.as_bytes());
+    assert!(report.is_flawless(), "{}", report.text(false));
+}
+
+#[test]
+fn the_command() {
+    let valid = "proofs-check/tests/certificates/paper-example.sharp.json";
+    let forged = "proofs-check/tests/forged/sharp-C4.json";
+    program().args(["check", valid]).assert().code(0).stdout(starts_with("valid; figures: all ")).stderr(is_empty());
+    let own = ["check", valid, "--spec", "specs/paper-example.json"];
+    program().args(own).assert().code(0).stdout(contains("proved:  For every"));
+    let other = ["check", valid, "--spec", "specs/paper-example-rms.json"];
+    program().args(other).assert().code(1).stdout(contains("/specification/bounds/q_rms"));
+    program().args(["check", valid, "--spec", "nowhere.json"]).assert().code(2).stderr(contains("nowhere.json"));
+    program().args(["check", valid, "--verbose"]).assert().code(0).stdout(contains("C5b holds"));
+    program().args(["check", forged]).assert().code(1).stdout(contains("invalid")).stdout(contains("C4"));
+    program().args(["check", forged, "--format", "json"]).assert().code(1).stdout(contains("\"field\": \"/witness\""));
+    program().args(["check", "specs/linear.json"]).assert().code(2).stdout(contains("bad-input"));
+    program().args(["check", "-"]).write_stdin("{").assert().code(2).stdout(contains("not JSON"));
+    program().args(["check", "nowhere.json"]).assert().code(2).stdout(is_empty()).stderr(contains("nowhere.json"));
+}

@@ -1,0 +1,153 @@
+//! What a first user runs into: how wrong calls and wrong files are told.
+
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, ROOT, json, program};
+use assert_cmd::Command;
+use predicates::prelude::*;
+use predicates::str::{contains, is_empty};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+fn sigmastar(arguments: &[&str]) -> Command {
+    let mut command = program();
+    command.args(arguments);
+    command
+}
+
+/// The example with other text in the place of some of its text.
+fn example(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(EXAMPLE_TEXT.to_owned(), |text, (old, new)| {
+        assert!(text.contains(old), "{old}");
+        text.replace(old, new)
+    })
+}
+
+#[test]
+fn a_flag_is_shown_as_it_was_typed() {
+    for (value, shown, help) in [
+        ("-1", "1 | --sigma -1\n  |         ^^ expected a positive number", "must be positive"),
+        ("2 s", "1 | --sigma 2 s\n  |           ^", "numbers have no units: write 2 alone"),
+        ("1/0", "1 | --sigma 1/0\n  |         ^^^", "a division by 0"),
+        ("\"\\", "1 | --sigma \"\\\n  |         ^", "no meaning in an expression"),
+    ] {
+        let call =
+            sigmastar(&["controller", EXAMPLE, "--n-o", "2", "--sigma", value]).assert().code(2).stdout(is_empty());
+        call.stderr(contains(shown).and(contains(help)).and(contains("{").not()).and(contains("note: at").not()));
+    }
+}
+
+#[test]
+fn a_negative_number_is_a_wrong_value_and_no_flag() {
+    for (arguments, part) in [
+        (&["controller", EXAMPLE, "--sigma", "1", "--n-o", "-1"][..], "-1 is not in 0..=1000"),
+        (&["simulate", PLANT, "--sigma", "1", "--n-o", "-1"], "-1 is not in 0..=200"),
+        (&["certify", EXAMPLE, "--precision-limit", "-1"], "-1 is not in 128..=4096"),
+        (&["rate", EXAMPLE, "--n-o", "-1"], "`-1` in --n-o is no number of oscillators"),
+        (&["transfer", EXAMPLE, "--n-o", "-1..2"], "`-1..2` in --n-o is no number of oscillators"),
+    ] {
+        sigmastar(arguments).assert().code(2).stderr(contains(part).and(contains("-- -").not()));
+    }
+}
+
+#[test]
+fn time_and_units_in_an_expression_are_explained() {
+    let q = "\"4.822 + X + atan(E*(X + 0.189))\"";
+    for (change, help) in [
+        ((q, "\"3*cos(2*pi*t) + X\""), "a bounding function holds for every t: take the supremum over t"),
+        ((q, "\"3 m/s\""), "numbers have no units: write 3 alone"),
+        (("\"period\": \"1\"", "\"period\": \"1 s\""), "numbers have no units: write 1 alone"),
+    ] {
+        let call = sigmastar(&["certify", "-"]).write_stdin(example(&[change])).assert();
+        call.code(2).stdout(is_empty()).stderr(contains(help));
+    }
+}
+
+/// The point of the counterexample has more than 100 digits: few of them in the text, all in the JSON.
+#[test]
+fn a_counterexample_is_short_in_the_text_and_whole_in_the_json() {
+    let long = format!("1.{}1", "0".repeat(100));
+    let spec =
+        example(&[("4.822 + X + atan(E*(X + 0.189))", "4 - X"), ("\"X\": \"10\"", &format!("\"X\": \"{long}\""))]);
+    let text = sigmastar(&["certify", "-"]).write_stdin(spec.clone()).assert().code(2);
+    let text = String::from_utf8_lossy(&text.get_output().stderr).into_owned();
+    let first = text.lines().next().expect("a line");
+    assert!(first.contains("not nondecreasing in X") && first.contains("X about 0.125,"), "{first}");
+    assert!(first.len() < 250, "{first}");
+    let output = sigmastar(&["certify", "-", "--format", "json", "-q"]).write_stdin(spec).assert().code(2);
+    let report = json(&output.get_output().stdout);
+    let message = report["errors"][0]["message"].as_str().expect("text");
+    // The edge of the domain is rounded up to a binary number, of which the counterexample is an eighth.
+    let point = message.rsplit("X = ").next().and_then(|rest| rest.split(',').next()).expect("a point");
+    assert!(point.starts_with("0.125000000000") && point.len() > 100, "{message}");
+}
+
+#[test]
+fn a_byte_order_mark_changes_nothing() {
+    let digest = |text: String| {
+        let output =
+            sigmastar(&["certify", "-", "--no-compare", "--format", "json"]).write_stdin(text).assert().code(0);
+        let report = json(&output.get_output().stdout);
+        report["specification"]["sha256"].as_str().expect("a digest").to_owned()
+    };
+    assert_eq!(digest(format!("\u{feff}{}", example(&[]))), digest(example(&[])));
+    let utf_16: Vec<u8> = "\u{feff}{}".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    sigmastar(&["certify", "-"]).write_stdin(utf_16).assert().code(2).stderr(contains("the file is UTF-16, not UTF-8"));
+}
+
+#[test]
+fn a_file_in_the_place_of_a_folder_is_named_as_such() {
+    let simulate =
+        |folder: &str| sigmastar(&["simulate", PLANT, "--sigma", "2", "--n-o", "1", "--plots", folder]).assert();
+    let plain = contains("it is a file, not a folder").and(contains("os error").not());
+    simulate(EXAMPLE).code(2).stdout(is_empty()).stderr(plain);
+    let inside = contains("a part of the path is a file").and(contains("os error").not());
+    simulate(&format!("{EXAMPLE}/figures")).code(2).stdout(is_empty()).stderr(inside);
+}
+
+#[test]
+fn the_input_that_would_be_replaced_has_its_own_name() {
+    let folder = TempDir::new().expect("a folder");
+    let copy = |path: &str| {
+        let target = folder.path().join(Path::new(path).file_name().expect("a name"));
+        fs::copy(Path::new(ROOT).join(path), &target).expect("copied");
+        target.to_str().expect("a plain name").to_owned()
+    };
+    let (spec, plant) = (copy(EXAMPLE), copy("specs/plants/linear.json"));
+    let certificate = copy("proofs-check/tests/certificates/linear.sharp.json");
+    for (arguments, word) in [
+        (vec!["certify", &spec, "-o", &spec], "the specification itself"),
+        (vec!["simulate", &plant, "--sigma", "2", "--n-o", "1", "--csv", &plant], "the plant file itself"),
+        (vec!["falsify", &certificate, "-o", &certificate], "the certificate itself"),
+    ] {
+        sigmastar(&arguments).assert().code(2).stdout(is_empty()).stderr(contains(word));
+    }
+}
+
+/// The size that is suggested is one that is certified.
+#[test]
+fn a_smaller_initial_set_has_a_size() {
+    let domain = ("\"X\": \"10\", \"E\": \"10\"", "\"X\": \"1\", \"E\": \"1\"");
+    let set = |set: &str| example(&[domain, ("{ \"kind\": \"paper\" }", set)]);
+    let run = |text: String| {
+        let output = sigmastar(&["certify", "-", "--no-compare", "--format", "json"]).write_stdin(text).output();
+        let output = output.expect("it runs");
+        let report = json(&output.stdout);
+        (output.status.code(), report)
+    };
+    let (code, report) = run(set(r#"{ "kind": "box", "X0": "1", "E0": "4", "Z0": "0" }"#));
+    assert_eq!(code, Some(3));
+    let advice = report["advice"].as_array().expect("advice");
+    let said =
+        advice.iter().filter_map(Value::as_str).find(|text| text.contains("a smaller initial set")).expect("a size");
+    assert!(said.contains("an estimate, no proof"), "{said}");
+    let suggested = said.split_once("\"initial_set\": ").expect("as in a specification").1.trim_end_matches('`');
+    assert_eq!(run(set(suggested)).0, Some(0), "{suggested}");
+}
+
+/// What a Jacobian costs is said where it takes long, never on standard output, and not with `--quiet`.
+#[test]
+fn quiet_is_quiet_with_a_jacobian() {
+    let arguments = ["certify", "specs/paper-example-jacobian.json", "--no-compare", "--quiet"];
+    sigmastar(&arguments).assert().code(0).stderr(is_empty()).stdout(contains("finding and proving").not());
+}

@@ -1,0 +1,211 @@
+//! Hostile input ends: what is read and worked on is counted in steps, and the counts are what is tested, never the clock.
+
+use crate::support::{EXAMPLE_TEXT, PLANT_TEXT, program};
+use rug::Rational;
+use serde_json::{Value, json};
+use sigmastar::certificate::{MAX_SEARCHES, Outcome, certify, prove_up_to, resolve};
+use sigmastar::enclosure::{Enclosure, MAX_EXACT_EXPONENT};
+use sigmastar::expr::{BoundingFailure, Expr, ProofSettings, Reason, Variables, prove_bounding};
+use sigmastar::lyapunov::MAX_PROGRAM_COST;
+use sigmastar::plant::Plant;
+use sigmastar::progress::Silent;
+use sigmastar::regulator::Design;
+use sigmastar::search::Obstacle;
+use sigmastar::simulate::{
+    ClosedLoop, IntegrationFailure, MAX_NUMBERS, MAX_OPERATIONS, SteadyStateError, derivative, steady_state,
+};
+use sigmastar::spec::{Document, MAX_UNKNOWN, Specification, any_constant};
+
+fn with(pointer: &str, value: Value) -> Value {
+    let mut document: Value = serde_json::from_str(EXAMPLE_TEXT).unwrap();
+    *document.pointer_mut(pointer).expect("a field of the example") = value;
+    document
+}
+
+fn read(document: &Value) -> Specification {
+    Specification::from_json("hostile", &document.to_string()).unwrap()
+}
+
+fn bits(value: &Rational) -> u32 {
+    value.numer().significant_bits().max(value.denom().significant_bits())
+}
+
+#[test]
+fn numbers_become_rationals_of_bounded_size() {
+    let at = |text: &str| Expr::parse(text, Variables::None).unwrap().enclose_constant(128);
+    let limit = MAX_EXACT_EXPONENT as u32 + 256;
+    for text in ["exp(7e8)", "exp(1e10)", "exp(5e18)", "-exp(7e8)", "1e4000^1000"] {
+        let value = at(text);
+        assert!(value.is_defined(), "{text}");
+        let ends = [value.lower_rational(), value.upper_rational()];
+        assert!(ends.iter().any(Option::is_none), "{text}");
+        assert!(ends.iter().flatten().all(|end| bits(end) <= limit), "{text}");
+    }
+    for text in ["exp(-7e8)", "exp(-1e10)", "-exp(-7e8)", "1e-4000^1000"] {
+        let value = at(text);
+        let [lower, upper] = [value.lower_rational().unwrap(), value.upper_rational().unwrap()];
+        assert!(bits(&lower) <= limit && bits(&upper) <= limit, "{text}");
+        // Still on the outer sides.
+        assert!(*value.lower() >= lower && *value.upper() <= upper && lower < upper, "{text}");
+        assert_eq!((lower < 0, upper > 0), (text.starts_with('-'), !text.starts_with('-')), "{text}");
+    }
+    // What has an ordinary size stays exact, up to the largest product of numerals.
+    for exact in [Rational::from((3, 8)), Rational::from(5) << 53_000, Rational::from(5) >> 53_000] {
+        let value = Enclosure::from_rational(&exact, 64);
+        let same = value.upper_rational().unwrap() == exact && value.lower_rational().unwrap() == exact;
+        assert!(same, "{} bits", bits(&exact));
+    }
+}
+
+/// Each of these ran for minutes, or took more than 1.6 GB.
+#[test]
+fn huge_and_tiny_bounds_are_undecided_with_what_to_do() {
+    for field in ["f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t"] {
+        for text in ["exp(1e10)", "exp(7e8)"] {
+            let spec = read(&with(&format!("/bounds/{field}"), json!(text)));
+            let run = certify(&spec, Default::default()).unwrap();
+            assert_eq!(run.verdict.exit_code(), 3, "{field} {text}");
+            assert!(matches!(run.sharp, Outcome::NotFound(Obstacle::Magnitude)), "{field} {text}");
+        }
+    }
+    for field in ["f_e", "q_e", "q_x"] {
+        let spec = read(&with(&format!("/bounds/{field}"), json!("exp(-7e8)")));
+        assert!(certify(&spec, Default::default()).unwrap().verdict.exit_code() != 2, "{field}");
+    }
+}
+
+#[test]
+fn a_proof_counts_its_operations() {
+    let term = |k: u32| format!("(sin({k}*X*E)^2 + cos({k}*X*E)^2)");
+    let long: Vec<String> = (1..100).map(term).collect();
+    let ten = Rational::from(10);
+    for text in [format!("1e-9*X + E + 10*{}", term(3)), format!("1e-9*X + E + {}", long.join(" + "))] {
+        let expr = Expr::parse(&text, Variables::XAndE).unwrap();
+        let settings = ProofSettings { max_operations: 100_000, ..ProofSettings::default() };
+        let outcome = prove_bounding(&expr, &ten, &ten, &settings);
+        let expected = Reason::Operations(100_000);
+        assert!(matches!(outcome, Err(BoundingFailure::Undecided { reason, .. }) if reason == expected), "{outcome:?}");
+    }
+    // A long expression that needs one box is proved all the same.
+    let expr = Expr::parse(&["exp(X)"; 1400].join("+"), Variables::XAndE).unwrap();
+    assert_eq!(prove_bounding(&expr, &ten, &ten, &ProofSettings::default()), Ok(()));
+}
+
+/// The work is shared by what is hard, whatever its order; what is easy does not suffer.
+#[test]
+fn hard_bounding_functions_share_the_work() {
+    let hard = "1e-9*X + E + 10*(sin(3*X*E)^2 + cos(3*X*E)^2)";
+    let shares = |fields: &[&str]| -> Vec<(&'static str, Reason)> {
+        let mut document = with("/bounds/q", json!("4.822 + X"));
+        for field in fields {
+            document["bounds"][*field] = json!(hard);
+        }
+        let ten = Rational::from(10);
+        let problems = prove_up_to(&read(&document), &ten, &ten).unwrap_err();
+        problems
+            .into_iter()
+            .map(|problem| match problem.failure {
+                BoundingFailure::Undecided { reason, .. } => (problem.field, reason),
+                other => panic!("{other}"),
+            })
+            .collect()
+    };
+    assert_eq!(shares(&["f"]), [("f", Reason::Operations(600_000))]);
+    let all = ["f", "f_e", "f_xx", "f_ex", "q_e", "q_x"];
+    assert_eq!(shares(&all), all.map(|field| (field, Reason::Operations(200_000))));
+}
+
+#[test]
+fn a_few_unknown_fields_are_named_and_the_others_counted() {
+    let mut document: Value = serde_json::from_str(EXAMPLE_TEXT).unwrap();
+    for k in 0..4000 {
+        document[format!("bouns{k}")] = json!(1);
+    }
+    let errors = Specification::from_json("hostile", &document.to_string()).unwrap_err();
+    assert_eq!((errors.errors().len(), errors.omitted()), (MAX_UNKNOWN, 4000 - MAX_UNKNOWN));
+    assert!(errors.errors().iter().all(|error| error.message.contains("unknown field")));
+    // One that is close to a known name has its suggestion.
+    let mut document: Value = serde_json::from_str(EXAMPLE_TEXT).unwrap();
+    document["domian"] = json!(1);
+    let errors = Specification::from_json("misspelt", &document.to_string()).unwrap_err();
+    assert_eq!((errors.errors().len(), errors.omitted()), (1, 0));
+    // The other readers go through the same object.
+    let text = PLANT_TEXT
+        .replace("\"states\"", "\"x1\": 0, \"x2\": 0, \"x3\": 0, \"x4\": 0, \"x5\": 0, \"x6\": 0, \"states\"");
+    let errors = Plant::from_json("hostile", &text).unwrap_err();
+    assert_eq!((errors.errors().len(), errors.omitted()), (MAX_UNKNOWN, 1));
+}
+
+/// Equal periodic entries on the diagonal: 8 and more of them ran for more than 30 s.
+#[test]
+fn jacobians_take_a_bounded_number_of_programs_and_searches() {
+    for (n, entry) in
+        [(3, "-1 + cos(2*pi*t)"), (8, "-1 + cos(2*pi*t)/2"), (10, "-1 + cos(2*pi*t)/2"), (12, "-1 + cos(2*pi*t)/2")]
+    {
+        let rows: Vec<Vec<&str>> = (0..n).map(|i| (0..n).map(|j| if i == j { entry } else { "0" }).collect()).collect();
+        let spec = read(&with("/lyapunov", json!({ "jacobian": rows })));
+        let resolution = resolve(&spec).unwrap().unwrap();
+        assert!(resolution.candidates.cost <= MAX_PROGRAM_COST, "{n}: {}", resolution.candidates.cost);
+        assert!((1..=MAX_SEARCHES).contains(&resolution.searches), "{n}: {}", resolution.searches);
+        // What is left still proves most of the rate, which is 1.
+        let alpha = resolution.spec.lyapunov.triple().unwrap().alpha.to_f64();
+        assert!(alpha > 0.5 && alpha < 1.0, "{n}: {alpha}");
+    }
+}
+
+/// A plant of n states, all coupled, as JSON.
+fn large_plant(n: usize) -> String {
+    let names: Vec<String> = (1..=n).map(|k| format!("x{k}")).collect();
+    let sum = names.join(" + ");
+    let mut plant: Value = serde_json::from_str(PLANT_TEXT).unwrap();
+    plant["f"] = names.iter().map(|x| json!(format!("-{n}*{x} + 0.3*({sum}) + e"))).collect();
+    plant["q"] = json!(format!("1 + {sum} + cos(2*pi*t)"));
+    plant["initial"] = json!({ "x": vec!["1"; n], "e": "1" });
+    plant["states"] = json!(names);
+    plant.to_string()
+}
+
+fn simulated(text: &str, n_o: u32) -> (ClosedLoop, Vec<f64>) {
+    let plant = Plant::from_json("large", text).unwrap();
+    let document = Document::parse("sigma", "50").unwrap();
+    let mut errors = sigmastar::spec::Errors::new();
+    let read = any_constant(&document.root(), &mut errors);
+    let sigma = errors.conclude(&document, read).unwrap();
+    let closed_loop = ClosedLoop::new(&plant, Design::new(&plant.internal_model, &sigma, n_o).regulator());
+    let start = closed_loop.start_of(&plant.initial).unwrap();
+    (closed_loop, start)
+}
+
+/// 50 states, and 50 oscillators, take a small part of the operations that are allowed: they ran for minutes.
+#[test]
+fn many_states_and_oscillators_are_simulated_within_the_limit() {
+    for (text, n_o) in [(large_plant(50), 2), (PLANT_TEXT.to_owned(), 50)] {
+        let (closed_loop, start) = simulated(&text, n_o);
+        let steady = steady_state(&closed_loop, &start, &Silent).unwrap();
+        assert!(steady.multipliers[0] < 1.0 && steady.multipliers.len() == closed_loop.dimension());
+        assert!(closed_loop.spent() < MAX_OPERATIONS / 2, "{}", closed_loop.spent());
+        // The multipliers are those of a derivative at the tightest tolerance.
+        if n_o == 2 {
+            let tight = derivative(&closed_loop, &steady.start, sigmastar::simulate::Tolerance::TIGHT).unwrap();
+            let largest = tight.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max);
+            assert!((largest - steady.multipliers[0]).abs() < 1e-9 * largest);
+        }
+    }
+}
+
+#[test]
+fn a_simulation_beyond_the_limit_is_undecided() {
+    let (closed_loop, start) = simulated(PLANT_TEXT, 200);
+    let failure = steady_state(&closed_loop, &start, &Silent).unwrap_err();
+    assert!(matches!(failure, SteadyStateError::Integration(IntegrationFailure::TooMuchWork { .. })), "{failure}");
+    // Two evaluations of the last integration choose its first step.
+    assert!(closed_loop.spent() <= MAX_OPERATIONS + MAX_OPERATIONS / 1000, "{}", closed_loop.spent());
+    // Samples that would not fit: told before anything is kept.
+    let samples = (MAX_NUMBERS / 2 / 9 + 1).to_string();
+    program()
+        .args(["simulate", "specs/plants/paper-example.json", "--sigma", "2", "--n-o", "2", "--periods", "100000"])
+        .args(["--samples", &samples[..samples.len() - 4]])
+        .assert()
+        .code(3)
+        .stdout(predicates::str::contains("33554432 numbers to keep"));
+}

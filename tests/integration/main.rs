@@ -1,0 +1,40 @@
+//! The integration tests: one program, so that the library is linked once. `cargo test --release --test integration NAME`
+//! runs the tests of a module, or those whose names contain NAME.
+
+mod certify_random;
+mod check;
+mod cli_certify;
+mod cli_reports;
+mod cli_specs;
+mod cli_transfer;
+mod cli_words;
+mod controller;
+mod effort;
+mod errata_data;
+mod errata_list;
+mod expr_properties;
+mod expr_prove;
+mod lmi_decay;
+mod lmi_specs;
+mod lyapunov;
+mod lyapunov_random;
+mod mutants;
+mod mutated_specifications;
+mod no_plant;
+mod plain;
+mod positive_part;
+mod rate;
+mod rejected;
+mod sdp_bounds;
+mod sdpa;
+mod search_scale;
+mod simulate;
+mod spec_document;
+mod spec_examples;
+mod spec_read;
+mod steady_states;
+mod support;
+mod transfer;
+mod transfer_sums;
+mod transfer_table;
+mod witness;

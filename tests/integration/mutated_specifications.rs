@@ -1,0 +1,54 @@
+//! Whatever is certified is valid to the independent checker, with every figure that the certificate stores.
+
+use crate::mutants;
+use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify, resolve};
+use sigmastar::spec::Specification;
+
+/// Cases of an ordinary run; with `SIGMASTAR_MUTANTS=FIRST..LAST cargo test --release --test integration mutated` the seeds
+/// are others.
+const SEEDS: std::ops::Range<u64> = 0..80;
+
+fn seeds() -> std::ops::Range<u64> {
+    let Ok(text) = std::env::var("SIGMASTAR_MUTANTS") else { return SEEDS };
+    let (first, last) = text.split_once("..").expect("FIRST..LAST");
+    first.parse().expect("a whole number")..last.parse().expect("a whole number")
+}
+
+/// The certificate of a specification, if there is one.
+fn certificate(seed: u64, text: &str) -> Option<String> {
+    let mut spec = Specification::from_json("mutant", text).ok()?;
+    if let Some(resolved) = resolve(&spec) {
+        spec = resolved.ok()?.spec;
+    }
+    let derivation = if seed % 5 == 4 { Derivation::Repaired } else { Derivation::Sharp };
+    let transfer = match seed % 7 {
+        5 => TransferChoice::Boxes,
+        6 => TransferChoice::ClosedForm,
+        _ => TransferChoice::Best,
+    };
+    let options = Options { derivation, transfer, ..Options::default() };
+    Some(certificate_json(&certify(&spec, options).ok()?)?.to_string())
+}
+
+#[test]
+fn whatever_is_certified_is_valid() {
+    let (mut certified, mut wrong) = (0, Vec::new());
+    for seed in seeds() {
+        let text = mutants::specification(seed).to_string();
+        let Some(certificate) = certificate(seed, &text) else { continue };
+        certified += 1;
+        if certified % 100 == 0 {
+            eprintln!("seed {seed}: {certified} certified so far");
+        }
+        let report = proofs_check::check(certificate.as_bytes());
+        if !report.is_flawless() {
+            eprintln!("seed {seed}: {}{text}\n", report.text(false));
+            if let Ok(folder) = std::env::var("SIGMASTAR_MUTANTS_DIR") {
+                std::fs::write(format!("{folder}/{seed}.json"), &certificate).expect("written");
+            }
+            wrong.push(seed);
+        }
+    }
+    eprintln!("{certified} certified, {} not valid: {wrong:?}", wrong.len());
+    assert!(certified > 0 && wrong.is_empty(), "seeds {wrong:?}");
+}

@@ -1,0 +1,121 @@
+//! What several tests use: the shipped files, the program, and certificates that are made once.
+
+use assert_cmd::Command;
+use rayon::prelude::*;
+use serde_json::Value;
+use sigmastar::certificate::{Certification, Derivation, Options, certificate_json, certify, resolve};
+use sigmastar::spec::Specification;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// The root of the repository.
+pub const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// The specification of the paper's example: its path from the root, and its text.
+pub const EXAMPLE: &str = "specs/paper-example.json";
+pub const EXAMPLE_TEXT: &str = include_str!("../../specs/paper-example.json");
+
+/// The plant of the paper's example: its path from the root, and its text.
+pub const PLANT: &str = "specs/plants/paper-example.json";
+pub const PLANT_TEXT: &str = include_str!("../../specs/plants/paper-example.json");
+
+/// The program, in the root, with an environment that does not change what it writes.
+pub fn program() -> Command {
+    let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
+    command.current_dir(ROOT).env_remove("RAYON_NUM_THREADS").env_remove("NO_COLOR");
+    command
+}
+
+/// The program, in the root, for tests that need its streams or its process.
+pub fn process() -> std::process::Command {
+    let mut process = std::process::Command::new(assert_cmd::cargo::cargo_bin("sigmastar"));
+    process.current_dir(ROOT);
+    process
+}
+
+/// What was written as JSON.
+#[track_caller]
+pub fn json(output: &[u8]) -> Value {
+    serde_json::from_slice(output).expect("JSON")
+}
+
+#[track_caller]
+pub fn utf8(output: Vec<u8>) -> String {
+    String::from_utf8(output).expect("UTF-8")
+}
+
+/// The JSON files of a folder of the repository, sorted.
+pub fn files(folder: &str) -> Vec<PathBuf> {
+    let mut files: Vec<PathBuf> = std::fs::read_dir(Path::new(ROOT).join(folder))
+        .expect("the folder is part of the repository")
+        .map(|entry| entry.expect("a directory entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "json"))
+        .collect();
+    files.sort();
+    files
+}
+
+/// The name of a file without its extension.
+pub fn stem(path: &Path) -> &str {
+    path.file_stem().and_then(|stem| stem.to_str()).expect("file names are plain")
+}
+
+fn path(name: &str) -> PathBuf {
+    Path::new(ROOT).join("specs").join(format!("{name}.json"))
+}
+
+/// The text of a shipped specification.
+pub fn specification_text(name: &str) -> String {
+    std::fs::read_to_string(path(name)).expect("shipped")
+}
+
+/// A shipped specification.
+pub fn specification(name: &str) -> Specification {
+    Specification::load(&path(name)).unwrap_or_else(|errors| panic!("{}", errors.render(false)))
+}
+
+/// A derivation without the comparison with the others.
+pub fn options(derivation: Derivation) -> Options {
+    Options { derivation, compare: false, ..Options::default() }
+}
+
+pub fn certificate(spec: &Specification, derivation: Derivation) -> Value {
+    certificate_json(&certify(spec, options(derivation)).unwrap()).expect("certified")
+}
+
+/// A shipped specification with its certificate in one derivation; a Jacobian is replaced by the triple that it gives.
+pub struct Shipped {
+    pub name: String,
+    pub derivation: Derivation,
+    pub spec: &'static Specification,
+    pub run: Certification<'static>,
+    pub certificate: Value,
+}
+
+/// The certificates of shipped specifications. They are for a `LazyLock`, and so never to be asked for in a thread of
+/// rayon's: it may be the one that the lock waits for.
+pub fn certify_all<N: AsRef<str> + Sync>(names: &[N], derivation: Derivation) -> Vec<Shipped> {
+    let make = |name: &N| {
+        let name = name.as_ref().to_owned();
+        let spec = specification(&name);
+        let spec = match resolve(&spec) {
+            Some(found) => found.expect("a triple").spec,
+            None => spec,
+        };
+        // A run borrows its specification; both last as long as the tests.
+        let spec: &'static Specification = Box::leak(Box::new(spec));
+        let run = certify(spec, options(derivation)).expect("not refuted");
+        let certificate = certificate_json(&run).expect("certified");
+        Shipped { name, derivation, spec, run, certificate }
+    };
+    names.par_iter().map(make).collect()
+}
+
+/// Every shipped specification with its sharp certificate, made once.
+pub fn certified() -> &'static [Shipped] {
+    static CERTIFIED: LazyLock<Vec<Shipped>> = LazyLock::new(|| {
+        let names: Vec<String> = files("specs").iter().map(|path| stem(path).to_owned()).collect();
+        certify_all(&names, Derivation::Sharp)
+    });
+    &CERTIFIED
+}
