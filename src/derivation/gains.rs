@@ -112,7 +112,9 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::enclosure::Enclosure;
     use proptest::prelude::*;
+    use rug::Rational;
 
     fn number(value: f64) -> Enclosure {
         Enclosure::from_rational(&Rational::from_f64(value).unwrap(), 128)

@@ -101,6 +101,12 @@ const FLOOR: f64 = 1e-6;
 impl Existence {
     /// C1-C3 and Z at (X_p, E_p).
     pub fn new(model: &FloatModel, x_p: f64, e_p: f64) -> Result<Existence, Obstacle> {
+        if x_p > model.domain.0 {
+            return Err(Obstacle::DomainX);
+        }
+        if e_p > model.domain.1 {
+            return Err(Obstacle::DomainE);
+        }
         let bounds = PeriodicBounds::new(model, x_p, e_p);
         let PeriodicBounds { state, q_e, q_x, q_rms, q_rate_rms } = &bounds;
         if ![&state.f_xx, &state.f_e, &state.f_ex, q_e, q_x, q_rms, q_rate_rms].iter().all(|v| v.is_finite()) {

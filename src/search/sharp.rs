@@ -20,6 +20,9 @@ pub struct SharpProposal {
 /// Starting values of (rho, eta) for the scan.
 const SHAPES: [(f64, f64); 6] = [(1.4, 1.0), (1.08, 0.05), (1.08, 20.0), (4.0, 0.05), (4.0, 20.0), (1.005, 1e-4)];
 
+/// Logarithms of sigma that are no further apart belong to one minimum, found to the tolerance of a rough refinement.
+const SAME: f64 = 1e-5;
+
 /// Searches for the smallest sigma; `known` are candidates from elsewhere, from which it is searched too.
 ///
 /// # Errors
@@ -47,6 +50,8 @@ pub fn search_sharp(model: &FloatModel, known: &[SharpParameters]) -> Result<Sha
     let rough = scan::evaluate_all(&starts, |start| refine(model, start, effort.rough_descent()));
     let mut rough: Vec<_> = rough.into_iter().flatten().collect();
     rough.sort_by(|a, b| a.1.total_cmp(&b.1));
+    // Those that came to the same place are one.
+    rough.dedup_by(|a, b| a.1 - b.1 < SAME);
     rough.truncate(effort.finished);
     let refined = scan::evaluate_all(&rough, |(start, _)| refine(model, start, effort.descent(6)));
     let best = refined.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(closest)?;

@@ -2,8 +2,8 @@
 
 use crate::support::{Shipped, certified};
 use rug::Rational;
-use sigmastar::derivation::sharp::SharpWitness;
 use sigmastar::data::Data;
+use sigmastar::derivation::sharp::SharpWitness;
 use sigmastar::lmi::cross_check;
 
 #[test]

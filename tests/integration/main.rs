@@ -14,6 +14,7 @@ mod errata_data;
 mod errata_list;
 mod expr_properties;
 mod expr_prove;
+mod formats;
 mod lmi_decay;
 mod lmi_specs;
 mod lyapunov;
