@@ -22,12 +22,19 @@ use rug::Rational;
 
 /// Significant digits of sigma*.
 const SIGMA_DIGITS: u32 = 6;
-/// Significant digits of X_p, E_p and the kappas.
+/// Significant digits of the kappas, and of X_p, E_p where they do.
 const SHORT_DIGITS: u32 = 8;
 /// Significant digits of numbers in which a condition is active.
 const LONG_DIGITS: u32 = 14;
 /// Relative slacks of sigma that are tried in turn.
 const SLACKS: [f64; 12] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e3];
+
+/// Digits of X_p, E_p and slacks, in the order in which they are tried: where a candidate is so near the edge of what is
+/// possible that short numbers leave it, long ones are better than a larger sigma.
+fn attempts() -> impl Iterator<Item = (u32, f64)> {
+    let short = SLACKS.into_iter().take_while(|slack| *slack <= 1e-6).map(|slack| (SHORT_DIGITS, slack));
+    short.chain(SLACKS.into_iter().map(|slack| (LONG_DIGITS, slack)))
+}
 
 fn nearest(value: f64, digits: u32) -> Option<Rational> {
     round_f64(value, digits, Direction::Nearest)
@@ -42,12 +49,12 @@ fn rounded_sigma(sigma: f64, slack: f64) -> Option<Rational> {
 }
 
 /// E_p rounded up, which helps C2, unless C1 (at the rounded X_p) allows no more than `largest`; then down.
-fn rounded_e(e_p: f64, largest: f64) -> Option<Rational> {
-    let up = round_f64(e_p, SHORT_DIGITS, Direction::Up)?;
+fn rounded_e(e_p: f64, largest: f64, digits: u32) -> Option<Rational> {
+    let up = round_f64(e_p, digits, Direction::Up)?;
     if up.to_f64() < largest * (1.0 - 1e-12) {
         return Some(up);
     }
-    round_f64(e_p.min(largest), SHORT_DIGITS, Direction::Down)
+    round_f64(e_p.min(largest), digits, Direction::Down)
 }
 
 /// The claimed set for X_p, E_p and Z: what the specification requires, rounded up where it is not a short rational.
@@ -101,8 +108,8 @@ pub(super) fn round_sharp(
 ) -> Option<(SharpWitness, SharpEvaluation, u32)> {
     let mut last = None;
     let mut known = None;
-    for slack in SLACKS {
-        let Some(witness) = sharp_witness(data, model, proposal, kind, slack, &mut known) else { continue };
+    for attempt in attempts() {
+        let Some(witness) = sharp_witness(data, model, proposal, kind, attempt, &mut known) else { continue };
         let (evaluation, precision) = decide_sharp(data.spec, &witness, ladder);
         let proved = evaluation.truth().is_true();
         last = Some((witness, evaluation, precision));
@@ -118,12 +125,12 @@ fn sharp_witness(
     model: &FloatModel,
     proposal: &SharpProposal,
     kind: TransferKind,
-    slack: f64,
+    (digits, slack): (u32, f64),
     known: &mut Option<KnownPair>,
 ) -> Option<SharpWitness> {
     let sigma = rounded_sigma(proposal.sigma, slack)?;
-    let x_p = nearest(proposal.parameters.x_p, SHORT_DIGITS)?;
-    let e_p = rounded_e(proposal.parameters.e_p, largest_e_sharp(model, x_p.to_f64())?)?;
+    let x_p = nearest(proposal.parameters.x_p, digits)?;
+    let e_p = rounded_e(proposal.parameters.e_p, largest_e_sharp(model, x_p.to_f64())?, digits)?;
     let parameters = SharpParameters { x_p: x_p.to_f64(), e_p: e_p.to_f64(), ..proposal.parameters };
     let (existence, at) = at_sigma(model, &parameters, sigma.to_f64()).ok()?;
     // The slack does not move the pair, nor the boxes that prove it.
@@ -223,8 +230,8 @@ pub(super) fn round_repaired(
     ladder: Ladder,
 ) -> Option<(RepairedWitness, RepairedEvaluation, u32)> {
     let mut last = None;
-    for slack in SLACKS {
-        let Some(witness) = repaired_witness(data, model, proposal, slack) else { continue };
+    for attempt in attempts() {
+        let Some(witness) = repaired_witness(data, model, proposal, attempt) else { continue };
         let (evaluation, precision) = decide_repaired(data.spec, &witness, ladder);
         let proved = evaluation.truth().is_true();
         last = Some((witness, evaluation, precision));
@@ -239,10 +246,10 @@ fn repaired_witness(
     data: &Data<'_>,
     model: &FloatModel,
     proposal: &RepairedProposal,
-    slack: f64,
+    (digits, slack): (u32, f64),
 ) -> Option<RepairedWitness> {
-    let x = nearest(proposal.x, SHORT_DIGITS)?;
-    let e = rounded_e(proposal.e, largest_e_repaired(model, x.to_f64())?)?;
+    let x = nearest(proposal.x, digits)?;
+    let e = rounded_e(proposal.e, largest_e_repaired(model, x.to_f64())?, digits)?;
     let (k0, k1, transfer) = transfer_pair(data, (0.0, 0.0, 0), TransferKind::ClosedForm)?;
     let bounds = PeriodicBounds::new(data, data.rational(&x), data.rational(&e));
     let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));
