@@ -110,9 +110,9 @@ mod tests {
 
     #[test]
     fn no_size_where_a_point_fails() {
-        let mut asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
+        let asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
         // Data for which no comparison holds.
-        asked.alpha = f64::NAN;
+        let asked = asked.with_triple(1.0, f64::NAN);
         assert_eq!(smaller_set(&asked, false), SmallerSet::None);
     }
 }

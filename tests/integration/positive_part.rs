@@ -1,7 +1,7 @@
 //! A bounding function enters by its positive part: a sign that rounding hides is no obstacle, a negative value is one.
 
 use sigmastar::certificate::{Options, Verdict, certify};
-use sigmastar::data::{Bound, Data};
+use sigmastar::data::{Bound, Data, Problem};
 use sigmastar::expr::{BoundingFailure, Property};
 use sigmastar::search::FloatModel;
 use sigmastar::spec::Specification;
@@ -34,7 +34,7 @@ fn a_value_of_zero_that_rounding_hides_is_used_as_zero() {
             assert!(!bound.of(&spec).enclose(&data.zero(), &data.zero()).is_nonnegative().is_true(), "{bound:?}");
         }
         let model = FloatModel::new(&data, TradeOff::closed_form(&data));
-        assert!(model.bound(Bound::Fe, 0.0, 0.0) >= 0.0);
+        assert!(model.bound(Bound::Fe, &0.0, &0.0) >= 0.0);
     }
 }
 
@@ -43,7 +43,7 @@ fn the_search_uses_the_positive_part_too() {
     let spec = spec("X", "X - 1");
     let data = Data::new(&spec, 128);
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
-    assert_eq!((model.bound(Bound::Fe, 0.5, 0.0), model.bound(Bound::Fe, 3.0, 0.0)), (0.0, 2.0));
+    assert_eq!((model.bound(Bound::Fe, &0.5, &0.0), model.bound(Bound::Fe, &3.0, &0.0)), (0.0, 2.0));
 }
 
 #[test]
