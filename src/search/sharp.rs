@@ -200,7 +200,7 @@ pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum
     }
     scan::evaluate_all(&Datum::ALL, |&datum| {
         let improved = model.improved(datum, 0.01);
-        let gain = refine(&improved, &proposal.parameters, model.effort().descent(1))
+        let gain = refine(&improved, &proposal.parameters, model.effort().descent(2))
             .map_or(0.0, |(_, ln)| 1.0 - ln.portable_exp() / proposal.sigma);
         (datum, gain.max(0.0))
     })
