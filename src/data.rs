@@ -1,8 +1,8 @@
 //! The data of a specification, enclosed at one working precision.
 
 use crate::enclosure::Enclosure;
-use crate::expr::Expr;
-use crate::real::Real;
+use crate::real::{Operand, Real};
+pub use crate::spec::Bound;
 use crate::spec::model::{Constant, Lyapunov, Specification};
 use std::ops::Deref;
 
@@ -38,6 +38,17 @@ pub struct Numbers<R> {
     pub n_bar: R,
 }
 
+impl<R: Real> Numbers<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// T_N(0) = 1/(nu^2 n_0), the same for every number of oscillators N (derivation, section 2).
+    #[must_use]
+    pub fn transfer_at_zero(&self) -> R {
+        R::int(1) / (self.nu.sqr() * &self.n_0)
+    }
+}
+
 /// What the formulas of a derivation are evaluated for: the numbers of a specification, and its bounding functions.
 pub trait Problem<R: Real> {
     /// The numbers.
@@ -62,63 +73,6 @@ impl Deref for Data<'_> {
 
     fn deref(&self) -> &Numbers<Enclosure> {
         &self.numbers
-    }
-}
-
-/// One of the bounding functions of a specification.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// b_f.
-    F,
-    /// b_fe.
-    Fe,
-    /// b_fxx.
-    Fxx,
-    /// b_fex.
-    Fex,
-    /// b_q.
-    Q,
-    /// b_qe.
-    Qe,
-    /// b_qx.
-    Qx,
-    /// b_qt.
-    Qt,
-    /// b_q_rms, or b_q where absent or smaller.
-    QRms,
-    /// b_qt_rms, or b_qt where absent or smaller.
-    QtRms,
-}
-
-impl Bound {
-    /// The expression in a specification.
-    #[must_use]
-    pub fn of(self, spec: &Specification) -> &Expr {
-        let bounds = &spec.bounds;
-        match self {
-            Bound::F => &bounds.f,
-            Bound::Fe => &bounds.f_e,
-            Bound::Fxx => &bounds.f_xx,
-            Bound::Fex => &bounds.f_ex,
-            Bound::Q => &bounds.q,
-            Bound::Qe => &bounds.q_e,
-            Bound::Qx => &bounds.q_x,
-            Bound::Qt => &bounds.q_t,
-            Bound::QRms => bounds.q_rms.as_ref().unwrap_or(&bounds.q),
-            Bound::QtRms => bounds.q_t_rms.as_ref().unwrap_or(&bounds.q_t),
-        }
-    }
-}
-
-impl Bound {
-    /// For a root mean square with an expression of its own: the bound of the supremum, which bounds it too.
-    #[must_use]
-    pub fn supremum(self, spec: &Specification) -> Option<Bound> {
-        match self {
-            Bound::QRms => spec.bounds.q_rms.as_ref().map(|_| Bound::Q),
-            Bound::QtRms => spec.bounds.q_t_rms.as_ref().map(|_| Bound::Qt),
-            _ => None,
-        }
     }
 }
 

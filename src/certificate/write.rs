@@ -152,7 +152,7 @@ fn multipliers_json(run: &Certification<'_>) -> Option<Value> {
 /// A certificate shows this one, not the tightest: the two sides of a box are no numbers that a checker with other
 /// enclosures could find again.
 fn first_comparison(data: &Data<'_>, [k0, _]: [&Rational; 2], proof: &TransferProof) -> Condition {
-    let at_zero = || (data.nu.sqr() * &data.n_0).recip();
+    let at_zero = || data.transfer_at_zero();
     let (what, lhs) = match proof {
         TransferProof::ClosedForm => ("closed form of k0", closed_form_pair(data).0),
         TransferProof::Matched { .. } => ("k = 0: 1/(nu^2 n_0) <= k0", at_zero()),

@@ -1,6 +1,6 @@
 //! Stability and domain of attraction (derivation, section 5): the quadratic form of C5 and its closed form.
 
-use crate::data::{Bound, Problem};
+use crate::data::{Bound, Numbers, Problem};
 use crate::enclosure::{Enclosure, Truth};
 use crate::real::{Operand, Real};
 
@@ -48,6 +48,47 @@ where
     }
 }
 
+/// The terms of (C5), with ht = h/mu and A = w_x (alpha - gam).
+#[derive(Clone, Debug)]
+pub struct DecayTerms<R> {
+    /// ht.
+    pub h_over_mu: R,
+    /// ht k_x^2.
+    pub coupling: R,
+    /// 4 A.
+    pub curvature: R,
+    /// 1 + ht k_e.
+    pub one_plus: R,
+    /// w_x sqrt(P_up) k_f + k_x (1 + ht k_e)/2.
+    pub cross: R,
+}
+
+impl<R: Real> DecayTerms<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// The terms for given weights, alpha - gam, mu, sqrt(P_up) and k_x, k_e, k_f.
+    #[must_use]
+    pub fn new([w_x, h]: [&R; 2], [rate, mu, root_p_up]: [&R; 3], [k_x, k_e, k_f]: [&R; 3]) -> DecayTerms<R> {
+        let h_over_mu = h / mu;
+        let one_plus = R::int(1) + &h_over_mu * k_e;
+        DecayTerms {
+            coupling: &h_over_mu * k_x.sqr(),
+            curvature: R::int(4) * (w_x * rate),
+            cross: w_x * root_p_up * k_f + k_x * &one_plus / R::int(2),
+            one_plus,
+            h_over_mu,
+        }
+    }
+
+    /// The threshold of sigma for `margin` = 4A - ht k_x^2 > 0:
+    /// `(1 + ht k_e)^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x (1 + ht k_e)/2)^2 / (4A - ht k_x^2)`.
+    #[must_use]
+    pub fn threshold(&self, margin: R) -> R {
+        self.one_plus.sqr() / (R::int(4) * &self.h_over_mu) + self.cross.sqr() / margin
+    }
+}
+
 /// (C5) by its closed form, for given weights w_x, h of the Lyapunov function
 /// U = w_x xt'P_x xt + et^2 + h zt'N zt.
 #[derive(Clone, Debug)]
@@ -64,23 +105,19 @@ impl<R: Real> DecayCondition<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    /// `sigma > (1 + ht k_e)^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x (1 + ht k_e)/2)^2 / (4A - ht k_x^2)`.
+    /// `coupling < curvature` and sigma above the threshold of [`DecayTerms`].
     ///
-    /// Guarantee: with `coupling < curvature` and sigma above the threshold, U' <= -rho (xi^2 + et^2 + s^2) for some
-    /// rho > 0 in the error box (complete the square in s, take the worst signs of u_x, u_e, phi).
+    /// Guarantee: then U' <= -rho (xi^2 + et^2 + s^2) for some rho > 0 in the error box (complete the square in s, take the
+    /// worst signs of u_x, u_e, phi).
     #[must_use]
     pub fn new(problem: &impl Problem<R>, error_box: &ErrorBox<R>, w_x: &R, h: &R) -> DecayCondition<R> {
-        let h_over_mu = h / &problem.numbers().mu;
+        let Numbers { alpha, mu, p_up, .. } = problem.numbers();
         let ErrorBox { k_x, k_e, k_f, gamma, .. } = error_box;
-        let coupling = &h_over_mu * k_x.sqr();
-        let curvature = R::int(4) * (w_x * (&problem.numbers().alpha - gamma));
-        let one_plus = R::int(1) + &h_over_mu * k_e;
-        let cross = w_x * problem.numbers().p_up.sqrt() * k_f + k_x * &one_plus / R::int(2);
-        let margin = &curvature - &coupling;
+        let terms = DecayTerms::new([w_x, h], [&(alpha - gamma), mu, &p_up.sqrt()], [k_x, k_e, k_f]);
+        let margin = &terms.curvature - &terms.coupling;
         // Where the margin is not proved positive the threshold has no meaning; unknown keeps it from being used.
-        let share = if margin.is_certainly_positive() { cross.sqr() / margin } else { R::unknown() };
-        let sigma_threshold = one_plus.sqr() / (R::int(4) * &h_over_mu) + share;
-        DecayCondition { coupling, curvature, sigma_threshold }
+        let sigma_threshold = terms.threshold(if margin.is_certainly_positive() { margin } else { R::unknown() });
+        DecayCondition { coupling: terms.coupling, curvature: terms.curvature, sigma_threshold }
     }
 }
 

@@ -111,7 +111,7 @@ pub(super) fn printed_pair_holds(data: &Data<'_>) -> Truth {
 
 /// T_N(0) = 1/(nu^2 n_0).
 pub(super) fn value_at_zero(data: &Data<'_>) -> Enclosure {
-    (data.nu.sqr() * &data.n_0).recip()
+    data.transfer_at_zero()
 }
 
 /// kappa_1 of the closed form in the units of omega: k1/w^4.

@@ -7,6 +7,7 @@
 //! and no answer. [`Specification::from_json`] does all of it; the reader of documents serves certificates and
 //! witness files as well.
 
+mod bounding;
 mod constant;
 mod document;
 mod error;
@@ -24,14 +25,15 @@ pub mod weights;
 mod weights_proof;
 mod weights_read;
 
+pub use bounding::{Bound, Bounds};
 pub use constant::{any_constant, nonnegative_constant, positive_constant};
 pub use document::{Document, Value};
 pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
 pub use jacobian::MAX_STATES;
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use model::{
-    Bounds, Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource,
-    PeriodicMatrix, RelativeDegree, Specification,
+    Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
+    RelativeDegree, Specification,
 };
 pub use object::{MAX_UNKNOWN, Object};
 pub use power_tail::power_tail;

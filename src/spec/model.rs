@@ -1,5 +1,6 @@
 //! What a bounding specification says, with every number exact.
 
+use super::bounding::Bounds;
 use crate::enclosure::Enclosure;
 use crate::expr::{Expr, Variables};
 use crate::number::{Monomial, write_exact};
@@ -165,51 +166,6 @@ pub struct PeriodicMatrix {
     pub mean: Vec<Vec<Rational>>,
     /// The rows of (cos_k, sin_k) for k = 1, 2, ...; empty for a constant matrix.
     pub harmonics: Vec<[Vec<Vec<Rational>>; 2]>,
-}
-
-/// Bounding functions of (X, E), upper bounds on |x| <= X, |e| <= E for every t (P:LP1, P:LP2).
-#[derive(Clone, Debug)]
-pub struct Bounds {
-    /// Of |f|.
-    pub f: Expr,
-    /// Of |df/de|.
-    pub f_e: Expr,
-    /// Of |d2f/dxdx| as a bilinear map.
-    pub f_xx: Expr,
-    /// Of |d2f/dedx|.
-    pub f_ex: Expr,
-    /// Of |q|.
-    pub q: Expr,
-    /// Of |dq/de|.
-    pub q_e: Expr,
-    /// Of |dq/dx|.
-    pub q_x: Expr,
-    /// Of |dq/dt|.
-    pub q_t: Expr,
-    /// Of the root mean square over a period of sup |q|; `q` serves where absent.
-    pub q_rms: Option<Expr>,
-    /// Of the root mean square over a period of sup |dq/dt|; `q_t` serves where absent.
-    pub q_t_rms: Option<Expr>,
-}
-
-impl Bounds {
-    /// The bounding functions that are given, each with the name of its field.
-    pub fn named(&self) -> impl Iterator<Item = (&'static str, &Expr)> {
-        [
-            ("f", Some(&self.f)),
-            ("f_e", Some(&self.f_e)),
-            ("f_xx", Some(&self.f_xx)),
-            ("f_ex", Some(&self.f_ex)),
-            ("q", Some(&self.q)),
-            ("q_e", Some(&self.q_e)),
-            ("q_x", Some(&self.q_x)),
-            ("q_t", Some(&self.q_t)),
-            ("q_rms", self.q_rms.as_ref()),
-            ("q_t_rms", self.q_t_rms.as_ref()),
-        ]
-        .into_iter()
-        .filter_map(|(name, expr)| expr.map(|expr| (name, expr)))
-    }
 }
 
 /// The box |x| <= X, |e| <= E on which the bounding functions hold; both positive.

@@ -1,10 +1,11 @@
 //! From a document to a specification.
 
+use super::bounding::Bounds;
 use super::constant::{any_constant, expression, positive_constant, whole};
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
-use super::model::{Bounds, Constant, Domain, InternalModel, Lyapunov, LyapunovSource, RelativeDegree, Specification};
+use super::model::{Constant, Domain, InternalModel, Lyapunov, LyapunovSource, RelativeDegree, Specification};
 use super::object::Object;
 use super::quantity::Quantity;
 use super::weights_read;
@@ -153,31 +154,13 @@ fn in_order(p_low: &Constant, p_up: &Constant, value: &Value<'_>, errors: &mut E
 
 fn read_bounds(value: &Value<'_>, errors: &mut Errors) -> Result<Bounds, Reported> {
     let mut object = value.object(errors)?;
-    let mut required =
-        |name, errors: &mut Errors| object.required(name, errors).and_then(|value| bounding_function(&value, errors));
-    let f = required("f", errors);
-    let f_e = required("f_e", errors);
-    let f_xx = required("f_xx", errors);
-    let f_ex = required("f_ex", errors);
-    let q = required("q", errors);
-    let q_e = required("q_e", errors);
-    let q_x = required("q_x", errors);
-    let q_t = required("q_t", errors);
-    let q_rms = object.optional("q_rms").map(|value| bounding_function(&value, errors)).transpose();
-    let q_t_rms = object.optional("q_t_rms").map(|value| bounding_function(&value, errors)).transpose();
+    let bounds = Bounds::read(
+        &mut (&mut object, &mut *errors),
+        |(object, errors), field| object.required(field, errors).and_then(|value| bounding_function(&value, errors)),
+        |(object, errors), field| object.optional(field).map(|value| bounding_function(&value, errors)).transpose(),
+    );
     object.finish(errors);
-    Ok(Bounds {
-        f: f?,
-        f_e: f_e?,
-        f_xx: f_xx?,
-        f_ex: f_ex?,
-        q: q?,
-        q_e: q_e?,
-        q_x: q_x?,
-        q_t: q_t?,
-        q_rms: q_rms?,
-        q_t_rms: q_t_rms?,
-    })
+    bounds
 }
 
 fn bounding_function(value: &Value<'_>, errors: &mut Errors) -> Result<Expr, Reported> {

@@ -103,7 +103,7 @@ impl BoxProof {
         let (k0, k1) = (data.rational(k0), data.rational(k1));
         let at_zero = TransferStep {
             what: "T_N(0) = 1/(nu^2 n_0) <= k0".to_owned(),
-            lhs: (data.nu.sqr() * &data.n_0).recip(),
+            lhs: data.transfer_at_zero(),
             rhs: k0.clone(),
         };
         let mut steps = vec![at_zero.clone()];

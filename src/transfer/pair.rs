@@ -100,7 +100,7 @@ pub enum PairError {
 /// # Errors
 /// k0 certainly below T_N(0), or no proof within the effort.
 pub fn smallest_k1(data: &Data<'_>, k0: &Rational) -> Result<CertifiedPair, PairError> {
-    let at_zero = (data.nu.sqr() * &data.n_0).recip();
+    let at_zero = data.transfer_at_zero();
     if at_zero.gt(&data.rational(k0)).is_true() {
         return Err(PairError::BelowZeroValue { k0: k0.clone(), least: at_zero.lower_decimal(8) });
     }
@@ -115,7 +115,7 @@ fn prove_smallest_k1(
     rooms: &[f64],
 ) -> Result<CertifiedPair, PairError> {
     let (least, sample) = graph.smallest_k1(k0.to_f64());
-    let at_zero = (data.nu.sqr() * &data.n_0).recip();
+    let at_zero = data.transfer_at_zero();
     let out_of_range = || PairError::OutOfRange { at_zero: at_zero.upper_decimal(3) };
     if !least.is_normal() || !k0.to_f64().is_normal() {
         return Err(out_of_range());
@@ -202,7 +202,7 @@ pub struct PairCounterexample {
 /// Proves or refutes the admissibility of a pair, given as enclosures.
 #[must_use]
 pub fn pair_status(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure) -> PairStatus {
-    let at_zero = (data.nu.sqr() * &data.n_0).recip();
+    let at_zero = data.transfer_at_zero();
     if at_zero.gt(k0).is_true() {
         let found = PairCounterexample { n_o: 0, x: Rational::new(), value: at_zero, bound: k0.clone() };
         return PairStatus::Refuted(found);
@@ -259,7 +259,7 @@ mod tests {
         match text {
             // T_N(0) itself, or the first number above it that a double can hold.
             "T(0)" => {
-                let at_zero = (data.nu.sqr() * &data.n_0).recip();
+                let at_zero = data.transfer_at_zero();
                 at_zero.upper_rational().unwrap()
             }
             _ => crate::number::parse_decimal(text).unwrap(),

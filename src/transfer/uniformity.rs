@@ -90,7 +90,7 @@ fn sup_ratio(
     height: Option<&Rational>,
 ) -> SupRatio {
     let at = |x: &Rational, value: Enclosure| value / (data.rational(k0) + data.rational(k1) * data.rational(x).sqr());
-    let at_zero = at(&Rational::new(), (data.nu.sqr() * &data.n_0).recip());
+    let at_zero = at(&Rational::new(), data.transfer_at_zero());
     if n_o == OscillatorCount::Finite(0) {
         // T_0 = n_0/(x^2 + nu^2 n_0^2) decreases.
         return SupRatio { n_o, ratio: at_zero, x: Rational::new() };
@@ -187,7 +187,7 @@ fn stays_below(data: &Data<'_>, sums: &FloatSums, n_o: OscillatorCount, last: us
     };
     let sums = LorentzSums::new(data, last as u32);
     // The form divided by x^2 needs k0 >= T_N(0).
-    (data.nu.sqr() * &data.n_0).recip().le(&k0).is_true()
+    data.transfer_at_zero().le(&k0).is_true()
         && breaks.windows(2).all(|pair| {
             let (lhs, rhs) = sides(data, &sums, &oscillators, [&pair[0], &pair[1]], [&k0, &k1]);
             lhs.le(&rhs).is_true()
@@ -231,7 +231,7 @@ mod tests {
         for mu in ["1/10", "1", "10"] {
             let spec = weights_only("2", "1/2", mu, "1");
             let data = Data::new(&spec, 128);
-            let k0 = 2 * (data.nu.sqr() * &data.n_0).recip();
+            let k0 = 2 * data.transfer_at_zero();
             let k0 = k0.upper_rational().unwrap();
             let pair = smallest_k1(&data, &k0).unwrap();
             let floats = FloatSums::new(&data, LAST_ALONE as usize);
