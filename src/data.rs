@@ -55,6 +55,9 @@ pub trait Problem<R: Real> {
     fn numbers(&self) -> &Numbers<R>;
     /// The value of a bounding function at (X, E).
     fn bound(&self, which: Bound, x: &R, e: &R) -> R;
+    /// Exactly 0, at the precision of the numbers: an argument of bounding functions, which are evaluated at the precision of
+    /// their arguments.
+    fn zero(&self) -> R;
 }
 
 /// A specification, enclosed at one working precision.
@@ -138,5 +141,9 @@ impl Problem<Enclosure> for Data<'_> {
         let value = |which: Bound| which.of(self.spec).enclose(x, e).max(&self.zero());
         // The root mean square of a supremum is at most the supremum, should the data say otherwise.
         which.supremum(self.spec).map_or_else(|| value(which), |supremum| value(which).min(&value(supremum)))
+    }
+
+    fn zero(&self) -> Enclosure {
+        Data::zero(self)
     }
 }

@@ -5,13 +5,16 @@ use super::run::{ExactClaim, Outcome, PrintedFigure, RepairedProof, SharpProof};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::derivation::sharp::ClaimedSet;
-use crate::derivation::table::{Row, TableInput, Value, table};
+use crate::derivation::table::{At, Row, TableInput, Value, table};
 use crate::enclosure::Enclosure;
 use crate::spec::model::Specification;
 use rug::Rational;
 
 /// Binary digits that a reported number has, where the precision allows it.
 const DIGITS: u32 = 56;
+
+/// The most bits that are spent on that: a number that is 0 is never known to any digit.
+const FINEST: u32 = 512;
 
 /// What the table of constants is made from.
 pub(super) struct Figures<'a> {
@@ -32,12 +35,13 @@ impl Figures<'_> {
     /// bounding function cancels, fewer bits decide a condition than tell its sides.
     pub(super) fn evaluated(mut self, spec: &Specification, start: u32, ladder: Ladder) -> (Self, Table) {
         let mut precision = start;
+        let finest = FINEST.min(ladder.limit);
         loop {
             let rows = constants(&Data::new(spec, precision), &self);
-            if precision >= ladder.limit || !self.is_rough(&rows) {
+            if precision >= finest || !self.is_rough(&rows) {
                 return (self, Table { precision, rows });
             }
-            precision = (2 * precision).min(ladder.limit);
+            precision = (2 * precision).min(finest);
             let ladder = Ladder { start: precision, ..ladder };
             if let Outcome::Proved(proof) = &mut self.sharp {
                 let (evaluation, decided_at) = decide_sharp(spec, &proof.witness, ladder);
@@ -55,13 +59,15 @@ impl Figures<'_> {
     }
 
     fn is_rough(&self, rows: &[Row]) -> bool {
-        let cells = rows.iter().flat_map(|row| [&row.printed, &row.repaired, &row.sharp]).flatten();
-        let mut numbers = cells.filter_map(|cell| match &cell.value {
+        // What the printed formulas say at free numbers of their own is evaluated once, and not stored.
+        let printed = |row: &Row| row.printed.clone().filter(|_| row.at != At::Own);
+        let cells = rows.iter().flat_map(|row| [printed(row), row.repaired.clone(), row.sharp.clone()]).flatten();
+        let mut numbers = cells.filter_map(|cell| match cell.value {
             Value::Number(value) => Some(value),
             Value::Span(_) | Value::Infeasible(_) | Value::Unavailable(_) => None,
         });
         let sides = |conditions: &[Condition]| conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs));
-        numbers.any(rough)
+        numbers.any(|number| rough(&number))
             || self.sharp.proved().is_some_and(|proof| {
                 let periodic = &proof.evaluation.periodic;
                 rough(&periodic.x_per) || rough(&periodic.e_per) || sides(&proof.evaluation.conditions)

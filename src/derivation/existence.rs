@@ -28,7 +28,7 @@ where
     #[must_use]
     pub fn new(problem: &impl Problem<R>, x_p: R, e_p: R) -> StateBounds<R> {
         let at_box = |which| problem.bound(which, &x_p, &e_p);
-        let f_xx = problem.bound(Bound::Fxx, &x_p, &R::int(0));
+        let f_xx = problem.bound(Bound::Fxx, &x_p, &problem.zero());
         StateBounds { f_e: at_box(Bound::Fe), f_ex: at_box(Bound::Fex), f_xx, x_p, e_p }
     }
 
@@ -82,7 +82,7 @@ where
         let StateBounds { x_p, e_p, f_e, f_xx, .. } = &state;
         let at_box = |which| problem.bound(which, x_p, e_p);
         let (q_e, q_x, q_rms) = (at_box(Bound::Qe), at_box(Bound::Qx), at_box(Bound::QRms));
-        let x_rate = problem.bound(Bound::F, x_p, &R::int(0)) + f_xx * x_p.sqr() + f_e * e_p;
+        let x_rate = problem.bound(Bound::F, x_p, &problem.zero()) + f_xx * x_p.sqr() + f_e * e_p;
         let q_rate_rms = at_box(Bound::QtRms) + &q_x * x_rate + &q_e * &q_rms;
         PeriodicBounds { state, q_e, q_x, q_rms, q_rate_rms }
     }

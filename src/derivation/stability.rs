@@ -34,7 +34,7 @@ where
     pub fn new(problem: &impl Problem<R>, x_per: &R, e_per: &R, d_x: &R, d_e: &R) -> ErrorBox<R> {
         let (x_b, e_b) = (x_per + d_x, e_per + d_e);
         let gamma = &problem.numbers().c
-            * (problem.bound(Bound::Fxx, x_per, &R::int(0)) * x_per
+            * (problem.bound(Bound::Fxx, x_per, &problem.zero()) * x_per
                 + problem.bound(Bound::Fex, x_per, e_per) * e_per
                 + problem.bound(Bound::Fxx, &x_b, e_per) * d_x / R::int(2));
         ErrorBox {

@@ -97,6 +97,10 @@ impl Problem<f64> for FloatModel {
             _ => value,
         }
     }
+
+    fn zero(&self) -> f64 {
+        0.0
+    }
 }
 
 impl FloatModel {
@@ -197,7 +201,6 @@ impl FloatModel {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::derivation::gains::{beta_s, beta_s_inverse, tau, tau_inverse};
     use crate::number::Portable;
 

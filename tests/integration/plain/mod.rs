@@ -7,7 +7,7 @@ use rug::{Float, Rational};
 use serde_json::Value;
 use sigmastar::enclosure::Enclosure;
 use sigmastar::expr::Expr;
-use sigmastar::spec::{Constant, InitialSet, Specification, Weights};
+use sigmastar::spec::{Bound, Constant, InitialSet, Specification, Weights};
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Working precision in bits.
@@ -198,23 +198,24 @@ impl<'s> Spec<'s> {
             let value = if value.is_bounded() { R(Float::with_val(BITS, value.lower())) } else { r(f64::NAN) };
             if value < r(0.0) { r(0.0) } else { value }
         };
-        // A root mean square is at most the supremum.
-        let rms = |expr: &Option<Expr>, supremum: &Expr| {
-            let supremum = value(supremum);
-            expr.as_ref().map(value).filter(|own| *own < supremum).unwrap_or(supremum)
-        };
         let b = &self.spec.bounds;
+        let of = |which: Bound| value(b.get(which));
+        // A root mean square is at most the supremum.
+        let rms = |own: Bound, supremum: Bound| {
+            let (own, supremum) = (of(own), of(supremum));
+            if own < supremum { own } else { supremum }
+        };
         At {
-            f: value(&b.f),
-            fe: value(&b.f_e),
-            fxx: value(&b.f_xx),
-            fex: value(&b.f_ex),
-            q: value(&b.q),
-            qe: value(&b.q_e),
-            qx: value(&b.q_x),
-            qt: value(&b.q_t),
-            qr: rms(&b.q_rms, &b.q),
-            qtr: rms(&b.q_t_rms, &b.q_t),
+            f: of(Bound::F),
+            fe: of(Bound::Fe),
+            fxx: of(Bound::Fxx),
+            fex: of(Bound::Fex),
+            q: of(Bound::Q),
+            qe: of(Bound::Qe),
+            qx: of(Bound::Qx),
+            qt: of(Bound::Qt),
+            qr: rms(Bound::QRms, Bound::Q),
+            qtr: rms(Bound::QtRms, Bound::Qt),
         }
     }
 
