@@ -1,8 +1,8 @@
 //! Exact values, where they have the form c sqrt(r) pi^k.
 
 use super::Expr;
+use super::monomial::Monomial;
 use super::syntax::{Algebra, Argument, Binary, Unary, evaluate};
-use crate::number::Monomial;
 use rug::Rational;
 use std::cmp::Ordering;
 

@@ -12,10 +12,11 @@
 
 use super::exact::Constants;
 use super::lex::{Token, TokenKind, tokens};
+use super::monomial::Monomial;
 use super::names::{FOLDED, Scope, UNARY, is_taken, suggest};
 use super::syntax::{Binary, Node, NodeKind, Unary, step};
 use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT};
-use crate::number::{Monomial, parse_decimal};
+use crate::number::parse_decimal;
 use std::ops::Range;
 
 const OPERATOR: &str = "an operator or the end";

@@ -3,9 +3,9 @@
 use super::Expr;
 use super::enclose::{binary, power, unary};
 use super::exact::{Exact, sign};
+use super::monomial::Monomial;
 use super::syntax::{Algebra, Argument, Binary, Node, Unary, evaluate};
 use crate::enclosure::Enclosure;
-use crate::number::Monomial;
 use rug::Rational;
 use std::cmp::Ordering;
 use std::ops::Range;

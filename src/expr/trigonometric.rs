@@ -2,9 +2,9 @@
 
 use super::Expr;
 use super::enclose::{binary, power, unary};
+use super::monomial::Monomial;
 use super::syntax::{Argument, Binary, NodeKind, Unary};
 use crate::enclosure::Enclosure;
-use crate::number::Monomial;
 use rug::Rational;
 use std::ops::Range;
 

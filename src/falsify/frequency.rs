@@ -2,7 +2,7 @@
 
 use super::claim::Claim;
 use crate::certificate::{Options, certificate_json, certify};
-use crate::number::Monomial;
+use crate::expr::Monomial;
 use crate::spec::{Constant, Document, SpecErrors, Specification};
 use rug::Rational;
 use thiserror::Error;

@@ -1,8 +1,8 @@
 //! The matrices that a Jacobian of the specification stands for.
 
 use crate::enclosure::Enclosure;
+use crate::expr::Monomial;
 use crate::expr::TrigonometricPolynomial;
-use crate::number::Monomial;
 use crate::spec::model::{Constant, Jacobian, JacobianEntry};
 use rug::Rational;
 

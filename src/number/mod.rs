@@ -5,13 +5,11 @@
 //! proposals of a search to short rationals in a chosen direction.
 
 mod bernoulli;
-mod constant;
 mod decimal;
 mod portable;
 mod short;
 
 pub use bernoulli::bernoulli_over_factorial;
-pub use constant::Monomial;
 pub(crate) use decimal::positional;
 pub use decimal::{DecimalError, MAX_EXPONENT, MAX_LENGTH, parse_decimal, write_exact};
 pub use portable::Portable;

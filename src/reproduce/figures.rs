@@ -3,8 +3,8 @@
 use super::printed::PAPER_PLANT;
 use super::run::{figures_of, internal_model};
 use crate::plant::Plant;
+use crate::plot::{Curve, Figure};
 use crate::regulator::Regulator;
-use crate::simulate::plot::{Curve, Figure};
 use crate::simulate::{bode, spectrum, spectrum_curve};
 use crate::spec::SpecErrors;
 use rayon::prelude::*;

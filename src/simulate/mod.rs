@@ -10,7 +10,6 @@ mod effort;
 mod fixed;
 mod noise;
 mod orbit;
-pub mod plot;
 mod report;
 
 mod run;

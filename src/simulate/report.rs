@@ -1,9 +1,9 @@
 //! What a person, or a script, reads about a simulation.
 
-use super::plot::{Curve, Figure, Scale};
 use super::run::{LongRun, Method, NoisyRun, Simulation, SteadyFigures};
 use super::{ClosedLoop, Disturbance, IntegrationFailure, SteadyState, frequencies, magnitude};
 use crate::plant::Plant;
+use crate::plot::{Curve, Figure, Scale};
 use crate::regulator::Regulator;
 use crate::report::blocks::{Block, Table, clean};
 use serde_json::{Value, json as object};

@@ -6,8 +6,8 @@ use super::error::{ErrorKind, Errors, Reported};
 use super::model::{Constant, Jacobian, JacobianEntry};
 use super::quantity::Quantity;
 use crate::enclosure::{DEFAULT_PRECISION, Truth};
+use crate::expr::Monomial;
 use crate::expr::Variables;
-use crate::number::Monomial;
 use rug::Rational;
 
 /// The largest number of states that a Jacobian is read for.

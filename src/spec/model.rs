@@ -2,8 +2,9 @@
 
 use super::bounding::Bounds;
 use crate::enclosure::Enclosure;
+use crate::expr::Monomial;
 use crate::expr::{Expr, Variables};
-use crate::number::{Monomial, write_exact};
+use crate::number::write_exact;
 use rug::Rational;
 
 use super::document::Document;

@@ -2,7 +2,8 @@
 
 use super::model::Constant;
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION, Truth};
-use crate::number::{Monomial, write_exact};
+use crate::expr::Monomial;
+use crate::number::write_exact;
 use rug::Rational;
 use std::cmp::Ordering;
 

@@ -4,7 +4,7 @@ use super::model::Constant;
 use super::power_tail::power_tail;
 use super::quantity::Quantity;
 use crate::enclosure::Enclosure;
-use crate::number::Monomial;
+use crate::expr::Monomial;
 use crate::number::Portable;
 use rug::{Float, Integer, Rational, float::Round};
 

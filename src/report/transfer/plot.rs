@@ -2,9 +2,8 @@
 
 use crate::data::Data;
 use crate::number::Direction;
-use crate::palette::COLOURS;
+use crate::plot::{COLOURS, DETAIL, at_size, canvas, heading};
 use crate::report::number::exact;
-use crate::simulate::plot::{DETAIL, at_size, canvas, heading};
 use crate::transfer::{CertifiedPair, OscillatorCount, transfer_graph};
 use plotters::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Figures as SVG.
 
-use crate::palette::COLOURS;
+use super::palette::COLOURS;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::prelude::*;
