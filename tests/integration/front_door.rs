@@ -157,7 +157,7 @@ fn every_kind_of_weights_and_initial_set_can_be_built() {
 fn errors_have_kinds_places_and_help() {
     let read = |old: &str, new: &str| {
         assert!(EXAMPLE_TEXT.contains(old), "{old}");
-        Specification::from_json(&EXAMPLE_TEXT.replace(old, new)).err().expect("an error")
+        Specification::from_json(&EXAMPLE_TEXT.replace(old, new)).expect_err("an error")
     };
     for (old, new, expected, place) in [
         ("\"period\": \"1\",", "\"period\": ", ErrorKind::Document, "specification:6:"),
