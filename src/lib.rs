@@ -1,43 +1,109 @@
 //! `sigmastar`: from bounding functions of a plant to a gain that provably works for every number of oscillators.
 //!
-//! The stages, in the order in which data flows through them:
+//! A [`Specification`] says what is known of a plant; [`certify`] finds a small gain and proves that it works, and
+//! [`check`] decides the [`Certificate`] again with code of its own. [`transfer_bound`] proves the transfer bound by itself,
+//! [`regulator_matrices`] and [`sampled_regulator`] give the regulator. What goes wrong is an [`Error`] with a
+//! [`kind`](Error::kind).
 //!
-//! - [`spec`]: a bounding specification is read strictly, every number exact;
-//! - [`expr`], [`number`], [`enclosure`]: bounding functions, exact numbers, rigorous interval arithmetic over MPFR;
-//! - [`real`]: what enclosures and doubles have in common, so that every formula is written once;
-//! - [`data`]: the numbers of a specification, enclosed at one precision;
-//! - [`transfer`], [`derivation`]: the transfer bound, then the constants and conditions in three derivations;
-//! - [`lmi`]: the linear matrix inequality of C5, proposed by a solver and verified exactly, as a cross-check;
-//! - [`lyapunov`]: P_x(t) and the Lyapunov triple for a Jacobian, proposed by a solver and proved for every t;
-//! - [`search`]: floating-point proposals for the free numbers (they decide nothing);
-//! - [`certificate`]: rounding to short rationals, the rigorous decision, the certificate file;
-//! - [`rate`]: rates of convergence for a given number of oscillators;
-//! - [`report`], [`errata`]: what a person reads;
-//! - [`regulator`], [`plant`], [`simulate`], [`reproduce`], [`falsify`]: the regulator itself, and floating-point
-//!   simulations that show what a claim speaks of and try to break it; nothing rigorous depends on them;
-//! - [`progress`]: how long work says that it goes on.
+//! ```
+//! use sigmastar::{BoundingFunction as Bound, CertifyOptions, ErrorKind, Specification, certify, check_against};
 //!
-//! Nothing below the command line knows it, and every arrow goes one way.
+//! # fn main() -> Result<(), sigmastar::Error> {
+//! let specification = Specification::builder("linear zero dynamics")
+//!     .period("1")
+//!     .lyapunov("1", "1.5512", "0.58")
+//!     .bound(Bound::F, "2*X + E/2")
+//!     .bound(Bound::Fe, "1/2")
+//!     .bound(Bound::Fxx, "0")
+//!     .bound(Bound::Fex, "0")
+//!     .bound(Bound::Q, "3 + X + E/4")
+//!     .bound(Bound::Qe, "1/4")
+//!     .bound(Bound::Qx, "1")
+//!     .bound(Bound::Qt, "20")
+//!     .mu("1")
+//!     .matched_base_frequency("2*pi")
+//!     .power_weights("2", "1/2")
+//!     .initial_set_of_the_paper()
+//!     .build()?;
+//!
+//! let certificate = certify(&specification, &CertifyOptions::new())?;
+//! let claim = certificate.claim();
+//! println!("{}", claim.statement());
+//! assert!(certificate.conditions().iter().all(|condition| condition.holds() == Some(true)));
+//!
+//! // The text of the certificate can be stored, and checked by whoever has the specification.
+//! assert!(check_against(certificate.to_json(), &specification).is_valid());
+//!
+//! // The regulator with the certified gain and 4 oscillators: 9 states.
+//! let regulator = sigmastar::regulator_matrices(&specification, claim.sigma_star(), 4)?;
+//! assert_eq!(regulator.phi.len(), 9);
+//!
+//! let error = sigmastar::regulator_matrices(&specification, "-1", 4).unwrap_err();
+//! assert_eq!(error.kind(), ErrorKind::Range);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Numbers go in and come out as exact text (`"47.2233"`, `"1/3"`, `"2*pi"`); doubles are rounded to the side that is stated
+//! with them. Nothing here reads files, prints or exits. What is not on this page is not part of the interface.
+//!
+//! The feature `cli`, on by default, is for the program alone: a library user turns it off with
+//! `default-features = false`.
 
+#![deny(missing_docs)]
+
+mod api;
+
+// The layers below the front door; `docs/architecture.md` says what is in each. The
+// program, the tests and the benches of this package use them. They are public for these alone and may change.
+#[doc(hidden)]
 pub mod certificate;
+#[doc(hidden)]
 pub mod data;
+#[doc(hidden)]
 pub mod derivation;
+#[doc(hidden)]
 pub mod enclosure;
+#[doc(hidden)]
 pub mod errata;
+#[doc(hidden)]
 pub mod expr;
+#[doc(hidden)]
 pub mod falsify;
+#[doc(hidden)]
 pub mod lmi;
+#[doc(hidden)]
 pub mod lyapunov;
+#[doc(hidden)]
 pub mod number;
+#[doc(hidden)]
 pub mod plant;
+#[doc(hidden)]
 pub mod plot;
+#[doc(hidden)]
 pub mod progress;
+#[doc(hidden)]
 pub mod rate;
+#[doc(hidden)]
 pub mod real;
+#[doc(hidden)]
 pub mod regulator;
+#[doc(hidden)]
 pub mod report;
+#[doc(hidden)]
 pub mod reproduce;
+#[doc(hidden)]
 pub mod search;
+#[doc(hidden)]
 pub mod simulate;
+#[doc(hidden)]
 pub mod spec;
+#[doc(hidden)]
 pub mod transfer;
+
+pub use api::{
+    BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition, Derivation, Error,
+    ErrorKind, InitialSet, JacobianEntry, PeriodicSolution, RegulatorMatrices, SampledRegulator, Specification,
+    SpecificationBuilder, TransferBound, TransferChoice, certify, check, check_against, regulator_matrices,
+    sampled_regulator, transfer_bound,
+};

@@ -26,7 +26,7 @@ const MAX_EXPONENT: i32 = 1_000;
 pub enum Op {
     Number(Rational), Pi, X, E,
     Neg, Sqrt, Exp, Log, Sin, Cos, Tan, Atan, Tanh, Abs,
-    /// An integer power; the exponent is at most [`MAX_EXPONENT`] in magnitude.
+    /// An integer power; the exponent is at most `MAX_EXPONENT` in magnitude.
     Power(i32),
     Add, Sub, Mul, Div, Pow, Min, Max,
 }

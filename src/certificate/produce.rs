@@ -300,7 +300,7 @@ fn printed_figure(data: &Data<'_>, model: &FloatModel) -> PrintedFigure {
         let h = data.rational(&round_f64(proposal.h, 8, Direction::Down)?);
         let printed = printed_transfer(data);
         let kappas = [&printed.kappa_0, &printed.kappa_1];
-        Some(PrintedEvaluation::new(data, kappas, &data.rational(&x_a), &data.rational(&e_a), |largest| h.min(largest)))
+        Some(PrintedEvaluation::new(data, kappas, &data.rational(&x_a), &data.rational(&e_a), |_| h))
     });
     let sigma = evaluation
         .as_ref()

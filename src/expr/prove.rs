@@ -25,7 +25,7 @@ pub struct ProofSettings {
     /// Boxes left undecided before giving up.
     pub max_boxes: usize,
     /// Operations of the expression before giving up, over all its executions: one counts once for every 128 bits of
-    /// precision, and [`FUNCTION_WEIGHT`] times where it is a function such as exp.
+    /// precision, and `FUNCTION_WEIGHT` times where it is a function such as exp.
     pub max_operations: u64,
     /// Bisections that may lead to one box.
     pub max_depth: u32,

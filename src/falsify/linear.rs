@@ -20,9 +20,9 @@ const ROUNDED: f64 = 1.0 - 1e-7;
 /// with equality), and x and e drive each other: g, c, beta > 0. With a Jacobian F is one of its matrices.
 ///
 /// A tight f leaves room for no other plant, so nothing is taken from the gains first; where that is not proved to fit, a
-/// rounding is, and then what [`draw`](super::draw) takes. `None` where nothing could be proved.
+/// rounding is, and then what `draw` takes. `None` where nothing could be proved.
 ///
-/// Guarantee: as for [`draw`](super::draw).
+/// Guarantee: as for `draw`.
 #[must_use]
 pub fn linear_member(claim: &Claim, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
     let allowed = allowed(claim);

@@ -128,7 +128,7 @@ const SHARES: [f64; 12] = [0.9998, 0.98, 0.94, 0.88, 0.8, 0.7, 0.6, 0.5, 0.4, 0.
 const DEGREES: [usize; 4] = [0, 1, 2, 4];
 
 /// What all semidefinite programs for one Jacobian may cost together, in entries that their factorisations touch: some
-/// seconds. Where less is left than [`FEWEST_PROGRAMS`] of a degree cost, that degree is left to the periodic Lyapunov equation.
+/// seconds. Where less is left than `FEWEST_PROGRAMS` of a degree cost, that degree is left to the periodic Lyapunov equation.
 pub const MAX_PROGRAM_COST: u64 = 150_000_000;
 const FEWEST_PROGRAMS: u64 = 8;
 

@@ -35,6 +35,7 @@ pub use lyapunov::LyapunovReport;
 pub use markdown::render as markdown;
 pub use rate::RateReport;
 pub use relative_degree::filter_errors;
+pub(crate) use remarks::remarks;
 pub use text::render as text;
 pub use transfer::{PairChoice, TransferReport, TransferRequest, plot_svg};
 pub use verdict::sentence;

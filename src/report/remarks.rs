@@ -4,7 +4,7 @@ use crate::certificate::{Certification, ExceededBy};
 use crate::data::{Bound, Data, Problem};
 
 /// One sentence or two for each.
-pub(super) fn remarks(run: &Certification<'_>) -> Vec<String> {
+pub(crate) fn remarks(run: &Certification<'_>) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Some(reason) = &run.no_plant {
         let check = match reason.exceeded_by {

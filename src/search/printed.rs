@@ -24,6 +24,9 @@ pub struct PrintedProposal {
     pub sigma: f64,
 }
 
+/// By how much h stays below its largest value, so that it still does where x_a, e_a are rounded.
+const ROOM: f64 = 1e-6;
+
 /// The printed sigma at x_a, e_a, `share` of the largest printed h; `None` where a printed condition other than
 /// P:eq:boundx_bounde_1 fails or an argument leaves the domain.
 fn evaluate(model: &FloatModel, kappas: [&f64; 2], x: f64, e: f64, share: f64) -> Option<PrintedProposal> {
@@ -31,7 +34,7 @@ fn evaluate(model: &FloatModel, kappas: [&f64; 2], x: f64, e: f64, share: f64) -
     if x_b > model.domain.0 || e_b > model.domain.1 {
         return None;
     }
-    let found = PrintedEvaluation::new(model, kappas, &x, &e, |largest| share * largest);
+    let found = PrintedEvaluation::new(model, kappas, &x, &e, |largest| (1.0 - ROOM) * share * largest);
     let sigma = found.sigma_p.ok()?.max(found.sigma_a.ok()?);
     sigma.is_finite().then_some(PrintedProposal { x_a: x, e_a: e, h: found.point.h, sigma })
 }
@@ -59,8 +62,7 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
     let decode = |p: &[f64]| {
         let x = scan::in_range(p[0].portable_exp())?;
         let e = largest_e(x)? * (-depth_of(p[1])).portable_exp();
-        // A share slightly below 1 keeps h inside its closed interval after rounding.
-        evaluate(model, kappas, x, e, (1.0 - 1e-9) * (-p[2] * p[2]).portable_exp())
+        evaluate(model, kappas, x, e, (-p[2] * p[2]).portable_exp())
     };
     let depth = (largest_e(start.x_a)? / start.e_a).portable_ln().max(1e-9);
     let first = [start.x_a.portable_ln(), parameter_of(depth), (-share.portable_ln()).sqrt()];

@@ -158,7 +158,7 @@ pub fn cheapest_pair(data: &Data<'_>, a: f64, b: f64) -> Result<CertifiedPair, P
     result
 }
 
-/// Pairs along the trade-off, k0 increasing from about T_N(0) to [`TABLE_REACH`] times that, at most `most` of them;
+/// Pairs along the trade-off, k0 increasing from about T_N(0) to `TABLE_REACH` times that, at most `most` of them;
 /// those without a proof are left out.
 #[must_use]
 pub fn trade_off_pairs(data: &Data<'_>, most: usize) -> Vec<CertifiedPair> {

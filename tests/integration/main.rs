@@ -15,6 +15,7 @@ mod errata_list;
 mod expr_properties;
 mod expr_prove;
 mod formats;
+mod front_door;
 mod lmi_decay;
 mod lmi_specs;
 mod lyapunov;

@@ -2,8 +2,8 @@
 //! section 1).
 //!
 //! The box [0, X] x [0, E] is cut until, on every piece, the expression is defined and its difference quotients in X
-//! and in E are proved nonnegative: by slopes and growth ([`slopes`]), with the polynomials in sums taken exactly
-//! ([`polynomials`]), or by second derivatives ([`jets`]). The pieces are closed and cover the box, so a segment along an
+//! and in E are proved nonnegative: by slopes and growth (`slopes`), with the polynomials in sums taken exactly
+//! (`polynomials`), or by second derivatives (`jets`). The pieces are closed and cover the box, so a segment along an
 //! axis runs through finitely many of them and the expression is nondecreasing along it. A function that is defined on
 //! every piece is bounded there, hence finite. What is used is its positive part: a bound of a norm is one without its
 //! negative values too, so a sign that rounding leaves open, as at an origin where the value is exactly 0, does no harm.

@@ -1,0 +1,108 @@
+//! The independent checker.
+
+use super::specification::Specification;
+use proofs_check::Report;
+use proofs_check::verdict::Verdict;
+
+/// The answer of the independent checker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum CheckVerdict {
+    /// The claim is proved again.
+    Valid,
+    /// A rule is certainly violated.
+    Invalid,
+    /// The text is no certificate that is read.
+    BadInput,
+    /// A rule could be neither proved nor refuted: nothing is claimed.
+    Undecided,
+}
+
+/// What the independent checker says about a certificate.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct CheckReport {
+    verdict: CheckVerdict,
+    flawless: bool,
+    statement: Option<String>,
+    sha256: Option<String>,
+    assumed: Vec<String>,
+    text: String,
+}
+
+/// Decides the claim of a certificate again, with none of the code that wrote it: no search, no floating point.
+///
+/// It never fails and never panics, whatever the text, and its effort is bounded. It does not say that the certificate is
+/// about *your* specification: [`check_against`] does.
+#[must_use]
+pub fn check(certificate: &str) -> CheckReport {
+    CheckReport::new(&proofs_check::check(certificate.as_bytes()))
+}
+
+/// The same; and a certificate about other data than those of `specification` is invalid.
+#[must_use]
+pub fn check_against(certificate: &str, specification: &Specification) -> CheckReport {
+    let asked = specification.to_json();
+    CheckReport::new(&proofs_check::check_against(certificate.as_bytes(), Some(asked.as_bytes())))
+}
+
+impl CheckReport {
+    fn new(report: &Report) -> CheckReport {
+        let subject = report.proved.as_ref().map(|proved| &proved.subject);
+        CheckReport {
+            verdict: match report.verdict {
+                Verdict::Valid => CheckVerdict::Valid,
+                Verdict::Invalid => CheckVerdict::Invalid,
+                Verdict::BadInput => CheckVerdict::BadInput,
+                Verdict::Undecided => CheckVerdict::Undecided,
+            },
+            flawless: report.is_flawless(),
+            statement: subject.map(|subject| subject.statement.clone()),
+            sha256: subject.map(|subject| subject.digest.clone()),
+            assumed: subject.map_or_else(Vec::new, |subject| subject.assumed.clone()),
+            text: report.text(false),
+        }
+    }
+
+    /// The answer.
+    #[must_use]
+    pub fn verdict(&self) -> CheckVerdict {
+        self.verdict
+    }
+
+    /// Whether the claim is proved.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        self.verdict == CheckVerdict::Valid
+    }
+
+    /// Whether the claim is proved and every figure beside it, on which no claim rests, agrees too.
+    #[must_use]
+    pub fn is_flawless(&self) -> bool {
+        self.flawless
+    }
+
+    /// The claim that is proved, in words; `None` where none is.
+    #[must_use]
+    pub fn statement(&self) -> Option<&str> {
+        self.statement.as_deref()
+    }
+
+    /// SHA-256 of the specification that the proved claim is about; `None` where none is proved.
+    #[must_use]
+    pub fn specification_sha256(&self) -> Option<&str> {
+        self.sha256.as_deref()
+    }
+
+    /// What the proved claim assumes of the plant, in sentences.
+    #[must_use]
+    pub fn assumed(&self) -> &[String] {
+        &self.assumed
+    }
+
+    /// The report for people, as `sigmastar check` prints it: the rule and the field where something is wrong.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}

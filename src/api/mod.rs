@@ -1,0 +1,48 @@
+//! The front door: what a program that depends on this library uses, re-exported at the crate root.
+//!
+//! No type of another crate appears in it. Exact numbers are text, in the notation of specifications; doubles are
+//! rounded to the safe side, which is stated with each.
+
+mod certificate;
+mod check;
+mod error;
+mod options;
+mod regulator;
+mod specification;
+mod transfer;
+
+pub use certificate::{Certificate, Claim, Condition, InitialSet, PeriodicSolution, certify};
+pub use check::{CheckReport, CheckVerdict, check, check_against};
+pub use error::{Error, ErrorKind};
+pub use options::{CertifyOptions, Derivation, TransferChoice};
+pub use regulator::{RegulatorMatrices, SampledRegulator, regulator_matrices, sampled_regulator};
+pub use specification::{BoundingFunction, JacobianEntry, Specification, SpecificationBuilder};
+pub use transfer::{TransferBound, transfer_bound};
+
+use crate::enclosure::Enclosure;
+use crate::spec::{Constant, Document, Errors, positive_constant};
+use rug::Rational;
+
+/// The smallest double that is not below an exact number.
+fn rounded_up(value: &Rational) -> f64 {
+    Enclosure::from_rational(value, 53).upper_f64()
+}
+
+/// The largest double that is not above an exact number.
+fn rounded_down(value: &Rational) -> f64 {
+    Enclosure::from_rational(value, 53).lower_f64()
+}
+
+/// An argument that is an exact positive constant, as in a specification; `name` is what errors call it.
+fn positive(name: &str, text: &str) -> Result<Constant, Error> {
+    let document = Document::flag(name, text);
+    let mut errors = Errors::new();
+    let place = document.at(&format!("/{name}")).unwrap_or_else(|| document.root());
+    let value = positive_constant(&place, &mut errors);
+    errors.conclude(&document, value).map_err(|errors| Error::argument(name, &errors))
+}
+
+/// JSON as it is written: indented, ending in a line feed.
+fn json_text(value: &serde_json::Value) -> String {
+    format!("{value:#}\n")
+}

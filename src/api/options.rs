@@ -1,0 +1,126 @@
+//! What a run of [`certify`](super::certify) does.
+
+use super::error::{Error, ErrorKind};
+use crate::certificate::{self, Ladder, Options};
+use crate::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+
+/// The derivation on which a claim rests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Derivation {
+    /// The smaller gain: sections 2 to 6 of `docs/mathematics.md`.
+    #[default]
+    Sharp,
+    /// The architecture of the paper, with every formula repaired.
+    Repaired,
+}
+
+/// Which proof of the transfer bound the sharp derivation uses. The repaired derivation always has the closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum TransferChoice {
+    /// Harmonic by harmonic where the specification has a matched base frequency, by boxes otherwise.
+    #[default]
+    Best,
+    /// By boxes: valid for every base frequency.
+    Boxes,
+    /// By the closed form: valid for every base frequency, with a larger gain.
+    ClosedForm,
+}
+
+/// What a run of [`certify`](crate::certify) does. The defaults are those of the command `sigmastar certify`.
+///
+/// ```
+/// use sigmastar::{CertifyOptions, Derivation};
+/// let options = CertifyOptions::new().derivation(Derivation::Repaired).compare(false);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct CertifyOptions {
+    derivation: Derivation,
+    transfer: TransferChoice,
+    precision_limit: u32,
+    compare: bool,
+}
+
+impl Default for CertifyOptions {
+    fn default() -> CertifyOptions {
+        CertifyOptions {
+            derivation: Derivation::default(),
+            transfer: TransferChoice::default(),
+            precision_limit: MAX_PRECISION,
+            compare: true,
+        }
+    }
+}
+
+impl CertifyOptions {
+    /// The smallest limit of the working precision, in bits.
+    pub const LEAST_PRECISION_LIMIT: u32 = DEFAULT_PRECISION;
+
+    /// The largest limit of the working precision, in bits.
+    pub const LARGEST_PRECISION_LIMIT: u32 = MAX_PRECISION;
+
+    /// The defaults.
+    #[must_use]
+    pub fn new() -> CertifyOptions {
+        CertifyOptions::default()
+    }
+
+    /// The derivation that the claim rests on (default: [`Derivation::Sharp`]).
+    #[must_use]
+    pub fn derivation(mut self, derivation: Derivation) -> CertifyOptions {
+        self.derivation = derivation;
+        self
+    }
+
+    /// The proof of the transfer bound (default: [`TransferChoice::Best`]).
+    #[must_use]
+    pub fn transfer(mut self, transfer: TransferChoice) -> CertifyOptions {
+        self.transfer = transfer;
+        self
+    }
+
+    /// The precision in bits at which an undecided condition is given up (default: 1024). It is to lie between
+    /// [`CertifyOptions::LEAST_PRECISION_LIMIT`] and [`CertifyOptions::LARGEST_PRECISION_LIMIT`]; `certify` refuses
+    /// others.
+    #[must_use]
+    pub fn precision_limit(mut self, bits: u32) -> CertifyOptions {
+        self.precision_limit = bits;
+        self
+    }
+
+    /// Whether the other derivation is worked out too, and its free numbers put into the certificate (default: yes).
+    /// Without it a run is faster, and the claim is the same or nearly so.
+    #[must_use]
+    pub fn compare(mut self, compare: bool) -> CertifyOptions {
+        self.compare = compare;
+        self
+    }
+
+    /// The options of the layers below.
+    ///
+    /// # Errors
+    /// A limit of the precision out of range.
+    pub(super) fn checked(self) -> Result<Options, Error> {
+        let range = CertifyOptions::LEAST_PRECISION_LIMIT..=CertifyOptions::LARGEST_PRECISION_LIMIT;
+        if !range.contains(&self.precision_limit) {
+            let message = format!("precision_limit: {} bits are out of range", self.precision_limit);
+            let help = format!("choose {} to {} bits", range.start(), range.end());
+            return Err(Error::new(ErrorKind::Range, message, &help));
+        }
+        Ok(Options {
+            derivation: match self.derivation {
+                Derivation::Sharp => certificate::Derivation::Sharp,
+                Derivation::Repaired => certificate::Derivation::Repaired,
+            },
+            transfer: match self.transfer {
+                TransferChoice::Best => certificate::TransferChoice::Best,
+                TransferChoice::Boxes => certificate::TransferChoice::Boxes,
+                TransferChoice::ClosedForm => certificate::TransferChoice::ClosedForm,
+            },
+            ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
+            compare: self.compare,
+        })
+    }
+}

@@ -1,0 +1,317 @@
+//! Specifications: from JSON, or built in Rust. Either way the strict reader of [`crate::spec`] reads the document.
+
+use super::error::Error;
+use super::json_text;
+use crate::spec;
+use serde_json::{Map, Value};
+
+/// What errors call the document.
+const LABEL: &str = "specification";
+
+/// A bounding specification that was read: every number is exact or enclosed, and proved to lie in its range; the weights
+/// are proved to satisfy W1 to W3; a matched base frequency, where asserted, is proved.
+///
+/// That the bounding functions are finite and nondecreasing is proved by [`certify`](crate::certify). That they bound the
+/// plant is the user's part.
+#[derive(Clone, Debug)]
+pub struct Specification {
+    pub(super) read: spec::Specification,
+}
+
+impl Specification {
+    /// Reads a specification from the text of its JSON file (`docs/formats.md`). Never panics, whatever the text.
+    ///
+    /// # Errors
+    /// Everything that was found wrong, each with its place; kind [`Undecided`](crate::ErrorKind::Undecided) where nothing
+    /// is wrong and something could not be decided.
+    ///
+    /// ```
+    /// let error = sigmastar::Specification::from_json("{ \"format\": 1 }").unwrap_err();
+    /// assert_eq!(error.kind(), sigmastar::ErrorKind::Field);
+    /// assert!(error.to_string().contains("specification:1:13"));
+    /// ```
+    pub fn from_json(text: &str) -> Result<Specification, Error> {
+        Ok(Specification { read: spec::Specification::from_json(LABEL, text)? })
+    }
+
+    /// Starts a specification that is built in Rust; `name` is for reports.
+    #[must_use]
+    pub fn builder(name: impl Into<String>) -> SpecificationBuilder {
+        SpecificationBuilder::new(name)
+    }
+
+    /// The name of the plant.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.read.name
+    }
+
+    /// The document as it was read, indented, with every number as it was written.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        json_text(&self.read.document)
+    }
+
+    /// SHA-256, in hexadecimal, of the canonical form of the document: what a certificate names.
+    #[must_use]
+    pub fn sha256(&self) -> &str {
+        &self.read.sha256
+    }
+}
+
+/// A bounding function of `(X, E)`: an upper bound on `|x| <= X`, `|e| <= E`, for every t.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum BoundingFunction {
+    /// Of `|f|`.
+    F,
+    /// Of `|df/de|`.
+    Fe,
+    /// Of `|d2f/dxdx|` as a bilinear map.
+    Fxx,
+    /// Of `|d2f/dedx|`.
+    Fex,
+    /// Of `|q|`.
+    Q,
+    /// Of `|dq/de|`.
+    Qe,
+    /// Of `|dq/dx|`.
+    Qx,
+    /// Of `|dq/dt|`.
+    Qt,
+    /// Of the root mean square over a period of `sup |q|`; optional, `Q` serves where it is absent.
+    QRms,
+    /// Of the root mean square over a period of `sup |dq/dt|`; optional, `Qt` serves where it is absent.
+    QtRms,
+}
+
+impl BoundingFunction {
+    /// The name of its field under `bounds`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            BoundingFunction::F => "f",
+            BoundingFunction::Fe => "f_e",
+            BoundingFunction::Fxx => "f_xx",
+            BoundingFunction::Fex => "f_ex",
+            BoundingFunction::Q => "q",
+            BoundingFunction::Qe => "q_e",
+            BoundingFunction::Qx => "q_x",
+            BoundingFunction::Qt => "q_t",
+            BoundingFunction::QRms => "q_rms",
+            BoundingFunction::QtRms => "q_t_rms",
+        }
+    }
+}
+
+/// An entry of a Jacobian `df/dx(t,0,0)`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum JacobianEntry {
+    /// A constant, or a trigonometric polynomial in `t` with the period of the specification.
+    Function(String),
+    /// Any continuous function of time between the two constants.
+    Interval(String, String),
+}
+
+impl From<&str> for JacobianEntry {
+    /// A function.
+    fn from(text: &str) -> JacobianEntry {
+        JacobianEntry::Function(text.to_owned())
+    }
+}
+
+impl From<(&str, &str)> for JacobianEntry {
+    /// An interval.
+    fn from((low, up): (&str, &str)) -> JacobianEntry {
+        JacobianEntry::Interval(low.to_owned(), up.to_owned())
+    }
+}
+
+/// Builds a [`Specification`]. Numbers are exact constants in the notation of specifications (`"0.58"`, `"1/3"`,
+/// `"2*pi"`, `"sqrt(3)/2"`), bounding functions are expressions in `X` and `E`.
+///
+/// Nothing has a default: what is missing is an error of [`SpecificationBuilder::build`], as it is in a file. What is given
+/// twice is replaced.
+#[derive(Clone, Debug)]
+pub struct SpecificationBuilder {
+    document: Map<String, Value>,
+}
+
+impl SpecificationBuilder {
+    /// An empty specification with the name of the plant.
+    #[must_use]
+    pub fn new(name: impl Into<String>) -> SpecificationBuilder {
+        let version = spec::VERSIONS[spec::VERSIONS.len() - 1];
+        let document = object([("format", text(spec::FORMAT)), ("version", version.into()), ("name", text(name))]);
+        SpecificationBuilder { document }
+    }
+
+    /// Free text for reports.
+    #[must_use]
+    pub fn description(self, description: impl Into<String>) -> SpecificationBuilder {
+        self.with("description", text(description))
+    }
+
+    /// The period T > 0 of f and q.
+    #[must_use]
+    pub fn period(self, period: &str) -> SpecificationBuilder {
+        self.with("period", text(period))
+    }
+
+    /// The Lyapunov triple of the zero dynamics, 0 < p_low <= p_up and alpha > 0, for which the user vouches. It takes the
+    /// place of a Jacobian.
+    #[must_use]
+    pub fn lyapunov(self, p_low: &str, p_up: &str, alpha: &str) -> SpecificationBuilder {
+        let triple = object([("p_low", text(p_low)), ("p_up", text(p_up)), ("alpha", text(alpha))]);
+        self.with("lyapunov", triple.into())
+    }
+
+    /// The Jacobian `df/dx(t,0,0)`, row by row, for which [`certify`](crate::certify) finds and proves a Lyapunov triple. It
+    /// takes the place of a triple.
+    ///
+    /// ```
+    /// use sigmastar::{JacobianEntry, Specification};
+    /// let rows: [[JacobianEntry; 2]; 2] = [["-1/5".into(), ("1.7", "1.9").into()], ["-2".into(), "-1".into()]];
+    /// let builder = Specification::builder("a plant").jacobian(rows);
+    /// ```
+    #[must_use]
+    pub fn jacobian<R>(self, rows: impl IntoIterator<Item = R>) -> SpecificationBuilder
+    where
+        R: IntoIterator<Item = JacobianEntry>,
+    {
+        let entry = |entry| match entry {
+            JacobianEntry::Function(function) => text(function),
+            JacobianEntry::Interval(low, up) => Value::Array(vec![text(low), text(up)]),
+        };
+        let rows = rows.into_iter().map(|row| Value::Array(row.into_iter().map(entry).collect())).collect();
+        self.with("lyapunov", object([("jacobian", Value::Array(rows))]).into())
+    }
+
+    /// A bounding function. All are needed but the two of root mean squares.
+    #[must_use]
+    pub fn bound(self, which: BoundingFunction, expression: &str) -> SpecificationBuilder {
+        self.within("bounds", which.name(), text(expression))
+    }
+
+    /// The box `|x| <= x`, `|e| <= e` on which the bounding functions hold; they hold everywhere where none is given.
+    #[must_use]
+    pub fn domain(self, x: &str, e: &str) -> SpecificationBuilder {
+        self.with("domain", object([("X", text(x)), ("E", text(e))]).into())
+    }
+
+    /// The gain mu > 0 of the internal model.
+    #[must_use]
+    pub fn mu(self, mu: &str) -> SpecificationBuilder {
+        self.within("internal_model", "mu", text(mu))
+    }
+
+    /// The base frequency w > 0 of the internal model, which need not fit the period.
+    #[must_use]
+    pub fn base_frequency(self, frequency: &str) -> SpecificationBuilder {
+        self.within("internal_model", "base_frequency", text(frequency)).within(
+            "internal_model",
+            "matched",
+            false.into(),
+        )
+    }
+
+    /// The base frequency of the internal model, with the assertion that it is exactly `2 pi / period`. That is proved, or
+    /// refused.
+    #[must_use]
+    pub fn matched_base_frequency(self, frequency: &str) -> SpecificationBuilder {
+        self.within("internal_model", "base_frequency", text(frequency)).within(
+            "internal_model",
+            "matched",
+            true.into(),
+        )
+    }
+
+    /// The weights n_0 and `n_l = l^-(1 + epsilon)` for l >= 1.
+    #[must_use]
+    pub fn power_weights(self, n0: &str, epsilon: &str) -> SpecificationBuilder {
+        let weights = object([("family", text("power")), ("n0", text(n0)), ("epsilon", text(epsilon))]);
+        self.within("internal_model", "weights", weights.into())
+    }
+
+    /// The weights n_0, n_1, ... as listed, and `n_l = coefficient l^-exponent` for every l beyond the list.
+    #[must_use]
+    pub fn explicit_weights<'v>(
+        self,
+        values: impl IntoIterator<Item = &'v str>,
+        coefficient: &str,
+        exponent: &str,
+    ) -> SpecificationBuilder {
+        let values = Value::Array(values.into_iter().map(text).collect());
+        let tail = object([("coefficient", text(coefficient)), ("exponent", text(exponent))]);
+        let weights = object([("family", text("explicit")), ("values", values), ("tail", tail.into())]);
+        self.within("internal_model", "weights", weights.into())
+    }
+
+    /// The initial set of theorem 1 of the paper: twice the bounds of the periodic solution.
+    #[must_use]
+    pub fn initial_set_of_the_paper(self) -> SpecificationBuilder {
+        self.with("initial_set", object([("kind", text("paper"))]).into())
+    }
+
+    /// The regulator starts at rest, `z = 0`; `|x| <= x0` and `|e| <= e0`, twice the bounds of the periodic solution where
+    /// they are not given.
+    #[must_use]
+    pub fn initial_set_at_rest(self, x0: Option<&str>, e0: Option<&str>) -> SpecificationBuilder {
+        let mut set = object([("kind", text("at-rest"))]);
+        let given = [("X0", x0), ("E0", e0)];
+        set.extend(given.into_iter().filter_map(|(name, value)| Some((name.to_owned(), text(value?)))));
+        self.with("initial_set", set.into())
+    }
+
+    /// The initial set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`.
+    #[must_use]
+    pub fn initial_set_box(self, x0: &str, e0: &str, z0: &str) -> SpecificationBuilder {
+        let set = [("kind", text("box")), ("X0", text(x0)), ("E0", text(e0)), ("Z0", text(z0))];
+        self.with("initial_set", object(set).into())
+    }
+
+    /// The rational coefficients a_1, ..., a_(r-1) of `e = xi_r + a_(r-1) xi_(r-1) + ... + a_1 xi_1`, for a plant of
+    /// relative degree r > 1.
+    #[must_use]
+    pub fn relative_degree<'v>(self, coefficients: impl IntoIterator<Item = &'v str>) -> SpecificationBuilder {
+        let a = Value::Array(coefficients.into_iter().map(text).collect());
+        self.with("relative_degree", object([("a", a)]).into())
+    }
+
+    /// The document as it stands, indented; [`Specification::from_json`] reads it.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        json_text(&Value::Object(self.document.clone()))
+    }
+
+    /// Reads what was given, as strictly as a file.
+    ///
+    /// # Errors
+    /// Those of [`Specification::from_json`]; places are those of [`SpecificationBuilder::to_json`].
+    pub fn build(&self) -> Result<Specification, Error> {
+        Specification::from_json(&self.to_json())
+    }
+
+    fn with(mut self, field: &str, value: Value) -> SpecificationBuilder {
+        self.document.insert(field.to_owned(), value);
+        self
+    }
+
+    fn within(mut self, part: &str, field: &str, value: Value) -> SpecificationBuilder {
+        let part = self.document.entry(part).or_insert_with(|| Value::Object(Map::new()));
+        // Only this function makes these parts, and it makes objects.
+        if let Value::Object(fields) = part {
+            fields.insert(field.to_owned(), value);
+        }
+        self
+    }
+}
+
+fn text(value: impl Into<String>) -> Value {
+    Value::String(value.into())
+}
+
+fn object<const N: usize>(fields: [(&str, Value); N]) -> Map<String, Value> {
+    fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}

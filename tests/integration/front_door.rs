@@ -1,0 +1,261 @@
+//! The library as a program outside of this package uses it: the crate root alone.
+
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, ROOT, program};
+use sigmastar::{
+    BoundingFunction as Bound, Certificate, CertifyOptions, CheckReport, CheckVerdict, Derivation, Error, ErrorKind,
+    JacobianEntry, RegulatorMatrices, Specification, SpecificationBuilder, TransferChoice, certify, check,
+    check_against, regulator_matrices, sampled_regulator, transfer_bound,
+};
+
+/// The paper's example without its Lyapunov data.
+fn without_lyapunov() -> SpecificationBuilder {
+    Specification::builder("Example of the paper")
+        .period("1")
+        .bound(Bound::F, "2.302*X + 0.112*X^2 + (X + 0.189)*E")
+        .bound(Bound::Fe, "X + 0.189")
+        .bound(Bound::Fxx, "0.2237")
+        .bound(Bound::Fex, "1")
+        .bound(Bound::Q, "4.822 + X + atan(E*(X + 0.189))")
+        .bound(Bound::Qe, "X + 0.189")
+        .bound(Bound::Qx, "sqrt(1 + E^2)")
+        .bound(Bound::Qt, "24.18 + 2.106*E")
+        .domain("10", "10")
+        .mu("1")
+        .matched_base_frequency("2*pi")
+        .power_weights("2", "1/2")
+        .initial_set_of_the_paper()
+}
+
+fn builder() -> SpecificationBuilder {
+    without_lyapunov().lyapunov("1", "1.5512", "0.58")
+}
+
+fn example() -> Specification {
+    builder().build().expect("it is the paper's example")
+}
+
+fn quick() -> CertifyOptions {
+    CertifyOptions::new().compare(false)
+}
+
+fn kind<T>(result: Result<T, Error>) -> ErrorKind {
+    result.err().expect("an error").kind()
+}
+
+#[test]
+fn the_example_built_in_rust_is_certified_and_checked() {
+    let specification = example();
+    let certificate = certify(&specification, &CertifyOptions::new()).unwrap();
+    let claim = certificate.claim();
+    assert_eq!(claim.sigma_star(), "47.2233");
+    // Rounded up: the nearest double to 47.2233, or the one above it.
+    assert!((0.0..1e-14).contains(&(claim.sigma_star_f64() - 47.2233)), "{}", claim.sigma_star_f64());
+    assert!(claim.statement().contains("every gain sigma >= 47.2233"));
+    assert_eq!(claim.specification_sha256(), specification.sha256());
+    let (set, periodic) = (claim.initial_set(), claim.periodic_solution());
+    for (exact, down) in set.exact().into_iter().zip([set.x0(), set.e0(), set.z0()]) {
+        let exact: f64 = exact.parse().unwrap();
+        assert!(down <= exact && down > exact * (1.0 - 1e-14), "{down} {exact}");
+    }
+    assert!((periodic.e - 0.149833).abs() < 1e-5 && periodic.zeta < periodic.z, "{periodic:?}");
+    assert!(2.0 * periodic.x <= set.x0() * (1.0 + 1e-6));
+    assert!(certificate.remarks().is_empty());
+
+    let ids: Vec<&str> = certificate.conditions().iter().map(|condition| condition.id()).collect();
+    for id in ["C1", "C2", "C3", "C4", "C5"] {
+        assert!(ids.contains(&id), "{id}: {ids:?}");
+    }
+    for condition in certificate.conditions() {
+        assert_eq!(condition.holds(), Some(true), "{condition:?}");
+        assert!(condition.lhs()[0] <= condition.lhs()[1] && condition.rhs()[0] <= condition.rhs()[1]);
+        assert!(condition.lhs()[0] <= condition.rhs()[1] && !condition.text().is_empty());
+        assert!(["<", "<="].contains(&condition.relation()));
+    }
+
+    let report = check(certificate.to_json());
+    assert!(report.is_flawless() && report.is_valid(), "{}", report.text());
+    assert_eq!(report.statement(), Some(claim.statement()));
+    assert_eq!(report.specification_sha256(), Some(specification.sha256()));
+    assert!(!report.assumed().is_empty());
+    assert!(check_against(certificate.to_json(), &specification).is_valid());
+    let other = builder().period("2").matched_base_frequency("pi").build().unwrap();
+    assert_eq!(check_against(certificate.to_json(), &other).verdict(), CheckVerdict::Invalid);
+}
+
+#[test]
+fn a_forged_certificate_is_refused() {
+    let certificate = certify(&example(), &quick()).unwrap();
+    let forged = certificate.to_json().replace("\"sigma_star\": \"47.2233\"", "\"sigma_star\": \"46\"");
+    assert_ne!(forged, certificate.to_json());
+    let report = check(&forged);
+    assert_eq!((report.verdict(), report.statement()), (CheckVerdict::Invalid, None));
+    assert!(!report.is_valid() && !report.is_flawless() && report.text().contains("rule:"));
+    assert_eq!(check("no certificate").verdict(), CheckVerdict::BadInput);
+}
+
+#[test]
+fn the_certificate_is_that_of_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("certificate.json");
+    program().args(["certify", EXAMPLE, "--no-compare", "-o"]).arg(&file).current_dir(ROOT).assert().success();
+    let specification = Specification::from_json(EXAMPLE_TEXT).unwrap();
+    let certificate = certify(&specification, &quick()).unwrap();
+    assert_eq!(certificate.to_json(), std::fs::read_to_string(file).unwrap());
+    assert_eq!(specification.name(), "Example of the paper");
+    // The document is kept as it is written.
+    let again = Specification::from_json(&specification.to_json()).unwrap();
+    assert_eq!(again.sha256(), specification.sha256());
+}
+
+#[test]
+fn a_specification_with_a_jacobian_is_certified() {
+    let rows: [[JacobianEntry; 2]; 2] = [
+        ["-1/5".into(), ("sqrt(3) + cos(0.189)/10", "sqrt(3) + 1/10").into()],
+        ["-sqrt(3)".into(), ("-1 - 0.143/5", "-1 + 0.189/5").into()],
+    ];
+    let specification = without_lyapunov().jacobian(rows).build().unwrap();
+    let certificate = certify(&specification, &quick()).unwrap();
+    assert!(certificate.claim().statement().contains("its Lyapunov triple is proved"));
+    let report = check_against(certificate.to_json(), &specification);
+    assert!(report.is_valid(), "{}", report.text());
+
+    // No triple can be found for an unstable one.
+    let unstable = without_lyapunov().jacobian([[JacobianEntry::from("1/5")]]).build().unwrap();
+    let error = certify(&unstable, &quick()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Undecided);
+    assert!(error.to_string().contains("/lyapunov/jacobian") && error.to_string().contains("help: "), "{error}");
+}
+
+#[test]
+fn options_choose_the_derivation_and_the_transfer_proof() {
+    let sigma = |options: CertifyOptions| certify(&example(), &options).unwrap().claim().sigma_star_f64();
+    let sharp = sigma(quick());
+    assert!(sigma(quick().derivation(Derivation::Repaired)) > sharp);
+    assert!(sigma(quick().transfer(TransferChoice::ClosedForm)) > sharp);
+    assert!((sigma(quick().precision_limit(CertifyOptions::LEAST_PRECISION_LIMIT)) - sharp).abs() < 1.0);
+    for bits in [0, 127, 1025, u32::MAX] {
+        assert_eq!(kind(certify(&example(), &quick().precision_limit(bits))), ErrorKind::Range);
+    }
+}
+
+#[test]
+fn every_kind_of_weights_and_initial_set_can_be_built() {
+    let tail = ["2", "1", "0.35"];
+    for builder in [
+        builder().initial_set_at_rest(None, None),
+        builder().initial_set_at_rest(Some("1/10"), Some("0.1")),
+        builder().initial_set_box("0.1", "0.2", "0"),
+        builder().explicit_weights(tail, "1", "3/2").base_frequency("6").description("any frequency"),
+        builder().relative_degree(["3", "2"]).bound(Bound::QRms, "3.5 + X").bound(Bound::QtRms, "18 + 2*E"),
+    ] {
+        let specification = builder.build().unwrap_or_else(|error| panic!("{error}\n{}", builder.to_json()));
+        assert_eq!(specification.to_json(), builder.to_json());
+    }
+}
+
+#[test]
+fn errors_have_kinds_places_and_help() {
+    let read = |old: &str, new: &str| {
+        assert!(EXAMPLE_TEXT.contains(old), "{old}");
+        Specification::from_json(&EXAMPLE_TEXT.replace(old, new)).expect_err("an error")
+    };
+    for (old, new, expected, place) in [
+        ("\"period\": \"1\",", "\"period\": ", ErrorKind::Document, "specification:6:"),
+        ("\"version\": 1", "\"version\": 7", ErrorKind::Format, "/version"),
+        ("\"f_xx\"", "\"f_xy\"", ErrorKind::Field, "/bounds"),
+        ("X + 0.189)*E", "X + 0.189)*", ErrorKind::Expression, "/bounds/f"),
+        ("\"0.58\"", "\"-0.58\"", ErrorKind::Range, "/lyapunov/alpha"),
+        ("\"2*pi\"", "\"6.28\"", ErrorKind::Range, "/internal_model/base_frequency"),
+    ] {
+        let error = read(old, new);
+        assert_eq!(error.kind(), expected, "{error}");
+        assert!(error.to_string().contains(place), "{place}: {error}");
+        assert!(error.conditions().is_empty());
+    }
+    assert!(read("\"2*pi\"", "\"6.28\"").to_string().contains("help: or set `matched` to false"));
+
+    // What is missing is missing in Rust too, and all of it is told.
+    let error = Specification::builder("empty").build().unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Field);
+    for field in ["period", "lyapunov", "bounds", "internal_model", "initial_set"] {
+        assert!(error.to_string().contains(field), "{field}: {error}");
+    }
+    let text: &dyn std::error::Error = &error;
+    assert!(text.source().is_none());
+}
+
+#[test]
+fn what_is_not_certified_says_why() {
+    let falling = builder().bound(Bound::Q, "5 - X").build().unwrap();
+    let error = certify(&falling, &quick()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Range, "{error}");
+    assert!(error.to_string().contains("/bounds/q"), "{error}");
+
+    // An initial set that is too large for the domain.
+    let large = builder().domain("1", "1").initial_set_box("1", "4", "0").build().unwrap();
+    let error = certify(&large, &quick()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::NotCertified, "{error}");
+    assert!(error.to_string().contains("domain"), "{error}");
+
+    let unstable_filter = builder().relative_degree(["1", "-1"]).build().unwrap();
+    assert_eq!(kind(certify(&unstable_filter, &quick())), ErrorKind::Range);
+}
+
+#[test]
+fn the_transfer_bound() {
+    let specification = example();
+    let bound = transfer_bound(&specification, "20").unwrap();
+    let k1: f64 = bound.k1().parse().unwrap();
+    assert_eq!((bound.k0(), bound.k0_f64()), ("20", 20.0));
+    assert!(bound.k1_f64() >= k1 && (70.0..75.0).contains(&k1), "{bound:?}");
+    assert!(bound.excess().is_some_and(|excess| excess < 0.01), "{bound:?}");
+    // T_N(0) = 2 pi^2 for nu = 1/(2 pi) and n_0 = 2.
+    let error = transfer_bound(&specification, "19.7").unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Refuted);
+    assert!(error.to_string().contains("19.739"), "{error}");
+    assert_eq!(kind(transfer_bound(&specification, "-1")), ErrorKind::Range);
+    assert_eq!(kind(transfer_bound(&specification, "2*")), ErrorKind::Expression);
+    // Not a rational number, and rounded up.
+    let irrational = transfer_bound(&specification, "2*pi^2").unwrap();
+    assert!(irrational.k0_f64() > 2.0 * std::f64::consts::PI.powi(2), "{irrational:?}");
+}
+
+#[test]
+fn the_matrices_of_the_regulator() {
+    let specification = example();
+    let regulator = regulator_matrices(&specification, "48", 2).unwrap();
+    let w = 2.0 * std::f64::consts::PI;
+    assert_eq!((regulator.sigma, regulator.mu), (48.0, 1.0));
+    assert_eq!(regulator.phi[1], [0.0, 0.0, w, 0.0, 0.0]);
+    assert_eq!(regulator.phi[4], [0.0, 0.0, 0.0, -2.0 * w, 0.0]);
+    assert_eq!(regulator.gamma, [-48.0, -48.0, w, -48.0, 2.0 * w]);
+    assert_eq!(regulator.m, [1.0, 1.0, 0.0, 1.0, 0.0]);
+    assert_eq!(regulator.n_diagonal[..3], [2.0, 1.0, 1.0]);
+    // u = -sigma e + mu (n_0 (z_0 - e) + ...).
+    let u = regulator.control(&[1.0, 0.0, 7.0, 0.0, 7.0], 0.0);
+    assert_eq!(u, Some(2.0));
+    assert_eq!(regulator.control(&[1.0], 0.0), None);
+    assert!((regulator.control(&[0.0; 5], 1.0).unwrap() + 48.0 + 3.0 + regulator.n_diagonal[3]).abs() < 1e-12);
+
+    let sampled = sampled_regulator(&specification, "48", 2, "1/1000").unwrap();
+    assert_eq!((sampled.step, sampled.gamma[0]), (1e-3, -0.048));
+    assert_eq!(sampled.phi[1][1..3], [(w / 1e3).cos(), (w / 1e3).sin()]);
+    assert!(sampled.spectral_radius < 1.0);
+    assert_eq!(kind(sampled_regulator(&specification, "48", 2, "1/24")), ErrorKind::Range);
+    assert_eq!(kind(sampled_regulator(&specification, "48", 2, "0")), ErrorKind::Range);
+    let most = RegulatorMatrices::MAX_OSCILLATORS;
+    assert_eq!(kind(regulator_matrices(&specification, "48", most + 1)), ErrorKind::Range);
+    assert_eq!(kind(regulator_matrices(&specification, "1e4000", 0)), ErrorKind::Overflow);
+    let error = regulator_matrices(&specification, "48 *", 1).unwrap_err();
+    assert!(error.kind() == ErrorKind::Expression && error.to_string().starts_with("sigma: "), "{error}");
+}
+
+#[test]
+fn its_types_cross_threads() {
+    fn crosses<T: Send + Sync + Clone + std::fmt::Debug + 'static>() {}
+    crosses::<Specification>();
+    crosses::<SpecificationBuilder>();
+    crosses::<Certificate>();
+    crosses::<CheckReport>();
+    crosses::<Error>();
+}
