@@ -43,6 +43,10 @@ pub fn pair(value: &Enclosure) -> String {
 /// The nearest number of few digits, where the enclosure is far narrower than these digits; else the enclosure.
 #[must_use]
 pub fn compact(value: &Enclosure) -> String {
+    if *value.lower() < 0 && *value.upper() > 0 {
+        // Perhaps 0: no digit is known.
+        return format!("[{}, {}]", shorter(value.lower_decimal(2)), shorter(value.upper_decimal(2)));
+    }
     let width = value.upper_f64() - value.lower_f64();
     let middle = value.midpoint_f64();
     if width > 1e-12 * middle.abs() || !middle.is_finite() {
@@ -103,6 +107,8 @@ mod tests {
         assert_eq!(compact(&Enclosure::from_integer(1_499_714_004_546, 64)), "1.49971e12");
         assert_eq!(compact(&Enclosure::from_integer(2, 64)), "2");
         assert_eq!(compact(&Enclosure::undefined(64)), "undefined");
+        let around_0 = Enclosure::between(&Rational::from((-1, 3)), &Rational::from((1, 3)), 64);
+        assert_eq!(compact(&around_0), "[-0.34, 0.34]");
         assert_eq!(exact(&Rational::from((1, 3)), Direction::Down), "1/3");
         let long = Rational::from((1_000_000_007, 3_000_000_019_i64));
         assert_eq!(exact(&long, Direction::Down), "0.333333333");

@@ -25,7 +25,7 @@ pub struct PrintedProposal {
 }
 
 /// By how much h stays below its largest value, so that it still does where x_a, e_a are rounded.
-const ROOM: f64 = 1e-6;
+const ROOM: f64 = 1e-7;
 
 /// The printed sigma at x_a, e_a, `share` of the largest printed h; `None` where a printed condition other than
 /// P:eq:boundx_bounde_1 fails or an argument leaves the domain.
