@@ -6,6 +6,7 @@ use super::input;
 use super::output::{self, Input, OutputFile, shown, write_together};
 use sigmastar::certificate::{WitnessFile, read_witness};
 use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
+use sigmastar::number::write_exact;
 use sigmastar::regulator::export::{self, CSources, Export};
 use sigmastar::regulator::{Design, Discrete, Regulator, SampledLoop};
 use sigmastar::report::blocks::clean;
@@ -139,7 +140,7 @@ fn compare(document: &Document, spec: &Specification, sigma: &Constant) -> Resul
         output::remark(&format!(
             "sigma = {} is below sigma* = {} of the certificate: nothing is certified with it",
             sigma.midpoint_f64(),
-            sigma_star.to_f64()
+            write_exact(&sigma_star)
         ));
     }
     Ok(())
