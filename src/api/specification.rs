@@ -2,7 +2,7 @@
 
 use super::error::Error;
 use super::json_text;
-use crate::spec;
+use crate::spec::{self, Bound as BoundingFunction};
 use serde_json::{Map, Value};
 
 /// What errors call the document.
@@ -56,51 +56,6 @@ impl Specification {
     #[must_use]
     pub fn sha256(&self) -> &str {
         &self.read.sha256
-    }
-}
-
-/// A bounding function of `(X, E)`: an upper bound on `|x| <= X`, `|e| <= E`, for every t.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum BoundingFunction {
-    /// Of `|f|`.
-    F,
-    /// Of `|df/de|`.
-    Fe,
-    /// Of `|d2f/dxdx|` as a bilinear map.
-    Fxx,
-    /// Of `|d2f/dedx|`.
-    Fex,
-    /// Of `|q|`.
-    Q,
-    /// Of `|dq/de|`.
-    Qe,
-    /// Of `|dq/dx|`.
-    Qx,
-    /// Of `|dq/dt|`.
-    Qt,
-    /// Of the root mean square over a period of `sup |q|`; optional, `Q` serves where it is absent.
-    QRms,
-    /// Of the root mean square over a period of `sup |dq/dt|`; optional, `Qt` serves where it is absent.
-    QtRms,
-}
-
-impl BoundingFunction {
-    /// The name of its field under `bounds`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            BoundingFunction::F => "f",
-            BoundingFunction::Fe => "f_e",
-            BoundingFunction::Fxx => "f_xx",
-            BoundingFunction::Fex => "f_ex",
-            BoundingFunction::Q => "q",
-            BoundingFunction::Qe => "q_e",
-            BoundingFunction::Qx => "q_x",
-            BoundingFunction::Qt => "q_t",
-            BoundingFunction::QRms => "q_rms",
-            BoundingFunction::QtRms => "q_t_rms",
-        }
     }
 }
 
@@ -191,7 +146,7 @@ impl SpecificationBuilder {
     /// A bounding function. All are needed but the two of root mean squares.
     #[must_use]
     pub fn bound(self, which: BoundingFunction, expression: &str) -> SpecificationBuilder {
-        self.within("bounds", which.name(), text(expression))
+        self.within("bounds", which.field(), text(expression))
     }
 
     /// The box `|x| <= x`, `|e| <= e` on which the bounding functions hold; they hold everywhere where none is given.

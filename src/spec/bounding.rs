@@ -3,28 +3,30 @@
 use super::model::Specification;
 use crate::expr::Expr;
 
-/// A bounding function of (X, E): an upper bound on |x| <= X, |e| <= E for every t (P:LP1, P:LP2).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A bounding function of `(X, E)`: an upper bound on `|x| <= X`, `|e| <= E`, for every t (P:LP1, P:LP2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Bound {
-    /// b_f, of |f|.
+    /// b_f, of `|f|`.
     F,
-    /// b_fe, of |df/de|.
+    /// b_fe, of `|df/de|`.
     Fe,
-    /// b_fxx, of |d2f/dxdx| as a bilinear map.
+    /// b_fxx, of `|d2f/dxdx|` as a bilinear map.
     Fxx,
-    /// b_fex, of |d2f/dedx|.
+    /// b_fex, of `|d2f/dedx|`.
     Fex,
-    /// b_q, of |q|.
+    /// b_q, of `|q|`.
     Q,
-    /// b_qe, of |dq/de|.
+    /// b_qe, of `|dq/de|`.
     Qe,
-    /// b_qx, of |dq/dx|.
+    /// b_qx, of `|dq/dx|`.
     Qx,
-    /// b_qt, of |dq/dt|.
+    /// b_qt, of `|dq/dt|`.
     Qt,
-    /// b_q_rms, of the root mean square over a period of sup |q|.
+    /// b_q_rms, of the root mean square over a period of `sup |q|`; optional, `Q` serves where it is absent or smaller.
     QRms,
-    /// b_qt_rms, of the root mean square over a period of sup |dq/dt|.
+    /// b_qt_rms, of the root mean square over a period of `sup |dq/dt|`; optional, `Qt` serves where it is absent or
+    /// smaller.
     QtRms,
 }
 
@@ -68,12 +70,14 @@ impl Bound {
     }
 
     /// The expression that a specification has for it.
+    #[doc(hidden)]
     #[must_use]
     pub fn of(self, spec: &Specification) -> &Expr {
         spec.bounds.get(self)
     }
 
     /// Where it has an expression of its own: the one that would serve without it, and bounds the same.
+    #[doc(hidden)]
     #[must_use]
     pub fn supremum(self, spec: &Specification) -> Option<Bound> {
         self.replacement().filter(|_| spec.bounds.own(self).is_some())

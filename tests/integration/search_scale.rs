@@ -1,5 +1,6 @@
 //! The search knows no scale of its own, and no derivation or transfer proof beats the one it may choose.
 
+use crate::mutants;
 use crate::support::EXAMPLE_TEXT;
 use rug::Rational;
 use sigmastar::certificate::{Derivation, Options, TransferChoice, certify};
@@ -72,5 +73,16 @@ fn the_best_is_not_above_any_other() {
         for other in others {
             assert!(best <= other, "T = {period}: {} {}", best.to_f64(), other.to_f64());
         }
+    }
+}
+
+/// Candidates at the edge of what is possible: short X_p and E_p leave it (150, 223), and so would an X_p beyond the domain
+/// where nothing depends on x (182). A larger sigma was the answer to each: 1.2e28, 1.706e8 and 6.15.
+#[test]
+fn the_edge_of_the_possible_costs_no_gain() {
+    for (seed, largest) in [(150, 1.2e23), (182, 4.03), (223, 1.69e8)] {
+        let spec = Specification::from_json("mutant", &mutants::specification(seed).to_string()).unwrap();
+        let sigma = sigma(&spec, Derivation::Sharp, TransferChoice::Best);
+        assert!(sigma <= largest, "seed {seed}: {}", sigma.to_f64());
     }
 }
