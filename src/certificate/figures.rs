@@ -13,7 +13,7 @@ use rug::Rational;
 /// Binary digits that a reported number has, where the precision allows it.
 const DIGITS: u32 = 56;
 
-/// The most bits that are spent on that: a number that is 0 is never known to any digit.
+/// The most bits that are spent on that: a number that is 0, and not exactly so, is never known to any digit.
 const FINEST: u32 = 512;
 
 /// What the table of constants is made from.
@@ -31,8 +31,10 @@ pub(super) struct Table {
 }
 
 impl Figures<'_> {
-    /// The proofs and the table, evaluated again at a doubled precision while a number is not known to [`DIGITS`]: where a
-    /// bounding function cancels, fewer bits decide a condition than tell its sides.
+    /// The proofs and the table, evaluated again at a doubled precision up to [`FINEST`] while a number is not known to
+    /// [`DIGITS`]: where a bounding function cancels, fewer bits decide a condition than tell its sides.
+    ///
+    /// Guarantee: a proof stays one; an evaluation is replaced only by one of more bits that is proved too.
     pub(super) fn evaluated(mut self, spec: &Specification, start: u32, ladder: Ladder) -> (Self, Table) {
         let mut precision = start;
         let finest = FINEST.min(ladder.limit);
@@ -43,13 +45,17 @@ impl Figures<'_> {
             }
             precision = (2 * precision).min(finest);
             let ladder = Ladder { start: precision, ..ladder };
-            if let Outcome::Proved(proof) = &mut self.sharp {
+            if let Outcome::Proved(proof) = &mut self.sharp
+                && proof.precision < precision
+            {
                 let (evaluation, decided_at) = decide_sharp(spec, &proof.witness, ladder);
                 if evaluation.truth().is_true() {
                     (proof.evaluation, proof.precision) = (evaluation, decided_at);
                 }
             }
-            if let Outcome::Proved(proof) = &mut self.repaired {
+            if let Outcome::Proved(proof) = &mut self.repaired
+                && proof.precision < precision
+            {
                 let (evaluation, decided_at) = decide_repaired(spec, &proof.witness, ladder);
                 if evaluation.truth().is_true() {
                     (proof.evaluation, proof.precision) = (evaluation, decided_at);
