@@ -36,6 +36,36 @@ pub struct Numbers<R> {
     pub n_bar_squared: R,
     /// Nbar.
     pub n_bar: R,
+    /// Om = 2 pi/T.
+    pub fundamental: R,
+    /// c and alpha of the P that serves for the existence of the periodic solution.
+    pub existence: ExistenceTriple<R>,
+    /// What is known of q(t,0,0), if anything.
+    pub q_0: Option<KnownForcing<R>>,
+    /// Whether w = Om, proved.
+    pub matched: bool,
+}
+
+/// c = sqrt(P_up/P_low) and alpha of a P(t) for the zero dynamics.
+#[derive(Clone, Debug)]
+pub struct ExistenceTriple<R> {
+    /// c >= 1.
+    pub c: R,
+    /// alpha.
+    pub alpha: R,
+}
+
+/// `q(t,0,0) = sum_{|k| <= K} c_k e^{i k Om t} + rest` (derivation, 10.1).
+#[derive(Clone, Debug)]
+pub struct KnownForcing<R> {
+    /// Bounds of |c_0|, ..., |c_K|.
+    pub harmonics: Vec<R>,
+    /// The weights n_0, ..., n_K.
+    pub weights: Vec<R>,
+    /// A bound of rms(rest).
+    pub rest_rms: R,
+    /// A bound of rms(rest').
+    pub rest_t_rms: Option<R>,
 }
 
 impl<R: Real> Numbers<R>
@@ -53,8 +83,10 @@ where
 pub trait Problem<R: Real> {
     /// The numbers.
     fn numbers(&self) -> &Numbers<R>;
-    /// The value of a bounding function at (X, E).
+    /// The value of a bounding function, or of its replacement, at (X, E); unknown where there is neither.
     fn bound(&self, which: Bound, x: &R, e: &R) -> R;
+    /// Whether a bounding function itself is given.
+    fn given(&self, which: Bound) -> bool;
     /// Exactly 0, at the precision of the numbers: an argument of bounding functions, which are evaluated at the precision of
     /// their arguments.
     fn zero(&self) -> R;
@@ -97,9 +129,21 @@ impl<'s> Data<'s> {
         // p_low <= p_up was proved when the specification was read, so the ratio is at least 1.
         let at_least_one = Enclosure::entire(precision).max(&Enclosure::one(precision));
         let c = (&p_up / &p_low).sqrt().intersect(&at_least_one);
+        let period = spec.period.enclose(precision);
+        let alpha = number(|triple| &triple.alpha);
+        let known = spec.q_0.as_ref().map(|known| KnownForcing {
+            harmonics: known.harmonics.iter().map(|bound| bound.enclose(precision)).collect(),
+            weights: (0..known.harmonics.len() as u64).map(|l| model.weights.weight(l, precision)).collect(),
+            rest_rms: known.rest_rms.enclose(precision),
+            rest_t_rms: known.rest_t_rms.as_ref().map(|bound| bound.enclose(precision)),
+        });
         let numbers = Numbers {
-            period: spec.period.enclose(precision),
-            alpha: number(|triple| &triple.alpha),
+            fundamental: 2 * Enclosure::pi(precision) / &period,
+            existence: ExistenceTriple { c: c.clone(), alpha: alpha.clone() },
+            q_0: known,
+            matched: model.matched,
+            period,
+            alpha,
             c,
             nu: &mu / &base_frequency,
             n_0: model.weights.weight(0, precision),
@@ -132,15 +176,23 @@ impl Problem<Enclosure> for Data<'_> {
         &self.numbers
     }
 
-    /// The positive part of the expression: what bounds a norm still does without its negative values. It matters where a
-    /// value is 0 and rounding does not show it.
+    /// Of what bounds a norm the positive part: it does so without its negative values. It matters where a value is 0 and
+    /// rounding does not show it.
     ///
     /// Guarantee: contains the value for all X, E in the enclosures. It bounds the plant's function only where
     /// (X, E) lies in the domain of the specification and the bounding function was proved nondecreasing.
     fn bound(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
-        let value = |which: Bound| which.of(self.spec).enclose(x, e).max(&self.zero());
-        // The root mean square of a supremum is at most the supremum, should the data say otherwise.
+        let value = |which: Bound| match self.spec.bounds.get(which) {
+            None => Enclosure::undefined(self.precision),
+            Some(expr) if self.given(which) && which.is_signed() => expr.enclose(x, e),
+            Some(expr) => expr.enclose(x, e).max(&self.zero()),
+        };
+        // The sharper one is at most the other one, should the data say otherwise.
         which.supremum(self.spec).map_or_else(|| value(which), |supremum| value(which).min(&value(supremum)))
+    }
+
+    fn given(&self, which: Bound) -> bool {
+        self.spec.bounds.own(which).is_some()
     }
 
     fn zero(&self) -> Enclosure {

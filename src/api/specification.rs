@@ -143,10 +143,11 @@ impl SpecificationBuilder {
         self.with("lyapunov", object([("jacobian", Value::Array(rows))]).into())
     }
 
-    /// A bounding function. All are needed but the two of root mean squares.
+    /// A bounding function; those without a replacement that are not [optional](BoundingFunction::is_required) are needed.
+    /// A [rate](BoundingFunction::Rate) stands next to a triple: give that first.
     #[must_use]
     pub fn bound(self, which: BoundingFunction, expression: &str) -> SpecificationBuilder {
-        self.within("bounds", which.field(), text(expression))
+        self.within(which.section(), which.field(), text(expression))
     }
 
     /// The box `|x| <= x`, `|e| <= e` on which the bounding functions hold; they hold everywhere where none is given.

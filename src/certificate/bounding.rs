@@ -1,23 +1,37 @@
 //! The proof that the bounding functions are what the derivation needs: finite, nonnegative, nondecreasing.
 
 use crate::expr::{BoundingFailure, Expr, ProofSettings, Reason, prove_bounding};
+use crate::spec::Bound;
 use crate::spec::model::Specification;
 use rug::Rational;
 
 /// A bounding function that could not be proved.
 #[derive(Clone, Debug)]
 pub struct BoundingProblem {
-    /// The field under `bounds`.
-    pub field: &'static str,
+    /// Which.
+    pub which: Bound,
     /// Why.
     pub failure: BoundingFailure,
+}
+
+impl BoundingProblem {
+    /// The sentence of the failure; of a rate that must not increase it speaks of the negative.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        if self.which.is_nonincreasing() {
+            format!("it must be nonincreasing, so its negative nondecreasing; of the negative: {}", self.failure)
+        } else {
+            self.failure.to_string()
+        }
+    }
 }
 
 /// Proves every bounding function on the domain of the specification; where there is none, nothing is to be proved here
 /// and [`prove_up_to`] is due for the arguments that are used.
 ///
-/// Guarantee: with a domain, `Ok` means that each is finite, nonnegative and nondecreasing in X and in E on it, so that
-/// its value at (X, E) bounds its values at smaller arguments.
+/// Guarantee: with a domain, `Ok` means that each is finite, nonnegative (its positive part counts) and nondecreasing in X and
+/// in E on it, so that its value at (X, E) bounds its values at smaller arguments; one from above may be negative, and a
+/// rate from below is nonincreasing.
 ///
 /// # Errors
 /// All bounding functions that fail, in the order of the fields.
@@ -53,20 +67,24 @@ fn all(
     spec: &Specification,
     proof: impl Fn(&Expr, &ProofSettings) -> Result<(), BoundingFailure>,
 ) -> Result<(), Vec<BoundingProblem>> {
-    let attempt = |expr: &Expr, max_operations: u64| {
-        proof(expr, &ProofSettings { max_operations, ..ProofSettings::default() }).err()
+    let attempt = |which: Bound, expr: &Expr, max_operations: u64| {
+        let settings = ProofSettings { max_operations, signed: which.is_signed(), ..ProofSettings::default() };
+        if which.is_nonincreasing() { proof(&expr.negated(), &settings) } else { proof(expr, &settings) }.err()
     };
     let unfinished =
         |failure: &BoundingFailure| matches!(failure, BoundingFailure::Undecided { reason: Reason::Operations(_), .. });
-    let first: Vec<(&'static str, &Expr, BoundingFailure)> =
-        spec.bounds.named().filter_map(|(field, expr)| Some((field, expr, attempt(expr, FIRST_OPERATIONS)?))).collect();
+    let first: Vec<(Bound, &Expr, BoundingFailure)> = spec
+        .bounds
+        .named()
+        .filter_map(|(which, expr)| Some((which, expr, attempt(which, expr, FIRST_OPERATIONS)?)))
+        .collect();
     let hard = first.iter().filter(|(.., failure)| unfinished(failure)).count() as u64;
     let share = (SHARED_OPERATIONS / hard.max(1)).min(ProofSettings::default().max_operations);
     let problems: Vec<BoundingProblem> = first
         .into_iter()
-        .filter_map(|(field, expr, failure)| {
-            let failure = if unfinished(&failure) { attempt(expr, share)? } else { failure };
-            Some(BoundingProblem { field, failure })
+        .filter_map(|(which, expr, failure)| {
+            let failure = if unfinished(&failure) { attempt(which, expr, share)? } else { failure };
+            Some(BoundingProblem { which, failure })
         })
         .collect();
     if problems.is_empty() { Ok(()) } else { Err(problems) }
@@ -93,7 +111,7 @@ mod tests {
         let problems = prove_on_domain(&spec).unwrap_err();
         assert_eq!(problems.len(), spec.bounds.named().count());
         for problem in problems {
-            assert_eq!(problem.failure, BoundingFailure::without_domain(), "{}", problem.field);
+            assert_eq!(problem.failure, BoundingFailure::without_domain(), "{}", problem.which.field());
         }
     }
 }

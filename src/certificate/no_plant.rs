@@ -13,6 +13,7 @@
 //! is proved about all of them is proved about none. Data without x (no Jacobian, and b_f, b_fe, b_fxx, b_fex, b_qx all 0)
 //! are those of a plant without states.
 
+use crate::expr::Expr;
 use crate::data::{Bound, Data, Problem};
 use crate::enclosure::Enclosure;
 use crate::lyapunov::Family;
@@ -139,7 +140,9 @@ pub fn no_plant(data: &Data<'_>, used: Option<&(Rational, Rational)>) -> Option<
 
 /// Values of X > 0 with small rates, as far as double precision tells.
 fn candidates(data: &Data<'_>, largest: Option<&Rational>) -> Vec<Rational> {
-    let [f, f_xx] = [Bound::F, Bound::Fxx].map(|bound| bound.of(data.spec).to_float());
+    let [Some(f), Some(f_xx)] = [Bound::F, Bound::Fxx].map(|bound| bound.of(data.spec).map(Expr::to_float)) else {
+        return Vec::new();
+    };
     let positive = |value: f64| if value < 0.0 { 0.0 } else { value };
     let rate = |x: f64| positive(f.eval(x, 0.0)) / x + positive(f_xx.eval(x, 0.0)) * x / 2.0;
     let limit = largest.map_or(f64::INFINITY, Rational::to_f64);

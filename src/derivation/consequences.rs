@@ -1,6 +1,7 @@
 //! What a certificate says about the regulated error (derivation, section 6).
 
 use super::existence::{PeriodicBounds, x_per_gain};
+use super::sharp::SharpEvaluation;
 use crate::data::Data;
 use crate::enclosure::Enclosure;
 use rug::Rational;
@@ -11,31 +12,61 @@ const PARTIAL_TERMS: u128 = 64;
 /// The largest number of oscillators that a target search considers.
 pub const MAX_OSCILLATORS: u64 = 1 << 40;
 
+/// What drives the periodic error: bounds of q along the periodic solution, and what x makes of e.
+#[derive(Clone, Debug)]
+pub struct Excitation {
+    /// Of rms(q): R_q, or qr of section 4.
+    pub q_rms: Enclosure,
+    /// Of the rms of q's derivative along the solution: R_1, or q1 of section 4.
+    pub q_rate_rms: Enclosure,
+    /// sup|x| over sup|e|.
+    pub x_gain: Enclosure,
+}
+
+impl Excitation {
+    /// That of a sharp evaluation. Hypotheses: S1, S2 (and S3).
+    #[must_use]
+    pub fn sharp(evaluation: &SharpEvaluation) -> Excitation {
+        Excitation {
+            q_rms: evaluation.periodic.forcing.q_rms.clone(),
+            q_rate_rms: evaluation.periodic.forcing.q_rate_rms.clone(),
+            x_gain: evaluation.bounds.x_gain.clone(),
+        }
+    }
+
+    /// That of section 4. Hypotheses: C1-C3, which the repaired conditions imply.
+    #[must_use]
+    pub fn by_contraction(data: &Data<'_>, bounds: &PeriodicBounds<Enclosure>) -> Excitation {
+        Excitation {
+            q_rms: bounds.q_rms.clone(),
+            q_rate_rms: bounds.q_rate_rms.clone(),
+            x_gain: x_per_gain(data, bounds),
+        }
+    }
+}
+
 /// psi_1, psi_x and psi_2: bounds for every n_o and mu at once.
 #[derive(Clone, Debug)]
 pub struct Psi {
-    /// psi_1 = T q1/sqrt(12): sup|e| <= psi_1/sigma.
+    /// psi_1 = T R_1/sqrt(12): sup|e| <= psi_1/sigma.
     pub psi_1: Enclosure,
-    /// psi_x = x_per gain times psi_1: sup|x| <= psi_x/sigma.
+    /// psi_x = (c/a_1) b_fe psi_1: sup|x| <= psi_x/sigma.
     pub psi_x: Enclosure,
-    /// psi_2 = T qr^2/Om^2, Om = 2 pi/T: the integral of e^2 over a period is at most psi_2/(n_o+1)^2 (matched only).
+    /// psi_2 = T R_q^2/Om^2, Om = 2 pi/T: the integral of e^2 over a period is at most psi_2/(n_o+1)^2 (matched only).
     pub psi_2: Enclosure,
 }
 
 impl Psi {
-    /// Evaluates the three constants. Hypotheses: C1-C3.
+    /// Evaluates the three constants.
     #[must_use]
-    pub fn new(data: &Data<'_>, bounds: &PeriodicBounds<Enclosure>) -> Psi {
-        let psi_1 = &data.period * &bounds.q_rate_rms / Enclosure::from_integer(12, data.precision).sqrt();
-        let omega = fundamental(data);
-        Psi { psi_x: x_per_gain(data, bounds) * &psi_1, psi_1, psi_2: &data.period * bounds.q_rms.sqr() / omega.sqr() }
+    pub fn new(data: &Data<'_>, excitation: &Excitation) -> Psi {
+        let psi_1 = &data.period * &excitation.q_rate_rms / Enclosure::from_integer(12, data.precision).sqrt();
+        Psi {
+            psi_x: &excitation.x_gain * &psi_1,
+            psi_1,
+            psi_2: &data.period * excitation.q_rms.sqr() / data.fundamental.sqr(),
+        }
     }
-}
-
-/// Om = 2 pi/T.
-#[must_use]
-pub fn fundamental(data: &Data<'_>) -> Enclosure {
-    2 * Enclosure::pi(data.precision) / &data.period
 }
 
 /// Certified bounds of the periodic error for one number of oscillators, upper bounds only.
@@ -50,26 +81,26 @@ pub struct ErrorBounds {
 /// Bounds of rms(e) and sup|e| with n_o oscillators at a matched base frequency, for every sigma' >= sigma.
 ///
 /// Harmonics |k| <= n_o of e vanish and |e_k| <= |q_k|/sqrt((k Om)^2 + sigma^2), so with a = (n_o+1) Om
-/// rms(e) <= min{ qr/sqrt(a^2 + sigma^2), q1/(a sqrt(a^2 + sigma^2)) },
-/// sup|e| <= min{ e_per, qr sqrt(2 S_0), q1 sqrt(2 S_1) } with S_0 = sum_{k>n_o} 1/((k Om)^2 + sigma^2) and
+/// rms(e) <= min{ R_q/sqrt(a^2 + sigma^2), R_1/(a sqrt(a^2 + sigma^2)) },
+/// sup|e| <= min{ e_per, R_q sqrt(2 S_0), R_1 sqrt(2 S_1) } with S_0 = sum_{k>n_o} 1/((k Om)^2 + sigma^2) and
 /// S_1 = sum_{k>n_o} 1/((k Om)^2 ((k Om)^2 + sigma^2)), by Cauchy-Schwarz.
 ///
-/// Hypotheses: C1-C3 at sigma; base_frequency = 2 pi/T. Guarantee: both are upper bounds, nonincreasing in n_o up to
+/// Hypotheses: existence at sigma; base_frequency = 2 pi/T. Guarantee: both are upper bounds, nonincreasing in n_o up to
 /// rounding; e_per also bounds the rms.
 #[must_use]
 pub fn error_bounds(
     data: &Data<'_>,
-    bounds: &PeriodicBounds<Enclosure>,
+    excitation: &Excitation,
     sigma: &Enclosure,
     e_per: &Enclosure,
     n_o: u64,
 ) -> ErrorBounds {
-    let omega = fundamental(data);
-    let first = harmonic(data, u128::from(n_o) + 1) * &omega;
+    let omega = &data.fundamental;
+    let first = harmonic(data, u128::from(n_o) + 1) * omega;
     let modulus = (first.sqr() + sigma.sqr()).sqrt();
-    let rms = e_per.min(&(&bounds.q_rms / &modulus)).min(&(&bounds.q_rate_rms / (first * modulus)));
+    let rms = e_per.min(&(&excitation.q_rms / &modulus)).min(&(&excitation.q_rate_rms / (first * modulus)));
     let [by_size, by_rate] = tail_sums(data, sigma, n_o);
-    let sup = e_per.min(&(&bounds.q_rms * (2 * by_size).sqrt())).min(&(&bounds.q_rate_rms * (2 * by_rate).sqrt()));
+    let sup = e_per.min(&(&excitation.q_rms * (2 * by_size).sqrt())).min(&(&excitation.q_rate_rms * (2 * by_rate).sqrt()));
     ErrorBounds { rms: rms.ceiling(), sup: sup.ceiling() }
 }
 
@@ -82,20 +113,20 @@ fn harmonic(data: &Data<'_>, k: u128) -> Enclosure {
 /// `sum_{k>n} 1/((k Om)^2 + sigma^2) <= arctan(sigma/(n Om))/(Om sigma)` and
 /// `sum_{k>n} 1/((k Om)^2((k Om)^2 + sigma^2)) <= (1/(n+1)^2 + 1/(n+1))/(Om^2 (((n+1) Om)^2 + sigma^2))`.
 fn tail_sums(data: &Data<'_>, sigma: &Enclosure, n_o: u64) -> [Enclosure; 2] {
-    let omega = fundamental(data);
+    let omega = &data.fundamental;
     let integer = |k: u128| harmonic(data, k);
     let (mut by_size, mut by_rate) = (data.zero(), data.zero());
     let n_o = u128::from(n_o);
     let last = n_o + PARTIAL_TERMS;
     for k in n_o + 1..=last {
-        let square = (integer(k) * &omega).sqr();
+        let square = (integer(k) * omega).sqr();
         let term = (&square + sigma.sqr()).recip();
         by_rate = by_rate + &term / square;
         by_size = by_size + term;
     }
-    let size_tail = (sigma / (integer(last) * &omega)).atan() / (&omega * sigma);
+    let size_tail = (sigma / (integer(last) * omega)).atan() / (omega * sigma);
     let next = integer(last + 1);
-    let rate_tail = (next.sqr().recip() + next.recip()) / (omega.sqr() * ((&next * &omega).sqr() + sigma.sqr()));
+    let rate_tail = (next.sqr().recip() + next.recip()) / (omega.sqr() * ((&next * omega).sqr() + sigma.sqr()));
     [(by_size + size_tail).ceiling(), (by_rate + rate_tail).ceiling()]
 }
 

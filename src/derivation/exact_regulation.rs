@@ -1,7 +1,8 @@
 //! Exact regulation with infinitely many oscillators: sigma*_oo (derivation, section 6; P:thm2 repaired).
 
 use super::condition::{self, Condition};
-use super::sharp::ClaimedSet;
+use super::harmonics;
+use super::sharp::{ClaimedSet, one_sided};
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
 use crate::data::{Bound, Data, Problem};
@@ -23,15 +24,26 @@ pub struct ExactWitness {
     pub h: Rational,
 }
 
-/// `z_oo = (1/mu) sqrt( b_q(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt(0,0)^2 )`: the norm of the steady state of the
-/// internal model (the paper drops the k = 0 term, a square root and n_0: erratum E13).
+/// `z_oo = (1/mu) sqrt( b_q_rms(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt_rms(0,0)^2 )`: the norm of the steady state of the
+/// internal model (the paper drops the k = 0 term, a square root and n_0: erratum E13); where harmonics of q(t,0,0) are known,
+/// `(1/mu)[ sqrt(C_0^2/n_0 + sum_{k>=1} 4 C_k^2/n_k) + sqrt(r_0^2/n_0 + (2/n_1)(T/2pi)^2 r_1^2) ]`, if that is smaller
+/// (derivation, 10.6). Only the mean squares of q(t,0,0) and of its derivative enter (Parseval).
 #[must_use]
 pub fn steady_state_norm(data: &Data<'_>) -> Enclosure {
     let at_origin = |which| data.bound(which, &data.zero(), &data.zero());
-    let t_over_two_pi = &data.period / (2 * Enclosure::pi(data.precision));
-    let constant = at_origin(Bound::Q).sqr() / &data.n_0;
-    let periodic = 2 * (t_over_two_pi * at_origin(Bound::Qt)).sqr() / &data.n_1;
-    (constant + periodic).sqrt() / &data.mu
+    let norm = |size: &Enclosure, rate: &Enclosure| {
+        let constant = size.sqr() / &data.n_0;
+        (constant + 2 * (rate / &data.fundamental).sqr() / &data.n_1).sqrt()
+    };
+    let general = norm(&at_origin(Bound::QRms), &at_origin(Bound::QtRms));
+    let norm = match &data.q_0 {
+        None => general,
+        Some(known) => {
+            let rest = norm(&known.rest_rms, &harmonics::rest_t_rms(data, known));
+            general.min(&(harmonics::weighted_norm(data, known) + rest))
+        }
+    };
+    norm / &data.mu
 }
 
 /// Everything computed for exact regulation.
@@ -76,12 +88,13 @@ impl ExactEvaluation {
             ));
         }
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
+        conditions.extend(one_sided(data, "(D_x, D_e)", [&error_box.x_b, &error_box.e_b]));
         let [dist_x, dist_e, dist_z] = set.distances(data, [&data.zero(), &data.zero(), &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));
         conditions.push(Condition::less(
             "C5",
-            "exact regulation: (h/mu) k_x^2 < 4 w_x (alpha - gam)",
+            "exact regulation: (h/mu) k_x^2 < 4 w_x a_2",
             decay.coupling,
             decay.curvature,
         ));

@@ -99,15 +99,6 @@ where
         }
     }
 
-    /// `Z^2 = (T/(2 mu) + kappa_0) qr^2 + kappa_1 q1^2` (derivation, section 4), with kappa in the units of omega.
-    ///
-    /// Guarantee: sup sqrt(zeta'N zeta) <= Z along the periodic solution, for every n_o and every sigma.
-    #[must_use]
-    pub fn z_squared_sharp(&self, problem: &impl Problem<R>, kappa_0: &R, kappa_1: &R) -> R {
-        (&problem.numbers().period / (R::int(2) * &problem.numbers().mu) + kappa_0) * self.q_rms.sqr()
-            + kappa_1 * self.q_rate_rms.sqr()
-    }
-
     /// The paper's `Z^2 = (T/mu + kappa_0 + 54 kappa_1 b_qe^2) b_q^2 + 3 kappa_1 (b_qt^2 + b_qx^2 b_f^2)`
     /// (proof of P:prop:periodic_solution): sound with sound kappas.
     #[must_use]
@@ -135,35 +126,6 @@ where
     (k0 / &w_squared, k1 / w_squared.sqr())
 }
 
-/// The size of the periodic solution at a given sigma (derivation, section 4).
-#[derive(Clone, Debug)]
-pub struct PeriodicSolution<R> {
-    /// beta_s(sigma) qr.
-    pub by_size: R,
-    /// tau(sigma) q1.
-    pub by_rate: R,
-    /// e_per = min{E_p, beta_s qr, tau q1}.
-    pub e_per: R,
-    /// x_per = min{X_p, (c/alpha) b_fe e_per / (1 - (c/alpha) b_fxx X_p/2)}.
-    pub x_per: R,
-}
-
-impl<R: Real> PeriodicSolution<R>
-where
-    for<'a> &'a R: Operand<R>,
-{
-    /// Evaluates the bounds. Hypotheses: C1, C2, C3 hold at sigma. Guarantee: sup|e| <= e_per and sup|x| <= x_per for
-    /// every sigma' >= sigma and every n_o.
-    #[must_use]
-    pub fn new(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>, sigma: &R) -> PeriodicSolution<R> {
-        let by_size = gains::beta_s(sigma, &problem.numbers().period) * &bounds.q_rms;
-        let by_rate = gains::tau(sigma, &problem.numbers().period) * &bounds.q_rate_rms;
-        let e_per = bounds.state.e_p.min(&by_size).min(&by_rate);
-        let x_per = bounds.state.x_p.min(&(x_per_gain(problem, bounds) * &e_per));
-        PeriodicSolution { by_size, by_rate, e_per, x_per }
-    }
-}
-
 /// `(c/alpha) b_fe / (1 - (c/alpha) b_fxx X_p/2)`: sup|x| over sup|e| along the periodic solution, under C1.
 #[must_use]
 pub fn x_per_gain<R: Real>(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>) -> R
@@ -189,17 +151,6 @@ impl<R: Real> LeastSigma<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    /// Those of the sharp derivation. Hypotheses: C1 and A < 1. Unknown where a level is not certainly positive.
-    #[must_use]
-    pub fn sharp(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>) -> LeastSigma<R> {
-        let Numbers { period, c, .. } = problem.numbers();
-        let by_size = reached(&bounds.state.e_p, &bounds.q_rms, |level| gains::beta_s_inverse(level, period));
-        let by_rate = reached(&bounds.state.e_p, &bounds.q_rate_rms, |level| gains::tau_inverse(level, period));
-        let [free, demand] = contraction_level(&bounds.contraction(problem, c, 1, &R::int(1)));
-        let by_contraction = reached(&free, &demand, |level| gains::beta_s_inverse(level, period));
-        LeastSigma { by_size: by_size.min(&by_rate), by_contraction }
-    }
-
     /// Those of the repaired derivation. Hypotheses: C1 with K_alpha and Y_xx < 1. Unknown where a level is not certainly
     /// positive.
     #[must_use]

@@ -74,6 +74,31 @@ where
     period.sqr() * (sigma * period).oscillator_sum().sqrt()
 }
 
+/// `bt(sigma)`: sup|e| <= bt(sigma) rms(q) for the periodic error, every n_o and mu (derivation, 10.2), in units of time;
+/// decreasing in sigma, and at most T/sqrt(12).
+///
+/// `bt^2 = sum_{j != 0} 1/(sigma^2 + om_j^2) = beta_s^2 - 1/sigma^2 = T^2 B(sigma T)`, with B of [`Real::zero_mean_sum`]: the
+/// error has zero mean, so the term of j = 0 does not count.
+#[must_use]
+pub fn zero_mean_gain<R: Real>(sigma: &R, period: &R) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
+    period * (sigma * period).zero_mean_sum().sqrt()
+}
+
+/// `K2(a) = c sqrt(T coth(aT/2)/(2a))` (derivation, 10.2), in units of time.
+///
+/// Hypothesis: `chi' = J(t) chi + g` with the rate a > 0 of a P(t), c = sqrt(P_up/P_low). Guarantee: the T-periodic solution
+/// has sup|chi| <= K2(a) rms(g).
+#[must_use]
+pub fn mean_square_gain<R: Real>(c: &R, rate: &R, period: &R) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
+    c * (period * (rate * period / R::int(2)).coth() / (R::int(2) * rate)).sqrt()
+}
+
 /// The smallest sigma with `beta_s(sigma) <= level`; the inverse of [`beta_s`].
 ///
 /// Hypotheses: level, T > 0. Unknown when the level is not certainly positive.
@@ -163,6 +188,36 @@ mod tests {
             let width = relative_width(&value);
             assert!(width < 1e-15, "sigma = {sigma}: relative width {width:e}");
         }
+    }
+
+    #[test]
+    fn the_gain_of_zero_mean_matches_its_series() {
+        let direct = |sigma: f64, period: f64| {
+            let om = |j: f64| 2.0 * std::f64::consts::PI * j / period;
+            // The rest of the sum is about T^2/(2 pi^2 n), half a term more or less.
+            let sum: f64 = (1..400_000_u32).map(|j| 1.0 / (sigma * sigma + om(j.into()).powi(2))).sum();
+            (2.0 * (sum + period.powi(2) / (4.0 * std::f64::consts::PI.powi(2) * 399_999.5))).sqrt()
+        };
+        for sigma in [1e-12, 1e-6, 1e-3, 0.1, 0.9, 1.1, 10.0, 1e3] {
+            let value = zero_mean_gain(&number(sigma), &number(1.5));
+            assert!(close(&value, direct(sigma, 1.5), 1e-9), "sigma = {sigma}: {:?}", value.decimals());
+            assert!(relative_width(&value) < 1e-15, "sigma = {sigma}");
+            let beta = beta_s(&number(sigma), &number(1.5));
+            let difference = beta.sqr() - number(sigma).sqr().recip();
+            assert!(!difference.lt(&value.sqr()).is_true() && !value.sqr().lt(&difference).is_true());
+        }
+    }
+
+    /// A scalar equation chi' = -a chi + g with a comb of impulses as g approaches K2: here its exact L2 kernel.
+    #[test]
+    fn the_mean_square_gain_is_the_norm_of_the_periodic_kernel() {
+        let (a, period) = (0.7_f64, 3.0_f64);
+        let kernel = |s: f64| (-a * s).exp() / (1.0 - (-a * period).exp());
+        let n = 200_000;
+        let step = period / f64::from(n);
+        let square: f64 = (0..n).map(|i| kernel((f64::from(i) + 0.5) * step).powi(2) * step).sum();
+        let expected = (square * period).sqrt();
+        assert!(close(&mean_square_gain(&number(1.0), &number(a), &number(period)), expected, 1e-9));
     }
 
     #[test]

@@ -1,13 +1,17 @@
-//! The sharp derivation: conditions C1-C5 decided from a rational witness (derivation, sections 4 and 5).
+//! The sharp derivation: conditions S1, S2, C4, C5 decided from a rational witness (derivation, sections 5 and 10).
 
 use super::condition::{self, Condition};
 use super::contraction::ContractionMatrix;
-use super::existence::{PeriodicBounds, PeriodicSolution, kappas};
-use super::gains;
+use super::harmonics::AtOrigin;
 use super::initial_set::{distances, set_conditions};
+use super::mean_squares::{
+    DampedResponse, ErrorGains, Forcing, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,
+    sup_by_mean_squares,
+};
 use super::stability::{DecayCondition, ErrorBox, level_condition};
+use super::uniqueness;
 use super::{domain_conditions, sign_conditions};
-use crate::data::Data;
+use crate::data::{Bound, Data, Problem};
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
 use rug::Rational;
@@ -41,14 +45,17 @@ pub struct SharpWitness {
     pub x_p: Rational,
     /// E_p > 0.
     pub e_p: Rational,
+    /// r_x, r_e, r_d > 0, with which existence is proved.
+    pub squares: MeanSquares<Rational>,
+    /// kap >= 0: how much of dq/de the map of the existence proof takes into its linear part; with 0 the form is that of
+    /// 10.3, else that of 10.4.
+    pub kap: Rational,
+    /// Smaller r_x, r_e, r_d > 0, which hold at the periodic solution; those of existence serve without.
+    pub refined: Option<MeanSquares<Rational>>,
     /// D_x > 0.
     pub d_x: Rational,
     /// D_e > 0.
     pub d_e: Rational,
-    /// p_x > 0.
-    pub p_x: Rational,
-    /// p_e > 0.
-    pub p_e: Rational,
     /// w_x > 0.
     pub w_x: Rational,
     /// h > 0.
@@ -69,16 +76,15 @@ pub struct SharpEvaluation {
     /// sigma.
     pub sigma: Enclosure,
     /// The bounding functions at (X_p, E_p).
-    pub bounds: PeriodicBounds<Enclosure>,
-    /// e_per and x_per at sigma.
-    pub periodic: PeriodicSolution<Enclosure>,
-    /// kappa_0 = k0/w^2.
-    pub kappa_0: Enclosure,
-    /// kappa_1 = k1/w^4.
-    pub kappa_1: Enclosure,
+    pub bounds: SetBounds<Enclosure>,
+    /// r_x, r_e, r_d of the periodic solution.
+    pub squares: MeanSquares<Enclosure>,
+    /// R_q, R_1, e_per and x_per at sigma.
+    pub periodic: PeriodicSize<Enclosure>,
     /// Z.
     pub z: Enclosure,
-    /// The contraction matrix of C3 at sigma.
+    /// The contraction matrix in mean squares: where its spectral radius is below 1, the periodic solution is the only one in
+    /// the set. No condition asks for it.
     pub contraction: ContractionMatrix<Enclosure>,
     /// The error box.
     pub error_box: ErrorBox<Enclosure>,
@@ -91,47 +97,29 @@ pub struct SharpEvaluation {
 impl SharpEvaluation {
     /// Evaluates all quantities and conditions at the precision of `data`.
     ///
-    /// Guarantee: if [`SharpEvaluation::truth`] is `True` and the bounding functions are finite, nonnegative and
-    /// nondecreasing up to (max{X_p, X_b}, max{E_p, E_b}), then for every n_o >= 0 and every sigma' >= sigma there is a
-    /// T-periodic solution with sup|x| <= x_per, sup|e| <= e_per, sup|zeta|_N <= Z, and every solution from the claimed
-    /// set, at any initial time, converges to it exponentially.
+    /// Guarantee: if [`SharpEvaluation::truth`] is `True` and the bounding functions are finite, nonnegative where they bound
+    /// norms, and nondecreasing (a rate nonincreasing) up to (max{X_p, X_b}, max{E_p, E_b}), then for every n_o >= 0 and every
+    /// sigma' >= sigma there is a T-periodic solution with sup|x| <= x_per, sup|e| <= e_per, sup|zeta|_N <= Z, and every
+    /// solution from the claimed set, at any initial time, converges to it exponentially.
     #[must_use]
     pub fn new(data: &Data<'_>, witness: &SharpWitness) -> SharpEvaluation {
         let number = |value: &Rational| data.rational(value);
         let sigma = number(&witness.sigma);
-        // Lemma K of the derivation: c in place of K_alpha.
-        let k = &data.c;
-        let bounds = PeriodicBounds::new(data, number(&witness.x_p), number(&witness.e_p));
-        let periodic = PeriodicSolution::new(data, &bounds, &sigma);
-        let (kappa_0, kappa_1) = kappas(data, &number(&witness.k0), &number(&witness.k1));
-        let z = bounds.z_squared_sharp(data, &kappa_0, &kappa_1).sqrt();
+        let origin = AtOrigin::new(data);
+        let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
+        let gains = ErrorGains::new(data, &sigma);
+        let squares = witness.refined.as_ref().unwrap_or(&witness.squares).map(number);
+        let periodic = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
+        let z = periodic.z_squared(data, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
 
         let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
         let (w_x, h) = (number(&witness.w_x), number(&witness.h));
         let error_box = ErrorBox::new(data, &periodic.x_per, &periodic.e_per, &d_x, &d_e);
         let decay = DecayCondition::new(data, &error_box, &w_x, &h);
 
-        let mut conditions = sign_conditions(
-            data,
-            &[
-                ("sigma", &witness.sigma),
-                ("X_p", &witness.x_p),
-                ("E_p", &witness.e_p),
-                ("D_x", &witness.d_x),
-                ("D_e", &witness.d_e),
-                ("p_x", &witness.p_x),
-                ("p_e", &witness.p_e),
-                ("w_x", &witness.w_x),
-                ("h", &witness.h),
-                ("k1", &witness.k1),
-            ],
-        );
+        let mut conditions = signs(data, witness);
         conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
-        conditions.extend(domain_conditions(
-            data,
-            bounds.state.x_p.max(&error_box.x_b),
-            bounds.state.e_p.max(&error_box.e_b),
-        ));
+        conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
         let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer);
         conditions.push(Condition::at_most(
             "T",
@@ -139,30 +127,8 @@ impl SharpEvaluation {
             step.lhs,
             step.rhs,
         ));
-        conditions.push(Condition::at_most(
-            "C1",
-            "(c/alpha)(b_fe E_p + b_fxx X_p^2/2) <= X_p",
-            bounds.state.invariance_lhs(data, k),
-            bounds.state.x_p.clone(),
-        ));
-        conditions.push(Condition::less(
-            "C1b",
-            "(c/alpha) b_fxx X_p/2 < 1",
-            bounds.state.quadratic_share(data, k),
-            Enclosure::one(data.precision),
-        ));
-        conditions.push(Condition::at_most(
-            "C2",
-            "min{beta_s(sigma) qr, tau(sigma) q1} <= E_p",
-            periodic.by_size.min(&periodic.by_rate),
-            bounds.state.e_p.clone(),
-        ));
-        let (p_x, p_e) = (number(&witness.p_x), number(&witness.p_e));
-        let matrix = bounds.contraction(data, k, 1, &gains::beta_s(&sigma, &data.period));
-        let [column_x, column_e] = matrix.weighted_columns(&p_x, &p_e);
-        conditions.push(Condition::less("C3", "A p_x + beta_s b_qx p_e < p_x", column_x, p_x));
-        conditions.push(Condition::less("C3b", "B p_x + beta_s b_qe p_e < p_e", column_e, p_e));
-
+        conditions.extend(existence_conditions(data, witness, &bounds, &origin, &gains));
+        conditions.extend(one_sided(data, "(X_b, E_b)", [&error_box.x_b, &error_box.e_b]));
         let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&periodic.x_per, &periodic.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less(
@@ -173,7 +139,7 @@ impl SharpEvaluation {
         ));
         conditions.push(Condition::less(
             "C5",
-            "(h/mu) k_x^2 < 4 w_x (alpha - gam)",
+            "(h/mu) k_x^2 < 4 w_x a_2",
             decay.coupling.clone(),
             decay.curvature.clone(),
         ));
@@ -183,18 +149,8 @@ impl SharpEvaluation {
             decay.sigma_threshold.clone(),
             sigma.clone(),
         ));
-        SharpEvaluation {
-            sigma,
-            bounds,
-            periodic,
-            kappa_0,
-            kappa_1,
-            z,
-            contraction: matrix,
-            error_box,
-            decay,
-            conditions,
-        }
+        let contraction = uniqueness::contraction(data, &bounds, &gains);
+        SharpEvaluation { sigma, bounds, squares, periodic, z, contraction, error_box, decay, conditions }
     }
 
     /// The truth of all conditions together.
@@ -202,4 +158,89 @@ impl SharpEvaluation {
     pub fn truth(&self) -> Truth {
         condition::all(&self.conditions)
     }
+}
+
+/// The signs of the witness: all numbers are positive, kap may be 0.
+fn signs(data: &Data<'_>, witness: &SharpWitness) -> Vec<Condition> {
+    let mut named = vec![
+        ("sigma", &witness.sigma),
+        ("X_p", &witness.x_p),
+        ("E_p", &witness.e_p),
+        ("r_x", &witness.squares.x),
+        ("r_e", &witness.squares.e),
+        ("r_d", &witness.squares.e_rate),
+        ("D_x", &witness.d_x),
+        ("D_e", &witness.d_e),
+        ("w_x", &witness.w_x),
+        ("h", &witness.h),
+        ("k1", &witness.k1),
+    ];
+    if witness.kap != 0 {
+        named.push(("kap", &witness.kap));
+    }
+    if let Some(refined) = &witness.refined {
+        named.extend([("refined r_x", &refined.x), ("refined r_e", &refined.e), ("refined r_d", &refined.e_rate)]);
+    }
+    sign_conditions(data, &named)
+}
+
+/// (M) -b_qe <= q_e_max where the one-sided bound is used: otherwise no plant has it.
+pub(super) fn one_sided(data: &Data<'_>, place: &str, [x, e]: [&Enclosure; 2]) -> Option<Condition> {
+    data.given(Bound::QeMax).then(|| {
+        let [below, above] = [Bound::Qe, Bound::QeMax].map(|which| data.bound(which, x, e));
+        Condition::at_most("M", format!("-b_qe <= q_e_max at {place}"), below.negate(), above)
+    })
+}
+
+/// (S1), (S2), and (S3) for the refined mean squares.
+fn existence_conditions(
+    data: &Data<'_>,
+    witness: &SharpWitness,
+    bounds: &SetBounds<Enclosure>,
+    origin: &AtOrigin<Enclosure>,
+    gains: &ErrorGains<Enclosure>,
+) -> Vec<Condition> {
+    let squares = witness.squares.map(|value: &Rational| data.rational(value));
+    let kap = (witness.kap != 0).then(|| data.rational(&witness.kap));
+    let mut conditions = vec![
+        Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
+        Condition::at_most(
+            "S1b",
+            "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p",
+            bounds.x_sup(&squares),
+            bounds.x_p.clone(),
+        ),
+        Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", bounds.x_rms(&squares), squares.x.clone()),
+    ];
+    let by_squares = sup_by_mean_squares(data, &squares);
+    let [sup, rms, rate_rms] = match &kap {
+        None => {
+            let response = Response::new(gains, origin, &Forcing::new(bounds, origin, &squares));
+            [
+                ("min{bt R_q, tau R_1, sqrt(T r_e r_d)} <= E_p", response.sup.min(&by_squares)),
+                ("min{R_q/sg, R_1/(Om sg)} <= r_e", response.rms),
+                ("min{R_q, R_1/sg} <= r_d", response.rate_rms),
+            ]
+        }
+        Some(kap) => {
+            conditions.extend(one_sided(data, "(X_p, E_p)", [&bounds.x_p, &bounds.e_p]));
+            let damped = DampedResponse::new(bounds, origin, [&gains.sigma, kap], &squares);
+            [
+                ("sqrt(T r_e r_d) <= E_p", by_squares),
+                ("g_k Rt <= r_e", damped.rms),
+                ("Rt + kap r_e <= r_d", damped.rate_rms),
+            ]
+        }
+    };
+    conditions.push(Condition::at_most("S2", sup.0, sup.1, bounds.e_p.clone()));
+    conditions.push(Condition::at_most("S2b", rms.0, rms.1, squares.e.clone()));
+    conditions.push(Condition::at_most("S2c", rate_rms.0, rate_rms.1, squares.e_rate.clone()));
+    if let Some(refined) = &witness.refined {
+        let refined = refined.map(|value: &Rational| data.rational(value));
+        let image = at_the_solution(bounds, origin, gains, kap.as_ref(), &refined);
+        conditions.push(Condition::less("S3", "right side of rms(x) < refined r_x", image.x, refined.x));
+        conditions.push(Condition::less("S3b", "right side of rms(e) < refined r_e", image.e, refined.e));
+        conditions.push(Condition::less("S3c", "right side of rms(e') < refined r_d", image.e_rate, refined.e_rate));
+    }
+    conditions
 }

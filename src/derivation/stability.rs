@@ -1,4 +1,4 @@
-//! Stability and domain of attraction (derivation, section 5): the quadratic form of C5 and its closed form.
+//! Stability and domain of attraction (derivation, sections 5 and 10.4): the quadratic form of C5 and its closed form.
 
 use crate::data::{Bound, Numbers, Problem};
 use crate::enclosure::{Enclosure, Truth};
@@ -15,13 +15,25 @@ pub struct ErrorBox<R> {
     pub e_b: R,
     /// k_x = b_qx(X_b, E_b)/sqrt(P_low).
     pub k_x: R,
-    /// k_e = b_qe(X_b, E_b).
-    pub k_e: R,
+    /// The sector of dq/de: from -k_l = -b_qe(X_b, E_b) up to m = min{q_e_max, b_qe}(X_b, E_b).
+    pub sector: Sector<R>,
     /// k_f = b_fe(X_b, E_b).
     pub k_f: R,
     /// gam = c [b_fxx(x_per,0) x_per + b_fex(x_per,e_per) e_per + b_fxx(X_b,e_per) D_x/2], in 1/time: what the
     /// nonlinearity takes from alpha.
     pub gamma: R,
+    /// a_2 = alpha - gam, or a(X_b, e_per) where a rate is given and larger: a rate of df/dx averaged over a segment from the
+    /// periodic solution.
+    pub rate: R,
+}
+
+/// dq/de lies between -below and above.
+#[derive(Clone, Debug)]
+pub struct Sector<R> {
+    /// k_l.
+    pub below: R,
+    /// m, at most k_l.
+    pub above: R,
 }
 
 impl<R: Real> ErrorBox<R>
@@ -37,18 +49,27 @@ where
             * (problem.bound(Bound::Fxx, x_per, &problem.zero()) * x_per
                 + problem.bound(Bound::Fex, x_per, e_per) * e_per
                 + problem.bound(Bound::Fxx, &x_b, e_per) * d_x / R::int(2));
+        let by_norms = &problem.numbers().alpha - &gamma;
+        let rate = match problem.given(Bound::Rate) {
+            true => by_norms.max(&problem.bound(Bound::Rate, &x_b, e_per)),
+            false => by_norms,
+        };
         ErrorBox {
             k_x: problem.bound(Bound::Qx, &x_b, &e_b) / problem.numbers().p_low.sqrt(),
-            k_e: problem.bound(Bound::Qe, &x_b, &e_b),
+            sector: Sector {
+                below: problem.bound(Bound::Qe, &x_b, &e_b),
+                above: problem.bound(Bound::QeMax, &x_b, &e_b),
+            },
             k_f: problem.bound(Bound::Fe, &x_b, &e_b),
             gamma,
+            rate,
             x_b,
             e_b,
         }
     }
 }
 
-/// The terms of (C5), with ht = h/mu and A = w_x (alpha - gam).
+/// The terms of (C5) in the form of 10.4, with ht = h/mu and A = w_x a_2.
 #[derive(Clone, Debug)]
 pub struct DecayTerms<R> {
     /// ht.
@@ -57,9 +78,9 @@ pub struct DecayTerms<R> {
     pub coupling: R,
     /// 4 A.
     pub curvature: R,
-    /// 1 + ht k_e.
-    pub one_plus: R,
-    /// w_x sqrt(P_up) k_f + k_x (1 + ht k_e)/2.
+    /// D = max{|1 + ht m|, |1 - ht k_l|}; 1 + ht k_l where m = k_l.
+    pub worst: R,
+    /// w_x sqrt(P_up) k_f + k_x D/2.
     pub cross: R,
 }
 
@@ -67,25 +88,35 @@ impl<R: Real> DecayTerms<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    /// The terms for given weights, alpha - gam, mu, sqrt(P_up) and k_x, k_e, k_f.
+    /// The terms for given weights, a_2, mu, sqrt(P_up), k_x, k_f and the sector of dq/de.
     #[must_use]
-    pub fn new([w_x, h]: [&R; 2], [rate, mu, root_p_up]: [&R; 3], [k_x, k_e, k_f]: [&R; 3]) -> DecayTerms<R> {
+    pub fn new(
+        [w_x, h]: [&R; 2],
+        [rate, mu, root_p_up]: [&R; 3],
+        [k_x, k_f]: [&R; 2],
+        sector: &Sector<R>,
+    ) -> DecayTerms<R> {
         let h_over_mu = h / mu;
-        let one_plus = R::int(1) + &h_over_mu * k_e;
+        // |y| = max{y, -y}.
+        let at = |slope: R| {
+            let factor = R::int(1) + &h_over_mu * slope;
+            factor.max(&-factor.clone())
+        };
+        let worst = at(sector.above.clone()).max(&at(-sector.below.clone()));
         DecayTerms {
             coupling: &h_over_mu * k_x.sqr(),
             curvature: R::int(4) * (w_x * rate),
-            cross: w_x * root_p_up * k_f + k_x * &one_plus / R::int(2),
-            one_plus,
+            cross: w_x * root_p_up * k_f + k_x * &worst / R::int(2),
+            worst,
             h_over_mu,
         }
     }
 
     /// The threshold of sigma for `margin` = 4A - ht k_x^2 > 0:
-    /// `(1 + ht k_e)^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x (1 + ht k_e)/2)^2 / (4A - ht k_x^2)`.
+    /// `D^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x D/2)^2 / (4A - ht k_x^2)`.
     #[must_use]
     pub fn threshold(&self, margin: R) -> R {
-        self.one_plus.sqr() / (R::int(4) * &self.h_over_mu) + self.cross.sqr() / margin
+        self.worst.sqr() / (R::int(4) * &self.h_over_mu) + self.cross.sqr() / margin
     }
 }
 
@@ -95,7 +126,7 @@ where
 pub struct DecayCondition<R> {
     /// ht k_x^2, to be below `curvature`; ht = h/mu.
     pub coupling: R,
-    /// 4 A = 4 w_x (alpha - gam).
+    /// 4 A = 4 w_x a_2.
     pub curvature: R,
     /// The threshold that sigma must exceed; meaningful when `coupling < curvature` is proved.
     pub sigma_threshold: R,
@@ -111,9 +142,9 @@ where
     /// worst signs of u_x, u_e, phi).
     #[must_use]
     pub fn new(problem: &impl Problem<R>, error_box: &ErrorBox<R>, w_x: &R, h: &R) -> DecayCondition<R> {
-        let Numbers { alpha, mu, p_up, .. } = problem.numbers();
-        let ErrorBox { k_x, k_e, k_f, gamma, .. } = error_box;
-        let terms = DecayTerms::new([w_x, h], [&(alpha - gamma), mu, &p_up.sqrt()], [k_x, k_e, k_f]);
+        let Numbers { mu, p_up, .. } = problem.numbers();
+        let ErrorBox { k_x, k_f, sector, rate, .. } = error_box;
+        let terms = DecayTerms::new([w_x, h], [rate, mu, &p_up.sqrt()], [k_x, k_f], sector);
         let margin = &terms.curvature - &terms.coupling;
         // Where the margin is not proved positive the threshold has no meaning; unknown keeps it from being used.
         let sigma_threshold = terms.threshold(if margin.is_certainly_positive() { margin } else { R::unknown() });

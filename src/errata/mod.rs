@@ -22,6 +22,7 @@ mod transfer;
 
 pub use evidence::{Evidence, Kind, Relation, Side};
 
+use crate::expr::Expr;
 use crate::data::{Bound, Data};
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::spec::Specification;
@@ -206,11 +207,11 @@ pub fn errata(spec: Option<&Specification>) -> Vec<Erratum> {
 
 /// Whether a bounding function is the constant 0, exactly.
 fn vanishes(data: &Data<'_>, bound: Bound) -> bool {
-    let constant = bound.of(data.spec).exact();
+    let constant = bound.of(data.spec).and_then(Expr::exact);
     constant.as_ref().and_then(|value| value.as_rational()).is_some_and(rug::Rational::is_zero)
 }
 
 /// Whether a bounding function is a constant, exactly.
 fn is_constant(data: &Data<'_>, bound: Bound) -> bool {
-    bound.of(data.spec).exact().is_some()
+    bound.of(data.spec).is_some_and(|expr| expr.exact().is_some())
 }

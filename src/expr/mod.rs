@@ -108,6 +108,14 @@ impl Expr {
         Expr { text: "0".into(), nodes: Arc::new([node]), roles: Arc::default() }
     }
 
+    /// Its negative, with the same text and places.
+    #[must_use]
+    pub fn negated(&self) -> Expr {
+        let negation = Node { kind: syntax::NodeKind::Unary(syntax::Unary::Neg), span: 0..self.text.len() };
+        let nodes: Vec<Node> = self.nodes.iter().cloned().chain([negation]).collect();
+        Expr { text: self.text.clone(), nodes: nodes.into(), roles: Arc::default() }
+    }
+
     fn roles(&self) -> &[polynomial::Role] {
         self.roles.get_or_init(|| polynomial::roles(&self.nodes))
     }

@@ -33,6 +33,8 @@ pub struct ProofSettings {
     pub precision: u32,
     /// Bits of the last attempts, on boxes that stay undecided.
     pub max_precision: u32,
+    /// Whether values may be negative: the expression does not bound a norm.
+    pub signed: bool,
 }
 
 impl Default for ProofSettings {
@@ -43,6 +45,7 @@ impl Default for ProofSettings {
             max_depth: 160,
             precision: DEFAULT_PRECISION,
             max_precision: MAX_PRECISION,
+            signed: false,
         }
     }
 }
@@ -128,7 +131,9 @@ pub fn prove_bounding(
         return Err(BoundingFailure::Undecided { property, region: Box::new(domain), span: None, reason });
     }
     let refuter = Refuter::new(expr, settings);
-    not_negative_at_origin(expr, &refuter, settings)?;
+    if !settings.signed {
+        not_negative_at_origin(expr, &refuter, settings)?;
+    }
     subdivide(expr, &refuter, domain, settings)
 }
 

@@ -30,7 +30,7 @@ impl<'a> Refuter<'a> {
             return Err(refuted(Property::Finite, counterexample, Some(span)));
         }
         let evaluation = Evaluation { x: x.clone(), e: e.clone(), value: at.value };
-        if evaluation.value.is_nonnegative().is_false() {
+        if !self.settings.signed && evaluation.value.is_nonnegative().is_false() {
             return Err(refuted(Property::Nonnegative, Counterexample::Negative(evaluation), None));
         }
         Ok(evaluation)

@@ -39,11 +39,12 @@ fn positive(value: f64) -> f64 {
     if value < 0.0 { 0.0 } else { value }
 }
 
-/// The bounding functions of a claim, in the order of [`Family::bounds`].
+/// The bounding functions of a claim, in the order of [`Family::bounds`]: those that every specification has, or their
+/// sharper forms.
 pub(super) fn allowed(claim: &Claim) -> Vec<&Expr> {
     [Bound::F, Bound::Fe, Bound::Fxx, Bound::Fex, Bound::Q, Bound::Qe, Bound::Qx, Bound::Qt, Bound::QRms, Bound::QtRms]
         .iter()
-        .map(|bound| bound.of(&claim.spec))
+        .filter_map(|bound| bound.of(&claim.spec))
         .collect()
 }
 

@@ -16,14 +16,14 @@ pub struct DecayData {
     pub h: Rational,
     /// Bounds of mu from below and from above, in 1/time; equal where mu is rational.
     pub mu: [Rational; 2],
-    /// A lower bound of alpha - gam, in 1/time.
+    /// A lower bound of a_2 (alpha - gam, or better), in 1/time.
     pub rate: Rational,
     /// An upper bound of sqrt(P_up).
     pub root_p_up: Rational,
     /// An upper bound of k_x; 0 says that u_x vanishes.
     pub k_x: Rational,
-    /// An upper bound of k_e; 0 says that u_e vanishes.
-    pub k_e: Rational,
+    /// Upper bounds of k_l and m, u_e = delta et with -k_l <= delta <= m; 0 and 0 say that u_e vanishes.
+    pub sector: [Rational; 2],
     /// An upper bound of k_f; 0 says that phi vanishes.
     pub k_f: Rational,
 }
@@ -39,10 +39,18 @@ enum Signal {
     S,
     /// u_x, |u_x| <= k_x xi.
     Ux,
-    /// u_e, |u_e| <= k_e |et|.
+    /// u_e = delta et, -k_l <= delta <= m.
     Ue,
     /// phi, |phi| <= k_f |et|.
     Phi,
+}
+
+/// The sector, or a slightly larger one where it is a single slope other than 0: its multiplier would run to infinity.
+fn open_sector([below, above]: [Rational; 2]) -> [Rational; 2] {
+    let room = Rational::from(below.abs_ref()) >> 30u32;
+    let least = room - &below;
+    let above = if below != 0 && above < least { least } else { above };
+    [below, above]
 }
 
 impl DecayData {
@@ -54,30 +62,32 @@ impl DecayData {
             w_x: w_x.clone(),
             h: h.clone(),
             mu: [data.mu.lower_rational()?, upper(&data.mu)?],
-            rate: (&data.alpha - &error_box.gamma).lower_rational()?,
+            rate: error_box.rate.lower_rational()?,
             root_p_up: upper(&data.p_up.sqrt())?,
             k_x: upper(&error_box.k_x)?,
-            k_e: upper(&error_box.k_e)?,
+            sector: open_sector([upper(&error_box.sector.below)?, upper(&error_box.sector.above)?]),
             k_f: upper(&error_box.k_f)?,
         })
     }
 
-    /// k_x, k_e, k_f with the signals they bound, in the order of the multipliers.
-    fn sectors(&self) -> [(Signal, Signal, &Rational); 3] {
+    /// The signals with those that bound them and the sectors [-below, above] in which their quotients lie, in the order of
+    /// the multipliers.
+    fn sectors(&self) -> [(Signal, Signal, [&Rational; 2]); 3] {
         use Signal::{E, Phi, Ue, Ux, X};
-        [(Ux, X, &self.k_x), (Ue, E, &self.k_e), (Phi, E, &self.k_f)]
+        let [below, above] = &self.sector;
+        [(Ux, X, [&self.k_x, &self.k_x]), (Ue, E, [below, above]), (Phi, E, [&self.k_f, &self.k_f])]
     }
 
-    /// Which of u_x, u_e, phi are rows of the matrix: those whose k is not 0. (The multiplier of a signal that
+    /// Which of u_x, u_e, phi are rows of the matrix: those whose sector is not 0. (The multiplier of a signal that
     /// vanishes would run to infinity.)
     #[must_use]
     pub fn present(&self) -> [bool; 3] {
-        self.sectors().map(|(_, _, k)| *k != 0)
+        self.sectors().map(|(_, _, [below, above])| *below != 0 || *above != 0)
     }
 
     /// The symmetric matrix of
-    /// `2 w_x (alpha - gam) xi^2 - 2 w_x sqrt(P_up) xi phi + 2 sigma et^2 - 2 et (u_x + u_e) - 2 mu et s + 2 h mu s^2
-    /// + 2 h s (u_x + u_e) + l_x (u_x^2 - k_x^2 xi^2) + l_e (u_e^2 - k_e^2 et^2) + l_f (phi^2 - k_f^2 et^2)`
+    /// `2 w_x a_2 xi^2 - 2 w_x sqrt(P_up) xi phi + 2 sigma et^2 - 2 et (u_x + u_e) - 2 mu et s + 2 h mu s^2
+    /// + 2 h s (u_x + u_e) + l_x (u_x^2 - k_x^2 xi^2) + l_e (u_e - m et)(u_e + k_l et) + l_f (phi^2 - k_f^2 et^2)`
     /// in (xi, et, s, u_x, u_e, phi), affine in (sigma, l_x, l_e, l_f); rows and multipliers that are not
     /// [`DecayData::present`] are left out.
     #[must_use]
@@ -89,7 +99,7 @@ impl DecayData {
     #[must_use]
     pub fn matrix_in_weights(&self, mu: &Rational) -> AffineMatrix<Rational> {
         use Signal::{E, Phi, S, Ue, Ux, X};
-        let sectors: Vec<_> = self.sectors().into_iter().filter(|(_, _, k)| **k != 0).collect();
+        let sectors: Vec<_> = self.sectors().into_iter().zip(self.present()).filter_map(|(sector, is)| is.then_some(sector)).collect();
         let mut signals = vec![X, E, S];
         signals.extend(sectors.iter().map(|(signal, _, _)| *signal));
         let zero = Rational::new;
@@ -107,12 +117,18 @@ impl DecayData {
                 (1, (S, Ux | Ue)) => Rational::from(1),
                 (2, (E, E)) => Rational::from(2),
                 (0..=2, _) => zero(),
-                (_, (signal, other)) if signal == other => match sectors[variable - 3] {
-                    (bounded, _, _) if signal == bounded => Rational::from(1),
-                    (_, by, k) if signal == by => -Rational::from(k * k),
-                    _ => zero(),
-                },
-                _ => zero(),
+                (_, (signal, other)) => {
+                    let (bounded, by, [below, above]) = sectors[variable - 3];
+                    if signal == bounded && other == bounded {
+                        Rational::from(1)
+                    } else if signal == by && other == by {
+                        -Rational::from(below * above)
+                    } else if (signal == by && other == bounded) || (signal == bounded && other == by) {
+                        Rational::from(below - above) / 2u32
+                    } else {
+                        zero()
+                    }
+                }
             }
         };
         AffineMatrix::from_fn(signals.len(), 3 + sectors.len(), constant, term)
@@ -121,28 +137,30 @@ impl DecayData {
 
 /// Whether sigma and the multipliers (l_x, l_e, l_f) prove C5, decided exactly; those not present are ignored.
 ///
-/// Guarantee: if true, then for every sigma' >= sigma, every mu in the interval, every alpha - gam at least `rate`, and
-/// every sqrt(P_up), k_x, k_e, k_f between 0 and their bounds, the form of C5 is at least rho (xi^2 + et^2 + s^2) with one
-/// rho > 0, for all signals with |u_x| <= k_x |xi|, |u_e| <= k_e |et|, |phi| <= k_f |et|.
+/// Guarantee: if true, then for every sigma' >= sigma, every mu in the interval, every a_2 at least `rate`, and every
+/// sqrt(P_up) between 0 and its bound, the form of C5 is at least rho (xi^2 + et^2 + s^2) with one rho > 0, for all signals
+/// with |u_x| <= k_x |xi|, u_e = delta et with -k_l <= delta <= m, |phi| <= k_f |et|.
 ///
 /// Proof. Let M be the matrix at the bounds, positive definite; its diagonal has l_x, l_e, l_f, so they are positive.
-/// - alpha - gam and sigma: raising them adds 2 w_x (..) >= 0 and 2 (..) >= 0 to the diagonal.
-/// - k_x, k_e, k_f: they occur as -l k^2 on the diagonal with l > 0; lowering k to k' >= 0 adds l (k^2 - k'^2) >= 0 there,
-///   with the same multipliers. So a larger k only weakens. (Where the bound is 0 the signal is 0 and its row is left out.)
+/// - a_2 and sigma: raising them adds 2 w_x (..) >= 0 and 2 (..) >= 0 to the diagonal.
+/// - k_x, k_f and the sector: what lies within smaller ones lies within these. (Where the bound is 0 the signal is 0 and its
+///   row is left out.)
 /// - sqrt(P_up) =: p occurs only in the entry (xi, phi), as -w_x p, and phi has no other off-diagonal entry. Changing the
 ///   sign of phi is a congruence that replaces p by -p, so M(-p) is positive definite as well; M is affine in p and the
 ///   positive definite matrices are convex, so M(p') is positive definite for |p'| <= p.
 /// - mu: M is affine in mu, so positive definite at both ends gives it between them.
 ///
 /// These changes combine: what is added to the diagonal does not depend on p and mu.
-/// The set of all these parameters with sigma' = sigma and alpha - gam = rate is compact, so the least eigenvalue of the
+/// The set of all these parameters with sigma' = sigma and a_2 = rate is compact, so the least eigenvalue of the
 /// matrices has a minimum rho > 0 there, and what is added for larger ones is nonnegative. The form of C5 is v'M v minus
-/// l_x (u_x^2 - k_x^2 xi^2) and its like, each of which is <= 0 on the signals allowed; hence it is >= rho |v|^2. QED
+/// l_x (u_x^2 - k_x^2 xi^2), l_e (u_e - m et)(u_e + k_l et) and l_f (phi^2 - k_f^2 et^2), each of which is <= 0 on the signals allowed; hence it is >= rho |v|^2. QED
 #[must_use]
 pub fn verify_decay(data: &DecayData, sigma: &Rational, multipliers: &[Rational; 3]) -> bool {
     let [mu_low, mu_up] = &data.mu;
     let positive = [&data.w_x, &data.h, mu_low].iter().all(|value| **value > 0) && mu_low <= mu_up;
-    let nonnegative = [&data.root_p_up, &data.k_x, &data.k_e, &data.k_f].iter().all(|value| **value >= 0);
+    let [below, above] = &data.sector;
+    let nonnegative = [&data.root_p_up, &data.k_x, below, &data.k_f].iter().all(|value| **value >= 0)
+        && Rational::from(below + above) >= 0;
     if !positive || !nonnegative {
         return false;
     }

@@ -119,7 +119,7 @@ mod tests {
             rate: one(),
             root_p_up: one(),
             k_x: Rational::new(),
-            k_e: Rational::new(),
+            sector: [Rational::new(), Rational::new()],
             k_f: one(),
         }
     }

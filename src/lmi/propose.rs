@@ -2,7 +2,7 @@
 
 use super::decay::DecayData;
 use super::solve::{SolverFailure, propose};
-use crate::derivation::stability::DecayTerms;
+use crate::derivation::stability::{DecayTerms, Sector};
 use rug::Rational;
 
 /// What the solver proposes for C5.
@@ -79,21 +79,23 @@ pub(super) struct Scale {
 
 impl Scale {
     /// The closed form of C5 gives the scale. With p = sqrt(P_up), et = 1 and C the cross term of [`DecayTerms`], the worst
-    /// signals are u_x = k_x xi, u_e = k_e, phi = k_f, s = (1/ht - u)/(2 mu), and `xi = 2 C/(4A - ht k_x^2)`. They are the null vector of the matrix at the threshold, and its rows u_x, u_e, phi then give
-    /// `l_x = (1 + ht u)/(2 k_x xi)`, `l_e = (1 + ht u)/(2 k_e)`, `l_f = w_x p xi/k_f`, `u = k_x xi + k_e`.
+    /// signals are u_x = k_x xi, u_e = m (or both with the other sign, u_e = -k_l), phi = k_f, s = (1/ht - u)/(2 mu), and
+    /// `xi = 2 C/(4A - ht k_x^2)`. They are the null vector of the matrix at the threshold, and its rows u_x, u_e, phi then
+    /// give, with `w = D + ht k_x xi`: `l_x = w/(2 k_x xi)`, `l_e = w/(k_l + m)`, `l_f = w_x p xi/k_f`.
     ///
     /// Only the scale depends on this: the solver sees the whole matrix.
     pub(super) fn new(data: &DecayData, sigma: Option<&Rational>) -> Result<Scale, SolverFailure> {
         let [w_x, h, mu, rate] = [&data.w_x, &data.h, &data.mu[0], &data.rate].map(Rational::to_f64);
-        let [p, k_x, k_e, k_f] = [&data.root_p_up, &data.k_x, &data.k_e, &data.k_f].map(Rational::to_f64);
-        let terms = DecayTerms::new([&w_x, &h], [&rate, &mu, &p], [&k_x, &k_e, &k_f]);
+        let [p, k_x, k_f] = [&data.root_p_up, &data.k_x, &data.k_f].map(Rational::to_f64);
+        let [below, above] = data.sector.each_ref().map(Rational::to_f64);
+        let terms = DecayTerms::new([&w_x, &h], [&rate, &mu, &p], [&k_x, &k_f], &Sector { below, above });
         let DecayTerms { coupling, curvature, .. } = terms;
         // Where the closed form has no solution, the scale is that of a neighbour that has one.
         let margin = if coupling < curvature { curvature - coupling } else { coupling };
         let xi = 2.0 * terms.cross / margin;
         let sigma = sigma.map_or(terms.threshold(margin), Rational::to_f64);
-        let one_plus = terms.one_plus + terms.h_over_mu * k_x * xi;
-        let multipliers = [one_plus / (2.0 * k_x * xi), one_plus / (2.0 * k_e), w_x * p * xi / k_f];
+        let worst = terms.worst + terms.h_over_mu * k_x * xi;
+        let multipliers = [worst / (2.0 * k_x * xi), worst / (below + above), w_x * p * xi / k_f];
         let present = multipliers.into_iter().zip(data.present()).filter_map(|(unit, present)| present.then_some(unit));
         let units: Vec<f64> = std::iter::once(sigma).chain(present).collect();
         let diagonal = [2.0 * w_x * rate, 2.0 * sigma, 2.0 * h * mu].into_iter().chain(units.iter().skip(1).copied());

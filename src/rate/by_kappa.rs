@@ -25,6 +25,7 @@ pub struct RateByKappa {
     w_x: Enclosure,
     h: Enclosure,
     k_x: Enclosure,
+    /// b_qe, which bounds |dq/de| where the sector is one-sided too.
     k_e: Enclosure,
     r_x: Enclosure,
     r_e: Enclosure,
@@ -79,7 +80,7 @@ impl RateByKappa {
             w_x: number(&decay.w_x),
             h: number(&decay.h),
             k_x: number(&decay.k_x),
-            k_e: number(&decay.k_e),
+            k_e: number(&decay.sector[0]),
             r_x: number(&r_x),
             r_e: number(&r_e),
         })

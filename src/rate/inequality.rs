@@ -39,11 +39,11 @@ use rug::Rational;
 pub struct LoopBounds {
     /// Whether there may be an x; if not, xi, u_x and phi are 0.
     pub has_x: bool,
-    /// A lower bound of alpha - gam, in 1/time.
+    /// A lower bound of a_2 (alpha - gam, or better), in 1/time.
     pub x_decay: Rational,
     /// An upper bound of sqrt(P_up).
     pub root_p_up: Rational,
-    /// Upper bounds of k_x, k_e, k_f; 0 for a signal that vanishes.
+    /// Upper bounds of k_x, k_e = b_qe, k_f; 0 for a signal that vanishes.
     pub gains: [Rational; 3],
 }
 
@@ -55,9 +55,9 @@ impl LoopBounds {
         let gain = |k: &Enclosure, present: bool| if present { k.upper_rational() } else { Some(Rational::new()) };
         Some(LoopBounds {
             has_x,
-            x_decay: (&data.alpha - &error_box.gamma).lower_rational()?,
+            x_decay: error_box.rate.lower_rational()?,
             root_p_up: data.p_up.sqrt().upper_rational()?,
-            gains: [gain(&error_box.k_x, has_x)?, gain(&error_box.k_e, true)?, gain(&error_box.k_f, has_x)?],
+            gains: [gain(&error_box.k_x, has_x)?, gain(&error_box.sector.below, true)?, gain(&error_box.k_f, has_x)?],
         })
     }
 }

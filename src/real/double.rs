@@ -82,6 +82,12 @@ impl Real for f64 {
         }
     }
 
+    /// Each form where it loses no digits.
+    fn zero_mean_sum(&self) -> f64 {
+        let y = *self;
+        if y < 1.0 { 1.0 / 12.0 - y * y * y.oscillator_sum() } else { (y / 2.0).coth() / (2.0 * y) - 1.0 / (y * y) }
+    }
+
     /// The secant method for `sqrt(1/S(y) - 720)`, nearly a straight line: its slope falls from sqrt(120/7) to sqrt(12).
     fn oscillator_sum_inverse_of_square(&self) -> f64 {
         let wanted = (self * self).recip() - 720.0;
@@ -142,6 +148,7 @@ mod tests {
             let wide = exactly(x);
             prop_assert!(near(x.coth(), &Real::coth(&wide), 1e-15));
             prop_assert!(near(x.oscillator_sum(), &wide.oscillator_sum(), 4e-13));
+            prop_assert!(near(x.zero_mean_sum(), &wide.zero_mean_sum(), 1e-14));
             prop_assert!(near(x.coth_ratio_inverse(), &wide.coth_ratio_inverse(), 1e-14));
         }
 

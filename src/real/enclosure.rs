@@ -73,6 +73,16 @@ impl Real for Enclosure {
         if y.lt(&Enclosure::one(p)).is_true() { ratio.intersect(&alternating(y)) } else { ratio }
     }
 
+    /// Both forms are enclosures, and so is their intersection; one or the other is narrow.
+    fn zero_mean_sum(&self) -> Enclosure {
+        let (y, p) = (self, self.precision());
+        let twelfth = Enclosure::from_rational(&Rational::from((1, 12)), p);
+        let trivial = Enclosure::zero(p).hull(&twelfth);
+        let direct = (y / 2).coth() / (2 * y) - y.sqr().recip();
+        let by_series = twelfth - y.sqr() * y.oscillator_sum();
+        trivial.intersect(&direct).intersect(&by_series)
+    }
+
     fn oscillator_sum_inverse_of_square(&self) -> Enclosure {
         let p = self.precision();
         if !self.is_certainly_positive() {

@@ -4,9 +4,7 @@ use super::blocks::{Block, Table};
 use super::number::upper;
 use crate::certificate::{Certification, Derivation};
 use crate::data::Data;
-use crate::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
-use crate::derivation::existence::PeriodicBounds;
-use crate::enclosure::Enclosure;
+use crate::derivation::consequences::{ErrorBounds, Excitation, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
 use crate::spec::Constant;
 
 /// The numbers of oscillators in the table.
@@ -71,23 +69,26 @@ impl Consequences {
     #[must_use]
     pub fn new(run: &Certification<'_>, targets: &[Target]) -> Option<Consequences> {
         run.sigma_star()?;
-        let (bounds, sigma, e_per, precision): (&PeriodicBounds<Enclosure>, _, _, _) = match run.options.derivation {
-            Derivation::Sharp => {
-                let proof = run.sharp.proved()?;
-                let evaluation = &proof.evaluation;
-                (&evaluation.bounds, &evaluation.sigma, &evaluation.periodic.e_per, proof.precision)
-            }
-            Derivation::Repaired => {
-                let proof = run.repaired.proved()?;
-                let evaluation = &proof.evaluation;
-                // The repaired conditions imply C1-C3 with E in place of e_per.
-                (&evaluation.bounds, &evaluation.sigma, &evaluation.bounds.state.e_p, proof.precision)
-            }
+        let precision = match run.options.derivation {
+            Derivation::Sharp => run.sharp.proved()?.precision,
+            Derivation::Repaired => run.repaired.proved()?.precision,
             Derivation::Printed => return None,
         };
         let data = Data::new(run.spec, precision);
+        let (excitation, sigma, e_per) = match run.options.derivation {
+            Derivation::Sharp => {
+                let evaluation = &run.sharp.proved()?.evaluation;
+                (Excitation::sharp(evaluation), &evaluation.sigma, &evaluation.periodic.e_per)
+            }
+            Derivation::Repaired => {
+                let evaluation = &run.repaired.proved()?.evaluation;
+                // The repaired conditions imply C1-C3 with E in place of e_per.
+                (Excitation::by_contraction(&data, &evaluation.bounds), &evaluation.sigma, &evaluation.bounds.state.e_p)
+            }
+            Derivation::Printed => return None,
+        };
         let matched = run.spec.internal_model.matched;
-        let at = |n_o| error_bounds(&data, bounds, sigma, e_per, n_o);
+        let at = |n_o| error_bounds(&data, &excitation, sigma, e_per, n_o);
         let by_n_o = if matched { N_O.map(|n_o| (n_o, at(n_o))).to_vec() } else { Vec::new() };
         let answer = |target: &Target| {
             if !matched {
@@ -101,7 +102,7 @@ impl Consequences {
             reached.map_or(TargetOutcome::NotReached, TargetOutcome::Reached)
         };
         let targets = targets.iter().map(|target| (target.clone(), answer(target))).collect();
-        Some(Consequences { psi: Psi::new(&data, bounds), by_n_o, targets, matched })
+        Some(Consequences { psi: Psi::new(&data, &excitation), by_n_o, targets, matched })
     }
 
     /// The section of the report.

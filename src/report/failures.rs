@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 /// The problem with a bounding function as an error at its place in the specification, to be rendered in context.
 #[must_use]
 pub fn bounding_errors(spec: &Specification, problem: &BoundingProblem) -> SpecErrors {
-    let field = format!("/bounds/{}", problem.field);
-    let text = spec.bounds.named().find(|(name, _)| *name == problem.field).map_or("", |(_, expr)| expr.text());
+    let field = format!("/{}/{}", problem.which.section(), problem.which.field());
+    let text = spec.bounds.own(problem.which).map_or("", |expr| expr.text());
     let whole = 0..text.len();
     let (span, kind, help) = match &problem.failure {
         BoundingFailure::Refuted { span, .. } => (
@@ -26,7 +26,7 @@ pub fn bounding_errors(spec: &Specification, problem: &BoundingProblem) -> SpecE
         ),
     };
     let span = span.clone().unwrap_or(whole);
-    spec.errors_at(&field, &span, kind, problem.failure.to_string(), Some(help.to_owned()))
+    spec.errors_at(&field, &span, kind, problem.sentence(), Some(help.to_owned()))
         .with_sentence_in_full(problem.failure.in_full())
 }
 

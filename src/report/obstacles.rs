@@ -55,7 +55,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
     let what = match chosen(run) {
         Status::Proved => match run.unproved_bounds.first() {
             Some(problem) => {
-                format!("the bounding function {} could not be proved: {}", problem.field, problem.failure)
+                format!("the bounding function {} could not be proved: {}", problem.which.field(), problem.sentence())
             }
             None => "the claim was not proved".to_owned(),
         },
@@ -76,7 +76,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
 pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     let mut blocks = Vec::new();
     let unproved: Vec<String> =
-        run.unproved_bounds.iter().map(|problem| format!("{}: {}", problem.field, problem.failure)).collect();
+        run.unproved_bounds.iter().map(|problem| format!("{}: {}", problem.which.field(), problem.sentence())).collect();
     if !unproved.is_empty() {
         blocks.push(Block::says("Bounding functions that were neither proved nor refuted:"));
         blocks.push(Block::List(unproved));

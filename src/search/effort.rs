@@ -15,12 +15,8 @@ pub struct Effort {
     pub x_step: usize,
     /// Every so many depths of E_p are scanned.
     pub e_step: usize,
-    /// Starting values of (rho, eta) for each.
-    pub shapes: usize,
-    /// Scanned candidates that are refined.
-    pub refined: usize,
-    /// Of these, those that are refined to the last digit.
-    pub finished: usize,
+    /// Every so many values of rho and of eta are scanned.
+    pub shape_step: usize,
     /// Restarts of a refinement, out of those that are asked for.
     pub restarts_share: usize,
     /// Iterations of a refinement between restarts.
@@ -35,9 +31,7 @@ impl Effort {
         Effort {
             x_step: less.min(4),
             e_step: less.div_ceil(4).min(4),
-            shapes: if less == 1 { 6 } else { (4 / less).max(1) },
-            refined: (10 / less).max(1),
-            finished: (4 / less).max(1),
+            shape_step: less.min(4),
             restarts_share: less,
             iterations: (400 / less as u64).max(40),
         }
@@ -47,12 +41,6 @@ impl Effort {
     #[must_use]
     pub fn descent(self, restarts: usize) -> Descent {
         Descent { restarts: restarts / self.restarts_share, iterations: self.iterations, tolerance: 1e-11 }
-    }
-
-    /// A refinement that only tells which candidates are worth one.
-    #[must_use]
-    pub fn rough_descent(self) -> Descent {
-        Descent { tolerance: 1e-6, ..self.descent(3) }
     }
 
     /// Whether every datum is worth a refinement of its own, to see its influence.
@@ -69,7 +57,7 @@ mod tests {
     /// The candidates of a scan times the operations of the bounding functions.
     fn work(operations: usize) -> usize {
         let effort = Effort::new(operations);
-        (240 / effort.x_step) * (30 / effort.e_step) * effort.shapes * operations
+        (240 / effort.x_step) * (30 / effort.e_step) * operations
     }
 
     #[test]

@@ -5,9 +5,11 @@
 
 mod candidate;
 mod effort;
+mod error_box;
 mod exact;
 mod minimise;
 mod model;
+mod periodic;
 mod printed;
 mod repaired;
 mod root;
@@ -15,10 +17,11 @@ mod scan;
 mod sharp;
 mod smaller_set;
 
-pub use candidate::{AtSigma, Existence, Obstacle, SharpParameters, active_level, weight_h};
+pub use candidate::{AtSigma, Obstacle, active_level, weight_h};
 pub use exact::search_exact;
 pub use model::{Datum, FloatModel};
+pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
-pub use sharp::{SharpProposal, at_sigma, largest_e_sharp, search_sharp, search_sharp_near, sensitivities};
+pub use sharp::{SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_near, sensitivities};
 pub use smaller_set::{SmallerSet, smaller_set};

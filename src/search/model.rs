@@ -1,7 +1,7 @@
 //! The specification in floating point, for searches only.
 
 use super::effort::Effort;
-use crate::data::{Bound, Data, Numbers, Problem};
+use crate::data::{Bound, Data, ExistenceTriple, KnownForcing, Numbers, Problem};
 use crate::derivation::initial_set::paper_z0;
 use crate::enclosure::Enclosure;
 use crate::expr::FloatExpr;
@@ -22,7 +22,7 @@ pub enum Datum {
 
 impl Datum {
     /// Every datum that the sharp derivation uses.
-    pub const ALL: [Datum; 11] = [
+    pub const ALL: [Datum; 13] = [
         Datum::Alpha,
         Datum::PUp,
         Datum::Bound(Bound::F),
@@ -34,6 +34,8 @@ impl Datum {
         Datum::Bound(Bound::QRms),
         Datum::Bound(Bound::QtRms),
         Datum::Bound(Bound::Q),
+        Datum::Bound(Bound::QeMax),
+        Datum::Bound(Bound::Rate),
     ];
 
     /// Its name in a specification.
@@ -50,11 +52,17 @@ impl Datum {
     }
 }
 
-/// A bounding function, times a factor for sensitivities.
+/// A bounding function.
 #[derive(Clone, Debug)]
 struct ScaledBound {
-    function: FloatExpr,
-    factor: f64,
+    /// Its expression, or that of its replacement.
+    function: Option<FloatExpr>,
+    /// A relative change, for sensitivities.
+    change: f64,
+    /// Whether it has an expression of its own.
+    given: bool,
+    /// Whether negative values count.
+    signed: bool,
     /// A bound that serves where it is smaller.
     supremum: Option<Bound>,
 }
@@ -86,16 +94,22 @@ impl Problem<f64> for FloatModel {
         &self.numbers
     }
 
-    /// The positive part of the expression, NaN where that is undefined.
+    /// Of a norm the positive part of the expression; NaN where it is undefined.
     fn bound(&self, which: Bound, x: &f64, e: &f64) -> f64 {
         // There is one for each.
         let bound = &self.bounds[which as usize];
-        let value = bound.factor * bound.function.eval(*x, *e);
-        let value = if value < 0.0 { 0.0 } else { value };
+        let Some(function) = &bound.function else { return f64::NAN };
+        let value = function.eval(*x, *e);
+        let value = value + bound.change * value.abs();
+        let value = if value < 0.0 && !bound.signed { 0.0 } else { value };
         match bound.supremum.map(|supremum| self.bound(supremum, x, e)) {
             Some(supremum) if supremum < value => supremum,
             _ => value,
         }
+    }
+
+    fn given(&self, which: Bound) -> bool {
+        self.bounds[which as usize].given
     }
 
     fn zero(&self) -> f64 {
@@ -109,7 +123,7 @@ impl FloatModel {
     pub fn new(data: &Data<'_>, trade_off: TradeOff) -> FloatModel {
         let float = |constant: &crate::spec::model::Constant| constant.to_f64();
         let spec = data.spec;
-        let [period, p_low, p_up, alpha, mu, base_frequency, c, nu, n_0, n_1, n_bar_squared, n_bar] = [
+        let [period, p_low, p_up, alpha, mu, base_frequency, c, nu, n_0, n_1, n_bar_squared, n_bar, fundamental] = [
             &data.period,
             &data.p_low,
             &data.p_up,
@@ -122,10 +136,38 @@ impl FloatModel {
             &data.n_1,
             &data.n_bar_squared,
             &data.n_bar,
+            &data.fundamental,
         ]
         .map(Enclosure::midpoint_f64);
+        let existence = ExistenceTriple {
+            c: data.existence.c.midpoint_f64(),
+            alpha: data.existence.alpha.midpoint_f64(),
+        };
+        let q_0 = data.q_0.as_ref().map(|known| KnownForcing {
+            harmonics: known.harmonics.iter().map(Enclosure::midpoint_f64).collect(),
+            weights: known.weights.iter().map(Enclosure::midpoint_f64).collect(),
+            rest_rms: known.rest_rms.midpoint_f64(),
+            rest_t_rms: known.rest_t_rms.as_ref().map(Enclosure::midpoint_f64),
+        });
         FloatModel {
-            numbers: Numbers { period, p_low, p_up, alpha, mu, base_frequency, c, nu, n_0, n_1, n_bar_squared, n_bar },
+            numbers: Numbers {
+                period,
+                p_low,
+                p_up,
+                alpha,
+                mu,
+                base_frequency,
+                c,
+                nu,
+                n_0,
+                n_1,
+                n_bar_squared,
+                n_bar,
+                fundamental,
+                existence,
+                q_0,
+                matched: data.matched,
+            },
             domain: spec
                 .domain
                 .as_ref()
@@ -135,18 +177,36 @@ impl FloatModel {
             bounds: Bound::ALL
                 .iter()
                 .map(|which| ScaledBound {
-                    function: which.of(spec).to_float(),
-                    factor: 1.0,
+                    function: which.of(spec).map(|expr| expr.to_float()),
+                    change: 0.0,
+                    given: spec.bounds.own(*which).is_some(),
+                    signed: which.is_signed() && spec.bounds.own(*which).is_some(),
                     supremum: which.supremum(spec),
                 })
                 .collect(),
         }
     }
 
+    fn functions(&self) -> impl Iterator<Item = &FloatExpr> {
+        self.bounds.iter().filter_map(|bound| bound.function.as_ref())
+    }
+
+    /// Whether dq/de has a bound from above of its own.
+    #[must_use]
+    pub fn has_one_sided(&self) -> bool {
+        self.given(Bound::QeMax)
+    }
+
+    /// b_qe(0, 0).
+    #[must_use]
+    pub fn slope_at_origin(&self) -> f64 {
+        self.bound(Bound::Qe, &0.0, &0.0)
+    }
+
     /// How thoroughly this model is searched.
     #[must_use]
     pub fn effort(&self) -> Effort {
-        Effort::new(self.bounds.iter().map(|bound| bound.function.operations()).sum())
+        Effort::new(self.functions().map(FloatExpr::operations).sum())
     }
 
     /// Whether every number, and every bounding function at X = E = 0, is one that doubles can work with.
@@ -156,7 +216,7 @@ impl FloatModel {
         let set = self.set.required([0.0; 2], || 0.0, 0.0);
         numbers.iter().all(|value| value.is_normal())
             && set.iter().all(|value| value.is_finite())
-            && self.bounds.iter().all(|bound| bound.function.eval(0.0, 0.0) != f64::INFINITY)
+            && self.functions().all(|function| function.eval(0.0, 0.0) != f64::INFINITY)
     }
 
     /// The same model with one datum improved by the relative amount `by` (alpha up, everything else down).
@@ -164,14 +224,18 @@ impl FloatModel {
     pub fn improved(&self, datum: Datum, by: f64) -> FloatModel {
         let mut model = self.clone();
         match datum {
-            Datum::Alpha => model.numbers.alpha *= 1.0 + by,
+            Datum::Alpha => {
+                model.numbers.alpha *= 1.0 + by;
+                model.numbers.existence.alpha *= 1.0 + by;
+            }
             Datum::PUp => {
                 model.numbers.p_up = (model.p_up * (1.0 - by)).max(model.p_low);
                 model.numbers.c = (model.p_up / model.p_low).sqrt();
+                model.numbers.existence.c = (self.existence.c * (model.c / self.c)).max(1.0);
             }
             Datum::Bound(which) => {
                 for (bound, _) in model.bounds.iter_mut().zip(Bound::ALL).filter(|(_, bound)| *bound == which) {
-                    bound.factor *= 1.0 - by;
+                    bound.change = if which.is_nonincreasing() { by } else { -by };
                 }
             }
         }
@@ -182,7 +246,9 @@ impl FloatModel {
     #[must_use]
     pub fn with_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
         let mut model = self.clone();
-        model.numbers = Numbers { p_low: 1.0, p_up: ratio, c: ratio.sqrt(), alpha, ..model.numbers };
+        let c = ratio.sqrt();
+        let existence = ExistenceTriple { c, alpha };
+        model.numbers = Numbers { p_low: 1.0, p_up: ratio, c, alpha, existence, ..model.numbers };
         model
     }
 

@@ -1,10 +1,9 @@
 //! The search of the repaired derivation: X, E, L, h that make sigma* small.
 
-use super::candidate::{BELOW_ONE, Obstacle, SharpParameters, demand, largest_e, weight_h};
+use super::candidate::{BELOW_ONE, Obstacle, demand, largest_e, weight_h};
 use super::minimise::minimise;
 use super::model::FloatModel;
 use super::scan;
-use super::sharp::{depth_of, parameter_of};
 use crate::derivation::existence::{LeastSigma, PeriodicBounds, kappas};
 use crate::derivation::gains::{beta, k_alpha};
 use crate::derivation::initial_set::distances;
@@ -23,16 +22,6 @@ pub struct RepairedProposal {
     pub h: f64,
     /// The smallest sigma found.
     pub sigma: f64,
-    /// rho and eta with which the same level, D_x and h are those of a sharp candidate with w_x = 1.
-    shape: (f64, f64),
-}
-
-impl RepairedProposal {
-    /// The same free numbers as a candidate of the sharp derivation.
-    #[must_use]
-    pub fn as_sharp(&self) -> SharpParameters {
-        SharpParameters { x_p: self.x, e_p: self.e, rho: self.shape.0, eta: self.shape.1 }
-    }
 }
 
 fn k_of(model: &FloatModel) -> f64 {
@@ -69,9 +58,7 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     if !sigma.is_finite() {
         return Err(Obstacle::NotFinite);
     }
-    // D_x = sqrt(L/P_low) = rho c dX.
-    let rho = (level / model.p_up).sqrt() / dist_x;
-    Ok(RepairedProposal { x, e, h, sigma, shape: (rho, eta) })
+    Ok(RepairedProposal { x, e, h, sigma })
 }
 
 /// The largest E with C1 and the first diagonal entry of the contraction matrix below 1.
@@ -140,4 +127,14 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
         decode(&best)
     });
     refined.into_iter().flatten().min_by(|a, b| a.sigma.total_cmp(&b.sigma)).ok_or(closest)
+}
+
+/// A depth below the largest E_p from an unbounded parameter: logarithmic near 0, linear beyond 1.
+fn depth_of(parameter: f64) -> f64 {
+    if parameter < 0.0 { parameter.portable_exp() } else { 1.0 + parameter }
+}
+
+/// The inverse of [`depth_of`].
+fn parameter_of(depth: f64) -> f64 {
+    if depth < 1.0 { depth.portable_ln() } else { depth - 1.0 }
 }

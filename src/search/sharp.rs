@@ -1,15 +1,33 @@
-//! The search of the sharp derivation: X_p, E_p, rho, eta that make sigma* small.
+//! The search of the sharp derivation: the smallest sigma at which the smallest set with a periodic solution has an error box.
 
-use super::candidate::{AtSigma, Existence, Obstacle, SharpParameters, largest_e};
-use super::minimise::{Descent, minimise};
+use super::candidate::{AtSigma, Obstacle};
+use super::error_box::{best_error_box, error_box_near};
 use super::model::{Datum, FloatModel};
+use super::periodic::{ExistenceForm, Floors, PeriodicSet};
+use super::root::crossing;
 use super::scan;
+use crate::derivation::harmonics::AtOrigin;
+use crate::derivation::initial_set::distances;
 use crate::number::Portable;
+use crate::spec::model::InitialSet;
+
+/// How existence is proved, and the shape of the error box: from these and sigma every other free number follows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SharpParameters {
+    /// The form of S2.
+    pub form: ExistenceForm,
+    /// The smallest X_p and E_p.
+    pub floors: Floors,
+    /// rho > 1 with D_x = rho c dX.
+    pub rho: f64,
+    /// eta > 0 with h dZ^2 = eta dE^2.
+    pub eta: f64,
+}
 
 /// The best candidate of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct SharpProposal {
-    /// The four free numbers.
+    /// The free numbers.
     pub parameters: SharpParameters,
     /// The smallest sigma found for them.
     pub sigma: f64,
@@ -17,168 +35,233 @@ pub struct SharpProposal {
     pub binding: &'static str,
 }
 
-/// Starting values of (rho, eta) for the scan.
-const SHAPES: [(f64, f64); 6] = [(1.4, 1.0), (1.08, 0.05), (1.08, 20.0), (4.0, 0.05), (4.0, 20.0), (1.005, 1e-4)];
+/// The room between both sides of S1 and S2 that a search leaves: well below the digits of sigma*.
+const ROOM: f64 = 1e-10;
 
-/// Logarithms of sigma that are no further apart belong to one minimum, found to the tolerance of a rough refinement.
-const SAME: f64 = 1e-5;
+/// Shares of (b_qe - m)/2 that are tried as kap.
+const DAMPED: [f64; 2] = [1.0, 0.3];
 
-/// Searches for the smallest sigma; `known` are candidates from elsewhere, from which it is searched too.
+/// The smallest distance of the initial set from the periodic solution, as a share of the latter's size.
+const FLOOR: f64 = 1e-6;
+
+/// The share of the smallest rate in the data below which a gain is as good as none.
+const NEGLIGIBLE: f64 = 1e-20;
+
+/// The largest gain that is tried.
+const LARGEST: f64 = 1e250;
+
+/// How far the width of the last bracket of ln sigma is.
+const TOLERANCE: f64 = 1e-12;
+
+/// One way to prove existence, for every sigma.
+struct Search<'a> {
+    model: &'a FloatModel,
+    origin: AtOrigin<f64>,
+    form: ExistenceForm,
+    floors: Floors,
+    /// Where the shape of the error box is sought; everywhere without.
+    near: Option<(f64, f64)>,
+}
+
+impl Search<'_> {
+    /// The best error box at sigma.
+    fn at(&self, sigma: f64, room: f64) -> Result<(PeriodicSet, AtSigma), Obstacle> {
+        let set = PeriodicSet::least(self.model, &self.origin, sigma, (self.form, self.floors), room)?;
+        let distances = start_distances(self.model, &set);
+        let periodic = (set.x_per, set.e_per);
+        let near = self.near.and_then(|shape| error_box_near(self.model, periodic, distances, shape));
+        let at = match near {
+            Some(at) => at,
+            None => best_error_box(self.model, periodic, distances)?,
+        };
+        Ok((set, at))
+    }
+
+    /// ln(threshold/sigma), to be at most 0.
+    fn excess(&self, sigma: f64) -> Result<f64, Obstacle> {
+        self.at(sigma, ROOM).map(|(_, at)| (at.threshold / sigma).portable_ln())
+    }
+
+    /// No sigma below this one is sought: it is negligible beside every rate in the data, and where nothing in them needs a
+    /// gain the infimum is 0.
+    fn least(&self) -> f64 {
+        let model = self.model;
+        let rates = [model.period.recip(), model.alpha, model.mu, model.base_frequency];
+        NEGLIGIBLE * rates.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// The smallest sigma; from `guess`, if that is known to be near.
+    ///
+    /// Feasibility is monotone: with sigma every right side of S1 and S2, so the set, the distances and the threshold fall.
+    fn smallest(&self, guess: f64) -> Result<f64, Obstacle> {
+        let least = self.least();
+        let mut at = (guess.max(least), self.excess(guess.max(least)));
+        // The last infeasible and the first feasible sigma.
+        let mut low: Option<(f64, f64)> = None;
+        let mut high: Option<(f64, f64)> = None;
+        let mut factor: f64 = 4.0;
+        while low.is_none() || high.is_none() {
+            let next = match at.1 {
+                Ok(value) if value <= 0.0 => {
+                    high = Some((at.0, value));
+                    if at.0 <= least {
+                        return Ok(least);
+                    }
+                    // The threshold hardly depends on sigma: it lies just above the smallest sigma.
+                    let below = at.0 * value.portable_exp() * (1.0 - 1e-6);
+                    if below > at.0 / factor { below } else { at.0 / factor }.max(least)
+                }
+                outcome => {
+                    low = Some((at.0, outcome.unwrap_or(f64::INFINITY)));
+                    match outcome {
+                        Err(obstacle) if at.0 > LARGEST => return Err(obstacle),
+                        _ if at.0 > LARGEST => return Err(Obstacle::Coupling),
+                        _ => {}
+                    }
+                    let asked = outcome.map_or(0.0, |value| at.0 * value.portable_exp() * (1.0 + 1e-6));
+                    if asked > at.0 && asked < at.0 * factor { asked } else { at.0 * factor }
+                }
+            };
+            if low.is_some() && high.is_some() {
+                break;
+            }
+            factor = (factor * factor).min(1e12);
+            at = (next, self.excess(next));
+        }
+        // Both are there, by the condition of the loop.
+        let (Some(low), Some(high)) = (low, high) else { return Err(Obstacle::Existence) };
+        let exponent = |sigma: f64| sigma.portable_ln();
+        let excess = |t: f64| self.excess(t.portable_exp()).unwrap_or(f64::INFINITY);
+        let found = crossing(excess, (exponent(low.0), low.1), (exponent(high.0), high.1), TOLERANCE).portable_exp();
+        Ok(found.min(high.0))
+    }
+}
+
+/// dX, dE, dZ of the required set from a periodic solution, kept away from 0: a larger distance only strengthens C4.
+fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
+    let [x0, e0, z0] = model.required_set(set.x_p, set.e_p, set.z);
+    let [x, e, z] = distances(model, [&x0, &e0, &z0], [&set.x_per, &set.e_per, &set.z]);
+    let e = e.max(FLOOR * set.e_p);
+    [x.max(FLOOR * set.x_p), e, z.max(FLOOR * model.n_bar * e)]
+}
+
+/// Searches for the smallest sigma.
 ///
 /// # Errors
 /// The obstacle of the candidate that came closest, when none is feasible.
-pub fn search_sharp(model: &FloatModel, known: &[SharpParameters]) -> Result<SharpProposal, Obstacle> {
+pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
     if !model.is_in_range() {
         return Err(Obstacle::Magnitude);
     }
-    let effort = model.effort();
-    let xs = scan::x_values(model.domain.0, effort.x_step);
-    let columns = scan::evaluate_all(&xs, |&x_p| scan_column(model, x_p));
+    let ordinary = ordinary(model);
+    let tiny = Floors { x_p: 1e-12 * ordinary.x_p, e_p: 1e-12 * ordinary.e_p };
+    let found = scan::evaluate_all(&forms(model), |form| {
+        let search = Search { model, origin: AtOrigin::new(model), form: *form, floors: tiny, near: None };
+        search.smallest(first_guess(model)).map(|sigma| (sigma, *form))
+    });
     let mut closest = Obstacle::NotFinite;
-    let mut found: Vec<(f64, SharpParameters)> = Vec::new();
-    for column in columns {
-        match column {
-            Ok(candidates) => found.extend(candidates),
+    let mut best: Option<(f64, ExistenceForm)> = None;
+    for outcome in found {
+        match outcome {
+            Ok(found) if best.is_none_or(|(sigma, _)| found.0 < sigma) => best = Some(found),
+            Ok(_) => {}
             Err(obstacle) => closest = closest.max(obstacle),
         }
     }
-    // Where X does not matter, prefer ordinary numbers.
-    let unusual = |p: &SharpParameters| p.x_p.portable_ln().abs();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0).then(unusual(&a.1).total_cmp(&unusual(&b.1))));
-    let mut starts = spread(&found, effort.refined);
-    starts.extend(known);
-    let rough = scan::evaluate_all(&starts, |start| refine(model, start, effort.rough_descent()));
-    let mut rough: Vec<_> = rough.into_iter().flatten().collect();
-    rough.sort_by(|a, b| a.1.total_cmp(&b.1));
-    // Those that came to the same place are one.
-    rough.dedup_by(|a, b| a.1 - b.1 < SAME);
-    rough.truncate(effort.finished);
-    let refined = scan::evaluate_all(&rough, |(start, _)| refine(model, start, effort.descent(6)));
-    let best = refined.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(closest)?;
-    let best = refine(model, &best.0, effort.descent(12)).filter(|again| again.1 < best.1).unwrap_or(best);
-    proposal(model, best.0)
+    let (sigma, form) = best.ok_or(closest)?;
+    let search = Search { model, origin: AtOrigin::new(model), form, floors: tiny, near: None };
+    let (search, sigma) = with_ordinary_floors(search, ordinary, sigma)?;
+    proposal(&search, sigma)
 }
 
-/// Whether the scan of the search finds a candidate.
-#[must_use]
-pub fn any_candidate(model: &FloatModel) -> bool {
-    let xs = scan::x_values(model.domain.0, model.effort().x_step);
-    model.is_in_range() && scan::evaluate_all(&xs, |&x_p| scan_column(model, x_p).is_ok()).contains(&true)
+/// The forms of S2 worth trying: without a one-sided bound of dq/de, kap > 0 does not help.
+fn forms(model: &FloatModel) -> Vec<ExistenceForm> {
+    let damped = DAMPED.map(ExistenceForm::Damped);
+    let one_sided = model.has_one_sided();
+    std::iter::once(ExistenceForm::Plain).chain(damped.into_iter().filter(|_| one_sided)).collect()
 }
 
-/// The proposal that local minimisation reaches from the free numbers of a neighbouring problem; `None` where they are not
+/// A gain of the size of the rates in the data.
+fn first_guess(model: &FloatModel) -> f64 {
+    let slope = model.slope_at_origin();
+    let guess = slope + model.period.recip();
+    if guess.is_finite() && guess > 0.0 { guess } else { 1.0 }
+}
+
+/// The proposal that local steps reach from the free numbers of a neighbouring problem; `None` where they are not
 /// feasible here. For many similar problems, of which only the first is worth a search.
 #[must_use]
-pub fn search_sharp_near(model: &FloatModel, start: &SharpParameters) -> Option<SharpProposal> {
-    let (best, _) = refine(model, start, model.effort().descent(6))?;
-    proposal(model, best).ok()
+pub fn search_sharp_near(model: &FloatModel, known: &SharpProposal) -> Option<SharpProposal> {
+    let SharpParameters { form, floors, rho, eta } = known.parameters;
+    let search = Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) };
+    let sigma = search.smallest(known.sigma).ok()?;
+    proposal(&search, sigma).ok()
 }
 
-/// Good candidates that differ from each other, best first.
-fn spread(found: &[(f64, SharpParameters)], count: usize) -> Vec<SharpParameters> {
-    let mut starts: Vec<SharpParameters> = Vec::new();
-    for (_, candidate) in found {
-        let near = |other: &SharpParameters| {
-            (candidate.x_p / other.x_p).portable_ln().abs() < 0.1
-                && (candidate.e_p / other.e_p).portable_ln().abs() < 0.3
-                && candidate.rho == other.rho
-                && candidate.eta == other.eta
-        };
-        if !starts.iter().any(near) {
-            starts.push(*candidate);
-        }
-        if starts.len() == count {
-            break;
-        }
-    }
-    starts
-}
-
-/// The largest E_p with C1 and A < 1 at X_p.
+/// Whether there is a candidate with some gain.
 #[must_use]
-pub fn largest_e_sharp(model: &FloatModel, x_p: f64) -> Option<f64> {
-    largest_e(model, x_p, model.c, 1)
+pub fn any_candidate(model: &FloatModel) -> bool {
+    let ordinary = ordinary(model);
+    let floors = Floors { x_p: 1e-12 * ordinary.x_p, e_p: 1e-12 * ordinary.e_p };
+    // The sets only shrink with sigma, and kap > 0 gains nothing where that is large.
+    let search = Search { model, origin: AtOrigin::new(model), form: ExistenceForm::Plain, floors, near: None };
+    model.is_in_range() && search.at(LARGEST.sqrt(), ROOM).is_ok()
 }
 
-/// The best candidates for one X_p, or the closest obstacle.
-fn scan_column(model: &FloatModel, x_p: f64) -> Result<Vec<(f64, SharpParameters)>, Obstacle> {
-    let e_max = largest_e_sharp(model, x_p).ok_or(Obstacle::Existence)?;
-    let effort = model.effort();
-    let mut closest = Obstacle::Existence;
-    let mut found = Vec::new();
-    for depth in scan::e_depths(effort.e_step) {
-        let existence = match Existence::new(model, x_p, e_max * (-depth).portable_exp()) {
-            Ok(existence) => existence,
-            Err(obstacle) => {
-                closest = closest.max(obstacle);
-                continue;
+/// X_p and E_p of ordinary size: those of the initial set or of the domain, where there is one.
+fn ordinary(model: &FloatModel) -> Floors {
+    let (x0, e0) = match model.set {
+        InitialSet::Paper => (None, None),
+        InitialSet::AtRest { x0, e0 } => (x0, e0),
+        InitialSet::Box { x0, e0, .. } => (Some(x0), Some(e0)),
+    };
+    let size = |start: Option<f64>, domain: f64| {
+        let size = start.filter(|size| *size > 0.0).unwrap_or(1.0);
+        size.min(0.1 * domain)
+    };
+    Floors { x_p: size(x0, model.domain.0), e_p: size(e0, model.domain.1) }
+}
+
+/// Where nothing in the data asks for an X_p or E_p above the smallest one, the largest of a few that cost nothing: an
+/// initial set that follows from it is then worth something.
+fn with_ordinary_floors(mut search: Search<'_>, ordinary: Floors, sigma: f64) -> Result<(Search<'_>, f64), Obstacle> {
+    let mut sigma = sigma;
+    for side in [0, 1] {
+        let (set, _) = search.at(sigma, ROOM)?;
+        let (size, floor) = [(set.x_p, search.floors.x_p), (set.e_p, search.floors.e_p)][side];
+        if size > floor {
+            continue;
+        }
+        for share in [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10] {
+            let before = search.floors;
+            if side == 0 {
+                search.floors.x_p = share * ordinary.x_p;
+            } else {
+                search.floors.e_p = share * ordinary.e_p;
             }
-        };
-        let mut best: Option<(f64, SharpParameters)> = None;
-        for (rho, eta) in SHAPES.into_iter().take(effort.shapes) {
-            if best.is_some_and(|(sigma, _)| existence.least(model, eta) >= sigma) {
-                continue;
-            }
-            match existence.sigma(model, rho, eta, 1e-2) {
-                Ok(sigma) => {
-                    if best.is_none_or(|(least, _)| sigma < least) {
-                        best = Some((sigma, SharpParameters { x_p, e_p: existence.e_p(), rho, eta }));
-                    }
+            match search.smallest(sigma) {
+                Ok(found) if found <= sigma * (1.0 + 1e-7) => {
+                    sigma = found;
+                    break;
                 }
-                Err(obstacle) => closest = closest.max(obstacle),
+                _ => search.floors = before,
             }
         }
-        found.extend(best);
     }
-    if found.is_empty() { Err(closest) } else { Ok(found) }
+    Ok((search, sigma))
 }
 
-/// A depth below the largest E_p from an unbounded parameter: logarithmic near 0, linear beyond 1.
-pub(super) fn depth_of(parameter: f64) -> f64 {
-    if parameter < 0.0 { parameter.portable_exp() } else { 1.0 + parameter }
-}
-
-/// The inverse of [`depth_of`].
-pub(super) fn parameter_of(depth: f64) -> f64 {
-    if depth < 1.0 { depth.portable_ln() } else { depth - 1.0 }
-}
-
-/// Minimises ln sigma over (ln X_p, ln of E_p's depth, ln(rho - 1), ln eta) from a start.
-fn refine(model: &FloatModel, start: &SharpParameters, descent: Descent) -> Option<(SharpParameters, f64)> {
-    let decode = |p: &[f64]| {
-        let x_p = scan::in_range(p[0].portable_exp())?;
-        let e_p = largest_e_sharp(model, x_p)? * (-depth_of(p[1])).portable_exp();
-        // rho too close to 1 would leave no room between the two members of C4.
-        let excess = p[2].portable_exp().max(1e-6);
-        Some(SharpParameters { x_p, e_p, rho: 1.0 + excess, eta: p[3].portable_exp() })
-    };
-    let cost = |p: &[f64]| {
-        let parameters = decode(p)?;
-        let existence = Existence::new(model, parameters.x_p, parameters.e_p).ok()?;
-        let sigma = existence.sigma(model, parameters.rho, parameters.eta, 1e-12).ok()?;
-        Some(sigma.portable_ln() + scan::preference(parameters.x_p) + scan::preference(parameters.e_p))
-    };
-    let depth = (largest_e_sharp(model, start.x_p)? / start.e_p).portable_ln().max(1e-9);
-    let first =
-        [start.x_p.portable_ln(), parameter_of(depth), (start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
-    let (best, value) = minimise(cost, &first, &[0.3, 0.5, 0.5, 0.5], descent)?;
-    Some((decode(&best)?, value))
-}
-
-fn proposal(model: &FloatModel, parameters: SharpParameters) -> Result<SharpProposal, Obstacle> {
-    let existence = Existence::new(model, parameters.x_p, parameters.e_p)?;
-    let sigma = existence.sigma(model, parameters.rho, parameters.eta, 1e-13)?;
-    let binding = if sigma > existence.sigma_least * (1.0 + 1e-6) {
-        "C5 (decay in the error box)"
-    } else if existence.bound_by_size() {
-        "C2 and C5 (size of the periodic error, decay in the error box)"
-    } else {
-        "C3 and C5 (contraction, decay in the error box)"
+fn proposal(search: &Search<'_>, sigma: f64) -> Result<SharpProposal, Obstacle> {
+    let (_, at) = search.at(sigma, ROOM)?;
+    let parameters = SharpParameters { form: search.form, floors: search.floors, rho: at.rho, eta: at.eta };
+    let binding = match search.at(sigma * (1.0 - 1e-6), ROOM) {
+        Err(Obstacle::Existence) => "S2 (existence of the periodic solution)",
+        _ => "C5 (decay in the error box)",
     };
     Ok(SharpProposal { parameters, sigma, binding })
 }
 
-/// The error box of a proposal at a (slightly larger) sigma.
+/// The set and the error box of a proposal at a (slightly larger) sigma, with so much room in S1 and S2.
 ///
 /// # Errors
 /// The obstacle, when the candidate is not feasible there.
@@ -186,13 +269,14 @@ pub fn at_sigma(
     model: &FloatModel,
     parameters: &SharpParameters,
     sigma: f64,
-) -> Result<(Existence, AtSigma), Obstacle> {
-    let existence = Existence::new(model, parameters.x_p, parameters.e_p)?;
-    existence.at_sigma(model, parameters.rho, parameters.eta, sigma).map(|at| (existence, at))
+    room: f64,
+) -> Result<(PeriodicSet, AtSigma), Obstacle> {
+    let SharpParameters { form, floors, rho, eta } = *parameters;
+    Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) }.at(sigma, room)
 }
 
 /// By how much (relatively) sigma* falls when one datum improves by 1 %, for every datum, in the order of
-/// [`Datum::ALL`]; floating point, a local re-optimisation from the proposal. None where the bounding functions are long.
+/// [`Datum::ALL`]; floating point, local steps from the proposal. None where the bounding functions are long.
 #[must_use]
 pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum, f64)> {
     if !model.effort().sensitivities() {
@@ -200,8 +284,7 @@ pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum
     }
     scan::evaluate_all(&Datum::ALL, |&datum| {
         let improved = model.improved(datum, 0.01);
-        let gain = refine(&improved, &proposal.parameters, model.effort().descent(2))
-            .map_or(0.0, |(_, ln)| 1.0 - ln.portable_exp() / proposal.sigma);
+        let gain = search_sharp_near(&improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / proposal.sigma);
         (datum, gain.max(0.0))
     })
 }

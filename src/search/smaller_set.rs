@@ -2,7 +2,7 @@
 
 use super::model::FloatModel;
 use super::repaired::search_repaired;
-use super::sharp::{any_candidate, search_sharp};
+use super::sharp::{any_candidate, at_sigma, search_sharp};
 use crate::number::{Direction, Portable, round_f64};
 use crate::spec::model::InitialSet;
 use rug::Rational;
@@ -68,8 +68,10 @@ pub fn smaller_set(model: &FloatModel, repaired: bool) -> SmallerSet {
 /// The box that is scaled: the user's numbers, or twice the bounds of the periodic solution where none is given.
 fn shape(model: &FloatModel, point: InitialSet<f64>) -> Option<[f64; 3]> {
     let twice = || {
-        let parameters = search_sharp(&model.with_set(point), &[]).ok()?.parameters;
-        Some([2.0 * parameters.x_p, 2.0 * parameters.e_p])
+        let model = model.with_set(point);
+        let found = search_sharp(&model).ok()?;
+        let (set, _) = at_sigma(&model, &found.parameters, found.sigma, 1e-9).ok()?;
+        Some([2.0 * set.x_p, 2.0 * set.e_p])
     };
     match model.set {
         InitialSet::Box { x0, e0, z0 } => Some([x0, e0, z0]),
@@ -98,12 +100,12 @@ mod tests {
     #[test]
     fn the_size_is_near_the_edge_of_success() {
         let asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
-        assert!(search_sharp(&asked, &[]).is_err());
+        assert!(search_sharp(&asked).is_err());
         let SmallerSet::Box(sizes) = smaller_set(&asked, false) else { panic!("a size is expected") };
         let [x0, e0, z0] = sizes.each_ref().map(Rational::to_f64);
         assert!(x0 > 0.0 && (e0 / x0 - 4.0).abs() < 0.4 && z0 == 0.0, "{x0} {e0} {z0}");
         let succeeds = |factor: f64| {
-            search_sharp(&model(InitialSet::Box { x0: factor * x0, e0: factor * e0, z0: 0.0 }), &[]).is_ok()
+            search_sharp(&model(InitialSet::Box { x0: factor * x0, e0: factor * e0, z0: 0.0 })).is_ok()
         };
         assert!(succeeds(1.0) && !succeeds(1.15), "{x0} {e0}");
     }

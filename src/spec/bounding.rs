@@ -3,7 +3,8 @@
 use super::model::Specification;
 use crate::expr::Expr;
 
-/// A bounding function of `(X, E)`: an upper bound on `|x| <= X`, `|e| <= E`, for every t (P:LP1, P:LP2).
+/// A bounding function of `(X, E)`: an upper bound on `|x| <= X`, `|e| <= E`, for every t (P:LP1, P:LP2; derivation,
+/// 10.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Bound {
@@ -28,21 +29,52 @@ pub enum Bound {
     /// b_qt_rms, of the root mean square over a period of `sup |dq/dt|`; optional, `Qt` serves where it is absent or
     /// smaller.
     QtRms,
+    /// m, of `dq/de` from above; optional, may be negative, `Qe` serves where it is absent or smaller.
+    QeMax,
+    /// b_fx, of `|df/dx|`; optional.
+    Fx,
+    /// b_qtx, of `|d2q/dtdx|`; optional.
+    Qtx,
+    /// b_qte, of `|d2q/dtde|`; optional.
+    Qte,
+    /// a, a contraction rate from below: `P' + P J + J'P <= -2 a P` for `J = df/dx` and the P of the triple; optional,
+    /// nonincreasing, may be negative.
+    Rate,
+}
+
+/// What a bounding function bounds, and what holds without it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Role {
+    /// A norm; every specification has it.
+    Required,
+    /// The same as another one, more sharply; that one serves where it is absent.
+    Sharper(Bound),
+    /// A derivative from above, whose norm the other one bounds.
+    OneSided(Bound),
+    /// A norm; other formulas serve where it is absent.
+    Optional,
+    /// A rate from below.
+    Rate,
 }
 
 /// Everything that is the same wherever a bounding function is spoken of, in the order of [`Bound`]: its field in a
-/// specification, and for one that may be left out the one that serves in its place and bounds the same.
-const TABLE: [(Bound, &str, Option<Bound>); 10] = [
-    (Bound::F, "f", None),
-    (Bound::Fe, "f_e", None),
-    (Bound::Fxx, "f_xx", None),
-    (Bound::Fex, "f_ex", None),
-    (Bound::Q, "q", None),
-    (Bound::Qe, "q_e", None),
-    (Bound::Qx, "q_x", None),
-    (Bound::Qt, "q_t", None),
-    (Bound::QRms, "q_rms", Some(Bound::Q)),
-    (Bound::QtRms, "q_t_rms", Some(Bound::Qt)),
+/// specification, and its role.
+const TABLE: [(Bound, &str, Role); 15] = [
+    (Bound::F, "f", Role::Required),
+    (Bound::Fe, "f_e", Role::Required),
+    (Bound::Fxx, "f_xx", Role::Required),
+    (Bound::Fex, "f_ex", Role::Required),
+    (Bound::Q, "q", Role::Required),
+    (Bound::Qe, "q_e", Role::Required),
+    (Bound::Qx, "q_x", Role::Required),
+    (Bound::Qt, "q_t", Role::Required),
+    (Bound::QRms, "q_rms", Role::Sharper(Bound::Q)),
+    (Bound::QtRms, "q_t_rms", Role::Sharper(Bound::Qt)),
+    (Bound::QeMax, "q_e_max", Role::OneSided(Bound::Qe)),
+    (Bound::Fx, "f_x", Role::Optional),
+    (Bound::Qtx, "q_tx", Role::Optional),
+    (Bound::Qte, "q_te", Role::Optional),
+    (Bound::Rate, "rate", Role::Rate),
 ];
 
 impl Bound {
@@ -57,22 +89,53 @@ impl Bound {
         all
     };
 
+    fn role(self) -> Role {
+        TABLE[self as usize].2
+    }
+
     /// The name of its field in a specification.
     #[must_use]
     pub fn field(self) -> &'static str {
         TABLE[self as usize].1
     }
 
-    /// What serves where it is left out, and bounds the same where it is not; `None` for one that is required.
+    /// The field of a specification in which its own field is.
     #[must_use]
-    pub fn replacement(self) -> Option<Bound> {
-        TABLE[self as usize].2
+    pub fn section(self) -> &'static str {
+        if self.role() == Role::Rate { "lyapunov" } else { "bounds" }
     }
 
-    /// The expression that a specification has for it.
+    /// Whether every specification has it.
+    #[must_use]
+    pub fn is_required(self) -> bool {
+        self.role() == Role::Required
+    }
+
+    /// Whether it may be negative: it does not bound a norm.
+    #[must_use]
+    pub fn is_signed(self) -> bool {
+        matches!(self.role(), Role::OneSided(_) | Role::Rate)
+    }
+
+    /// Whether it must be nonincreasing; the others must be nondecreasing.
+    #[must_use]
+    pub fn is_nonincreasing(self) -> bool {
+        self.role() == Role::Rate
+    }
+
+    /// What serves where it is left out, and bounds what it bounds where it is not.
+    #[must_use]
+    pub fn replacement(self) -> Option<Bound> {
+        match self.role() {
+            Role::Sharper(other) | Role::OneSided(other) => Some(other),
+            Role::Required | Role::Optional | Role::Rate => None,
+        }
+    }
+
+    /// The expression that a specification has for it, or for its replacement.
     #[doc(hidden)]
     #[must_use]
-    pub fn of(self, spec: &Specification) -> &Expr {
+    pub fn of(self, spec: &Specification) -> Option<&Expr> {
         spec.bounds.get(self)
     }
 
@@ -87,14 +150,12 @@ impl Bound {
 /// The bounding functions of a specification.
 #[derive(Clone, Debug)]
 pub struct Bounds {
-    /// Those without a replacement, which come first in [`TABLE`].
-    required: Vec<Expr>,
-    /// The others.
-    optional: Vec<Option<Expr>>,
+    /// In the order of [`TABLE`]; every required one is there.
+    given: Vec<Option<Expr>>,
 }
 
 impl Bounds {
-    /// Reads them one by one, all of them before an error is returned.
+    /// Reads those of the section `bounds` one by one, all of them before an error is returned.
     ///
     /// # Errors
     /// The first of those that `required` and `optional` return.
@@ -103,35 +164,36 @@ impl Bounds {
         required: impl Fn(&mut C, &'static str) -> Result<Expr, E>,
         optional: impl Fn(&mut C, &'static str) -> Result<Option<Expr>, E>,
     ) -> Result<Bounds, E> {
-        let (first, rest): (Vec<Bound>, Vec<Bound>) =
-            Bound::ALL.into_iter().partition(|bound| bound.replacement().is_none());
-        let first: Vec<_> = first.into_iter().map(|bound| required(context, bound.field())).collect();
-        let rest: Vec<_> = rest.into_iter().map(|bound| optional(context, bound.field())).collect();
-        Ok(Bounds {
-            required: first.into_iter().collect::<Result<_, _>>()?,
-            optional: rest.into_iter().collect::<Result<_, _>>()?,
-        })
+        let read = |bound: Bound| match bound.role() {
+            Role::Required => required(context, bound.field()).map(Some),
+            Role::Rate => Ok(None),
+            Role::Sharper(_) | Role::OneSided(_) | Role::Optional => optional(context, bound.field()),
+        };
+        let all: Vec<_> = Bound::ALL.into_iter().map(read).collect();
+        Ok(Bounds { given: all.into_iter().collect::<Result<_, _>>()? })
     }
 
-    /// The one that is given for an optional bounding function.
-    fn own(&self, which: Bound) -> Option<&Expr> {
-        (which as usize).checked_sub(self.required.len()).and_then(|index| self.optional[index].as_ref())
+    /// The same with the contraction rate of the section `lyapunov`.
+    pub(super) fn with_rate(mut self, rate: Option<Expr>) -> Bounds {
+        self.given[Bound::Rate as usize] = rate;
+        self
     }
 
-    /// The expression for a bounding function.
+    /// The one that is given for a bounding function itself.
     #[must_use]
-    pub fn get(&self, which: Bound) -> &Expr {
-        match which.replacement() {
-            // There is one for each that has no replacement, and these come first.
-            None => &self.required[which as usize],
-            Some(other) => self.own(which).unwrap_or_else(|| self.get(other)),
-        }
+    pub fn own(&self, which: Bound) -> Option<&Expr> {
+        self.given[which as usize].as_ref()
     }
 
-    /// The bounding functions that are given, each with the name of its field.
-    pub fn named(&self) -> impl Iterator<Item = (&'static str, &Expr)> {
-        let given = self.required.iter().map(Some).chain(self.optional.iter().map(Option::as_ref));
-        Bound::ALL.into_iter().zip(given).filter_map(|(bound, expr)| Some((bound.field(), expr?)))
+    /// The expression for a bounding function, or for what serves in its place.
+    #[must_use]
+    pub fn get(&self, which: Bound) -> Option<&Expr> {
+        self.own(which).or_else(|| which.replacement().and_then(|other| self.own(other)))
+    }
+
+    /// The bounding functions that are given.
+    pub fn named(&self) -> impl Iterator<Item = (Bound, &Expr)> {
+        Bound::ALL.into_iter().zip(&self.given).filter_map(|(bound, expr)| Some((bound, expr.as_ref()?)))
     }
 }
 
@@ -141,11 +203,9 @@ mod tests {
 
     #[test]
     fn the_table_is_in_the_order_of_declaration() {
-        let required = TABLE.iter().filter(|(.., replacement)| replacement.is_none()).count();
-        for (index, (bound, _, replacement)) in TABLE.into_iter().enumerate() {
+        for (index, (bound, ..)) in TABLE.into_iter().enumerate() {
             assert_eq!(bound as usize, index);
-            assert_eq!(replacement.is_none(), index < required);
-            assert!(replacement.is_none_or(|other| other.replacement().is_none()));
+            assert!(bound.replacement().is_none_or(Bound::is_required));
         }
     }
 }

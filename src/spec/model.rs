@@ -13,7 +13,7 @@ use super::weights::Weights;
 /// A checked specification: fields present, numbers exact and in range, weights proved to satisfy W1-W3.
 ///
 /// What is *not* checked here, because it depends on the arguments that a certificate uses: that the bounding
-/// functions are finite, nonnegative and nondecreasing (see [`crate::expr::prove_bounding`]).
+/// functions are finite, nonnegative and nondecreasing (see [`crate::expr::prove_bounding`]), and the rate nonincreasing.
 #[derive(Clone, Debug)]
 pub struct Specification {
     /// The name of the plant, for reports.
@@ -26,6 +26,8 @@ pub struct Specification {
     pub lyapunov: LyapunovSource,
     /// The bounding functions.
     pub bounds: Bounds,
+    /// What is known of q(t,0,0), if anything.
+    pub q_0: Option<KnownForcing>,
     /// Where the bounding functions hold; everywhere when absent.
     pub domain: Option<Domain>,
     /// The internal model of the regulator.
@@ -101,6 +103,17 @@ pub struct Lyapunov {
     pub p_up: Constant,
     /// Rate.
     pub alpha: Constant,
+}
+
+/// `q(t,0,0) = sum_{|k| <= K} c_k e^{i k Om t} + rest` with Om = 2 pi / period (derivation, 10.1).
+#[derive(Clone, Debug)]
+pub struct KnownForcing {
+    /// Bounds of |c_0|, ..., |c_K|, nonnegative; at least one.
+    pub harmonics: Vec<Constant>,
+    /// A bound of rms(rest), nonnegative.
+    pub rest_rms: Constant,
+    /// A bound of the rms of the rest's derivative, nonnegative; one that follows from other data serves without it.
+    pub rest_t_rms: Option<Constant>,
 }
 
 /// Where the Lyapunov triple comes from.

@@ -1,11 +1,13 @@
 //! From a document to a specification.
 
-use super::bounding::Bounds;
-use super::constant::{any_constant, expression, positive_constant, whole};
+use super::bounding::{Bound, Bounds};
+use super::constant::{any_constant, expression, nonnegative_constant, positive_constant, whole};
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
-use super::model::{Constant, Domain, InternalModel, Lyapunov, LyapunovSource, RelativeDegree, Specification};
+use super::model::{
+    Constant, Domain, InternalModel, KnownForcing, Lyapunov, LyapunovSource, RelativeDegree, Specification,
+};
 use super::object::Object;
 use super::quantity::Quantity;
 use super::weights_read;
@@ -25,6 +27,9 @@ pub const VERSIONS: [u64; 1] = [1];
 
 /// The most coefficients that `relative_degree` may list.
 pub const MAX_RELATIVE_DEGREE_COEFFICIENTS: usize = 20;
+
+/// The most harmonics that `q_0` may list.
+pub const MAX_HARMONICS: usize = 200;
 
 impl Specification {
     /// Reads a specification from the text of its file; `label` is what errors call it, usually its path.
@@ -87,6 +92,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let lyapunov =
         object.required("lyapunov", errors).and_then(|value| read_lyapunov(&value, period.as_ref().ok(), errors));
     let bounds = object.required("bounds", errors).and_then(|value| read_bounds(&value, errors));
+    let q_0 = object.optional("q_0").map(|value| read_forcing(&value, errors)).transpose();
     let domain = object.optional("domain").map(|value| read_domain(&value, errors)).transpose();
     let internal_model = object
         .required("internal_model", errors)
@@ -95,12 +101,14 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let relative_degree =
         object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
     object.finish(errors);
+    let (lyapunov, rate) = lyapunov?;
     Ok(Specification {
         name: name?,
         description: description?,
         period: period?,
-        lyapunov: lyapunov?,
-        bounds: bounds?,
+        lyapunov,
+        bounds: bounds?.with_rate(rate),
+        q_0: q_0?,
         domain: domain?,
         internal_model: internal_model?,
         initial_set: initial_set?,
@@ -112,17 +120,18 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     })
 }
 
+/// The triple or the Jacobian, and the contraction rate that may stand next to a triple.
 fn read_lyapunov(
     value: &Value<'_>,
     period: Option<&Constant>,
     errors: &mut Errors,
-) -> Result<LyapunovSource, Reported> {
+) -> Result<(LyapunovSource, Option<Expr>), Reported> {
     let mut object = value.object(errors)?;
     if value.member("jacobian").is_some() {
         let jacobian =
             object.required("jacobian", errors).and_then(|value| super::jacobian::read(&value, period, errors));
         object.finish_as("next to a Jacobian", errors);
-        return jacobian.map(LyapunovSource::Wanted);
+        return jacobian.map(|jacobian| (LyapunovSource::Wanted(jacobian), None));
     }
     let p_low = positive_field(&mut object, "p_low", errors);
     let p_up = object.required("p_up", errors).and_then(|value| {
@@ -133,8 +142,9 @@ fn read_lyapunov(
         Ok(p_up)
     });
     let alpha = positive_field(&mut object, "alpha", errors);
+    let rate = object.optional(Bound::Rate.field()).map(|value| bounding_function(&value, errors)).transpose();
     object.finish(errors);
-    Ok(LyapunovSource::Given(Lyapunov { p_low: p_low?, p_up: p_up?, alpha: alpha? }))
+    Ok((LyapunovSource::Given(Lyapunov { p_low: p_low?, p_up: p_up?, alpha: alpha? }), rate?))
 }
 
 fn in_order(p_low: &Constant, p_up: &Constant, value: &Value<'_>, errors: &mut Errors) -> Result<(), Reported> {
@@ -166,6 +176,25 @@ fn read_bounds(value: &Value<'_>, errors: &mut Errors) -> Result<Bounds, Reporte
 
 fn bounding_function(value: &Value<'_>, errors: &mut Errors) -> Result<Expr, Reported> {
     expression(value, Variables::XAndE, "a number or a string with an expression in X and E", errors)
+}
+
+fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<KnownForcing, Reported> {
+    let mut object = value.object(errors)?;
+    let harmonics = object.required("harmonics", errors).and_then(|value| {
+        let elements = value.array(errors)?;
+        if elements.is_empty() || elements.len() > MAX_HARMONICS {
+            let message = format!("`harmonics` lists {} bounds", elements.len());
+            let expected = format!("expected 1 to {MAX_HARMONICS} bounds of |c_0|, |c_1|, ...");
+            return Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)));
+        }
+        let read: Vec<Result<_, Reported>> =
+            elements.iter().map(|value| nonnegative_constant(value, errors)).collect();
+        read.into_iter().collect()
+    });
+    let rest_rms = object.required("rest_rms", errors).and_then(|value| nonnegative_constant(&value, errors));
+    let rest_t_rms = object.optional("rest_t_rms").map(|value| nonnegative_constant(&value, errors)).transpose();
+    object.finish(errors);
+    Ok(KnownForcing { harmonics: harmonics?, rest_rms: rest_rms?, rest_t_rms: rest_t_rms? })
 }
 
 fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reported> {

@@ -2,16 +2,20 @@
 
 use super::{At, Entry, Row, Status, TableInput, Value, number, printed, row, sound};
 use crate::data::Data;
-use crate::derivation::consequences::Psi;
+use crate::derivation::consequences::{Excitation, Psi};
 use crate::derivation::contraction::ContractionMatrix;
 use crate::derivation::existence::{PeriodicBounds, kappas};
 use crate::derivation::gains;
+use crate::derivation::sharp::SharpEvaluation;
 use crate::enclosure::Enclosure;
 use crate::transfer::{PrintedTransfer, closed_form_pair, lambda_interval, printed_transfer};
 
 /// The three derivations at common arguments.
-pub(super) struct Common {
+///
+/// Those of the sharp one need the mean squares of its witness, so they stand where the certificate is a sharp one.
+pub(super) struct Common<'a> {
     sigma: Enclosure,
+    own: Option<&'a SharpEvaluation>,
     pub(super) bounds: PeriodicBounds<Enclosure>,
     pub(super) k_alpha: Enclosure,
     closed: (Enclosure, Enclosure),
@@ -19,13 +23,12 @@ pub(super) struct Common {
     transfer: PrintedTransfer,
     z_printed: Enclosure,
     z_repaired: Enclosure,
-    z_sharp: Enclosure,
 }
 
-impl Common {
-    pub(super) fn new(input: &TableInput<'_>, x_p: Enclosure, e_p: Enclosure, sigma: Enclosure) -> Common {
+impl<'a> Common<'a> {
+    pub(super) fn new(input: &TableInput<'a>, x_p: Enclosure, e_p: Enclosure, sigma: Enclosure) -> Common<'a> {
         let data = input.data;
-        let bounds = PeriodicBounds::new(data, x_p, e_p);
+        let bounds = PeriodicBounds::new(data, x_p.clone(), e_p.clone());
         let (k0, k1) = closed_form_pair(data);
         let closed = kappas(data, &k0, &k1);
         let sharp = kappas(data, &data.rational(&input.sharp_pair.0), &data.rational(&input.sharp_pair.1));
@@ -34,7 +37,7 @@ impl Common {
             k_alpha: gains::k_alpha(&data.c, &data.alpha, &data.period),
             z_printed: bounds.z_squared_printed(data, &transfer.kappa_0, &transfer.kappa_1).sqrt(),
             z_repaired: bounds.z_squared_printed(data, &closed.0, &closed.1).sqrt(),
-            z_sharp: bounds.z_squared_sharp(data, &sharp.0, &sharp.1).sqrt(),
+            own: input.sharp.filter(|own| own.sigma == sigma && own.bounds.x_p == x_p && own.bounds.e_p == e_p),
             sigma,
             bounds,
             closed,
@@ -44,7 +47,7 @@ impl Common {
     }
 }
 
-pub(super) fn gain_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
+pub(super) fn gain_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let (k, c) = (&common.k_alpha, &data.c);
     let second = |k: &Enclosure| gains::k_alpha_2(k, &data.alpha, &data.period);
     let beta = gains::beta(&common.sigma, &data.period);
@@ -69,18 +72,18 @@ pub(super) fn gain_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
             At::Common,
             sound(beta.clone(), "P:eq:beta_definition"),
             sound(beta, "P:eq:beta_definition"),
-            sound(gains::beta_s(&common.sigma, &data.period), "section 3, beta_s"),
+            sound(gains::zero_mean_gain(&common.sigma, &data.period), "section 10.2, bt"),
         ),
         row("tau", At::Common, None, None, sound(gains::tau(&common.sigma, &data.period), "section 3")),
     ]
 }
 
-pub(super) fn contraction_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
+pub(super) fn contraction_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let paper = common.bounds.contraction(data, &common.k_alpha, 2, &gains::beta(&common.sigma, &data.period));
-    let sharp = common.bounds.contraction(data, &data.c, 1, &gains::beta_s(&common.sigma, &data.period));
+    let sharp = common.own.map(|own| &own.contraction);
     let label = "P:eq:def_ypsilon";
     let three = |name: &str, of: &dyn Fn(&ContractionMatrix<Enclosure>) -> Enclosure| {
-        row(name, At::Common, sound(of(&paper), label), sound(of(&paper), label), sound(of(&sharp), "section 4, C3"))
+        row(name, At::Common, sound(of(&paper), label), sound(of(&paper), label), sharp.and_then(|m| sound(of(m), "section 10.3, uniqueness")))
     };
     let mut rows = vec![
         three("Upsilon_xx", &|m| m.xx.clone()),
@@ -95,12 +98,12 @@ pub(super) fn contraction_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
         At::Common,
         number(paper.jury_second_printed(), Status::PrintedUnsound, "P:eq:ypsilon_xx, 1 + det"),
         sound(paper.jury_second(), "section 4, 1 - det"),
-        sound(sharp.jury_second(), "section 4, 1 - det"),
+        sharp.and_then(|m| sound(m.jury_second(), "section 10.3, 1 - det")),
     ));
     rows
 }
 
-pub(super) fn transfer_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
+pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let (transfer, closed) = (&common.transfer, &common.closed);
     // The printed pair is believed only where both members dominate the closed form.
     let dominates = transfer.kappa_0.ge(&closed.0).and(transfer.kappa_1.ge(&closed.1));
@@ -137,7 +140,7 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
         At::Common,
         number(common.z_printed.clone(), z_status, "P:prop:periodic_solution, zeta_p"),
         sound(common.z_repaired.clone(), "section 4"),
-        sound(common.z_sharp.clone(), "section 4"),
+        common.own.and_then(|own| sound(own.z.clone(), "section 10.3")),
     ));
     let n_bar = &data.n_bar;
     let paper_r_e = common.bounds.q(data) + n_bar * &common.z_printed;
@@ -145,20 +148,22 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
     let k = &common.k_alpha;
     let gain =
         k * &common.bounds.state.f_e / (&data.alpha - k * &common.bounds.state.f_xx * &common.bounds.state.x_p / 2);
-    let psi = Psi::new(data, &common.bounds);
+    // What a printed value is held against.
+    let sound_psi = Psi::new(data, &Excitation::by_contraction(data, &common.bounds));
+    let own = common.own.map(|own| Psi::new(data, &Excitation::sharp(own)));
     rows.push(row(
         "r_e = psi_1",
         At::Common,
-        printed(paper_r_e.clone(), &psi.psi_1, "P:prop:periodic_solution, r_e"),
+        printed(paper_r_e.clone(), &sound_psi.psi_1, "P:prop:periodic_solution, r_e"),
         sound(repaired_r_e.clone(), "section 6, with mu"),
-        sound(psi.psi_1, "section 6, T q1/sqrt(12)"),
+        own.as_ref().and_then(|psi| sound(psi.psi_1.clone(), "section 6, T R_1/sqrt(12)")),
     ));
     rows.push(row(
         "r_x = psi_x",
         At::Common,
-        printed(&gain * paper_r_e, &psi.psi_x, "P:prop:periodic_solution, r_x"),
+        printed(&gain * paper_r_e, &sound_psi.psi_x, "P:prop:periodic_solution, r_x"),
         sound(gain * repaired_r_e, "section 6"),
-        sound(psi.psi_x, "section 6"),
+        own.as_ref().and_then(|psi| sound(psi.psi_x.clone(), "section 6, 10.6")),
     ));
     let t_over_two_pi = &data.period / (2 * Enclosure::pi(data.precision));
     let psi_2_printed = t_over_two_pi.sqr() * common.bounds.q(data).sqr();
@@ -167,9 +172,9 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
     rows.push(row(
         "psi_2",
         At::Common,
-        printed(psi_2_printed.clone(), &psi.psi_2, "P:eq:theorem_2_bound_e2"),
+        printed(psi_2_printed.clone(), &sound_psi.psi_2, "P:eq:theorem_2_bound_e2"),
         psi_2(&data.period * psi_2_printed),
-        psi_2(psi.psi_2),
+        own.and_then(|psi| psi_2(psi.psi_2)),
     ));
     rows
 }

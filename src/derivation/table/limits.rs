@@ -1,4 +1,4 @@
-//! The limits x_p* and e_p*(X_p) below which the existence proof works.
+//! The limits x_p* and e_p*(X_p) below which the paper's existence proof works; the sharp one has none.
 
 use super::common::Common;
 use super::{At, Entry, Row, Status, Value, row};
@@ -7,24 +7,31 @@ use crate::derivation::existence::PeriodicBounds;
 use crate::enclosure::{Enclosure, Truth};
 use rug::Rational;
 
-pub(super) fn size_rows(data: &Data<'_>, common: &Common) -> Vec<Row> {
+pub(super) fn size_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let k = &common.k_alpha;
-    let limit = |gain: &Enclosure, factor: i64| largest_x(data, gain, factor);
-    let double = |gain: &Enclosure| gain * 2;
+    let limit = || {
+        largest_x(data, &(k * 2)).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" })
+    };
     let mut rows = vec![row(
         "x_p*",
         At::Data,
-        limit(&double(k), 1).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" }),
-        limit(&double(k), 1).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" }),
-        limit(&data.c, 1).map(|value| Entry { value, status: Status::Sound, source: "section 4, C3" }),
+        limit(),
+        limit(),
+        None,
     )];
-    let e_limit = |gain: &Enclosure, factor: i64| largest_e(data, gain, factor, &common.bounds);
+    let e_limit = || {
+        largest_e(data, k, &common.bounds).map(|value| Entry {
+            value,
+            status: Status::Sound,
+            source: "P:prop:periodic_solution",
+        })
+    };
     rows.push(row(
         "e_p*(X_p)",
         At::Common,
-        e_limit(k, 2).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" }),
-        e_limit(k, 2).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" }),
-        e_limit(&data.c, 1).map(|value| Entry { value, status: Status::Sound, source: "section 4, C1 and C3" }),
+        e_limit(),
+        e_limit(),
+        None,
     ));
     rows
 }
@@ -89,18 +96,18 @@ fn halve(mut low: Rational, mut high: Rational, below: impl Fn(&Rational) -> boo
     (low, high)
 }
 
-/// The X with `gain b_fxx(X,0) X = alpha`: x_p* with gain 2 K_alpha (paper) or c (sharp).
-fn largest_x(data: &Data<'_>, gain: &Enclosure, factor: i64) -> Option<Value> {
+/// The X with `gain b_fxx(X,0) X = alpha`: x_p* with gain 2 K_alpha.
+fn largest_x(data: &Data<'_>, gain: &Enclosure) -> Option<Value> {
     let limit = data.spec.domain.as_ref().and_then(|domain| domain.x.as_rational().cloned());
-    threshold(data, limit, |x| (factor * (gain * data.bound(Bound::Fxx, x, &data.zero()) * x)).lt(&data.alpha))
+    threshold(data, limit, |x| (gain * data.bound(Bound::Fxx, x, &data.zero()) * x).lt(&data.alpha))
 }
 
-/// The largest E with the two conditions of e_p*(X_p); factor 2 (paper) or 1 (sharp) in front of b_fxx X_p.
-fn largest_e(data: &Data<'_>, gain: &Enclosure, factor: i64, bounds: &PeriodicBounds<Enclosure>) -> Option<Value> {
+/// The largest E with the two conditions of e_p*(X_p), gain K_alpha.
+fn largest_e(data: &Data<'_>, gain: &Enclosure, bounds: &PeriodicBounds<Enclosure>) -> Option<Value> {
     let limit = data.spec.domain.as_ref().and_then(|domain| domain.e.as_rational().cloned());
     let x_p = &bounds.state.x_p;
     let invariance = &data.alpha / gain * x_p - &bounds.state.f_xx * x_p.sqr() / 2;
-    let contraction = &data.alpha / gain - factor * (&bounds.state.f_xx * x_p);
+    let contraction = &data.alpha / gain - &bounds.state.f_xx * x_p * 2;
     threshold(data, limit, |e| {
         (e * data.bound(Bound::Fe, x_p, e)).le(&invariance).and((e * data.bound(Bound::Fex, x_p, e)).lt(&contraction))
     })

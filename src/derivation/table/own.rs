@@ -75,6 +75,14 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         repaired_value(&|r| r.point.h.clone(), "section 5, free"),
         sharp_free(0),
     ));
+    let from_existence = |of: &dyn Fn(&SharpEvaluation) -> Enclosure| sharp_value(of, "section 10.3");
+    rows.push(row("a_1", At::Own, None, None, from_existence(&|s| s.bounds.rate.clone())));
+    rows.push(row("r_x", At::Own, None, None, from_existence(&|s| s.squares.x.clone())));
+    rows.push(row("r_e", At::Own, None, None, from_existence(&|s| s.squares.e.clone())));
+    rows.push(row("r_d", At::Own, None, None, from_existence(&|s| s.squares.e_rate.clone())));
+    rows.push(row("R_q", At::Own, None, None, from_existence(&|s| s.periodic.forcing.q_rms.clone())));
+    rows.push(row("R_1", At::Own, None, None, from_existence(&|s| s.periodic.forcing.q_rate_rms.clone())));
+    rows.push(row("a_2", At::Own, None, None, sharp_value(&|s| s.error_box.rate.clone(), "section 10.1")));
     rows.push(row("w_x", At::Own, None, None, sharp_free(1)));
     rows.push(row("D_x", At::Own, None, None, sharp_free(2)));
     rows.push(row("D_e", At::Own, None, None, sharp_free(3)));
@@ -102,7 +110,7 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         At::Own,
         input.printed.and_then(|p| result(&p.sigma_p, "P:19")),
         repaired_value(&|r| LeastSigma::repaired(data, &r.bounds).sigma_p(), "section 4, C2 and C3 with beta, K_alpha"),
-        sharp_value(&|s| LeastSigma::sharp(data, &s.bounds).sigma_p(), "section 4, C2 and C3"),
+        None,
     ));
     rows.push(row(
         "sigma_a*",

@@ -1,0 +1,59 @@
+//! The error box in floating point: rho and eta that make the threshold of C5 small, for given distances.
+
+use super::candidate::{AtSigma, Obstacle, error_box};
+use super::minimise::minimise;
+use super::model::FloatModel;
+use crate::number::Portable;
+
+/// Powers of two of rho - 1 in the scan.
+const RHO_EXPONENTS: std::ops::RangeInclusive<i32> = -10..=4;
+
+/// Half decades of eta in the scan.
+const ETA_EXPONENTS: std::ops::RangeInclusive<i32> = -24..=12;
+
+/// The best error box around a periodic solution of size (x_per, e_per), for distances dX, dE, dZ: a scan over many orders of
+/// magnitude, then a local minimisation.
+///
+/// # Errors
+/// The obstacle of the candidate that came closest, when none is feasible.
+pub fn best_error_box(model: &FloatModel, periodic: (f64, f64), distances: [f64; 3]) -> Result<AtSigma, Obstacle> {
+    let evaluate = |rho: f64, eta: f64| error_box(model, periodic, distances, rho, eta);
+    let effort = model.effort();
+    let mut closest = Obstacle::NotFinite;
+    let mut best: Option<AtSigma> = None;
+    for rho_exponent in RHO_EXPONENTS.step_by(effort.shape_step) {
+        for eta_exponent in ETA_EXPONENTS.step_by(effort.shape_step) {
+            let (rho, eta) = (1.0 + 2f64.powi(rho_exponent), 10f64.portable_pow(f64::from(eta_exponent) / 2.0));
+            match evaluate(rho, eta) {
+                Ok(at) if best.is_none_or(|b| at.threshold < b.threshold) => best = Some(at),
+                Ok(_) => {}
+                Err(obstacle) => closest = closest.max(obstacle),
+            }
+        }
+    }
+    refine(model, evaluate, best.ok_or(closest)?)
+}
+
+/// The best error box that local minimisation reaches from a known one; `None` where that is not feasible here.
+pub fn error_box_near(
+    model: &FloatModel,
+    periodic: (f64, f64),
+    distances: [f64; 3],
+    (rho, eta): (f64, f64),
+) -> Option<AtSigma> {
+    let evaluate = |rho: f64, eta: f64| error_box(model, periodic, distances, rho, eta);
+    refine(model, evaluate, evaluate(rho, eta).ok()?).ok()
+}
+
+fn refine(
+    model: &FloatModel,
+    evaluate: impl Fn(f64, f64) -> Result<AtSigma, Obstacle>,
+    start: AtSigma,
+) -> Result<AtSigma, Obstacle> {
+    // rho too close to 1 would leave no room between the two members of C4.
+    let decode = |p: &[f64]| evaluate(1.0 + p[0].portable_exp().max(1e-6), p[1].portable_exp()).ok();
+    let first = [(start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
+    let cost = |p: &[f64]| decode(p).map(|at| at.threshold.portable_ln());
+    let refined = minimise(cost, &first, &[0.4, 0.4], model.effort().descent(8));
+    Ok(refined.and_then(|(best, _)| decode(&best)).filter(|at| at.threshold <= start.threshold).unwrap_or(start))
+}
