@@ -1,9 +1,9 @@
 //! The sharp derivation with the transfer proof, and the candidate, that give the smallest sigma.
 
-use super::decide::decide_sharp;
-use super::produce::sharp_outcome;
+use super::decide::decide;
+use super::proof::{Outcome, SharpProof};
 use super::round::{TransferKind, round_sharp, sharp_from_repaired};
-use super::run::{Options, Outcome, SharpProof, TransferChoice};
+use super::run::{Options, TransferChoice};
 use crate::data::Data;
 use crate::derivation::repaired::RepairedWitness;
 use crate::search::{FloatModel, RepairedProposal, SharpParameters, SharpProposal, search_sharp};
@@ -22,7 +22,7 @@ impl BestSharp {
         let proposal = search_sharp(&model, known);
         let outcome = match &proposal {
             Err(obstacle) => Outcome::NotFound(*obstacle),
-            Ok(proposal) => sharp_outcome(round_sharp(data, &model, proposal, kind, options.ladder)),
+            Ok(proposal) => round_sharp(data, &model, proposal, kind, options.ladder).into(),
         };
         BestSharp { model, proposal: proposal.ok(), outcome }
     }
@@ -82,9 +82,6 @@ pub(super) fn not_above(
         return sharp;
     }
     let Some(witness) = sharp_from_repaired(data, repaired) else { return sharp };
-    let (evaluation, precision) = decide_sharp(data.spec, &witness, options.ladder);
-    match sharp_outcome(Some((witness, evaluation, precision))) {
-        Outcome::Proved(proof) => Outcome::Proved(proof),
-        _ => sharp,
-    }
+    let again = decide(data.spec, witness, options.ladder);
+    if again.truth().is_true() { Outcome::Proved(Box::new(again)) } else { sharp }
 }

@@ -1,10 +1,11 @@
 //! Deciding a claim from its rational witness, at a precision that rises while the answer is undecided.
 
+use super::proof::{Proof, Witness};
 use crate::data::Data;
+use crate::derivation::condition::{self, Condition};
 use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
-use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
-use crate::enclosure::{DEFAULT_PRECISION, MAX_PRECISION, Truth};
+use crate::derivation::sharp::ClaimedSet;
+use crate::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use crate::spec::model::Specification;
 
 /// The precisions that are tried: from `start`, doubled, up to `limit` bits.
@@ -23,12 +24,12 @@ impl Default for Ladder {
 }
 
 impl Ladder {
-    /// Evaluates at rising precisions until `truth` decides; returns the last evaluation and its precision.
-    fn climb<T>(self, evaluate: impl Fn(u32) -> T, truth: impl Fn(&T) -> Truth) -> (T, u32) {
+    /// Evaluates at rising precisions until the conditions are decided; returns the last evaluation and its precision.
+    fn climb<T>(self, evaluate: impl Fn(u32) -> T, conditions: impl Fn(&T) -> &[Condition]) -> (T, u32) {
         let mut precision = self.start.max(53);
         loop {
             let evaluation = evaluate(precision);
-            if !truth(&evaluation).is_undecided() || precision >= self.limit {
+            if !condition::all(conditions(&evaluation)).is_undecided() || precision >= self.limit {
                 return (evaluation, precision);
             }
             precision = (2 * precision).min(self.limit);
@@ -36,25 +37,17 @@ impl Ladder {
     }
 }
 
-/// Decides C1-C5 of the sharp derivation; with the precision used.
+/// Decides the conditions of the witness's derivation.
 #[must_use]
-pub fn decide_sharp(spec: &Specification, witness: &SharpWitness, ladder: Ladder) -> (SharpEvaluation, u32) {
-    ladder.climb(|precision| SharpEvaluation::new(&Data::new(spec, precision), witness), SharpEvaluation::truth)
+pub fn decide<W: Witness>(spec: &Specification, witness: W, ladder: Ladder) -> Proof<W> {
+    let (evaluation, precision) =
+        ladder.climb(|precision| witness.evaluate(&Data::new(spec, precision)), W::conditions);
+    Proof { witness, evaluation, precision }
 }
 
-/// Decides the repaired conditions; with the precision used.
+/// Decides exact regulation for a claimed set.
 #[must_use]
-pub fn decide_repaired(spec: &Specification, witness: &RepairedWitness, ladder: Ladder) -> (RepairedEvaluation, u32) {
-    ladder.climb(|precision| RepairedEvaluation::new(&Data::new(spec, precision), witness), RepairedEvaluation::truth)
-}
-
-/// Decides exact regulation for a claimed set; with the precision used.
-#[must_use]
-pub fn decide_exact(
-    spec: &Specification,
-    set: &ClaimedSet,
-    witness: &ExactWitness,
-    ladder: Ladder,
-) -> (ExactEvaluation, u32) {
-    ladder.climb(|precision| ExactEvaluation::new(&Data::new(spec, precision), set, witness), ExactEvaluation::truth)
+pub fn decide_exact(spec: &Specification, set: &ClaimedSet, witness: &ExactWitness, ladder: Ladder) -> ExactEvaluation {
+    let evaluate = |precision| ExactEvaluation::new(&Data::new(spec, precision), set, witness);
+    ladder.climb(evaluate, |evaluation| &evaluation.conditions).0
 }

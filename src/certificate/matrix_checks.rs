@@ -1,7 +1,7 @@
 //! What the matrix inequalities say about a run: C5 as a semidefinite program beside its closed form, C3 with weights and as a
 //! Stein inequality, and Sylvester's criterion for R.
 
-use super::run::{RepairedProof, SharpProof};
+use super::proof::{RepairedProof, SharpProof};
 use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::lmi::{CrossCheck, CrossCheckError, cross_check, leading_minors, perron};

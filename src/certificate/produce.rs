@@ -2,24 +2,20 @@
 
 use super::best::{best_sharp, model, not_above};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
-use super::decide::{decide_exact, decide_repaired, decide_sharp};
+use super::decide::{decide, decide_exact};
 use super::figures::Figures;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
+use super::proof::{Derivation, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
 use super::read::WitnessFile;
 use super::round::{TransferKind, exact_claim, round_repaired};
-use super::run::{
-    Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RelativeDegreeGains, RepairedProof,
-    SharpProof,
-};
+use super::run::{Certification, ExactClaim, Options, PrintedFigure, RelativeDegreeGains};
 use super::verdict::Verdict;
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::printed::{PrintedEvaluation, level_condition};
 use crate::derivation::relative_degree::{RelativeDegreeError, k_2, k_infinity};
-use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::derivation::sharp::{SharpEvaluation, SharpWitness};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
@@ -45,7 +41,7 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     let found = search_repaired(&paper_model);
     let repaired = match &found {
         Err(obstacle) => Outcome::NotFound(*obstacle),
-        Ok(proposal) => repaired_outcome(round_repaired(&data, &paper_model, proposal, options.ladder)),
+        Ok(proposal) => round_repaired(&data, &paper_model, proposal, options.ladder).into(),
     };
     let (sharp_model, proposal, sharp) = if wanted(Derivation::Sharp) {
         let best = best_sharp(&data, options, found.as_ref().ok());
@@ -60,17 +56,14 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     let repaired = if wanted(Derivation::Repaired) { repaired } else { Outcome::Skipped };
     let (sharp, repaired) = if spec.domain.is_none() {
         let chosen = options.derivation;
-        let sharp = proved_up_to_arguments(spec, sharp, chosen == Derivation::Sharp, &mut unproved, sharp_arguments)?;
-        let repaired =
-            proved_up_to_arguments(spec, repaired, chosen == Derivation::Repaired, &mut unproved, repaired_arguments)?;
-        (sharp, repaired)
+        let sharp = proved_up_to_arguments(spec, sharp, chosen == Derivation::Sharp, &mut unproved)?;
+        (sharp, proved_up_to_arguments(spec, repaired, chosen == Derivation::Repaired, &mut unproved)?)
     } else {
         (sharp, repaired)
     };
     let printed = printed_figure(&data, &paper_model);
     let exact = match (&sharp, spec.internal_model.matched) {
         (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
-            .map(|(witness, evaluation, _)| ExactClaim { witness, evaluation })
             // Its error box has its own size, and may reach beyond the arguments of the other derivations.
             .filter(|claim| {
                 let ExactWitness { d_x, d_e, .. } = &claim.witness;
@@ -97,28 +90,26 @@ pub fn recheck<'s>(
     let data = Data::new(spec, options.ladder.start.max(53));
     let (sharp, repaired) = match file {
         WitnessFile::Sharp { witness, .. } => {
-            let (evaluation, precision) = decide_sharp(spec, witness, options.ladder);
-            (sharp_outcome(Some((witness.as_ref().clone(), evaluation, precision))), Outcome::Skipped)
+            (Some(decide(spec, witness.as_ref().clone(), options.ladder)).into(), Outcome::Skipped)
         }
         WitnessFile::Repaired { witness } => {
-            let (evaluation, precision) = decide_repaired(spec, witness, options.ladder);
-            (Outcome::Skipped, repaired_outcome(Some((witness.as_ref().clone(), evaluation, precision))))
+            (Outcome::Skipped, Some(decide(spec, witness.as_ref().clone(), options.ladder)).into())
         }
     };
     let claimed = match file {
         WitnessFile::Sharp { witness, exact: Some(exact) } => {
-            let (evaluation, _) = decide_exact(spec, &witness.set, exact, options.ladder);
+            let evaluation = decide_exact(spec, &witness.set, exact, options.ladder);
             Some(ExactClaim { witness: exact.clone(), evaluation })
         }
         _ => None,
     };
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
     let (sharp, repaired) = if spec.domain.is_none() {
-        let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved, sharp_arguments)?;
+        let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved)?;
         if let Some(claim) = &claimed {
             unproved.extend(undecided_or_error(prove_up_to(spec, &claim.witness.d_x, &claim.witness.d_e))?);
         }
-        (sharp, proved_up_to_arguments(spec, repaired, true, &mut unproved, repaired_arguments)?)
+        (sharp, proved_up_to_arguments(spec, repaired, true, &mut unproved)?)
     } else {
         (sharp, repaired)
     };
@@ -182,8 +173,8 @@ fn assemble<'s>(
     };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
     let used = match options.derivation {
-        Derivation::Repaired => repaired_used(&repaired).or_else(|| sharp_used(&sharp)),
-        Derivation::Sharp | Derivation::Printed => sharp_used(&sharp).or_else(|| repaired_used(&repaired)),
+        Derivation::Repaired => reach(&repaired).or_else(|| reach(&sharp)),
+        Derivation::Sharp | Derivation::Printed => reach(&sharp).or_else(|| reach(&repaired)),
     };
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
     sensitivities.retain(|(_, gain)| *gain > 0.0);
@@ -232,15 +223,14 @@ fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<Bo
 ///
 /// For the derivation the verdict is about, refuted ones are an error and undecided ones go to `unproved`; for the
 /// other, either takes its proof away.
-fn proved_up_to_arguments<P>(
+fn proved_up_to_arguments<W: Witness>(
     spec: &Specification,
-    outcome: Outcome<P>,
+    outcome: Outcome<Proof<W>>,
     chosen: bool,
     unproved: &mut Vec<BoundingProblem>,
-    arguments: impl Fn(&P) -> Option<(Rational, Rational)>,
-) -> Result<Outcome<P>, Vec<BoundingProblem>> {
-    let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &outcome else { return Ok(outcome) };
-    let Some((x, e)) = arguments(proof) else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
+) -> Result<Outcome<Proof<W>>, Vec<BoundingProblem>> {
+    let Some(proof) = outcome.attempt() else { return Ok(outcome) };
+    let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
     let result = prove_up_to(spec, &x, &e);
     if chosen {
         unproved.extend(undecided_or_error(result)?);
@@ -249,47 +239,9 @@ fn proved_up_to_arguments<P>(
     Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Obstacle::Bounds) })
 }
 
-fn sharp_used(outcome: &Outcome<SharpProof>) -> Option<(Rational, Rational)> {
-    outcome.proved().and_then(sharp_arguments)
-}
-
-fn repaired_used(outcome: &Outcome<RepairedProof>) -> Option<(Rational, Rational)> {
-    outcome.proved().and_then(repaired_arguments)
-}
-
-/// (max{X_p, X_b}, max{E_p, E_b}), rounded up.
-fn sharp_arguments(proof: &SharpProof) -> Option<(Rational, Rational)> {
-    let (bounds, error_box) = (&proof.evaluation.bounds, &proof.evaluation.error_box);
-    let x = bounds.state.x_p.max(&error_box.x_b).upper_rational();
-    x.zip(bounds.state.e_p.max(&error_box.e_b).upper_rational())
-}
-
-/// (X_b, E_b), rounded up; X <= X_b and E <= E_b.
-fn repaired_arguments(proof: &RepairedProof) -> Option<(Rational, Rational)> {
-    let point = &proof.evaluation.point;
-    point.x_b.upper_rational().zip(point.e_b.upper_rational())
-}
-
-fn failing(conditions: &[Condition]) -> Vec<Condition> {
-    conditions.iter().filter(|condition| !condition.truth().is_true()).cloned().collect()
-}
-
-pub(super) fn sharp_outcome(result: Option<(SharpWitness, SharpEvaluation, u32)>) -> Outcome<SharpProof> {
-    let Some((witness, evaluation, precision)) = result else {
-        return Outcome::NotFound(Obstacle::NotFinite);
-    };
-    let failing = failing(&evaluation.conditions);
-    let proof = Box::new(SharpProof { witness, evaluation, precision });
-    if failing.is_empty() { Outcome::Proved(proof) } else { Outcome::NotProved { proof, failing } }
-}
-
-fn repaired_outcome(result: Option<(RepairedWitness, RepairedEvaluation, u32)>) -> Outcome<RepairedProof> {
-    let Some((witness, evaluation, precision)) = result else {
-        return Outcome::NotFound(Obstacle::NotFinite);
-    };
-    let failing = failing(&evaluation.conditions);
-    let proof = Box::new(RepairedProof { witness, evaluation, precision });
-    if failing.is_empty() { Outcome::Proved(proof) } else { Outcome::NotProved { proof, failing } }
+/// The largest arguments that a proof uses, rounded up.
+fn reach<W: Witness>(outcome: &Outcome<Proof<W>>) -> Option<[Rational; 2]> {
+    outcome.proved().and_then(|proof| proof.decided().reach())
 }
 
 fn printed_figure(data: &Data<'_>, model: &FloatModel) -> PrintedFigure {

@@ -1,12 +1,13 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
+use super::fields::{Numbers, exact_rational, rational};
 use super::write::{FORMAT, VERSION};
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::repaired::RepairedWitness;
 use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::lyapunov::ProvedTriple;
 use crate::spec::model::PeriodicMatrix;
-use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
+use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value};
 use crate::transfer::{BoxProof, TransferProof};
 use rug::Rational;
 
@@ -135,29 +136,12 @@ fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported>
     let set = claim.required("initial_set", errors).and_then(|value| {
         let mut set = value.object(errors)?;
         let _ = set.optional("kind");
-        let (x0, e0, z0) =
-            (rational(&mut set, "X0", errors), rational(&mut set, "E0", errors), rational(&mut set, "Z0", errors));
+        let sizes = ClaimedSet::read(&mut set, errors, |_, _| Ok(()));
         set.finish(errors);
-        Ok(ClaimedSet { x0: x0?, e0: e0?, z0: z0? })
+        sizes
     });
     claim.finish(errors);
     Ok(Claim { repaired: derivation?, sigma: sigma?, set: set? })
-}
-
-/// A field that holds an exact rational number.
-fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Rational, Reported> {
-    let value = object.required(name, errors)?;
-    exact_rational(&value, &format!("`{name}`"), errors)
-}
-
-/// A value that is an exact rational number.
-fn exact_rational(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Rational, Reported> {
-    let constant = any_constant(value, errors)?;
-    constant.as_rational().cloned().ok_or_else(|| {
-        let message = format!("{what} is not a rational number");
-        let expected = "expected an exact rational, as \"487/10\" or \"48.7\"";
-        errors.report(value.error(ErrorKind::Range, message).expected(expected))
-    })
 }
 
 fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<TransferProof, Reported> {
@@ -205,54 +189,25 @@ fn read_breaks(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<Vec<Rationa
 }
 
 fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {
-    let names = ["X_p", "E_p", "D_x", "D_e", "p_x", "p_e", "w_x", "h", "k0", "k1"];
-    let numbers = names.map(|name| rational(fields, name, errors));
-    let transfer = read_transfer(fields, errors);
-    let _ = fields.optional("lmi");
-    let exact = fields.optional("exact_regulation").map(|value| read_exact(&value, errors)).transpose();
-    let [x_p, e_p, d_x, d_e, p_x, p_e, w_x, h, k0, k1] = numbers;
-    let witness = SharpWitness {
-        sigma: claim.sigma,
-        x_p: x_p?,
-        e_p: e_p?,
-        d_x: d_x?,
-        d_e: d_e?,
-        p_x: p_x?,
-        p_e: p_e?,
-        w_x: w_x?,
-        h: h?,
-        k0: k0?,
-        k1: k1?,
-        transfer: transfer?,
-        set: claim.set,
-    };
-    Ok(WitnessFile::Sharp { witness: Box::new(witness), exact: exact? })
+    let mut exact = Ok(None);
+    let witness = SharpWitness::read(fields, errors, |fields, errors| {
+        let transfer = read_transfer(fields, errors);
+        let _ = fields.optional("lmi");
+        exact = fields.optional("exact_regulation").map(|value| read_exact(&value, errors)).transpose();
+        Ok((claim.sigma, claim.set, transfer?))
+    });
+    Ok(WitnessFile::Sharp { witness: Box::new(witness?), exact: exact? })
 }
 
 fn read_exact(value: &Value<'_>, errors: &mut Errors) -> Result<ExactWitness, Reported> {
     let mut fields = value.object(errors)?;
-    let [sigma, d_x, d_e, w_x, h] =
-        ["sigma_star_oo", "D_x", "D_e", "w_x", "h"].map(|name| rational(&mut fields, name, errors));
+    let witness = ExactWitness::read(&mut fields, errors, |_, _| Ok(()));
     fields.finish(errors);
-    Ok(ExactWitness { sigma: sigma?, d_x: d_x?, d_e: d_e?, w_x: w_x?, h: h? })
+    witness
 }
 
 fn read_repaired(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {
-    let numbers = ["X", "E", "L", "h", "p_x", "p_e", "k0", "k1"].map(|name| rational(fields, name, errors));
-    let transfer = read_transfer(fields, errors);
-    let [x, e, level, h, p_x, p_e, k0, k1] = numbers;
-    let witness = RepairedWitness {
-        sigma: claim.sigma,
-        x: x?,
-        e: e?,
-        level: level?,
-        h: h?,
-        p_x: p_x?,
-        p_e: p_e?,
-        k0: k0?,
-        k1: k1?,
-        transfer: transfer?,
-        set: claim.set,
-    };
-    Ok(WitnessFile::Repaired { witness: Box::new(witness) })
+    let other =
+        |fields: &mut Object<'_>, errors: &mut Errors| Ok((claim.sigma, claim.set, read_transfer(fields, errors)?));
+    Ok(WitnessFile::Repaired { witness: Box::new(RepairedWitness::read(fields, errors, other)?) })
 }

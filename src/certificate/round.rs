@@ -3,13 +3,15 @@
 //! Rounding spends a little of sigma: each attempt takes a sigma a bit larger than the last, recomputes the dependent
 //! numbers for it, rounds, and asks for a rigorous decision; the first witness that is proved is returned.
 
-use super::decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
+use super::decide::{Ladder, decide, decide_exact};
+use super::proof::{Proof, RepairedProof, SharpProof, Witness};
+use super::run::ExactClaim;
 use crate::data::Data;
-use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness, steady_state_norm};
+use crate::derivation::exact_regulation::{ExactWitness, steady_state_norm};
 use crate::derivation::existence::{PeriodicBounds, PeriodicSolution, kappas};
 use crate::derivation::initial_set::{Size, required_set};
-use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
+use crate::derivation::repaired::RepairedWitness;
+use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{
@@ -34,6 +36,25 @@ const SLACKS: [f64; 12] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 
 fn attempts() -> impl Iterator<Item = (u32, f64)> {
     let short = SLACKS.into_iter().take_while(|slack| *slack <= 1e-6).map(|slack| (SHORT_DIGITS, slack));
     short.chain(SLACKS.into_iter().map(|slack| (LONG_DIGITS, slack)))
+}
+
+/// Decides one witness after the other: the first attempt that is proved, or the last one.
+fn first_proved<W: Witness>(
+    data: &Data<'_>,
+    ladder: Ladder,
+    mut witness: impl FnMut((u32, f64)) -> Option<W>,
+) -> Option<Proof<W>> {
+    let mut last = None;
+    for attempt in attempts() {
+        let Some(witness) = witness(attempt) else { continue };
+        let proof = decide(data.spec, witness, ladder);
+        let proved = proof.truth().is_true();
+        last = Some(proof);
+        if proved {
+            break;
+        }
+    }
+    last
 }
 
 fn nearest(value: f64, digits: u32) -> Option<Rational> {
@@ -98,26 +119,16 @@ type ProvedPair = (Rational, Rational, TransferProof);
 /// The pair of a proposal, and what was proved for it.
 type KnownPair = ((f64, f64, u32), Option<ProvedPair>);
 
-/// Rounds a sharp proposal and decides it; the first attempt that is proved, or the last one.
+/// Rounds a sharp proposal and decides it.
 pub(super) fn round_sharp(
     data: &Data<'_>,
     model: &FloatModel,
     proposal: &SharpProposal,
     kind: TransferKind,
     ladder: Ladder,
-) -> Option<(SharpWitness, SharpEvaluation, u32)> {
-    let mut last = None;
+) -> Option<SharpProof> {
     let mut known = None;
-    for attempt in attempts() {
-        let Some(witness) = sharp_witness(data, model, proposal, kind, attempt, &mut known) else { continue };
-        let (evaluation, precision) = decide_sharp(data.spec, &witness, ladder);
-        let proved = evaluation.truth().is_true();
-        last = Some((witness, evaluation, precision));
-        if proved {
-            break;
-        }
-    }
-    last
+    first_proved(data, ladder, |attempt| sharp_witness(data, model, proposal, kind, attempt, &mut known))
 }
 
 fn sharp_witness(
@@ -222,24 +233,14 @@ fn rounded_box(
     })
 }
 
-/// Rounds a repaired proposal and decides it; the first attempt that is proved, or the last one.
+/// Rounds a repaired proposal and decides it.
 pub(super) fn round_repaired(
     data: &Data<'_>,
     model: &FloatModel,
     proposal: &RepairedProposal,
     ladder: Ladder,
-) -> Option<(RepairedWitness, RepairedEvaluation, u32)> {
-    let mut last = None;
-    for attempt in attempts() {
-        let Some(witness) = repaired_witness(data, model, proposal, attempt) else { continue };
-        let (evaluation, precision) = decide_repaired(data.spec, &witness, ladder);
-        let proved = evaluation.truth().is_true();
-        last = Some((witness, evaluation, precision));
-        if proved {
-            break;
-        }
-    }
-    last
+) -> Option<RepairedProof> {
+    first_proved(data, ladder, |attempt| repaired_witness(data, model, proposal, attempt))
 }
 
 fn repaired_witness(
@@ -278,12 +279,7 @@ fn repaired_witness(
 }
 
 /// Searches and decides exact regulation for a claimed set; `None` when nothing was proved.
-pub(super) fn exact_claim(
-    data: &Data<'_>,
-    model: &FloatModel,
-    set: &ClaimedSet,
-    ladder: Ladder,
-) -> Option<(ExactWitness, ExactEvaluation, u32)> {
+pub(super) fn exact_claim(data: &Data<'_>, model: &FloatModel, set: &ClaimedSet, ladder: Ladder) -> Option<ExactClaim> {
     let z = steady_state_norm(data);
     let [dist_x, dist_e, dist_z] =
         set.distances(data, [&data.zero(), &data.zero(), &z]).map(|distance| distance.upper_f64());
@@ -302,7 +298,7 @@ pub(super) fn exact_claim(
             w_x: error_box.w_x,
             h: error_box.h,
         };
-        let (evaluation, precision) = decide_exact(data.spec, set, &witness, ladder);
-        evaluation.truth().is_true().then_some((witness, evaluation, precision))
+        let evaluation = decide_exact(data.spec, set, &witness, ladder);
+        evaluation.truth().is_true().then_some(ExactClaim { witness, evaluation })
     })
 }

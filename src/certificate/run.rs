@@ -4,43 +4,19 @@ use super::bounding::BoundingProblem;
 use super::decide::Ladder;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
+use super::proof::{Decided, Derivation, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
 use crate::derivation::printed::{Infeasible, PrintedEvaluation};
 use crate::derivation::relative_degree::RelativeDegreeError;
-use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
+use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::table::Row;
 use crate::enclosure::Enclosure;
-use crate::search::{Datum, Obstacle};
+use crate::search::Datum;
 use crate::spec::model::Specification;
 use rug::Rational;
-
-/// The derivation on which a claim rests.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Derivation {
-    /// Sections 2-6 of the derivation.
-    #[default]
-    Sharp,
-    /// The paper's architecture, repaired.
-    Repaired,
-    /// The paper to the letter: never certifies.
-    Printed,
-}
-
-impl Derivation {
-    /// The word in certificates.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Derivation::Sharp => "sharp",
-            Derivation::Repaired => "repaired",
-            Derivation::Printed => "printed",
-        }
-    }
-}
 
 /// Which constants of the transfer bound the sharp derivation uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -78,28 +54,6 @@ impl Default for Options {
     }
 }
 
-/// A sharp witness and what was decided about it.
-#[derive(Clone, Debug)]
-pub struct SharpProof {
-    /// The free numbers.
-    pub witness: SharpWitness,
-    /// The evaluation at the precision that decided.
-    pub evaluation: SharpEvaluation,
-    /// That precision in bits.
-    pub precision: u32,
-}
-
-/// A repaired witness and what was decided about it.
-#[derive(Clone, Debug)]
-pub struct RepairedProof {
-    /// The free numbers.
-    pub witness: RepairedWitness,
-    /// The evaluation at the precision that decided.
-    pub evaluation: RepairedEvaluation,
-    /// That precision in bits.
-    pub precision: u32,
-}
-
 /// What the printed formulas say about the data.
 #[derive(Clone, Debug)]
 pub struct PrintedFigure {
@@ -128,35 +82,6 @@ pub struct RelativeDegreeGains {
     pub k_inf: Enclosure,
     /// k_2, in units of time^(2r-2).
     pub k_2: Enclosure,
-}
-
-/// One derivation's outcome.
-#[derive(Clone, Debug)]
-pub enum Outcome<P> {
-    /// Proved.
-    Proved(Box<P>),
-    /// A witness was found (or given), and these conditions are not proved.
-    NotProved {
-        /// The witness and its evaluation.
-        proof: Box<P>,
-        /// The conditions that are not proved.
-        failing: Vec<Condition>,
-    },
-    /// No candidate was found.
-    NotFound(Obstacle),
-    /// Not asked for.
-    Skipped,
-}
-
-impl<P> Outcome<P> {
-    /// The proof, if there is one.
-    #[must_use]
-    pub fn proved(&self) -> Option<&P> {
-        match self {
-            Outcome::Proved(proof) => Some(proof),
-            _ => None,
-        }
-    }
 }
 
 /// Everything a run found out.
@@ -197,59 +122,46 @@ pub struct Certification<'s> {
 }
 
 impl Certification<'_> {
+    /// What was decided in the chosen derivation, proved or not; `None` where there was no witness.
+    #[must_use]
+    pub fn attempt(&self) -> Option<Decided<'_>> {
+        match self.options.derivation {
+            Derivation::Sharp => self.sharp.attempt().map(Proof::decided),
+            Derivation::Repaired => self.repaired.attempt().map(Proof::decided),
+            Derivation::Printed => None,
+        }
+    }
+
+    /// The proof of the claim, if certified.
+    #[must_use]
+    pub fn claim(&self) -> Option<Decided<'_>> {
+        if self.verdict == Verdict::Certified { self.attempt() } else { None }
+    }
+
     /// The claimed gain of the chosen derivation, if certified.
     #[must_use]
     pub fn sigma_star(&self) -> Option<&Rational> {
-        match (self.verdict, self.options.derivation) {
-            (Verdict::Certified, Derivation::Sharp) => self.sharp.proved().map(|proof| &proof.witness.sigma),
-            (Verdict::Certified, Derivation::Repaired) => self.repaired.proved().map(|proof| &proof.witness.sigma),
-            _ => None,
-        }
+        self.claim().map(|claim| claim.sigma)
     }
 
     /// The claimed initial set of the chosen derivation, if certified.
     #[must_use]
     pub fn claimed_set(&self) -> Option<&ClaimedSet> {
-        match (self.verdict, self.options.derivation) {
-            (Verdict::Certified, Derivation::Sharp) => self.sharp.proved().map(|proof| &proof.witness.set),
-            (Verdict::Certified, Derivation::Repaired) => self.repaired.proved().map(|proof| &proof.witness.set),
-            _ => None,
-        }
+        self.claim().map(|claim| claim.set)
     }
 
     /// The conditions of the chosen derivation, proved or not.
     #[must_use]
     pub fn conditions(&self) -> &[Condition] {
-        fn of<P>(outcome: &Outcome<P>, conditions: impl Fn(&P) -> &[Condition]) -> &[Condition] {
-            match outcome {
-                Outcome::Proved(proof) | Outcome::NotProved { proof, .. } => conditions(proof),
-                Outcome::NotFound(_) | Outcome::Skipped => &[],
-            }
-        }
-        match self.options.derivation {
-            Derivation::Sharp => of(&self.sharp, |proof| &proof.evaluation.conditions),
-            Derivation::Repaired => of(&self.repaired, |proof| &proof.evaluation.conditions),
-            Derivation::Printed => &[],
-        }
+        self.attempt().map_or(&[], |attempt| attempt.conditions)
     }
 
     /// Upper bounds of the periodic solution, |x|, |e|, |zeta|_N and |z|_N, of the chosen derivation, if certified.
     #[must_use]
     pub fn periodic_solution(&self) -> Option<[Enclosure; 4]> {
-        let (x, e, zeta, precision) = match (self.verdict, self.options.derivation) {
-            (Verdict::Certified, Derivation::Sharp) => {
-                let proof = self.sharp.proved()?;
-                let periodic = &proof.evaluation.periodic;
-                (periodic.x_per.clone(), periodic.e_per.clone(), proof.evaluation.z.clone(), proof.precision)
-            }
-            (Verdict::Certified, Derivation::Repaired) => {
-                let proof = self.repaired.proved()?;
-                let bounds = &proof.evaluation.bounds;
-                (bounds.state.x_p.clone(), bounds.state.e_p.clone(), proof.evaluation.z.clone(), proof.precision)
-            }
-            _ => return None,
-        };
-        let n_bar = Data::new(self.spec, precision).numbers.n_bar;
+        let claim = self.claim()?;
+        let [x, e, zeta] = claim.periodic.map(Enclosure::clone);
+        let n_bar = Data::new(self.spec, claim.precision).numbers.n_bar;
         let z = &zeta + n_bar * &e;
         Some([x, e, zeta, z])
     }

@@ -2,10 +2,9 @@
 
 use super::blocks::{Block, Table};
 use super::number::upper;
-use crate::certificate::{Certification, Derivation};
+use crate::certificate::Certification;
 use crate::data::Data;
 use crate::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
-use crate::derivation::existence::PeriodicBounds;
 use crate::enclosure::Enclosure;
 use crate::spec::Constant;
 
@@ -70,24 +69,12 @@ impl Consequences {
     /// Guarantee: they hold for every sigma' >= sigma* and the stated n_o, along the periodic solution.
     #[must_use]
     pub fn new(run: &Certification<'_>, targets: &[Target]) -> Option<Consequences> {
-        run.sigma_star()?;
-        let (bounds, sigma, e_per, precision): (&PeriodicBounds<Enclosure>, _, _, _) = match run.options.derivation {
-            Derivation::Sharp => {
-                let proof = run.sharp.proved()?;
-                let evaluation = &proof.evaluation;
-                (&evaluation.bounds, &evaluation.sigma, &evaluation.periodic.e_per, proof.precision)
-            }
-            Derivation::Repaired => {
-                let proof = run.repaired.proved()?;
-                let evaluation = &proof.evaluation;
-                // The repaired conditions imply C1-C3 with E in place of e_per.
-                (&evaluation.bounds, &evaluation.sigma, &evaluation.bounds.state.e_p, proof.precision)
-            }
-            Derivation::Printed => return None,
-        };
+        let claim = run.claim()?;
+        let (bounds, [_, e_per, _], precision) = (claim.bounds, claim.periodic, claim.precision);
         let data = Data::new(run.spec, precision);
+        let sigma = data.rational(claim.sigma);
         let matched = run.spec.internal_model.matched;
-        let at = |n_o| error_bounds(&data, bounds, sigma, e_per, n_o);
+        let at = |n_o| error_bounds(&data, bounds, &sigma, e_per, n_o);
         let by_n_o = if matched { N_O.map(|n_o| (n_o, at(n_o))).to_vec() } else { Vec::new() };
         let answer = |target: &Target| {
             if !matched {
