@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rug::Rational;
-use sigmastar::certificate::{Ladder, Options, WitnessFile, certify, decide, recheck};
+use sigmastar::certify::{GivenWitness, Ladder, Options, certify, decide, recheck};
 use sigmastar::data::Data;
 use sigmastar::enclosure::Enclosure;
 use sigmastar::expr::{Expr, ProofSettings, Variables, prove_bounding};
@@ -21,7 +21,7 @@ fn runs(criterion: &mut Criterion) {
     let spec = paper_example();
     let run = certify(&spec, Options::default()).expect("its bounding functions are proved");
     let witness = run.sharp.proved().expect("it certifies").witness.clone();
-    let file = WitnessFile::Sharp { witness: Box::new(witness.clone()), exact: None };
+    let file = GivenWitness::Sharp { witness: Box::new(witness.clone()), exact: None };
 
     let mut group = criterion.benchmark_group("paper example");
     group.sample_size(10);

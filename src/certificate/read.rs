@@ -2,6 +2,7 @@
 
 use super::fields::{Numbers, exact_rational, rational};
 use super::write::{FORMAT, VERSION};
+use crate::certify::GivenWitness;
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::repaired::RepairedWitness;
 use crate::derivation::sharp::{ClaimedSet, SharpWitness};
@@ -11,35 +12,18 @@ use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Val
 use crate::transfer::{BoxProof, TransferProof};
 use rug::Rational;
 
-/// A witness as read from a certificate.
-#[derive(Clone, Debug)]
-pub enum WitnessFile {
-    /// Of the sharp derivation, with the exact-regulation part where it is there.
-    Sharp {
-        /// The free numbers.
-        witness: Box<SharpWitness>,
-        /// Exact regulation.
-        exact: Option<ExactWitness>,
-    },
-    /// Of the repaired derivation.
-    Repaired {
-        /// The free numbers.
-        witness: Box<RepairedWitness>,
-    },
-}
-
 /// Reads the claim's numbers and the witness of a certificate file. Everything else in it (the embedded
 /// specification, the printed conditions and constants) is known and not used: it is computed again.
 ///
 /// # Errors
 /// Every field that is missing, unknown or not an exact rational, with its place.
-pub fn read_witness(document: &Document) -> Result<WitnessFile, SpecErrors> {
+pub fn read_witness(document: &Document) -> Result<GivenWitness, SpecErrors> {
     let mut errors = Errors::new();
     let outcome = read(&document.root(), &mut errors);
     errors.conclude(document, outcome)
 }
 
-fn read(root: &Value<'_>, errors: &mut Errors) -> Result<WitnessFile, Reported> {
+fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported> {
     let mut file = root.object(errors)?;
     file.header(FORMAT, &[VERSION], errors)?;
     let unused = [
@@ -188,7 +172,7 @@ fn read_breaks(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<Vec<Rationa
     Ok(lists)
 }
 
-fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {
+fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<GivenWitness, Reported> {
     let mut exact = Ok(None);
     let witness = SharpWitness::read(fields, errors, |fields, errors| {
         let transfer = read_transfer(fields, errors);
@@ -196,7 +180,7 @@ fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Res
         exact = fields.optional("exact_regulation").map(|value| read_exact(&value, errors)).transpose();
         Ok((claim.sigma, claim.set, transfer?))
     });
-    Ok(WitnessFile::Sharp { witness: Box::new(witness?), exact: exact? })
+    Ok(GivenWitness::Sharp { witness: Box::new(witness?), exact: exact? })
 }
 
 fn read_exact(value: &Value<'_>, errors: &mut Errors) -> Result<ExactWitness, Reported> {
@@ -206,8 +190,8 @@ fn read_exact(value: &Value<'_>, errors: &mut Errors) -> Result<ExactWitness, Re
     witness
 }
 
-fn read_repaired(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {
+fn read_repaired(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<GivenWitness, Reported> {
     let other =
         |fields: &mut Object<'_>, errors: &mut Errors| Ok((claim.sigma, claim.set, read_transfer(fields, errors)?));
-    Ok(WitnessFile::Repaired { witness: Box::new(RepairedWitness::read(fields, errors, other)?) })
+    Ok(GivenWitness::Repaired { witness: Box::new(RepairedWitness::read(fields, errors, other)?) })
 }

@@ -1,10 +1,8 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
 use super::fields::Numbers;
-use super::lyapunov::lyapunov_json;
-use super::no_plant::{ExceededBy, NoPlant};
-use super::proof::{Decided, Derivation, Proof, Witness};
-use super::run::Certification;
+use super::triple::lyapunov_json;
+use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::derivation::exact_regulation::ExactWitness;

@@ -1,11 +1,12 @@
 //! What a certificate claims, as a simulation can check it.
 
-use crate::certificate::{Derivation, WitnessFile, read_lyapunov, read_witness, resolve_with};
+use crate::certificate::{StatedClaim, read_claim};
+use crate::certify::{Derivation, GivenWitness};
 use crate::data::Data;
 use crate::derivation::consequences::{ErrorBounds, Psi, error_bounds};
 use crate::derivation::existence::PeriodicBounds;
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
-use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
+use crate::spec::{Constant, Document, SpecErrors, Specification};
 use rug::Rational;
 
 /// The claim of a certificate in double precision.
@@ -37,61 +38,27 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Reads the claim, the witness and the specification of a certificate. What a falsified certificate says is taken
-    /// as it is; only a triple for a Jacobian is proved again, because the matrices that are drawn rest on it.
+    /// The claim of a certificate, as [`read_claim`] reads it; the matrices that are drawn rest on its proved triple.
     ///
     /// # Errors
-    /// What cannot be read, in its place, and a triple that is not proved.
+    /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<Claim, SpecErrors> {
-        let witness = read_witness(document)?;
-        let mut errors = Errors::new();
-        let root = document.root();
-        let Some(embedded) = document.at("/specification") else {
-            let error = root.error(ErrorKind::MissingField, "the field `specification` is missing");
-            let reported: Result<Claim, Reported> = Err(errors.report(error));
-            return errors.conclude(document, reported);
-        };
-        let mut spec = Specification::from_value(&embedded)?;
-        if spec.lyapunov.triple().is_none() {
-            let triple = read_lyapunov(document)?;
-            let place = document.at("/witness/lyapunov").unwrap_or(root.clone());
-            spec = match resolve_with(&spec, &triple) {
-                Some(Ok(proved)) => proved,
-                Some(Err(failure)) => {
-                    let error = place.error(ErrorKind::Range, format!("this triple is not proved: {failure}"));
-                    let error = error.help("`sigmastar check` decides the certificate");
-                    let reported: Result<Claim, Reported> = Err(errors.report(error));
-                    return errors.conclude(document, reported);
-                }
-                None => spec,
-            };
-        }
-        let stated =
-            ["x", "e", "zeta", "z"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
-                Some(value) => bound(&value, &mut errors),
-                None => {
-                    let message = format!("the bound `periodic_solution.{name}` is missing");
-                    Err(errors.report(root.error(ErrorKind::MissingField, message)))
-                }
-            });
-        let [x, e, zeta, z] = stated;
-        let stated = x.and_then(|x| Ok([x, e?, zeta?, z?]));
-        let stated = errors.conclude(document, stated)?;
-        Ok(Claim::new(spec, &witness, stated))
+        read_claim(document).map(Claim::new)
     }
 
-    fn new(spec: Specification, witness: &WitnessFile, [x, e, zeta, z]: [f64; 4]) -> Claim {
+    fn new(stated: StatedClaim) -> Claim {
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, z] } = stated;
         let data = Data::new(&spec, DEFAULT_PRECISION);
         let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
-        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match witness {
-            WitnessFile::Sharp { witness, .. } => {
+        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
+            GivenWitness::Sharp { witness, .. } => {
                 let radii = [witness.d_x.to_f64(), witness.d_e.to_f64()];
                 let w_x = witness.w_x.to_f64();
                 let lyapunov = Some([w_x * p_low, w_x * p_up, witness.h.to_f64()]);
                 let periodic = [&witness.x_p, &witness.e_p];
                 (Derivation::Sharp, &witness.sigma, &witness.set, periodic, radii, lyapunov)
             }
-            WitnessFile::Repaired { witness } => {
+            GivenWitness::Repaired { witness } => {
                 let level = witness.level.to_f64();
                 let radii = [(level / p_low).sqrt(), level.sqrt()];
                 let periodic = [&witness.x, &witness.e];
@@ -145,12 +112,4 @@ impl Claim {
 /// The end of the domain, which the reader has seen to be positive and bounded.
 fn data_end(constant: &Constant) -> Rational {
     constant.enclose(DEFAULT_PRECISION).upper_rational().unwrap_or_else(|| Rational::from(1))
-}
-
-/// An upper end of the claim; `inf` where there is none.
-fn bound(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
-    if value.text() == Some("inf") {
-        return Ok(f64::INFINITY);
-    }
-    any_constant(value, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)
 }

@@ -6,7 +6,7 @@ use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
 use super::random::Random;
 use super::report::counterexample_plant;
-use crate::certificate::no_plant;
+use crate::certify::no_plant;
 use crate::data::Data;
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::plant::Plant;

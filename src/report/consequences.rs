@@ -2,7 +2,7 @@
 
 use super::blocks::{Block, Table};
 use super::number::upper;
-use crate::certificate::Certification;
+use crate::certify::Certification;
 use crate::data::Data;
 use crate::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
 use crate::enclosure::Enclosure;

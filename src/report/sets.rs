@@ -3,7 +3,7 @@
 use super::blocks::{Block, Table};
 use super::number::{exact, upper};
 use super::verdict::{exact_arguments, largest_arguments};
-use crate::certificate::Certification;
+use crate::certify::Certification;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
 

@@ -4,7 +4,7 @@ use super::blocks::{Block, clean};
 use super::number::{exact, upper};
 use super::obstacles;
 use super::remarks::remarks;
-use crate::certificate::{Certification, Derivation, Verdict};
+use crate::certify::{Certification, Derivation, Verdict};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
 use crate::spec::model::LyapunovSource;

@@ -1,7 +1,7 @@
 //! Each condition refused by itself: a witness with room in every condition, and one number changed.
 
 use rug::Rational;
-use sigmastar::certificate::{Ladder, decide, decide_exact};
+use sigmastar::certify::{Ladder, decide, decide_exact};
 use sigmastar::data::Data;
 use sigmastar::derivation::consequences::{Psi, error_bounds, smallest_n_o};
 use sigmastar::derivation::exact_regulation::ExactWitness;

@@ -1,10 +1,10 @@
-//! What a run is asked for and what it found out.
+//! What a run found out.
 
 use super::bounding::BoundingProblem;
-use super::decide::Ladder;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
-use super::proof::{Decided, Derivation, Outcome, Proof, RepairedProof, SharpProof};
+use super::options::{Derivation, Options};
+use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
 use crate::data::Data;
 use crate::derivation::condition::Condition;
@@ -17,42 +17,6 @@ use crate::enclosure::Enclosure;
 use crate::search::Datum;
 use crate::spec::model::Specification;
 use rug::Rational;
-
-/// Which constants of the transfer bound the sharp derivation uses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum TransferChoice {
-    /// Matched where the specification says so, boxes otherwise.
-    #[default]
-    Best,
-    /// A proof by boxes, valid for every base frequency.
-    Boxes,
-    /// The closed form of derivation section 2, valid for every base frequency.
-    ClosedForm,
-}
-
-/// What a run does; every field has a default.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// The derivation that the verdict is about (default: sharp).
-    pub derivation: Derivation,
-    /// The transfer constants of the sharp derivation (default: the best available).
-    pub transfer: TransferChoice,
-    /// The working precisions (default: 128 to 1024 bits).
-    pub ladder: Ladder,
-    /// Whether the other derivations are worked out too, for comparison (default: yes).
-    pub compare: bool,
-}
-
-impl Default for Options {
-    fn default() -> Options {
-        Options {
-            derivation: Derivation::default(),
-            transfer: TransferChoice::default(),
-            ladder: Ladder::default(),
-            compare: true,
-        }
-    }
-}
 
 /// What the printed formulas say about the data.
 #[derive(Clone, Debug)]

@@ -2,14 +2,16 @@
 
 use super::best::{best_sharp, model, not_above};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
+use super::certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
+use super::constants::Columns;
 use super::decide::{decide, decide_exact};
-use super::figures::Figures;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
-use super::proof::{Derivation, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
-use super::read::WitnessFile;
+use super::options::{Derivation, Options};
+use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
+
+use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
-use super::run::{Certification, ExactClaim, Options, PrintedFigure, RelativeDegreeGains};
 use super::verdict::Verdict;
 use crate::data::Data;
 use crate::derivation::condition::Condition;
@@ -30,8 +32,8 @@ use rug::Rational;
 /// condition of the chosen derivation is proved for the witness.
 ///
 /// # Errors
-/// Bounding functions that are *refuted* (bad input), with their counterexamples.
-pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Vec<BoundingProblem>> {
+/// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
+pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Refusal> {
     let data = Data::new(spec, options.ladder.start.max(53));
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
@@ -72,7 +74,7 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
         _ => None,
     };
     let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
-    Ok(assemble(spec, options, &data, parts, &sharp_model))
+    assemble(spec, options, &data, parts, &sharp_model)
 }
 
 /// Decides the witness of a certificate again, without any search.
@@ -81,23 +83,23 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
 /// The verdict is `Refuted` when a condition is proved not to hold for the witness (another witness may still do).
 ///
 /// # Errors
-/// Bounding functions that are *refuted* (bad input), with their counterexamples.
+/// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
 pub fn recheck<'s>(
     spec: &'s Specification,
-    file: &WitnessFile,
+    file: &GivenWitness,
     options: Options,
-) -> Result<Certification<'s>, Vec<BoundingProblem>> {
+) -> Result<Certification<'s>, Refusal> {
     let data = Data::new(spec, options.ladder.start.max(53));
     let (sharp, repaired) = match file {
-        WitnessFile::Sharp { witness, .. } => {
+        GivenWitness::Sharp { witness, .. } => {
             (Some(decide(spec, witness.as_ref().clone(), options.ladder)).into(), Outcome::Skipped)
         }
-        WitnessFile::Repaired { witness } => {
+        GivenWitness::Repaired { witness } => {
             (Outcome::Skipped, Some(decide(spec, witness.as_ref().clone(), options.ladder)).into())
         }
     };
     let claimed = match file {
-        WitnessFile::Sharp { witness, exact: Some(exact) } => {
+        GivenWitness::Sharp { witness, exact: Some(exact) } => {
             let evaluation = decide_exact(spec, &witness.set, exact, options.ladder);
             Some(ExactClaim { witness: exact.clone(), evaluation })
         }
@@ -116,13 +118,13 @@ pub fn recheck<'s>(
     let exact_failing = claimed.as_ref().map_or_else(Vec::new, |claim| failing(&claim.evaluation.conditions));
     let exact = claimed.filter(|_| exact_failing.is_empty());
     let derivation = match file {
-        WitnessFile::Sharp { .. } => Derivation::Sharp,
-        WitnessFile::Repaired { .. } => Derivation::Repaired,
+        GivenWitness::Sharp { .. } => Derivation::Sharp,
+        GivenWitness::Repaired { .. } => Derivation::Repaired,
     };
     let printed = PrintedFigure { refutation: level_condition(&data).err(), evaluation: None, sigma: None };
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
     let parts = Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal: None };
-    let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model);
+    let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model)?;
     // A given witness that breaks a condition is refuted; a search that ends with one has merely found nothing.
     let mut conditions = run.conditions().iter().chain(&run.exact_failing);
     if run.verdict == Verdict::Undecided && conditions.any(|condition| condition.truth().is_false()) {
@@ -148,25 +150,26 @@ fn assemble<'s>(
     data: &Data<'_>,
     parts: Parts,
     model: &FloatModel,
-) -> Certification<'s> {
+) -> Result<Certification<'s>, Refusal> {
     let Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal } = parts;
     let relative_degree = relative_degree_gains(spec, data.precision);
+    if let Some(Err(error @ RelativeDegreeError::NotHurwitz(_))) = relative_degree {
+        return Err(Refusal::Filter(error));
+    }
     let checks = MatrixChecks::new(spec, sharp.proved(), repaired.proved());
     let claimed = |proved: bool| {
         if proved && unproved.is_empty() && exact_failing.is_empty() { Verdict::Certified } else { Verdict::Undecided }
     };
     let verdict = match options.derivation {
-        // The filter must be stable: otherwise the plant is not what the specification says.
-        _ if matches!(relative_degree, Some(Err(RelativeDegreeError::NotHurwitz(_)))) => Verdict::BadInput,
         Derivation::Sharp => claimed(sharp.proved().is_some() && !checks.disagree()),
         Derivation::Repaired => claimed(repaired.proved().is_some()),
         // Printed can be refuted (E1), never certified.
         Derivation::Printed if printed.refutation.is_some() => Verdict::Refuted,
         Derivation::Printed => Verdict::Undecided,
     };
-    let figures = Figures { sharp, repaired, printed: &printed, exact: exact.as_ref() };
-    let (figures, constants) = figures.evaluated(spec, data.precision, options.ladder);
-    let Figures { sharp, repaired, .. } = figures;
+    let columns = Columns { sharp, repaired, printed: &printed, exact: exact.as_ref() };
+    let (columns, constants) = columns.evaluated(spec, data.precision, options.ladder);
+    let Columns { sharp, repaired, .. } = columns;
     let mut sensitivities = match (&sharp, &proposal) {
         (Outcome::Proved(_), Some(proposal)) => sensitivities(model, proposal),
         _ => Vec::new(),
@@ -179,7 +182,7 @@ fn assemble<'s>(
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
     sensitivities.retain(|(_, gain)| *gain > 0.0);
     sensitivities.sort_by(|a, b| b.1.total_cmp(&a.1));
-    Certification {
+    Ok(Certification {
         spec,
         options,
         verdict,
@@ -196,7 +199,7 @@ fn assemble<'s>(
         sensitivities,
         unproved_bounds: unproved,
         constants: constants.rows,
-    }
+    })
 }
 
 /// k_inf and k_2 of the specification's filter, if it has one.
@@ -212,11 +215,11 @@ fn relative_degree_gains(
 }
 
 /// Splits failures of the bounding functions: refuted ones are errors, undecided ones keep a claim from being made.
-fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Vec<BoundingProblem>> {
+fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Refusal> {
     let problems = result.err().unwrap_or_default();
     let (refuted, undecided): (Vec<_>, Vec<_>) =
         problems.into_iter().partition(|problem| matches!(problem.failure, BoundingFailure::Refuted { .. }));
-    if refuted.is_empty() { Ok(undecided) } else { Err(refuted) }
+    if refuted.is_empty() { Ok(undecided) } else { Err(Refusal::Bounds(refuted)) }
 }
 
 /// Without a domain, the bounding functions are proved up to the arguments that a proof uses.
@@ -228,7 +231,7 @@ fn proved_up_to_arguments<W: Witness>(
     outcome: Outcome<Proof<W>>,
     chosen: bool,
     unproved: &mut Vec<BoundingProblem>,
-) -> Result<Outcome<Proof<W>>, Vec<BoundingProblem>> {
+) -> Result<Outcome<Proof<W>>, Refusal> {
     let Some(proof) = outcome.attempt() else { return Ok(outcome) };
     let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
     let result = prove_up_to(spec, &x, &e);

@@ -1,7 +1,9 @@
 //! A witness with what was decided about it, in either derivation, and one view of both.
 
+use super::options::Derivation;
 use crate::data::Data;
 use crate::derivation::condition::{self, Condition};
+use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::existence::PeriodicBounds;
 use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
@@ -9,30 +11,6 @@ use crate::enclosure::{Enclosure, Truth};
 use crate::search::Obstacle;
 use crate::transfer::TransferProof;
 use rug::Rational;
-
-/// The derivation on which a claim rests.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Derivation {
-    /// Sections 2-6 of the derivation.
-    #[default]
-    Sharp,
-    /// The paper's architecture, repaired.
-    Repaired,
-    /// The paper to the letter: never certifies.
-    Printed,
-}
-
-impl Derivation {
-    /// The word in certificates.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Derivation::Sharp => "sharp",
-            Derivation::Repaired => "repaired",
-            Derivation::Printed => "printed",
-        }
-    }
-}
 
 /// The free numbers of a derivation that can certify.
 pub trait Witness: Sized {
@@ -47,6 +25,34 @@ pub trait Witness: Sized {
 
     /// What both derivations say.
     fn decided(proof: &Proof<Self>) -> Decided<'_>;
+}
+
+/// The free numbers of a claim, given to be decided.
+#[derive(Clone, Debug)]
+pub enum GivenWitness {
+    /// Of the sharp derivation, with the exact-regulation part where it is there.
+    Sharp {
+        /// The free numbers.
+        witness: Box<SharpWitness>,
+        /// Exact regulation.
+        exact: Option<ExactWitness>,
+    },
+    /// Of the repaired derivation.
+    Repaired {
+        /// The free numbers.
+        witness: Box<RepairedWitness>,
+    },
+}
+
+impl GivenWitness {
+    /// The gain to be certified.
+    #[must_use]
+    pub fn sigma(&self) -> &Rational {
+        match self {
+            GivenWitness::Sharp { witness, .. } => &witness.sigma,
+            GivenWitness::Repaired { witness } => &witness.sigma,
+        }
+    }
 }
 
 /// A witness and what was decided about it.

@@ -1,8 +1,9 @@
 //! What is reported of a proof beside its claim, at a precision at which it is known well.
 
-use super::decide::{Ladder, decide};
+use super::certification::{ExactClaim, PrintedFigure};
+use super::decide::decide;
+use super::options::Ladder;
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof, Witness};
-use super::run::{ExactClaim, PrintedFigure};
 use crate::data::Data;
 use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::table::{At, Row, TableInput, Value, table};
@@ -17,7 +18,7 @@ const DIGITS: u32 = 56;
 const FINEST: u32 = 512;
 
 /// What the table of constants is made from.
-pub(super) struct Figures<'a> {
+pub(super) struct Columns<'a> {
     pub(super) sharp: Outcome<SharpProof>,
     pub(super) repaired: Outcome<RepairedProof>,
     pub(super) printed: &'a PrintedFigure,
@@ -30,7 +31,7 @@ pub(super) struct Table {
     pub(super) rows: Vec<Row>,
 }
 
-impl Figures<'_> {
+impl Columns<'_> {
     /// The proofs and the table, evaluated again at a doubled precision up to [`FINEST`] while a number is not known to
     /// [`DIGITS`]: where a bounding function cancels, fewer bits decide a condition than tell its sides.
     ///
@@ -91,8 +92,8 @@ fn rough(value: &Enclosure) -> bool {
 }
 
 /// The table, at the witness of the sharp derivation or, failing that, of the repaired one.
-fn constants(data: &Data<'_>, figures: &Figures<'_>) -> Vec<Row> {
-    let (sharp, repaired, printed) = (figures.sharp.proved(), figures.repaired.proved(), figures.printed);
+fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
+    let (sharp, repaired, printed) = (columns.sharp.proved(), columns.repaired.proved(), columns.printed);
     let Some(common) = sharp.map(Proof::decided).or(repaired.map(Proof::decided)) else { return Vec::new() };
     let ([x, e], [k0, k1]) = (common.point, common.pair);
     let numbers = |set: &ClaimedSet| [set.x0.clone(), set.e0.clone(), set.z0.clone()];
@@ -113,6 +114,6 @@ fn constants(data: &Data<'_>, figures: &Figures<'_>) -> Vec<Row> {
             repaired.map(|proof| data.rational(&proof.witness.sigma)),
             sharp.map(|proof| data.rational(&proof.witness.sigma)),
         ],
-        sigma_exact: figures.exact.map(|claim| claim.witness.sigma.clone()),
+        sigma_exact: columns.exact.map(|claim| claim.witness.sigma.clone()),
     })
 }

@@ -1,9 +1,9 @@
 //! The sharp derivation with the transfer proof, and the candidate, that give the smallest sigma.
 
 use super::decide::decide;
+use super::options::{Options, TransferChoice};
 use super::proof::{Outcome, SharpProof};
 use super::round::{TransferKind, round_sharp, sharp_from_repaired};
-use super::run::{Options, TransferChoice};
 use crate::data::Data;
 use crate::derivation::repaired::RepairedWitness;
 use crate::search::{FloatModel, RepairedProposal, SharpParameters, SharpProposal, search_sharp};

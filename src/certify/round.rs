@@ -3,9 +3,10 @@
 //! Rounding spends a little of sigma: each attempt takes a sigma a bit larger than the last, recomputes the dependent
 //! numbers for it, rounds, and asks for a rigorous decision; the first witness that is proved is returned.
 
-use super::decide::{Ladder, decide, decide_exact};
+use super::certification::ExactClaim;
+use super::decide::{decide, decide_exact};
+use super::options::Ladder;
 use super::proof::{Proof, RepairedProof, SharpProof, Witness};
-use super::run::ExactClaim;
 use crate::data::Data;
 use crate::derivation::exact_regulation::{ExactWitness, steady_state_norm};
 use crate::derivation::existence::{PeriodicBounds, PeriodicSolution, kappas};
