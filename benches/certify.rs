@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rug::Rational;
-use sigmastar::certificate::{Ladder, Options, WitnessFile, certify, decide_sharp, recheck};
+use sigmastar::certify::{GivenWitness, Ladder, Options, certify, decide, recheck};
 use sigmastar::data::Data;
 use sigmastar::enclosure::Enclosure;
 use sigmastar::expr::{Expr, ProofSettings, Variables, prove_bounding};
@@ -21,7 +21,7 @@ fn runs(criterion: &mut Criterion) {
     let spec = paper_example();
     let run = certify(&spec, Options::default()).expect("its bounding functions are proved");
     let witness = run.sharp.proved().expect("it certifies").witness.clone();
-    let file = WitnessFile::Sharp { witness: Box::new(witness.clone()), exact: None };
+    let file = GivenWitness::Sharp { witness: Box::new(witness.clone()), exact: None };
 
     let mut group = criterion.benchmark_group("paper example");
     group.sample_size(10);
@@ -31,7 +31,7 @@ fn runs(criterion: &mut Criterion) {
     });
     group.bench_function("decide again from the witness", |b| b.iter(|| recheck(&spec, &file, Options::default())));
     group.bench_function("decide C1-C5 once at 128 bits", |b| {
-        b.iter(|| decide_sharp(&spec, black_box(&witness), Ladder::default()));
+        b.iter(|| decide(&spec, black_box(witness.clone()), Ladder::default()));
     });
     group.bench_function("enclose the data at 128 bits", |b| b.iter(|| Data::new(&spec, 128)));
     group.finish();

@@ -3,7 +3,8 @@
 //! `cargo bench --bench check` prints the times; nothing is asserted.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify};
+use sigmastar::certificate::certificate_json;
+use sigmastar::certify::{Derivation, Options, TransferChoice, certify};
 use sigmastar::spec::Specification;
 use std::hint::black_box;
 use std::path::Path;

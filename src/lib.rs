@@ -59,6 +59,8 @@ mod api;
 #[doc(hidden)]
 pub mod certificate;
 #[doc(hidden)]
+pub mod certify;
+#[doc(hidden)]
 pub mod data;
 #[doc(hidden)]
 pub mod derivation;

@@ -4,12 +4,13 @@ use super::error::Error;
 use super::options::CertifyOptions;
 use super::specification::Specification;
 use super::{json_text, rounded_down, rounded_up};
-use crate::certificate::{self, Certification, certificate_json, resolve, statement};
+use crate::certificate::{certificate_json, statement};
+use crate::certify::{self, Certification, Refusal, with_triple};
 use crate::derivation::condition;
 use crate::derivation::sharp::ClaimedSet;
 use crate::enclosure::{Enclosure, Truth};
 use crate::number::write_exact;
-use crate::report::{bounding_errors, filter_errors, jacobian_errors, remarks, sentence};
+use crate::report::{remarks, sentence};
 use rug::Rational;
 
 /// Certifies a specification: a Lyapunov triple for its Jacobian where it has one, the search for a small gain, and the
@@ -28,24 +29,14 @@ use rug::Rational;
 ///   those of [`Error::conditions`].
 pub fn certify(specification: &Specification, options: &CertifyOptions) -> Result<Certificate, Error> {
     let options = options.checked()?;
-    let resolved = match resolve(&specification.read) {
-        None => None,
-        Some(Ok(resolution)) => Some(resolution.spec),
-        Some(Err(failure)) => return Err(jacobian_errors(&specification.read, failure.to_string()).into()),
-    };
-    let spec = resolved.as_ref().unwrap_or(&specification.read);
-    let problems = |problems: &[certificate::BoundingProblem]| {
-        Error::documents(&problems.iter().map(|problem| bounding_errors(spec, problem)).collect::<Vec<_>>())
-    };
-    let run = certificate::certify(spec, options).map_err(|refuted| problems(&refuted))?;
-    if let Some(errors) = filter_errors(&run) {
-        return Err(errors.into());
-    }
+    let refused = |refusal: Refusal| Error::documents(&refusal.errors(&specification.read));
+    let spec = with_triple(&specification.read, None).map_err(refused)?;
+    let run = certify::certify(&spec, options).map_err(refused)?;
     if let Some(certificate) = Certificate::new(&run) {
         return Ok(certificate);
     }
     if !run.unproved_bounds.is_empty() {
-        return Err(problems(&run.unproved_bounds));
+        return Err(refused(Refusal::Bounds(run.unproved_bounds)));
     }
     Err(Error::not_certified(sentence(&run), conditions(&run)))
 }

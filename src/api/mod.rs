@@ -11,11 +11,12 @@ mod regulator;
 mod specification;
 mod transfer;
 
+pub use crate::certify::TransferChoice;
 pub use crate::spec::Bound as BoundingFunction;
 pub use certificate::{Certificate, Claim, Condition, InitialSet, PeriodicSolution, certify};
 pub use check::{CheckReport, CheckVerdict, check, check_against};
 pub use error::{Error, ErrorKind};
-pub use options::{CertifyOptions, Derivation, TransferChoice};
+pub use options::{CertifyOptions, Derivation};
 pub use regulator::{RegulatorMatrices, SampledRegulator, regulator_matrices, sampled_regulator};
 pub use specification::{JacobianEntry, Specification, SpecificationBuilder};
 pub use transfer::{TransferBound, transfer_bound};

@@ -1,7 +1,7 @@
 //! What a run of [`certify`](super::certify) does.
 
 use super::error::{Error, ErrorKind};
-use crate::certificate::{self, Ladder, Options};
+use crate::certify::{self, Ladder, Options, TransferChoice};
 use crate::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 
 /// The derivation on which a claim rests.
@@ -13,19 +13,6 @@ pub enum Derivation {
     Sharp,
     /// The architecture of the paper, with every formula repaired.
     Repaired,
-}
-
-/// Which proof of the transfer bound the sharp derivation uses. The repaired derivation always has the closed form.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum TransferChoice {
-    /// Harmonic by harmonic where the specification has a matched base frequency, by boxes otherwise.
-    #[default]
-    Best,
-    /// By boxes: valid for every base frequency.
-    Boxes,
-    /// By the closed form: valid for every base frequency, with a larger gain.
-    ClosedForm,
 }
 
 /// What a run of [`certify`](crate::certify) does. The defaults are those of the command `sigmastar certify`.
@@ -111,14 +98,10 @@ impl CertifyOptions {
         }
         Ok(Options {
             derivation: match self.derivation {
-                Derivation::Sharp => certificate::Derivation::Sharp,
-                Derivation::Repaired => certificate::Derivation::Repaired,
+                Derivation::Sharp => certify::Derivation::Sharp,
+                Derivation::Repaired => certify::Derivation::Repaired,
             },
-            transfer: match self.transfer {
-                TransferChoice::Best => certificate::TransferChoice::Best,
-                TransferChoice::Boxes => certificate::TransferChoice::Boxes,
-                TransferChoice::ClosedForm => certificate::TransferChoice::ClosedForm,
-            },
+            transfer: self.transfer,
             ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
             compare: self.compare,
         })

@@ -1,44 +1,28 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
+use super::fields::{Numbers, RefinedSquares, exact_rational, rational};
 use super::write::{FORMAT, VERSION};
-use crate::derivation::exact_regulation::ExactWitness;
+use crate::certify::GivenWitness;
 use crate::derivation::repaired::RepairedWitness;
 use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::lyapunov::ProvedTriple;
 use crate::spec::model::PeriodicMatrix;
-use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
+use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value};
 use crate::transfer::{BoxProof, TransferProof};
 use rug::Rational;
-
-/// A witness as read from a certificate.
-#[derive(Clone, Debug)]
-pub enum WitnessFile {
-    /// Of the sharp derivation, with the exact-regulation part where it is there.
-    Sharp {
-        /// The free numbers.
-        witness: Box<SharpWitness>,
-        /// Exact regulation.
-        exact: Option<ExactWitness>,
-    },
-    /// Of the repaired derivation.
-    Repaired {
-        /// The free numbers.
-        witness: Box<RepairedWitness>,
-    },
-}
 
 /// Reads the claim's numbers and the witness of a certificate file. Everything else in it (the embedded
 /// specification, the printed conditions and constants) is known and not used: it is computed again.
 ///
 /// # Errors
 /// Every field that is missing, unknown or not an exact rational, with its place.
-pub fn read_witness(document: &Document) -> Result<WitnessFile, SpecErrors> {
+pub fn read_witness(document: &Document) -> Result<GivenWitness, SpecErrors> {
     let mut errors = Errors::new();
     let outcome = read(&document.root(), &mut errors);
     errors.conclude(document, outcome)
 }
 
-fn read(root: &Value<'_>, errors: &mut Errors) -> Result<WitnessFile, Reported> {
+fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported> {
     let mut file = root.object(errors)?;
     file.header(FORMAT, &[VERSION], errors)?;
     let unused = [
@@ -135,29 +119,12 @@ fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported>
     let set = claim.required("initial_set", errors).and_then(|value| {
         let mut set = value.object(errors)?;
         let _ = set.optional("kind");
-        let (x0, e0, z0) =
-            (rational(&mut set, "X0", errors), rational(&mut set, "E0", errors), rational(&mut set, "Z0", errors));
+        let sizes = ClaimedSet::read(&mut set, errors, |_, _| Ok(()));
         set.finish(errors);
-        Ok(ClaimedSet { x0: x0?, e0: e0?, z0: z0? })
+        sizes
     });
     claim.finish(errors);
     Ok(Claim { repaired: derivation?, sigma: sigma?, set: set? })
-}
-
-/// A field that holds an exact rational number.
-fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Rational, Reported> {
-    let value = object.required(name, errors)?;
-    exact_rational(&value, &format!("`{name}`"), errors)
-}
-
-/// A value that is an exact rational number.
-fn exact_rational(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Rational, Reported> {
-    let constant = any_constant(value, errors)?;
-    constant.as_rational().cloned().ok_or_else(|| {
-        let message = format!("{what} is not a rational number");
-        let expected = "expected an exact rational, as \"487/10\" or \"48.7\"";
-        errors.report(value.error(ErrorKind::Range, message).expected(expected))
-    })
 }
 
 fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<TransferProof, Reported> {
@@ -204,55 +171,33 @@ fn read_breaks(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<Vec<Rationa
     Ok(lists)
 }
 
-fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {
-    let names = ["X_p", "E_p", "D_x", "D_e", "p_x", "p_e", "w_x", "h", "k0", "k1"];
-    let numbers = names.map(|name| rational(fields, name, errors));
-    let transfer = read_transfer(fields, errors);
-    let _ = fields.optional("lmi");
-    let exact = fields.optional("exact_regulation").map(|value| read_exact(&value, errors)).transpose();
-    let [x_p, e_p, d_x, d_e, p_x, p_e, w_x, h, k0, k1] = numbers;
-    let witness = SharpWitness {
-        sigma: claim.sigma,
-        x_p: x_p?,
-        e_p: e_p?,
-        d_x: d_x?,
-        d_e: d_e?,
-        p_x: p_x?,
-        p_e: p_e?,
-        w_x: w_x?,
-        h: h?,
-        k0: k0?,
-        k1: k1?,
-        transfer: transfer?,
-        set: claim.set,
-    };
-    Ok(WitnessFile::Sharp { witness: Box::new(witness), exact: exact? })
+fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<GivenWitness, Reported> {
+    if let Some(value) = fields.value().member("p_x").filter(|_| fields.value().member("r_x").is_none()) {
+        let message = "this witness proves existence by a contraction, as earlier versions did";
+        let error = value.error(ErrorKind::UnknownField, message).expected("expected `r_x`, `r_e`, `r_d`, `kap`");
+        return Err(errors.report(error.help("proofs-check decides it as it is; `certify` writes a new one")));
+    }
+    let mut exact = Ok(None);
+    let witness = SharpWitness::read(fields, errors, |fields, errors| {
+        let transfer = read_transfer(fields, errors);
+        let _ = fields.optional("lmi");
+        exact = fields.optional("exact_regulation").map(|value| read_part(&value, errors)).transpose();
+        let refined = fields.optional("refined").map(|value| read_part::<RefinedSquares>(&value, errors)).transpose();
+        Ok((claim.sigma, claim.set, transfer?, refined?))
+    });
+    Ok(GivenWitness::Sharp { witness: Box::new(witness?), exact: exact? })
 }
 
-fn read_exact(value: &Value<'_>, errors: &mut Errors) -> Result<ExactWitness, Reported> {
+/// A part that consists of numbers alone.
+fn read_part<N: Numbers<Other = ()>>(value: &Value<'_>, errors: &mut Errors) -> Result<N, Reported> {
     let mut fields = value.object(errors)?;
-    let [sigma, d_x, d_e, w_x, h] =
-        ["sigma_star_oo", "D_x", "D_e", "w_x", "h"].map(|name| rational(&mut fields, name, errors));
+    let part = N::read(&mut fields, errors, |_, _| Ok(()));
     fields.finish(errors);
-    Ok(ExactWitness { sigma: sigma?, d_x: d_x?, d_e: d_e?, w_x: w_x?, h: h? })
+    part
 }
 
-fn read_repaired(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<WitnessFile, Reported> {
-    let numbers = ["X", "E", "L", "h", "p_x", "p_e", "k0", "k1"].map(|name| rational(fields, name, errors));
-    let transfer = read_transfer(fields, errors);
-    let [x, e, level, h, p_x, p_e, k0, k1] = numbers;
-    let witness = RepairedWitness {
-        sigma: claim.sigma,
-        x: x?,
-        e: e?,
-        level: level?,
-        h: h?,
-        p_x: p_x?,
-        p_e: p_e?,
-        k0: k0?,
-        k1: k1?,
-        transfer: transfer?,
-        set: claim.set,
-    };
-    Ok(WitnessFile::Repaired { witness: Box::new(witness) })
+fn read_repaired(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<GivenWitness, Reported> {
+    let other =
+        |fields: &mut Object<'_>, errors: &mut Errors| Ok((claim.sigma, claim.set, read_transfer(fields, errors)?));
+    Ok(GivenWitness::Repaired { witness: Box::new(RepairedWitness::read(fields, errors, other)?) })
 }

@@ -1,13 +1,11 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
-use super::lyapunov::lyapunov_json;
-use super::no_plant::{ExceededBy, NoPlant};
-use super::run::{Certification, Derivation};
+use super::fields::Numbers;
+use super::triple::lyapunov_json;
+use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
-use crate::derivation::exact_regulation::ExactWitness;
-use crate::derivation::repaired::RepairedWitness;
-use crate::derivation::sharp::{ClaimedSet, SharpWitness};
+use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::table::{At, Entry, Row, Value as Cell};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational, write_exact};
@@ -25,7 +23,7 @@ pub const VERSION: u64 = 1;
 const CLAIM_DIGITS: u32 = 12;
 
 /// An object from pairs, in their order.
-fn object<const N: usize>(fields: [(&str, Value); N]) -> Value {
+fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
     Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
@@ -55,8 +53,8 @@ fn upper_end(value: &Enclosure) -> Value {
 /// again without any search. No time stamps and no paths.
 #[must_use]
 pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
-    let sigma = run.sigma_star()?;
-    let set = run.claimed_set()?;
+    let claimed = run.claim()?;
+    let (sigma, set) = (claimed.sigma, claimed.set);
     let [x, e, zeta, z] = run.periodic_solution()?;
     let spec = run.spec;
     let mu = &spec.internal_model.mu;
@@ -74,31 +72,27 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("statement", text(statement(run, sigma, set))),
     ]);
     let regulation = run.exact.as_ref().map(|claim| &claim.witness);
-    let sharp =
-        run.sharp.proved().map(|proof| (proof.precision, &proof.witness, sharp_json(&proof.witness, regulation)));
-    let repaired = run.repaired.proved().map(|proof| (proof.precision, &proof.witness, repaired_json(&proof.witness)));
+    let sharp = run.sharp.proved().map(|proof| {
+        let refined = proof.witness.refined.as_ref().map(|refined| ("refined", object(refined.json())));
+        let regulation = regulation.map(|regulation| ("exact_regulation", object(regulation.json())));
+        with_witness(proof, refined.into_iter().chain(regulation))
+    });
+    let repaired = run.repaired.proved().map(|proof| with_witness(proof, []));
     // The free numbers of the other derivation, without which its column of the constants could not be checked.
-    let (witness, precision, comparison, transfer) = match run.options.derivation {
-        Derivation::Sharp => {
-            let (precision, main, witness) = sharp?;
-            let other = repaired.map(|(_, w, witness)| ("repaired", comparison_json(&w.sigma, &w.set, witness)));
-            let first = first_comparison(&Data::new(spec, precision), [&main.k0, &main.k1], &main.transfer);
-            (witness, precision, other, first)
-        }
-        Derivation::Repaired => {
-            let (precision, main, witness) = repaired?;
-            let other = sharp.map(|(_, w, witness)| ("sharp", comparison_json(&w.sigma, &w.set, witness)));
-            let first = first_comparison(&Data::new(spec, precision), [&main.k0, &main.k1], &main.transfer);
-            (witness, precision, other, first)
-        }
-        Derivation::Printed => return None,
-    };
+    let (main, other): (Vec<_>, Vec<_>) =
+        [sharp, repaired].into_iter().flatten().partition(|(proof, _)| proof.derivation == claimed.derivation);
+    let (_, mut witness) = main.into_iter().next()?;
+    let comparison = other.into_iter().map(|(proof, witness)| {
+        let part =
+            [("sigma_star", exact(proof.sigma)), ("initial_set", object(proof.set.json())), ("witness", witness)];
+        ("comparison".to_owned(), object([(proof.derivation.name(), object(part))]))
+    });
+    let transfer = first_comparison(&Data::new(spec, claimed.precision), &claimed);
     let conditions: Vec<Condition> = run
         .conditions()
         .iter()
         .map(|condition| if condition.id == "T" { transfer.clone() } else { condition.clone() })
         .collect();
-    let mut witness = witness;
     if let Value::Object(fields) = &mut witness {
         fields.extend(lyapunov_json(spec).map(|value| ("lyapunov".to_owned(), value)));
         fields.extend(multipliers_json(run).map(|value| ("lmi".to_owned(), value)));
@@ -107,7 +101,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("format", text(FORMAT)),
         ("version", Value::from(VERSION)),
         ("tool", object([("name", text(env!("CARGO_PKG_NAME"))), ("version", text(env!("CARGO_PKG_VERSION")))])),
-        ("precision_bits", Value::from(precision)),
+        ("precision_bits", Value::from(claimed.precision)),
         ("specification", spec.document.clone()),
         ("specification_sha256", text(spec.sha256.clone())),
         ("claim", claim),
@@ -116,7 +110,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     // The object was made above.
     if let Value::Object(fields) = &mut certificate {
         fields.extend(run.no_plant.as_ref().map(|reason| ("no_plant".to_owned(), no_plant_json(reason))));
-        fields.extend(comparison.map(|(name, part)| ("comparison".to_owned(), object([(name, part)]))));
+        fields.extend(comparison);
         fields.insert("conditions".to_owned(), conditions_json(&conditions));
         fields.insert("constants".to_owned(), constants_json(&checkable(&run.constants)));
     }
@@ -151,7 +145,8 @@ fn multipliers_json(run: &Certification<'_>) -> Option<Value> {
 ///
 /// A certificate shows this one, not the tightest: the two sides of a box are no numbers that a checker with other
 /// enclosures could find again.
-fn first_comparison(data: &Data<'_>, [k0, _]: [&Rational; 2], proof: &TransferProof) -> Condition {
+fn first_comparison(data: &Data<'_>, claim: &Decided<'_>) -> Condition {
+    let (proof, [k0, _]) = (claim.transfer, claim.pair);
     let at_zero = || data.transfer_at_zero();
     let (what, lhs) = match proof {
         TransferProof::ClosedForm => ("closed form of k0", closed_form_pair(data).0),
@@ -159,12 +154,6 @@ fn first_comparison(data: &Data<'_>, [k0, _]: [&Rational; 2], proof: &TransferPr
         TransferProof::Boxes(_) => ("T_N(0) = 1/(nu^2 n_0) <= k0", at_zero()),
     };
     Condition::at_most("T", format!("transfer bound, {}: {what}", proof.name()), lhs, data.rational(k0))
-}
-
-/// A witness of the derivation that the claim is not about.
-fn comparison_json(sigma: &Rational, set: &ClaimedSet, witness: Value) -> Value {
-    let set = object([("X0", exact(&set.x0)), ("E0", exact(&set.e0)), ("Z0", exact(&set.z0))]);
-    object([("sigma_star", exact(sigma)), ("initial_set", set), ("witness", witness)])
 }
 
 /// The rows without the printed figures at the paper's own free numbers. No claim rests on them, and their free numbers
@@ -221,7 +210,7 @@ fn set_json(asked: &InitialSet, set: &ClaimedSet) -> Value {
         InitialSet::AtRest { .. } => "at-rest",
         InitialSet::Box { .. } => "box",
     };
-    object([("kind", text(kind)), ("X0", exact(&set.x0)), ("E0", exact(&set.e0)), ("Z0", exact(&set.z0))])
+    object([("kind", text(kind))].into_iter().chain(set.json()))
 }
 
 fn transfer_json(proof: &TransferProof) -> Value {
@@ -240,47 +229,14 @@ fn transfer_json(proof: &TransferProof) -> Value {
     }
 }
 
-fn sharp_json(witness: &SharpWitness, regulation: Option<&ExactWitness>) -> Value {
-    let mut fields = Map::new();
-    let numbers = [
-        ("X_p", &witness.x_p),
-        ("E_p", &witness.e_p),
-        ("D_x", &witness.d_x),
-        ("D_e", &witness.d_e),
-        ("p_x", &witness.p_x),
-        ("p_e", &witness.p_e),
-        ("w_x", &witness.w_x),
-        ("h", &witness.h),
-        ("k0", &witness.k0),
-        ("k1", &witness.k1),
-    ];
-    fields.extend(numbers.map(|(name, value)| (name.to_owned(), exact(value))));
-    fields.insert("transfer".to_owned(), transfer_json(&witness.transfer));
-    if let Some(regulation) = regulation {
-        let part = object([
-            ("sigma_star_oo", exact(&regulation.sigma)),
-            ("D_x", exact(&regulation.d_x)),
-            ("D_e", exact(&regulation.d_e)),
-            ("w_x", exact(&regulation.w_x)),
-            ("h", exact(&regulation.h)),
-        ]);
-        fields.insert("exact_regulation".to_owned(), part);
-    }
-    Value::Object(fields)
-}
-
-fn repaired_json(witness: &RepairedWitness) -> Value {
-    object([
-        ("X", exact(&witness.x)),
-        ("E", exact(&witness.e)),
-        ("L", exact(&witness.level)),
-        ("h", exact(&witness.h)),
-        ("p_x", exact(&witness.p_x)),
-        ("p_e", exact(&witness.p_e)),
-        ("k0", exact(&witness.k0)),
-        ("k1", exact(&witness.k1)),
-        ("transfer", transfer_json(&witness.transfer)),
-    ])
+/// A proof with its witness as JSON: the numbers, the transfer proof, and what is proved beside.
+fn with_witness<'p, W: Witness + Numbers>(
+    proof: &'p Proof<W>,
+    beside: impl IntoIterator<Item = (&'static str, Value)>,
+) -> (Decided<'p>, Value) {
+    let decided = proof.decided();
+    let transfer = ("transfer", transfer_json(decided.transfer));
+    (decided, object(proof.witness.json().into_iter().chain([transfer]).chain(beside)))
 }
 
 /// Conditions with outward-rounded sides, and the margin rounded down.

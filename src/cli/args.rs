@@ -2,7 +2,7 @@
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
-use sigmastar::certificate::{Derivation, Ladder, Options, TransferChoice};
+use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
 use sigmastar::simulate::MAX_FIXED_STEPS;

@@ -5,11 +5,11 @@ use super::failure::Failure;
 use super::input;
 use super::output::{self, Input, OutputFile};
 use super::progress::{Audience, Working};
-use sigmastar::certificate::{
-    Certification, certificate_json, certify, read_lyapunov, read_witness, recheck, resolve, resolve_with,
-};
-use sigmastar::report::{Report, TargetKind, bounding_errors, filter_errors, jacobian_errors};
+use sigmastar::certificate::{certificate_json, read_lyapunov, read_witness};
+use sigmastar::certify::{Certification, certify, recheck, with_triple};
+use sigmastar::report::{Report, TargetKind};
 use sigmastar::spec::{Document, SpecErrors, Specification};
+use std::borrow::Cow;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &CertifyArgs) -> u8 {
@@ -33,11 +33,9 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         let message = "the specification and the witness cannot be the same file";
         return Err(Failure::call(message, "--witness names a certificate written with -o"));
     }
-    let mut spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
     let witness = args.witness.as_deref().map(input::document).transpose()?;
-    if let Some(proved) = triple(&spec, witness.as_ref(), args.quiet)? {
-        spec = proved;
-    }
+    let spec = triple(&spec, witness.as_ref(), args.quiet)?;
 
     let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
     let working = Working::new("searching the free numbers, deciding the conditions", audience);
@@ -53,12 +51,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         }
     };
     drop(working);
-    let run = run.map_err(|problems| {
-        Failure::Documents(problems.iter().map(|problem| bounding_errors(&spec, problem)).collect())
-    })?;
-    if let Some(errors) = filter_errors(&run) {
-        return Err(errors.into());
-    }
+    let run = run.map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
     let report = Report::new(&run, &targets).rechecked(args.witness.is_some());
     let text = output::report(&report, args.format);
     if let Some(file) = &output {
@@ -67,30 +60,23 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     if let Err(code) = output::data(&text) {
         return Ok(code);
     }
-    let unproved: Vec<SpecErrors> = run.unproved_bounds.iter().map(|problem| bounding_errors(&spec, problem)).collect();
+    let unproved: Vec<SpecErrors> = run.unproved_bounds.iter().map(|problem| problem.errors(&spec)).collect();
     if !unproved.is_empty() && args.format != Format::Json {
         output::diagnostics(&unproved);
     }
     Ok(run.verdict.exit_code())
 }
 
-/// The specification with a proved triple, where it has a Jacobian: that of the witness, or one that is found.
-pub(super) fn triple(
-    spec: &Specification,
+/// The specification with a proved triple: where it has a Jacobian, that of the witness, or one that is found.
+pub(super) fn triple<'s>(
+    spec: &'s Specification,
     witness: Option<&Document>,
     quiet: bool,
-) -> Result<Option<Specification>, Failure> {
-    if spec.lyapunov.triple().is_some() {
-        return Ok(None);
-    }
-    let _working = seeking_triple(quiet);
-    let outcome = match witness {
-        Some(document) => {
-            resolve_with(spec, &read_lyapunov(document)?).map(|outcome| outcome.map_err(|failure| failure.to_string()))
-        }
-        None => resolve(spec).map(|found| found.map(|found| found.spec).map_err(|failure| failure.to_string())),
-    };
-    outcome.transpose().map_err(|message| jacobian_errors(spec, message).into())
+) -> Result<Cow<'s, Specification>, Failure> {
+    let wanted = spec.lyapunov.triple().is_none();
+    let _working = wanted.then(|| seeking_triple(quiet));
+    let given = witness.filter(|_| wanted).map(read_lyapunov).transpose()?;
+    with_triple(spec, given.as_ref()).map_err(|refusal| Failure::Documents(refusal.errors(spec)))
 }
 
 /// Says that a triple is sought, where that takes long.

@@ -4,7 +4,7 @@ use super::args::{ControllerArgs, ControllerFormat, Format};
 use super::failure::Failure;
 use super::input;
 use super::output::{self, Input, OutputFile, shown, write_together};
-use sigmastar::certificate::{WitnessFile, read_witness};
+use sigmastar::certificate::read_witness;
 use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar::number::write_exact;
 use sigmastar::regulator::export::{self, CSources, Export};
@@ -127,20 +127,18 @@ fn remarks(regulator: &Regulator, discrete: &Discrete, sampled: SampledLoop) {
 
 /// Says where the certificate does not speak of this regulator.
 fn compare(document: &Document, spec: &Specification, sigma: &Constant) -> Result<(), Failure> {
-    let sigma_star = match read_witness(document)? {
-        WitnessFile::Sharp { witness, .. } => witness.sigma,
-        WitnessFile::Repaired { witness } => witness.sigma,
-    };
+    let witness = read_witness(document)?;
+    let sigma_star = witness.sigma();
     let digest = document.at("/specification_sha256");
     if digest.is_none_or(|digest| digest.text() != Some(&spec.sha256)) {
         output::remark("the certificate was made for another specification: it says nothing about this regulator");
     }
     let sigma = sigma.enclose(DEFAULT_PRECISION);
-    if !sigma.ge(&Enclosure::from_rational(&sigma_star, DEFAULT_PRECISION)).is_true() {
+    if !sigma.ge(&Enclosure::from_rational(sigma_star, DEFAULT_PRECISION)).is_true() {
         output::remark(&format!(
             "sigma = {} is below sigma* = {} of the certificate: nothing is certified with it",
             sigma.midpoint_f64(),
-            write_exact(&sigma_star)
+            write_exact(sigma_star)
         ));
     }
     Ok(())

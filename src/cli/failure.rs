@@ -2,7 +2,7 @@
 
 use super::args::Format;
 use super::output;
-use sigmastar::certificate::Verdict;
+use sigmastar::certify::Verdict;
 use sigmastar::report::{FORMAT, VERSION, failure_json};
 use sigmastar::spec::SpecErrors;
 

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::input;
 use super::output::{self, Input, OutputFile};
 use super::progress::Bar;
-use sigmastar::certificate::Verdict;
+use sigmastar::certify::Verdict;
 use sigmastar::falsify::{
     Claim, Finding, FrequencyError, Outcome, Settings, counterexample_plant, falsify, json, text, with_base_frequency,
 };

@@ -4,8 +4,8 @@ use super::args::LyapunovArgs;
 use super::certify::seeking_triple;
 use super::failure::Failure;
 use super::{input, output};
-use sigmastar::certificate::resolve;
-use sigmastar::report::{LyapunovReport, jacobian_errors};
+use sigmastar::certify::{Refusal, resolve};
+use sigmastar::report::LyapunovReport;
 use sigmastar::spec::Specification;
 
 /// Runs the command and returns the exit code.
@@ -22,7 +22,8 @@ fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
     let working = seeking_triple(false);
     let resolution = resolve(&spec).ok_or_else(given)?;
     drop(working);
-    let resolution = resolution.map_err(|failure| jacobian_errors(&spec, failure.to_string()))?;
+    let resolution =
+        resolution.map_err(|failure| Failure::Documents(Refusal::Jacobian(failure.to_string()).errors(&spec)))?;
     let report = LyapunovReport::new(resolution).ok_or_else(given)?;
     let text = output::report(&report, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| 0))

@@ -21,7 +21,7 @@ mod transfer;
 
 use args::{Cli, Command, command};
 use clap::FromArgMatches;
-use sigmastar::certificate::Verdict;
+use sigmastar::certify::Verdict;
 use std::process::ExitCode;
 
 /// Runs the command of the process's arguments and returns its exit code.

@@ -3,7 +3,7 @@
 use super::args::Format;
 use super::failure::Failure;
 use super::temporary::{Temporary, place};
-use sigmastar::certificate::Verdict;
+use sigmastar::certify::Verdict;
 use sigmastar::report::Readable;
 use sigmastar::spec::SpecErrors;
 use std::io::{self, ErrorKind, IsTerminal, Write};

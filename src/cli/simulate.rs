@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::input;
 use super::output::{self, Input, OutputFile, shown};
 use super::progress::Bar;
-use sigmastar::certificate::Verdict;
+use sigmastar::certify::Verdict;
 use sigmastar::plant::Plant;
 use sigmastar::regulator::{Design, Regulator, read_regulator};
 use sigmastar::simulate::{

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::input;
 use super::output::{self, Input, OutputFile};
 use super::progress::Bar;
-use sigmastar::certificate::Verdict;
+use sigmastar::certify::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
 use sigmastar::progress::Progress;
 use sigmastar::report::{PairChoice, TransferReport, TransferRequest};

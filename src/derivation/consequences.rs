@@ -1,7 +1,6 @@
 //! What a certificate says about the regulated error (derivation, section 6).
 
 use super::existence::{PeriodicBounds, x_per_gain};
-use super::sharp::SharpEvaluation;
 use crate::data::Data;
 use crate::enclosure::Enclosure;
 use rug::Rational;
@@ -24,16 +23,6 @@ pub struct Excitation {
 }
 
 impl Excitation {
-    /// That of a sharp evaluation. Hypotheses: S1, S2 (and S3).
-    #[must_use]
-    pub fn sharp(evaluation: &SharpEvaluation) -> Excitation {
-        Excitation {
-            q_rms: evaluation.periodic.forcing.q_rms.clone(),
-            q_rate_rms: evaluation.periodic.forcing.q_rate_rms.clone(),
-            x_gain: evaluation.bounds.x_gain.clone(),
-        }
-    }
-
     /// That of section 4. Hypotheses: C1-C3, which the repaired conditions imply.
     #[must_use]
     pub fn by_contraction(data: &Data<'_>, bounds: &PeriodicBounds<Enclosure>) -> Excitation {

@@ -1,6 +1,7 @@
 //! The sharp derivation: conditions S1, S2, C4, C5 decided from a rational witness (derivation, sections 5 and 10).
 
 use super::condition::{self, Condition};
+use super::consequences::Excitation;
 use super::contraction::ContractionMatrix;
 use super::harmonics::AtOrigin;
 use super::initial_set::{distances, set_conditions};
@@ -45,12 +46,16 @@ pub struct SharpWitness {
     pub x_p: Rational,
     /// E_p > 0.
     pub e_p: Rational,
-    /// r_x, r_e, r_d > 0, with which existence is proved.
-    pub squares: MeanSquares<Rational>,
+    /// r_x > 0.
+    pub r_x: Rational,
+    /// r_e > 0.
+    pub r_e: Rational,
+    /// r_d > 0.
+    pub r_d: Rational,
     /// kap >= 0: how much of dq/de the map of the existence proof takes into its linear part; with 0 the form is that of
     /// 10.3, else that of 10.4.
     pub kap: Rational,
-    /// Smaller r_x, r_e, r_d > 0, which hold at the periodic solution; those of existence serve without.
+    /// Smaller r_x, r_e, r_d > 0, which hold at the periodic solution; those of existence, above, serve without.
     pub refined: Option<MeanSquares<Rational>>,
     /// D_x > 0.
     pub d_x: Rational,
@@ -70,6 +75,23 @@ pub struct SharpWitness {
     pub set: ClaimedSet,
 }
 
+impl SharpWitness {
+    /// r_x, r_e, r_d, with which existence is proved.
+    #[must_use]
+    pub fn squares(&self) -> MeanSquares<&Rational> {
+        MeanSquares { x: &self.r_x, e: &self.r_e, e_rate: &self.r_d }
+    }
+
+    /// r_x, r_e, r_d of the periodic solution.
+    #[must_use]
+    pub fn squares_at_the_solution(&self) -> MeanSquares<&Rational> {
+        match &self.refined {
+            Some(MeanSquares { x, e, e_rate }) => MeanSquares { x, e, e_rate },
+            None => self.squares(),
+        }
+    }
+}
+
 /// Everything the sharp derivation computes from a witness.
 #[derive(Clone, Debug)]
 pub struct SharpEvaluation {
@@ -81,6 +103,8 @@ pub struct SharpEvaluation {
     pub squares: MeanSquares<Enclosure>,
     /// R_q, R_1, e_per and x_per at sigma.
     pub periodic: PeriodicSize<Enclosure>,
+    /// What drives the periodic error.
+    pub excitation: Excitation,
     /// Z.
     pub z: Enclosure,
     /// The contraction matrix in mean squares: where its spectral radius is below 1, the periodic solution is the only one in
@@ -108,7 +132,7 @@ impl SharpEvaluation {
         let origin = AtOrigin::new(data);
         let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
         let gains = ErrorGains::new(data, &sigma);
-        let squares = witness.refined.as_ref().unwrap_or(&witness.squares).map(number);
+        let squares = witness.squares_at_the_solution().map(|value| number(value));
         let periodic = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
         let z = periodic.z_squared(data, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
 
@@ -150,7 +174,12 @@ impl SharpEvaluation {
             sigma.clone(),
         ));
         let contraction = uniqueness::contraction(data, &bounds, &gains);
-        SharpEvaluation { sigma, bounds, squares, periodic, z, contraction, error_box, decay, conditions }
+        let excitation = Excitation {
+            q_rms: periodic.forcing.q_rms.clone(),
+            q_rate_rms: periodic.forcing.q_rate_rms.clone(),
+            x_gain: bounds.x_gain.clone(),
+        };
+        SharpEvaluation { sigma, bounds, squares, periodic, excitation, z, contraction, error_box, decay, conditions }
     }
 
     /// The truth of all conditions together.
@@ -166,9 +195,9 @@ fn signs(data: &Data<'_>, witness: &SharpWitness) -> Vec<Condition> {
         ("sigma", &witness.sigma),
         ("X_p", &witness.x_p),
         ("E_p", &witness.e_p),
-        ("r_x", &witness.squares.x),
-        ("r_e", &witness.squares.e),
-        ("r_d", &witness.squares.e_rate),
+        ("r_x", &witness.r_x),
+        ("r_e", &witness.r_e),
+        ("r_d", &witness.r_d),
         ("D_x", &witness.d_x),
         ("D_e", &witness.d_e),
         ("w_x", &witness.w_x),
@@ -200,7 +229,7 @@ fn existence_conditions(
     origin: &AtOrigin<Enclosure>,
     gains: &ErrorGains<Enclosure>,
 ) -> Vec<Condition> {
-    let squares = witness.squares.map(|value: &Rational| data.rational(value));
+    let squares = witness.squares().map(|value| data.rational(value));
     let kap = (witness.kap != 0).then(|| data.rational(&witness.kap));
     let mut conditions = vec![
         Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),

@@ -1,11 +1,13 @@
 //! What a certificate claims, as a simulation can check it.
 
-use crate::certificate::{Derivation, WitnessFile, read_lyapunov, read_witness, resolve_with};
+use crate::certificate::{StatedClaim, read_claim};
+use crate::certify::{Derivation, GivenWitness};
 use crate::data::Data;
-use crate::derivation::consequences::{ErrorBounds, Psi, error_bounds};
+use crate::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds};
 use crate::derivation::existence::PeriodicBounds;
-use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
-use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
+use crate::derivation::sharp::SharpEvaluation;
+use crate::enclosure::DEFAULT_PRECISION;
+use crate::spec::{Constant, Document, SpecErrors, Specification};
 use rug::Rational;
 
 /// The claim of a certificate in double precision.
@@ -33,65 +35,32 @@ pub struct Claim {
     pub psi: [f64; 2],
     /// The arguments up to which plants lie within the bounding functions: the domain, or what the claim rests on.
     pub reach: [Rational; 2],
-    witness: [Rational; 2],
+    /// What drives the periodic error, and E_p.
+    drive: Option<(Excitation, Rational)>,
 }
 
 impl Claim {
-    /// Reads the claim, the witness and the specification of a certificate. What a falsified certificate says is taken
-    /// as it is; only a triple for a Jacobian is proved again, because the matrices that are drawn rest on it.
+    /// The claim of a certificate, as [`read_claim`] reads it; the matrices that are drawn rest on its proved triple.
     ///
     /// # Errors
-    /// What cannot be read, in its place, and a triple that is not proved.
+    /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<Claim, SpecErrors> {
-        let witness = read_witness(document)?;
-        let mut errors = Errors::new();
-        let root = document.root();
-        let Some(embedded) = document.at("/specification") else {
-            let error = root.error(ErrorKind::MissingField, "the field `specification` is missing");
-            let reported: Result<Claim, Reported> = Err(errors.report(error));
-            return errors.conclude(document, reported);
-        };
-        let mut spec = Specification::from_value(&embedded)?;
-        if spec.lyapunov.triple().is_none() {
-            let triple = read_lyapunov(document)?;
-            let place = document.at("/witness/lyapunov").unwrap_or(root.clone());
-            spec = match resolve_with(&spec, &triple) {
-                Some(Ok(proved)) => proved,
-                Some(Err(failure)) => {
-                    let error = place.error(ErrorKind::Range, format!("this triple is not proved: {failure}"));
-                    let error = error.help("`sigmastar check` decides the certificate");
-                    let reported: Result<Claim, Reported> = Err(errors.report(error));
-                    return errors.conclude(document, reported);
-                }
-                None => spec,
-            };
-        }
-        let stated =
-            ["x", "e", "zeta", "z"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
-                Some(value) => bound(&value, &mut errors),
-                None => {
-                    let message = format!("the bound `periodic_solution.{name}` is missing");
-                    Err(errors.report(root.error(ErrorKind::MissingField, message)))
-                }
-            });
-        let [x, e, zeta, z] = stated;
-        let stated = x.and_then(|x| Ok([x, e?, zeta?, z?]));
-        let stated = errors.conclude(document, stated)?;
-        Ok(Claim::new(spec, &witness, stated))
+        read_claim(document).map(Claim::new)
     }
 
-    fn new(spec: Specification, witness: &WitnessFile, [x, e, zeta, z]: [f64; 4]) -> Claim {
+    fn new(stated: StatedClaim) -> Claim {
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, z] } = stated;
         let data = Data::new(&spec, DEFAULT_PRECISION);
         let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
-        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match witness {
-            WitnessFile::Sharp { witness, .. } => {
+        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
+            GivenWitness::Sharp { witness, .. } => {
                 let radii = [witness.d_x.to_f64(), witness.d_e.to_f64()];
                 let w_x = witness.w_x.to_f64();
                 let lyapunov = Some([w_x * p_low, w_x * p_up, witness.h.to_f64()]);
                 let periodic = [&witness.x_p, &witness.e_p];
                 (Derivation::Sharp, &witness.sigma, &witness.set, periodic, radii, lyapunov)
             }
-            WitnessFile::Repaired { witness } => {
+            GivenWitness::Repaired { witness } => {
                 let level = witness.level.to_f64();
                 let radii = [(level / p_low).sqrt(), level.sqrt()];
                 let periodic = [&witness.x, &witness.e];
@@ -107,12 +76,16 @@ impl Claim {
                 Rational::from_f64((per + radius).max(p.to_f64()) * 1.001).unwrap_or_else(|| Rational::from(1))
             }),
         };
-        let psi = {
-            let psi = Psi::new(&data, &PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p)));
-            [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]
+        let excitation = match &witness {
+            GivenWitness::Sharp { witness, .. } => SharpEvaluation::new(&data, witness).excitation,
+            GivenWitness::Repaired { .. } => {
+                Excitation::by_contraction(&data, &PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p)))
+            }
         };
-        let (sigma, witness) = (sigma.to_f64(), [x_p.clone(), e_p.clone()]);
-        Claim { spec, derivation, sigma, initial, periodic, periodic_z: z, error_box, lyapunov, psi, reach, witness }
+        let psi = Psi::new(&data, &excitation);
+        let psi = [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()];
+        let (sigma, drive) = (sigma.to_f64(), Some((excitation, e_p.clone())));
+        Claim { spec, derivation, sigma, initial, periodic, periodic_z: z, error_box, lyapunov, psi, reach, drive }
     }
 
     /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*, for a matched base frequency.
@@ -122,11 +95,9 @@ impl Claim {
             return None;
         }
         let data = Data::new(&self.spec, DEFAULT_PRECISION);
-        let [x_p, e_p] = &self.witness;
-        let bounds = PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p));
+        let (excitation, e_p) = self.drive.as_ref()?;
         let sigma = data.rational(&Rational::from_f64(sigma)?);
-        let e_per: Enclosure = bounds.state.e_p.clone();
-        let ErrorBounds { rms, sup } = error_bounds(&data, &bounds, &sigma, &e_per, u64::from(n_o));
+        let ErrorBounds { rms, sup } = error_bounds(&data, excitation, &sigma, &data.rational(e_p), u64::from(n_o));
         Some([rms.upper_f64(), sup.upper_f64()])
     }
 
@@ -134,23 +105,15 @@ impl Claim {
     #[cfg(test)]
     pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> Claim {
         let reach = reach.map(|end| Rational::from_f64(end).unwrap());
-        let witness = [Rational::new(), Rational::new()];
+        let drive = None;
         let (initial, periodic, error_box) = ([0.0; 3], [0.0; 3], [0.0; 2]);
         let (periodic_z, lyapunov, psi) = (0.0, None, [0.0; 2]);
         let derivation = Derivation::Sharp;
-        Claim { spec, derivation, sigma: 1.0, initial, periodic, periodic_z, error_box, lyapunov, psi, reach, witness }
+        Claim { spec, derivation, sigma: 1.0, initial, periodic, periodic_z, error_box, lyapunov, psi, reach, drive }
     }
 }
 
 /// The end of the domain, which the reader has seen to be positive and bounded.
 fn data_end(constant: &Constant) -> Rational {
     constant.enclose(DEFAULT_PRECISION).upper_rational().unwrap_or_else(|| Rational::from(1))
-}
-
-/// An upper end of the claim; `inf` where there is none.
-fn bound(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
-    if value.text() == Some("inf") {
-        return Ok(f64::INFINITY);
-    }
-    any_constant(value, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)
 }

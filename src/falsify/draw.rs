@@ -6,7 +6,7 @@ use super::jacobian::{self, Clock};
 use super::membership::respects;
 use super::random::Random;
 use super::shape::{Factor, Number, Shape};
-use crate::certificate::has_states;
+use crate::certify::has_states;
 use crate::data::{Bound, Data};
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::expr::{Expr, Variables};

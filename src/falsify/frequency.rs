@@ -1,7 +1,8 @@
 //! The claim of a certificate at another base frequency: certified again.
 
 use super::claim::Claim;
-use crate::certificate::{Options, certificate_json, certify};
+use crate::certificate::certificate_json;
+use crate::certify::{Options, certify};
 use crate::expr::Monomial;
 use crate::spec::{Constant, Document, SpecErrors, Specification};
 use rug::Rational;

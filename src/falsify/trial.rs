@@ -6,7 +6,7 @@ use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
 use super::random::Random;
 use super::report::counterexample_plant;
-use crate::certificate::no_plant;
+use crate::certify::no_plant;
 use crate::data::Data;
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::plant::Plant;
@@ -103,8 +103,7 @@ impl Outcome {
 /// state satisfies data that speak of one.
 #[must_use]
 pub fn falsify(claim: &Claim, settings: Settings, progress: &dyn Progress) -> Outcome {
-    let [x, e] = claim.reach.clone();
-    if let Some(reason) = no_plant(&Data::new(&claim.spec, DEFAULT_PRECISION), Some(&(x, e))) {
+    if let Some(reason) = no_plant(&Data::new(&claim.spec, DEFAULT_PRECISION), Some(&claim.reach)) {
         // A plant without x would show nothing about such data.
         let findings = (0..settings.trials).map(|_| Finding::Unfinished(reason.to_string())).collect();
         return Outcome { settings, findings };

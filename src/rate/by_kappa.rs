@@ -11,7 +11,7 @@
 //! It uses C5 with the weights of the certificate, which at sigma* leave next to nothing: see [`super::inequality`].
 
 use super::oscillators::ProvedLyapunov;
-use crate::certificate::SharpProof;
+use crate::certify::SharpProof;
 use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::lmi::{DecayData, is_positive_definite, propose_multipliers, verify_decay};

@@ -12,7 +12,7 @@ pub mod oscillators;
 pub mod riccati;
 pub mod small_gain;
 
-use crate::certificate::SharpProof;
+use crate::certify::{Certification, NoPlant, SharpProof, Verdict};
 use crate::data::Data;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational};
@@ -53,6 +53,40 @@ pub struct Rates {
     pub closed_loop: Option<(Rational, Method)>,
     /// The rate that the paper's c and kappa give, proved.
     pub by_kappa: Option<Enclosure>,
+}
+
+/// Why there are no rates.
+#[derive(Clone, Debug)]
+pub enum NoRates {
+    /// Nothing is certified by the sharp derivation; the verdict.
+    NotCertified(Verdict),
+    /// No plant with a state satisfies the data: a rate of all of them would be one of a plant without x.
+    NoPlant(NoPlant),
+    /// The gain is below this sigma*.
+    BelowSigmaStar(Rational),
+}
+
+/// The [`rates`] of a certified run, with the gain they are for: sigma* where none is given.
+///
+/// # Errors
+/// [`NoRates`].
+pub fn certified_rates(
+    run: &Certification<'_>,
+    sigma: Option<Rational>,
+    n_o: &[u32],
+) -> Result<(Rational, Vec<Rates>), NoRates> {
+    let (Some(sigma_star), Some(proof)) = (run.sigma_star(), run.sharp.proved()) else {
+        return Err(NoRates::NotCertified(run.verdict));
+    };
+    if let Some(reason) = &run.no_plant {
+        return Err(NoRates::NoPlant(reason.clone()));
+    }
+    let sigma = sigma.unwrap_or_else(|| sigma_star.clone());
+    if sigma < *sigma_star {
+        return Err(NoRates::BelowSigmaStar(sigma_star.clone()));
+    }
+    let found = rates(&Data::new(run.spec, proof.precision), proof, &sigma, n_o);
+    Ok((sigma, found))
 }
 
 /// The rates for several n_o at a gain `sigma >= sigma*`.

@@ -2,7 +2,7 @@
 
 use super::blocks::{Block, Table};
 use super::number::{estimate, margin, pair};
-use crate::certificate::Certification;
+use crate::certify::Certification;
 
 /// The conditions of the chosen derivation.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {

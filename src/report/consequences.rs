@@ -2,9 +2,10 @@
 
 use super::blocks::{Block, Table};
 use super::number::upper;
-use crate::certificate::{Certification, Derivation};
+use crate::certify::Certification;
 use crate::data::Data;
-use crate::derivation::consequences::{ErrorBounds, Excitation, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
+use crate::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi, error_bounds, smallest_n_o};
+use crate::enclosure::Enclosure;
 use crate::spec::Constant;
 
 /// The numbers of oscillators in the table.
@@ -68,27 +69,12 @@ impl Consequences {
     /// Guarantee: they hold for every sigma' >= sigma* and the stated n_o, along the periodic solution.
     #[must_use]
     pub fn new(run: &Certification<'_>, targets: &[Target]) -> Option<Consequences> {
-        run.sigma_star()?;
-        let precision = match run.options.derivation {
-            Derivation::Sharp => run.sharp.proved()?.precision,
-            Derivation::Repaired => run.repaired.proved()?.precision,
-            Derivation::Printed => return None,
-        };
+        let claim = run.claim()?;
+        let (excitation, [_, e_per, _], precision) = (claim.excitation, claim.periodic, claim.precision);
         let data = Data::new(run.spec, precision);
-        let (excitation, sigma, e_per) = match run.options.derivation {
-            Derivation::Sharp => {
-                let evaluation = &run.sharp.proved()?.evaluation;
-                (Excitation::sharp(evaluation), &evaluation.sigma, &evaluation.periodic.e_per)
-            }
-            Derivation::Repaired => {
-                let evaluation = &run.repaired.proved()?.evaluation;
-                // The repaired conditions imply C1-C3 with E in place of e_per.
-                (Excitation::by_contraction(&data, &evaluation.bounds), &evaluation.sigma, &evaluation.bounds.state.e_p)
-            }
-            Derivation::Printed => return None,
-        };
+        let sigma = data.rational(claim.sigma);
         let matched = run.spec.internal_model.matched;
-        let at = |n_o| error_bounds(&data, &excitation, sigma, e_per, n_o);
+        let at = |n_o| error_bounds(&data, excitation, &sigma, e_per, n_o);
         let by_n_o = if matched { N_O.map(|n_o| (n_o, at(n_o))).to_vec() } else { Vec::new() };
         let answer = |target: &Target| {
             if !matched {
@@ -102,7 +88,7 @@ impl Consequences {
             reached.map_or(TargetOutcome::NotReached, TargetOutcome::Reached)
         };
         let targets = targets.iter().map(|target| (target.clone(), answer(target))).collect();
-        Some(Consequences { psi: Psi::new(&data, &excitation), by_n_o, targets, matched })
+        Some(Consequences { psi: Psi::new(&data, excitation), by_n_o, targets, matched })
     }
 
     /// The section of the report.

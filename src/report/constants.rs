@@ -2,7 +2,7 @@
 
 use super::blocks::{Block, Table};
 use super::number::{compact, estimate};
-use crate::certificate::Certification;
+use crate::certify::Certification;
 use crate::derivation::table::{At, Entry, Row, Status, Value};
 
 /// The tables, one for each place of evaluation, with notes and sources.

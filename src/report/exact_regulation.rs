@@ -2,7 +2,7 @@
 
 use super::blocks::Block;
 use super::number::exact;
-use crate::certificate::{Certification, Verdict};
+use crate::certify::{Certification, Verdict};
 use crate::number::{Direction, write_exact};
 
 /// sigma*_oo and what it means; why there is none where there is none.

@@ -2,7 +2,7 @@
 
 use super::Report;
 use super::consequences::{Consequences, TargetKind, TargetOutcome, full};
-use super::failures::{bounding_errors, errors_json};
+use super::failures::errors_json;
 use super::matrix_checks::checks_json;
 use super::number::estimate;
 use super::obstacles::advice;
@@ -10,7 +10,8 @@ use super::relative_degree::gains_json;
 use super::remarks::remarks;
 use super::sets::Sets;
 use super::verdict::{basis, exact_arguments, largest_arguments, sentence};
-use crate::certificate::{Certification, Outcome, Verdict, conditions_json, constants_json, no_plant_json};
+use crate::certificate::{conditions_json, constants_json, no_plant_json};
+use crate::certify::{Certification, Outcome, Verdict};
 use crate::derivation::condition::Condition;
 use crate::enclosure::Enclosure;
 use crate::number::write_exact;
@@ -54,7 +55,7 @@ pub(super) fn report(report: &Report<'_>) -> Value {
         set("largest_arguments", json!({ "X": x, "E": e }));
     }
     if !run.unproved_bounds.is_empty() {
-        let errors: Vec<_> = run.unproved_bounds.iter().map(|problem| bounding_errors(run.spec, problem)).collect();
+        let errors: Vec<_> = run.unproved_bounds.iter().map(|problem| problem.errors(run.spec)).collect();
         set("errors", errors_json(&errors));
     }
     if run.verdict != Verdict::Certified {

@@ -3,7 +3,8 @@
 use super::Readable;
 use super::blocks::{Block, Table, clean};
 use super::number::estimate;
-use crate::certificate::{Resolution, matrix_json};
+use crate::certificate::matrix_json;
+use crate::certify::Resolution;
 use crate::number::write_exact;
 use crate::spec::model::{Lyapunov, LyapunovSource, PeriodicMatrix};
 use rug::Rational;

@@ -3,7 +3,7 @@
 use super::blocks::{Block, Table};
 use super::json::interval;
 use super::number::{exact, pair};
-use crate::certificate::{Certification, Derivation};
+use crate::certify::{Certification, Derivation};
 use crate::lmi::{CrossCheck, Figures};
 use crate::number::{Direction, round_f64, write_exact};
 use rug::Rational;

@@ -29,18 +29,17 @@ mod verdict;
 
 pub use consequences::{Consequences, Target, TargetKind, TargetOutcome};
 pub use errata::ErrataReport;
-pub use failures::{bounding_errors, failure_json, jacobian_errors};
+pub use failures::failure_json;
 pub use json::{FORMAT, VERSION};
 pub use lyapunov::LyapunovReport;
 pub use markdown::render as markdown;
 pub use rate::RateReport;
-pub use relative_degree::filter_errors;
 pub(crate) use remarks::remarks;
 pub use text::render as text;
 pub use transfer::{PairChoice, TransferReport, TransferRequest, plot_svg};
 pub use verdict::sentence;
 
-use crate::certificate::Certification;
+use crate::certify::Certification;
 use blocks::{Block, clean};
 
 /// A report that can be written in every format, with the same content in each.

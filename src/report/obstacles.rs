@@ -3,7 +3,7 @@
 use super::blocks::{Block, clean};
 use super::number::{pair, upper};
 use super::verdict::largest_arguments;
-use crate::certificate::{Certification, Derivation, Outcome, TransferChoice, Verdict};
+use crate::certify::{Certification, Derivation, Outcome, TransferChoice, Verdict};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::enclosure::Truth;

@@ -2,7 +2,7 @@
 
 use super::blocks::Block;
 use super::number::{compact, estimate};
-use crate::certificate::Certification;
+use crate::certify::Certification;
 
 /// Why the printed derivation gives nothing, and the figure that its other conditions would give.
 pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {

@@ -3,7 +3,7 @@
 use super::Readable;
 use super::blocks::{Block, Table, clean};
 use super::number::{estimate, exact, margin};
-use crate::certificate::Certification;
+use crate::certify::Certification;
 use crate::number::{Direction, write_exact};
 use crate::rate::{Method, Rates};
 use rug::Rational;

@@ -3,10 +3,8 @@
 use super::blocks::Block;
 use super::consequences::full;
 use super::number::upper;
-use crate::certificate::{Certification, RelativeDegreeGains};
-use crate::derivation::relative_degree::RelativeDegreeError;
+use crate::certify::{Certification, RelativeDegreeGains};
 use crate::enclosure::Enclosure;
-use crate::spec::{ErrorKind, SpecErrors};
 use serde_json::{Value, json};
 
 /// The gains of the filter e = xi_r + a_{r-1} xi_{r-1} + ... + a_1 xi_1; nothing where the specification has none.
@@ -56,14 +54,4 @@ pub(super) fn gains_json(run: &Certification<'_>) -> Value {
         }
         Some(Err(error)) => json!({ "reason": error.to_string() }),
     }
-}
-
-/// The error of a filter that is proved to be unstable, at its place in the specification.
-#[must_use]
-pub fn filter_errors(run: &Certification<'_>) -> Option<SpecErrors> {
-    let Some(Err(error @ RelativeDegreeError::NotHurwitz(_))) = &run.relative_degree else { return None };
-    let help = "the coefficients a_1, ..., a_(r-1) must make s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 stable; mind their \
-                order";
-    let message = error.to_string();
-    Some(run.spec.errors_at("/relative_degree/a", &(0..0), ErrorKind::Range, message, Some(help.to_owned())))
 }

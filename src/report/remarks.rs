@@ -1,6 +1,6 @@
 //! What the data themselves are to be looked at for; no verdict depends on it.
 
-use crate::certificate::{Certification, ExceededBy};
+use crate::certify::{Certification, ExceededBy};
 use crate::data::{Bound, Data, Problem};
 
 /// One sentence or two for each.

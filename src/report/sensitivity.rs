@@ -2,7 +2,7 @@
 
 use super::blocks::{Block, Table};
 use super::number::estimate;
-use crate::certificate::{Certification, Derivation, Verdict};
+use crate::certify::{Certification, Derivation, Verdict};
 
 /// The binding condition and the sensitivities of the sharp derivation.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {

@@ -3,7 +3,7 @@
 use super::blocks::{Block, Table};
 use super::number::{exact, upper};
 use super::verdict::{exact_arguments, largest_arguments};
-use crate::certificate::{Certification, Derivation};
+use crate::certify::Certification;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
 
@@ -19,18 +19,7 @@ impl Sets {
     /// The sets of a certified claim.
     pub(super) fn new(run: &Certification<'_>) -> Option<Sets> {
         let periodic = run.periodic_solution()?;
-        let error_box = match run.options.derivation {
-            Derivation::Sharp => {
-                let proof = run.sharp.proved()?;
-                let number = |value| Enclosure::from_rational(value, proof.precision);
-                [number(&proof.witness.d_x), number(&proof.witness.d_e)]
-            }
-            Derivation::Repaired => {
-                let point = &run.repaired.proved()?.evaluation.point;
-                [&point.x_b - &point.x, &point.e_b - &point.e]
-            }
-            Derivation::Printed => return None,
-        };
+        let error_box = run.claim()?.error_box;
         Some(Sets { periodic, error_box })
     }
 }

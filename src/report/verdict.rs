@@ -4,7 +4,7 @@ use super::blocks::{Block, clean};
 use super::number::{exact, upper};
 use super::obstacles;
 use super::remarks::remarks;
-use crate::certificate::{Certification, Derivation, Outcome, Verdict};
+use crate::certify::{Certification, Derivation, Verdict};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
 use crate::spec::model::LyapunovSource;
@@ -76,13 +76,8 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
          weights: W1 to W3."
         .to_owned(),
     );
-    let proof = match run.options.derivation {
-        Derivation::Sharp => run.sharp.proved().map(|proof| &proof.witness.transfer),
-        Derivation::Repaired => run.repaired.proved().map(|proof| &proof.witness.transfer),
-        Derivation::Printed => None,
-    };
-    items.extend(proof.map(|proof| {
-        match proof {
+    items.extend(run.claim().map(|claim| {
+        match claim.transfer {
             TransferProof::Matched { .. } => {
                 "Used: the base frequency is exactly 2 pi / period (proved of the numbers given). `--transfer boxes` does \
                  without."
@@ -102,18 +97,5 @@ pub(super) fn exact_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2]>
 
 /// The largest X and E at which the claim for every n_o uses a bounding function; upper bounds.
 pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2]> {
-    let [x, e] = match run.options.derivation {
-        Derivation::Sharp => {
-            let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.sharp else { return None };
-            let evaluation = &proof.evaluation;
-            let (x, e) = (&evaluation.error_box.x_b, &evaluation.error_box.e_b);
-            [evaluation.bounds.state.x_p.max(x), evaluation.bounds.state.e_p.max(e)]
-        }
-        Derivation::Repaired => {
-            let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &run.repaired else { return None };
-            [proof.evaluation.point.x_b.clone(), proof.evaluation.point.e_b.clone()]
-        }
-        Derivation::Printed => return None,
-    };
-    Some([x, e])
+    run.attempt().map(|attempt| attempt.arguments)
 }

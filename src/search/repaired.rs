@@ -130,11 +130,11 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
 }
 
 /// A depth below the largest E_p from an unbounded parameter: logarithmic near 0, linear beyond 1.
-fn depth_of(parameter: f64) -> f64 {
+pub(super) fn depth_of(parameter: f64) -> f64 {
     if parameter < 0.0 { parameter.portable_exp() } else { 1.0 + parameter }
 }
 
 /// The inverse of [`depth_of`].
-fn parameter_of(depth: f64) -> f64 {
+pub(super) fn parameter_of(depth: f64) -> f64 {
     if depth < 1.0 { depth.portable_ln() } else { depth - 1.0 }
 }

@@ -341,7 +341,7 @@ impl<'d> Value<'d> {
     }
 
     /// The member of an object, if the value is one and has it.
-    pub(super) fn member(&self, name: &str) -> Option<Value<'d>> {
+    pub(crate) fn member(&self, name: &str) -> Option<Value<'d>> {
         self.raw_members().iter().find(|member| member.key == name).map(|member| self.of_member(member))
     }
 

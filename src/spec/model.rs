@@ -121,7 +121,7 @@ pub struct KnownForcing {
 pub enum LyapunovSource {
     /// The user vouches for it.
     Given(Lyapunov),
-    /// It is to be found and proved for this Jacobian (`certificate::resolve`). Until then there is no triple, and nothing
+    /// It is to be found and proved for this Jacobian (`certify::resolve`). Until then there is no triple, and nothing
     /// that needs one is decided.
     Wanted(Jacobian),
     /// It was proved for this Jacobian, with this P_x(t).

@@ -2,7 +2,7 @@
 //! user's X_0, E_0, certifies.
 
 use proptest::prelude::*;
-use sigmastar::certificate::{Derivation, Options, Verdict, certify};
+use sigmastar::certify::{Derivation, Options, Verdict, certify};
 use sigmastar::lmi::{CrossCheck, CrossCheckError};
 use sigmastar::spec::Specification;
 

@@ -2,7 +2,8 @@
 
 use crate::support::{program, specification, specification_text};
 use predicates::str::{contains, is_empty, starts_with};
-use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify};
+use sigmastar::certificate::certificate_json;
+use sigmastar::certify::{Derivation, Options, TransferChoice, certify};
 use sigmastar::spec::Specification;
 
 /// The certificate of a shipped specification.

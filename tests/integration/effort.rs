@@ -3,7 +3,7 @@
 use crate::support::{EXAMPLE_TEXT, PLANT_TEXT, program};
 use rug::Rational;
 use serde_json::{Value, json};
-use sigmastar::certificate::{MAX_SEARCHES, Outcome, certify, prove_up_to, resolve};
+use sigmastar::certify::{MAX_SEARCHES, Outcome, certify, prove_up_to, resolve};
 use sigmastar::enclosure::{Enclosure, MAX_EXACT_EXPONENT};
 use sigmastar::expr::{BoundingFailure, Expr, ProofSettings, Reason, Variables, prove_bounding};
 use sigmastar::lyapunov::MAX_PROGRAM_COST;

@@ -3,7 +3,8 @@
 
 use assert_cmd::Command;
 use serde_json::{Map, Value, json};
-use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify, resolve};
+use sigmastar::certificate::certificate_json;
+use sigmastar::certify::{Derivation, Options, TransferChoice, certify, resolve};
 use sigmastar::plant::Plant;
 use sigmastar::regulator::read_regulator;
 use sigmastar::spec::{Document, SpecErrors, Specification};

@@ -1,7 +1,8 @@
 //! Whatever is certified is valid to the independent checker, with every figure that the certificate stores.
 
 use crate::mutants;
-use sigmastar::certificate::{Derivation, Options, TransferChoice, certificate_json, certify, resolve};
+use sigmastar::certificate::certificate_json;
+use sigmastar::certify::{Derivation, Options, TransferChoice, certify, resolve};
 use sigmastar::spec::Specification;
 
 /// Cases of an ordinary run; with `SIGMASTAR_MUTANTS=FIRST..LAST cargo test --release --test integration mutated` the seeds

@@ -1,6 +1,6 @@
 //! A bounding function enters by its positive part: a sign that rounding hides is no obstacle, a negative value is one.
 
-use sigmastar::certificate::{Options, Verdict, certify};
+use sigmastar::certify::{Options, Refusal, Verdict, certify};
 use sigmastar::data::{Bound, Data, Problem};
 use sigmastar::expr::{BoundingFailure, Property};
 use sigmastar::search::FloatModel;
@@ -49,7 +49,7 @@ fn the_search_uses_the_positive_part_too() {
 #[test]
 fn a_certainly_negative_value_is_bad_input() {
     let spec = spec("X", "0.1*X - 1e-40");
-    let problems = certify(&spec, Options::default()).unwrap_err();
+    let Err(Refusal::Bounds(problems)) = certify(&spec, Options::default()) else { panic!("it is refuted") };
     assert_eq!(problems.len(), 1);
     assert_eq!(problems[0].field, "f_e");
     let refuted = matches!(problems[0].failure, BoundingFailure::Refuted { property: Property::Nonnegative, .. });

@@ -1,7 +1,7 @@
 //! Each condition refused by itself: a witness with room in every condition, and one number changed.
 
 use rug::Rational;
-use sigmastar::certificate::{Ladder, decide_exact, decide_repaired, decide_sharp};
+use sigmastar::certify::{Ladder, decide, decide_exact};
 use sigmastar::data::Data;
 use sigmastar::derivation::consequences::{Psi, error_bounds, smallest_n_o};
 use sigmastar::derivation::exact_regulation::ExactWitness;
@@ -50,7 +50,7 @@ fn witness() -> SharpWitness {
 fn broken(domain: &str, change: impl Fn(&mut SharpWitness)) -> BTreeSet<&'static str> {
     let mut witness = witness();
     change(&mut witness);
-    let (evaluation, _) = decide_sharp(&roomy(domain), &witness, Ladder::default());
+    let evaluation = decide(&roomy(domain), witness, Ladder::default()).evaluation;
     let failing: BTreeSet<_> = evaluation.conditions.iter().filter(|c| !c.truth().is_true()).map(|c| c.id).collect();
     assert_eq!(failing.is_empty(), evaluation.truth().is_true());
     failing
@@ -109,7 +109,7 @@ fn every_condition_of_exact_regulation_is_refused_by_itself() {
         change(&mut witness);
         let text = TEXT.replace("DOMAIN", domain).replace("\"matched\": true", &format!("\"matched\": {matched}"));
         let spec = Specification::from_json("roomy", &text).unwrap();
-        let (evaluation, _) = decide_exact(&spec, &self::witness().set, &witness, Ladder::default());
+        let evaluation = decide_exact(&spec, &self::witness().set, &witness, Ladder::default());
         let failing = evaluation.conditions.iter().filter(|c| !c.truth().is_true()).map(|c| c.id);
         failing.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>()
     };
@@ -143,7 +143,7 @@ fn every_repaired_condition_is_refused_by_itself() {
     let decided = |domain: &str, change: &dyn Fn(&mut RepairedWitness)| {
         let mut witness = repaired();
         change(&mut witness);
-        let (evaluation, _) = decide_repaired(&roomy(domain), &witness, Ladder::default());
+        let evaluation = decide(&roomy(domain), witness, Ladder::default()).evaluation;
         let failing = evaluation.conditions.iter().filter(|c| !c.truth().is_true()).map(|c| c.id);
         failing.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>()
     };
@@ -166,7 +166,7 @@ fn every_repaired_condition_is_refused_by_itself() {
 #[test]
 fn the_minors_of_r_are_its_minors_and_sigma_a_is_their_zero() {
     let spec = roomy("1e9");
-    let (evaluation, _) = decide_repaired(&spec, &repaired(), Ladder::default());
+    let evaluation = decide(&spec, repaired(), Ladder::default()).evaluation;
     let data = Data::new(&spec, 128);
     let lyapunov = &evaluation.lyapunov;
     let plain = |value: &Enclosure| value.lower_rational().unwrap();
@@ -198,7 +198,7 @@ fn the_minors_of_r_are_its_minors_and_sigma_a_is_their_zero() {
 #[test]
 fn error_bounds_are_above_the_direct_sums_and_close() {
     let spec = roomy("1e9");
-    let (evaluation, _) = decide_sharp(&spec, &witness(), Ladder::default());
+    let evaluation = decide(&spec, witness(), Ladder::default()).evaluation;
     let data = Data::new(&spec, 128);
     let bounds = &evaluation.bounds;
     let (qr, q1) = (bounds.q_rms.midpoint_f64(), bounds.q_rate_rms.midpoint_f64());

@@ -3,7 +3,7 @@
 use crate::mutants;
 use crate::support::EXAMPLE_TEXT;
 use rug::Rational;
-use sigmastar::certificate::{Derivation, Options, TransferChoice, certify};
+use sigmastar::certify::{Derivation, Options, TransferChoice, certify};
 use sigmastar::spec::Specification;
 
 /// A specification with a matched base frequency, or with the one given.

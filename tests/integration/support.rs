@@ -3,7 +3,8 @@
 use assert_cmd::Command;
 use rayon::prelude::*;
 use serde_json::Value;
-use sigmastar::certificate::{Certification, Derivation, Options, certificate_json, certify, resolve};
+use sigmastar::certificate::certificate_json;
+use sigmastar::certify::{Certification, Derivation, Options, certify, resolve};
 use sigmastar::spec::Specification;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;

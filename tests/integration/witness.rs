@@ -5,9 +5,8 @@ use crate::support::{Shipped, certificate, certified, certify_all, options, spec
 use rayon::prelude::*;
 use rug::{Float, Rational};
 use serde_json::Value;
-use sigmastar::certificate::{
-    Certification, Derivation, Options, TransferChoice, Verdict, certificate_json, certify, read_witness, recheck,
-};
+use sigmastar::certificate::{certificate_json, read_witness};
+use sigmastar::certify::{Certification, Derivation, Options, TransferChoice, Verdict, certify, recheck};
 use sigmastar::derivation::condition::Condition;
 use sigmastar::spec::{Document, Specification};
 use std::sync::LazyLock;

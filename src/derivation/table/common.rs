@@ -150,7 +150,7 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
         k * &common.bounds.state.f_e / (&data.alpha - k * &common.bounds.state.f_xx * &common.bounds.state.x_p / 2);
     // What a printed value is held against.
     let sound_psi = Psi::new(data, &Excitation::by_contraction(data, &common.bounds));
-    let own = common.own.map(|own| Psi::new(data, &Excitation::sharp(own)));
+    let own = common.own.map(|own| Psi::new(data, &own.excitation));
     rows.push(row(
         "r_e = psi_1",
         At::Common,

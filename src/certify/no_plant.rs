@@ -106,7 +106,7 @@ pub fn has_states(data: &Data<'_>, reach: &[Rational; 2]) -> bool {
 ///
 /// Guarantee: `Some` is a proof, decided over enclosures at the exact X. `None` says nothing.
 #[must_use]
-pub fn no_plant(data: &Data<'_>, used: Option<&(Rational, Rational)>) -> Option<NoPlant> {
+pub fn no_plant(data: &Data<'_>, used: Option<&[Rational; 2]>) -> Option<NoPlant> {
     // Rounded down, so that X lies in the domain; of a domain whose ends are out of range nothing is said.
     let inner = match &data.spec.domain {
         Some(domain) => Some([
@@ -115,7 +115,7 @@ pub fn no_plant(data: &Data<'_>, used: Option<&(Rational, Rational)>) -> Option<
         ]),
         None => None,
     };
-    let reach = inner.or_else(|| used.map(|(x, e)| [x.clone(), e.clone()]));
+    let reach = inner.or_else(|| used.cloned());
     let one = || Rational::from(1);
     if !has_states(data, reach.as_ref().unwrap_or(&[one(), one()])) {
         return None;
@@ -298,7 +298,7 @@ mod tests {
     fn arguments_beyond_what_a_claim_uses_do_not_count() {
         let spec = spec(&triple("0.3"), "1", ["1", "0", "0", "1"], false);
         let data = Data::new(&spec, 128);
-        let up_to = |x: i32| no_plant(&data, Some(&(Rational::from(x), Rational::from(1))));
+        let up_to = |x: i32| no_plant(&data, Some(&[Rational::from(x), Rational::from(1)]));
         assert!(up_to(3).is_none());
         assert!(up_to(4).is_some_and(|reason| reason.x <= 4));
         assert!(no_plant(&data, None).is_some());

@@ -1,11 +1,12 @@
-//! What the matrix inequalities say about a run: C5 as a semidefinite program beside its closed form, C3 with weights and as a
-//! Stein inequality, and Sylvester's criterion for R.
+//! What the matrix inequalities say about a run: C5 as a semidefinite program beside its closed form, the contraction matrix
+//! with weights and as a Stein inequality, and Sylvester's criterion for R.
 
-use super::run::{RepairedProof, SharpProof};
+use super::proof::{RepairedProof, SharpProof};
 use crate::data::Data;
+use crate::derivation::contraction::ContractionMatrix;
 use crate::enclosure::Enclosure;
 use crate::lmi::{CrossCheck, CrossCheckError, cross_check, leading_minors, perron};
-use crate::number::{Direction, round_rational};
+use crate::number::{Direction, round_f64, round_rational};
 use crate::spec::model::Specification;
 use rug::Rational;
 
@@ -14,16 +15,17 @@ use rug::Rational;
 pub struct MatrixChecks {
     /// C5 as a matrix inequality, for a proof of the sharp derivation.
     pub decay: Option<Result<CrossCheck, CrossCheckError>>,
-    /// C3, for a proof of the sharp derivation.
+    /// The contraction matrix, for a proof of the sharp derivation: where its spectral radius is below 1 the periodic solution is
+    /// the only one in its set.
     pub contraction: Option<ContractionCheck>,
     /// R, for a proof of the repaired derivation.
     pub sylvester: Option<SylvesterCheck>,
 }
 
-/// C3 at upper ends of the contraction matrix.
+/// The spectral radius at upper ends of the contraction matrix.
 #[derive(Clone, Debug)]
 pub struct ContractionCheck {
-    /// Bounds of the spectral radius of the matrix of upper ends, from the weights p_x, p_e of the certificate; the
+    /// Bounds of the spectral radius of the matrix of upper ends, from Perron weights; the
     /// upper one bounds that of the contraction matrix.
     pub spectral_radius: [Rational; 2],
     /// The diagonal of D with `D - M' D M > 0` proved exactly, where the solver found one.
@@ -71,7 +73,13 @@ fn contraction(proof: &SharpProof) -> Option<ContractionCheck> {
     let upper = |entry: &Enclosure| Some(round_rational(&entry.upper_rational()?, 12, Direction::Up));
     // The weights of C3 belong to the transpose.
     let rows = vec![vec![upper(&matrix.xx)?, upper(&matrix.ex)?], vec![upper(&matrix.xe)?, upper(&matrix.ee)?]];
-    let weights = [proof.witness.p_x.clone(), proof.witness.p_e.clone()];
+    let [x, e] = [&proof.witness.x_p, &proof.witness.e_p].map(|size| size.to_f64().recip());
+    let entries = [&matrix.xx, &matrix.xe, &matrix.ex, &matrix.ee].map(Enclosure::midpoint_f64);
+    let [xx, xe, ex, ee] = entries;
+    let weights = ContractionMatrix { xx, xe, ex, ee }.perron_weights(&x, &e);
+    let largest = weights[0].max(weights[1]);
+    let [first, second] = weights.map(|weight| round_f64(weight / largest, 14, Direction::Nearest));
+    let weights = [first?, second?];
     let spectral_radius = perron::spectral_radius(&rows, &weights)?;
     let stein = perron::propose_stein(&rows).ok().filter(|d| perron::stein_holds(&rows, d));
     Some(ContractionCheck { spectral_radius, stein })

@@ -1,9 +1,10 @@
 //! What is reported of a proof beside its claim, at a precision at which it is known well.
 
-use super::decide::{Ladder, decide_repaired, decide_sharp};
-use super::run::{ExactClaim, Outcome, PrintedFigure, RepairedProof, SharpProof};
+use super::certification::{ExactClaim, PrintedFigure};
+use super::decide::decide;
+use super::options::Ladder;
+use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof, Witness};
 use crate::data::Data;
-use crate::derivation::condition::Condition;
 use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::table::{At, Row, TableInput, Value, table};
 use crate::enclosure::Enclosure;
@@ -17,7 +18,7 @@ const DIGITS: u32 = 56;
 const FINEST: u32 = 512;
 
 /// What the table of constants is made from.
-pub(super) struct Figures<'a> {
+pub(super) struct Columns<'a> {
     pub(super) sharp: Outcome<SharpProof>,
     pub(super) repaired: Outcome<RepairedProof>,
     pub(super) printed: &'a PrintedFigure,
@@ -30,7 +31,7 @@ pub(super) struct Table {
     pub(super) rows: Vec<Row>,
 }
 
-impl Figures<'_> {
+impl Columns<'_> {
     /// The proofs and the table, evaluated again at a doubled precision up to [`FINEST`] while a number is not known to
     /// [`DIGITS`]: where a bounding function cancels, fewer bits decide a condition than tell its sides.
     ///
@@ -45,22 +46,8 @@ impl Figures<'_> {
             }
             precision = (2 * precision).min(finest);
             let ladder = Ladder { start: precision, ..ladder };
-            if let Outcome::Proved(proof) = &mut self.sharp
-                && proof.precision < precision
-            {
-                let (evaluation, decided_at) = decide_sharp(spec, &proof.witness, ladder);
-                if evaluation.truth().is_true() {
-                    (proof.evaluation, proof.precision) = (evaluation, decided_at);
-                }
-            }
-            if let Outcome::Proved(proof) = &mut self.repaired
-                && proof.precision < precision
-            {
-                let (evaluation, decided_at) = decide_repaired(spec, &proof.witness, ladder);
-                if evaluation.truth().is_true() {
-                    (proof.evaluation, proof.precision) = (evaluation, decided_at);
-                }
-            }
+            raise(&mut self.sharp, spec, ladder);
+            raise(&mut self.repaired, spec, ladder);
         }
     }
 
@@ -72,13 +59,24 @@ impl Figures<'_> {
             Value::Number(value) => Some(value),
             Value::Span(_) | Value::Infeasible(_) | Value::Unavailable(_) => None,
         });
-        let sides = |conditions: &[Condition]| conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs));
-        numbers.any(|number| rough(&number))
-            || self.sharp.proved().is_some_and(|proof| {
-                let periodic = &proof.evaluation.periodic;
-                rough(&periodic.x_per) || rough(&periodic.e_per) || sides(&proof.evaluation.conditions)
-            })
-            || self.repaired.proved().is_some_and(|proof| sides(&proof.evaluation.conditions))
+        let proofs = [self.sharp.proved().map(Proof::decided), self.repaired.proved().map(Proof::decided)];
+        let unknown = |proof: Decided<'_>| {
+            let [x_per, e_per, _] = proof.periodic;
+            rough(x_per) || rough(e_per) || proof.conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs))
+        };
+        numbers.any(|number| rough(&number)) || proofs.into_iter().flatten().any(unknown)
+    }
+}
+
+/// Decides a proof again where it was decided with fewer bits; it gives way only to one that is proved too.
+fn raise<W: Witness + Clone>(outcome: &mut Outcome<Proof<W>>, spec: &Specification, ladder: Ladder) {
+    if let Outcome::Proved(proof) = outcome
+        && proof.precision < ladder.start
+    {
+        let again = decide(spec, proof.witness.clone(), ladder);
+        if again.truth().is_true() {
+            **proof = again;
+        }
     }
 }
 
@@ -94,25 +92,15 @@ fn rough(value: &Enclosure) -> bool {
 }
 
 /// The table, at the witness of the sharp derivation or, failing that, of the repaired one.
-fn constants(data: &Data<'_>, figures: &Figures<'_>) -> Vec<Row> {
-    let (sharp, repaired, printed) = (figures.sharp.proved(), figures.repaired.proved(), figures.printed);
-    let common = match (sharp, repaired) {
-        (Some(proof), _) => {
-            let w = &proof.witness;
-            Some(([w.x_p.clone(), w.e_p.clone(), w.sigma.clone()], (w.k0.clone(), w.k1.clone())))
-        }
-        (None, Some(proof)) => {
-            let w = &proof.witness;
-            Some(([w.x.clone(), w.e.clone(), w.sigma.clone()], (w.k0.clone(), w.k1.clone())))
-        }
-        (None, None) => None,
-    };
-    let Some((common, sharp_pair)) = common else { return Vec::new() };
+fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
+    let (sharp, repaired, printed) = (columns.sharp.proved(), columns.repaired.proved(), columns.printed);
+    let Some(common) = sharp.map(Proof::decided).or(repaired.map(Proof::decided)) else { return Vec::new() };
+    let ([x, e], [k0, k1]) = (common.point, common.pair);
     let numbers = |set: &ClaimedSet| [set.x0.clone(), set.e0.clone(), set.z0.clone()];
     table(&TableInput {
         data,
-        common,
-        sharp_pair,
+        common: [x.clone(), e.clone(), common.sigma.clone()],
+        sharp_pair: (k0.clone(), k1.clone()),
         sharp: sharp.map(|proof| &proof.evaluation),
         sharp_free: sharp.map(|proof| {
             let w = &proof.witness;
@@ -126,6 +114,6 @@ fn constants(data: &Data<'_>, figures: &Figures<'_>) -> Vec<Row> {
             repaired.map(|proof| data.rational(&proof.witness.sigma)),
             sharp.map(|proof| data.rational(&proof.witness.sigma)),
         ],
-        sigma_exact: figures.exact.map(|claim| claim.witness.sigma.clone()),
+        sigma_exact: columns.exact.map(|claim| claim.witness.sigma.clone()),
     })
 }

@@ -3,18 +3,23 @@
 //! Rounding spends a little of sigma: each attempt takes a sigma a bit larger than the last, recomputes the dependent
 //! numbers for it, rounds, and asks for a rigorous decision; the first witness that is proved is returned.
 
-use super::decide::{Ladder, decide_exact, decide_repaired, decide_sharp};
+use super::certification::ExactClaim;
+use super::decide::{decide, decide_exact};
+use super::options::Ladder;
+use super::proof::{Proof, RepairedProof, SharpProof, Witness};
 use crate::data::Data;
-use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness, steady_state_norm};
-use crate::derivation::existence::{PeriodicBounds, PeriodicSolution, kappas};
+use crate::derivation::exact_regulation::{ExactWitness, steady_state_norm};
+use crate::derivation::existence::{PeriodicBounds, kappas};
+use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::initial_set::{Size, required_set};
-use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
+use crate::derivation::mean_squares::{ErrorGains, MeanSquares, PeriodicSize, SetBounds};
+use crate::derivation::repaired::RepairedWitness;
+use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{
-    FloatModel, RepairedProposal, SharpParameters, SharpProposal, active_level, at_sigma, largest_e_repaired,
-    largest_e_sharp, perron_repaired, search_exact, weight_h,
+    FloatModel, RepairedProposal, SharpProposal, active_level, at_sigma, largest_e_repaired, perron_repaired, search_exact,
+    weight_h,
 };
 use crate::spec::model::InitialSet;
 use crate::transfer::{TransferProof, closed_form_pair, prove_above};
@@ -34,6 +39,25 @@ const SLACKS: [f64; 12] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 
 fn attempts() -> impl Iterator<Item = (u32, f64)> {
     let short = SLACKS.into_iter().take_while(|slack| *slack <= 1e-6).map(|slack| (SHORT_DIGITS, slack));
     short.chain(SLACKS.into_iter().map(|slack| (LONG_DIGITS, slack)))
+}
+
+/// Decides one witness after the other: the first attempt that is proved, or the last one.
+fn first_proved<W: Witness>(
+    data: &Data<'_>,
+    ladder: Ladder,
+    mut witness: impl FnMut((u32, f64)) -> Option<W>,
+) -> Option<Proof<W>> {
+    let mut last = None;
+    for attempt in attempts() {
+        let Some(witness) = witness(attempt) else { continue };
+        let proof = decide(data.spec, witness, ladder);
+        let proved = proof.truth().is_true();
+        last = Some(proof);
+        if proved {
+            break;
+        }
+    }
+    last
 }
 
 fn nearest(value: f64, digits: u32) -> Option<Rational> {
@@ -98,26 +122,21 @@ type ProvedPair = (Rational, Rational, TransferProof);
 /// The pair of a proposal, and what was proved for it.
 type KnownPair = ((f64, f64, u32), Option<ProvedPair>);
 
-/// Rounds a sharp proposal and decides it; the first attempt that is proved, or the last one.
+/// The room between both sides of S1 and S2 that numbers of so many digits need: a hundred times their last digit.
+fn room(digits: u32) -> f64 {
+    if digits == SHORT_DIGITS { 1e-6 } else { 1e-12 }
+}
+
+/// Rounds a sharp proposal and decides it.
 pub(super) fn round_sharp(
     data: &Data<'_>,
     model: &FloatModel,
     proposal: &SharpProposal,
     kind: TransferKind,
     ladder: Ladder,
-) -> Option<(SharpWitness, SharpEvaluation, u32)> {
-    let mut last = None;
+) -> Option<SharpProof> {
     let mut known = None;
-    for attempt in attempts() {
-        let Some(witness) = sharp_witness(data, model, proposal, kind, attempt, &mut known) else { continue };
-        let (evaluation, precision) = decide_sharp(data.spec, &witness, ladder);
-        let proved = evaluation.truth().is_true();
-        last = Some((witness, evaluation, precision));
-        if proved {
-            break;
-        }
-    }
-    last
+    first_proved(data, ladder, |attempt| sharp_witness(data, model, proposal, kind, attempt, &mut known))
 }
 
 fn sharp_witness(
@@ -129,67 +148,52 @@ fn sharp_witness(
     known: &mut Option<KnownPair>,
 ) -> Option<SharpWitness> {
     let sigma = rounded_sigma(proposal.sigma, slack)?;
-    let x_p = nearest(proposal.parameters.x_p, digits)?;
-    let e_p = rounded_e(proposal.parameters.e_p, largest_e_sharp(model, x_p.to_f64())?, digits)?;
-    let parameters = SharpParameters { x_p: x_p.to_f64(), e_p: e_p.to_f64(), ..proposal.parameters };
-    let (existence, at) = at_sigma(model, &parameters, sigma.to_f64()).ok()?;
+    let (found, at) = at_sigma(model, &proposal.parameters, sigma.to_f64(), room(digits)).ok()?;
     // The slack does not move the pair, nor the boxes that prove it.
-    if known.as_ref().is_none_or(|(pair, _)| *pair != existence.pair) {
-        *known = Some((existence.pair, transfer_pair(data, existence.pair, kind)));
+    if known.as_ref().is_none_or(|(pair, _)| *pair != found.pair) {
+        *known = Some((found.pair, transfer_pair(data, found.pair, kind)));
     }
     let (k0, k1, transfer) = known.as_ref().and_then(|(_, proved)| proved.clone())?;
 
-    let bounds = PeriodicBounds::new(data, data.rational(&x_p), data.rational(&e_p));
-    let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));
-    let z = bounds.z_squared_sharp(data, &kappa_0, &kappa_1).sqrt();
+    let up = |value: f64| round_f64(value, digits, Direction::Up);
+    let squares = |r: &MeanSquares<f64>| Some(MeanSquares { x: up(r.x)?, e: up(r.e)?, e_rate: up(r.e_rate)? });
+    let (x_p, e_p, kap) = (up(found.x_p)?, up(found.e_p)?, nearest(found.kap, LONG_DIGITS)?);
+    let existence = squares(&found.squares)?;
+    let refined = match &found.refined {
+        Some(refined) => Some(squares(refined)?),
+        None => None,
+    };
+    let gains = ErrorGains::new(data, &data.rational(&sigma));
+    let bounds = SetBounds::new(data, data.rational(&x_p), data.rational(&e_p));
+    let at_the_solution = refined.as_ref().unwrap_or(&existence).map(|value| data.rational(value));
+    let periodic = PeriodicSize::new(data, &bounds, &AtOrigin::new(data), &gains, &at_the_solution);
+    let z = periodic.z_squared(data, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
     let set = claimed_set(data, &x_p, &e_p, &z)?;
 
     // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.
-    let periodic = PeriodicSolution::new(data, &bounds, &data.rational(&sigma));
     let [dist_x, dist_e, dist_z] =
         set.distances(data, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
     let d_x = at.d_x.max(at.rho * model.c * dist_x);
     let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
     let error_box = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
-    let [p_x, p_e] = existence.perron(model, sigma.to_f64());
-    let scale = p_x.max(p_e);
+    let MeanSquares { x: r_x, e: r_e, e_rate: r_d } = existence;
     Some(SharpWitness {
         sigma,
         x_p,
         e_p,
+        r_x,
+        r_e,
+        r_d,
+        kap,
+        refined,
         d_x: error_box.d_x,
         d_e: error_box.d_e,
-        p_x: nearest(p_x / scale, LONG_DIGITS)?,
-        p_e: nearest(p_e / scale, LONG_DIGITS)?,
         w_x: error_box.w_x,
         h: error_box.h,
         k0,
         k1,
         transfer,
         set,
-    })
-}
-
-/// The free numbers of a repaired witness as a sharp one: w_x = 1, D_x = sqrt(L/P_low), D_e = sqrt(L), rounded up.
-///
-/// Most conditions of the sharp derivation follow from their repaired counterparts; Z does not, as b_f(X,0) + b_fxx X^2 +
-/// b_fe E may exceed b_f(X,E). So it is decided like any other witness.
-pub(super) fn sharp_from_repaired(data: &Data<'_>, repaired: &RepairedWitness) -> Option<SharpWitness> {
-    let level = data.rational(&repaired.level);
-    Some(SharpWitness {
-        sigma: repaired.sigma.clone(),
-        x_p: repaired.x.clone(),
-        e_p: repaired.e.clone(),
-        d_x: upper(&(&level / &data.p_low).sqrt(), LONG_DIGITS)?,
-        d_e: upper(&level.sqrt(), LONG_DIGITS)?,
-        p_x: repaired.p_x.clone(),
-        p_e: repaired.p_e.clone(),
-        w_x: Rational::from(1),
-        h: repaired.h.clone(),
-        k0: repaired.k0.clone(),
-        k1: repaired.k1.clone(),
-        transfer: repaired.transfer.clone(),
-        set: repaired.set.clone(),
     })
 }
 
@@ -222,24 +226,14 @@ fn rounded_box(
     })
 }
 
-/// Rounds a repaired proposal and decides it; the first attempt that is proved, or the last one.
+/// Rounds a repaired proposal and decides it.
 pub(super) fn round_repaired(
     data: &Data<'_>,
     model: &FloatModel,
     proposal: &RepairedProposal,
     ladder: Ladder,
-) -> Option<(RepairedWitness, RepairedEvaluation, u32)> {
-    let mut last = None;
-    for attempt in attempts() {
-        let Some(witness) = repaired_witness(data, model, proposal, attempt) else { continue };
-        let (evaluation, precision) = decide_repaired(data.spec, &witness, ladder);
-        let proved = evaluation.truth().is_true();
-        last = Some((witness, evaluation, precision));
-        if proved {
-            break;
-        }
-    }
-    last
+) -> Option<RepairedProof> {
+    first_proved(data, ladder, |attempt| repaired_witness(data, model, proposal, attempt))
 }
 
 fn repaired_witness(
@@ -278,12 +272,7 @@ fn repaired_witness(
 }
 
 /// Searches and decides exact regulation for a claimed set; `None` when nothing was proved.
-pub(super) fn exact_claim(
-    data: &Data<'_>,
-    model: &FloatModel,
-    set: &ClaimedSet,
-    ladder: Ladder,
-) -> Option<(ExactWitness, ExactEvaluation, u32)> {
+pub(super) fn exact_claim(data: &Data<'_>, model: &FloatModel, set: &ClaimedSet, ladder: Ladder) -> Option<ExactClaim> {
     let z = steady_state_norm(data);
     let [dist_x, dist_e, dist_z] =
         set.distances(data, [&data.zero(), &data.zero(), &z]).map(|distance| distance.upper_f64());
@@ -302,7 +291,7 @@ pub(super) fn exact_claim(
             w_x: error_box.w_x,
             h: error_box.h,
         };
-        let (evaluation, precision) = decide_exact(data.spec, set, &witness, ladder);
-        evaluation.truth().is_true().then_some((witness, evaluation, precision))
+        let evaluation = decide_exact(data.spec, set, &witness, ladder);
+        evaluation.truth().is_true().then_some(ExactClaim { witness, evaluation })
     })
 }

@@ -1,14 +1,13 @@
-//! The Lyapunov triple of a specification with a Jacobian: chosen, proved, and carried by the certificate.
+//! The Lyapunov triple of a specification with a Jacobian: chosen, proved, or given and decided again.
 
+use super::refusal::Refusal;
 use crate::data::Data;
 use crate::enclosure::MAX_PRECISION;
 use crate::lyapunov::{Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, candidates, prove};
-use crate::number::write_exact;
-use crate::search::{FloatModel, SharpParameters, search_sharp, search_sharp_near};
-use crate::spec::model::{Constant, Lyapunov, LyapunovSource, PeriodicMatrix, Specification};
+use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
+use crate::spec::model::{Constant, Lyapunov, LyapunovSource, Specification};
 use crate::transfer::TradeOff;
-use rug::Rational;
-use serde_json::{Map, Value};
+use std::borrow::Cow;
 
 /// A specification whose triple was found and proved, and what else is known about its Jacobian.
 pub struct Resolution {
@@ -61,17 +60,17 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         let trade_off =
             if spec.internal_model.matched { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
         let model = FloatModel::new(&data, trade_off);
-        let (mut searches, mut start): (usize, Option<(f64, SharpParameters)>) = (0, None);
+        let (mut searches, mut start): (usize, Option<SharpProposal>) = (0, None);
         let mut sigma = |candidate: &Candidate| {
             let model = model.with_triple(candidate.ratio, candidate.alpha);
-            let near = start.and_then(|(_, parameters)| search_sharp_near(&model, &parameters));
+            let near = start.and_then(|known| search_sharp_near(&model, &known));
             let found = near.or_else(|| {
                 let search = searches < MAX_SEARCHES;
                 searches += usize::from(search);
-                if search { search_sharp(&model, &[]).ok() } else { None }
+                if search { search_sharp(&model).ok() } else { None }
             })?;
-            if start.is_none_or(|(least, _)| found.sigma < least) {
-                start = Some((found.sigma, found.parameters));
+            if start.is_none_or(|known| found.sigma < known.sigma) {
+                start = Some(found);
             }
             Some(found.sigma)
         };
@@ -103,8 +102,26 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         // Stable: where no sigma* is found, the largest rate comes first.
         order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
         let triple = candidates.first_proved(order.iter().map(|at| &candidates.found[*at]))?;
-        Ok(Resolution { spec: with_triple(spec, &triple), candidates, sigmas, searches })
+        Ok(Resolution { spec: carrying(spec, &triple), candidates, sigmas, searches })
     }))
+}
+
+/// A specification with a Lyapunov triple: as it is, or with the triple of its Jacobian, which is `given` or found, and proved.
+///
+/// # Errors
+/// [`Refusal::Jacobian`]: no triple was found, or the given one is not proved.
+pub fn with_triple<'s>(
+    spec: &'s Specification,
+    given: Option<&ProvedTriple>,
+) -> Result<Cow<'s, Specification>, Refusal> {
+    let proved = match given {
+        Some(triple) => resolve_with(spec, triple).map(|proved| proved.map_err(|failure| failure.to_string())),
+        None => resolve(spec).map(|found| found.map(|found| found.spec).map_err(|failure| failure.to_string())),
+    };
+    match proved {
+        None => Ok(Cow::Borrowed(spec)),
+        Some(proved) => proved.map(Cow::Owned).map_err(Refusal::Jacobian),
+    }
 }
 
 /// Decides the triple of a certificate for the Jacobian of a specification again. `None` if the specification has no Jacobian
@@ -120,12 +137,12 @@ pub fn resolve_with(spec: &Specification, triple: &ProvedTriple) -> Option<Resul
         let family = Family::new(jacobian, &spec.period, precision);
         match family.map_or(Err(NotProved::Shape), |family| prove(&family, triple)) {
             Err(NotProved::Inequality { .. }) if precision < MAX_PRECISION => precision *= 4,
-            outcome => return Some(outcome.map(|()| with_triple(spec, triple))),
+            outcome => return Some(outcome.map(|()| carrying(spec, triple))),
         }
     }
 }
 
-fn with_triple(spec: &Specification, proved: &ProvedTriple) -> Specification {
+fn carrying(spec: &Specification, proved: &ProvedTriple) -> Specification {
     let mut spec = spec.clone();
     if let Some(jacobian) = spec.lyapunov.jacobian().cloned() {
         let triple = Lyapunov {
@@ -136,37 +153,4 @@ fn with_triple(spec: &Specification, proved: &ProvedTriple) -> Specification {
         spec.lyapunov = LyapunovSource::Proved { jacobian, triple, matrix: proved.matrix.clone() };
     }
     spec
-}
-
-fn rows(matrix: &[Vec<Rational>]) -> Value {
-    let row = |row: &Vec<Rational>| Value::Array(row.iter().map(|entry| Value::from(write_exact(entry))).collect());
-    Value::Array(matrix.iter().map(row).collect())
-}
-
-/// P(t) as fields: `P` are the rows of the mean, and `harmonics`, where there are any, lists `cos` and `sin` of k = 1, 2, ...
-#[must_use]
-pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
-    let mut fields = Map::new();
-    fields.insert("P".to_owned(), rows(&matrix.mean));
-    if !matrix.harmonics.is_empty() {
-        let one = |[cos, sin]: &[Vec<Vec<Rational>>; 2]| {
-            let mut pair = Map::new();
-            pair.insert("cos".to_owned(), rows(cos));
-            pair.insert("sin".to_owned(), rows(sin));
-            Value::Object(pair)
-        };
-        fields.insert("harmonics".to_owned(), Value::Array(matrix.harmonics.iter().map(one).collect()));
-    }
-    fields
-}
-
-/// The part `witness.lyapunov` of a certificate: P(t) and the triple; `None` where the user gave the triple.
-#[must_use]
-pub fn lyapunov_json(spec: &Specification) -> Option<Value> {
-    let LyapunovSource::Proved { triple, matrix, .. } = &spec.lyapunov else { return None };
-    let mut fields = matrix_json(matrix);
-    for (name, value) in [("p_low", &triple.p_low), ("p_up", &triple.p_up), ("alpha", &triple.alpha)] {
-        fields.insert(name.to_owned(), Value::from(value.text.clone()));
-    }
-    Some(Value::Object(fields))
 }

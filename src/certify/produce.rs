@@ -1,25 +1,23 @@
 //! The whole run: prove the bounding functions, search, round, decide, in each derivation.
 
-use super::best::{best_sharp, model, not_above};
+use super::best::{best_sharp, model};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
-use super::decide::{decide_exact, decide_repaired, decide_sharp};
-use super::figures::Figures;
+use super::certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
+use super::constants::Columns;
+use super::decide::{decide, decide_exact};
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
-use super::read::WitnessFile;
+use super::options::{Derivation, Options};
+use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
+
+use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
-use super::run::{
-    Certification, Derivation, ExactClaim, Options, Outcome, PrintedFigure, RelativeDegreeGains, RepairedProof,
-    SharpProof,
-};
 use super::verdict::Verdict;
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::printed::{PrintedEvaluation, level_condition};
 use crate::derivation::relative_degree::{RelativeDegreeError, k_2, k_infinity};
-use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
-use crate::derivation::sharp::{SharpEvaluation, SharpWitness};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
@@ -34,43 +32,37 @@ use rug::Rational;
 /// condition of the chosen derivation is proved for the witness.
 ///
 /// # Errors
-/// Bounding functions that are *refuted* (bad input), with their counterexamples.
-pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Vec<BoundingProblem>> {
+/// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
+pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Refusal> {
     let data = Data::new(spec, options.ladder.start.max(53));
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
     let paper_model = model(&data, TransferKind::ClosedForm);
     let wanted = |derivation| options.compare || options.derivation == derivation;
-    // The repaired candidate is one of the sharp search, and its witness one of the sharp derivation.
-    let found = search_repaired(&paper_model);
-    let repaired = match &found {
-        Err(obstacle) => Outcome::NotFound(*obstacle),
-        Ok(proposal) => repaired_outcome(round_repaired(&data, &paper_model, proposal, options.ladder)),
+    let repaired = if wanted(Derivation::Repaired) {
+        match search_repaired(&paper_model) {
+            Err(obstacle) => Outcome::NotFound(obstacle),
+            Ok(proposal) => round_repaired(&data, &paper_model, &proposal, options.ladder).into(),
+        }
+    } else {
+        Outcome::Skipped
     };
     let (sharp_model, proposal, sharp) = if wanted(Derivation::Sharp) {
-        let best = best_sharp(&data, options, found.as_ref().ok());
-        let outcome = match repaired.proved() {
-            Some(proof) => not_above(&data, options, best.outcome, &proof.witness),
-            None => best.outcome,
-        };
-        (best.model, best.proposal, outcome)
+        let best = best_sharp(&data, options);
+        (best.model, best.proposal, best.outcome)
     } else {
         (model(&data, TransferKind::ClosedForm), None, Outcome::Skipped)
     };
-    let repaired = if wanted(Derivation::Repaired) { repaired } else { Outcome::Skipped };
     let (sharp, repaired) = if spec.domain.is_none() {
         let chosen = options.derivation;
-        let sharp = proved_up_to_arguments(spec, sharp, chosen == Derivation::Sharp, &mut unproved, sharp_arguments)?;
-        let repaired =
-            proved_up_to_arguments(spec, repaired, chosen == Derivation::Repaired, &mut unproved, repaired_arguments)?;
-        (sharp, repaired)
+        let sharp = proved_up_to_arguments(spec, sharp, chosen == Derivation::Sharp, &mut unproved)?;
+        (sharp, proved_up_to_arguments(spec, repaired, chosen == Derivation::Repaired, &mut unproved)?)
     } else {
         (sharp, repaired)
     };
     let printed = printed_figure(&data, &paper_model);
     let exact = match (&sharp, spec.internal_model.matched) {
         (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
-            .map(|(witness, evaluation, _)| ExactClaim { witness, evaluation })
             // Its error box has its own size, and may reach beyond the arguments of the other derivations.
             .filter(|claim| {
                 let ExactWitness { d_x, d_e, .. } = &claim.witness;
@@ -79,7 +71,7 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
         _ => None,
     };
     let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
-    Ok(assemble(spec, options, &data, parts, &sharp_model))
+    assemble(spec, options, &data, parts, &sharp_model)
 }
 
 /// Decides the witness of a certificate again, without any search.
@@ -88,50 +80,48 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
 /// The verdict is `Refuted` when a condition is proved not to hold for the witness (another witness may still do).
 ///
 /// # Errors
-/// Bounding functions that are *refuted* (bad input), with their counterexamples.
+/// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
 pub fn recheck<'s>(
     spec: &'s Specification,
-    file: &WitnessFile,
+    file: &GivenWitness,
     options: Options,
-) -> Result<Certification<'s>, Vec<BoundingProblem>> {
+) -> Result<Certification<'s>, Refusal> {
     let data = Data::new(spec, options.ladder.start.max(53));
     let (sharp, repaired) = match file {
-        WitnessFile::Sharp { witness, .. } => {
-            let (evaluation, precision) = decide_sharp(spec, witness, options.ladder);
-            (sharp_outcome(Some((witness.as_ref().clone(), evaluation, precision))), Outcome::Skipped)
+        GivenWitness::Sharp { witness, .. } => {
+            (Some(decide(spec, witness.as_ref().clone(), options.ladder)).into(), Outcome::Skipped)
         }
-        WitnessFile::Repaired { witness } => {
-            let (evaluation, precision) = decide_repaired(spec, witness, options.ladder);
-            (Outcome::Skipped, repaired_outcome(Some((witness.as_ref().clone(), evaluation, precision))))
+        GivenWitness::Repaired { witness } => {
+            (Outcome::Skipped, Some(decide(spec, witness.as_ref().clone(), options.ladder)).into())
         }
     };
     let claimed = match file {
-        WitnessFile::Sharp { witness, exact: Some(exact) } => {
-            let (evaluation, _) = decide_exact(spec, &witness.set, exact, options.ladder);
+        GivenWitness::Sharp { witness, exact: Some(exact) } => {
+            let evaluation = decide_exact(spec, &witness.set, exact, options.ladder);
             Some(ExactClaim { witness: exact.clone(), evaluation })
         }
         _ => None,
     };
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
     let (sharp, repaired) = if spec.domain.is_none() {
-        let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved, sharp_arguments)?;
+        let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved)?;
         if let Some(claim) = &claimed {
             unproved.extend(undecided_or_error(prove_up_to(spec, &claim.witness.d_x, &claim.witness.d_e))?);
         }
-        (sharp, proved_up_to_arguments(spec, repaired, true, &mut unproved, repaired_arguments)?)
+        (sharp, proved_up_to_arguments(spec, repaired, true, &mut unproved)?)
     } else {
         (sharp, repaired)
     };
     let exact_failing = claimed.as_ref().map_or_else(Vec::new, |claim| failing(&claim.evaluation.conditions));
     let exact = claimed.filter(|_| exact_failing.is_empty());
     let derivation = match file {
-        WitnessFile::Sharp { .. } => Derivation::Sharp,
-        WitnessFile::Repaired { .. } => Derivation::Repaired,
+        GivenWitness::Sharp { .. } => Derivation::Sharp,
+        GivenWitness::Repaired { .. } => Derivation::Repaired,
     };
     let printed = PrintedFigure { refutation: level_condition(&data).err(), evaluation: None, sigma: None };
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
     let parts = Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal: None };
-    let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model);
+    let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model)?;
     // A given witness that breaks a condition is refuted; a search that ends with one has merely found nothing.
     let mut conditions = run.conditions().iter().chain(&run.exact_failing);
     if run.verdict == Verdict::Undecided && conditions.any(|condition| condition.truth().is_false()) {
@@ -157,38 +147,39 @@ fn assemble<'s>(
     data: &Data<'_>,
     parts: Parts,
     model: &FloatModel,
-) -> Certification<'s> {
+) -> Result<Certification<'s>, Refusal> {
     let Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal } = parts;
     let relative_degree = relative_degree_gains(spec, data.precision);
+    if let Some(Err(error @ RelativeDegreeError::NotHurwitz(_))) = relative_degree {
+        return Err(Refusal::Filter(error));
+    }
     let checks = MatrixChecks::new(spec, sharp.proved(), repaired.proved());
     let claimed = |proved: bool| {
         if proved && unproved.is_empty() && exact_failing.is_empty() { Verdict::Certified } else { Verdict::Undecided }
     };
     let verdict = match options.derivation {
-        // The filter must be stable: otherwise the plant is not what the specification says.
-        _ if matches!(relative_degree, Some(Err(RelativeDegreeError::NotHurwitz(_)))) => Verdict::BadInput,
         Derivation::Sharp => claimed(sharp.proved().is_some() && !checks.disagree()),
         Derivation::Repaired => claimed(repaired.proved().is_some()),
         // Printed can be refuted (E1), never certified.
         Derivation::Printed if printed.refutation.is_some() => Verdict::Refuted,
         Derivation::Printed => Verdict::Undecided,
     };
-    let figures = Figures { sharp, repaired, printed: &printed, exact: exact.as_ref() };
-    let (figures, constants) = figures.evaluated(spec, data.precision, options.ladder);
-    let Figures { sharp, repaired, .. } = figures;
+    let columns = Columns { sharp, repaired, printed: &printed, exact: exact.as_ref() };
+    let (columns, constants) = columns.evaluated(spec, data.precision, options.ladder);
+    let Columns { sharp, repaired, .. } = columns;
     let mut sensitivities = match (&sharp, &proposal) {
         (Outcome::Proved(_), Some(proposal)) => sensitivities(model, proposal),
         _ => Vec::new(),
     };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
     let used = match options.derivation {
-        Derivation::Repaired => repaired_used(&repaired).or_else(|| sharp_used(&sharp)),
-        Derivation::Sharp | Derivation::Printed => sharp_used(&sharp).or_else(|| repaired_used(&repaired)),
+        Derivation::Repaired => reach(&repaired).or_else(|| reach(&sharp)),
+        Derivation::Sharp | Derivation::Printed => reach(&sharp).or_else(|| reach(&repaired)),
     };
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
     sensitivities.retain(|(_, gain)| *gain > 0.0);
     sensitivities.sort_by(|a, b| b.1.total_cmp(&a.1));
-    Certification {
+    Ok(Certification {
         spec,
         options,
         verdict,
@@ -205,7 +196,7 @@ fn assemble<'s>(
         sensitivities,
         unproved_bounds: unproved,
         constants: constants.rows,
-    }
+    })
 }
 
 /// k_inf and k_2 of the specification's filter, if it has one.
@@ -221,26 +212,25 @@ fn relative_degree_gains(
 }
 
 /// Splits failures of the bounding functions: refuted ones are errors, undecided ones keep a claim from being made.
-fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Vec<BoundingProblem>> {
+fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Refusal> {
     let problems = result.err().unwrap_or_default();
     let (refuted, undecided): (Vec<_>, Vec<_>) =
         problems.into_iter().partition(|problem| matches!(problem.failure, BoundingFailure::Refuted { .. }));
-    if refuted.is_empty() { Ok(undecided) } else { Err(refuted) }
+    if refuted.is_empty() { Ok(undecided) } else { Err(Refusal::Bounds(refuted)) }
 }
 
 /// Without a domain, the bounding functions are proved up to the arguments that a proof uses.
 ///
 /// For the derivation the verdict is about, refuted ones are an error and undecided ones go to `unproved`; for the
 /// other, either takes its proof away.
-fn proved_up_to_arguments<P>(
+fn proved_up_to_arguments<W: Witness>(
     spec: &Specification,
-    outcome: Outcome<P>,
+    outcome: Outcome<Proof<W>>,
     chosen: bool,
     unproved: &mut Vec<BoundingProblem>,
-    arguments: impl Fn(&P) -> Option<(Rational, Rational)>,
-) -> Result<Outcome<P>, Vec<BoundingProblem>> {
-    let (Outcome::Proved(proof) | Outcome::NotProved { proof, .. }) = &outcome else { return Ok(outcome) };
-    let Some((x, e)) = arguments(proof) else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
+) -> Result<Outcome<Proof<W>>, Refusal> {
+    let Some(proof) = outcome.attempt() else { return Ok(outcome) };
+    let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
     let result = prove_up_to(spec, &x, &e);
     if chosen {
         unproved.extend(undecided_or_error(result)?);
@@ -249,47 +239,9 @@ fn proved_up_to_arguments<P>(
     Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Obstacle::Bounds) })
 }
 
-fn sharp_used(outcome: &Outcome<SharpProof>) -> Option<(Rational, Rational)> {
-    outcome.proved().and_then(sharp_arguments)
-}
-
-fn repaired_used(outcome: &Outcome<RepairedProof>) -> Option<(Rational, Rational)> {
-    outcome.proved().and_then(repaired_arguments)
-}
-
-/// (max{X_p, X_b}, max{E_p, E_b}), rounded up.
-fn sharp_arguments(proof: &SharpProof) -> Option<(Rational, Rational)> {
-    let (bounds, error_box) = (&proof.evaluation.bounds, &proof.evaluation.error_box);
-    let x = bounds.state.x_p.max(&error_box.x_b).upper_rational();
-    x.zip(bounds.state.e_p.max(&error_box.e_b).upper_rational())
-}
-
-/// (X_b, E_b), rounded up; X <= X_b and E <= E_b.
-fn repaired_arguments(proof: &RepairedProof) -> Option<(Rational, Rational)> {
-    let point = &proof.evaluation.point;
-    point.x_b.upper_rational().zip(point.e_b.upper_rational())
-}
-
-fn failing(conditions: &[Condition]) -> Vec<Condition> {
-    conditions.iter().filter(|condition| !condition.truth().is_true()).cloned().collect()
-}
-
-pub(super) fn sharp_outcome(result: Option<(SharpWitness, SharpEvaluation, u32)>) -> Outcome<SharpProof> {
-    let Some((witness, evaluation, precision)) = result else {
-        return Outcome::NotFound(Obstacle::NotFinite);
-    };
-    let failing = failing(&evaluation.conditions);
-    let proof = Box::new(SharpProof { witness, evaluation, precision });
-    if failing.is_empty() { Outcome::Proved(proof) } else { Outcome::NotProved { proof, failing } }
-}
-
-fn repaired_outcome(result: Option<(RepairedWitness, RepairedEvaluation, u32)>) -> Outcome<RepairedProof> {
-    let Some((witness, evaluation, precision)) = result else {
-        return Outcome::NotFound(Obstacle::NotFinite);
-    };
-    let failing = failing(&evaluation.conditions);
-    let proof = Box::new(RepairedProof { witness, evaluation, precision });
-    if failing.is_empty() { Outcome::Proved(proof) } else { Outcome::NotProved { proof, failing } }
+/// The largest arguments that a proof uses, rounded up.
+fn reach<W: Witness>(outcome: &Outcome<Proof<W>>) -> Option<[Rational; 2]> {
+    outcome.proved().and_then(|proof| proof.decided().reach())
 }
 
 fn printed_figure(data: &Data<'_>, model: &FloatModel) -> PrintedFigure {

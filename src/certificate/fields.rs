@@ -1,0 +1,110 @@
+//! The free numbers of every witness: their names in a certificate, listed once for the writer, the reader and messages.
+//!
+//! A further number of a witness is one line here, beside its field in `derivation`; a part that is nested or may be
+//! missing is listed by itself, and read and written as its derivation's `exact_regulation` is.
+
+use crate::derivation::exact_regulation::ExactWitness;
+use crate::derivation::mean_squares::MeanSquares;
+use crate::derivation::repaired::RepairedWitness;
+use crate::derivation::sharp::{ClaimedSet, SharpWitness};
+use crate::number::write_exact;
+use crate::spec::{ErrorKind, Errors, Object, Reported, Value, any_constant};
+use crate::transfer::TransferProof;
+use rug::Rational;
+
+/// A part of a certificate that consists of exact rational numbers, each with a name.
+pub trait Numbers: Sized {
+    /// What it holds beside the numbers, which stands elsewhere in the file.
+    type Other;
+
+    /// The numbers by their names, in the order of the file.
+    fn numbers(&self) -> Vec<(&'static str, &Rational)>;
+
+    /// Reads the numbers, then the rest by `other`.
+    ///
+    /// # Errors
+    /// Every field that is missing or not an exact rational, with its place; and what `other` reports.
+    fn read(
+        fields: &mut Object<'_>,
+        errors: &mut Errors,
+        other: impl FnOnce(&mut Object<'_>, &mut Errors) -> Result<Self::Other, Reported>,
+    ) -> Result<Self, Reported>;
+
+    /// The numbers as fields of JSON.
+    fn json(&self) -> Vec<(&'static str, serde_json::Value)> {
+        self.numbers().into_iter().map(|(name, value)| (name, write_exact(value).into())).collect()
+    }
+}
+
+macro_rules! numbers {
+    ($part:ident { $($field:ident: $name:literal),+ } and ($($other:ident: $type:ty),*)) => {
+        impl Numbers for $part {
+            type Other = ($($type,)*);
+
+            fn numbers(&self) -> Vec<(&'static str, &Rational)> {
+                vec![$(($name, &self.$field)),+]
+            }
+
+            fn read(
+                fields: &mut Object<'_>,
+                errors: &mut Errors,
+                other: impl FnOnce(&mut Object<'_>, &mut Errors) -> Result<Self::Other, Reported>,
+            ) -> Result<$part, Reported> {
+                $(let $field = rational(fields, $name, errors);)+
+                let ($($other,)*) = other(fields, errors)?;
+                Ok($part { $($field: $field?,)+ $($other),* })
+            }
+        }
+    };
+}
+
+numbers!(SharpWitness {
+    x_p: "X_p",
+    e_p: "E_p",
+    r_x: "r_x",
+    r_e: "r_e",
+    r_d: "r_d",
+    kap: "kap",
+    d_x: "D_x",
+    d_e: "D_e",
+    w_x: "w_x",
+    h: "h",
+    k0: "k0",
+    k1: "k1"
+} and (sigma: Rational, set: ClaimedSet, transfer: TransferProof, refined: Option<RefinedSquares>));
+
+/// Mean squares of the periodic solution that are smaller than those of existence.
+pub(super) type RefinedSquares = MeanSquares<Rational>;
+
+numbers!(RefinedSquares { x: "r_x", e: "r_e", e_rate: "r_d" } and ());
+
+numbers!(RepairedWitness {
+    x: "X",
+    e: "E",
+    level: "L",
+    h: "h",
+    p_x: "p_x",
+    p_e: "p_e",
+    k0: "k0",
+    k1: "k1"
+} and (sigma: Rational, set: ClaimedSet, transfer: TransferProof));
+
+numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and ());
+
+numbers!(ClaimedSet { x0: "X0", e0: "E0", z0: "Z0" } and ());
+
+/// A field that holds an exact rational number.
+pub(super) fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Rational, Reported> {
+    let value = object.required(name, errors)?;
+    exact_rational(&value, &format!("`{name}`"), errors)
+}
+
+/// A value that is an exact rational number.
+pub(super) fn exact_rational(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Rational, Reported> {
+    let constant = any_constant(value, errors)?;
+    constant.as_rational().cloned().ok_or_else(|| {
+        let message = format!("{what} is not a rational number");
+        let expected = "expected an exact rational, as \"487/10\" or \"48.7\"";
+        errors.report(value.error(ErrorKind::Range, message).expected(expected))
+    })
+}

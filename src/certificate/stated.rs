@@ -1,0 +1,66 @@
+//! What a certificate states: its specification, its witness, and its bounds of the periodic solution.
+
+use super::read::{read_lyapunov, read_witness};
+use crate::certify::{GivenWitness, resolve_with};
+use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
+
+/// The statement of a certificate, for whoever holds it against something else.
+#[derive(Clone, Debug)]
+pub struct StatedClaim {
+    /// The specification inside the certificate, with its triple where that is proved by the witness.
+    pub spec: Specification,
+    /// The free numbers.
+    pub witness: GivenWitness,
+    /// The stated bounds of sup|x|, sup|e|, sup|zeta|_N and sup|z|_N along the periodic solution; infinite where there is none.
+    pub periodic: [f64; 4],
+}
+
+/// Reads the claim, the witness and the specification of a certificate. What a falsified certificate says is taken as it
+/// is; only a triple for a Jacobian is proved again.
+///
+/// # Errors
+/// What cannot be read, in its place, and a triple that is not proved.
+pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
+    let witness = read_witness(document)?;
+    let mut errors = Errors::new();
+    let root = document.root();
+    let Some(embedded) = document.at("/specification") else {
+        let error = root.error(ErrorKind::MissingField, "the field `specification` is missing");
+        let reported: Result<StatedClaim, Reported> = Err(errors.report(error));
+        return errors.conclude(document, reported);
+    };
+    let mut spec = Specification::from_value(&embedded)?;
+    if spec.lyapunov.triple().is_none() {
+        let triple = read_lyapunov(document)?;
+        let place = document.at("/witness/lyapunov").unwrap_or(root.clone());
+        spec = match resolve_with(&spec, &triple) {
+            Some(Ok(proved)) => proved,
+            Some(Err(failure)) => {
+                let error = place.error(ErrorKind::Range, format!("this triple is not proved: {failure}"));
+                let error = error.help("`sigmastar check` decides the certificate");
+                let reported: Result<StatedClaim, Reported> = Err(errors.report(error));
+                return errors.conclude(document, reported);
+            }
+            None => spec,
+        };
+    }
+    let stated = ["x", "e", "zeta", "z"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
+        Some(value) => bound(&value, &mut errors),
+        None => {
+            let message = format!("the bound `periodic_solution.{name}` is missing");
+            Err(errors.report(root.error(ErrorKind::MissingField, message)))
+        }
+    });
+    let [x, e, zeta, z] = stated;
+    let stated = x.and_then(|x| Ok([x, e?, zeta?, z?]));
+    let periodic = errors.conclude(document, stated)?;
+    Ok(StatedClaim { spec, witness, periodic })
+}
+
+/// An upper end of the claim; `inf` where there is none.
+fn bound(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
+    if value.text() == Some("inf") {
+        return Ok(f64::INFINITY);
+    }
+    any_constant(value, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)
+}

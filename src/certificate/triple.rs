@@ -1,0 +1,40 @@
+//! The Lyapunov triple of a Jacobian as a part of a certificate.
+
+use crate::number::write_exact;
+use crate::spec::Specification;
+use crate::spec::model::{LyapunovSource, PeriodicMatrix};
+use rug::Rational;
+use serde_json::{Map, Value};
+
+fn rows(matrix: &[Vec<Rational>]) -> Value {
+    let row = |row: &Vec<Rational>| Value::Array(row.iter().map(|entry| Value::from(write_exact(entry))).collect());
+    Value::Array(matrix.iter().map(row).collect())
+}
+
+/// P(t) as fields: `P` are the rows of the mean, and `harmonics`, where there are any, lists `cos` and `sin` of k = 1, 2, ...
+#[must_use]
+pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
+    let mut fields = Map::new();
+    fields.insert("P".to_owned(), rows(&matrix.mean));
+    if !matrix.harmonics.is_empty() {
+        let one = |[cos, sin]: &[Vec<Vec<Rational>>; 2]| {
+            let mut pair = Map::new();
+            pair.insert("cos".to_owned(), rows(cos));
+            pair.insert("sin".to_owned(), rows(sin));
+            Value::Object(pair)
+        };
+        fields.insert("harmonics".to_owned(), Value::Array(matrix.harmonics.iter().map(one).collect()));
+    }
+    fields
+}
+
+/// The part `witness.lyapunov` of a certificate: P(t) and the triple; `None` where the user gave the triple.
+#[must_use]
+pub fn lyapunov_json(spec: &Specification) -> Option<Value> {
+    let LyapunovSource::Proved { triple, matrix, .. } = &spec.lyapunov else { return None };
+    let mut fields = matrix_json(matrix);
+    for (name, value) in [("p_low", &triple.p_low), ("p_up", &triple.p_up), ("alpha", &triple.alpha)] {
+        fields.insert(name.to_owned(), Value::from(value.text.clone()));
+    }
+    Some(Value::Object(fields))
+}

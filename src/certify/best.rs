@@ -1,0 +1,63 @@
+//! The sharp derivation with the transfer proof, and the candidate, that give the smallest sigma.
+
+use super::options::{Options, TransferChoice};
+use super::proof::{Outcome, SharpProof};
+use super::round::{TransferKind, round_sharp};
+use crate::data::Data;
+use crate::search::{FloatModel, SharpProposal, search_sharp};
+use crate::transfer::TradeOff;
+
+/// The outcome, with the model and the proposal that it came from.
+pub(super) struct BestSharp {
+    pub(super) model: FloatModel,
+    pub(super) proposal: Option<SharpProposal>,
+    pub(super) outcome: Outcome<SharpProof>,
+}
+
+impl BestSharp {
+    fn new(data: &Data<'_>, options: Options, kind: TransferKind) -> BestSharp {
+        let model = model(data, kind);
+        let proposal = search_sharp(&model);
+        let outcome = match &proposal {
+            Err(obstacle) => Outcome::NotFound(*obstacle),
+            Ok(proposal) => round_sharp(data, &model, proposal, kind, options.ladder).into(),
+        };
+        BestSharp { model, proposal: proposal.ok(), outcome }
+    }
+
+    /// The better one of two: that with a proof, and with the smaller sigma.
+    fn or(self, other: BestSharp) -> BestSharp {
+        match (self.outcome.proved(), other.outcome.proved()) {
+            (Some(first), Some(second)) if second.witness.sigma < first.witness.sigma => other,
+            (None, Some(_)) => other,
+            _ => self,
+        }
+    }
+}
+
+pub(super) fn model(data: &Data<'_>, kind: TransferKind) -> FloatModel {
+    let trade_off = match kind {
+        TransferKind::Matched => TradeOff::matched(data),
+        TransferKind::Boxes => TradeOff::curve(data),
+        TransferKind::ClosedForm => TradeOff::closed_form(data),
+    };
+    FloatModel::new(data, trade_off)
+}
+
+/// Searches and decides the sharp derivation; the smaller one of what the closed form and the sharper proof of the transfer
+/// bound lead to is taken.
+pub(super) fn best_sharp(data: &Data<'_>, options: Options) -> BestSharp {
+    let with = |kind| BestSharp::new(data, options, kind);
+    if options.transfer == TransferChoice::Best {
+        let sharper = if data.matched { TransferKind::Matched } else { TransferKind::Boxes };
+        return with(sharper).or(with(TransferKind::ClosedForm));
+    }
+    if options.transfer == TransferChoice::Boxes {
+        let boxes = with(TransferKind::Boxes);
+        if boxes.outcome.proved().is_some() {
+            return boxes;
+        }
+    }
+    // Where no proof by boxes is found within its effort, the closed form still proves something.
+    with(TransferKind::ClosedForm)
+}

@@ -1,0 +1,31 @@
+//! From a specification to a decided claim: the triple of a Jacobian, search, rounding, rigorous decision.
+//!
+//! [`with_triple`] and [`certify`] are the whole way; [`recheck`] decides given free numbers, without any search. What either
+//! refuses is a [`Refusal`].
+
+mod best;
+mod bounding;
+mod certification;
+mod constants;
+mod decide;
+mod jacobian;
+mod matrix_checks;
+mod no_plant;
+mod options;
+mod produce;
+mod proof;
+mod refusal;
+mod round;
+mod verdict;
+
+pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
+pub use certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
+pub use decide::{decide, decide_exact};
+pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};
+pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
+pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
+pub use options::{Derivation, Ladder, Options, TransferChoice};
+pub use produce::{certify, recheck};
+pub use proof::{Decided, GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness};
+pub use refusal::Refusal;
+pub use verdict::Verdict;
