@@ -105,7 +105,7 @@ fn hard_bounding_functions_share_the_work() {
         problems
             .into_iter()
             .map(|problem| match problem.failure {
-                BoundingFailure::Undecided { reason, .. } => (problem.field, reason),
+                BoundingFailure::Undecided { reason, .. } => (problem.which.field(), reason),
                 other => panic!("{other}"),
             })
             .collect()

@@ -5,31 +5,34 @@ use rug::Rational;
 use rug::ops::Pow;
 use sigmastar::lmi::{DecayData, DecayProposal, SolverFailure, propose_multipliers, propose_sigma, verify_decay};
 
-/// The closed form of C5, exactly: `(1 + ht k_e)^2/(4 ht) + (w_x p k_f + k_x (1 + ht k_e)/2)^2/(4A - ht k_x^2)`; also
-/// 4A - ht k_x^2, ht and the worst xi for et = 1.
+/// The closed form of C5, exactly: `D^2/(4 ht) + (w_x p k_f + k_x D/2)^2/(4A - ht k_x^2)` with
+/// D = max{|1 + ht m|, |1 - ht k_l|}; also ht, D and the worst xi for et = 1.
 struct ClosedForm {
     threshold: Rational,
     ht: Rational,
+    worst: Rational,
     xi: Rational,
 }
 
 fn closed_form(data: &DecayData) -> ClosedForm {
     let ht = Rational::from(&data.h / &data.mu[0]);
-    let one_plus = Rational::from(&ht * &data.k_e) + 1;
+    let [below, above] = &data.sector;
+    let one_plus = (Rational::from(&ht * above) + 1).abs().max((Rational::from(1) - Rational::from(&ht * below)).abs());
     let cross = Rational::from(&data.w_x * &data.root_p_up) * &data.k_f + Rational::from(&data.k_x * &one_plus) / 2;
     let margin = Rational::from(&data.w_x * &data.rate) * 4 - Rational::from(&data.k_x * &data.k_x) * &ht;
     assert!(margin > 0);
     let xi = Rational::from(&cross / &margin) * 2;
     let threshold = Rational::from(&one_plus * &one_plus) / (4 * ht.clone()) + cross * &xi / 2;
-    ClosedForm { threshold, ht, xi }
+    ClosedForm { threshold, ht, worst: one_plus, xi }
 }
 
-/// The multipliers at the threshold, exactly, for k_x, k_e, k_f > 0.
+/// The multipliers at the threshold, exactly, for k_x, k_f > 0 and a sector that is open.
 fn exact_multipliers(data: &DecayData, form: &ClosedForm) -> [Rational; 3] {
     let worst = Rational::from(&data.k_x * &form.xi);
-    let one_plus = Rational::from(&worst + &data.k_e) * &form.ht + 1;
+    let one_plus = Rational::from(&worst * &form.ht) + &form.worst;
     let l_x = Rational::from(&one_plus / &worst) / 2 * (Rational::from(1) - exact(1e-60));
-    let l_e = Rational::from(&one_plus / &data.k_e) / 2;
+    let [below, above] = &data.sector;
+    let l_e = Rational::from(&one_plus / &Rational::from(below + above));
     [l_x, l_e, Rational::from(&data.w_x * &data.root_p_up) * &form.xi / &data.k_f]
 }
 
@@ -51,12 +54,14 @@ prop_compose! {
     /// The distance from ht k_x^2 = 4 A is `10^distance` relative to ht k_x^2 (or, with k_x = 0, 10^distance).
     fn decay_data(zeros: bool)(
         w_x in magnitude(6.0), h in magnitude(6.0), mu in magnitude(6.0), root_p_up in magnitude(3.0),
-        k_x in gain(zeros), k_e in gain(zeros), k_f in gain(zeros), distance in -1.0..6.0,
+        k_x in gain(zeros), k_l in gain(zeros), k_f in gain(zeros), distance in -1.0..6.0,
+        share in prop_oneof![Just(1.0), Just(0.0), -0.999..0.999],
     ) -> DecayData {
         let coupling = Rational::from(&h / &mu) * &k_x * &k_x;
         let four_a = if k_x == 0 { exact(10f64.powf(distance)) } else { coupling * (exact(10f64.powf(distance)) + 1) };
         let rate = four_a / (4 * w_x.clone());
-        DecayData { w_x, h, mu: [mu.clone(), mu], rate, root_p_up, k_x, k_e, k_f }
+        let sector = [k_l.clone(), k_l * exact(share)];
+        DecayData { w_x, h, mu: [mu.clone(), mu], rate, root_p_up, k_x, sector, k_f }
     }
 }
 
@@ -139,7 +144,8 @@ proptest! {
             + product(&[&sigma, &et, &et]) * 2 - product(&[&et, &u]) * 2 - product(&[mu, &et, &s]) * 2
             + product(&[&data.h, mu, &s, &s]) * 2 + product(&[&data.h, &s, &u]) * 2
             + l_x.clone() * (square(&ux) - square(&data.k_x) * square(&xi))
-            + l_e.clone() * (square(&ue) - square(&data.k_e) * square(&et))
+            + l_e.clone() * (Rational::from(&ue - product(&[&data.sector[1], &et])))
+                * (Rational::from(&ue + product(&[&data.sector[0], &et])))
             + l_f.clone() * (square(&phi) - square(&data.k_f) * square(&et));
         let keep = |values: [Rational; 3]| values.into_iter().zip(present).filter_map(|(v, p)| p.then_some(v));
         let numbers: Vec<Rational> = std::iter::once(sigma).chain(keep([l_x, l_e, l_f])).collect();
@@ -156,7 +162,7 @@ proptest! {
     }
 }
 
-/// h = mu = w_x = p = k_x = k_e = k_f = 1 and alpha - gam = 1: margin 3, C = 2, threshold 1 + 4/3.
+/// h = mu = w_x = p = k_x = k_l = m = k_f = 1 and a_2 = 1: margin 3, C = 2, threshold 1 + 4/3.
 fn ones() -> DecayData {
     let one = Rational::from(1);
     DecayData {
@@ -166,7 +172,7 @@ fn ones() -> DecayData {
         rate: one.clone(),
         root_p_up: one.clone(),
         k_x: one.clone(),
-        k_e: one.clone(),
+        sector: [one.clone(), one.clone()],
         k_f: one,
     }
 }
@@ -192,14 +198,14 @@ fn every_harmful_change_beyond_the_bounds_is_noticed() {
     assert!(!proved(&DecayData { rate: less.clone(), ..ones() }));
     assert!(!proved(&DecayData { root_p_up: more.clone(), ..ones() }));
     assert!(!proved(&DecayData { k_x: more.clone(), ..ones() }));
-    assert!(!proved(&DecayData { k_e: more.clone(), ..ones() }));
+    assert!(!proved(&DecayData { sector: [Rational::from(1), more.clone()], ..ones() }));
     assert!(!proved(&DecayData { k_f: more.clone(), ..ones() }));
     // Harmless changes: the same multipliers still do, with a k that is 0 as well.
     assert!(proved(&DecayData { rate: more.clone(), ..ones() }));
     for smaller in [less.clone(), Rational::new()] {
         assert!(proved(&DecayData { root_p_up: smaller.clone(), ..ones() }));
         assert!(proved(&DecayData { k_x: smaller.clone(), ..ones() }));
-        assert!(proved(&DecayData { k_e: smaller.clone(), ..ones() }));
+        assert!(proved(&DecayData { sector: [smaller.clone(), smaller.clone()], ..ones() }));
         assert!(proved(&DecayData { k_f: smaller, ..ones() }));
     }
 }
@@ -218,7 +224,9 @@ fn the_ends_of_mu_and_the_signs_are_checked() {
     let minus = Rational::from((-1, 1000));
     assert!(!proved(&DecayData { root_p_up: minus.clone(), ..ones() }));
     assert!(!proved(&DecayData { k_x: minus.clone(), ..ones() }));
-    assert!(!proved(&DecayData { k_e: minus.clone(), ..ones() }));
+    // An empty sector: the lower end is above the upper one.
+    assert!(!proved(&DecayData { sector: [Rational::from(1), Rational::from((-1001, 1000))], ..ones() }));
+    assert!(!proved(&DecayData { sector: [minus.clone(), Rational::from(1)], ..ones() }));
     assert!(!proved(&DecayData { k_f: minus.clone(), ..ones() }));
     // A multiplier that is not positive proves nothing, unless its signal is absent.
     let [_, l_e, l_f] = multipliers;

@@ -171,6 +171,12 @@ struct At {
     qt: R,
     qr: R,
     qtr: R,
+    /// -below <= dq/de <= above.
+    below: R,
+    above: R,
+    fx: Option<R>,
+    mixed: Option<[R; 2]>,
+    rate: Option<R>,
 }
 
 impl<'s> Spec<'s> {
@@ -199,7 +205,10 @@ impl<'s> Spec<'s> {
             if value < r(0.0) { r(0.0) } else { value }
         };
         let b = &self.spec.bounds;
-        let of = |which: Bound| value(b.get(which));
+        let of = |which: Bound| b.get(which).map_or(r(f64::NAN), value);
+        let signed = |which: Bound| {
+            b.own(which).map(|expr| R(Float::with_val(BITS, expr.enclose(&point(x), &point(e)).lower())))
+        };
         // A root mean square is at most the supremum.
         let rms = |own: Bound, supremum: Bound| {
             let (own, supremum) = (of(own), of(supremum));
@@ -216,6 +225,11 @@ impl<'s> Spec<'s> {
             qt: of(Bound::Qt),
             qr: rms(Bound::QRms, Bound::Q),
             qtr: rms(Bound::QtRms, Bound::Qt),
+            below: of(Bound::Qe),
+            above: signed(Bound::QeMax).map_or_else(|| of(Bound::Qe), |m| if m < of(Bound::Qe) { m } else { of(Bound::Qe) }),
+            fx: b.own(Bound::Fx).map(&value),
+            mixed: b.own(Bound::Qtx).zip(b.own(Bound::Qte)).map(|(x, e)| [value(x), value(e)]),
+            rate: signed(Bound::Rate),
         }
     }
 
@@ -299,65 +313,196 @@ impl<'s> Spec<'s> {
             * (self.at(x_per, &r(0.0)).fxx * x_per
                 + self.at(x_per, e_per).fex * e_per
                 + self.at(&x_b, e_per).fxx * &d_x / r(2.0));
-        let (k_x, k_e, k_f) = (edge.qx / self.p_low.sqrt(), edge.qe, edge.fe);
+        let (k_x, k_f) = (edge.qx / self.p_low.sqrt(), edge.fe);
+        let rate = &self.alpha - &gamma;
+        let rate = self.at(&x_b, e_per).rate.map_or(rate.clone(), |given| given.max(&rate));
         let [a, b, c] = distances;
         let start = &w_x * &self.p_up * a.sq() + b.sq() + &h * c.sq();
         let exit = (&w_x * &self.p_low * d_x.sq()).min(&d_e.sq());
-        // -U' as a form in (s, xi, et), with u = k_x xi + k_e et at its worst sign and phi = k_f et.
-        let corner = r(2.0) * &w_x * (&self.alpha - &gamma);
-        let coupled = &h * &k_x;
-        let mixed = &h * &k_e - &self.mu;
-        let cross = r(0.0) - &w_x * self.p_up.sqrt() * &k_f - &k_x;
+        // -U' as a form in (s, xi, et), with u = k_x xi + slope et at its worst sign and phi = k_f et; the slope at either end
+        // of its sector, and k_x with either sign.
+        let corner = r(2.0) * &w_x * &rate;
         let first = r(2.0) * &h * &self.mu;
-        let second = &first * &corner - coupled.sq();
-        let determinant = |sigma: &R| {
-            let last = r(2.0) * (sigma - &k_e);
-            &first * (&corner * &last - cross.sq()) - &coupled * (&coupled * &last - &cross * &mixed)
-                + &mixed * (&coupled * &cross - &corner * &mixed)
-        };
-        // The determinant is affine in sigma, with twice the second minor as its slope.
-        let threshold = r(0.0) - determinant(&r(0.0)) / (r(2.0) * &second);
-        let definite = first > r(0.0) && second > r(0.0) && determinant(sigma) > r(0.0);
+        let mut threshold = r(0.0);
+        let mut definite = first > r(0.0);
+        for (slope, sign) in [(edge.above.clone(), 1.0), (r(0.0) - &edge.below, 1.0), (edge.above, -1.0), (r(0.0) - edge.below, -1.0)] {
+            let k_x = r(sign) * &k_x;
+            let coupled = &h * &k_x;
+            let mixed = &h * &slope - &self.mu;
+            let cross = r(0.0) - &w_x * self.p_up.sqrt() * &k_f - &k_x;
+            let second = &first * &corner - coupled.sq();
+            let determinant = |sigma: &R| {
+                let last = r(2.0) * (sigma - &slope);
+                &first * (&corner * &last - cross.sq()) - &coupled * (&coupled * &last - &cross * &mixed)
+                    + &mixed * (&coupled * &cross - &corner * &mixed)
+            };
+            // The determinant is affine in sigma, with twice the second minor as its slope.
+            threshold = threshold.max(&(r(0.0) - determinant(&r(0.0)) / (r(2.0) * &second)));
+            definite = definite && second > r(0.0) && determinant(sigma) > r(0.0);
+        }
         let conditions = vec![
             less("C4", start, exit),
-            less("C5", &h / &self.mu * k_x.sq(), r(4.0) * &w_x * (&self.alpha - &gamma)),
+            less("C5", &h / &self.mu * k_x.sq(), r(4.0) * &w_x * rate),
             Plain { id: "C5b", lhs: threshold, rhs: sigma.clone(), holds: definite },
         ];
         (conditions, [x_b, e_b])
     }
 
-    /// All conditions of a sharp certificate.
+    /// C_k, r_0 and r_1 of `q_0`.
+    fn known(&self) -> Option<(Vec<R>, R, R)> {
+        let known = self.spec.q_0.as_ref()?;
+        let c: Vec<R> = known.harmonics.iter().map(constant).collect();
+        let om = self.om();
+        let rate = (1..c.len()).fold(r(0.0), |sum, k| sum + r(2.0) * (r(k as f64) * &om * &c[k]).sq()).sqrt();
+        let derived = self.at(&r(0.0), &r(0.0)).qtr + rate;
+        let rest_rate = known.rest_t_rms.as_ref().map_or(derived.clone(), |given| constant(given).min(&derived));
+        Some((c, constant(&known.rest_rms), rest_rate))
+    }
+
+    fn om(&self) -> R {
+        r(2.0) * R(Float::with_val(BITS, rug::float::Constant::Pi)) / &self.t
+    }
+
+    /// All conditions of a sharp certificate (sections 5 and 10).
     pub fn sharp(&self, certificate: &Value) -> Vec<Plain> {
         let (witness, claim) = (&certificate["witness"], &certificate["claim"]);
         let sigma = number(&claim["sigma_star"]);
-        let [x_p, e_p, p_x, p_e, k0, k1] = numbers(witness, ["X_p", "E_p", "p_x", "p_e", "k0", "k1"]);
+        let [x_p, e_p, k0, k1, kap] = numbers(witness, ["X_p", "E_p", "k0", "k1", "kap"]);
+        let squares = |part: &Value| numbers(part, ["r_x", "r_e", "r_d"]);
+        let (t, om) = (&self.t, self.om());
         let at = self.at(&x_p, &e_p);
-        let fxx = self.at(&x_p, &r(0.0)).fxx;
-        let x1 = self.at(&x_p, &r(0.0)).f + &fxx * x_p.sq() + &at.fe * &e_p;
-        let q1 = &at.qtr + &at.qx * x1 + &at.qe * &at.qr;
+        let axis = self.at(&x_p, &r(0.0));
+        let origin = self.at(&r(0.0), &r(0.0));
+        // 10.1.
+        let a_1 = &self.alpha - &self.c * &axis.fxx * &x_p / r(2.0);
+        let a_1 = axis.rate.map_or(a_1.clone(), |given| given.max(&a_1));
+        let taylor = (&axis.f + &axis.fxx * x_p.sq()) / &x_p;
+        let fx = axis.fx.map_or(taylor.clone(), |given| given.min(&taylor));
+        // 10.2.
+        let sg = (sigma.sq() + om.sq()).sqrt();
+        let bt = (self.beta(&sigma).sq() - r(1.0) / sigma.sq()).sqrt();
+        let tau = self.tau(&sigma);
+        let half = &a_1 * t / r(2.0);
+        let coth = R(Float::with_val(BITS, half.0.coth_ref()));
+        let gain = &self.c / &a_1;
+        let k2 = &self.c * (t * coth / (r(2.0) * &a_1)).sqrt();
+        // 10.3.
+        let known = self.known();
+        let q_0 = known.as_ref().map_or(origin.qr.clone(), |(c, rest, _)| {
+            let squares = (1..c.len()).fold(c[0].sq(), |sum, k| sum + r(2.0) * c[k].sq());
+            origin.qr.min(&(squares.sqrt() + rest))
+        });
+        let sums = known.as_ref().map(|(c, ..)| {
+            let gain = |k: usize| r(1.0) / (sigma.sq() + (r(k as f64) * &om).sq());
+            let sup = (1..c.len()).fold(r(0.0), |sum, k| sum + r(2.0) * &c[k] * gain(k).sqrt());
+            let rms = (1..c.len()).fold(r(0.0), |sum, k| sum + r(2.0) * c[k].sq() * gain(k)).sqrt();
+            let rate = (1..c.len()).fold(r(0.0), |sum, k| sum + r(2.0) * (r(k as f64) * &om * &c[k]).sq()).sqrt();
+            (sup, rms, rate)
+        });
+        let sup_of = |size: &R, rate: &R| (&bt * size).min(&(&tau * rate));
+        let rms_of = |size: &R, rate: &R| (size / &sg).min(&(rate / (&om * &sg)));
+        let forcing = |[r_x, r_e, r_d]: &[R; 3]| {
+            let moved = &at.qx * (&fx * r_x + &at.fe * r_e) + &at.qe * r_d;
+            let d_0 = &at.qx * r_x + &at.qe * r_e;
+            let in_time = &at.qtr + &origin.qtr;
+            let in_time = at.mixed.as_ref().map_or(in_time.clone(), |[x, e]| in_time.min(&(x * r_x + e * r_e)));
+            let d_1 = in_time + &moved;
+            let r_q = at.qr.min(&(&q_0 + &d_0));
+            let r_1 = &at.qtr + moved;
+            let r_1 = match (&sums, &known) {
+                (Some((.., rate)), Some((.., rest))) => r_1.min(&(rate + rest + &d_1)),
+                _ => r_1,
+            };
+            [r_q, r_1, d_0, d_1]
+        };
+        let response = |[r_q, r_1, d_0, d_1]: &[R; 4]| {
+            let (mut sup, mut rms) = (sup_of(r_q, r_1), rms_of(r_q, r_1));
+            if let (Some((sup_0, rms_0, _)), Some((_, rest, rest_rate))) = (&sums, &known) {
+                sup = sup.min(&(sup_0 + sup_of(rest, rest_rate) + sup_of(d_0, d_1)));
+                rms = rms.min(&(rms_0 + rms_of(rest, rest_rate) + rms_of(d_0, d_1)));
+            }
+            [sup, rms, r_q.min(&(r_1 / &sg))]
+        };
+        let damped = |[r_x, r_e, _]: &[R; 3]| {
+            let slope = (&at.above + &kap).max(&(&at.below - &kap));
+            let forced = &q_0 + &at.qx * r_x + slope * r_e;
+            let g = if kap <= sigma { r(1.0) / (&sigma + &kap) } else { r(0.5) / (&sigma * &kap).sqrt() };
+            [g * &forced, forced + &kap * r_e]
+        };
+        let first = squares(witness);
+        let refined = (!witness["refined"].is_null()).then(|| squares(&witness["refined"]));
+        let last = refined.clone().unwrap_or_else(|| first.clone());
+        let by_squares = |[_, r_e, r_d]: &[R; 3]| (t * r_e * r_d).sqrt();
+        let forced = forcing(&last);
+        let [sup, ..] = response(&forced);
+        let e_per = e_p.min(&sup).min(&by_squares(&last));
+        let x_per = x_p.min(&(&gain * &at.fe * &e_per)).min(&(&k2 * &at.fe * &last[1]));
         let w2 = self.w.sq();
-        let z = ((&self.t / (r(2.0) * &self.mu) + &k0 / &w2) * at.qr.sq() + &k1 / w2.sq() * q1.sq()).sqrt();
-        let gain = &self.c / &self.alpha;
-        let share = &gain * &fxx * &x_p / r(2.0);
-        let (by_size, by_rate) = (self.beta(&sigma) * &at.qr, self.tau(&sigma) * &q1);
-        let e_per = e_p.min(&by_size).min(&by_rate);
-        let x_per = x_p.min(&(&gain * &at.fe * &e_per / (r(1.0) - &share)));
-        let mut all = signs(certificate, &["X_p", "E_p", "D_x", "D_e", "p_x", "p_e", "w_x", "h", "k1"]);
+        let (kappa_0, kappa_1) = (&k0 / &w2, &k1 / w2.sq());
+        let [r_q, r_1, d_0, d_1] = &forced;
+        let swing = t / (r(2.0) * &self.mu) * r_q.sq();
+        let norm = |a: &R, b: &R| &kappa_0 * a.sq() + &kappa_1 * b.sq();
+        let mut z = (&swing + norm(r_q, r_1)).sqrt();
+        if let Some((c, rest, rest_rate)) = &known {
+            let weights = &self.spec.internal_model.weights;
+            let nu = &self.mu / &self.w;
+            let bound = |k: usize| {
+                let general = &k0 + &k1 * (r(k as f64) * &om / &self.w).sq();
+                let matched = r(2.0) / (nu.sq() * weight(weights, k as u64));
+                if self.spec.internal_model.matched { general.min(&matched) } else { general }
+            };
+            let mean = c[0].sq() / (nu.sq() * weight(weights, 0));
+            let sum = (1..c.len()).fold(mean, |sum, k| sum + r(2.0) * bound(k) * c[k].sq());
+            let total = sum.sqrt() / &self.w + norm(rest, rest_rate).sqrt() + norm(d_0, d_1).sqrt();
+            z = z.min(&(swing + total.sq()).sqrt());
+        }
+        let mut all = signs(certificate, &["X_p", "E_p", "r_x", "r_e", "r_d", "D_x", "D_e", "w_x", "h", "k1"]);
+        if kap != r(0.0) {
+            all.push(less("sign", r(0.0), kap.clone()));
+        }
+        for value in refined.iter().flatten() {
+            all.push(less("sign", r(0.0), value.clone()));
+        }
         all.extend(self.set(claim, &x_p, &e_p, &z));
         let claimed = set_of(claim);
         let distances = [&claimed[0] + &x_per, &claimed[1] + &e_per, &claimed[2] + &self.n_bar * &claimed[1] + &z];
         let (stability, [x_b, e_b]) = self.stability([&x_per, &e_per], &distances, witness, &sigma);
         all.extend(self.domain(&x_p.max(&x_b), &e_p.max(&e_b)));
         all.push(self.transfer(witness, &k0, &k1));
-        all.push(at_most("C1", &gain * (&at.fe * &e_p + &fxx * x_p.sq() / r(2.0)), x_p.clone()));
-        all.push(less("C1b", share, r(1.0)));
-        all.push(at_most("C2", by_size.min(&by_rate), e_p.clone()));
-        let beta = self.beta(&sigma);
-        let (a, b) = (&gain * (&at.fex * &e_p + &fxx * &x_p), &gain * &at.fe);
-        all.push(less("C3", &a * &p_x + &beta * &at.qx * &p_e, p_x.clone()));
-        all.push(less("C3b", &b * &p_x + &beta * &at.qe * &p_e, p_e.clone()));
+        all.push(less("S1", r(0.0), a_1));
+        all.push(at_most("S1b", (&gain * &at.fe * &e_p).min(&(&k2 * &at.fe * &first[1])), x_p.clone()));
+        all.push(at_most("S1c", &gain * &at.fe * &first[1], first[0].clone()));
+        let [sup, rms, rate] = if kap == r(0.0) {
+            let [sup, rms, rate] = response(&forcing(&first));
+            [sup.min(&by_squares(&first)), rms, rate]
+        } else {
+            all.extend(self.one_sided(&x_p, &e_p));
+            let [rms, rate] = damped(&first);
+            [by_squares(&first), rms, rate]
+        };
+        all.push(at_most("S2", sup, e_p.clone()));
+        all.push(at_most("S2b", rms, first[1].clone()));
+        all.push(at_most("S2c", rate, first[2].clone()));
+        if let Some(refined) = &refined {
+            let [_, mut rms, mut rate] = response(&forcing(refined));
+            if kap != r(0.0) {
+                let [by_damping, rate_by_damping] = damped(refined);
+                (rms, rate) = (rms.min(&by_damping), rate.min(&rate_by_damping));
+            }
+            all.push(less("S3", &gain * &at.fe * &refined[1], refined[0].clone()));
+            all.push(less("S3b", rms, refined[1].clone()));
+            all.push(less("S3c", rate, refined[2].clone()));
+        }
+        all.extend(self.one_sided(&x_b, &e_b));
         all.extend(stability);
         all
+    }
+
+    /// Whether the sector of dq/de is one.
+    fn one_sided(&self, x: &R, e: &R) -> Option<Plain> {
+        self.spec.bounds.own(Bound::QeMax)?;
+        let at = self.at(x, e);
+        Some(at_most("M", r(0.0) - at.below, at.above))
     }
 
     /// The conditions of the exact-regulation part, if there is one.
@@ -371,8 +516,16 @@ impl<'s> Spec<'s> {
         let weights = &self.spec.internal_model.weights;
         let pi = R(Float::with_val(BITS, rug::float::Constant::Pi));
         let turn = &self.t / (r(2.0) * pi);
-        let z = (origin.q.sq() / weight(weights, 0) + r(2.0) * turn.sq() * origin.qt.sq() / weight(weights, 1)).sqrt()
-            / &self.mu;
+        let norm = |size: &R, rate: &R| {
+            (size.sq() / weight(weights, 0) + r(2.0) * turn.sq() * rate.sq() / weight(weights, 1)).sqrt()
+        };
+        let mut z = norm(&origin.qr, &origin.qtr);
+        if let Some((c, rest, rest_rate)) = self.known() {
+            let first = c[0].sq() / weight(weights, 0);
+            let sum = (1..c.len()).fold(first, |sum, k| sum + r(4.0) * c[k].sq() / weight(weights, k as u64));
+            z = z.min(&(sum.sqrt() + norm(&rest, &rest_rate)));
+        }
+        let z = z / &self.mu;
         let claimed = set_of(&certificate["claim"]);
         let far = &claimed[2] + &self.n_bar * &claimed[1] + z;
         let zero = r(0.0);
@@ -383,6 +536,7 @@ impl<'s> Spec<'s> {
             all.push(less("sign", r(0.0), value));
         }
         all.extend(self.domain(&x_b, &e_b));
+        all.extend(self.one_sided(&x_b, &e_b));
         all.extend(stability);
         all
     }
