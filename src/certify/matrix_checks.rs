@@ -4,7 +4,8 @@
 use super::proof::{RepairedProof, SharpProof};
 use crate::data::Data;
 use crate::enclosure::Enclosure;
-use crate::lmi::{CrossCheck, CrossCheckError, cross_check, leading_minors, perron};
+use crate::lmi::{CrossCheck, CrossCheckError, contraction, cross_check};
+use crate::matrix::leading_minors;
 use crate::number::{Direction, round_rational};
 use crate::spec::model::Specification;
 use rug::Rational;
@@ -72,8 +73,8 @@ fn contraction(proof: &SharpProof) -> Option<ContractionCheck> {
     // The weights of C3 belong to the transpose.
     let rows = vec![vec![upper(&matrix.xx)?, upper(&matrix.ex)?], vec![upper(&matrix.xe)?, upper(&matrix.ee)?]];
     let weights = [proof.witness.p_x.clone(), proof.witness.p_e.clone()];
-    let spectral_radius = perron::spectral_radius(&rows, &weights)?;
-    let stein = perron::propose_stein(&rows).ok().filter(|d| perron::stein_holds(&rows, d));
+    let spectral_radius = contraction::spectral_radius(&rows, &weights)?;
+    let stein = contraction::propose_stein(&rows).ok().filter(|d| contraction::stein_holds(&rows, d));
     Some(ContractionCheck { spectral_radius, stein })
 }
 
