@@ -3,7 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::Mat;
 use sigmastar::enclosure::Truth;
-use sigmastar::lmi::ScaledMatrix;
+use sigmastar::matrix::ScaledMatrix;
 use std::hint::black_box;
 
 /// Q diag(values) Q' with a Householder reflection Q, so that the spectrum is known.

@@ -77,6 +77,8 @@ pub mod lmi;
 #[doc(hidden)]
 pub mod lyapunov;
 #[doc(hidden)]
+pub mod matrix;
+#[doc(hidden)]
 pub mod number;
 #[doc(hidden)]
 pub mod plant;
@@ -96,6 +98,8 @@ pub mod report;
 pub mod reproduce;
 #[doc(hidden)]
 pub mod search;
+#[doc(hidden)]
+pub mod semidefinite;
 #[doc(hidden)]
 pub mod simulate;
 #[doc(hidden)]

@@ -78,16 +78,8 @@ pub(super) type RefinedSquares = MeanSquares<Rational>;
 
 numbers!(RefinedSquares { x: "r_x", e: "r_e", e_rate: "r_d" } and ());
 
-numbers!(RepairedWitness {
-    x: "X",
-    e: "E",
-    level: "L",
-    h: "h",
-    p_x: "p_x",
-    p_e: "p_e",
-    k0: "k0",
-    k1: "k1"
-} and (sigma: Rational, set: ClaimedSet, transfer: TransferProof));
+numbers!(RepairedWitness { x: "X", e: "E", level: "L", h: "h", p_x: "p_x", p_e: "p_e", k0: "k0", k1: "k1" }
+    and (sigma: Rational, set: ClaimedSet, transfer: TransferProof));
 
 numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and ());
 

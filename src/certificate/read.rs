@@ -38,15 +38,20 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
     for unused in unused {
         let _ = file.optional(unused);
     }
-    let claim = file.required("claim", errors).and_then(|value| read_claim(&value, errors));
+    let claim = file.required("claim", errors).and_then(|value| claim_part(&value, errors));
     let witness = file.required("witness", errors);
     file.finish(errors);
-    let (claim, witness) = (claim?, witness?);
+    let ((repaired, sigma, set), witness) = (claim?, witness?);
     let mut fields = witness.object(errors)?;
     // Read by `read_lyapunov`, where the specification asks for it.
     let _ = fields.optional("lyapunov");
-    let result =
-        if claim.repaired { read_repaired(&mut fields, claim, errors) } else { read_sharp(&mut fields, claim, errors) };
+    let result = if repaired {
+        let other = |fields: &mut Object<'_>, errors: &mut Errors| Ok((sigma, set, read_transfer(fields, errors)?));
+        RepairedWitness::read(&mut fields, errors, other)
+            .map(|witness| GivenWitness::Repaired { witness: Box::new(witness) })
+    } else {
+        read_sharp(&mut fields, errors, sigma, set)
+    };
     fields.finish(errors);
     result
 }
@@ -64,13 +69,16 @@ pub fn read_lyapunov(document: &Document) -> Result<ProvedTriple, SpecErrors> {
         let mut witness = witness.object(&mut errors)?;
         let value = witness.required("lyapunov", &mut errors)?;
         let mut fields = value.object(&mut errors)?;
-        let mean = fields.required("P", &mut errors).and_then(|value| read_matrix(&value, &mut errors));
+        let mean =
+            fields.required("P", &mut errors).and_then(|value| read_rows(&value, "an entry of a matrix", &mut errors));
         let mut harmonics = Vec::new();
         if let Some(value) = fields.optional("harmonics") {
             for pair in value.array(&mut errors)? {
                 let mut pair = pair.object(&mut errors)?;
-                let [cos, sin] = ["cos", "sin"]
-                    .map(|name| pair.required(name, &mut errors).and_then(|value| read_matrix(&value, &mut errors)));
+                let [cos, sin] = ["cos", "sin"].map(|name| {
+                    pair.required(name, &mut errors)
+                        .and_then(|value| read_rows(&value, "an entry of a matrix", &mut errors))
+                });
                 pair.finish(&mut errors);
                 harmonics.push([cos?, sin?]);
             }
@@ -83,31 +91,26 @@ pub fn read_lyapunov(document: &Document) -> Result<ProvedTriple, SpecErrors> {
     errors.conclude(document, outcome)
 }
 
-fn read_matrix(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
+/// Lists of exact rationals.
+fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
     let mut rows = Vec::new();
     for row in value.array(errors)? {
         let mut entries = Vec::new();
         for entry in row.array(errors)? {
-            entries.push(exact_rational(&entry, "an entry of a matrix", errors)?);
+            entries.push(exact_rational(&entry, what, errors)?);
         }
         rows.push(entries);
     }
     Ok(rows)
 }
 
-/// What the claim contributes to the witness.
-struct Claim {
-    repaired: bool,
-    sigma: Rational,
-    set: ClaimedSet,
-}
-
-fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported> {
+/// What the claim contributes to the witness: whether it is of the repaired derivation, sigma*, and the initial set.
+fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(bool, Rational, ClaimedSet), Reported> {
     let mut claim = value.object(errors)?;
     for unused in ["verdict", "n_o", "mu", "periodic_solution", "statement"] {
         let _ = claim.optional(unused);
     }
-    let derivation = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {
+    let repaired = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {
         "sharp" => Ok(false),
         "repaired" => Ok(true),
         other => {
@@ -124,7 +127,7 @@ fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported>
         sizes
     });
     claim.finish(errors);
-    Ok(Claim { repaired: derivation?, sigma: sigma?, set: set? })
+    Ok((repaired?, sigma?, set?))
 }
 
 fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<TransferProof, Reported> {
@@ -135,7 +138,8 @@ fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<Transfe
         "matched" => Ok(TransferProof::Matched { k: small_integer(&mut transfer, "K", errors)? }),
         "boxes" => {
             let (m0, n0) = (small_integer(&mut transfer, "m0", errors), small_integer(&mut transfer, "N0", errors));
-            let breaks = transfer.required("boxes", errors).and_then(|value| read_breaks(&value, errors));
+            let breaks =
+                transfer.required("boxes", errors).and_then(|value| read_rows(&value, "a break point", errors));
             Ok(TransferProof::Boxes(BoxProof { m0: m0?, n0: n0?, breaks: breaks? }))
         }
         other => {
@@ -158,20 +162,12 @@ fn small_integer(object: &mut Object<'_>, name: &'static str, errors: &mut Error
     })
 }
 
-/// The break points of a proof by boxes: lists of exact rationals.
-fn read_breaks(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
-    let mut lists = Vec::new();
-    for list in value.array(errors)? {
-        let mut breaks = Vec::new();
-        for point in list.array(errors)? {
-            breaks.push(exact_rational(&point, "a break point", errors)?);
-        }
-        lists.push(breaks);
-    }
-    Ok(lists)
-}
-
-fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<GivenWitness, Reported> {
+fn read_sharp(
+    fields: &mut Object<'_>,
+    errors: &mut Errors,
+    sigma: Rational,
+    set: ClaimedSet,
+) -> Result<GivenWitness, Reported> {
     if let Some(value) = fields.value().member("p_x").filter(|_| fields.value().member("r_x").is_none()) {
         let message = "this witness proves existence by a contraction, as earlier versions did";
         let error = value.error(ErrorKind::UnknownField, message).expected("expected `r_x`, `r_e`, `r_d`, `kap`");
@@ -181,23 +177,17 @@ fn read_sharp(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Res
     let witness = SharpWitness::read(fields, errors, |fields, errors| {
         let transfer = read_transfer(fields, errors);
         let _ = fields.optional("lmi");
-        exact = fields.optional("exact_regulation").map(|value| read_part(&value, errors)).transpose();
-        let refined = fields.optional("refined").map(|value| read_part::<RefinedSquares>(&value, errors)).transpose();
-        Ok((claim.sigma, claim.set, transfer?, refined?))
+        exact = fields.optional("exact_regulation").map(|value| read_numbers(&value, errors)).transpose();
+        let refined = fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
+        Ok((sigma, set, transfer?, refined?))
     });
     Ok(GivenWitness::Sharp { witness: Box::new(witness?), exact: exact? })
 }
 
-/// A part that consists of numbers alone.
-fn read_part<N: Numbers<Other = ()>>(value: &Value<'_>, errors: &mut Errors) -> Result<N, Reported> {
+/// An object that holds numbers and nothing else.
+fn read_numbers<N: Numbers<Other = ()>>(value: &Value<'_>, errors: &mut Errors) -> Result<N, Reported> {
     let mut fields = value.object(errors)?;
-    let part = N::read(&mut fields, errors, |_, _| Ok(()));
+    let numbers = N::read(&mut fields, errors, |_, _| Ok(()));
     fields.finish(errors);
-    part
-}
-
-fn read_repaired(fields: &mut Object<'_>, claim: Claim, errors: &mut Errors) -> Result<GivenWitness, Reported> {
-    let other =
-        |fields: &mut Object<'_>, errors: &mut Errors| Ok((claim.sigma, claim.set, read_transfer(fields, errors)?));
-    Ok(GivenWitness::Repaired { witness: Box::new(RepairedWitness::read(fields, errors, other)?) })
+    numbers
 }

@@ -22,28 +22,28 @@ pub struct StatedClaim {
 /// What cannot be read, in its place, and a triple that is not proved.
 pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
     let witness = read_witness(document)?;
-    let mut errors = Errors::new();
     let root = document.root();
+    let refused = |error| {
+        let mut errors = Errors::new();
+        let reported = Err(errors.report(error));
+        errors.conclude(document, reported)
+    };
     let Some(embedded) = document.at("/specification") else {
-        let error = root.error(ErrorKind::MissingField, "the field `specification` is missing");
-        let reported: Result<StatedClaim, Reported> = Err(errors.report(error));
-        return errors.conclude(document, reported);
+        return refused(root.error(ErrorKind::MissingField, "the field `specification` is missing"));
     };
     let mut spec = Specification::from_value(&embedded)?;
     if spec.lyapunov.triple().is_none() {
-        let triple = read_lyapunov(document)?;
-        let place = document.at("/witness/lyapunov").unwrap_or(root.clone());
-        spec = match resolve_with(&spec, &triple) {
-            Some(Ok(proved)) => proved,
+        match resolve_with(&spec, &read_lyapunov(document)?) {
+            Some(Ok(proved)) => spec = proved,
             Some(Err(failure)) => {
+                let place = document.at("/witness/lyapunov").unwrap_or(root.clone());
                 let error = place.error(ErrorKind::Range, format!("this triple is not proved: {failure}"));
-                let error = error.help("`sigmastar check` decides the certificate");
-                let reported: Result<StatedClaim, Reported> = Err(errors.report(error));
-                return errors.conclude(document, reported);
+                return refused(error.help("`sigmastar check` decides the certificate"));
             }
-            None => spec,
-        };
+            None => {}
+        }
     }
+    let mut errors = Errors::new();
     let stated = ["x", "e", "zeta", "z"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
         Some(value) => bound(&value, &mut errors),
         None => {

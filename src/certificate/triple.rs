@@ -6,7 +6,8 @@ use crate::spec::model::{LyapunovSource, PeriodicMatrix};
 use rug::Rational;
 use serde_json::{Map, Value};
 
-fn rows(matrix: &[Vec<Rational>]) -> Value {
+/// Lists of exact rationals.
+pub(super) fn rows(matrix: &[Vec<Rational>]) -> Value {
     let row = |row: &Vec<Rational>| Value::Array(row.iter().map(|entry| Value::from(write_exact(entry))).collect());
     Value::Array(matrix.iter().map(row).collect())
 }

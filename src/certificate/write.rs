@@ -1,7 +1,7 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
 use super::fields::Numbers;
-use super::triple::lyapunov_json;
+use super::triple::{lyapunov_json, rows};
 use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
@@ -217,15 +217,12 @@ fn transfer_json(proof: &TransferProof) -> Value {
     match proof {
         TransferProof::ClosedForm => object([("proof", text(proof.name()))]),
         TransferProof::Matched { k } => object([("proof", text(proof.name())), ("K", Value::from(*k))]),
-        TransferProof::Boxes(boxes) => {
-            let list = |breaks: &Vec<Rational>| Value::Array(breaks.iter().map(exact).collect());
-            object([
-                ("proof", text(proof.name())),
-                ("m0", Value::from(boxes.m0)),
-                ("N0", Value::from(boxes.n0)),
-                ("boxes", Value::Array(boxes.breaks.iter().map(list).collect())),
-            ])
-        }
+        TransferProof::Boxes(boxes) => object([
+            ("proof", text(proof.name())),
+            ("m0", Value::from(boxes.m0)),
+            ("N0", Value::from(boxes.n0)),
+            ("boxes", rows(&boxes.breaks)),
+        ]),
     }
 }
 

@@ -5,7 +5,8 @@ use super::proof::{RepairedProof, SharpProof};
 use crate::data::Data;
 use crate::derivation::contraction::ContractionMatrix;
 use crate::enclosure::Enclosure;
-use crate::lmi::{CrossCheck, CrossCheckError, cross_check, leading_minors, perron};
+use crate::lmi::{CrossCheck, CrossCheckError, contraction, cross_check};
+use crate::matrix::leading_minors;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::spec::model::Specification;
 use rug::Rational;
@@ -80,8 +81,8 @@ fn contraction(proof: &SharpProof) -> Option<ContractionCheck> {
     let largest = weights[0].max(weights[1]);
     let [first, second] = weights.map(|weight| round_f64(weight / largest, 14, Direction::Nearest));
     let weights = [first?, second?];
-    let spectral_radius = perron::spectral_radius(&rows, &weights)?;
-    let stein = perron::propose_stein(&rows).ok().filter(|d| perron::stein_holds(&rows, d));
+    let spectral_radius = contraction::spectral_radius(&rows, &weights)?;
+    let stein = contraction::propose_stein(&rows).ok().filter(|d| contraction::stein_holds(&rows, d));
     Some(ContractionCheck { spectral_radius, stein })
 }
 

@@ -53,13 +53,9 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     } else {
         (model(&data, TransferKind::ClosedForm), None, Outcome::Skipped)
     };
-    let (sharp, repaired) = if spec.domain.is_none() {
-        let chosen = options.derivation;
-        let sharp = proved_up_to_arguments(spec, sharp, chosen == Derivation::Sharp, &mut unproved)?;
-        (sharp, proved_up_to_arguments(spec, repaired, chosen == Derivation::Repaired, &mut unproved)?)
-    } else {
-        (sharp, repaired)
-    };
+    let chosen = |derivation| options.derivation == derivation;
+    let sharp = proved_up_to_arguments(spec, sharp, chosen(Derivation::Sharp), &mut unproved)?;
+    let repaired = proved_up_to_arguments(spec, repaired, chosen(Derivation::Repaired), &mut unproved)?;
     let printed = printed_figure(&data, &paper_model);
     let exact = match (&sharp, spec.internal_model.matched) {
         (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
@@ -87,37 +83,28 @@ pub fn recheck<'s>(
     options: Options,
 ) -> Result<Certification<'s>, Refusal> {
     let data = Data::new(spec, options.ladder.start.max(53));
-    let (sharp, repaired) = match file {
-        GivenWitness::Sharp { witness, .. } => {
-            (Some(decide(spec, witness.as_ref().clone(), options.ladder)).into(), Outcome::Skipped)
+    let (derivation, sharp, repaired, claimed) = match file {
+        GivenWitness::Sharp { witness, exact } => {
+            let decided = decide(spec, witness.as_ref().clone(), options.ladder);
+            let claimed = exact.as_ref().map(|exact| ExactClaim {
+                witness: exact.clone(),
+                evaluation: decide_exact(spec, &witness.set, exact, options.ladder),
+            });
+            (Derivation::Sharp, Some(decided).into(), Outcome::Skipped, claimed)
         }
         GivenWitness::Repaired { witness } => {
-            (Outcome::Skipped, Some(decide(spec, witness.as_ref().clone(), options.ladder)).into())
+            let decided = decide(spec, witness.as_ref().clone(), options.ladder);
+            (Derivation::Repaired, Outcome::Skipped, Some(decided).into(), None)
         }
-    };
-    let claimed = match file {
-        GivenWitness::Sharp { witness, exact: Some(exact) } => {
-            let evaluation = decide_exact(spec, &witness.set, exact, options.ladder);
-            Some(ExactClaim { witness: exact.clone(), evaluation })
-        }
-        _ => None,
     };
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
-    let (sharp, repaired) = if spec.domain.is_none() {
-        let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved)?;
-        if let Some(claim) = &claimed {
-            unproved.extend(undecided_or_error(prove_up_to(spec, &claim.witness.d_x, &claim.witness.d_e))?);
-        }
-        (sharp, proved_up_to_arguments(spec, repaired, true, &mut unproved)?)
-    } else {
-        (sharp, repaired)
-    };
+    let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved)?;
+    if let (None, Some(claim)) = (&spec.domain, &claimed) {
+        unproved.extend(undecided_or_error(prove_up_to(spec, &claim.witness.d_x, &claim.witness.d_e))?);
+    }
+    let repaired = proved_up_to_arguments(spec, repaired, true, &mut unproved)?;
     let exact_failing = claimed.as_ref().map_or_else(Vec::new, |claim| failing(&claim.evaluation.conditions));
     let exact = claimed.filter(|_| exact_failing.is_empty());
-    let derivation = match file {
-        GivenWitness::Sharp { .. } => Derivation::Sharp,
-        GivenWitness::Repaired { .. } => Derivation::Repaired,
-    };
     let printed = PrintedFigure { refutation: level_condition(&data).err(), evaluation: None, sigma: None };
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
     let parts = Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal: None };
@@ -219,7 +206,7 @@ fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<Bo
     if refuted.is_empty() { Ok(undecided) } else { Err(Refusal::Bounds(refuted)) }
 }
 
-/// Without a domain, the bounding functions are proved up to the arguments that a proof uses.
+/// Without a domain, the bounding functions are proved up to the arguments that a proof uses; with one they are already.
 ///
 /// For the derivation the verdict is about, refuted ones are an error and undecided ones go to `unproved`; for the
 /// other, either takes its proof away.
@@ -229,7 +216,7 @@ fn proved_up_to_arguments<W: Witness>(
     chosen: bool,
     unproved: &mut Vec<BoundingProblem>,
 ) -> Result<Outcome<Proof<W>>, Refusal> {
-    let Some(proof) = outcome.attempt() else { return Ok(outcome) };
+    let (None, Some(proof)) = (&spec.domain, outcome.attempt()) else { return Ok(outcome) };
     let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
     let result = prove_up_to(spec, &x, &e);
     if chosen {

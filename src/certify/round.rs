@@ -175,7 +175,7 @@ fn sharp_witness(
         set.distances(data, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
     let d_x = at.d_x.max(at.rho * model.c * dist_x);
     let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
-    let error_box = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
+    let RoundedBox { d_x, d_e, w_x, h } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
     let MeanSquares { x: r_x, e: r_e, e_rate: r_d } = existence;
     Some(SharpWitness {
         sigma,
@@ -186,10 +186,10 @@ fn sharp_witness(
         r_d,
         kap,
         refined,
-        d_x: error_box.d_x,
-        d_e: error_box.d_e,
-        w_x: error_box.w_x,
-        h: error_box.h,
+        d_x,
+        d_e,
+        w_x,
+        h,
         k0,
         k1,
         transfer,
@@ -283,14 +283,8 @@ pub(super) fn exact_claim(data: &Data<'_>, model: &FloatModel, set: &ClaimedSet,
     let dist_z = dist_z.max(1e-6 * model.n_bar * dist_e);
     let at = search_exact(model, [dist_x, dist_e, dist_z]).ok()?;
     SLACKS.iter().find_map(|&slack| {
-        let error_box = rounded_box(model, at.d_x, at.rho, [dist_e, dist_z], at.eta, slack)?;
-        let witness = ExactWitness {
-            sigma: rounded_sigma(at.threshold, slack)?,
-            d_x: error_box.d_x,
-            d_e: error_box.d_e,
-            w_x: error_box.w_x,
-            h: error_box.h,
-        };
+        let RoundedBox { d_x, d_e, w_x, h } = rounded_box(model, at.d_x, at.rho, [dist_e, dist_z], at.eta, slack)?;
+        let witness = ExactWitness { sigma: rounded_sigma(at.threshold, slack)?, d_x, d_e, w_x, h };
         let evaluation = decide_exact(data.spec, set, &witness, ladder);
         evaluation.truth().is_true().then_some(ExactClaim { witness, evaluation })
     })

@@ -3,12 +3,12 @@
 use super::decay::{DecayData, verify_decay};
 use super::level::{LevelData, propose_lyapunov_weights};
 use super::propose::{propose_multipliers, propose_sigma};
-use super::solve::SolverFailure;
 use crate::data::Data;
 use crate::derivation::sharp::{SharpEvaluation, SharpWitness};
 use crate::derivation::stability::DecayCondition;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64};
+use crate::semidefinite::SolverFailure;
 use rug::Rational;
 use thiserror::Error;
 
@@ -16,9 +16,9 @@ use thiserror::Error;
 #[derive(Clone, Debug)]
 pub struct CrossCheck {
     /// The smallest sigma for the certificate's w_x and h.
-    pub fixed: Figures,
+    pub fixed: SigmaBothWays,
     /// The smallest sigma for any w_x and h that satisfy C4 in the certificate's error box, and the closed form for these.
-    pub free: Result<Figures, SolverFailure>,
+    pub free: Result<SigmaBothWays, SolverFailure>,
     /// Multipliers (l_x, l_e, l_f) with which the matrix at the witness's sigma is proved positive definite, where they were
     /// found: C5 then holds by the matrix inequality too, whatever the closed form says.
     pub multipliers: Option<[Rational; 3]>,
@@ -26,7 +26,7 @@ pub struct CrossCheck {
 
 /// The smallest sigma with C5, in two ways.
 #[derive(Clone, Debug)]
-pub struct Figures {
+pub struct SigmaBothWays {
     /// The threshold of sigma by the closed form, rigorously for the w_x, h at hand.
     pub closed_form: Enclosure,
     /// The smallest sigma of the matrix inequality, by the solver.
@@ -41,11 +41,11 @@ pub struct Figures {
 /// stays below 1e-6.
 pub const AGREEMENT: f64 = 1e-5;
 
-impl Figures {
-    fn new(closed_form: Enclosure, solver_sigma: f64, remark: Option<String>) -> Figures {
+impl SigmaBothWays {
+    fn new(closed_form: Enclosure, solver_sigma: f64, remark: Option<String>) -> SigmaBothWays {
         let threshold = closed_form.midpoint_f64();
         let relative_difference = ((solver_sigma - threshold) / threshold).abs();
-        Figures { relative_difference, closed_form, solver_sigma, remark }
+        SigmaBothWays { relative_difference, closed_form, solver_sigma, remark }
     }
 
     /// Whether the two agree to the solver's tolerance.
@@ -118,7 +118,7 @@ pub fn cross_check(
     let short = l_x.zip(l_e).zip(l_f).map(|((l_x, l_e), l_f)| [l_x, l_e, l_f]);
     let multipliers = short.filter(proves).or_else(|| at_sigma.exact_multipliers().filter(proves));
     Ok(CrossCheck {
-        fixed: Figures::new(closed_form, smallest.sigma, smallest.remark),
+        fixed: SigmaBothWays::new(closed_form, smallest.sigma, smallest.remark),
         free: best_weights(evaluation, witness, data, &decay),
         multipliers,
     })
@@ -130,7 +130,7 @@ fn best_weights(
     witness: &SharpWitness,
     data: &Data<'_>,
     decay: &DecayData,
-) -> Result<Figures, SolverFailure> {
+) -> Result<SigmaBothWays, SolverFailure> {
     let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
     let [dist_x, dist_e, dist_z] = witness.set.distances(data, periodic).map(|distance| distance.upper_f64());
     let (p_low, p_up) = (data.p_low.midpoint_f64(), data.p_up.midpoint_f64());
@@ -143,20 +143,20 @@ fn best_weights(
     let weight =
         |value: f64| Rational::from_f64(value).map(|value| data.rational(&value)).ok_or(SolverFailure::Unusable);
     let closed_form = DecayCondition::new(data, &evaluation.error_box, &weight(found.w_x)?, &weight(found.h)?);
-    Ok(Figures::new(closed_form.sigma_threshold, found.sigma, found.remark))
+    Ok(SigmaBothWays::new(closed_form.sigma_threshold, found.sigma, found.remark))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn figures(closed_form: i64, solver_sigma: f64, remark: Option<&str>) -> Figures {
-        Figures::new(Enclosure::from_integer(closed_form, 64), solver_sigma, remark.map(str::to_owned))
+    fn figures(closed_form: i64, solver_sigma: f64, remark: Option<&str>) -> SigmaBothWays {
+        SigmaBothWays::new(Enclosure::from_integer(closed_form, 64), solver_sigma, remark.map(str::to_owned))
     }
 
     #[test]
     fn a_difference_that_the_tolerance_does_not_explain_is_a_contradiction() {
-        let check = |fixed: Figures, free: Result<Figures, SolverFailure>| {
+        let check = |fixed: SigmaBothWays, free: Result<SigmaBothWays, SolverFailure>| {
             CrossCheck { fixed, free, multipliers: None }.contradicts()
         };
         let good = || figures(10, 10.000_01, None);

@@ -1,9 +1,9 @@
 //! C5 together with the level condition C4, as one semidefinite program in (w_x, h, sigma, l_x, l_e, l_f).
 
-use super::affine::AffineMatrix;
 use super::decay::DecayData;
 use super::propose::{MARGIN, Scale};
-use super::solve::{SolverFailure, propose};
+use crate::matrix::AffineMatrix;
+use crate::semidefinite::{SolverFailure, propose};
 use rug::Rational;
 
 /// The numbers of C4, `w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}`, in doubles.

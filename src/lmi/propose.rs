@@ -1,8 +1,8 @@
 //! Floating-point proposals for C5: the smallest sigma, and multipliers for a given sigma.
 
 use super::decay::DecayData;
-use super::solve::{SolverFailure, propose};
 use crate::derivation::stability::{DecayTerms, Sector};
+use crate::semidefinite::{SolverFailure, propose};
 use rug::Rational;
 
 /// What the solver proposes for C5.

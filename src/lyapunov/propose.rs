@@ -1,8 +1,8 @@
 //! Proposals for P(t), in floating point.
 
 use super::float::{FloatFamily, waves};
-use crate::lmi::affine::AffineMatrix;
-use crate::lmi::{margin, propose};
+use crate::matrix::AffineMatrix;
+use crate::semidefinite::{margin, propose};
 use faer::Mat;
 use std::f64::consts::TAU;
 

@@ -12,7 +12,7 @@
 use super::family::{Deviation, Family};
 use crate::enclosure::Enclosure;
 use crate::expr::TrigonometricPolynomial;
-use crate::lmi::ScaledMatrix;
+use crate::matrix::{ScaledMatrix, Symmetric};
 use crate::spec::model::PeriodicMatrix;
 use rayon::prelude::*;
 use rug::Rational;
@@ -110,8 +110,9 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
                 .collect()
         })
         .collect();
+    // Symmetric, so entry (i, j) with j <= i is asked for.
     let shifted = |scale: i64, shift: &Rational| {
-        Entries::new(order, |i, j| {
+        Symmetric::from_fn(order, |j, i| {
             let mut entry = p[i][j].scaled(&Enclosure::from_integer(scale, precision));
             if i == j {
                 entry.mean = entry.mean + rational(shift);
@@ -122,7 +123,7 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
     shifted(1, &Rational::from(-p_low)).is_positive_definite("p_low I <= P", 1)?;
     shifted(-1, p_up).is_positive_definite("P <= p_up I", 1)?;
     let twice_alpha = rational(alpha) * 2;
-    let centre = Entries::new(order, |i, j| {
+    let centre = Symmetric::from_fn(order, |j, i| {
         let mut sum = p[i][j].derivative().scaled(&family.frequency).plus(&p[i][j].scaled(&twice_alpha), 1);
         for (k, centre) in family.centre.iter().enumerate() {
             sum = sum.plus(&p[i][k].times(&centre[j]), 1).plus(&p[k][j].times(&centre[i]), 1);
@@ -132,7 +133,7 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
     const DECAY: &str = "P' + P F + F'P <= -2 alpha P";
     match &family.deviation {
         Deviation::Vertices(vertices) => vertices.iter().try_for_each(|vertex| {
-            let at_vertex = Entries::new(order, |i, j| {
+            let at_vertex = Symmetric::from_fn(order, |j, i| {
                 let mut entry = centre.at(i, j).clone();
                 for (row, column, offset) in vertex {
                     // (P D)_ij has P_i,row D_row,j, and (D'P)_ij has D_row,i P_row,j.
@@ -149,7 +150,7 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
         }),
         Deviation::Ball(radius) => {
             let taken = rational(p_up) * radius * 2;
-            let at_worst = Entries::new(order, |i, j| {
+            let at_worst = Symmetric::from_fn(order, |j, i| {
                 let mut entry = centre.at(i, j).clone();
                 if i == j {
                     entry.mean = entry.mean - &taken;
@@ -161,32 +162,19 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
     }
 }
 
-/// The lower triangle of a symmetric matrix of trigonometric polynomials.
-struct Entries {
-    order: usize,
-    lower: Vec<TrigonometricPolynomial>,
-}
+/// A symmetric matrix of trigonometric polynomials in the angle.
+type Entries = Symmetric<TrigonometricPolynomial>;
 
 impl Entries {
-    fn new(order: usize, entry: impl Fn(usize, usize) -> TrigonometricPolynomial) -> Entries {
-        let lower = (0..order).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| entry(i, j)).collect();
-        Entries { order, lower }
-    }
-
-    fn at(&self, i: usize, j: usize) -> &TrigonometricPolynomial {
-        let (row, column) = (i.max(j), i.min(j));
-        &self.lower[row * (row + 1) / 2 + column]
-    }
-
     /// Proves that the matrix, one of so many, is positive definite at every angle.
     fn is_positive_definite(&self, what: &'static str, matrices: u64) -> Result<(), NotProved> {
-        let degree = self.lower.iter().map(|entry| entry.harmonics.len()).max().unwrap_or(0);
+        let degree = self.entries().iter().map(|entry| entry.harmonics.len()).max().unwrap_or(0);
         let failure = |angle: f64| NotProved::Inequality { what, angle };
         if degree == 0 {
-            let proved = definite(self.order, |i, j| self.at(i, j).mean.clone());
+            let proved = definite(self.order(), |i, j| self.at(i, j).mean.clone());
             return if proved { Ok(()) } else { Err(failure(0.0)) };
         }
-        let cost = proof_cost(self.order, degree, matrices);
+        let cost = proof_cost(self.order(), degree, matrices);
         if cost > MAX_COST {
             return Err(NotProved::TooMuchWork);
         }
@@ -228,11 +216,11 @@ impl Entries {
 
     /// Row sums of the bounds of the second derivative: `sum_j sum_k k^2 (|a_k| + |b_k|)` over the entries of each row.
     fn curvature(&self) -> Vec<Enclosure> {
-        let precision = self.lower[0].mean.precision();
+        let precision = self.at(0, 0).mean.precision();
         let entry = |i: usize, j: usize| self.at(i, j).harmonics.iter().zip(1_i64..);
-        (0..self.order)
+        (0..self.order())
             .map(|i| {
-                (0..self.order)
+                (0..self.order())
                     .flat_map(|j| entry(i, j))
                     .fold(Enclosure::zero(precision), |sum, ([a, b], k)| sum + (a.abs() + b.abs()).ceiling() * (k * k))
             })
@@ -248,25 +236,18 @@ impl Entries {
         let next =
             |[cos, sin]: &[Enclosure; 2]| Some([cos * &first[0] - sin * &first[1], sin * &first[0] + cos * &first[1]]);
         let waves: Vec<[Enclosure; 2]> = std::iter::successors(Some(first.clone()), next).take(degree).collect();
-        let value_and_slope: Vec<[Enclosure; 2]> = self
-            .lower
-            .iter()
-            .map(|entry| {
-                let start = [entry.mean.clone(), Enclosure::zero(precision)];
-                entry.harmonics.iter().zip(&waves).zip(1_i64..).fold(
-                    start,
-                    |[value, slope], (([a, b], [cos, sin]), k)| {
-                        [value + a * cos + b * sin, slope + (b * cos - a * sin) * k]
-                    },
-                )
+        let value_and_slope = self.map(|_, _, entry| {
+            let start = [entry.mean.clone(), Enclosure::zero(precision)];
+            entry.harmonics.iter().zip(&waves).zip(1_i64..).fold(start, |[value, slope], (([a, b], [cos, sin]), k)| {
+                [value + a * cos + b * sin, slope + (b * cos - a * sin) * k]
             })
-            .collect();
+        });
         let half = Enclosure::from_rational(half, precision);
         let remainder = half.sqr() / 2;
         [1_i64, -1].iter().all(|sign| {
             let step = &half * *sign;
-            definite(self.order, |i, j| {
-                let [value, slope] = &value_and_slope[i * (i + 1) / 2 + j];
+            definite(self.order(), |i, j| {
+                let [value, slope] = value_and_slope.at(i, j);
                 let entry = value + &step * slope;
                 if i == j { entry - &remainder * &curvature[i] } else { entry }
             })
@@ -400,7 +381,7 @@ mod tests {
             };
             let degree = harmonics.len();
             let squares: i64 = harmonics.iter().zip(1_i64..).map(|((a, b), k)| (a.abs() + b.abs()) * k * k).sum();
-            let entries = Entries { order: 1, lower: vec![polynomial] };
+            let entries = Entries::from_fn(1, |_, _| polynomial.clone());
             assert_eq!(entries.curvature()[0].lower_rational(), Some(Rational::from(squares)));
             entries.holds_on(&Rational::new(), &Rational::from(half), degree, &entries.curvature())
         };

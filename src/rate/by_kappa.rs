@@ -14,7 +14,8 @@ use super::oscillators::ProvedLyapunov;
 use crate::certify::SharpProof;
 use crate::data::Data;
 use crate::enclosure::Enclosure;
-use crate::lmi::{DecayData, is_positive_definite, propose_multipliers, verify_decay};
+use crate::lmi::{DecayData, propose_multipliers, verify_decay};
+use crate::matrix::is_positive_definite;
 use rug::Rational;
 
 /// Shares of the diagonal that are tried for r_x and r_e, as 1 - 2^-k and then 2^-k.

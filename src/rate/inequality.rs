@@ -30,7 +30,7 @@ use super::oscillators::Oscillators;
 use crate::data::{Bound, Data, Problem};
 use crate::derivation::stability::ErrorBox;
 use crate::enclosure::{Enclosure, Truth};
-use crate::lmi::ScaledMatrix;
+use crate::matrix::ScaledMatrix;
 use faer::Mat;
 use rug::Rational;
 

@@ -5,7 +5,7 @@
 
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
-use crate::lmi::ScaledMatrix;
+use crate::matrix::ScaledMatrix;
 use crate::number::{Direction, round_f64};
 use faer::{Mat, Side, c64};
 use rug::Rational;

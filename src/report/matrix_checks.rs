@@ -4,7 +4,7 @@ use super::blocks::{Block, Table};
 use super::json::interval;
 use super::number::{exact, pair};
 use crate::certify::{Certification, Derivation};
-use crate::lmi::{CrossCheck, Figures};
+use crate::lmi::{CrossCheck, SigmaBothWays};
 use crate::number::{Direction, round_f64, write_exact};
 use rug::Rational;
 use serde_json::{Value, json};
@@ -44,7 +44,7 @@ fn decay_items(check: &CrossCheck) -> [String; 2] {
     [fixed, format!("C4 and C5 in the same error box, with the best w_x and h for it: {free}.")]
 }
 
-fn compared(figures: &Figures, contradiction: bool) -> String {
+fn compared(figures: &SigmaBothWays, contradiction: bool) -> String {
     let verdict = match (&figures.remark, figures.agree()) {
         (_, true) => "they agree".to_owned(),
         (None, false) if contradiction => "they DISAGREE".to_owned(),
@@ -101,7 +101,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     blocks
 }
 
-fn figures_json(figures: &Figures) -> Value {
+fn figures_json(figures: &SigmaBothWays) -> Value {
     json!({
         "solver_estimate": solver_sigma(figures.solver_sigma),
         "relative_difference_below": order_of_magnitude(figures.relative_difference),

@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 use rug::Rational;
 use rug::ops::Pow;
-use sigmastar::lmi::{DecayData, DecayProposal, SolverFailure, propose_multipliers, propose_sigma, verify_decay};
+use sigmastar::lmi::{DecayData, DecayProposal, propose_multipliers, propose_sigma, verify_decay};
+use sigmastar::semidefinite::SolverFailure;
 
 /// The closed form of C5, exactly: `D^2/(4 ht) + (w_x p k_f + k_x D/2)^2/(4A - ht k_x^2)` with
 /// D = max{|1 + ht m|, |1 - ht k_l|}; also ht, D and the worst xi for et = 1.

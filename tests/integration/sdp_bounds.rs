@@ -76,7 +76,7 @@ fn what_is_not_feasible_proves_nothing() {
     moved.x[0] -= 3.0;
     assert!(problem.verify(&moved).is_none());
     let mut negative = candidate;
-    negative.duals[0] = sigmastar::lmi::affine::Symmetric::from_fn(6, |i, j| match (i, j) {
+    negative.duals[0] = sigmastar::matrix::Symmetric::from_fn(6, |i, j| match (i, j) {
         (0, 0) => -1e3,
         (1, 1) => 1e3,
         _ => 0.0,

@@ -1,7 +1,8 @@
 use super::super::riccati;
 use super::super::small_gain::SmallGain;
 use super::*;
-use crate::lmi::{affine::AffineMatrix, propose};
+use crate::matrix::AffineMatrix;
+use crate::semidefinite::propose;
 use crate::spec::Specification;
 
 fn specification(text: &str) -> Specification {

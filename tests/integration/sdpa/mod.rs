@@ -6,8 +6,9 @@
 use faer::Mat;
 use rug::Rational;
 use sigmastar::enclosure::Truth;
-use sigmastar::lmi::affine::{AffineMatrix, Symmetric};
-use sigmastar::lmi::{Candidate, ScaledMatrix, SolverFailure, margin, propose};
+use sigmastar::matrix::ScaledMatrix;
+use sigmastar::matrix::{AffineMatrix, Symmetric};
+use sigmastar::semidefinite::{SolverFailure, SolverPoint, margin, propose};
 
 /// A semidefinite program.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,7 +165,7 @@ impl Problem {
 
     /// The solver's answer to the problem with margins: `X >= eps I`, and the costs `c_k - eps tr(F_k)`, whose dual Y gives
     /// `Y + eps I` with `tr(F_k (Y + eps I)) = c_k`. Both then survive rounding.
-    pub fn solve(&self) -> Result<Candidate, SolverFailure> {
+    pub fn solve(&self) -> Result<SolverPoint, SolverFailure> {
         let eps = self.margin();
         propose(&self.shifted_cost(eps), &self.constraints(eps))
     }
@@ -188,7 +189,7 @@ impl Problem {
     /// within computed errors of the candidate's Y (a least-squares correction in floating point, and for what remains
     /// `|G^-1 d| <= |d|/lambda` with a proved lower bound lambda of the Gram matrix G); every Y within them is proved
     /// positive definite, and the least `tr(F_0 Y)` among them is a lower bound of every feasible cost.
-    pub fn verify(&self, candidate: &Candidate) -> Option<Bounds> {
+    pub fn verify(&self, candidate: &SolverPoint) -> Option<Bounds> {
         let pieces = self.pieces();
         for (block, order, offset) in &pieces {
             let mut sums = vec![Dot::default(); order * order];
@@ -215,7 +216,7 @@ impl Problem {
         Some(Bounds { lower: self.lower_bound(candidate, &pieces)?, upper })
     }
 
-    fn lower_bound(&self, candidate: &Candidate, pieces: &[(usize, usize, usize)]) -> Option<Rational> {
+    fn lower_bound(&self, candidate: &SolverPoint, pieces: &[(usize, usize, usize)]) -> Option<Rational> {
         let eps = self.margin();
         let m = self.cost.len();
         let mut duals: Vec<Mat<f64>> = candidate

@@ -3,7 +3,7 @@
 // Clarabel's semidefinite cone needs BLAS and LAPACK; naming the crate makes the linker see its symbols.
 extern crate lapack_faer as _;
 
-use super::affine::{AffineMatrix, Symmetric};
+use crate::matrix::{AffineMatrix, Symmetric};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, PSDTriangleConeT, SolverStatus, SupportedConeT,
@@ -77,7 +77,7 @@ const LARGE_BLOCK: usize = 7;
 
 /// What the solver proposes for a problem.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
+pub struct SolverPoint {
     /// The variables.
     pub x: Vec<f64>,
     /// The dual matrices, one per constraint: nonnegative, with `cost_k = sum tr(A_k Y)` up to the tolerance.
@@ -87,13 +87,13 @@ pub struct Candidate {
 }
 
 /// Minimises `cost . x` subject to `M(x)` positive semidefinite for every M of `constraints`, in floating point. Where the
-/// solver stops at reduced accuracy or makes no more progress, its last point is given, and [`Candidate::remark`] says so.
+/// solver stops at reduced accuracy or makes no more progress, its last point is given, and [`SolverPoint::remark`] says so.
 ///
 /// Guarantee: none about the result, which is a proposal to be verified; but it is finite.
 ///
 /// # Errors
 /// Every other outcome of the solver, by name, and data that are not finite or do not fit together.
-pub fn propose(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Candidate, SolverFailure> {
+pub fn propose(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<SolverPoint, SolverFailure> {
     if let Some(odd) = constraints.iter().find(|constraint| constraint.terms().len() != cost.len()) {
         return Err(SolverFailure::Shape { costs: cost.len(), variables: odd.terms().len() });
     }
@@ -129,7 +129,7 @@ pub fn propose(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Candid
 }
 
 /// Only `Solved` gives a candidate without a remark; where the solver came close, its last point is one with a remark.
-fn candidate(status: SolverStatus, x: Vec<f64>, z: &[f64], orders: &[usize]) -> Result<Candidate, SolverFailure> {
+fn candidate(status: SolverStatus, x: Vec<f64>, z: &[f64], orders: &[usize]) -> Result<SolverPoint, SolverFailure> {
     let remark = match status {
         SolverStatus::Solved => None,
         SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => Some(status.to_string()),
@@ -147,7 +147,7 @@ fn candidate(status: SolverStatus, x: Vec<f64>, z: &[f64], orders: &[usize]) -> 
         duals.push(Symmetric::from_cone_vector(*order, own));
         rest = others;
     }
-    Ok(Candidate { x, duals, remark })
+    Ok(SolverPoint { x, duals, remark })
 }
 
 /// The margin with which a constraint is posed, so that its rounded solution can be proved: max{1e-6 |A|, 2 n tol}, where |A|

@@ -1,9 +1,9 @@
 //! C3 with weights and as a matrix inequality: the enclosed spectral radius, and the diagonal Stein inequality.
 
-use super::affine::AffineMatrix;
-use super::ldl::is_positive_definite;
-use super::solve::{SolverFailure, margin, propose};
+use crate::matrix::AffineMatrix;
+use crate::matrix::is_positive_definite;
 use crate::number::{Direction, round_f64};
+use crate::semidefinite::{SolverFailure, margin, propose};
 use rug::Rational;
 
 /// Digits of proposed weights.

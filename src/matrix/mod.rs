@@ -1,0 +1,16 @@
+//! Symmetric matrices, and their definiteness: exactly, or within enclosures.
+//!
+//! - [`symmetric`]: one triangle, stored;
+//! - [`affine`]: matrices that are affine in decision variables, exact or in floating point;
+//! - [`ldl`]: exact definiteness of small matrices, and their leading minors;
+//! - [`residual`]: definiteness of larger ones, exactly or within errors.
+
+pub mod affine;
+pub mod ldl;
+pub mod residual;
+pub mod symmetric;
+
+pub use affine::AffineMatrix;
+pub use ldl::{is_positive_definite, leading_minors};
+pub use residual::ScaledMatrix;
+pub use symmetric::Symmetric;
