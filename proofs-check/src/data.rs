@@ -26,7 +26,7 @@ pub struct Data<'s> {
 impl<'s> Data<'s> {
     /// Encloses everything at `precision` bits.
     pub fn new(spec: &'s Specification, precision: u32) -> Data<'s> {
-        let number = |constant: &crate::spec::Constant| constant.enclose(precision);
+        let number = |constant: &crate::constant::Constant| constant.enclose(precision);
         let (p_low, p_up, mu, w) =
             (number(&spec.p_low), number(&spec.p_up), number(&spec.mu), number(&spec.base_frequency));
         Data {

@@ -6,6 +6,7 @@
 
 use super::compare::{PRECISE_DIGITS, number, precise, span, stored, text, tolerance};
 use super::unknown;
+use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, join};
@@ -13,7 +14,7 @@ use crate::rules::existence::{Existence, beta_s, k_alpha, kappas, tau};
 use crate::rules::repaired::{Repaired, Witness as RepairedWitness};
 use crate::rules::sharp::{Sharp, Witness as SharpWitness};
 use crate::rules::transfer::closed_form;
-use crate::spec::{Bound, Constant};
+use crate::spec::Bound;
 use crate::verdict::{Outcome, demand, invalid};
 use rug::Rational;
 

@@ -5,13 +5,11 @@
 
 use super::claim::Sizes;
 use super::transfer::Proof;
-use super::{regulation, repaired, sharp};
+use super::{bounding, regulation, repaired, sharp};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
-use crate::monotone;
-use crate::spec::BOUND_NAMES;
-use crate::verdict::{Condition, Outcome, bad, invalid};
+use crate::verdict::{Condition, Outcome, bad};
 use rug::Rational;
 
 /// The free numbers of one of the two derivations that can be claimed.
@@ -170,22 +168,7 @@ impl Proved {
 
 /// Without a domain the bounding functions are proved up to the arguments that are used.
 fn without_domain(d: &Data<'_>, [x, e]: &[Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
-    if d.spec.domain.is_some() { Ok(()) } else { bounding_functions(d, [x, e], lines) }
-}
-
-/// Proves every bounding function on [0, x] times [0, e].
-pub fn bounding_functions(d: &Data<'_>, [x, e]: [&Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
-    let (Some(x), Some(e)) = (x.upper(), e.upper()) else {
-        return invalid("bounding functions", "/witness", "an argument is not finite");
-    };
-    for (name, expr) in BOUND_NAMES.iter().zip(&d.spec.bounds) {
-        if let Some(expr) = expr {
-            monotone::prove(name, expr, &x, &e, d.precision)?;
-        }
-    }
-    let (x, e) = (x.to_f64(), e.to_f64());
-    lines.push(format!("bounding functions: finite, nondecreasing, nowhere certainly negative up to X = {x}, E = {e}"));
-    Ok(())
+    if d.spec.domain.is_some() { Ok(()) } else { bounding::prove_all(d, [x, e], lines) }
 }
 
 /// Writes down all conditions, then demands each.

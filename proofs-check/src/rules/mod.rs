@@ -1,9 +1,10 @@
 //! The rules, one a file.
+pub mod bounding;
 pub mod claim;
 pub mod derivation;
 pub mod existence;
-pub mod lmi;
 pub mod lyapunov;
+pub mod period;
 pub mod regulation;
 pub mod repaired;
 pub mod set;

@@ -8,11 +8,11 @@
 //! all members of the intervals, the true one among them. A row is dropped only where its k is exactly 0, so that its
 //! signal is 0; then its multiplier must be 0. (The diagonal has the other multipliers, which are positive therefore.)
 
-use super::stability::ErrorBox;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, join};
 use crate::matrix::positive_definite;
+use crate::rules::stability::ErrorBox;
 use crate::verdict::{Outcome, demand};
 use rug::Rational;
 
