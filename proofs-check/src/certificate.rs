@@ -81,7 +81,9 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     };
     // Last, because it may take the longest.
     if let Some((jacobian, witness)) = &spec.jacobian {
-        lines.push(format!("Lyapunov triple: {}", lyapunov::prove(jacobian, &spec.period, witness)?));
+        for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {
+            lines.push(format!("Lyapunov triple: {}", lyapunov::prove(jacobian, &spec.period, witness)?));
+        }
     }
     let subject = Subject::new(&embedded, &spec, &claim, &derivation, &digest, [tool_name, tool_version], arguments);
     if let Some(other) = other {

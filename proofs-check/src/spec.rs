@@ -28,10 +28,35 @@ pub enum Bound {
     Qt,
     QRms,
     QtRms,
+    Fx,
+    QeMax,
+    Qtx,
+    Qte,
 }
 
-/// The names of the bounding functions in a file, in the order of [`Bound`]; the last two are optional.
-pub const BOUND_NAMES: [&str; 10] = ["f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t", "q_rms", "q_t_rms"];
+const BOUNDS: usize = 14;
+/// How many of them, from the first on, must be given.
+const REQUIRED: usize = 8;
+
+/// The names of the bounding functions in a file, in the order of [`Bound`].
+#[rustfmt::skip]
+pub const BOUND_NAMES: [&str; BOUNDS] = [
+    "f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t", "q_rms", "q_t_rms", "f_x", "q_e_max", "q_tx", "q_te",
+];
+
+/// q(t,0,0) = sum over |k| <= K of c_k e^{i k Om t} + rest (docs/mathematics.md, section 10.1).
+#[derive(Clone, Debug)]
+pub struct Forcing {
+    /// Bounds of |c_0|, ..., |c_K|.
+    pub harmonics: Vec<Constant>,
+    /// A bound of rms(rest).
+    pub rest_rms: Constant,
+    /// A bound of rms(rest'), if given.
+    pub rest_t_rms: Option<Constant>,
+}
+
+/// The most harmonics that are read.
+const MAX_HARMONICS: usize = 1000;
 
 /// The set of initial conditions that is asked for.
 #[derive(Clone, Debug)]
@@ -53,11 +78,16 @@ pub struct Specification {
     pub alpha: Constant,
     /// The Jacobian that stands in place of the triple, with what proves the triple.
     pub jacobian: Option<(Jacobian, jacobian::Witness)>,
+    /// With a Jacobian: what proves a second triple for it, which serves for existence, and that triple.
+    pub existence: Option<(jacobian::Witness, [Constant; 3])>,
+    /// The contraction rate a(X, E), for the P of a triple that is given.
+    pub rate: Option<Expr>,
     pub mu: Constant,
     pub base_frequency: Constant,
     pub matched: bool,
     pub weights: Weights,
-    pub bounds: [Option<Expr>; 10],
+    pub bounds: [Option<Expr>; BOUNDS],
+    pub q_0: Option<Forcing>,
     pub domain: Option<[Constant; 2]>,
     pub initial_set: AskedSet,
 }
@@ -78,8 +108,8 @@ fn nonnegative(field: Field<'_>) -> Outcome<Constant> {
 }
 
 impl Specification {
-    /// Reads and checks the embedded specification. With a Jacobian, the triple is the field `lyapunov` of the witness, which is
-    /// taken out; [`crate::rules::lyapunov::prove`] is left to be done.
+    /// Reads and checks the embedded specification. With a Jacobian, the triple is the field `lyapunov` of the witness, and a second
+    /// one may be its field `lyapunov_existence`; both are taken out, and [`crate::rules::lyapunov::prove`] is left to be done.
     pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<Specification> {
         let mut file = field.fields()?;
         header(&mut file, "sigmastar/bounding-spec")?;
@@ -98,15 +128,22 @@ impl Specification {
         };
         let (p_low, p_up, alpha) = (p_low?, p_up?, alpha?);
         demand(p_low.number().le(&p_up.number()), RULE, &fields.pointer, "p_low <= p_up")?;
+        let second = if jacobian.is_some() { witness.optional("lyapunov_existence") } else { None };
+        let order = jacobian.as_ref().map_or(0, |(jacobian, _)| jacobian.len());
+        let existence = second.map(|field| jacobian::Witness::read(&field, order)).transpose()?;
+        // The P that is found for a Jacobian is not known to whoever states a rate.
+        let rate = if jacobian.is_none() { fields.optional("rate") } else { None };
+        let rate = rate.map(|field| expression(&field, ARGUMENTS)).transpose()?;
         fields.finish()?;
 
         let mut functions = file.required("bounds")?.fields()?;
-        let mut bounds: [Option<Expr>; 10] = Default::default();
-        for (name, bound) in BOUND_NAMES.iter().zip(&mut bounds) {
-            let field = if name.ends_with("rms") { functions.optional(name) } else { Some(functions.required(name)?) };
+        let mut bounds: [Option<Expr>; BOUNDS] = Default::default();
+        for (index, (name, bound)) in BOUND_NAMES.iter().zip(&mut bounds).enumerate() {
+            let field = if index < REQUIRED { Some(functions.required(name)?) } else { functions.optional(name) };
             *bound = field.map(|field| expression(&field, ARGUMENTS)).transpose()?;
         }
         functions.finish()?;
+        let q_0 = file.optional("q_0").map(|field| read_forcing(&field)).transpose()?;
 
         let domain = file.optional("domain").map(|field| {
             let mut fields = field.fields()?;
@@ -149,11 +186,14 @@ impl Specification {
             p_up,
             alpha,
             jacobian,
+            existence,
+            rate,
             mu,
             base_frequency,
             matched,
             weights,
             bounds,
+            q_0,
             domain,
             initial_set,
         })
@@ -168,6 +208,22 @@ pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
     }
     let field = file.required("version")?;
     if field.whole()? == 1 { Ok(()) } else { bad(&field.pointer, "only version 1 is read") }
+}
+
+fn read_forcing(field: &Field<'_>) -> Outcome<Forcing> {
+    let mut fields = field.fields()?;
+    let list = fields.required("harmonics")?;
+    let elements = list.elements()?;
+    if elements.is_empty() || elements.len() > MAX_HARMONICS {
+        return bad(&list.pointer, format!("expected 1 to {MAX_HARMONICS} harmonics"));
+    }
+    let forcing = Forcing {
+        harmonics: elements.into_iter().map(nonnegative).collect::<Outcome<_>>()?,
+        rest_rms: nonnegative(fields.required("rest_rms")?)?,
+        rest_t_rms: fields.optional("rest_t_rms").map(nonnegative).transpose()?,
+    };
+    fields.finish()?;
+    Ok(forcing)
 }
 
 fn read_set(field: &Field<'_>) -> Outcome<AskedSet> {
