@@ -4,10 +4,9 @@ use crate::data::Data;
 use crate::effort;
 use crate::figures::{self, Figures};
 use crate::json::{Field, Json};
-use crate::monotone;
 use crate::rules::claim::{Claim, reads};
-use crate::rules::derivation::{Derivation, bounding_functions};
-use crate::rules::lyapunov;
+use crate::rules::derivation::Derivation;
+use crate::rules::{bounding, lyapunov};
 use crate::sha256;
 use crate::spec::{Specification, header};
 use crate::subject::{Subject, same_data};
@@ -72,7 +71,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         let mut attempt = lines.clone();
         let result = prove(&Data::new(&spec, precision), &claim, &derivation, &mut attempt);
         // More bits do not help where the cutting of a box came to its end.
-        let undecided = |finding: &Finding| finding.verdict == Verdict::Undecided && finding.rule != monotone::RULE;
+        let undecided = |finding: &Finding| finding.verdict == Verdict::Undecided && finding.rule != bounding::RULE;
         let open = result.as_ref().is_err_and(|finding| undecided(finding));
         if !open || precision >= last || effort::exhausted() {
             *lines = attempt;
@@ -82,7 +81,9 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     };
     // Last, because it may take the longest.
     if let Some((jacobian, witness)) = &spec.jacobian {
-        lines.push(format!("Lyapunov triple: {}", lyapunov::prove(jacobian, &spec.period, witness)?));
+        for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {
+            lines.push(format!("Lyapunov triple: {}", lyapunov::prove(jacobian, &spec.period, witness)?));
+        }
     }
     let subject = Subject::new(&embedded, &spec, &claim, &derivation, &digest, [tool_name, tool_version], arguments);
     if let Some(other) = other {
@@ -98,7 +99,7 @@ fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut V
     lines.push(format!("working precision: {} bits", d.precision));
     if let Some([x, e]) = &d.spec.domain {
         let (x, e) = (x.enclose(d.precision), e.enclose(d.precision));
-        bounding_functions(d, [&x, &e], lines)?;
+        bounding::prove_all(d, [&x, &e], lines)?;
     }
     let proved = derivation.prove(d, lines)?;
     claim.check(d, &proved.sizes(), derivation.exact())?;

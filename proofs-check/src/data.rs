@@ -16,6 +16,8 @@ pub struct Data<'s> {
     pub w: Interval,
     /// c = sqrt(P_up/P_low) >= 1.
     pub c: Interval,
+    /// c and alpha of the triple that serves for existence: the second one, if there is one.
+    pub existence: [Interval; 2],
     /// nu = mu/w.
     pub nu: Interval,
     pub n_0: Interval,
@@ -26,14 +28,21 @@ pub struct Data<'s> {
 impl<'s> Data<'s> {
     /// Encloses everything at `precision` bits.
     pub fn new(spec: &'s Specification, precision: u32) -> Data<'s> {
-        let number = |constant: &crate::spec::Constant| constant.enclose(precision);
+        let number = |constant: &crate::constant::Constant| constant.enclose(precision);
         let (p_low, p_up, mu, w) =
             (number(&spec.p_low), number(&spec.p_up), number(&spec.mu), number(&spec.base_frequency));
+        // P_low <= P_up holds, so c >= 1 does whatever the rounding.
+        let root = |p_low: &Interval, p_up: &Interval| (p_up / p_low).sqrt().max(&Interval::int(1, precision));
+        let (alpha, c) = (number(&spec.alpha), root(&p_low, &p_up));
+        let existence = match &spec.existence {
+            Some((_, [p_low, p_up, alpha])) => [root(&number(p_low), &number(p_up)), number(alpha)],
+            None => [c.clone(), alpha.clone()],
+        };
         Data {
             period: number(&spec.period),
-            alpha: number(&spec.alpha),
-            // P_low <= P_up was checked, so c >= 1 holds whatever the rounding.
-            c: (&p_up / &p_low).sqrt().max(&Interval::int(1, precision)),
+            alpha,
+            c,
+            existence,
             nu: &mu / &w,
             n_0: spec.weights.weight(0, precision),
             n_1: spec.weights.weight(1, precision),
@@ -62,22 +71,39 @@ impl<'s> Data<'s> {
         self.number(&Rational::from((numerator, denominator)))
     }
 
-    /// The positive part of a bounding function at (X, E). A root mean square is at most the supremum, so b_q and b_qt serve
+    /// Om = 2 pi/T.
+    pub fn frequency(&self) -> Interval {
+        Interval::pi(self.precision) * 2 / &self.period
+    }
+
+    /// The positive part of a bounding function at (X, E), undefined if it is not given. A root mean square is at most the supremum, so b_q and b_qt serve
     /// for rms bounds that are not given, or are larger.
     pub fn bound(&self, which: Bound, x: &Interval, e: &Interval) -> Interval {
-        let value = |which: Bound| {
-            let expr = self.spec.bounds[which as usize].as_ref()?;
-            Some(expr.enclose(x, e).max(&self.int(0)))
-        };
+        let own = self.given(which, x, e);
         let supremum = match which {
-            Bound::QRms => value(Bound::Q),
-            Bound::QtRms => value(Bound::Qt),
+            Bound::QRms => self.given(Bound::Q, x, e),
+            Bound::QtRms => self.given(Bound::Qt, x, e),
             _ => None,
         };
-        let own = value(which);
         match (own, supremum) {
             (Some(own), Some(supremum)) => own.min(&supremum),
             (own, supremum) => own.or(supremum).unwrap_or_else(|| Interval::undefined(self.precision)),
         }
+    }
+
+    /// The positive part of a bounding function, if it is given.
+    pub fn given(&self, which: Bound, x: &Interval, e: &Interval) -> Option<Interval> {
+        let expr = self.spec.bounds[which as usize].as_ref()?;
+        Some(expr.enclose(x, e).max(&self.int(0)))
+    }
+
+    /// q_e_max at (X, E), if it is given: it may be negative.
+    pub fn q_e_max(&self, x: &Interval, e: &Interval) -> Option<Interval> {
+        self.spec.bounds[Bound::QeMax as usize].as_ref().map(|expr| expr.enclose(x, e))
+    }
+
+    /// The larger of a rate and the one that is given at (X, E), if one is given.
+    pub fn better_rate(&self, rate: &Interval, x: &Interval, e: &Interval) -> Interval {
+        self.spec.rate.as_ref().map_or_else(|| rate.clone(), |expr| expr.enclose(x, e).max(rate))
     }
 }

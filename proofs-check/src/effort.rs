@@ -13,6 +13,8 @@ pub const LIMIT: u64 = 100_000_000;
 thread_local! {
     /// What is left; unlimited outside of [`limited`], for whoever uses an interval by itself.
     static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
+    /// What is left for proposals.
+    static ASIDE: Cell<u64> = const { Cell::new(u64::MAX) };
 }
 
 fn words(precision: u32) -> u64 {
@@ -46,17 +48,27 @@ fn spend(steps: u64) -> bool {
     })
 }
 
-/// Whether everything is spent.
+/// Whether everything is spent, by the claim or by its proposals.
 pub fn exhausted() -> bool {
-    LEFT.with(|left| left.get() == 0)
+    [&LEFT, &ASIDE].iter().any(|steps| steps.with(|left| left.get() == 0))
 }
 
-/// Answers a question with at most `steps` steps; also says how many it took.
+/// Answers a question with at most `steps` steps, and as many for proposals; also says how many the answer itself took.
 pub fn limited<T>(steps: u64, question: impl FnOnce() -> T) -> (T, u64) {
-    let before = LEFT.with(|left| left.replace(steps));
+    let before = [&LEFT, &ASIDE].map(|left| left.with(|left| left.replace(steps)));
     let answer = question();
-    let left = LEFT.with(|left| left.replace(before));
+    let [left, _] =
+        [(&LEFT, before[0]), (&ASIDE, before[1])].map(|(left, before)| left.with(|left| left.replace(before)));
     (answer, steps - left)
+}
+
+/// Makes a proposal, which is paid for apart: what it costs takes nothing from the answer.
+pub fn aside<T>(proposal: impl FnOnce() -> T) -> T {
+    let exchange = || LEFT.with(|left| ASIDE.with(|aside| left.swap(aside)));
+    exchange();
+    let answer = proposal();
+    exchange();
+    answer
 }
 
 #[cfg(test)]

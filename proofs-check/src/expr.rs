@@ -288,6 +288,11 @@ impl Expr {
         }
     }
 
+    /// The opposite of an expression.
+    pub fn negated(&self) -> Expr {
+        Expr { ops: self.ops.iter().cloned().chain([Op::Neg]).collect() }
+    }
+
     /// Evaluates in any arithmetic.
     pub fn fold<V: Clone>(&self, mut apply: impl FnMut(&Op, Option<V>, Option<V>) -> V) -> Option<V> {
         let mut stack = Vec::new();

@@ -3,96 +3,17 @@
 //! Guarantee: no unknown field, every number exact, T, w, mu, alpha, P_low > 0, P_up >= P_low, weights with W1-W3
 //! ([`crate::weights`]), and `matched` only where base_frequency * period = 2 pi exactly.
 
+use crate::constant::{Constant, Number, PRECISIONS, expression};
 use crate::exact::Exact;
-use crate::expr::{ARGUMENTS, Expr, NONE, TIME};
+use crate::expr::{ARGUMENTS, Expr};
 use crate::interval::Interval;
+use crate::jacobian::{self, Jacobian};
 use crate::json::{Field, Fields, Json};
-use crate::rules::lyapunov;
 use crate::verdict::{Outcome, bad, demand};
 use crate::weights::Weights;
 use rug::Rational;
 
-/// The precisions, in bits, at which a question about constants is asked.
-const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
 const RULE: &str = "specification";
-
-/// A real constant of a file.
-#[derive(Clone, Debug)]
-pub struct Constant {
-    /// As written.
-    pub text: String,
-    expr: Expr,
-    /// Its exact form, if it has one.
-    pub exact: Option<Exact>,
-}
-
-impl Constant {
-    /// Reads a number or a constant expression that has a finite value.
-    pub fn read(field: &Field<'_>) -> Outcome<Constant> {
-        let text = field.numeral()?;
-        let expr = expression(field, NONE)?;
-        let constant = Constant { text: text.to_owned(), exact: expr.exact(), expr };
-        if PRECISIONS.iter().any(|p| constant.enclose(*p).is_bounded()) {
-            return Ok(constant);
-        }
-        bad(&field.pointer, "this constant has no value that can be enclosed")
-    }
-
-    /// An enclosure.
-    pub fn enclose(&self, precision: u32) -> Interval {
-        let none = Interval::undefined(precision);
-        self.expr.enclose(&none, &none)
-    }
-
-    /// The exact value, if it is rational.
-    pub fn rational(&self) -> Option<Rational> {
-        self.exact.as_ref().and_then(Exact::as_rational)
-    }
-
-    /// The same as a number that can be compared.
-    pub fn number(&self) -> Number<'_> {
-        Number { exact: self.exact.clone(), enclose: Box::new(|p| self.enclose(p)) }
-    }
-}
-
-/// A real number: exact form if there is one, and enclosures at any precision.
-pub struct Number<'a> {
-    /// The exact form.
-    pub exact: Option<Exact>,
-    /// The enclosures.
-    pub enclose: Box<dyn Fn(u32) -> Interval + 'a>,
-}
-
-impl<'a> Number<'a> {
-    /// A rational number.
-    pub fn rational(value: Rational) -> Number<'a> {
-        Number { exact: Exact::rational(&value), enclose: Box::new(move |p| Interval::rational(&value, p)) }
-    }
-
-    /// The product.
-    pub fn times(self, other: Number<'a>) -> Number<'a> {
-        let exact = self.exact.as_ref().zip(other.exact.as_ref()).and_then(|(a, b)| a.mul(b));
-        Number { exact, enclose: Box::new(move |p| (self.enclose)(p) * (other.enclose)(p)) }
-    }
-
-    /// `self < other`, exactly where possible, else by enclosures of rising precision.
-    pub fn lt(&self, other: &Number<'_>) -> Option<bool> {
-        let exact = self.exact.as_ref().zip(other.exact.as_ref()).and_then(|(a, b)| a.compare(b));
-        if let Some(order) = exact {
-            return Some(order.is_lt());
-        }
-        PRECISIONS.iter().find_map(|p| (self.enclose)(*p).lt(&(other.enclose)(*p)))
-    }
-
-    /// `self <= other`.
-    pub fn le(&self, other: &Number<'_>) -> Option<bool> {
-        other.lt(self).map(|less| !less)
-    }
-}
-
-fn expression(field: &Field<'_>, variables: &'static [&'static str]) -> Outcome<Expr> {
-    Expr::parse(field.numeral()?, variables).or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))
-}
 
 /// Which bounding function; the numbers are positions in [`Specification::bounds`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,10 +28,35 @@ pub enum Bound {
     Qt,
     QRms,
     QtRms,
+    Fx,
+    QeMax,
+    Qtx,
+    Qte,
 }
 
-/// The names of the bounding functions in a file, in the order of [`Bound`]; the last two are optional.
-pub const BOUND_NAMES: [&str; 10] = ["f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t", "q_rms", "q_t_rms"];
+const BOUNDS: usize = 14;
+/// How many of them, from the first on, must be given.
+const REQUIRED: usize = 8;
+
+/// The names of the bounding functions in a file, in the order of [`Bound`].
+#[rustfmt::skip]
+pub const BOUND_NAMES: [&str; BOUNDS] = [
+    "f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t", "q_rms", "q_t_rms", "f_x", "q_e_max", "q_tx", "q_te",
+];
+
+/// q(t,0,0) = sum over |k| <= K of c_k e^{i k Om t} + rest (docs/mathematics.md, section 10.1).
+#[derive(Clone, Debug)]
+pub struct Forcing {
+    /// Bounds of |c_0|, ..., |c_K|.
+    pub harmonics: Vec<Constant>,
+    /// A bound of rms(rest).
+    pub rest_rms: Constant,
+    /// A bound of rms(rest'), if given.
+    pub rest_t_rms: Option<Constant>,
+}
+
+/// The most harmonics that are read.
+const MAX_HARMONICS: usize = 1000;
 
 /// The set of initial conditions that is asked for.
 #[derive(Clone, Debug)]
@@ -123,21 +69,6 @@ pub enum AskedSet {
     Box([Constant; 3]),
 }
 
-/// An entry of the Jacobian F(t).
-#[derive(Clone, Debug)]
-pub enum Entry {
-    /// A function of t.
-    Function(Expr),
-    /// Any number between two, lo <= hi, at each time.
-    Between([Constant; 2]),
-}
-
-/// The rows of F(t).
-pub type Jacobian = Vec<Vec<Entry>>;
-
-/// The most states that a Jacobian is read for.
-const MAX_STATES: usize = 12;
-
 /// A specification that satisfies this rule.
 #[derive(Clone, Debug)]
 pub struct Specification {
@@ -146,12 +77,17 @@ pub struct Specification {
     pub p_up: Constant,
     pub alpha: Constant,
     /// The Jacobian that stands in place of the triple, with what proves the triple.
-    pub jacobian: Option<(Jacobian, lyapunov::Witness)>,
+    pub jacobian: Option<(Jacobian, jacobian::Witness)>,
+    /// With a Jacobian: what proves a second triple for it, which serves for existence, and that triple.
+    pub existence: Option<(jacobian::Witness, [Constant; 3])>,
+    /// The contraction rate a(X, E), for the P of a triple that is given.
+    pub rate: Option<Expr>,
     pub mu: Constant,
     pub base_frequency: Constant,
     pub matched: bool,
     pub weights: Weights,
-    pub bounds: [Option<Expr>; 10],
+    pub bounds: [Option<Expr>; BOUNDS],
+    pub q_0: Option<Forcing>,
     pub domain: Option<[Constant; 2]>,
     pub initial_set: AskedSet,
 }
@@ -172,8 +108,8 @@ fn nonnegative(field: Field<'_>) -> Outcome<Constant> {
 }
 
 impl Specification {
-    /// Reads and checks the embedded specification. With a Jacobian, the triple is the field `lyapunov` of the witness, which is
-    /// taken out; [`lyapunov::prove`] is left to be done.
+    /// Reads and checks the embedded specification. With a Jacobian, the triple is the field `lyapunov` of the witness, and a second
+    /// one may be its field `lyapunov_existence`; both are taken out, and [`crate::rules::lyapunov::prove`] is left to be done.
     pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<Specification> {
         let mut file = field.fields()?;
         header(&mut file, "sigmastar/bounding-spec")?;
@@ -185,22 +121,29 @@ impl Specification {
         let (jacobian, [p_low, p_up, alpha]) = match fields.optional("jacobian") {
             None => (None, ["p_low", "p_up", "alpha"].map(|name| positive(&mut fields, name))),
             Some(field) => {
-                let jacobian = read_jacobian(&field)?;
-                let (witness, triple) = lyapunov::Witness::read(&witness.required("lyapunov")?, jacobian.len())?;
+                let jacobian = jacobian::read(&field)?;
+                let (witness, triple) = jacobian::Witness::read(&witness.required("lyapunov")?, jacobian.len())?;
                 (Some((jacobian, witness)), triple.map(Ok))
             }
         };
         let (p_low, p_up, alpha) = (p_low?, p_up?, alpha?);
         demand(p_low.number().le(&p_up.number()), RULE, &fields.pointer, "p_low <= p_up")?;
+        let second = if jacobian.is_some() { witness.optional("lyapunov_existence") } else { None };
+        let order = jacobian.as_ref().map_or(0, |(jacobian, _)| jacobian.len());
+        let existence = second.map(|field| jacobian::Witness::read(&field, order)).transpose()?;
+        // The P that is found for a Jacobian is not known to whoever states a rate.
+        let rate = if jacobian.is_none() { fields.optional("rate") } else { None };
+        let rate = rate.map(|field| expression(&field, ARGUMENTS)).transpose()?;
         fields.finish()?;
 
         let mut functions = file.required("bounds")?.fields()?;
-        let mut bounds: [Option<Expr>; 10] = Default::default();
-        for (name, bound) in BOUND_NAMES.iter().zip(&mut bounds) {
-            let field = if name.ends_with("rms") { functions.optional(name) } else { Some(functions.required(name)?) };
+        let mut bounds: [Option<Expr>; BOUNDS] = Default::default();
+        for (index, (name, bound)) in BOUND_NAMES.iter().zip(&mut bounds).enumerate() {
+            let field = if index < REQUIRED { Some(functions.required(name)?) } else { functions.optional(name) };
             *bound = field.map(|field| expression(&field, ARGUMENTS)).transpose()?;
         }
         functions.finish()?;
+        let q_0 = file.optional("q_0").map(|field| read_forcing(&field)).transpose()?;
 
         let domain = file.optional("domain").map(|field| {
             let mut fields = field.fields()?;
@@ -243,11 +186,14 @@ impl Specification {
             p_up,
             alpha,
             jacobian,
+            existence,
+            rate,
             mu,
             base_frequency,
             matched,
             weights,
             bounds,
+            q_0,
             domain,
             initial_set,
         })
@@ -264,28 +210,20 @@ pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
     if field.whole()? == 1 { Ok(()) } else { bad(&field.pointer, "only version 1 is read") }
 }
 
-fn read_jacobian(field: &Field<'_>) -> Outcome<Jacobian> {
-    let rows = field.elements()?;
-    if rows.is_empty() || rows.len() > MAX_STATES {
-        return bad(&field.pointer, format!("expected 1 to {MAX_STATES} rows"));
+fn read_forcing(field: &Field<'_>) -> Outcome<Forcing> {
+    let mut fields = field.fields()?;
+    let list = fields.required("harmonics")?;
+    let elements = list.elements()?;
+    if elements.is_empty() || elements.len() > MAX_HARMONICS {
+        return bad(&list.pointer, format!("expected 1 to {MAX_HARMONICS} harmonics"));
     }
-    let entry = |field: &Field<'_>| {
-        if !matches!(field.json, Json::Array(_)) {
-            return Ok(Entry::Function(expression(field, TIME)?));
-        }
-        let [lo, hi] = &field.elements()?[..] else { return bad(&field.pointer, "expected [lower end, upper end]") };
-        let (lo, hi) = (Constant::read(lo)?, Constant::read(hi)?);
-        demand(lo.number().le(&hi.number()), RULE, &field.pointer, "the lower end is at most the upper end")?;
-        Ok(Entry::Between([lo, hi]))
+    let forcing = Forcing {
+        harmonics: elements.into_iter().map(nonnegative).collect::<Outcome<_>>()?,
+        rest_rms: nonnegative(fields.required("rest_rms")?)?,
+        rest_t_rms: fields.optional("rest_t_rms").map(nonnegative).transpose()?,
     };
-    let row = |row: &Field<'_>| {
-        let entries = row.elements()?;
-        if entries.len() != rows.len() {
-            return bad(&row.pointer, format!("expected {} entries", rows.len()));
-        }
-        entries.iter().map(entry).collect()
-    };
-    rows.iter().map(row).collect()
+    fields.finish()?;
+    Ok(forcing)
 }
 
 fn read_set(field: &Field<'_>) -> Outcome<AskedSet> {

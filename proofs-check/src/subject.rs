@@ -85,6 +85,12 @@ fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
     } else {
         "the Lyapunov triple (p_low, p_up, alpha) holds for df/dx(t,0,0)".to_owned()
     });
+    if spec.rate.is_some() {
+        list.push("df/dx(t,x,e) contracts at the rate `rate` in the P of that triple".to_owned());
+    }
+    if spec.q_0.is_some() {
+        list.push("q(t,0,0) is made of the harmonics and the rest that `q_0` bounds".to_owned());
+    }
     let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
     list.push(format!(
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}: no \

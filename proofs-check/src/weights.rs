@@ -4,10 +4,10 @@
 //! c l^-p: for c > 0, 1 < p <= 2 the tail satisfies them by itself; left are n_l > 0, n_0 > n_1, and W2, W3 from each
 //! listed l >= 1 to l + 1, the first of the tail included. W2 gives the rest of the strict decrease.
 
+use crate::constant::{Constant, Number};
 use crate::exact::Exact;
 use crate::interval::Interval;
 use crate::json::Field;
-use crate::spec::{Constant, Number};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 

@@ -6,14 +6,16 @@
 
 use super::compare::{PRECISE_DIGITS, number, precise, span, stored, text, tolerance};
 use super::unknown;
+use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, join};
-use crate::rules::existence::{Existence, beta_s, k_alpha, kappas, tau};
+use crate::rules::existence::Existence;
+use crate::rules::gains::{beta_s, k_alpha, kappas, tau};
 use crate::rules::repaired::{Repaired, Witness as RepairedWitness};
-use crate::rules::sharp::{Sharp, Witness as SharpWitness};
+use crate::rules::sharp::{By, Sharp, Witness as SharpWitness};
 use crate::rules::transfer::closed_form;
-use crate::spec::{Bound, Constant};
+use crate::spec::Bound;
 use crate::verdict::{Outcome, demand, invalid};
 use rug::Rational;
 
@@ -91,14 +93,19 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     };
     let (paper, paper_det) = derived(ex.contraction(d, &k, 2, &beta));
     let (sharp, sharp_det) = derived(ex.contraction(d, &d.c, 1, &(&beta / 2)));
+    // Section 10 has no contraction.
+    let contracts = input.sharp.is_none_or(|(w, _)| matches!(w.existence, By::Contraction(_)));
+    let of_contraction = |cell: Cell<'a>| if contracts { cell } else { None };
     let names = ["Upsilon_xx", "Upsilon_xe", "Upsilon_ex", "Upsilon_ee", "spectral radius of Upsilon", "1 - tr + det"];
     for ((name, paper), sharp) in names.iter().zip(&paper).zip(&sharp) {
         let label = "P:eq:def_ypsilon";
-        row(name, COMMON, [sound(paper, label), sound(paper, label), sound(sharp, "section 4, C3")]);
+        let cells = [sound(paper, label), sound(paper, label), of_contraction(sound(sharp, "section 4, C3"))];
+        row(name, COMMON, cells);
     }
     let slip = Some((Value::Number(1 + &paper_det), false, "P:eq:ypsilon_xx, 1 + det"));
     let label = "section 4, 1 - det";
-    row("second Jury quantity", COMMON, [slip, sound(&(1 - paper_det), label), sound(&(1 - sharp_det), label)]);
+    let of_sharp = of_contraction(sound(&(1 - sharp_det), label));
+    row("second Jury quantity", COMMON, [slip, sound(&(1 - paper_det), label), of_sharp]);
 
     // The paper's transfer lemma is believed only where both its kappas dominate the closed form.
     let third = d.spec.weights.weight(2, d.precision) * 3;
@@ -126,7 +133,10 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
         row(["kappa_0", "kappa_1"][i], COMMON, cells);
     }
     let [z_printed, z_repaired] = [&lemma, &closed].map(|kappa| ex.z_squared_paper(d, kappa).sqrt());
-    let z_sharp = ex.z_squared(d, &own).sqrt();
+    let proved = input.sharp.map(|(_, s)| s);
+    let z_sharp = proved.map_or_else(|| ex.z_squared(d, &own).sqrt(), |s| s.z.clone());
+    let rates = proved.map_or_else(|| [ex.qr.clone(), ex.q1.clone()], |s| s.solution.rates.clone());
+    let x_gain = proved.map_or_else(|| ex.x_gain(d), |s| s.solution.x_gain.clone());
     let cells = [
         as_printed(&z_printed, "P:prop:periodic_solution, zeta_p"),
         sound(&z_repaired, "section 4"),
@@ -134,7 +144,7 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     ];
     row("Z", COMMON, cells);
     let [r_printed, r_repaired] = [&ex.q + &d.n_bar * z_printed, &ex.q + &d.mu * &d.n_bar * z_repaired];
-    let psi = &d.period * &ex.q1 / d.int(12).sqrt();
+    let psi = &d.period * &rates[1] / d.int(12).sqrt();
     let cells = [
         printed(&r_printed, &psi, "P:prop:periodic_solution, r_e"),
         sound(&r_repaired, "section 6, with mu"),
@@ -142,14 +152,15 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     ];
     row("r_e = psi_1", COMMON, cells);
     let gain = &k * &ex.f_e / (&d.alpha - &k * &ex.f_xx * &ex.x_p / 2);
-    let psi_x = ex.x_gain(d) * psi;
+    let psi_x = x_gain * psi;
     let cells = [
         printed(&(&gain * r_printed), &psi_x, "P:prop:periodic_solution, r_x"),
         sound(&(gain * r_repaired), "section 6"),
         sound(&psi_x, "section 6"),
     ];
     row("r_x = psi_x", COMMON, cells);
-    let [psi_2_paper, psi_2] = [&ex.q, &ex.qr].map(|q| (&d.period / (Interval::pi(d.precision) * 2)).sqr() * q.sqr());
+    let [psi_2_paper, psi_2] =
+        [&ex.q, &rates[0]].map(|q| (&d.period / (Interval::pi(d.precision) * 2)).sqr() * q.sqr());
     let psi_2 = psi_2 * &d.period;
     let matched = |value: Interval| if d.spec.matched { sound(&value, "section 6, with T") } else { None };
     let label = "P:eq:theorem_2_bound_e2";
@@ -161,7 +172,11 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
         Some((Value::Largest(holds, limit(0)), true, source))
     };
     let label = "P:prop:periodic_solution";
-    row("x_p*", DATA, [largest_x(&k * 2, label), largest_x(&k * 2, label), largest_x(d.c.clone(), "section 4, C3")]);
+    row(
+        "x_p*",
+        DATA,
+        [largest_x(&k * 2, label), largest_x(&k * 2, label), of_contraction(largest_x(d.c.clone(), "section 4, C3"))],
+    );
     let largest_e = |gain: &Interval, factor: i64, source| {
         let x_p = x_p.clone();
         let invariance = &d.alpha / gain * &x_p - &ex.f_xx * x_p.sqr() / 2;
@@ -175,7 +190,7 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     row(
         "e_p*(X_p)",
         COMMON,
-        [largest_e(&k, 2, label), largest_e(&k, 2, label), largest_e(&d.c, 1, "section 4, C1 and C3")],
+        [largest_e(&k, 2, label), largest_e(&k, 2, label), of_contraction(largest_e(&d.c, 1, "section 4, C1 and C3"))],
     );
     rows
 }
@@ -255,7 +270,9 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     }
     let label = "section 4, C2 and C3 with beta, K_alpha";
     let repaired_p = r.map(|(_, r)| (sigma_p(d, &r.existence, false), true, label));
-    row("sigma_p*", [None, repaired_p, s.map(|(_, s)| (sigma_p(d, &s.existence, true), true, "section 4, C2 and C3"))]);
+    let contracting = s.filter(|(w, _)| matches!(w.existence, By::Contraction(_)));
+    let sharp_p = contracting.map(|(_, s)| (sigma_p(d, &s.existence, true), true, "section 4, C2 and C3"));
+    row("sigma_p*", [None, repaired_p, sharp_p]);
     let threshold = s.and_then(|(_, s)| sound(&s.threshold, "section 5, C5"));
     row("sigma_a*", [None, r.and_then(|(_, r)| sound(&r.sigma_a, "section 5")), threshold]);
     for (i, name) in ["X0", "E0", "Z0"].into_iter().enumerate() {

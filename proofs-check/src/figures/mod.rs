@@ -4,6 +4,7 @@
 
 mod compare;
 mod constants;
+mod lmi;
 mod no_plant;
 
 use crate::data::Data;
@@ -11,7 +12,6 @@ use crate::effort;
 use crate::json::{Field, Fields, join};
 use crate::rules::claim::Sizes;
 use crate::rules::derivation::{Derivation, Proved, Witnesses};
-use crate::rules::lmi;
 use crate::spec::Specification;
 use crate::verdict::{Finding, Outcome, Verdict, finding};
 use std::collections::{BTreeMap, BTreeSet};

@@ -7,8 +7,9 @@
 use crate::data::Data;
 use crate::figures::compare;
 use crate::interval::Interval;
+use crate::jacobian::Entry;
 use crate::json::Field;
-use crate::spec::{Bound, Entry};
+use crate::spec::Bound;
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 

@@ -8,7 +8,7 @@ use crate::interval::Interval;
 
 /// The value, its derivatives in X and E, and those in XX, XE, EE.
 #[derive(Clone)]
-struct Jet {
+pub(super) struct Jet {
     value: Interval,
     first: [Interval; 2],
     second: [Interval; 3],
@@ -156,16 +156,22 @@ fn apply(op: &Op, sides: [&Interval; 2], a: Option<Jet>, b: Option<Jet>) -> Jet 
     if value.is_defined() { jet } else { Jet::without_derivatives(value) }
 }
 
-fn jet(expr: &Expr, sides: [&Interval; 2]) -> Option<Jet> {
+/// The jet on the piece.
+pub(super) fn jet(expr: &Expr, sides: [&Interval; 2]) -> Option<Jet> {
     expr.fold(|op, a, b| apply(op, sides, a, b))
 }
 
-/// Whether the derivative along an axis is proved nonnegative on the piece: by its enclosure, or by its enclosure on a
-/// face, an edge or the middle of the piece and its own derivatives from there on.
-pub(super) fn is_nondecreasing(expr: &Expr, sides: [&Interval; 2], along: usize) -> bool {
-    let Some(whole) = jet(expr, sides) else { return false };
-    if whole.first[along].is_nonnegative() {
-        return true;
+/// Whether the derivative along an axis is proved nonnegative on the piece: by its enclosure on a face, an edge or the middle of
+/// the piece (on the whole of it, where nothing is `moved`) and its own derivatives from there on. `whole` is the jet of the piece.
+pub(super) fn is_nondecreasing(
+    expr: &Expr,
+    whole: &Jet,
+    sides: [&Interval; 2],
+    along: usize,
+    moved: [bool; 2],
+) -> bool {
+    if moved == [false; 2] {
+        return whole.first[along].is_nonnegative();
     }
     let changes = [&whole.second[along], &whole.second[along + 1]];
     let from = [0, 1].map(|axis| {
@@ -177,14 +183,12 @@ pub(super) fn is_nondecreasing(expr: &Expr, sides: [&Interval; 2], along: usize)
             _ => ((&ends[0] + &ends[1]) / 2).ceiling(),
         }
     });
-    [[true, false], [false, true], [true, true]].into_iter().any(|moved| {
-        let place = [0, 1].map(|axis| if moved[axis] { &from[axis] } else { sides[axis] });
-        let Some(there) = jet(expr, place) else { return false };
-        let start = there.first[along].clone();
-        let derivative = [0, 1]
-            .into_iter()
-            .filter(|axis| moved[*axis])
-            .fold(start, |derivative, axis| derivative + changes[axis] * (sides[axis] - &from[axis]));
-        derivative.is_nonnegative()
-    })
+    let place = [0, 1].map(|axis| if moved[axis] { &from[axis] } else { sides[axis] });
+    let Some(there) = jet(expr, place) else { return false };
+    let start = there.first[along].clone();
+    let derivative = [0, 1]
+        .into_iter()
+        .filter(|axis| moved[*axis])
+        .fold(start, |derivative, axis| derivative + changes[axis] * (sides[axis] - &from[axis]));
+    derivative.is_nonnegative()
 }

@@ -1,109 +1,182 @@
-//! Rule: bounding functions are finite and nondecreasing in X and in E, and nowhere certainly negative (docs/mathematics.md,
-//! section 1).
+//! What is verified of a bounding function: that it is finite and nondecreasing in X and in E (docs/mathematics.md, section 1).
 //!
-//! The box [0, X] x [0, E] is cut until, on every piece, the expression is defined and its difference quotients in X
-//! and in E are proved nonnegative: by slopes and growth (`slopes`), with the polynomials in sums taken exactly
-//! (`polynomials`), or by second derivatives (`jets`). The pieces are closed and cover the box, so a segment along an
-//! axis runs through finitely many of them and the expression is nondecreasing along it. A function that is defined on
-//! every piece is bounded there, hence finite. What is used is its positive part: a bound of a norm is one without its
-//! negative values too, so a sign that rounding leaves open, as at an origin where the value is exactly 0, does no harm.
+//! The box [0, X] x [0, E] is cut into pieces, as somebody says ([`Step`]). On every piece the expression must be defined, and
+//! its difference quotients in X and in E are proved nonnegative by the rule that is named for the piece: slopes or growth
+//! (`slopes`), with the polynomials in sums taken exactly (`polynomials`), or second derivatives (`jets`). The pieces are
+//! closed and cover the box, whatever the cuts are, so a segment along an axis runs through finitely many of them and the
+//! expression is nondecreasing along it. A function that is defined on every piece is bounded there, hence finite.
 
 mod jets;
 mod polynomials;
 mod slopes;
 
-use crate::effort;
 use crate::expr::Expr;
 use crate::interval::Interval;
-use crate::verdict::{Outcome, Verdict, finding};
 use polynomials::Polynomials;
 use rug::Rational;
+use slopes::Part;
+use std::cell::OnceCell;
 use std::collections::VecDeque;
 
-/// The most pieces, and the most pieces times operations, that are looked at.
-const MAX_PIECES: usize = 5_000;
-const MAX_WORK: usize = 1_000_000;
+/// A closed piece of the box: the ends in X, the ends in E.
+pub type Piece = [[Rational; 2]; 2];
 
-/// The name of this rule.
-pub const RULE: &str = "bounding functions";
-
-/// What is left open on a piece.
-struct Open {
-    /// Along which axes the expression is proved constant on the piece, so that cutting them does not help.
-    constant: [bool; 2],
+/// One step of a proof: what is to be done with the piece that waits longest; the first is the box.
+pub enum Step {
+    /// It is cut along X (0) or E (1), and both halves wait.
+    Cut {
+        /// The axis.
+        along: usize,
+        /// A number between the ends.
+        at: Rational,
+    },
+    /// The expression is nondecreasing on it in X and in E, for these reasons.
+    Proved([Reason; 2]),
 }
 
-/// Proves the expression defined and nondecreasing along both axes on the piece, or says that it did not.
-fn examine(expr: &Expr, polynomials: &Polynomials, piece: &[[Rational; 2]; 2], precision: u32) -> Option<Open> {
-    let [x, e] = [0, 1].map(|side| Interval::between(&piece[side][0], &piece[side][1], precision));
-    let Some(part) = slopes::part(expr, polynomials, [&x, &e]) else { return Some(Open { constant: [false; 2] }) };
-    if !part.value.is_defined() || !part.value.is_bounded() {
-        return Some(Open { constant: [false; 2] });
-    }
-    let monotone = |side: usize| {
-        piece[side][0] == piece[side][1]
-            || part.slope[side].is_nonnegative()
-            || part.growth[side].is_nonnegative()
-            || jets::is_nondecreasing(expr, [&x, &e], side)
-    };
-    let proved = monotone(0) && monotone(1);
-    (!proved).then(|| Open { constant: part.slope.each_ref().map(Interval::is_zero) })
+/// Why an expression is nondecreasing on a piece along an axis.
+#[derive(Clone, Copy, Debug)]
+pub enum Reason {
+    /// The piece is a point along the axis.
+    Flat,
+    /// Its difference quotients are nonnegative.
+    Slope,
+    /// Its growth is nonnegative.
+    Growth,
+    /// Its derivative is nonnegative: enclosed at an end or the middle of the axes that are named, and changing from there by
+    /// its own derivatives.
+    Derivative([bool; 2]),
 }
 
-/// Proves the expression finite and nondecreasing on [0, x] x [0, e].
-///
-/// # Errors
-/// `invalid` with two points where it certainly decreases, or one where it is certainly negative; `undecided` with a
-/// place, when the bounded effort does not settle it.
-pub fn prove(name: &str, expr: &Expr, x: &Rational, e: &Rational, precision: u32) -> Outcome<()> {
-    let pointer = format!("/specification/bounds/{name}");
-    let at =
-        |x: &Rational, e: &Rational| expr.enclose(&Interval::rational(x, precision), &Interval::rational(e, precision));
-    let zero = Rational::new();
-    let origin = at(&zero, &zero);
-    if origin.lt(&Interval::int(0, precision)) == Some(true) {
-        return Err(finding(Verdict::Invalid, RULE, &pointer, "it is negative at X = 0, E = 0"));
+/// An expression with what every piece needs of it.
+pub struct Function<'e> {
+    /// The expression.
+    pub expr: &'e Expr,
+    polynomials: Polynomials,
+    precision: u32,
+}
+
+impl<'e> Function<'e> {
+    /// For a working precision in bits.
+    pub fn new(expr: &'e Expr, precision: u32) -> Function<'e> {
+        Function { expr, polynomials: Polynomials::new(expr), precision }
     }
-    let polynomials = Polynomials::new(expr);
-    let mut queue = VecDeque::from([[[zero.clone(), x.clone()], [zero.clone(), e.clone()]]]);
-    let limit = MAX_PIECES.min(MAX_WORK / expr.len().max(1));
-    let mut looked_at = 0;
-    while let Some(piece) = queue.pop_front() {
-        let Some(open) = examine(expr, &polynomials, &piece, precision) else { continue };
-        looked_at += 1;
-        let [[x0, x1], [e0, e1]] = &piece;
-        let shown = |q: &Rational| q.to_f64();
-        let low = at(x0, e0);
-        for (px, pe) in [(x1, e0), (x0, e1)] {
-            if at(px, pe).lt(&low) == Some(true) {
-                let (x0, e0, px, pe) = (shown(x0), shown(e0), shown(px), shown(pe));
-                let message = format!("it decreases from X = {x0}, E = {e0} to X = {px}, E = {pe}");
-                return Err(finding(Verdict::Invalid, RULE, &pointer, message));
+
+    /// The value at a point.
+    pub fn at(&self, [x, e]: [&Rational; 2]) -> Interval {
+        self.expr.enclose(&Interval::rational(x, self.precision), &Interval::rational(e, self.precision))
+    }
+
+    /// What one evaluation on a piece tells; `None` where the expression may be undefined or unbounded.
+    pub fn facts(&self, piece: &Piece) -> Option<Facts<'_>> {
+        let sides = piece.each_ref().map(|[a, b]| Interval::between(a, b, self.precision));
+        let part = slopes::part(self.expr, &self.polynomials, [&sides[0], &sides[1]])?;
+        let flat = piece.each_ref().map(|[a, b]| a == b);
+        (part.value.is_bounded()).then(|| Facts { expr: self.expr, sides, flat, part, jet: OnceCell::new() })
+    }
+
+    /// A piece cut in two.
+    pub fn halves(piece: &Piece, along: usize, at: &Rational) -> [Piece; 2] {
+        [1, 0].map(|end| {
+            let mut half = piece.clone();
+            half[along][end] = at.clone();
+            half
+        })
+    }
+
+    /// Whether the steps prove the expression finite and nondecreasing on the box.
+    pub fn verify(&self, whole: Piece, steps: &[Step]) -> bool {
+        let mut queue = VecDeque::from([whole]);
+        let all = steps.iter().all(|step| {
+            let Some(piece) = queue.pop_front() else { return false };
+            match step {
+                Step::Cut { along, at } => {
+                    let inside = piece.get(*along).is_some_and(|[a, b]| a < at && at < b);
+                    queue.extend(inside.then(|| Function::halves(&piece, *along, at)).into_iter().flatten());
+                    inside
+                }
+                Step::Proved(reasons) => {
+                    let facts = self.facts(&piece);
+                    facts.is_some_and(|facts| [0, 1].iter().all(|&along| facts.shows(along, reasons[along])))
+                }
+            }
+        });
+        all && queue.is_empty()
+    }
+}
+
+/// What is known of an expression on a piece, on which it is defined and bounded.
+pub struct Facts<'f> {
+    expr: &'f Expr,
+    sides: [Interval; 2],
+    flat: [bool; 2],
+    part: Part,
+    /// The derivatives, once they are asked for.
+    jet: OnceCell<Option<jets::Jet>>,
+}
+
+impl Facts<'_> {
+    /// Whether it is nondecreasing along an axis for this reason.
+    pub fn shows(&self, along: usize, reason: Reason) -> bool {
+        match reason {
+            Reason::Flat => self.flat[along],
+            Reason::Slope => self.part.slope[along].is_nonnegative(),
+            Reason::Growth => self.part.growth[along].is_nonnegative(),
+            Reason::Derivative(moved) => {
+                let sides = self.sides.each_ref();
+                let whole = self.jet.get_or_init(|| jets::jet(self.expr, sides));
+                whole.as_ref().is_some_and(|whole| jets::is_nondecreasing(self.expr, whole, sides, along, moved))
             }
         }
-        if looked_at >= limit || effort::exhausted() {
-            let [x0, x1, e0, e1] = [x0, x1, e0, e1].map(shown);
-            let message = format!("that it is finite and nondecreasing is not proved on [{x0}, {x1}] x [{e0}, {e1}]");
-            return Err(finding(Verdict::Undecided, RULE, &pointer, message));
+    }
+
+    /// Along which axes it is constant, so that cutting them does not help.
+    pub fn constant(&self) -> [bool; 2] {
+        self.part.slope.each_ref().map(Interval::is_zero)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::ARGUMENTS;
+
+    fn verified(text: &str, steps: &[Step]) -> bool {
+        let whole = [0, 0].map(|from| [Rational::from(from), Rational::from(1)]);
+        Function::new(&Expr::parse(text, ARGUMENTS).unwrap(), 128).verify(whole, steps)
+    }
+
+    fn cut(along: usize, numerator: i32) -> Step {
+        Step::Cut { along, at: Rational::from((numerator, 2)) }
+    }
+
+    #[test]
+    fn the_pieces_must_cover_the_box() {
+        let slope = || Step::Proved([Reason::Slope; 2]);
+        assert!(verified("X + E", &[slope()]));
+        assert!(verified("X + E", &[cut(0, 1), slope(), cut(1, 1), slope(), slope()]));
+        // A piece that is left out, one too many, no piece at all, and cuts that are none.
+        for steps in [vec![cut(0, 1), slope()], vec![slope(), slope()], vec![], vec![cut(0, 1)]] {
+            assert!(!verified("X + E", &steps));
         }
-        // The longer side relative to the box, of those that matter.
-        let width = |side: &[Rational; 2], whole: &Rational| {
-            let ends: Rational = (&side[1] - &side[0]).into();
-            if *whole == 0 { ends } else { ends / whole }
-        };
-        let longer = width(&piece[1], e) > width(&piece[0], x);
-        let cut_e = match open.constant {
-            [true, false] => true,
-            [false, true] => false,
-            _ => longer,
-        };
-        let along = usize::from(cut_e && e0 != e1 || x0 == x1);
-        let middle = Rational::from(&piece[along][0] + &piece[along][1]) / 2u32;
-        for (index, end) in [(1, &middle), (0, &middle)] {
-            let mut half = piece.clone();
-            half[along][index] = end.clone();
-            queue.push_back(half);
+        for cut in [cut(0, 0), cut(1, 2), cut(1, -1), cut(0, 3), cut(2, 1)] {
+            assert!(!verified("X + E", &[cut, slope(), slope()]));
         }
     }
-    Ok(())
+
+    #[test]
+    fn each_piece_must_be_proved_for_the_reason_that_is_named() {
+        let all = [Reason::Flat, Reason::Slope, Reason::Growth];
+        let moved = [[false, false], [true, false], [false, true], [true, true]].map(Reason::Derivative);
+        for reason in all.into_iter().chain(moved) {
+            // They decrease along X, along E, and are not defined everywhere.
+            for text in ["2 - X + E", "2 + X - E", "1/X", "log(X + E)", "1/(X - 1/2)"] {
+                assert!(!verified(text, &[Step::Proved([reason; 2])]), "{text}, {reason:?}");
+                let halves = [cut(0, 1), Step::Proved([reason; 2]), Step::Proved([reason; 2])];
+                assert!(!verified(text, &halves), "{text}, {reason:?}");
+            }
+        }
+        assert!(!verified("X + E", &[Step::Proved([Reason::Flat, Reason::Slope])]));
+        assert!(verified("X^2/(1 + X)", &[Step::Proved([Reason::Growth; 2])]));
+    }
 }

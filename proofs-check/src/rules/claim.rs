@@ -1,9 +1,10 @@
 //! Rule: the claim says what the witness proves, and nothing that it does not.
 
+use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
-use crate::spec::{AskedSet, Constant, Specification};
+use crate::spec::{AskedSet, Specification};
 use crate::verdict::{Outcome, bad, demand, invalid};
 use rug::Rational;
 

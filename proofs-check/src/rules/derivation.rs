@@ -4,19 +4,18 @@
 //! as they must be up to every argument that is used, and so the claim at `sigma` and `set` is proved.
 
 use super::claim::Sizes;
+use super::stability::Plant;
 use super::transfer::Proof;
-use super::{regulation, repaired, sharp};
+use super::{bounding, mean_squares, regulation, repaired, sharp};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
-use crate::monotone;
-use crate::spec::BOUND_NAMES;
-use crate::verdict::{Condition, Outcome, bad, invalid};
+use crate::verdict::{Condition, Outcome, bad};
 use rug::Rational;
 
 /// The free numbers of one of the two derivations that can be claimed.
 pub enum Witnesses {
-    /// Sections 4 and 5.
+    /// Sections 4, 5 and 10.
     Sharp(Box<sharp::Witness>),
     /// The paper's architecture.
     Repaired(Box<repaired::Witness>),
@@ -31,7 +30,7 @@ pub struct Derivation {
 
 /// What was evaluated of one derivation.
 pub enum Proved {
-    /// Sections 4 and 5.
+    /// Sections 4, 5 and 10.
     Sharp(Box<sharp::Sharp>),
     /// The paper's architecture.
     Repaired(Box<repaired::Repaired>),
@@ -55,12 +54,20 @@ fn proof(field: &Field<'_>) -> Outcome<Proof> {
     Ok(proof)
 }
 
+/// r'_x, r'_e, r'_d.
+fn means(field: &Field<'_>) -> Outcome<mean_squares::Means> {
+    let mut fields = field.fields()?;
+    let mut number = |name: &str| fields.required(name)?.rational();
+    let means = [number("r_x")?, number("r_e")?, number("r_d")?];
+    fields.finish().map(|()| means)
+}
+
 impl Derivation {
     /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
     pub fn read(fields: &mut Fields<'_>, sharp: bool, sigma: Rational, set: [Rational; 3]) -> Outcome<Derivation> {
         let pointer = fields.pointer.clone();
-        let mut number = |name: &str| fields.required(name)?.rational();
         if !sharp {
+            let mut number = |name: &str| fields.required(name)?.rational();
             let w = repaired::Witness {
                 x: number("X")?,
                 e: number("E")?,
@@ -77,13 +84,21 @@ impl Derivation {
             };
             return Ok(Derivation { witnesses: Witnesses::Repaired(Box::new(w)), regulation: None });
         }
+        let existence = match fields.optional("r_x") {
+            None => sharp::By::Contraction([fields.required("p_x")?.rational()?, fields.required("p_e")?.rational()?]),
+            Some(r_x) => sharp::By::MeanSquares(mean_squares::Witness {
+                r: [r_x.rational()?, fields.required("r_e")?.rational()?, fields.required("r_d")?.rational()?],
+                kap: fields.required("kap")?.rational()?,
+                refined: fields.optional("refined").map(|field| means(&field)).transpose()?,
+            }),
+        };
+        let mut number = |name: &str| fields.required(name)?.rational();
         let w = sharp::Witness {
             x_p: number("X_p")?,
             e_p: number("E_p")?,
             d_x: number("D_x")?,
             d_e: number("D_e")?,
-            p_x: number("p_x")?,
-            p_e: number("p_e")?,
+            existence,
             w_x: number("w_x")?,
             h: number("h")?,
             k0: number("k0")?,
@@ -131,8 +146,9 @@ impl Derivation {
         all(name, pointer, transfer.iter().chain(conditions), lines)?;
         without_domain(d, arguments, lines)?;
         if let Some(exact) = &self.regulation {
+            let plant = if let Witnesses::Sharp(w) = &self.witnesses { w.plant() } else { Plant::Norms };
             lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
-            let conditions = regulation::evaluate(d, set, exact)?;
+            let conditions = regulation::evaluate(d, plant, set, exact)?;
             all("exact regulation", &exact.pointer, conditions.iter(), lines)?;
             without_domain(d, &[d.number(&exact.d_x), d.number(&exact.d_e)], lines)?;
         }
@@ -161,7 +177,7 @@ impl Proved {
     /// The sizes |x|, |e|, |zeta|_N of the periodic solution.
     pub fn sizes(&self) -> Sizes {
         let [x, e, zeta] = match self {
-            Proved::Sharp(s) => [&s.x_per, &s.e_per, &s.z],
+            Proved::Sharp(s) => [&s.solution.x, &s.solution.e, &s.z],
             Proved::Repaired(r) => [&r.existence.x_p, &r.existence.e_p, &r.z],
         };
         Sizes { x: x.clone(), e: e.clone(), zeta: zeta.clone() }
@@ -170,22 +186,7 @@ impl Proved {
 
 /// Without a domain the bounding functions are proved up to the arguments that are used.
 fn without_domain(d: &Data<'_>, [x, e]: &[Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
-    if d.spec.domain.is_some() { Ok(()) } else { bounding_functions(d, [x, e], lines) }
-}
-
-/// Proves every bounding function on [0, x] times [0, e].
-pub fn bounding_functions(d: &Data<'_>, [x, e]: [&Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
-    let (Some(x), Some(e)) = (x.upper(), e.upper()) else {
-        return invalid("bounding functions", "/witness", "an argument is not finite");
-    };
-    for (name, expr) in BOUND_NAMES.iter().zip(&d.spec.bounds) {
-        if let Some(expr) = expr {
-            monotone::prove(name, expr, &x, &e, d.precision)?;
-        }
-    }
-    let (x, e) = (x.to_f64(), e.to_f64());
-    lines.push(format!("bounding functions: finite, nondecreasing, nowhere certainly negative up to X = {x}, E = {e}"));
-    Ok(())
+    if d.spec.domain.is_some() { Ok(()) } else { bounding::prove_all(d, [x, e], lines) }
 }
 
 /// Writes down all conditions, then demands each.

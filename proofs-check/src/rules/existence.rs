@@ -69,38 +69,3 @@ impl Existence {
         &d.c / &d.alpha * &self.f_e / (1 - self.share(d, &d.c))
     }
 }
-
-/// kappa_0 = k0/w^2, kappa_1 = k1/w^4: the transfer bound in the units of omega.
-pub fn kappas(d: &Data<'_>, k0: &Interval, k1: &Interval) -> [Interval; 2] {
-    [k0 / d.w.sqr(), k1 / d.w.sqr().sqr()]
-}
-
-/// `K_alpha = c (e^{alpha T} - 1 + c) e^{-alpha T}`.
-pub fn k_alpha(d: &Data<'_>) -> Interval {
-    &d.c * (1 + (&d.c - 1) * (-(&d.alpha * &d.period)).exp())
-}
-
-/// `beta_s(sigma) = sqrt((T/(2 sigma)) coth(sigma T/2))`.
-pub fn beta_s(d: &Data<'_>, sigma: &Interval) -> Interval {
-    (&d.period * (sigma * &d.period / 2).coth() / (sigma * 2)).sqrt()
-}
-
-/// `tau(sigma) = (1/sigma) sqrt(T^2/12 - (T/(2 sigma)) coth(sigma T/2) + 1/sigma^2)`, at most T^2/sqrt(720).
-///
-/// In y = sigma T it is T^2 t(y) with a decreasing t; t is taken at the two ends of y, with as many more bits as the
-/// closed form may cancel.
-pub fn tau(d: &Data<'_>, sigma: &Interval) -> Interval {
-    let y = sigma * &d.period;
-    let most = d.int(720).sqrt().recip();
-    let (Some(lo), Some(hi)) = (y.lower(), y.upper()) else { return Interval::undefined(d.precision) };
-    let at = |y: &rug::Rational| {
-        let small = y.denom().significant_bits().saturating_sub(y.numer().significant_bits());
-        let p = d.precision + 4 * small.min(1000) + 64;
-        let y = Interval::rational(y, p);
-        let inside =
-            Interval::rational(&rug::Rational::from((1, 12)), p) - (&y / 2).coth() / (&y * 2) + y.sqr().recip();
-        (inside.max(&Interval::int(0, p)).sqrt() / y).intersect(&d.int(0).hull(&most))
-    };
-    let value = at(&lo).hull(&at(&hi)) * d.period.sqr();
-    value.round(d.precision)
-}

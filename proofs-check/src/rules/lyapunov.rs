@@ -8,20 +8,20 @@
 //! affine in them), is proved positive definite on cells [a, b] that cover a period. With R_ij the largest |Q_ij''| on the
 //! cell, Q lies entrywise within (b-a)^2/8 R of the line between Q(a) and Q(b). A symmetric matrix with entries within E
 //! of 0 is at most the diagonal matrix of the row sums of E. So it is enough that Q(a) and Q(b) less (b-a)^2/8 times the row
-//! sums of R are positive definite: then so is everything on the line between. Time is s = t/T here; a cell that is not
-//! proved is halved, up to a bounded effort.
+//! sums of R are positive definite: then so is everything on the line between. Time is s = t/T here. The cells are proposed, up to
+//! a bounded effort; that they cover a period, and each of them, is verified.
 
-use crate::exact::Exact;
-use crate::expr::{Expr, Op, exact_op, interval_op};
+use super::period::periodic;
+use crate::constant::Constant;
+use crate::effort;
+use crate::expr::{Expr, Op, interval_op};
 use crate::interval::Interval;
-use crate::json::Field;
+use crate::jacobian::{Entry, Jacobian, RULE, Witness};
 use crate::matrix::positive_definite;
-use crate::spec::{Constant, Entry, Jacobian};
-use crate::verdict::{Outcome, Verdict, bad, demand, finding, invalid};
+use crate::propose::{Judgement, break_points};
+use crate::verdict::{Outcome, Verdict, demand};
 use rug::Rational;
 
-/// The highest harmonic of P that is read.
-const MAX_HARMONIC: usize = 64;
 /// Up to this many interval entries every vertex is looked at; beyond, a ball that contains the box.
 const MAX_VERTEX_ENTRIES: usize = 6;
 /// The most cells, and the most cells times (order cubed plus order squared times harmonics), that are looked at.
@@ -29,64 +29,6 @@ const MAX_CELLS: usize = 20_000;
 const MAX_WORK: usize = 2_000_000;
 /// The precisions in bits, each tried where the one before does not decide.
 const PRECISIONS: [u32; 3] = [96, 192, 512];
-const RULE: &str = "Lyapunov triple";
-
-type Matrix = Vec<Vec<Rational>>;
-
-/// P(t) = mean + sum over k of cos(2 pi k t/T) A_k + sin(2 pi k t/T) B_k, and the triple.
-#[derive(Clone, Debug)]
-pub struct Witness {
-    pointer: String,
-    mean: Matrix,
-    harmonics: Vec<[Matrix; 2]>,
-    /// P_low, P_up, alpha.
-    numbers: [Rational; 3],
-}
-
-/// Reads a symmetric matrix of the order of the Jacobian.
-fn matrix(field: &Field<'_>, order: usize) -> Outcome<Matrix> {
-    let row = |row: &Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
-    let rows = field.elements()?.iter().map(row).collect::<Outcome<Matrix>>()?;
-    if rows.len() != order || rows.iter().any(|row| row.len() != order) {
-        return bad(&field.pointer, format!("expected {order} rows of {order} numbers, as the Jacobian has"));
-    }
-    let symmetric = (0..order).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]));
-    demand(Some(symmetric), RULE, &field.pointer, "P is symmetric")?;
-    Ok(rows)
-}
-
-impl Witness {
-    /// Reads the part `lyapunov` of a witness; its numbers are the triple p_low, p_up, alpha.
-    pub fn read(field: &Field<'_>, order: usize) -> Outcome<(Witness, [Constant; 3])> {
-        let mut fields = field.fields()?;
-        let mean = matrix(&fields.required("P")?, order)?;
-        let mut harmonics = Vec::new();
-        if let Some(list) = fields.optional("harmonics") {
-            for element in list.elements()? {
-                let mut pair = element.fields()?;
-                let [cos, sin] = [pair.required("cos")?, pair.required("sin")?];
-                pair.finish()?;
-                harmonics.push([matrix(&cos, order)?, matrix(&sin, order)?]);
-            }
-            if harmonics.len() > MAX_HARMONIC {
-                return bad(&list.pointer, format!("expected at most {MAX_HARMONIC} harmonics"));
-            }
-        }
-        let mut triple = Vec::new();
-        let mut number = |name: &str| -> Outcome<Rational> {
-            let field = fields.required(name)?;
-            let value = field.rational()?;
-            demand(Some(value > 0), RULE, &field.pointer, format!("{name} > 0"))?;
-            triple.push(Constant::read(&field)?);
-            Ok(value)
-        };
-        let numbers = [number("p_low")?, number("p_up")?, number("alpha")?];
-        fields.finish()?;
-        let [p_low, p_up, alpha] = &triple[..] else { return bad(&field.pointer, "expected a triple") };
-        let triple = [p_low.clone(), p_up.clone(), alpha.clone()];
-        Ok((Witness { pointer: field.pointer.clone(), mean, harmonics, numbers }, triple))
-    }
-}
 
 /// A function of s = t/T on a cell: enclosures of its values and of its first two derivatives.
 #[derive(Clone)]
@@ -230,55 +172,78 @@ impl Problem<'_> {
         (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect()
     }
 
-    /// Proves Q positive definite on [0, 1], in at most `cells` cells; `refutes`: where Q is not, the triple is not one.
+    /// Proves Q positive definite on [0, 1] by cells that are proposed, of which at most `left` may be halved; `refutes`: where
+    /// Q is not, the triple is not one.
     fn everywhere(
         &self,
         what: &str,
         refutes: bool,
-        cells: &mut usize,
+        left: &mut usize,
         q: impl Fn(&Interval) -> Vec<Vec<Jet>>,
     ) -> Outcome<()> {
-        let pointer = &self.w.pointer;
-        // Each end of a cell with Q there.
-        let at = |s: Rational| {
-            let q = q(&Interval::rational(&s, self.precision));
-            (s, q.iter().map(|row| row.iter().map(|jet| jet.0[0].clone()).collect()).collect::<Vec<Vec<_>>>())
+        let at = |s: &Rational| -> Vec<Vec<Interval>> {
+            let value = |row: &Vec<Jet>| row.iter().map(|jet| jet.0[0].clone()).collect();
+            q(&Interval::rational(s, self.precision)).iter().map(value).collect()
         };
-        let mut queue = vec![[at(Rational::new()), at(Rational::from(1))]];
-        while let Some([(a, at_a), (b, at_b)]) = queue.pop() {
-            let over = q(&Interval::between(&a, &b, self.precision));
-            let width = Rational::from(&b - &a);
-            let factor = Interval::rational(&(Rational::from(width.square_ref()) / 8u32), self.precision);
-            let sums: Vec<Interval> = over
-                .iter()
-                .map(|row| row.iter().fold(Interval::int(0, self.precision), |sum, jet| sum + jet.0[2].abs()) * &factor)
-                .collect();
-            let definite = |end: &[Vec<Interval>], less: bool| {
-                let entry = |i: usize, j: usize| {
-                    if less && i == j { &end[i][j] - &sums[i].ceiling() } else { end[i][j].clone() }
-                };
-                positive_definite((0..end.len()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect())
-            };
-            if definite(&at_a, true) == Some(true) && definite(&at_b, true) == Some(true) {
-                continue;
+        let judge = |[a, b]: [&Rational; 2], ends: [&Vec<Vec<Interval>>; 2]| {
+            let sums = self.distance(a, b, &q);
+            if ends.iter().all(|end| definite(end, &sums) == Some(true)) {
+                return Judgement::Proved;
             }
-            let truth = [&at_a, &at_b].map(|end| definite(end, false));
-            let end = if truth[0] == Some(true) { &b } else { &a };
-            let place = format!("{what} at t/T = {}", end.to_f64());
-            if refutes && truth.contains(&Some(false)) {
-                return invalid(RULE, pointer, format!("not satisfied: {place}"));
-            }
-            let constant = sums.iter().all(Interval::is_zero);
-            if *cells == 0 || constant || truth.contains(&None) {
-                let message = format!("can be neither proved nor refuted: {place}");
-                return Err(finding(Verdict::Undecided, RULE, pointer, message));
-            }
-            *cells -= 1;
-            let middle = at(Rational::from(&a + &b) / 2u32);
-            queue.extend([[middle.clone(), (b, at_b)], [(a, at_a), middle]]);
-        }
-        Ok(())
+            // A distance of 0 is not made smaller by halves.
+            let truth = ends.map(|end| definite(end, &[]));
+            let halve = truth == [Some(true); 2] && !sums.iter().all(Interval::is_zero);
+            if halve { Judgement::Halve } else { Judgement::Stop(usize::from(truth[0] == Some(true))) }
+        };
+        let place = match effort::aside(|| break_points(left, at, judge)) {
+            Ok(points) => match self.first_open(&points, at, &q) {
+                None => return Ok(()),
+                Some(place) => place,
+            },
+            Err(place) => place,
+        };
+        let truth = if refutes && definite(&at(&place), &[]) == Some(false) { Some(false) } else { None };
+        demand(truth, RULE, &self.w.pointer, format!("{what} at t/T = {}", place.to_f64()))
     }
+
+    /// Verifies that the points increase from 0 to 1 and that Q is positive definite between neighbours; else where that is
+    /// not shown.
+    fn first_open(
+        &self,
+        points: &[Rational],
+        at: impl Fn(&Rational) -> Vec<Vec<Interval>>,
+        q: impl Fn(&Interval) -> Vec<Vec<Jet>>,
+    ) -> Option<Rational> {
+        if points.first().is_none_or(|first| *first != 0) || points.last().is_none_or(|last| *last != 1) {
+            return Some(Rational::new());
+        }
+        let mut left = at(&points[0]);
+        points.windows(2).find_map(|ends| {
+            let right = at(&ends[1]);
+            let sums = self.distance(&ends[0], &ends[1], &q);
+            let proved = ends[0] < ends[1] && [&left, &right].iter().all(|end| definite(end, &sums) == Some(true));
+            left = right;
+            (!proved).then(|| ends[1].clone())
+        })
+    }
+
+    /// (b-a)^2/8 times the row sums of R: how far Q is from the line between Q(a) and Q(b).
+    fn distance(&self, a: &Rational, b: &Rational, q: impl Fn(&Interval) -> Vec<Vec<Jet>>) -> Vec<Interval> {
+        let width = Rational::from(b - a);
+        let factor = Interval::rational(&(Rational::from(width.square_ref()) / 8u32), self.precision);
+        let zero = || Interval::int(0, self.precision);
+        let sum = |row: &Vec<Jet>| row.iter().fold(zero(), |sum, jet| sum + jet.0[2].abs()) * &factor;
+        q(&Interval::between(a, b, self.precision)).iter().map(sum).collect()
+    }
+}
+
+/// Whether a symmetric matrix less a diagonal one (none: 0) is positive definite.
+fn definite(matrix: &[Vec<Interval>], less: &[Interval]) -> Option<bool> {
+    let entry = |i: usize, j: usize| match less.get(i).filter(|_| i == j) {
+        Some(less) => &matrix[i][j] - less.ceiling(),
+        None => matrix[i][j].clone(),
+    };
+    positive_definite((0..matrix.len()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect())
 }
 
 /// Proves the triple of a witness for a Jacobian; returns what was looked at, in words.
@@ -291,101 +256,6 @@ pub fn prove(jacobian: &Jacobian, period: &Constant, w: &Witness) -> Outcome<Str
         }
     }
     last
-}
-
-/// How a part of an expression changes when t grows by the period T.
-#[derive(Clone)]
-enum Shift {
-    /// It does not depend on t; its exact value, if it has one.
-    Constant(Option<Exact>),
-    /// It is this multiple of t, plus a constant.
-    Line(Exact),
-    /// It stays (false) or changes its sign (true).
-    Sign(bool),
-    /// Nothing is known.
-    Unknown,
-}
-
-impl Shift {
-    /// A line; one without a slope stays.
-    fn line(slope: Option<Exact>) -> Shift {
-        match slope {
-            Some(slope) if slope.sign() == 0 => Shift::Sign(false),
-            Some(slope) => Shift::Line(slope),
-            None => Shift::Unknown,
-        }
-    }
-
-    /// sin and cos of a line change their signs if `slope T/pi` is an odd integer, and stay if it is an even one.
-    fn wave(slope: &Exact, period: Option<&Exact>) -> Shift {
-        let half_turns = || slope.mul(period?)?.mul(&Exact::pi().recip()?)?.as_rational();
-        match half_turns() {
-            Some(count) if *count.denom() == 1 => Shift::Sign(count.numer().is_odd()),
-            _ => Shift::Unknown,
-        }
-    }
-
-    fn apply(op: &Op, period: Option<&Exact>, a: Option<Shift>, b: Option<Shift>) -> Shift {
-        use Shift::{Constant, Line, Sign, Unknown};
-        let operand = |shift: &Option<Shift>| match shift {
-            Some(Constant(value)) => Ok(Some(value.clone())),
-            None => Ok(None),
-            _ => Err(()),
-        };
-        if let (Ok(a), Ok(b), true) = (operand(&a), operand(&b), *op != Op::X) {
-            return Constant(exact_op(op, a, b));
-        }
-        match (op, a, b) {
-            (Op::X, ..) => Shift::line(Exact::rational(&Rational::from(1))),
-            (Op::Neg, Some(Line(slope)), _) => Line(slope.neg()),
-            (Op::Neg, Some(Sign(odd)), _) => Sign(odd),
-            (Op::Sin | Op::Cos, Some(Line(slope)), _) => Shift::wave(&slope, period),
-            (Op::Sin | Op::Cos, Some(Sign(false)), _) => Sign(false),
-            (Op::Power(n), Some(Sign(odd)), _) => Sign(odd && n % 2 != 0),
-            (Op::Add | Op::Sub, Some(Line(slope)), Some(Constant(_)))
-            | (Op::Add, Some(Constant(_)), Some(Line(slope))) => Line(slope),
-            (Op::Sub, Some(Constant(_)), Some(Line(slope))) => Line(slope.neg()),
-            (Op::Add, Some(Line(a)), Some(Line(b))) => Shift::line(a.add(&b)),
-            (Op::Sub, Some(Line(a)), Some(Line(b))) => Shift::line(a.add(&b.neg())),
-            (Op::Add | Op::Sub, Some(Sign(a)), Some(Sign(b))) if a == b => Sign(a),
-            (Op::Add | Op::Sub, Some(Sign(false)), Some(Constant(_)))
-            | (Op::Add | Op::Sub, Some(Constant(_)), Some(Sign(false))) => Sign(false),
-            (Op::Mul, Some(Constant(Some(c))), Some(Line(slope)))
-            | (Op::Mul, Some(Line(slope)), Some(Constant(Some(c)))) => Shift::line(slope.mul(&c)),
-            (Op::Div, Some(Line(slope)), Some(Constant(Some(c)))) => Shift::line(c.recip().and_then(|c| slope.mul(&c))),
-            (Op::Mul, Some(Sign(a)), Some(Sign(b))) => Sign(a != b),
-            (Op::Mul, Some(Sign(odd)), Some(Constant(_)))
-            | (Op::Mul, Some(Constant(_)), Some(Sign(odd)))
-            | (Op::Div, Some(Sign(odd)), Some(Constant(_))) => Sign(odd),
-            _ => Unknown,
-        }
-    }
-}
-
-/// Whether a function of t has the period: proved by its form, refuted by values at some times a period apart.
-fn is_periodic(expr: &Expr, period: &Constant) -> Option<bool> {
-    let shift = expr.fold(|op, a, b| Shift::apply(op, period.exact.as_ref(), a, b));
-    if matches!(shift, Some(Shift::Constant(_) | Shift::Sign(false))) {
-        return Some(true);
-    }
-    let period = period.enclose(PRECISIONS[0]);
-    let at = |time: Interval| expr.enclose(&time, &Interval::undefined(PRECISIONS[0]));
-    let apart = |k: i64| {
-        let (now, later) = (at(&period * k / 7), at(&period * (k + 7) / 7));
-        now.lt(&later) == Some(true) || later.lt(&now) == Some(true)
-    };
-    (0..7).any(apart).then_some(false)
-}
-
-/// Every function of t in the Jacobian has the period of the specification.
-fn periodic(jacobian: &Jacobian, period: &Constant) -> Outcome<()> {
-    for entry in jacobian.iter().flatten() {
-        if let Entry::Function(expr) = entry {
-            let what = "the Jacobian has the period of the specification";
-            demand(is_periodic(expr, period), RULE, "/specification/lyapunov/jacobian", what)?;
-        }
-    }
-    Ok(())
 }
 
 fn attempt<'e>(jacobian: &'e Jacobian, period: &Constant, w: &Witness, precision: u32) -> Outcome<String> {
@@ -431,4 +301,34 @@ fn attempt<'e>(jacobian: &'e Jacobian, period: &Constant, w: &Witness, precision
     let where_ =
         if count == 0 { "in a ball that contains the intervals".to_owned() } else { format!("at {count} vertices") };
     Ok(format!("P_low I <= P <= P_up I, and {what} {where_}, by {} cuts in t", most - left))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::json::{Field, parse};
+
+    #[test]
+    fn cells_must_cover_a_period_and_be_proved_one_by_one() {
+        let text = r#"{ "P": [["1"]], "harmonics": [{ "cos": [["1/4"]], "sin": [["0"]] }],
+            "p_low": "0.7", "p_up": "1.3", "alpha": "1" }"#;
+        let json = parse(text.as_bytes()).unwrap();
+        let (w, _) = Witness::read(&Field { json: &json, pointer: String::new() }, 1).unwrap();
+        let problem = Problem { w: &w, period: Interval::int(1, 96), precision: 96 };
+        let proved = |p_low: (i32, i32), points: &[(i32, i32)]| {
+            let shift = -Rational::from(p_low);
+            let q = |s: &Interval| problem.shifted(s, 1, &shift);
+            let at = |s: &Rational| vec![vec![q(&Interval::rational(s, 96))[0][0].0[0].clone()]];
+            let points: Vec<Rational> = points.iter().map(|point| Rational::from(*point)).collect();
+            problem.first_open(&points, at, q).is_none()
+        };
+        let quarters = [(0, 1), (1, 4), (1, 2), (3, 4), (1, 1)];
+        assert!(proved((1, 3), &quarters));
+        // 1 + cos(2 pi s)/4 - 4/5 is positive at both ends, and -1/20 in the middle.
+        assert!(!proved((4, 5), &[(0, 1), (1, 1)]) && !proved((4, 5), &quarters));
+        for points in [&[][..], &[(0, 1)], &quarters[1..], &quarters[..4], &[(0, 1), (3, 4), (1, 4), (1, 1)]] {
+            assert!(!proved((1, 3), points), "{points:?}");
+        }
+        assert!(!proved((1, 3), &[(0, 1), (1, 1)]), "too wide");
+    }
 }

@@ -1,9 +1,12 @@
 //! The rules, one a file.
+pub mod bounding;
 pub mod claim;
 pub mod derivation;
 pub mod existence;
-pub mod lmi;
+pub mod gains;
 pub mod lyapunov;
+pub mod mean_squares;
+pub mod period;
 pub mod regulation;
 pub mod repaired;
 pub mod set;

@@ -2,7 +2,8 @@
 //!
 //! Guarantee: that of [`super::sharp`] with X, E in place of x_per, e_per.
 
-use super::existence::{Existence, beta_s, k_alpha, kappas};
+use super::existence::Existence;
+use super::gains::{beta_s, k_alpha, kappas};
 use super::set;
 use super::stability::distances;
 use super::transfer::{self, Proof};

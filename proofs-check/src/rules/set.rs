@@ -1,8 +1,9 @@
 //! Rules on the claimed initial set, the domain and the signs of the witness (docs/mathematics.md, sections 1 and 5).
 
+use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::spec::{AskedSet, Constant};
+use crate::spec::AskedSet;
 use crate::verdict::{Condition, Outcome, invalid};
 use rug::Rational;
 

@@ -1,47 +1,98 @@
-//! Rules C4 and C5 of the sharp derivation (docs/mathematics.md, section 5).
+//! Rules C4 and C5 of the sharp derivation (docs/mathematics.md, sections 5, 10.1 and 10.4).
 
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::spec::Bound;
+use crate::verdict::Condition;
 use rug::Rational;
+
+/// Which data C5 is decided with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plant {
+    /// Those of section 5: |dq/de| and the second derivatives.
+    Norms,
+    /// Those of section 10 besides: q_e_max and the rate.
+    OneSided,
+}
 
 /// What the plant's data give on the error box |xt| <= D_x, |et| <= D_e around |x| <= x_per, |e| <= e_per.
 pub struct ErrorBox {
     pub x_b: Interval,
     pub e_b: Interval,
     pub k_x: Interval,
+    /// dq/de lies in [-k_e, most].
     pub k_e: Interval,
+    pub most: Interval,
     pub k_f: Interval,
     pub gam: Interval,
+    /// a_2: alpha - gam, or the rate at (X_b, e_per) where it is larger.
+    pub rate: Interval,
+    /// The condition on q_e_max, where it is given and used.
+    pub one_sided: Option<Condition>,
 }
 
 impl ErrorBox {
     /// `gam = c [b_fxx(x_per,0) x_per + b_fex(x_per,e_per) e_per + b_fxx(X_b,e_per) D_x/2]`, `k_x = b_qx/sqrt(P_low)`, k_e, k_f
     /// at (X_b, E_b) = (x_per + D_x, e_per + D_e), which must lie in the domain.
-    pub fn new(d: &Data<'_>, [x_per, e_per]: [&Interval; 2], d_x: &Interval, d_e: &Interval) -> ErrorBox {
+    pub fn new(d: &Data<'_>, plant: Plant, [x_per, e_per]: [&Interval; 2], [d_x, d_e]: [&Interval; 2]) -> ErrorBox {
         let (x_b, e_b) = (x_per + d_x, e_per + d_e);
         let bends = d.bound(Bound::Fxx, x_per, &d.int(0)) * x_per + d.bound(Bound::Fxx, &x_b, e_per) * d_x / 2;
-        ErrorBox {
-            gam: &d.c * (bends + d.bound(Bound::Fex, x_per, e_per) * e_per),
+        let gam = &d.c * (bends + d.bound(Bound::Fex, x_per, e_per) * e_per);
+        let k_e = d.bound(Bound::Qe, &x_b, &e_b);
+        let mut error_box = ErrorBox {
+            rate: &d.alpha - &gam,
+            gam,
             k_x: d.bound(Bound::Qx, &x_b, &e_b) / d.p_low.sqrt(),
-            k_e: d.bound(Bound::Qe, &x_b, &e_b),
             k_f: d.bound(Bound::Fe, &x_b, &e_b),
+            most: k_e.clone(),
+            k_e,
+            one_sided: None,
             x_b,
             e_b,
+        };
+        if plant == Plant::OneSided {
+            error_box.rate = d.better_rate(&error_box.rate, &error_box.x_b, e_per);
+            let given = d.q_e_max(&error_box.x_b, &error_box.e_b);
+            error_box.one_sided = one_sided("(X_b, E_b)", &error_box.k_e, given.as_ref());
+            error_box.most = given.map_or(error_box.most, |given| given.min(&error_box.k_e));
         }
+        error_box
     }
 
-    /// C5 by its closed form, with ht = h/mu and A = w_x (alpha - gam): `ht k_x^2`, `4 A`, and, if the first is below the
-    /// second, the threshold `(1 + ht k_e)^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x (1 + ht k_e)/2)^2/(4A - ht k_x^2)` of sigma.
+    /// C5 by its closed form, with ht = h/mu, A = w_x a_2 and D = max{|1 + ht most|, |1 - ht k_e|}: `ht k_x^2`, `4 A`, and, if the
+    /// first is below the second, the threshold `D^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x D/2)^2/(4A - ht k_x^2)` of sigma.
     pub fn decay(&self, d: &Data<'_>, w_x: &Interval, h: &Interval) -> [Interval; 3] {
         let ht = h / &d.mu;
-        let (coupling, curvature) = (&ht * self.k_x.sqr(), w_x * (&d.alpha - &self.gam) * 4);
-        let one_plus = 1 + &ht * &self.k_e;
-        let cross = w_x * d.p_up.sqrt() * &self.k_f + &self.k_x * &one_plus / 2;
+        let (coupling, curvature) = (&ht * self.k_x.sqr(), w_x * &self.rate * 4);
+        let size = (1 + &ht * &self.most).abs().max(&(1 - &ht * &self.k_e).abs());
+        let cross = w_x * d.p_up.sqrt() * &self.k_f + &self.k_x * &size / 2;
         let room = &curvature - &coupling;
         let share = if room.is_positive() { cross.sqr() / room } else { Interval::undefined(d.precision) };
-        [coupling, curvature, one_plus.sqr() / (ht * 4) + share]
+        [coupling, curvature, size.sqr() / (ht * 4) + share]
     }
+
+    /// C5 as conditions, on the gain that is named; before them the one on q_e_max.
+    pub fn conditions(
+        &self,
+        plant: Plant,
+        [coupling, curvature, threshold]: [Interval; 3],
+        sigma: Interval,
+        name: &str,
+    ) -> Vec<Condition> {
+        let rate = if plant == Plant::Norms { "(alpha - gam)" } else { "a_2" };
+        let mut conditions: Vec<Condition> = self.one_sided.iter().cloned().collect();
+        let what = format!("(h/mu) k_x^2 < 4 w_x {rate}");
+        conditions.push(Condition::less("C5", what, coupling, curvature));
+        let what = format!("threshold of the quadratic form < {name}");
+        conditions.push(Condition::less("C5b", what, threshold, sigma));
+        conditions
+    }
+}
+
+/// The condition that q_e_max, where it is given, is not below the lower bound -b_qe of dq/de.
+pub fn one_sided(place: &str, q_e: &Interval, most: Option<&Interval>) -> Option<Condition> {
+    let what = format!("-b_qe <= q_e_max at {place}");
+    most.map(|most| Condition::at_most("M", what, -q_e, most.clone()))
 }
 
 /// dX = X_0 + x_per, dE = E_0 + e_per, dZ = Z_0 + Nbar E_0 + Z.

@@ -6,7 +6,7 @@ use proofs_check::interval::Interval;
 use proofs_check::json::{Field, parse};
 use proofs_check::rules::existence::Existence;
 use proofs_check::rules::repaired;
-use proofs_check::rules::stability::ErrorBox;
+use proofs_check::rules::stability::{ErrorBox, Plant};
 use proofs_check::rules::transfer::{self, Proof};
 use proofs_check::spec::Specification;
 use rug::Rational;
@@ -68,7 +68,8 @@ fn error_box() {
     let spec = apart();
     let d = Data::new(&spec, 128);
     let (x, e, dx, de) = (0.25, 0.125, 0.5, 1.0);
-    let error_box = ErrorBox::new(&d, [&d.ratio(1, 4), &d.ratio(1, 8)], &d.ratio(1, 2), &d.int(1));
+    let periodic = [&d.ratio(1, 4), &d.ratio(1, 8)];
+    let error_box = ErrorBox::new(&d, Plant::Norms, periodic, [&d.ratio(1, 2), &d.int(1)]);
     let (x_b, e_b) = (x + dx, e + de);
     let bends = (3.0 + 5.0 * x) * x + (3.0 + 5.0 * x_b + 7.0 * e) * dx / 2.0;
     close(&error_box.gam, 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e) * e));

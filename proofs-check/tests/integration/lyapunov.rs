@@ -2,9 +2,10 @@
 
 use crate::common::{assert_refused, assert_valid, certificate, changed, with};
 use proofs_check::check;
+use proofs_check::constant::Constant;
+use proofs_check::jacobian::{Entry, Jacobian, Witness};
 use proofs_check::json::{Field, parse};
-use proofs_check::rules::lyapunov::{Witness, prove};
-use proofs_check::spec::{Constant, Entry, Jacobian};
+use proofs_check::rules::lyapunov::prove;
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
 use serde_json::{Value, json};
 

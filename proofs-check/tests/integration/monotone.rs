@@ -1,7 +1,7 @@
 //! Rule: bounding functions are finite, nonnegative and nondecreasing.
 
 use proofs_check::expr::{ARGUMENTS, Expr};
-use proofs_check::monotone::prove;
+use proofs_check::rules::bounding::prove;
 use proofs_check::verdict::Verdict::{self, Invalid, Undecided};
 use rug::Rational;
 
@@ -118,7 +118,7 @@ fn an_unsettled_function_is_undecided_with_its_place() {
         let expr = Expr::parse(text, ARGUMENTS).unwrap();
         let finding = prove("q_e", &expr, &Rational::from(2), &Rational::from(2), 128).expect_err(text);
         assert_eq!((finding.verdict, finding.pointer.as_str()), (Undecided, "/specification/bounds/q_e"), "{text}");
-        assert_eq!(finding.rule, proofs_check::monotone::RULE);
+        assert_eq!(finding.rule, proofs_check::rules::bounding::RULE);
         assert!(finding.message.contains("is not proved on ["), "{}", finding.message);
     }
 }

@@ -1,0 +1,90 @@
+//! Real constants of a file: exact where they have an exact form, and enclosed at any precision.
+
+use crate::exact::Exact;
+use crate::expr::{Expr, NONE};
+use crate::interval::Interval;
+use crate::json::Field;
+use crate::verdict::{Outcome, bad};
+use rug::Rational;
+
+/// The precisions, in bits, at which a question about constants is asked.
+pub const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
+
+/// A real constant of a file.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// As written.
+    pub text: String,
+    expr: Expr,
+    /// Its exact form, if it has one.
+    pub exact: Option<Exact>,
+}
+
+impl Constant {
+    /// Reads a number or a constant expression that has a finite value.
+    pub fn read(field: &Field<'_>) -> Outcome<Constant> {
+        let text = field.numeral()?;
+        let expr = expression(field, NONE)?;
+        let constant = Constant { text: text.to_owned(), exact: expr.exact(), expr };
+        if PRECISIONS.iter().any(|p| constant.enclose(*p).is_bounded()) {
+            return Ok(constant);
+        }
+        bad(&field.pointer, "this constant has no value that can be enclosed")
+    }
+
+    /// An enclosure.
+    pub fn enclose(&self, precision: u32) -> Interval {
+        let none = Interval::undefined(precision);
+        self.expr.enclose(&none, &none)
+    }
+
+    /// The exact value, if it is rational.
+    pub fn rational(&self) -> Option<Rational> {
+        self.exact.as_ref().and_then(Exact::as_rational)
+    }
+
+    /// The same as a number that can be compared.
+    pub fn number(&self) -> Number<'_> {
+        Number { exact: self.exact.clone(), enclose: Box::new(|p| self.enclose(p)) }
+    }
+}
+
+/// A real number: exact form if there is one, and enclosures at any precision.
+pub struct Number<'a> {
+    /// The exact form.
+    pub exact: Option<Exact>,
+    /// The enclosures.
+    pub enclose: Box<dyn Fn(u32) -> Interval + 'a>,
+}
+
+impl<'a> Number<'a> {
+    /// A rational number.
+    pub fn rational(value: Rational) -> Number<'a> {
+        Number { exact: Exact::rational(&value), enclose: Box::new(move |p| Interval::rational(&value, p)) }
+    }
+
+    /// The product.
+    pub fn times(self, other: Number<'a>) -> Number<'a> {
+        let exact = self.exact.as_ref().zip(other.exact.as_ref()).and_then(|(a, b)| a.mul(b));
+        Number { exact, enclose: Box::new(move |p| (self.enclose)(p) * (other.enclose)(p)) }
+    }
+
+    /// `self < other`, exactly where possible, else by enclosures of rising precision.
+    pub fn lt(&self, other: &Number<'_>) -> Option<bool> {
+        let exact = self.exact.as_ref().zip(other.exact.as_ref()).and_then(|(a, b)| a.compare(b));
+        if let Some(order) = exact {
+            return Some(order.is_lt());
+        }
+        PRECISIONS.iter().find_map(|p| (self.enclose)(*p).lt(&(other.enclose)(*p)))
+    }
+
+    /// `self <= other`.
+    pub fn le(&self, other: &Number<'_>) -> Option<bool> {
+        other.lt(self).map(|less| !less)
+    }
+}
+
+/// Reads an expression in the given variables.
+pub fn expression(field: &Field<'_>, variables: &'static [&'static str]) -> Outcome<Expr> {
+    Expr::parse(field.numeral()?, variables).or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))
+}
