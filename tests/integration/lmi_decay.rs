@@ -18,7 +18,8 @@ struct ClosedForm {
 fn closed_form(data: &DecayData) -> ClosedForm {
     let ht = Rational::from(&data.h / &data.mu[0]);
     let [below, above] = &data.sector;
-    let one_plus = (Rational::from(&ht * above) + 1).abs().max((Rational::from(1) - Rational::from(&ht * below)).abs());
+    let [first, second]: [Rational; 2] = [Rational::from(&ht * above) + 1, Rational::from(1) - Rational::from(&ht * below)];
+    let one_plus = first.abs().max(second.abs());
     let cross = Rational::from(&data.w_x * &data.root_p_up) * &data.k_f + Rational::from(&data.k_x * &one_plus) / 2;
     let margin = Rational::from(&data.w_x * &data.rate) * 4 - Rational::from(&data.k_x * &data.k_x) * &ht;
     assert!(margin > 0);

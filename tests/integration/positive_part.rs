@@ -52,7 +52,7 @@ fn a_certainly_negative_value_is_bad_input() {
     let spec = spec("X", "0.1*X - 1e-40");
     let Err(Refusal::Bounds(problems)) = certify(&spec, Options::default()) else { panic!("it is refuted") };
     assert_eq!(problems.len(), 1);
-    assert_eq!(problems[0].field, "f_e");
+    assert_eq!(problems[0].which, Bound::Fe);
     let refuted = matches!(problems[0].failure, BoundingFailure::Refuted { property: Property::Nonnegative, .. });
     assert!(refuted, "{:?}", problems[0].failure);
 }

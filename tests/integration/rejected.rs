@@ -5,6 +5,7 @@ use sigmastar::certify::{Ladder, decide, decide_exact};
 use sigmastar::data::Data;
 use sigmastar::derivation::consequences::{Psi, error_bounds, smallest_n_o};
 use sigmastar::derivation::exact_regulation::ExactWitness;
+use sigmastar::derivation::mean_squares::MeanSquares;
 use sigmastar::derivation::repaired::RepairedWitness;
 use sigmastar::derivation::sharp::{ClaimedSet, SharpWitness};
 use sigmastar::enclosure::{Enclosure, Truth};
@@ -34,10 +35,13 @@ fn witness() -> SharpWitness {
         sigma: q(100_000, 1),
         x_p: q(10, 1),
         e_p: q(1, 1),
+        r_x: q(1, 5),
+        r_e: q(1, 20),
+        r_d: q(2, 1),
+        kap: q(0, 1),
+        refined: None,
         d_x: q(10, 1),
         d_e: q(10, 1),
-        p_x: q(1, 4),
-        p_e: q(1, 1),
         w_x: q(1, 1),
         h: q(1, 100),
         k0: q(100, 1),
@@ -45,6 +49,16 @@ fn witness() -> SharpWitness {
         transfer: TransferProof::Matched { k: 1 },
         set: ClaimedSet { x0: q(1, 1), e0: q(1, 1), z0: q(0, 1) },
     }
+}
+
+/// With the form of S2 in which kap > 0.
+fn damped(witness: &mut SharpWitness) {
+    witness.kap = q(1, 1);
+}
+
+/// With smaller mean squares of the periodic solution.
+fn refined(witness: &mut SharpWitness, [x, e, e_rate]: [Rational; 3]) {
+    witness.refined = Some(MeanSquares { x, e, e_rate });
 }
 
 fn broken(domain: &str, change: impl Fn(&mut SharpWitness)) -> BTreeSet<&'static str> {
@@ -61,11 +75,31 @@ fn every_sharp_condition_is_refused_by_itself() {
     let set = |ids: &[&'static str]| ids.iter().copied().collect::<BTreeSet<_>>();
     let far = "1e9";
     assert_eq!(broken(far, |_| ()), set(&[]));
-    assert_eq!(broken(far, |w| w.e_p = q(6, 1)), set(&["C1"]));
-    assert!(broken(far, |w| w.x_p = q(10_001, 1)).contains("C1b"));
-    assert_eq!(broken(far, |w| w.e_p = q(1, 1_000_000)), set(&["C2"]));
-    assert_eq!(broken(far, |w| w.p_x = q(1, 1_000_000)), set(&["C3"]));
-    assert_eq!(broken(far, |w| w.p_x = q(10, 1)), set(&["C3b"]));
+    assert!(broken(far, |w| w.x_p = q(10_001, 1)).contains("S1"));
+    assert_eq!(broken(far, |w| w.x_p = q(1, 100)), set(&["S1b"]));
+    assert_eq!(broken(far, |w| w.r_x = q(1, 100)), set(&["S1c"]));
+    assert_eq!(broken(far, |w| w.e_p = q(1, 1_000_000)), set(&["S2"]));
+    assert_eq!(broken(far, |w| w.r_e = q(1, 1_000_000)), set(&["S2b"]));
+    assert_eq!(broken(far, |w| w.r_d = q(1, 1_000_000)), set(&["S2c"]));
+    let damped_with = |change: fn(&mut SharpWitness)| {
+        broken(far, |w| {
+            damped(w);
+            change(w);
+        })
+    };
+    assert_eq!(damped_with(|_| ()), set(&[]));
+    assert_eq!(damped_with(|w| w.e_p = q(1, 100)), set(&["S2"]));
+    assert_eq!(damped_with(|w| w.r_e = q(1, 1_000_000)), set(&["S2b"]));
+    assert_eq!(damped_with(|w| w.r_d = q(1, 1)), set(&["S2c"]));
+    // What the plain form would have allowed does not count: g_k Rt alone must reach r_e.
+    assert_eq!(damped_with(|w| (w.r_e, w.r_x, w.r_d) = (q(1, 200_000), q(1, 5), q(2, 1))), set(&["S2b"]));
+    let kept = || [q(1, 5), q(1, 20), q(2, 1)];
+    assert_eq!(broken(far, |w| refined(w, kept())), set(&[]));
+    for (index, id) in ["S3", "S3b", "S3c"].into_iter().enumerate() {
+        let mut smaller = kept();
+        smaller[index] = if index == 0 { q(1, 100) } else { q(1, 1_000_000) };
+        assert_eq!(broken(far, |w| refined(w, smaller.clone())), set(&[id]));
+    }
     assert_eq!(broken(far, |w| w.d_e = q(2, 1)), set(&["C4"]));
     assert_eq!(broken(far, |w| w.set.z0 = q(1000, 1)), set(&["C4"]));
     assert_eq!(broken(far, |w| w.d_x = q(11_000, 1)), set(&["C5", "C5b"]));
@@ -79,14 +113,15 @@ fn every_sharp_condition_is_refused_by_itself() {
     assert_eq!(broken("10", |_| ()), set(&["domain"]));
     // X_p and E_p count too, not only the error box.
     assert_eq!(broken("19", |w| w.x_p = q(20, 1)), set(&["domain"]));
-    let signs: [fn(&mut SharpWitness) -> &mut Rational; 10] = [
+    let signs: [fn(&mut SharpWitness) -> &mut Rational; 11] = [
         |w| &mut w.sigma,
         |w| &mut w.x_p,
         |w| &mut w.e_p,
         |w| &mut w.d_x,
         |w| &mut w.d_e,
-        |w| &mut w.p_x,
-        |w| &mut w.p_e,
+        |w| &mut w.r_x,
+        |w| &mut w.r_e,
+        |w| &mut w.r_d,
         |w| &mut w.w_x,
         |w| &mut w.h,
         |w| &mut w.k1,
@@ -96,9 +131,51 @@ fn every_sharp_condition_is_refused_by_itself() {
             assert!(broken(far, |w| *number(w) *= factor).contains("sign"));
         }
     }
-    // Both negative, their conditions would hold after a division by -1.
-    assert!(broken(far, |w| (w.p_x, w.p_e) = (q(-1, 4), q(-1, 1))).contains("sign"));
+    assert!(broken(far, |w| w.kap = q(-1, 1)).contains("sign"));
+    for index in 0..3 {
+        for factor in [0, -1] {
+            let mut wrong = kept();
+            wrong[index] *= factor;
+            assert!(broken(far, |w| refined(w, wrong.clone())).contains("sign"));
+        }
+    }
     assert_eq!(broken(far, |w| w.d_x = q(-10, 1)), set(&["sign"]));
+}
+
+/// The refined mean squares must be strictly above their right sides: a point that the map keeps proves nothing.
+#[test]
+fn refined_mean_squares_are_strict() {
+    // With b_fe = 0 the right side of rms(x) is exactly 0.
+    let text = TEXT.replace("DOMAIN", "1e9").replace("\"f\": \"X + E\", \"f_e\": \"1\"", "\"f\": \"X + E\", \"f_e\": \"0\"");
+    let spec = Specification::from_json("roomy", &text).unwrap();
+    let conditions = |x: Rational| {
+        let mut witness = witness();
+        refined(&mut witness, [x, q(1, 20), q(2, 1)]);
+        let evaluation = decide(&spec, witness, Ladder::default()).evaluation;
+        evaluation.conditions.into_iter().filter(|c| !c.truth().is_true()).map(|c| c.id).collect::<Vec<_>>()
+    };
+    assert!(conditions(q(1, 1_000_000_000)).is_empty());
+    assert!(conditions(q(0, 1)).contains(&"S3"));
+}
+
+/// (M): a bound of dq/de from above that lies below -q_e has no plant, and is refused wherever it is used.
+#[test]
+fn a_one_sided_bound_below_its_norm_is_refused() {
+    let failing = |q_e_max: &str, change: fn(&mut SharpWitness)| {
+        let text = TEXT.replace("DOMAIN", "1e9").replace("\"q_e\": \"0.01\"", &format!("\"q_e\": \"0.01\", \"q_e_max\": \"{q_e_max}\""));
+        let spec = Specification::from_json("roomy", &text).unwrap();
+        let mut witness = witness();
+        change(&mut witness);
+        let evaluation = decide(&spec, witness, Ladder::default()).evaluation;
+        evaluation.conditions.into_iter().filter(|c| !c.truth().is_true()).map(|c| c.what).collect::<Vec<_>>()
+    };
+    assert!(failing("-0.01", |_| ()).is_empty());
+    assert!(failing("-0.01", damped).is_empty());
+    assert_eq!(failing("-0.0100001", |_| ()), ["-b_qe <= q_e_max at (X_b, E_b)"]);
+    let both = ["-b_qe <= q_e_max at (X_p, E_p)", "-b_qe <= q_e_max at (X_b, E_b)"];
+    assert_eq!(failing("-0.0100001", damped), both);
+    // Only below the error box: at (X_p, E_p) it is too small, at (X_b, E_b) not.
+    assert_eq!(failing("-0.02 + 0.001*E", damped), both[..1]);
 }
 
 #[test]
@@ -200,7 +277,7 @@ fn error_bounds_are_above_the_direct_sums_and_close() {
     let spec = roomy("1e9");
     let evaluation = decide(&spec, witness(), Ladder::default()).evaluation;
     let data = Data::new(&spec, 128);
-    let bounds = &evaluation.bounds;
+    let bounds = &evaluation.excitation;
     let (qr, q1) = (bounds.q_rms.midpoint_f64(), bounds.q_rate_rms.midpoint_f64());
     let omega = 2.0 * std::f64::consts::PI;
     let huge = Enclosure::from_integer(1 << 40, 128);

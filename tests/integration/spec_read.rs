@@ -33,7 +33,7 @@ fn the_example_means_what_it_says() {
     let specification = Specification::from_json("x", EXAMPLE_TEXT).expect("valid");
     assert_eq!(specification.period.as_rational(), Some(&Rational::from(1)));
     assert_eq!(specification.lyapunov.triple().unwrap().p_up.as_rational(), Some(&Rational::from((15512, 10000))));
-    assert_eq!(specification.bounds.get(Bound::Q).text(), "4.822 + X + atan(E*(X + 0.189))");
+    assert_eq!(specification.bounds.get(Bound::Q).unwrap().text(), "4.822 + X + atan(E*(X + 0.189))");
     assert_eq!(specification.bounds.named().count(), 8);
     assert!(specification.internal_model.matched);
     assert!(matches!(specification.initial_set, InitialSet::Paper));
@@ -79,7 +79,7 @@ fn an_embedded_specification_is_read_in_place() {
     let document = Document::parse("certificate.json", &outer).expect("JSON");
     let embedded = Specification::from_value(&document.at("/specification").expect("there")).expect("valid");
     assert_eq!(embedded.sha256, Specification::from_json("x", EXAMPLE_TEXT).expect("valid").sha256);
-    let text = embedded.bounds.get(Bound::Q).text().to_owned();
+    let text = embedded.bounds.get(Bound::Q).unwrap().text().to_owned();
     let part = text.find("atan").map(|at| at..at + 4).expect("there");
     let errors = embedded.errors_at("/bounds/q", &part, ErrorKind::Range, "decreases here", Some("mend it".to_owned()));
     assert_eq!(errors.errors()[0].pointer, "/specification/bounds/q");
