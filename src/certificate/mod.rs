@@ -2,6 +2,7 @@
 
 mod best;
 mod bounding;
+mod consequences;
 mod decide;
 mod figures;
 mod lyapunov;

@@ -2,13 +2,14 @@
 
 use super::args::{CertifyArgs, Format};
 use super::failure::Failure;
-use super::input;
-use super::output::{self, Input, OutputFile};
+use super::files::{Input, OutputFile};
 use super::progress::{Audience, Working};
+use super::{input, output};
 use sigmastar::certificate::{
     Certification, certificate_json, certify, read_lyapunov, read_witness, recheck, resolve, resolve_with,
 };
-use sigmastar::report::{Report, TargetKind, bounding_errors, filter_errors, jacobian_errors};
+use sigmastar::derivation::targets::TargetKind;
+use sigmastar::report::{Report, bounding_errors, filter_errors, jacobian_errors};
 use sigmastar::spec::{Document, SpecErrors, Specification};
 
 /// Runs the command and returns the exit code.

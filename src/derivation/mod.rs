@@ -17,6 +17,7 @@ pub mod repaired;
 pub mod sharp;
 pub mod stability;
 pub mod table;
+pub mod targets;
 
 use crate::data::Data;
 use crate::enclosure::Enclosure;

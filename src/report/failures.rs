@@ -1,10 +1,15 @@
 //! Failures before a verdict on the claim: what is wrong with the input, for scripts.
 
-use super::json::{FORMAT, VERSION};
-use crate::certificate::{BoundingProblem, Verdict};
+use crate::certificate::{BoundingProblem, Certification, Verdict};
+use crate::derivation::relative_degree::RelativeDegreeError;
 use crate::expr::BoundingFailure;
 use crate::spec::{ErrorKind, SpecErrors, Specification};
 use serde_json::{Value, json};
+
+/// The format of a report on a certification, and of what is told in its place.
+pub(super) const FORMAT: &str = "sigmastar/report";
+/// Its version.
+pub(super) const VERSION: u64 = 1;
 
 /// The problem with a bounding function as an error at its place in the specification, to be rendered in context.
 #[must_use]
@@ -38,6 +43,16 @@ pub fn jacobian_errors(spec: &Specification, message: impl Into<String>) -> Spec
     spec.errors_at("/lyapunov/jacobian", &(0..0), ErrorKind::Undecided, message, Some(help.to_owned()))
 }
 
+/// The error of a filter that is proved to be unstable, at its place in the specification.
+#[must_use]
+pub fn filter_errors(run: &Certification<'_>) -> Option<SpecErrors> {
+    let Some(Err(error @ RelativeDegreeError::NotHurwitz(_))) = &run.relative_degree else { return None };
+    let help = "the coefficients a_1, ..., a_(r-1) must make s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 stable; mind their \
+                order";
+    let message = error.to_string();
+    Some(run.spec.errors_at("/relative_degree/a", &(0..0), ErrorKind::Range, message, Some(help.to_owned())))
+}
+
 /// One object for each error, in order; numbers have all their digits.
 pub(super) fn errors_json<'e>(all: impl IntoIterator<Item = &'e SpecErrors>) -> Value {
     let mut list = Vec::new();
@@ -66,5 +81,15 @@ pub(super) fn errors_json<'e>(all: impl IntoIterator<Item = &'e SpecErrors>) -> 
 /// The report object of a call that did not come to a claim: the verdict and the errors.
 #[must_use]
 pub fn failure_json<'e>(verdict: Verdict, errors: impl IntoIterator<Item = &'e SpecErrors>) -> Value {
-    json!({ "format": FORMAT, "version": VERSION, "verdict": verdict.to_string(), "errors": errors_json(errors) })
+    told(verdict, &errors_json(errors))
+}
+
+/// The same, of a call that is wrong as a whole.
+#[must_use]
+pub fn call_failure_json(verdict: Verdict, message: &str, help: &str) -> Value {
+    told(verdict, &json!([{ "code": "call", "message": message, "help": help }]))
+}
+
+fn told(verdict: Verdict, errors: &Value) -> Value {
+    json!({ "format": FORMAT, "version": VERSION, "verdict": verdict.to_string(), "errors": errors })
 }

@@ -1,7 +1,6 @@
 //! The report of `sigmastar lyapunov`: P, the proved triple, the candidates, and the Floquet exponents beside.
 
-use super::Readable;
-use super::blocks::{Block, Table, clean};
+use super::document::{Block, Readable, Table, clean};
 use super::number::estimate;
 use crate::certificate::{Resolution, matrix_json};
 use crate::number::write_exact;
@@ -31,12 +30,12 @@ impl Readable for LyapunovReport {
         let triple = &self.triple;
         let mut blocks = vec![
             Block::Title(format!("{}: the Lyapunov triple of its Jacobian", clean(&self.resolution.spec.name))),
-            Block::says(format!(
+            Block::Verdict(format!(
                 "Proved for every t and every matrix F of the Jacobian: p_low I <= P <= p_up I and P' + P F + F'P <= -2 alpha P \
                  with p_low = {}, p_up = {}, alpha = {}.",
                 triple.p_low.text, triple.p_up.text, triple.alpha.text
             )),
-            Block::Heading("P".to_owned()),
+            Block::heading("P"),
         ];
         let waves = self.matrix.harmonics.iter().zip(1..).flat_map(|([cos, sin], k)| {
             [
@@ -49,7 +48,7 @@ impl Readable for LyapunovReport {
             blocks.push(Block::says(format!("P, {title}, by rows:")));
             blocks.push(Block::List(rows.iter().map(|row| row_text(row)).collect()));
         }
-        blocks.push(Block::Heading("Candidates".to_owned()));
+        blocks.push(Block::heading("Candidates"));
         blocks.push(Block::says(
             "Floating point: what was tried, by its rate. The one with the smallest sigma* that could be proved is the one above.",
         ));
@@ -63,7 +62,7 @@ impl Readable for LyapunovReport {
             ]);
         }
         blocks.push(Block::Table(table));
-        blocks.push(Block::Heading("Floquet exponents (floating point, not certified)".to_owned()));
+        blocks.push(Block::heading("Floquet exponents (floating point, not certified)"));
         blocks.push(Block::says(
             "Of the middle of the Jacobian, in 1/time. Minus the largest real part bounds alpha for every P(t).",
         ));

@@ -28,7 +28,7 @@ fn chosen(counts: &[OscillatorCount]) -> Vec<OscillatorCount> {
 ///
 /// # Errors
 /// The plotting library's reason.
-pub fn plot_svg(data: &Data<'_>, pair: &CertifiedPair, counts: &[OscillatorCount]) -> Result<String, String> {
+pub(super) fn svg(data: &Data<'_>, pair: &CertifiedPair, counts: &[OscillatorCount]) -> Result<String, String> {
     let mut svg = String::new();
     draw(&mut svg, data, pair, &chosen(counts)).map_err(|error| error.to_string())?;
     Ok(at_size(svg, SIZE))

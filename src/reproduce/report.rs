@@ -1,15 +1,80 @@
-//! The report on the reproduction: Markdown and JSON.
+//! The report on the reproduction.
 
-use super::printed::Table;
+use super::printed::PrintedTable;
 use super::run::{ComputedRow, NoiseRange, Reproduction, units};
-use crate::report::blocks::{Block, Table as Grid};
+use crate::report::document::{Block, Readable, Table};
 use crate::simulate::Noise;
-use serde_json::{Value, json as object};
+use serde_json::{Value, json};
 
 /// The `format` of the JSON report.
-pub const FORMAT: &str = "sigmastar/reproduction";
+const FORMAT: &str = "sigmastar/reproduction";
 /// Its version.
-pub const VERSION: u64 = 1;
+const VERSION: u64 = 1;
+
+/// The report on the reproduction, with the names of the files of its figures. Deviations are in units of the last printed
+/// place, after rounding to it.
+pub struct ReproductionReport<'r> {
+    reproduction: &'r Reproduction,
+    figures: Vec<String>,
+}
+
+impl<'r> ReproductionReport<'r> {
+    /// The report on what was computed; `figures` are the names of files.
+    #[must_use]
+    pub fn new(reproduction: &'r Reproduction, figures: Vec<String>) -> ReproductionReport<'r> {
+        ReproductionReport { reproduction, figures }
+    }
+}
+
+impl Readable for ReproductionReport<'_> {
+    fn blocks(&self) -> Vec<Block> {
+        let ReproductionReport { reproduction, figures } = self;
+        let mut blocks = vec![
+            Block::Title("The paper's numerical section, computed again".to_owned()),
+            Block::says(
+                "Floating point, no proof. Steady states by Newton shooting. Deviations are in units of the last printed \
+                 place, after rounding to it. The second printed column is headed (1/T) int e^2; what is printed there is \
+                 its square root, the rms (erratum E19), and the rms is what is computed here.",
+            ),
+        ];
+        let parts = reproduction.settings.parts;
+        for (wanted, table, n_0, title) in [
+            (parts.table_1, PrintedTable::HighGain, None, "Table 1, high-gain feedback, without noise"),
+            (parts.table_2, PrintedTable::InternalModel, Some(1.0), "Table 2, internal model, n_0 = 1, without noise"),
+            (parts.table_2, PrintedTable::InternalModel, Some(2.0), "Table 2, internal model, n_0 = 2, without noise"),
+        ] {
+            if !wanted {
+                continue;
+            }
+            blocks.push(Block::heading(title));
+            match n_0 {
+                Some(1.0) => blocks.push(Block::says("The printed values were computed with n_0 = 1 (erratum E20).")),
+                Some(_) => blocks.push(Block::says("What the text states; the printed values do not belong to it.")),
+                None => {}
+            }
+            blocks.push(quiet_table(reproduction, table, n_0));
+        }
+        if parts.noise {
+            blocks.extend(noise_blocks(reproduction));
+        }
+        if !figures.is_empty() {
+            blocks.push(Block::heading("Figures"));
+            blocks.push(Block::Figures(figures.clone()));
+        }
+        blocks
+    }
+
+    /// As JSON: `{"format": "sigmastar/reproduction", "version": 1, ...}`: every cell as printed, computed, and apart.
+    fn json(&self) -> Value {
+        let ReproductionReport { reproduction, figures } = self;
+        let rows: Vec<Value> = reproduction.rows.iter().map(row_json).collect();
+        json!({
+            "format": FORMAT, "version": VERSION,
+            "seeds": reproduction.settings.seeds, "noise_steps": reproduction.settings.noise_steps,
+            "rows": rows, "largest_noise": reproduction.largest_noise, "figures": figures,
+        })
+    }
+}
 
 /// A computed value with a digit more than is printed.
 fn here(value: f64) -> String {
@@ -28,50 +93,8 @@ fn parameters(row: &ComputedRow) -> [String; 3] {
     [printed.ratio.to_owned(), printed.n_o.map_or("-".to_owned(), |n_o| n_o.to_string()), printed.sigma.to_string()]
 }
 
-/// The report as Markdown. Deviations are in units of the last printed place, after rounding to it.
-#[must_use]
-pub fn markdown(reproduction: &Reproduction, figures: &[&str]) -> String {
-    crate::report::markdown(&blocks(reproduction, figures))
-}
-
-fn blocks(reproduction: &Reproduction, figures: &[&str]) -> Vec<Block> {
-    let mut blocks = vec![
-        Block::Title("The paper's numerical section, computed again".to_owned()),
-        Block::says(
-            "Floating point, no proof. Steady states by Newton shooting. Deviations are in units of the last printed \
-             place, after rounding to it. The second printed column is headed (1/T) int e^2; what is printed there is \
-             its square root, the rms (erratum E19), and the rms is what is computed here.",
-        ),
-    ];
-    let parts = reproduction.settings.parts;
-    for (wanted, table, n_0, title) in [
-        (parts.table_1, Table::HighGain, None, "Table 1, high-gain feedback, without noise"),
-        (parts.table_2, Table::InternalModel, Some(1.0), "Table 2, internal model, n_0 = 1, without noise"),
-        (parts.table_2, Table::InternalModel, Some(2.0), "Table 2, internal model, n_0 = 2, without noise"),
-    ] {
-        if !wanted {
-            continue;
-        }
-        blocks.push(Block::Heading(title.to_owned()));
-        match n_0 {
-            Some(1.0) => blocks.push(Block::says("The printed values were computed with n_0 = 1 (erratum E20).")),
-            Some(_) => blocks.push(Block::says("What the text states; the printed values do not belong to it.")),
-            None => {}
-        }
-        blocks.push(quiet_table(reproduction, table, n_0));
-    }
-    if parts.noise {
-        blocks.extend(noise_blocks(reproduction));
-    }
-    if !figures.is_empty() {
-        blocks.push(Block::Heading("Figures".to_owned()));
-        blocks.push(Block::List(figures.iter().map(|name| format!("`{name}`")).collect()));
-    }
-    blocks
-}
-
-fn quiet_table(reproduction: &Reproduction, table: Table, n_0: Option<f64>) -> Block {
-    let mut grid = Grid::new(&[
+fn quiet_table(reproduction: &Reproduction, printed: PrintedTable, n_0: Option<f64>) -> Block {
+    let mut table = Table::new(&[
         "w T/(2 pi)",
         "n_o",
         "sigma",
@@ -83,7 +106,7 @@ fn quiet_table(reproduction: &Reproduction, table: Table, n_0: Option<f64>) -> B
         "deviation",
         "multiplier",
     ]);
-    for row in reproduction.rows.iter().filter(|row| row.row.table == table && row.n_0 == n_0) {
+    for row in reproduction.rows.iter().filter(|row| row.row.table == printed && row.n_0 == n_0) {
         let mut cells: Vec<String> = parameters(row).into();
         match (row.cells(), &row.quiet) {
             (Some(values), _) => {
@@ -96,9 +119,9 @@ fn quiet_table(reproduction: &Reproduction, table: Table, n_0: Option<f64>) -> B
         }
         cells.resize(9, String::new());
         cells.push(row.multiplier.map_or_else(String::new, |multiplier| format!("{multiplier:.3}")));
-        grid.push(cells);
+        table.push(cells);
     }
-    Block::Table(grid)
+    Block::Table(table)
 }
 
 fn range([low, high]: [f64; 2]) -> String {
@@ -108,8 +131,8 @@ fn range([low, high]: [f64; 2]) -> String {
 fn noise_blocks(reproduction: &Reproduction) -> Vec<Block> {
     let settings = reproduction.settings;
     let largest: Vec<String> = reproduction.largest_noise.iter().map(|value| format!("{value:.1}")).collect();
-    let mut grid =
-        Grid::new(&["w T/(2 pi)", "n_o", "sigma", "n_0", "<law", "sup printed", "here", "rms printed", "here"]);
+    let mut table =
+        Table::new(&["w T/(2 pi)", "n_o", "sigma", "n_0", "<law", "sup printed", "here", "rms printed", "here"]);
     for row in &reproduction.rows {
         for NoiseRange { law, sup, rms } in &row.noisy {
             let law = match law {
@@ -120,11 +143,11 @@ fn noise_blocks(reproduction: &Reproduction) -> Vec<Block> {
             cells.push(row.n_0.map_or("-".to_owned(), |n_0| n_0.to_string()));
             cells.extend([law.to_owned(), row.row.noisy[0].to_owned(), range(*sup)]);
             cells.extend([row.row.noisy[1].to_owned(), range(*rms)]);
-            grid.push(cells);
+            table.push(cells);
         }
     }
     vec![
-        Block::Heading("Both tables, with measurement noise".to_owned()),
+        Block::heading("Both tables, with measurement noise"),
         Block::says(format!(
             "Ranges over single periods among the last 30 of 150, over seeds 1 to {}, with {} steps per period. Two \
              laws: as the paper prints it, and with u = -sigma (e + v) + mu M'N(z - M(e + v)) (erratum E22). Nothing \
@@ -136,30 +159,19 @@ fn noise_blocks(reproduction: &Reproduction) -> Vec<Block> {
              seeds.",
             largest.join(", ")
         )),
-        Block::Table(grid),
+        Block::Table(table),
     ]
-}
-
-/// The report as JSON: every cell as printed, computed, and apart.
-#[must_use]
-pub fn json(reproduction: &Reproduction, figures: &[&str]) -> Value {
-    let rows: Vec<Value> = reproduction.rows.iter().map(row_json).collect();
-    object!({
-        "format": FORMAT, "version": VERSION,
-        "seeds": reproduction.settings.seeds, "noise_steps": reproduction.settings.noise_steps,
-        "rows": rows, "largest_noise": reproduction.largest_noise, "figures": figures,
-    })
 }
 
 fn row_json(row: &ComputedRow) -> Value {
     let printed = row.row;
     let cells = row.cells().map(|[sup, rms]| {
         let cell = |cell: super::run::Cell| {
-            object!({
+            json!({
                 "printed": cell.printed, "here": cell.here, "units_of_last_place": units(cell.printed, cell.here),
             })
         };
-        object!({ "sup": cell(sup), "rms": cell(rms) })
+        json!({ "sup": cell(sup), "rms": cell(rms) })
     });
     let error = row.quiet.as_ref().and_then(|quiet| quiet.as_ref().err()).map(ToString::to_string);
     let amplitudes = row.quiet.as_ref().and_then(|quiet| quiet.as_ref().ok()).map(|figures| &figures.amplitudes);
@@ -171,15 +183,15 @@ fn row_json(row: &ComputedRow) -> Value {
                 Noise::Printed => "printed",
                 Noise::Everywhere => "everywhere",
             };
-            object!({
+            json!({
                 "law": law,
                 "sup": { "printed": printed.noisy[0], "range": range.sup },
                 "rms": { "printed": printed.noisy[1], "range": range.rms },
             })
         })
         .collect();
-    object!({
-        "table": match printed.table { Table::HighGain => 1, Table::InternalModel => 2 },
+    json!({
+        "table": match printed.table { PrintedTable::HighGain => 1, PrintedTable::InternalModel => 2 },
         "sigma": printed.sigma, "n_o": printed.n_o, "base_frequency_ratio": printed.ratio, "n_0": row.n_0,
         "without_noise": cells, "error": error, "amplitudes": amplitudes, "multiplier": row.multiplier,
         "with_noise": noisy,
