@@ -20,15 +20,13 @@ pub fn run(args: &ControllerArgs) -> u8 {
 }
 
 fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
-    let what = "the regulator";
-    let output =
-        args.output.as_deref().map(|path| OutputFile::new(path, Input::Specification(&args.spec), what)).transpose()?;
+    let (input, what) = (Input::Specification(&args.spec), "the regulator");
+    let output = OutputFile::asked(args.output.as_deref(), input, what)?;
     let header = match args.format {
         RegulatorForm::C => Some(header_path(args)?),
         _ => None,
     };
-    let header =
-        header.as_deref().map(|path| OutputFile::new(path, Input::Specification(&args.spec), what)).transpose()?;
+    let header = OutputFile::asked(header.as_deref(), input, what)?;
     let sigma = input::positive("--sigma", &args.sigma)?;
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
     let certificate = args.certificate.as_deref().map(input::document).transpose()?;

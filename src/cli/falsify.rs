@@ -17,12 +17,8 @@ pub fn run(args: &FalsifyArgs) -> u8 {
 }
 
 fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
-    let what = "the counterexample";
-    let output = args
-        .output
-        .as_deref()
-        .map(|path| OutputFile::new(path, Input::Certificate(&args.certificate), what))
-        .transpose()?;
+    let input = Input::Certificate(&args.certificate);
+    let output = OutputFile::asked(args.output.as_deref(), input, "the counterexample")?;
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
     let mut claims = vec![Claim::from_document(&input::document(&args.certificate)?)?];
@@ -58,7 +54,7 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
             ));
         }
     }
-    let report = output::report(&FalsificationReport::new(&outcomes), args.format);
+    let report = output::report(&FalsificationReport { tried: &outcomes }, args.format);
     if let Err(code) = output::data(&report) {
         return Ok(code);
     }

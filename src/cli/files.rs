@@ -76,6 +76,14 @@ impl OutputFile {
         Ok(OutputFile { typed: path.to_path_buf(), target, folder })
     }
 
+    /// The same, of a flag that may be absent.
+    ///
+    /// # Errors
+    /// Those of [`OutputFile::new`].
+    pub fn asked(path: Option<&Path>, input: Input<'_>, what: &str) -> Result<Option<OutputFile>, Failure> {
+        path.map(|path| OutputFile::new(path, input, what)).transpose()
+    }
+
     /// The path as it was typed.
     pub fn name(&self) -> String {
         shown(&self.typed)

@@ -33,8 +33,8 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
             figure.svg().map_err(|error| Failure::call(error.to_string(), "leave the figures out with --only"))?;
         write(&args.output, name, &svg)?;
     }
-    let names = figures.iter().map(|(name, _)| (*name).to_owned()).collect();
-    let report = ReproductionReport::new(&reproduction, names);
+    let figures = figures.iter().map(|(name, _)| (*name).to_owned()).collect();
+    let report = ReproductionReport { reproduction: &reproduction, figures };
     let markdown = report.markdown();
     write(&args.output, "report.json", &output::json_text(&report.json()))?;
     write(&args.output, "report.md", &markdown)?;

@@ -21,8 +21,7 @@ pub fn run(args: &SimulateArgs) -> u8 {
 }
 
 fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
-    let csv_file =
-        args.csv.as_deref().map(|path| OutputFile::new(path, Input::Plant(&args.plant), "the samples")).transpose()?;
+    let csv_file = OutputFile::asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
@@ -67,14 +66,15 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     let simulation = simulate(&closed_loop, &start, &settings, &bar);
     bar.finish();
 
-    let report = output::report(&SimulationReport::new(&plant, &closed_loop, &simulation), args.format);
+    let report = SimulationReport { plant: &plant, closed_loop: &closed_loop, simulation: &simulation };
+    let text = output::report(&report, args.format);
     if let (Some(file), Ok(run)) = (&csv_file, &simulation.long) {
         file.write(csv(&plant, &closed_loop, run))?;
     }
     if let Some(folder) = &args.plots {
         write_figures(folder, &args.plant, &closed_loop, &simulation)?;
     }
-    if let Err(code) = output::data(&report) {
+    if let Err(code) = output::data(&text) {
         return Ok(code);
     }
     let noisy = simulation.noisy.as_ref().is_none_or(Result::is_ok);

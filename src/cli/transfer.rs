@@ -9,9 +9,9 @@ use super::{input, output};
 use sigmastar::certificate::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
 use sigmastar::progress::Progress;
-use sigmastar::report::TransferReport;
+use sigmastar::report::transfer_figure;
 use sigmastar::spec::Specification;
-use sigmastar::transfer::{PairChoice, PairError, TransferRequest, TransferStudy};
+use sigmastar::transfer::{PairChoice, PairError, TransferStudy};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
@@ -38,23 +38,21 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
     let n_o = counts(&args.n_o)?;
     let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
     let bar = Bar::new(n_o.len() as u64, args.quiet);
-    let request = TransferRequest { pair, n_o };
-    let study = TransferStudy::new(&spec, DEFAULT_PRECISION, &request, || bar.advance());
+    let study = TransferStudy::new(&spec, DEFAULT_PRECISION, &pair, &n_o, || bar.advance());
     bar.finish();
-    let report = match study {
-        Ok(study) => TransferReport::new(study),
+    let study = match study {
+        Ok(study) => study,
         Err(error) => return Ok(no_pair(args, &error)),
     };
     if let Some(file) = &plot {
-        let svg = report.plot().map_err(|reason| {
-            Failure::call(format!("the plot cannot be drawn: {reason}"), "leave --plot out, and report this")
-        })?;
+        let svg = transfer_figure(&study).svg();
+        let svg = svg.map_err(|error| Failure::call(error.to_string(), "leave --plot out, and report this"))?;
         file.write(&svg)?;
         if !args.quiet {
             output::remark(&format!("the plot is in `{}`", file.name()));
         }
     }
-    let text = output::report(&report, args.format);
+    let text = output::report(&study, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
 }
 

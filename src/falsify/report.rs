@@ -6,22 +6,10 @@ use crate::number::{Direction, round_f64, write_exact};
 use crate::report::document::{Block, Readable, Table, clean};
 use serde_json::{Value, json};
 
-/// The `format` of the JSON report.
-const FORMAT: &str = "sigmastar/falsification";
-/// Its version.
-const VERSION: u64 = 1;
-
 /// The report on the trials of a certificate, and of those at other base frequencies.
 pub struct FalsificationReport<'r> {
-    tried: &'r [(Claim, Falsification)],
-}
-
-impl<'r> FalsificationReport<'r> {
-    /// The report on the claims that were tried, the certificate's own first.
-    #[must_use]
-    pub fn new(tried: &'r [(Claim, Falsification)]) -> FalsificationReport<'r> {
-        FalsificationReport { tried }
-    }
+    /// The claims that were tried, the certificate's own first.
+    pub tried: &'r [(Claim, Falsification)],
 }
 
 impl Readable for FalsificationReport<'_> {
@@ -112,7 +100,7 @@ fn json(claim: &Claim, outcome: &Falsification) -> Value {
         })
         .collect();
     json!({
-        "format": FORMAT, "version": VERSION, "name": clean(&claim.spec.name), "sigma_star": claim.sigma,
+        "format": "sigmastar/falsification", "version": 1, "name": clean(&claim.spec.name), "sigma_star": claim.sigma,
         "base_frequency": claim.spec.internal_model.base_frequency.text,
         "seed": outcome.settings.seed, "trials": trials, "refuted": outcome.counterexample().is_some(),
     })

@@ -104,8 +104,8 @@ struct Checks {
 impl Checks {
     fn at_most(&mut self, quantity: &'static str, found: f64, bound: f64) {
         self.shares.push((quantity, if bound > 0.0 { found / bound } else { 0.0 }));
-        // NaN is no value that a bound allows.
-        let holds = found <= bound * (1.0 + TOLERANCE) + 1e-9;
+        // NaN is no value that a bound allows; and room above a large bound may be infinite, which what is found is not to be.
+        let holds = found <= bound || (found.is_finite() && found <= bound * (1.0 + TOLERANCE) + 1e-9);
         if !holds && self.violation.is_none() {
             self.violation = Some(Violation { quantity, bound, found });
         }
@@ -250,6 +250,9 @@ mod tests {
             checks.at_most("quantity", found, 1.0);
             assert_eq!(checks.violation.is_none(), holds, "{found}");
         }
+        let mut checks = Checks { shares: Vec::new(), violation: None };
+        checks.at_most("a solution that escapes", f64::INFINITY, f64::MAX);
+        assert!(checks.violation.is_some());
     }
 
     #[test]

@@ -12,62 +12,60 @@ use crate::derivation::condition::Condition;
 use crate::derivation::targets::{Consequences, TargetKind, TargetOutcome};
 use crate::number::write_exact;
 use rug::Rational;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 /// The whole report: the same content as the text.
 pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences>, rechecked: bool) -> Value {
-    let mut fields = Map::new();
-    let mut set = |name: &str, value: Value| fields.insert(name.to_owned(), value);
-    set("format", json!(FORMAT));
-    set("version", json!(VERSION));
-    set("verdict", json!(run.verdict.to_string()));
-    set("statement", json!(sentence(run)));
-    set("remarks", json!(remarks(run)));
-    set("no_plant", run.no_plant.as_ref().map_or(Value::Null, no_plant_json));
-    set("derivation", json!(run.options.derivation.name()));
-    set("specification", json!({ "name": run.spec.name, "sha256": run.spec.sha256 }));
+    let mut report = json!({
+        "format": FORMAT, "version": VERSION,
+        "verdict": run.verdict.to_string(), "statement": sentence(run), "remarks": remarks(run),
+        "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": run.options.derivation.name(),
+        "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
+    });
     if let (Some(sigma), Some(claimed), Some(periodic), Some(error_box)) =
         (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
     {
-        set("sigma_star", json!(write_exact(sigma)));
-        set("basis", json!(basis(run)));
+        report["sigma_star"] = json!(write_exact(sigma));
+        report["basis"] = json!(basis(run));
         let [x0, e0, z0] = [&claimed.x0, &claimed.e0, &claimed.z0].map(write_exact);
-        set("initial_set", json!({ "X0": x0, "E0": e0, "Z0": z0 }));
+        report["initial_set"] = json!({ "X0": x0, "E0": e0, "Z0": z0 });
         let [x, e, zeta, z] = periodic.each_ref().map(full);
-        set("periodic_solution", json!({ "x": x, "e": e, "zeta": zeta, "z": z }));
+        report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
         let [x, e] = error_box.each_ref().map(full);
-        set("error_box", json!({ "D_x": x, "D_e": e }));
+        report["error_box"] = json!({ "D_x": x, "D_e": e });
     }
     if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(full)) {
-        set("largest_arguments", json!({ "X": x, "E": e }));
+        report["largest_arguments"] = json!({ "X": x, "E": e });
     }
     if !run.unproved_bounds.is_empty() {
         let errors: Vec<_> = run.unproved_bounds.iter().map(|problem| bounding_errors(run.spec, problem)).collect();
-        set("errors", errors_json(&errors));
+        report["errors"] = errors_json(&errors);
     }
     if run.verdict != Verdict::Certified {
-        set("advice", json!(advice(run, rechecked)));
+        report["advice"] = json!(advice(run, rechecked));
     }
-    set("conditions", conditions_with_truth(run.conditions()));
-    set("matrix_inequalities", checks_json(run));
-    set("derivations", derivations(run));
-    set("constants", constants_json(&run.constants));
-    set("printed", printed(run));
-    set("binding", json!(run.binding));
-    set("sensitivities", sensitivities(run));
-    set("consequences", consequences.map_or(Value::Null, consequences_json));
-    set("exact_regulation", exact_regulation(run));
-    set("relative_degree", gains_json(run));
-    Value::Object(fields)
+    for (name, value) in [
+        ("conditions", conditions_with_truth(run.conditions())),
+        ("matrix_inequalities", checks_json(run)),
+        ("derivations", derivations(run)),
+        ("constants", constants_json(&run.constants)),
+        ("printed", printed(run)),
+        ("binding", json!(run.binding)),
+        ("sensitivities", sensitivities(run)),
+        ("consequences", consequences.map_or(Value::Null, consequences_json)),
+        ("exact_regulation", exact_regulation(run)),
+        ("relative_degree", gains_json(run)),
+    ] {
+        report[name] = value;
+    }
+    report
 }
 
 /// The conditions as in a certificate, with the truth of each.
 fn conditions_with_truth(conditions: &[Condition]) -> Value {
     let mut list = conditions_json(conditions);
     for (item, condition) in list.as_array_mut().into_iter().flatten().zip(conditions) {
-        if let Value::Object(fields) = item {
-            fields.insert("truth".to_owned(), json!(condition.truth().to_string()));
-        }
+        item["truth"] = json!(condition.truth().to_string());
     }
     list
 }
@@ -107,9 +105,10 @@ fn printed(run: &Certification<'_>) -> Value {
 
 /// Relative falls of sigma* for 1 %; floating-point estimates.
 fn sensitivities(run: &Certification<'_>) -> Value {
-    let one =
-        |(datum, gain): &(crate::search::Datum, f64)| json!({ "datum": datum.name(), "estimate": estimate(*gain) });
-    Value::Array(run.sensitivities.iter().map(one).collect())
+    run.sensitivities
+        .iter()
+        .map(|(datum, gain)| json!({ "datum": datum.name(), "estimate": estimate(*gain) }))
+        .collect()
 }
 
 fn consequences_json(consequences: &Consequences) -> Value {

@@ -76,28 +76,25 @@ impl Readable for LyapunovReport {
 
     /// As JSON: `{"format": "sigmastar/lyapunov", "version": 1, ...}`.
     fn json(&self) -> Value {
-        let mut fields = serde_json::Map::new();
-        fields.insert("format".to_owned(), json!("sigmastar/lyapunov"));
-        fields.insert("version".to_owned(), json!(1));
-        fields.insert("verdict".to_owned(), json!("certified"));
-        fields.extend(matrix_json(&self.matrix));
-        for (name, value) in [("p_low", &self.triple.p_low), ("p_up", &self.triple.p_up), ("alpha", &self.triple.alpha)]
-        {
-            fields.insert(name.to_owned(), json!(value.text));
+        let Lyapunov { p_low, p_up, alpha, .. } = &self.triple;
+        let mut report = json!({ "format": "sigmastar/lyapunov", "version": 1, "verdict": "certified" });
+        for (name, value) in matrix_json(&self.matrix) {
+            report[name] = value;
         }
-        let candidates =
-            self.resolution.candidates.found.iter().zip(&self.resolution.sigmas).map(|(candidate, sigma)| {
-                json!({
-                    "alpha": estimate(candidate.alpha),
-                    "ratio": estimate(candidate.ratio),
-                    "degree": candidate.matrix.harmonics.len(),
-                    "sigma_star": sigma.map(estimate),
-                })
-            });
-        fields.insert("candidates_estimates".to_owned(), candidates.collect());
+        for (name, value) in [("p_low", p_low), ("p_up", p_up), ("alpha", alpha)] {
+            report[name] = json!(value.text);
+        }
+        let tried = self.resolution.candidates.found.iter().zip(&self.resolution.sigmas);
+        let candidates = tried.map(|(candidate, sigma)| {
+            json!({
+                "alpha": estimate(candidate.alpha), "ratio": estimate(candidate.ratio),
+                "degree": candidate.matrix.harmonics.len(), "sigma_star": sigma.map(estimate),
+            })
+        });
+        report["candidates_estimates"] = candidates.collect();
         let floquet = self.resolution.candidates.floquet.iter().map(|pair| json!(pair.map(estimate)));
-        fields.insert("floquet_exponents_not_certified".to_owned(), floquet.collect());
-        Value::Object(fields)
+        report["floquet_exponents_not_certified"] = floquet.collect();
+        report
     }
 }
 

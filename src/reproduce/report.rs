@@ -6,24 +6,12 @@ use crate::report::document::{Block, Readable, Table};
 use crate::simulate::Noise;
 use serde_json::{Value, json};
 
-/// The `format` of the JSON report.
-const FORMAT: &str = "sigmastar/reproduction";
-/// Its version.
-const VERSION: u64 = 1;
-
-/// The report on the reproduction, with the names of the files of its figures. Deviations are in units of the last printed
-/// place, after rounding to it.
+/// The report on the reproduction. Deviations are in units of the last printed place, after rounding to it.
 pub struct ReproductionReport<'r> {
-    reproduction: &'r Reproduction,
-    figures: Vec<String>,
-}
-
-impl<'r> ReproductionReport<'r> {
-    /// The report on what was computed; `figures` are the names of files.
-    #[must_use]
-    pub fn new(reproduction: &'r Reproduction, figures: Vec<String>) -> ReproductionReport<'r> {
-        ReproductionReport { reproduction, figures }
-    }
+    /// What was computed.
+    pub reproduction: &'r Reproduction,
+    /// The names of the files of its figures.
+    pub figures: Vec<String>,
 }
 
 impl Readable for ReproductionReport<'_> {
@@ -69,7 +57,7 @@ impl Readable for ReproductionReport<'_> {
         let ReproductionReport { reproduction, figures } = self;
         let rows: Vec<Value> = reproduction.rows.iter().map(row_json).collect();
         json!({
-            "format": FORMAT, "version": VERSION,
+            "format": "sigmastar/reproduction", "version": 1,
             "seeds": reproduction.settings.seeds, "noise_steps": reproduction.settings.noise_steps,
             "rows": rows, "largest_noise": reproduction.largest_noise, "figures": figures,
         })
@@ -124,6 +112,14 @@ fn quiet_table(reproduction: &Reproduction, printed: PrintedTable, n_0: Option<f
     Block::Table(table)
 }
 
+/// How a law of the noise is called in text and in JSON.
+fn words(law: Noise) -> [&'static str; 2] {
+    match law {
+        Noise::Printed => ["as printed", "printed"],
+        Noise::Everywhere => ["-sigma (e + v)", "everywhere"],
+    }
+}
+
 fn range([low, high]: [f64; 2]) -> String {
     format!("{low:.4} to {high:.4}")
 }
@@ -135,10 +131,7 @@ fn noise_blocks(reproduction: &Reproduction) -> Vec<Block> {
         Table::new(&["w T/(2 pi)", "n_o", "sigma", "n_0", "<law", "sup printed", "here", "rms printed", "here"]);
     for row in &reproduction.rows {
         for NoiseRange { law, sup, rms } in &row.noisy {
-            let law = match law {
-                Noise::Printed => "as printed",
-                Noise::Everywhere => "-sigma (e + v)",
-            };
+            let [law, _] = words(*law);
             let mut cells: Vec<String> = parameters(row).into();
             cells.push(row.n_0.map_or("-".to_owned(), |n_0| n_0.to_string()));
             cells.extend([law.to_owned(), row.row.noisy[0].to_owned(), range(*sup)]);
@@ -179,10 +172,7 @@ fn row_json(row: &ComputedRow) -> Value {
         .noisy
         .iter()
         .map(|range| {
-            let law = match range.law {
-                Noise::Printed => "printed",
-                Noise::Everywhere => "everywhere",
-            };
+            let [_, law] = words(range.law);
             json!({
                 "law": law,
                 "sup": { "printed": printed.noisy[0], "range": range.sup },

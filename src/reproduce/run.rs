@@ -197,7 +197,7 @@ pub fn reproduce(settings: ReproductionSettings, progress: &dyn Progress) -> Res
                 PrintedTable::HighGain => parts.table_1,
                 PrintedTable::InternalModel => parts.table_2,
             };
-            let steady = wanted.then(|| steady(&plant, row, n_0.unwrap_or(N_0[0])));
+            let steady = wanted.then(|| figures_of(&plant, regulator(row, n_0.unwrap_or(N_0[0]))));
             progress.advance();
             let (quiet, multiplier) = match steady {
                 None => (None, None),
@@ -232,10 +232,6 @@ pub fn reproduce(settings: ReproductionSettings, progress: &dyn Progress) -> Res
             .collect(),
     };
     Ok(Reproduction { settings, rows, largest_noise })
-}
-
-fn steady(plant: &Plant, row: &PrintedRow, n_0: f64) -> Result<(SteadyFigures, f64), SteadyStateError> {
-    figures_of(plant, regulator(row, n_0))
 }
 
 /// The steady figures of the paper's plant with a regulator, and the largest Floquet multiplier.

@@ -3,7 +3,7 @@
 use super::run::{LongRun, Simulation};
 use super::{ClosedLoop, Disturbance, frequencies, magnitude};
 use crate::plant::Plant;
-use crate::plot::{Curve, Figure, Scale};
+use crate::plot::{Curve, Figure, Scale, Style};
 use crate::regulator::Regulator;
 use std::f64::consts::TAU;
 
@@ -65,7 +65,7 @@ fn response(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
         y: "e [unit of e]".to_owned(),
         scale: Scale::Linear,
         floor: 0.0,
-        curves: vec![Curve { label: regulator_words(&closed_loop.regulator), points, marked: false }],
+        curves: vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }],
     }
 }
 
@@ -79,7 +79,7 @@ fn number_short(value: f64) -> String {
 #[must_use]
 pub fn spectrum_curve(label: &str, amplitudes: &[f64]) -> Curve {
     let points = amplitudes.iter().enumerate().map(|(k, amplitude)| (k as f64, *amplitude)).collect();
-    Curve { label: label.to_owned(), points, marked: true }
+    Curve { label: label.to_owned(), points, style: Style::Marked }
 }
 
 /// A figure of Fourier coefficients.
@@ -110,7 +110,7 @@ pub fn bode(regulator: &Regulator) -> Figure {
     omegas.sort_by(f64::total_cmp);
     let curve = |label: &str, regulator: &Regulator| {
         let points = omegas.iter().map(|&omega| (omega, magnitude(regulator, omega))).collect();
-        Curve { label: label.to_owned(), points, marked: false }
+        Curve { label: label.to_owned(), points, style: Style::Line }
     };
     let high_gain = Regulator::high_gain(regulator.sigma);
     let mut curves = vec![curve("high-gain feedback", &high_gain)];

@@ -7,24 +7,14 @@ use crate::plant::Plant;
 use crate::report::document::{Block, Readable, Table, clean};
 use serde_json::{Value, json};
 
-/// The `format` of a simulation report.
-const FORMAT: &str = "sigmastar/simulation";
-/// Its version.
-const VERSION: u64 = 1;
-
 /// The report on a simulation.
 pub struct SimulationReport<'r> {
-    plant: &'r Plant,
-    closed_loop: &'r ClosedLoop,
-    simulation: &'r Simulation,
-}
-
-impl<'r> SimulationReport<'r> {
-    /// The report on what was simulated of a plant in a closed loop.
-    #[must_use]
-    pub fn new(plant: &'r Plant, closed_loop: &'r ClosedLoop, simulation: &'r Simulation) -> SimulationReport<'r> {
-        SimulationReport { plant, closed_loop, simulation }
-    }
+    /// What was simulated.
+    pub plant: &'r Plant,
+    /// With which regulator.
+    pub closed_loop: &'r ClosedLoop,
+    /// What came of it.
+    pub simulation: &'r Simulation,
 }
 
 impl Readable for SimulationReport<'_> {
@@ -91,7 +81,7 @@ impl Readable for SimulationReport<'_> {
             Err(error) => failure(error, "--noise-steps"),
         });
         json!({
-            "format": FORMAT, "version": VERSION, "name": clean(&plant.name),
+            "format": "sigmastar/simulation", "version": 1, "name": clean(&plant.name),
             "regulator": {
                 "n_o": regulator.oscillators(), "sigma": regulator.sigma, "mu": regulator.mu,
                 "frequencies": regulator.frequencies, "weights": regulator.weights,

@@ -23,18 +23,25 @@ pub struct PrintedTransfer {
     pub kappa_1: Enclosure,
 }
 
-/// Evaluates the printed constants.
+impl PrintedTransfer {
+    /// Evaluates the printed constants.
+    #[must_use]
+    pub fn new(n_0: &Enclosure, n_1: &Enclosure, n_2: &Enclosure, mu: &Enclosure) -> PrintedTransfer {
+        let p = n_0.precision();
+        let rational = |n: i64, d: i64| Enclosure::from_rational(&Rational::from((n, d)), p);
+        let s = n_0 / n_1 + n_0 / (3 * n_2) + rational(10, 3);
+        let a = ((2 + Enclosure::from_integer(2, p).sqrt()) * &s).max(&rational(25, 8));
+        let varpi = (48 * (&a + 2)).recip();
+        let kappa_0 = 7 * n_0 / 2;
+        let kappa_1 = 4 * n_0 / varpi.sqr() + 512 / (mu.sqr() * n_1);
+        PrintedTransfer { s, a, varpi, kappa_0, kappa_1 }
+    }
+}
+
+/// The printed constants for the data.
 #[must_use]
 pub fn printed_transfer(data: &Data<'_>) -> PrintedTransfer {
-    let p = data.precision;
-    let rational = |n: i64, d: i64| Enclosure::from_rational(&Rational::from((n, d)), p);
-    let n_2 = data.spec.internal_model.weights.weight(2, p);
-    let s = &data.n_0 / &data.n_1 + &data.n_0 / (3 * &n_2) + rational(10, 3);
-    let a = ((2 + Enclosure::from_integer(2, p).sqrt()) * &s).max(&rational(25, 8));
-    let varpi = (48 * (&a + 2)).recip();
-    let kappa_0 = 7 * &data.n_0 / 2;
-    let kappa_1 = 4 * &data.n_0 / varpi.sqr() + 512 / (data.mu.sqr() * &data.n_1);
-    PrintedTransfer { s, a, varpi, kappa_0, kappa_1 }
+    PrintedTransfer::new(&data.n_0, &data.n_1, &data.spec.internal_model.weights.weight(2, data.precision), &data.mu)
 }
 
 /// The interval `[varpi/m, 1/5]` from which lambda is to be chosen for m >= 1 (P:eq:ineq_lambda). (For m = 0, which the

@@ -34,15 +34,6 @@ pub enum PairChoice {
     ForData,
 }
 
-/// What is asked of a [`TransferStudy`].
-#[derive(Clone, Debug)]
-pub struct TransferRequest {
-    /// The pair.
-    pub pair: PairChoice,
-    /// The numbers of oscillators to look at.
-    pub n_o: Vec<OscillatorCount>,
-}
-
 /// A pair that is proved for a matched base frequency: T_N(x) <= k0 + k1 x^2 at every integer x >= 0.
 #[derive(Clone, Debug)]
 pub struct MatchedPair {
@@ -81,7 +72,7 @@ pub struct TransferStudy<'s> {
 }
 
 impl<'s> TransferStudy<'s> {
-    /// Finds and proves the pair, and all that belongs to it; `done` is called after each n_o.
+    /// Finds and proves the pair, and all that belongs to it, for some numbers of oscillators; `done` is called after each.
     ///
     /// Guarantee: every pair, ratio and comparison is proved.
     ///
@@ -90,12 +81,13 @@ impl<'s> TransferStudy<'s> {
     pub fn new(
         spec: &'s Specification,
         precision: u32,
-        request: &TransferRequest,
+        choice: &PairChoice,
+        n_o: &[OscillatorCount],
         done: impl Fn() + Sync,
     ) -> Result<TransferStudy<'s>, PairError> {
         let data = Data::new(spec, precision);
-        let (a, b) = weights(&data, &request.pair);
-        let pair = match &request.pair {
+        let (a, b) = weights(&data, choice);
+        let pair = match choice {
             PairChoice::SmallestK1(k0) => {
                 let at_zero = || data.transfer_at_zero().upper_decimal(3);
                 let k0 = rational_k0(k0, precision).ok_or_else(|| PairError::OutOfRange { at_zero: at_zero() })?;
@@ -109,7 +101,7 @@ impl<'s> TransferStudy<'s> {
             }
             _ => None,
         };
-        let uniformity = sup_ratios(&data, &pair.k0, &pair.k1, &request.n_o, done)
+        let uniformity = sup_ratios(&data, &pair.k0, &pair.k1, n_o, done)
             .into_par_iter()
             .map(|sup| Uniformity { decay: decay(sup.n_o), sup })
             .collect();
@@ -118,6 +110,13 @@ impl<'s> TransferStudy<'s> {
         let printed = PrintedChecks::new(&data);
         Ok(TransferStudy { data, pair, uniformity, trade_off, matched, printed })
     }
+}
+
+/// A pair in the units of omega: kappa_0 = k0/w^2 and kappa_1 = k1/w^4.
+#[must_use]
+pub fn kappas(data: &Data<'_>, k0: &Rational, k1: &Rational) -> [Enclosure; 2] {
+    let square = data.base_frequency.sqr();
+    [data.rational(k0) / &square, data.rational(k1) / square.sqr()]
 }
 
 /// A k0 that was asked for: itself where it is rational, else rounded up; `None` where it has no upper end.

@@ -3,17 +3,14 @@
 use crate::data::Data;
 use crate::number::write_exact;
 use crate::transfer::{
-    CertifiedPair, OscillatorCount, PairStatus, PrintedCheck, PrintedChecks, TransferStudy, Uniformity, lambda_interval,
+    CertifiedPair, OscillatorCount, PairStatus, PrintedCheck, PrintedChecks, TransferStudy, Uniformity, kappas,
+    lambda_interval,
 };
 use serde_json::{Value, json};
 
-/// The format of this report.
-const FORMAT: &str = "sigmastar/transfer";
-/// Its version.
-const VERSION: u64 = 1;
-
 pub(super) fn report(study: &TransferStudy<'_>) -> Value {
-    let (data, pair, w) = (&study.data, &study.pair, &study.data.base_frequency);
+    let (data, pair) = (&study.data, &study.pair);
+    let [kappa_0, kappa_1] = kappas(data, &pair.k0, &pair.k1);
     let per_n_o = |Uniformity { sup, decay }: &Uniformity| {
         json!({
             "n_o": count_json(sup.n_o), "ratio": sup.ratio.decimals(), "x": write_exact(&sup.x),
@@ -30,13 +27,12 @@ pub(super) fn report(study: &TransferStudy<'_>) -> Value {
         |matched| json!({ "k0": write_exact(&matched.k0), "k1": write_exact(&matched.k1), "K": matched.first_of_tail }),
     );
     json!({
-        "format": FORMAT, "version": VERSION, "verdict": "certified", "independent_check": "none",
+        "format": "sigmastar/transfer", "version": 1, "verdict": "certified", "independent_check": "none",
         "specification": { "name": data.spec.name, "sha256": data.spec.sha256 },
         "statement": "T_N(x) <= k0 + k1 x^2 for every N >= 0 and every x >= 0",
         "nu": data.nu.decimals(),
         "k0": write_exact(&pair.k0), "k1": write_exact(&pair.k1),
-        "kappa_0": (data.rational(&pair.k0) / w.sqr()).decimals(),
-        "kappa_1": (data.rational(&pair.k1) / w.sqr().sqr()).decimals(),
+        "kappa_0": kappa_0.decimals(), "kappa_1": kappa_1.decimals(),
         "m0": pair.proof.m0, "N0": pair.proof.n0, "boxes": pair.proof.boxes(),
         "obstacle": obstacle,
         "per_n_o": study.uniformity.iter().map(per_n_o).collect::<Vec<_>>(),
