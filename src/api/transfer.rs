@@ -5,11 +5,8 @@ use super::specification::Specification;
 use super::{positive, rounded_up};
 use crate::data::Data;
 use crate::enclosure::DEFAULT_PRECISION;
-use crate::number::{Direction, round_rational, write_exact};
-use crate::transfer::{PairError, smallest_k1};
-
-/// Significant digits of a k0 that is no rational.
-const K0_DIGITS: u32 = 16;
+use crate::number::write_exact;
+use crate::transfer::{rational_k0, smallest_k1};
 
 /// A proved bound `T_N(x) <= k0 + k1 x^2` of the internal model, for every number of oscillators N >= 0 and every
 /// `x = omega/w >= 0`.
@@ -71,22 +68,12 @@ impl TransferBound {
 /// ```
 pub fn transfer_bound(specification: &Specification, k0: &str) -> Result<TransferBound, Error> {
     let k0 = positive("k0", k0)?;
-    let rounded = || {
-        let upper = k0.enclose(DEFAULT_PRECISION).upper_rational()?;
-        Some(round_rational(&upper, K0_DIGITS, Direction::Up))
-    };
-    let exact = k0.as_rational().cloned().or_else(rounded);
+    let exact = rational_k0(&k0, DEFAULT_PRECISION);
     let exact = exact.ok_or_else(|| Error::new(ErrorKind::Overflow, "k0 is too large", "choose a smaller k0"))?;
     let data = Data::new(&specification.read, DEFAULT_PRECISION);
     let pair = smallest_k1(&data, &exact).map_err(|error| {
-        let (kind, help) = match &error {
-            PairError::BelowZeroValue { .. } => (ErrorKind::Refuted, "choose a k0 that is not below T_N(0)"),
-            PairError::OutOfRange { .. } => {
-                (ErrorKind::Undecided, "scale mu, base_frequency or the weights, or choose a k0 within 1e-300 to 1e300")
-            }
-            PairError::NotFound { .. } => (ErrorKind::Undecided, "choose a smaller k0, which lets k1 be larger"),
-        };
-        Error::new(kind, error.to_string(), help)
+        let kind = if error.is_refuted() { ErrorKind::Refuted } else { ErrorKind::Undecided };
+        Error::new(kind, error.to_string(), error.way_out())
     })?;
     let excess = pair.excess(&data).map(|excess| excess.upper_f64());
     let up = [rounded_up(&pair.k0), rounded_up(&pair.k1)];

@@ -6,6 +6,7 @@
 mod best;
 mod bounding;
 mod certification;
+mod consequences;
 mod constants;
 mod decide;
 mod jacobian;

@@ -240,17 +240,8 @@ pub struct CheckArgs {
     pub verbose: bool,
 
     /// Format of the answer
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = CheckFormat::Text)]
-    pub format: CheckFormat,
-}
-
-/// A format of the checker's answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum CheckFormat {
-    /// Plain text for a terminal
-    Text,
-    /// JSON
-    Json,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
 }
 
 /// The flags of `errata`.
@@ -322,8 +313,8 @@ pub struct ControllerArgs {
     pub certificate: Option<PathBuf>,
 
     /// Form in which the regulator is written
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = ControllerFormat::Json)]
-    pub format: ControllerFormat,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = RegulatorForm::Json)]
+    pub format: RegulatorForm,
 
     /// Write to this file; the C source takes its header beside it
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -389,8 +380,8 @@ pub struct SimulateArgs {
     pub noise_everywhere: bool,
 
     /// Format of the report
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = SimulationFormat::Text)]
-    pub format: SimulationFormat,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
 
     /// Write the samples of the run to this file (CSV)
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -403,24 +394,6 @@ pub struct SimulateArgs {
     /// No progress and no remarks on standard error; errors are still shown
     #[arg(short, long)]
     pub quiet: bool,
-}
-
-/// A format of a simulation report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SimulationFormat {
-    /// Plain text for a terminal
-    Text,
-    /// JSON, also for failures
-    Json,
-}
-
-impl From<SimulationFormat> for Format {
-    fn from(format: SimulationFormat) -> Format {
-        match format {
-            SimulationFormat::Text => Format::Text,
-            SimulationFormat::Json => Format::Json,
-        }
-    }
 }
 
 /// The flags of `reproduce`.
@@ -469,8 +442,8 @@ pub struct FalsifyArgs {
     pub base_frequency: Vec<String>,
 
     /// Format of the report
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = SimulationFormat::Text)]
-    pub format: SimulationFormat,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
 
     /// Write the first counterexample to this plant file
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -496,7 +469,7 @@ pub enum PartArg {
 
 /// A form of the regulator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ControllerFormat {
+pub enum RegulatorForm {
     /// JSON
     Json,
     /// NumPy archive (needs -o)
@@ -529,7 +502,7 @@ pub enum TransferArg {
     ClosedForm,
 }
 
-/// A format of the report.
+/// A format of a report, the same for every command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// Plain text for a terminal

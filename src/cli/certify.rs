@@ -2,12 +2,13 @@
 
 use super::args::{CertifyArgs, Format};
 use super::failure::Failure;
-use super::input;
-use super::output::{self, Input, OutputFile};
+use super::files::{Input, OutputFile};
 use super::progress::{Audience, Working};
+use super::{input, output};
 use sigmastar::certificate::{certificate_json, read_lyapunov, read_witness};
 use sigmastar::certify::{Certification, certify, recheck, with_triple};
-use sigmastar::report::{Report, TargetKind};
+use sigmastar::derivation::targets::TargetKind;
+use sigmastar::report::Report;
 use sigmastar::spec::{Document, SpecErrors, Specification};
 use std::borrow::Cow;
 

@@ -1,15 +1,16 @@
 //! `sigmastar controller`.
 
-use super::args::{ControllerArgs, ControllerFormat, Format};
+use super::args::{ControllerArgs, Format, RegulatorForm};
 use super::failure::Failure;
+use super::files::{Input, OutputFile, write_together};
 use super::input;
-use super::output::{self, Input, OutputFile, shown, write_together};
+use super::output::{self, shown};
 use sigmastar::certificate::read_witness;
 use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar::number::write_exact;
 use sigmastar::regulator::export::{self, CSources, Export};
 use sigmastar::regulator::{Design, Discrete, Regulator, SampledLoop};
-use sigmastar::report::blocks::clean;
+use sigmastar::report::document::clean;
 use sigmastar::spec::{Constant, Document, Specification};
 use std::path::Path;
 
@@ -19,15 +20,13 @@ pub fn run(args: &ControllerArgs) -> u8 {
 }
 
 fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
-    let what = "the regulator";
-    let output =
-        args.output.as_deref().map(|path| OutputFile::new(path, Input::Specification(&args.spec), what)).transpose()?;
+    let (input, what) = (Input::Specification(&args.spec), "the regulator");
+    let output = OutputFile::asked(args.output.as_deref(), input, what)?;
     let header = match args.format {
-        ControllerFormat::C => Some(header_path(args)?),
+        RegulatorForm::C => Some(header_path(args)?),
         _ => None,
     };
-    let header =
-        header.as_deref().map(|path| OutputFile::new(path, Input::Specification(&args.spec), what)).transpose()?;
+    let header = OutputFile::asked(header.as_deref(), input, what)?;
     let sigma = input::positive("--sigma", &args.sigma)?;
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
     let certificate = args.certificate.as_deref().map(input::document).transpose()?;
@@ -64,10 +63,10 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let discrete = discrete.as_ref().map(|(discrete, sampled)| (discrete, *sampled));
     let export = Export { name: &clean(&spec.name), regulator: &regulator, discrete };
     let text = match args.format {
-        ControllerFormat::Json => output::json_text(&export::json(&export)),
-        ControllerFormat::Matlab => export::matlab(&export),
-        ControllerFormat::Npz => return npz(&export, output.as_ref()),
-        ControllerFormat::C => return c(&export, output.as_ref(), header.as_ref()),
+        RegulatorForm::Json => output::json_text(&export::json(&export)),
+        RegulatorForm::Matlab => export::matlab(&export),
+        RegulatorForm::Npz => return npz(&export, output.as_ref()),
+        RegulatorForm::C => return c(&export, output.as_ref(), header.as_ref()),
     };
     match output {
         Some(file) => file.write(text).map(|()| 0),

@@ -3,7 +3,7 @@
 use super::args::Format;
 use super::output;
 use sigmastar::certify::Verdict;
-use sigmastar::report::{FORMAT, VERSION, failure_json};
+use sigmastar::report::{call_failure_json, failure_json};
 use sigmastar::spec::SpecErrors;
 
 /// Why a command came to no claim.
@@ -46,10 +46,7 @@ impl Failure {
         if format == Format::Json {
             let value = match self {
                 Failure::Documents(all) => failure_json(verdict, all),
-                Failure::Call { message, help } => serde_json::json!({
-                    "format": FORMAT, "version": VERSION, "verdict": verdict.to_string(),
-                    "errors": [{ "code": "call", "message": message, "help": help }],
-                }),
+                Failure::Call { message, help } => call_failure_json(verdict, message, help),
             };
             if !quiet {
                 output::remark(&format!("{verdict}; the errors are in the JSON on standard output"));

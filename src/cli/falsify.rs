@@ -1,27 +1,24 @@
 //! `sigmastar falsify`.
 
-use super::args::{FalsifyArgs, Format, SimulationFormat};
+use super::args::FalsifyArgs;
 use super::failure::Failure;
-use super::input;
-use super::output::{self, Input, OutputFile};
+use super::files::{Input, OutputFile};
 use super::progress::Bar;
+use super::{input, output};
 use sigmastar::certify::Verdict;
 use sigmastar::falsify::{
-    Claim, Finding, FrequencyError, Outcome, Settings, counterexample_plant, falsify, json, text, with_base_frequency,
+    Claim, Falsification, FalsificationReport, Finding, FrequencyError, TrialSettings, counterexample_plant, falsify,
+    with_base_frequency,
 };
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &FalsifyArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(Format::from(args.format), args.quiet))
+    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
 }
 
 fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
-    let what = "the counterexample";
-    let output = args
-        .output
-        .as_deref()
-        .map(|path| OutputFile::new(path, Input::Certificate(&args.certificate), what))
-        .transpose()?;
+    let input = Input::Certificate(&args.certificate);
+    let output = OutputFile::asked(args.output.as_deref(), input, "the counterexample")?;
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
     let mut claims = vec![Claim::from_document(&input::document(&args.certificate)?)?];
@@ -34,9 +31,9 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
         })?;
         claims.push(claim);
     }
-    let settings = Settings { trials: u64::from(args.trials), seed: args.seed };
+    let settings = TrialSettings { trials: u64::from(args.trials), seed: args.seed };
     let bar = Bar::new(u64::from(args.trials) * claims.len() as u64, args.quiet);
-    let outcomes: Vec<(Claim, Outcome)> = claims
+    let outcomes: Vec<(Claim, Falsification)> = claims
         .into_iter()
         .map(|claim| {
             let outcome = falsify(&claim, settings, &bar);
@@ -57,16 +54,11 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
             ));
         }
     }
-    let report = match args.format {
-        SimulationFormat::Text => {
-            outcomes.iter().map(|(claim, outcome)| text(claim, outcome)).collect::<Vec<_>>().join("\n")
-        }
-        SimulationFormat::Json => output::json_text(&as_json(&outcomes)),
-    };
+    let report = output::report(&FalsificationReport { tried: &outcomes }, args.format);
     if let Err(code) = output::data(&report) {
         return Ok(code);
     }
-    let held = |(_, outcome): &(Claim, Outcome)| {
+    let held = |(_, outcome): &(Claim, Falsification)| {
         outcome.findings.iter().any(|finding| matches!(finding, Finding::Holds { .. }))
     };
     Ok(match broken {
@@ -74,15 +66,4 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
         None if outcomes.iter().all(held) => 0,
         None => Verdict::Undecided.exit_code(),
     })
-}
-
-/// The report on the certificate, with those at other base frequencies in a field of their own.
-fn as_json(outcomes: &[(Claim, Outcome)]) -> serde_json::Value {
-    let mut reports = outcomes.iter().map(|(claim, outcome)| json(claim, outcome));
-    let mut first = reports.next().unwrap_or_default();
-    let others: Vec<serde_json::Value> = reports.collect();
-    if !others.is_empty() {
-        first["other_base_frequencies"] = others.into();
-    }
-    first
 }

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::output::{reason, shown};
-use sigmastar::report::{Target, TargetKind};
+use sigmastar::derivation::targets::{Target, TargetKind};
 use sigmastar::spec::model::Constant;
 use sigmastar::spec::{Document, Errors, MAX_BYTES, positive_constant};
 use std::fs::File;

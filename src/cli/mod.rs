@@ -8,6 +8,7 @@ mod counts;
 mod errata;
 mod failure;
 mod falsify;
+mod files;
 mod input;
 mod lyapunov;
 mod output;

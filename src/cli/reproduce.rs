@@ -2,9 +2,11 @@
 
 use super::args::{Format, PartArg, ReproduceArgs};
 use super::failure::Failure;
-use super::output::{self, Input, OutputFile};
+use super::files::{self, Input, OutputFile};
+use super::output;
 use super::progress::Bar;
-use sigmastar::reproduce::{Parts, Settings, figures, json, markdown, reproduce};
+use sigmastar::report::document::Readable;
+use sigmastar::reproduce::{Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
@@ -20,22 +22,23 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
         noise: has(PartArg::Noise),
         figures: has(PartArg::Figures),
     };
-    let settings = Settings { parts, seeds: u64::from(args.seeds), noise_steps: args.noise_steps as usize };
-    output::folder(&args.output)?;
+    let settings = ReproductionSettings { parts, seeds: u64::from(args.seeds), noise_steps: args.noise_steps as usize };
+    files::folder(&args.output)?;
     let bar = Bar::new(settings.work(), args.quiet);
     let reproduction = reproduce(settings, &bar)?;
     bar.finish();
     let figures = if parts.figures { figures()? } else { Vec::new() };
-    let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
     for (name, figure) in &figures {
         let svg =
             figure.svg().map_err(|error| Failure::call(error.to_string(), "leave the figures out with --only"))?;
         write(&args.output, name, &svg)?;
     }
-    let report = markdown(&reproduction, &names);
-    write(&args.output, "report.json", &output::json_text(&json(&reproduction, &names)))?;
-    write(&args.output, "report.md", &report)?;
-    Ok(output::data(&report).map_or_else(|code| code, |()| 0))
+    let figures = figures.iter().map(|(name, _)| (*name).to_owned()).collect();
+    let report = ReproductionReport { reproduction: &reproduction, figures };
+    let markdown = report.markdown();
+    write(&args.output, "report.json", &output::json_text(&report.json()))?;
+    write(&args.output, "report.md", &markdown)?;
+    Ok(output::data(&markdown).map_or_else(|code| code, |()| 0))
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {

@@ -1,26 +1,27 @@
 //! `sigmastar simulate`.
 
-use super::args::{Format, SimulateArgs, SimulationFormat};
+use super::args::SimulateArgs;
 use super::failure::Failure;
+use super::files::{self, Input, OutputFile};
 use super::input;
-use super::output::{self, Input, OutputFile, shown};
+use super::output::{self, shown};
 use super::progress::Bar;
 use sigmastar::certify::Verdict;
 use sigmastar::plant::Plant;
 use sigmastar::regulator::{Design, Regulator, read_regulator};
 use sigmastar::simulate::{
-    ClosedLoop, Method, Noise, NoiseSettings, Settings, Simulation, csv, figures, json, simulate, text,
+    ClosedLoop, Integrator, Noise, NoiseSettings, Simulation, SimulationReport, SimulationSettings, csv, figures,
+    simulate,
 };
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SimulateArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(Format::from(args.format), args.quiet))
+    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
 }
 
 fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
-    let csv_file =
-        args.csv.as_deref().map(|path| OutputFile::new(path, Input::Plant(&args.plant), "the samples")).transpose()?;
+    let csv_file = OutputFile::asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
@@ -40,12 +41,12 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         return Err(Failure::call("a number of this simulation is beyond double precision", help));
     }
     if let Some(folder) = &args.plots {
-        output::folder(folder)?;
+        files::folder(folder)?;
     }
     let entry = if args.noise_everywhere { Noise::Everywhere } else { Noise::Printed };
-    let settings = Settings {
+    let settings = SimulationSettings {
         periods: args.periods as usize,
-        method: args.fixed.map_or(Method::Adaptive, |steps| Method::Fixed(steps as usize)),
+        integrator: args.fixed.map_or(Integrator::Adaptive, |steps| Integrator::Fixed(steps as usize)),
         samples: args.samples as usize,
         noise: power.map(|power| (NoiseSettings { power, seed: args.seed }, entry)),
         noise_steps: args.noise_steps as usize,
@@ -65,17 +66,15 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     let simulation = simulate(&closed_loop, &start, &settings, &bar);
     bar.finish();
 
-    let report = match args.format {
-        SimulationFormat::Text => text(&plant, &closed_loop, &simulation),
-        SimulationFormat::Json => output::json_text(&json(&plant, &closed_loop, &simulation)),
-    };
+    let report = SimulationReport { plant: &plant, closed_loop: &closed_loop, simulation: &simulation };
+    let text = output::report(&report, args.format);
     if let (Some(file), Ok(run)) = (&csv_file, &simulation.long) {
         file.write(csv(&plant, &closed_loop, run))?;
     }
     if let Some(folder) = &args.plots {
         write_figures(folder, &args.plant, &closed_loop, &simulation)?;
     }
-    if let Err(code) = output::data(&report) {
+    if let Err(code) = output::data(&text) {
         return Ok(code);
     }
     let noisy = simulation.noisy.as_ref().is_none_or(Result::is_ok);
@@ -87,7 +86,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
 }
 
 /// What is done otherwise than the call may suggest.
-fn remarks(plant: &Plant, regulator: &Regulator, settings: &Settings, args: &SimulateArgs) {
+fn remarks(plant: &Plant, regulator: &Regulator, settings: &SimulationSettings, args: &SimulateArgs) {
     if let (Some(asked), Some(steps)) = (args.fixed, settings.fixed_steps())
         && steps != asked as usize
     {

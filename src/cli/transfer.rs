@@ -3,15 +3,15 @@
 use super::args::{Format, TransferArgs};
 use super::counts::counts;
 use super::failure::Failure;
-use super::input;
-use super::output::{self, Input, OutputFile};
+use super::files::{Input, OutputFile};
 use super::progress::Bar;
+use super::{input, output};
 use sigmastar::certify::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
 use sigmastar::progress::Progress;
-use sigmastar::report::{PairChoice, TransferReport, TransferRequest};
+use sigmastar::report::transfer_figure;
 use sigmastar::spec::Specification;
-use sigmastar::transfer::PairError;
+use sigmastar::transfer::{PairChoice, PairError, TransferStudy};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
@@ -38,23 +38,21 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
     let n_o = counts(&args.n_o)?;
     let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
     let bar = Bar::new(n_o.len() as u64, args.quiet);
-    let request = TransferRequest { pair, n_o };
-    let report = TransferReport::new(&spec, DEFAULT_PRECISION, &request, || bar.advance());
+    let study = TransferStudy::new(&spec, DEFAULT_PRECISION, &pair, &n_o, || bar.advance());
     bar.finish();
-    let report = match report {
-        Ok(report) => report,
+    let study = match study {
+        Ok(study) => study,
         Err(error) => return Ok(no_pair(args, &error)),
     };
     if let Some(file) = &plot {
-        let svg = report.plot().map_err(|reason| {
-            Failure::call(format!("the plot cannot be drawn: {reason}"), "leave --plot out, and report this")
-        })?;
+        let svg = transfer_figure(&study).svg();
+        let svg = svg.map_err(|error| Failure::call(error.to_string(), "leave --plot out, and report this"))?;
         file.write(&svg)?;
         if !args.quiet {
             output::remark(&format!("the plot is in `{}`", file.name()));
         }
     }
-    let text = output::report(&report, args.format);
+    let text = output::report(&study, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
 }
 
@@ -70,13 +68,8 @@ fn svg_file(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
 
 /// Says why there is no pair, and returns the exit code.
 fn no_pair(args: &TransferArgs, error: &PairError) -> u8 {
-    let (verdict, help) = match error {
-        PairError::BelowZeroValue { .. } => (Verdict::Refuted, "choose a k0 that is not below T_N(0)"),
-        PairError::OutOfRange { .. } => {
-            (Verdict::Undecided, "scale mu, base_frequency or the weights, or choose a k0 within 1e-300 to 1e300")
-        }
-        PairError::NotFound { .. } => (Verdict::Undecided, "choose a smaller k0, which lets k1 be larger"),
-    };
+    let verdict = if error.is_refuted() { Verdict::Refuted } else { Verdict::Undecided };
+    let help = error.way_out();
     if args.format == Format::Json {
         let value = serde_json::json!({
             "format": "sigmastar/transfer", "version": 1, "verdict": verdict.to_string(),

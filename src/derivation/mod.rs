@@ -20,6 +20,7 @@ pub mod repaired;
 pub mod sharp;
 pub mod stability;
 pub mod table;
+pub mod targets;
 pub mod uniqueness;
 
 use crate::data::Data;

@@ -1,7 +1,7 @@
 //! E15 and E16: sentences that claim too much, constants that are larger than needed.
 
 use super::evidence::{Evidence, Relation};
-use super::kappa::{pole_sums, value_at_zero};
+use super::kappa::pole_sums;
 use super::numbers::{integer, power, quotient, ratio};
 use super::{Bearing, Class, Erratum, ForData, is_constant, vanishes};
 use crate::data::{Bound, Data};
@@ -85,7 +85,7 @@ fn e15_for_data(data: &Data<'_>) -> ForData {
     };
     ForData::new(bearing, summary)
         .figure("w", &data.spec.internal_model.base_frequency)
-        .figure("T_N(0)/w^2", value_at_zero(data) / data.base_frequency.sqr())
+        .figure("T_N(0)/w^2", data.transfer_at_zero() / data.base_frequency.sqr())
 }
 
 /// E16: sound constants that are larger than needed.

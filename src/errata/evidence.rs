@@ -199,14 +199,7 @@ impl Evidence {
         relation: Relation,
         rhs: impl Into<Side>,
     ) -> Evidence {
-        Evidence {
-            statement: statement.into(),
-            lhs: lhs.into(),
-            relation,
-            rhs: rhs.into(),
-            truth: Truth::Undecided,
-            kind: Kind::Cited,
-        }
+        Evidence { truth: Truth::Undecided, kind: Kind::Cited, ..Evidence::rigorous(statement, lhs, relation, rhs) }
     }
 
     /// Whether the relation was proved here.

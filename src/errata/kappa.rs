@@ -1,9 +1,9 @@
 //! The transfer T_N itself, and the paper's constants for it.
 
-use super::numbers::{quotient, root};
+use super::numbers::{integer, quotient};
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
-use crate::transfer::{closed_form_pair, printed_transfer};
+use crate::transfer::{PrintedTransfer, closed_form_pair, printed_transfer};
 use rug::Rational;
 
 /// T_N at x with x^2 = `square`, exactly, for rational weights n_0, ..., n_N; `square` is none of 0, 1, 4, ..., N^2.
@@ -26,30 +26,9 @@ pub(super) fn pole_sums(weights: &[Rational], square: &Rational) -> (Rational, R
     (slope, Rational::from(sum.square_ref()) * square)
 }
 
-/// The paper's constants of P:lemma:transfer_function, to the letter.
-#[derive(Clone, Debug)]
-pub(super) struct PrintedKappa {
-    /// S (P:29).
-    pub(super) s: Enclosure,
-    /// a (P:30).
-    pub(super) a: Enclosure,
-    /// varpi (P:31).
-    pub(super) varpi: Enclosure,
-    /// kappa_0 = 7 n_0/2.
-    pub(super) kappa_0: Enclosure,
-    /// kappa_1 = 4 n_0/varpi^2 + 512/(mu^2 n_1).
-    pub(super) kappa_1: Enclosure,
-}
-
-impl PrintedKappa {
-    /// For the paper's weights (n_0 = 2, n_l = l^-1.5) and mu = 1.
-    pub(super) fn of_the_example() -> PrintedKappa {
-        let s = 2 + 2 / (3 * example_weight(2)) + quotient(10, 3);
-        let a = ((2 + root(2)) * &s).max(&quotient(25, 8));
-        let varpi = (48 * (&a + 2)).recip();
-        let kappa_1 = 8 / varpi.sqr() + 512;
-        PrintedKappa { kappa_0: quotient(7, 1), s, a, varpi, kappa_1 }
-    }
+/// The paper's constants of P:lemma:transfer_function for its weights (n_0 = 2, n_l = l^-1.5) and mu = 1.
+pub(super) fn printed_example() -> PrintedTransfer {
+    PrintedTransfer::new(&integer(2), &integer(1), &example_weight(2), &integer(1))
 }
 
 /// `l^-1.5`, the paper's n_l for l >= 1 in its example.
@@ -101,17 +80,12 @@ pub(super) fn printed_pair_holds(data: &Data<'_>) -> Truth {
     let (big_0, big_1) = (&printed.kappa_0 * &square, &printed.kappa_1 * square.sqr());
     let closed = ClosedForm::new(&data.n_0, &data.n_1, &data.nu);
     let holds = closed.comparisons(&big_0, &big_1).iter().fold(Truth::True, |all, (_, lhs, rhs)| all.and(lhs.le(rhs)));
-    let refuted = value_at_zero(data).gt(&big_0);
+    let refuted = data.transfer_at_zero().gt(&big_0);
     match (holds, refuted) {
         (Truth::True, _) => Truth::True,
         (_, Truth::True) => Truth::False,
         _ => Truth::Undecided,
     }
-}
-
-/// T_N(0) = 1/(nu^2 n_0).
-pub(super) fn value_at_zero(data: &Data<'_>) -> Enclosure {
-    data.transfer_at_zero()
 }
 
 /// kappa_1 of the closed form in the units of omega: k1/w^4.

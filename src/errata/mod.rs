@@ -84,14 +84,14 @@ impl fmt::Display for Bearing {
 
 /// A named number.
 #[derive(Clone, Debug)]
-pub struct Figure {
+pub struct Quantity {
     /// What it is.
     pub name: String,
     /// Its value.
     pub value: Side,
 }
 
-impl fmt::Display for Figure {
+impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}", self.name, self.value)
     }
@@ -105,7 +105,7 @@ pub struct ForData {
     /// One sentence.
     pub summary: String,
     /// The numbers behind it.
-    pub figures: Vec<Figure>,
+    pub figures: Vec<Quantity>,
 }
 
 impl ForData {
@@ -114,7 +114,7 @@ impl ForData {
     }
 
     fn figure(mut self, name: impl Into<String>, value: impl Into<Side>) -> ForData {
-        self.figures.push(Figure { name: name.into(), value: value.into() });
+        self.figures.push(Quantity { name: name.into(), value: value.into() });
         self
     }
 }
@@ -154,22 +154,6 @@ impl Erratum {
     pub fn is_proved(&self) -> bool {
         let mut rigorous = self.evidence.iter().filter(|e| e.kind == Kind::Rigorous).peekable();
         rigorous.peek().is_some() && rigorous.all(Evidence::is_proved)
-    }
-}
-
-/// The item on several lines: heading, printed, instead, evidence, meaning for the data.
-impl fmt::Display for Erratum {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{} [{}] {}", self.id, self.class, self.place)?;
-        writeln!(f, "  printed: {}", self.printed)?;
-        writeln!(f, "  instead: {}", self.instead)?;
-        for evidence in &self.evidence {
-            writeln!(f, "  - {evidence}")?;
-        }
-        match &self.for_data {
-            Some(for_data) => writeln!(f, "  for this data: {for_data}"),
-            None => Ok(()),
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! E10 to E12: what the paper concludes for the size of the periodic error.
 
 use super::evidence::{Evidence, Relation};
-use super::kappa::{PrintedKappa, example_weight};
+use super::kappa::{example_weight, printed_example};
 use super::numbers::{PRECISION, integer, pi, quotient, ratio, rational, root};
 use super::square_wave;
 use super::{Bearing, Class, Erratum, ForData};
@@ -32,7 +32,7 @@ pub(super) fn e10(data: Option<&Data<'_>>) -> Erratum {
     // sqrt(n_0) sqrt(n_0)/(mu n_0) = 1/mu.
     let by_n_0 = ratio(1, 1) + ratio(1, 10);
     let n_bar = (2 + power_tail(1, &quotient(3, 2), PRECISION)).sqrt();
-    let kappa_0 = PrintedKappa::of_the_example().kappa_0;
+    let kappa_0 = printed_example().kappa_0;
     let evidence = vec![
         Evidence::rigorous(
             "n_o = 0, n_0 = 2, mu = 10, T = 4, sigma = 4000, q = tanh(2000 sin(pi t/2)): sigma sup|e_p| against sup|q| + \

@@ -142,25 +142,17 @@ pub(super) fn e4(data: Option<&Data<'_>>) -> Erratum {
     // F + F' + 12 I: nonnegative means x'F x >= -6 |x|^2.
     let shifted = [[2 * f[0][0] + 12, f[0][1] + f[1][0]], [f[0][1] + f[1][0], 2 * f[1][1] + 12]];
     let mut evidence = Vec::new();
-    for (what, value) in
-        ["first diagonal entry", "second diagonal entry", "determinant"].iter().zip(is_nonnegative(lyapunov))
-    {
-        evidence.push(Evidence::rigorous(
-            format!("P = diag(1,100), alpha = 1/2, F = [[-1,10],[0,-1]]: -(P F + F'P + 2 alpha P) >= 0, {what}"),
-            value,
-            Relation::GreaterOrEqual,
-            0,
-        ));
-    }
-    for (what, value) in
-        ["first diagonal entry", "second diagonal entry", "determinant"].iter().zip(is_nonnegative(shifted))
-    {
-        evidence.push(Evidence::rigorous(
-            format!("x'F x >= -6 |x|^2: F + F' + 12 I >= 0, {what}"),
-            value,
-            Relation::GreaterOrEqual,
-            0,
-        ));
+    for (what, matrix) in [
+        ("P = diag(1,100), alpha = 1/2, F = [[-1,10],[0,-1]]: -(P F + F'P + 2 alpha P) >= 0", lyapunov),
+        ("x'F x >= -6 |x|^2: F + F' + 12 I >= 0", shifted),
+    ] {
+        let parts = ["first diagonal entry", "second diagonal entry", "determinant"];
+        evidence.extend(
+            parts
+                .iter()
+                .zip(is_nonnegative(matrix))
+                .map(|(part, value)| Evidence::rigorous(format!("{what}, {part}"), value, Relation::GreaterOrEqual, 0)),
+        );
     }
     for (name, x) in [("0.2", ratio(1, 5)), ("1", ratio(1, 1))] {
         let d = growth(&x);

@@ -1,7 +1,7 @@
 //! E6 to E9: the transfer from q to the internal model.
 
 use super::evidence::{Evidence, Relation};
-use super::kappa::{ClosedForm, PrintedKappa, pole_sums, printed_pair_holds, proved_kappa_1, transfer, value_at_zero};
+use super::kappa::{ClosedForm, pole_sums, printed_example, printed_pair_holds, proved_kappa_1, transfer};
 use super::numbers::{integer, pi, quotient, ratio, rational};
 use super::{Bearing, Class, Erratum, ForData};
 use crate::data::Data;
@@ -19,7 +19,7 @@ pub(super) fn e6(data: Option<&Data<'_>>) -> Erratum {
     let nu_squared = Rational::from(w_squared.recip_ref());
     let actual = transfer(&weights, &nu_squared, &square) / &w_squared;
     let omega_squared = Rational::from(&square * &w_squared);
-    let printed = PrintedKappa::of_the_example();
+    let printed = printed_example();
     let bound = &printed.kappa_0 + &printed.kappa_1 * rational(&omega_squared);
     let evidence = vec![
         Evidence::rigorous("n_o = 1, n_0 = 2, n_1 = 1, x^2 = 2/3: g_1(x)^2", g_squared, Relation::Equal, 0),
@@ -105,7 +105,7 @@ pub(super) fn e7(data: Option<&Data<'_>>) -> Erratum {
     ];
     let for_data = data.map(|data| {
         let k0 = 7 * &data.n_0 / 2;
-        let at_zero = value_at_zero(data);
+        let at_zero = data.transfer_at_zero();
         let (bearing, summary) = match at_zero.gt(&k0) {
             Truth::True => {
                 (Bearing::Bites, "with the correction E6, kappa_0 = k0/w^2, the printed k0 is below the transfer at 0")
@@ -132,7 +132,7 @@ pub(super) fn e7(data: Option<&Data<'_>>) -> Erratum {
 /// E8: a factor lost in a proof.
 pub(super) fn e8(data: Option<&Data<'_>>) -> Erratum {
     let factor = Rational::from(ratio(2, 1).square_ref());
-    let printed = PrintedKappa::of_the_example();
+    let printed = printed_example();
     let closed = ClosedForm::new(&integer(2), &integer(1), &integer(1));
     let mut evidence = vec![
         Evidence::rigorous(
@@ -176,7 +176,7 @@ pub(super) fn e8(data: Option<&Data<'_>>) -> Erratum {
 
 /// E9: the size of kappa_1.
 pub(super) fn e9(data: Option<&Data<'_>>) -> Erratum {
-    let printed = PrintedKappa::of_the_example();
+    let printed = printed_example();
     let closed = ClosedForm::new(&integer(2), &integer(1), &integer(1));
     // n_o = 1, x = 0.827: (T_1(x) - 7)/x^2, which every k1 that goes with k0 = 7 must reach.
     let square = Rational::from(ratio(827, 1000).square_ref());

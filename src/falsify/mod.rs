@@ -6,8 +6,10 @@
 //! frequencies are claims of their own, which [`with_base_frequency`] makes.
 
 mod claim;
+mod counterexample;
 mod draw;
 mod family;
+mod finding;
 mod frequency;
 mod jacobian;
 mod linear;
@@ -18,12 +20,14 @@ mod shape;
 mod trial;
 
 pub use claim::Claim;
+pub use counterexample::counterexample_plant;
 pub use draw::{DrawnPlant, draw};
 pub use family::{Family, Harmonic};
+pub use finding::{Falsification, Finding, Trial, TrialSettings, Violation};
 pub use frequency::{FrequencyError, with_base_frequency};
 pub use linear::linear_member;
 pub use membership::respects;
 pub use random::Random;
-pub use report::{FORMAT, VERSION, counterexample_plant, json, text};
+pub use report::FalsificationReport;
 pub use shape::{Factor, Number, Shape};
-pub use trial::{Finding, Outcome, Settings, Trial, Violation, falsify};
+pub use trial::falsify;

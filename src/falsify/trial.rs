@@ -1,11 +1,12 @@
 //! One plant, one initial condition, one number of oscillators: simulated and checked.
 
 use super::claim::Claim;
+use super::counterexample::counterexample_plant;
 use super::draw::{DrawnPlant, draw};
+use super::finding::{Falsification, Finding, Trial, TrialSettings, Violation};
 use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
 use super::random::Random;
-use super::report::counterexample_plant;
 use crate::certify::no_plant;
 use crate::data::Data;
 use crate::enclosure::DEFAULT_PRECISION;
@@ -18,7 +19,7 @@ use crate::simulate::{
 use rayon::prelude::*;
 
 /// The numbers of oscillators that are tried.
-const OSCILLATORS: [u32; 6] = [0, 1, 2, 3, 5, 8];
+const TRIED_N_O: [u32; 6] = [0, 1, 2, 3, 5, 8];
 /// Draws before a trial is given up.
 const DRAWS: usize = 30;
 /// How far above sigma* a trial is.
@@ -30,83 +31,14 @@ const PERIODS: usize = 12;
 /// Samples of a period in that comparison.
 const SAMPLES: usize = 4096;
 
-/// How many trials, from which seed.
-#[derive(Clone, Copy, Debug)]
-pub struct Settings {
-    /// The number of trials.
-    pub trials: u64,
-    /// The seed; trial k uses it and k only.
-    pub seed: u64,
-}
-
-/// What a trial is about.
-#[derive(Clone, Debug)]
-pub struct Trial {
-    /// Its number, from 1.
-    pub number: u64,
-    /// The plant.
-    pub plant: DrawnPlant,
-    /// sigma, a little above sigma*.
-    pub sigma: f64,
-    /// n_o.
-    pub n_o: u32,
-    /// x(0), e(0), z(0) on the boundary of the initial set.
-    pub start: Vec<f64>,
-}
-
-/// A bound that does not hold.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Violation {
-    /// What was bounded.
-    pub quantity: &'static str,
-    /// By what.
-    pub bound: f64,
-    /// What it is.
-    pub found: f64,
-}
-
-/// What became of a trial.
-#[derive(Clone, Debug)]
-pub enum Finding {
-    /// Every bound holds; the largest share of one that was used.
-    Holds {
-        /// For each quantity the found value over the bound.
-        shares: Vec<(&'static str, f64)>,
-    },
-    /// A bound does not hold.
-    Violated(Box<Trial>, Violation),
-    /// No plant fits, or the simulation could not be finished for a reason that is no violation.
-    Unfinished(String),
-}
-
-/// The outcome of all trials, in their order.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// What was asked for.
-    pub settings: Settings,
-    /// One finding for each trial.
-    pub findings: Vec<Finding>,
-}
-
-impl Outcome {
-    /// The first violation.
-    #[must_use]
-    pub fn counterexample(&self) -> Option<(&Trial, &Violation)> {
-        self.findings.iter().find_map(|finding| match finding {
-            Finding::Violated(trial, violation) => Some((&**trial, violation)),
-            _ => None,
-        })
-    }
-}
-
-/// Runs the trials, in parallel; the outcome does not depend on how many at a time. None is run where no plant with a
+/// Runs the trials, in parallel; what they find does not depend on how many at a time. None is run where no plant with a
 /// state satisfies data that speak of one.
 #[must_use]
-pub fn falsify(claim: &Claim, settings: Settings, progress: &dyn Progress) -> Outcome {
+pub fn falsify(claim: &Claim, settings: TrialSettings, progress: &dyn Progress) -> Falsification {
     if let Some(reason) = no_plant(&Data::new(&claim.spec, DEFAULT_PRECISION), Some(&claim.reach)) {
         // A plant without x would show nothing about such data.
         let findings = (0..settings.trials).map(|_| Finding::Unfinished(reason.to_string())).collect();
-        return Outcome { settings, findings };
+        return Falsification { settings, findings };
     }
     let findings = (1..=settings.trials)
         .into_par_iter()
@@ -116,7 +48,7 @@ pub fn falsify(claim: &Claim, settings: Settings, progress: &dyn Progress) -> Ou
             finding
         })
         .collect();
-    Outcome { settings, findings }
+    Falsification { settings, findings }
 }
 
 fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
@@ -129,7 +61,7 @@ fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     let Some(plant) = drawn.or_else(|| linear_member(claim, &mut random, &mut { MAX_OPERATIONS })) else {
         return Finding::Unfinished("no plant of the drawn kind is proved to lie within the families".to_owned());
     };
-    let n_o = OSCILLATORS[random.whole(0, OSCILLATORS.len() as u32 - 1) as usize];
+    let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
     let start = start(claim, &plant, &regulator, &mut random);
@@ -171,8 +103,8 @@ struct Checks {
 impl Checks {
     fn at_most(&mut self, quantity: &'static str, found: f64, bound: f64) {
         self.shares.push((quantity, if bound > 0.0 { found / bound } else { 0.0 }));
-        // NaN is no value that a bound allows.
-        let holds = found <= bound * (1.0 + TOLERANCE) + 1e-9;
+        // NaN is no value that a bound allows; and room above a large bound may be infinite, which what is found is not to be.
+        let holds = found <= bound || (found.is_finite() && found <= bound * (1.0 + TOLERANCE) + 1e-9);
         if !holds && self.violation.is_none() {
             self.violation = Some(Violation { quantity, bound, found });
         }
@@ -317,6 +249,9 @@ mod tests {
             checks.at_most("quantity", found, 1.0);
             assert_eq!(checks.violation.is_none(), holds, "{found}");
         }
+        let mut checks = Checks { shares: Vec::new(), violation: None };
+        checks.at_most("a solution that escapes", f64::INFINITY, f64::MAX);
+        assert!(checks.violation.is_some());
     }
 
     #[test]

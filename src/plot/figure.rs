@@ -12,7 +12,7 @@ const SIZE: (u32, u32) = (820, 500);
 
 /// The library puts points on whole pixels, which makes steps of smooth curves: figures are drawn this much larger and
 /// shown at their size.
-pub(crate) const DETAIL: u32 = 4;
+const DETAIL: u32 = 4;
 
 /// Which axes are logarithmic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +25,17 @@ pub enum Scale {
     LogLog,
 }
 
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// As a line in a colour of its own.
+    Line,
+    /// With marks at its points, for values at separate places.
+    Marked,
+    /// As a black line: what bounds the others.
+    Bound,
+}
+
 /// One curve.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -32,8 +43,8 @@ pub struct Curve {
     pub label: String,
     /// Its points; those that are not finite, or not positive on a logarithmic axis, are left out.
     pub points: Vec<(f64, f64)>,
-    /// Whether the points are marked, for values at separate places.
-    pub marked: bool,
+    /// How it is drawn.
+    pub style: Style,
 }
 
 /// A figure.
@@ -83,7 +94,7 @@ impl Figure {
         if all().next().is_none() {
             return Err(PlotError::Empty { title: self.title.clone() });
         }
-        let marked = curves.iter().any(|curve| curve.marked);
+        let marked = curves.iter().any(|curve| curve.style == Style::Marked);
         let x = match self.scale {
             Scale::LogLog => decades(all().map(|point| point.0)),
             // Marks keep off the frame.
@@ -136,10 +147,14 @@ impl Figure {
     {
         let words = |error: &dyn std::fmt::Display| error.to_string();
         let area = canvas(text, SIZE).map_err(|error| words(&error))?;
-        let coloured = |index: usize| COLOURS[index % COLOURS.len()];
+        let mut colours = COLOURS.iter().cycle();
+        let mut colour = |curve: &Curve| match curve.style {
+            Style::Bound => BLACK,
+            Style::Line | Style::Marked => colours.next().copied().unwrap_or(BLACK),
+        };
         let entries: Vec<(String, RGBColor)> =
-            curves.iter().enumerate().map(|(index, curve)| (curve.label.clone(), coloured(index))).collect();
-        let marked = curves.iter().any(|curve| curve.marked);
+            curves.iter().map(|curve| (curve.label.clone(), colour(curve))).collect();
+        let marked = curves.iter().any(|curve| curve.style == Style::Marked);
         let area = heading(&area, &self.title, &entries).map_err(|error| words(&error))?;
         let mut chart = ChartBuilder::on(&area)
             .margin(12 * DETAIL)
@@ -167,11 +182,10 @@ impl Figure {
             .bold_line_style(RGBColor(220, 220, 220).stroke_width(DETAIL))
             .draw()
             .map_err(|error| words(&error))?;
-        for (index, curve) in curves.iter().enumerate() {
-            let colour = coloured(index);
+        for (curve, (_, colour)) in curves.iter().zip(&entries) {
             let line = LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2 * DETAIL));
             chart.draw_series(line).map_err(|error| words(&error))?;
-            if curve.marked {
+            if curve.style == Style::Marked {
                 let markers = curve.points.iter().map(|&point| Circle::new(point, 4 * DETAIL, colour.filled()));
                 chart.draw_series(markers).map_err(|error| words(&error))?;
             }
@@ -184,20 +198,20 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type AreaError = DrawingAreaErrorKind<std::io::Error>;
 
 /// An empty figure of a size in pixels, drawn [`DETAIL`] times larger.
-pub(crate) fn canvas(text: &mut String, (width, height): (u32, u32)) -> Result<Area<'_>, AreaError> {
+fn canvas(text: &mut String, (width, height): (u32, u32)) -> Result<Area<'_>, AreaError> {
     let area = SVGBackend::with_string(text, (width * DETAIL, height * DETAIL)).into_drawing_area();
     area.fill(&WHITE)?;
     Ok(area)
 }
 
 /// The figure of [`canvas`] shown at its size.
-pub(crate) fn at_size(text: String, (width, height): (u32, u32)) -> String {
+fn at_size(text: String, (width, height): (u32, u32)) -> String {
     let drawn = format!("width=\"{}\" height=\"{}\"", width * DETAIL, height * DETAIL);
     text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1)
 }
 
 /// Draws the title and, below it, what each colour is; returns the area that is left, so that no legend lies on a curve.
-pub(crate) fn heading<'a>(area: &Area<'a>, title: &str, entries: &[(String, RGBColor)]) -> Result<Area<'a>, AreaError> {
+fn heading<'a>(area: &Area<'a>, title: &str, entries: &[(String, RGBColor)]) -> Result<Area<'a>, AreaError> {
     let unit = DETAIL as i32;
     let (width, _) = area.dim_in_pixel();
     let style = |size: u32| ("sans-serif", size * DETAIL).into_font().color(&BLACK);
@@ -273,7 +287,7 @@ mod tests {
     use super::*;
 
     fn figure(scale: Scale, points: &[(f64, f64)]) -> Figure {
-        let curve = Curve { label: "curve".to_owned(), points: points.to_vec(), marked: true };
+        let curve = Curve { label: "curve".to_owned(), points: points.to_vec(), style: Style::Marked };
         let name = |text: &str| text.to_owned();
         Figure { title: name("Title"), x: name("t"), y: name("e"), scale, floor: 1e-9, curves: vec![curve] }
     }

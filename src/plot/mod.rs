@@ -3,6 +3,5 @@
 mod figure;
 mod palette;
 
-pub use figure::{Curve, Figure, PlotError, Scale};
-pub(crate) use figure::{DETAIL, at_size, canvas, heading};
+pub use figure::{Curve, Figure, PlotError, Scale, Style};
 pub(crate) use palette::COLOURS;

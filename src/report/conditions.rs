@@ -1,6 +1,6 @@
 //! The decided conditions with both sides.
 
-use super::blocks::{Block, Table};
+use super::document::{Block, Table};
 use super::number::{estimate, margin, pair};
 use crate::certify::Certification;
 
@@ -26,7 +26,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             estimate(condition.relative_margin()),
             condition.truth().to_string(),
         ]);
-        legend.push(format!("{}: {}", condition.id, condition.what));
+        legend.push((condition.id, condition.what.clone()));
     }
     vec![
         Block::Heading(format!("Conditions of the {} derivation", run.options.derivation.name())),
@@ -35,6 +35,6 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
              is an estimate. A margin near 0 is no weakness: at the smallest sigma some conditions are active.",
         ),
         Block::Table(table),
-        Block::List(legend),
+        Block::facts(legend),
     ]
 }

@@ -1,6 +1,6 @@
 //! The constants of the three derivations side by side.
 
-use super::blocks::{Block, Table};
+use super::document::{Block, Table};
 use super::number::{compact, estimate};
 use crate::certify::Certification;
 use crate::derivation::table::{At, Entry, Row, Status, Value};
@@ -13,7 +13,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         return Vec::new();
     }
     let mut blocks = vec![
-        Block::Heading("Constants in the three derivations".to_owned()),
+        Block::heading("Constants in the three derivations"),
         Block::says(
             "Rounded to the nearest digits shown; [lower, upper] where the enclosure is wider than these. The full \
              enclosures are in the certificate and in the JSON report. (!) marks a printed value that is not sound, \
@@ -91,7 +91,7 @@ fn collect(lists: &mut Vec<(String, Vec<String>)>, text: &str, name: String) {
 
 /// "a, b: text" for each text.
 fn listed(lists: Vec<(String, Vec<String>)>) -> Block {
-    Block::List(lists.into_iter().map(|(text, names)| format!("{}: {text}", names.join(", "))).collect())
+    Block::facts(lists.into_iter().map(|(text, names)| (names.join(", "), text)))
 }
 
 /// The quotient of two values in floating point, where both are positive numbers.

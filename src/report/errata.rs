@@ -1,10 +1,9 @@
 //! The list of errata as a report.
 
-use super::blocks::{Block, clean};
-use super::{Readable, json};
+use super::document::{Block, Readable, clean};
 use crate::errata::{Erratum, Side, errata};
 use crate::spec::Specification;
-use serde_json::{Value, json as object};
+use serde_json::{Value, json};
 
 /// The list of errata, with what each item means for a specification where one is given.
 pub struct ErrataReport {
@@ -35,14 +34,11 @@ impl Readable for ErrataReport {
         ];
         for item in &self.items {
             blocks.push(Block::Heading(format!("{} [{}]", item.id, item.class)));
-            let mut lines = vec![
-                format!("place: {}", item.place),
-                format!("printed: {}", item.printed),
-                format!("instead: {}", item.instead),
-            ];
-            lines.extend(item.evidence.iter().map(|evidence| format!("evidence: {evidence}")));
-            lines.extend(item.for_data.iter().map(|for_data| format!("for this specification: {for_data}")));
-            blocks.push(Block::List(lines));
+            let said = [("place", item.place), ("printed", item.printed), ("instead", item.instead)];
+            let mut facts: Vec<(&str, String)> = said.map(|(name, text)| (name, text.to_owned())).into();
+            facts.extend(item.evidence.iter().map(|evidence| ("evidence", evidence.to_string())));
+            facts.extend(item.for_data.iter().map(|for_data| ("for this specification", for_data.to_string())));
+            blocks.push(Block::facts(facts));
         }
         blocks
     }
@@ -50,17 +46,17 @@ impl Readable for ErrataReport {
     /// As JSON: `{"format": "sigmastar/errata", "version": 1, "errata": [...]}`.
     fn json(&self) -> Value {
         let items: Vec<Value> = self.items.iter().map(item_json).collect();
-        object!({ "format": "sigmastar/errata", "version": 1, "specification": self.name, "errata": items })
+        json!({ "format": "sigmastar/errata", "version": 1, "specification": self.name, "errata": items })
     }
 }
 
 fn item_json(item: &Erratum) -> Value {
-    let side = |side: &Side| json::interval(&side.enclosure());
+    let side = |side: &Side| json!(side.enclosure().decimals());
     let evidence: Vec<Value> = item
         .evidence
         .iter()
         .map(|evidence| {
-            object!({
+            json!({
                 "kind": evidence.kind.to_string(), "statement": evidence.statement,
                 "lhs": side(&evidence.lhs), "relation": evidence.relation.to_string(), "rhs": side(&evidence.rhs),
                 "truth": evidence.truth.to_string(),
@@ -71,11 +67,11 @@ fn item_json(item: &Erratum) -> Value {
         let figures: Vec<Value> = for_data
             .figures
             .iter()
-            .map(|figure| object!({ "name": figure.name, "value": side(&figure.value) }))
+            .map(|figure| json!({ "name": figure.name, "value": side(&figure.value) }))
             .collect();
-        object!({ "bearing": for_data.bearing.to_string(), "summary": for_data.summary, "figures": figures })
+        json!({ "bearing": for_data.bearing.to_string(), "summary": for_data.summary, "figures": figures })
     });
-    object!({
+    json!({
         "id": item.id, "class": item.class.to_string(), "place": item.place, "printed": item.printed,
         "instead": item.instead, "proved": item.is_proved(), "evidence": evidence, "for_data": for_data,
     })

@@ -1,6 +1,6 @@
 //! Exact regulation with infinitely many oscillators.
 
-use super::blocks::Block;
+use super::document::Block;
 use super::number::exact;
 use crate::certify::{Certification, Verdict};
 use crate::number::{Direction, write_exact};
@@ -32,5 +32,5 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
         _ if run.sharp.proved().is_none() => "Not worked out: it belongs to the sharp derivation.".to_owned(),
         _ => "Nothing was proved about exact regulation.".to_owned(),
     };
-    vec![Block::Heading("Exact regulation (n_o infinite)".to_owned()), Block::says(said)]
+    vec![Block::heading("Exact regulation (n_o infinite)"), Block::says(said)]
 }

@@ -1,9 +1,13 @@
 //! Failures before a verdict on the claim: what is wrong with the input, for scripts.
 
-use super::json::{FORMAT, VERSION};
 use crate::certify::Verdict;
 use crate::spec::SpecErrors;
 use serde_json::{Value, json};
+
+/// The format of a report on a certification, and of what is told in its place.
+pub(super) const FORMAT: &str = "sigmastar/report";
+/// Its version.
+pub(super) const VERSION: u64 = 1;
 
 /// One object for each error, in order; numbers have all their digits.
 pub(super) fn errors_json<'e>(all: impl IntoIterator<Item = &'e SpecErrors>) -> Value {
@@ -33,5 +37,15 @@ pub(super) fn errors_json<'e>(all: impl IntoIterator<Item = &'e SpecErrors>) -> 
 /// The report object of a call that did not come to a claim: the verdict and the errors.
 #[must_use]
 pub fn failure_json<'e>(verdict: Verdict, errors: impl IntoIterator<Item = &'e SpecErrors>) -> Value {
-    json!({ "format": FORMAT, "version": VERSION, "verdict": verdict.to_string(), "errors": errors_json(errors) })
+    told(verdict, &errors_json(errors))
+}
+
+/// The same, of a call that is wrong as a whole.
+#[must_use]
+pub fn call_failure_json(verdict: Verdict, message: &str, help: &str) -> Value {
+    told(verdict, &json!([{ "code": "call", "message": message, "help": help }]))
+}
+
+fn told(verdict: Verdict, errors: &Value) -> Value {
+    json!({ "format": FORMAT, "version": VERSION, "verdict": verdict.to_string(), "errors": errors })
 }

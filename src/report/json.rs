@@ -1,86 +1,72 @@
-//! Reports as JSON.
+//! The report on a certification as JSON.
 
-use super::Report;
-use super::consequences::{Consequences, TargetKind, TargetOutcome, full};
-use super::failures::errors_json;
+use super::failures::{FORMAT, VERSION, errors_json};
 use super::matrix_checks::checks_json;
-use super::number::estimate;
+use super::number::{estimate, full};
 use super::obstacles::advice;
 use super::relative_degree::gains_json;
 use super::remarks::remarks;
-use super::sets::Sets;
-use super::verdict::{basis, exact_arguments, largest_arguments, sentence};
+use super::verdict::{basis, sentence};
 use crate::certificate::{conditions_json, constants_json, no_plant_json};
 use crate::certify::{Certification, Outcome, Verdict};
 use crate::derivation::condition::Condition;
-use crate::enclosure::Enclosure;
+use crate::derivation::targets::{Consequences, TargetKind, TargetOutcome};
 use crate::number::write_exact;
 use rug::Rational;
-use serde_json::{Map, Value, json};
-
-/// The format of a report.
-pub const FORMAT: &str = "sigmastar/report";
-/// Its version.
-pub const VERSION: u64 = 1;
-
-/// Both ends, rounded outward.
-pub(super) fn interval(value: &Enclosure) -> Value {
-    json!(value.decimals())
-}
+use serde_json::{Value, json};
 
 /// The whole report: the same content as the text.
-pub(super) fn report(report: &Report<'_>) -> Value {
-    let run = report.run;
-    let mut fields = Map::new();
-    let mut set = |name: &str, value: Value| fields.insert(name.to_owned(), value);
-    set("format", json!(FORMAT));
-    set("version", json!(VERSION));
-    set("verdict", json!(run.verdict.to_string()));
-    set("statement", json!(sentence(run)));
-    set("remarks", json!(remarks(run)));
-    set("no_plant", run.no_plant.as_ref().map_or(Value::Null, no_plant_json));
-    set("derivation", json!(run.options.derivation.name()));
-    set("specification", json!({ "name": run.spec.name, "sha256": run.spec.sha256 }));
-    if let (Some(sigma), Some(claimed), Some(sets)) = (run.sigma_star(), run.claimed_set(), Sets::new(run)) {
-        set("sigma_star", json!(write_exact(sigma)));
-        set("basis", json!(basis(run)));
+pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences>, rechecked: bool) -> Value {
+    let mut report = json!({
+        "format": FORMAT, "version": VERSION,
+        "verdict": run.verdict.to_string(), "statement": sentence(run), "remarks": remarks(run),
+        "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": run.options.derivation.name(),
+        "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
+    });
+    if let (Some(sigma), Some(claimed), Some(periodic), Some(error_box)) =
+        (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
+    {
+        report["sigma_star"] = json!(write_exact(sigma));
+        report["basis"] = json!(basis(run));
         let [x0, e0, z0] = [&claimed.x0, &claimed.e0, &claimed.z0].map(write_exact);
-        set("initial_set", json!({ "X0": x0, "E0": e0, "Z0": z0 }));
-        let [x, e, zeta, z] = sets.periodic.each_ref().map(full);
-        set("periodic_solution", json!({ "x": x, "e": e, "zeta": zeta, "z": z }));
-        let [x, e] = sets.error_box.each_ref().map(full);
-        set("error_box", json!({ "D_x": x, "D_e": e }));
+        report["initial_set"] = json!({ "X0": x0, "E0": e0, "Z0": z0 });
+        let [x, e, zeta, z] = periodic.each_ref().map(full);
+        report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
+        let [x, e] = error_box.each_ref().map(full);
+        report["error_box"] = json!({ "D_x": x, "D_e": e });
     }
-    if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(full)) {
-        set("largest_arguments", json!({ "X": x, "E": e }));
+    if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(full)) {
+        report["largest_arguments"] = json!({ "X": x, "E": e });
     }
     if !run.unproved_bounds.is_empty() {
         let errors: Vec<_> = run.unproved_bounds.iter().map(|problem| problem.errors(run.spec)).collect();
-        set("errors", errors_json(&errors));
+        report["errors"] = errors_json(&errors);
     }
     if run.verdict != Verdict::Certified {
-        set("advice", json!(advice(run, report.rechecked)));
+        report["advice"] = json!(advice(run, rechecked));
     }
-    set("conditions", conditions_with_truth(run.conditions()));
-    set("matrix_inequalities", checks_json(run));
-    set("derivations", derivations(run));
-    set("constants", constants_json(&run.constants));
-    set("printed", printed(run));
-    set("binding", json!(run.binding));
-    set("sensitivities", sensitivities(run));
-    set("consequences", report.consequences.as_ref().map_or(Value::Null, consequences));
-    set("exact_regulation", exact_regulation(run));
-    set("relative_degree", gains_json(run));
-    Value::Object(fields)
+    for (name, value) in [
+        ("conditions", conditions_with_truth(run.conditions())),
+        ("matrix_inequalities", checks_json(run)),
+        ("derivations", derivations(run)),
+        ("constants", constants_json(&run.constants)),
+        ("printed", printed(run)),
+        ("binding", json!(run.binding)),
+        ("sensitivities", sensitivities(run)),
+        ("consequences", consequences.map_or(Value::Null, consequences_json)),
+        ("exact_regulation", exact_regulation(run)),
+        ("relative_degree", gains_json(run)),
+    ] {
+        report[name] = value;
+    }
+    report
 }
 
 /// The conditions as in a certificate, with the truth of each.
 fn conditions_with_truth(conditions: &[Condition]) -> Value {
     let mut list = conditions_json(conditions);
     for (item, condition) in list.as_array_mut().into_iter().flatten().zip(conditions) {
-        if let Value::Object(fields) = item {
-            fields.insert("truth".to_owned(), json!(condition.truth().to_string()));
-        }
+        item["truth"] = json!(condition.truth().to_string());
     }
     list
 }
@@ -113,19 +99,20 @@ fn printed(run: &Certification<'_>) -> Value {
         .collect();
     json!({
         "refutation": printed.refutation.as_ref().map(ToString::to_string),
-        "sigma_without_it": printed.sigma.as_ref().map(interval),
+        "sigma_without_it": printed.sigma.as_ref().map(|sigma| sigma.decimals()),
         "reasons": reasons,
     })
 }
 
 /// Relative falls of sigma* for 1 %; floating-point estimates.
 fn sensitivities(run: &Certification<'_>) -> Value {
-    let one =
-        |(datum, gain): &(crate::search::Datum, f64)| json!({ "datum": datum.name(), "estimate": estimate(*gain) });
-    Value::Array(run.sensitivities.iter().map(one).collect())
+    run.sensitivities
+        .iter()
+        .map(|(datum, gain)| json!({ "datum": datum.name(), "estimate": estimate(*gain) }))
+        .collect()
 }
 
-fn consequences(consequences: &Consequences) -> Value {
+fn consequences_json(consequences: &Consequences) -> Value {
     let rows: Vec<Value> = consequences
         .by_n_o
         .iter()
@@ -160,7 +147,7 @@ fn exact_regulation(run: &Certification<'_>) -> Value {
     match (&run.exact, run.sigma_star()) {
         (Some(claim), Some(_)) => json!({
             "sigma_star_oo": write_exact(&claim.witness.sigma),
-            "largest_arguments": exact_arguments(run).map(|arguments| {
+            "largest_arguments": run.exact_arguments().map(|arguments| {
                 let [x, e] = arguments.each_ref().map(full);
                 json!({ "X": x, "E": e })
             }),

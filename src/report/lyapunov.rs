@@ -1,7 +1,6 @@
 //! The report of `sigmastar lyapunov`: P, the proved triple, the candidates, and the Floquet exponents beside.
 
-use super::Readable;
-use super::blocks::{Block, Table, clean};
+use super::document::{Block, Readable, Table, clean};
 use super::number::estimate;
 use crate::certificate::matrix_json;
 use crate::certify::Resolution;
@@ -32,12 +31,12 @@ impl Readable for LyapunovReport {
         let triple = &self.triple;
         let mut blocks = vec![
             Block::Title(format!("{}: the Lyapunov triple of its Jacobian", clean(&self.resolution.spec.name))),
-            Block::says(format!(
+            Block::Verdict(format!(
                 "Proved for every t and every matrix F of the Jacobian: p_low I <= P <= p_up I and P' + P F + F'P <= -2 alpha P \
                  with p_low = {}, p_up = {}, alpha = {}.",
                 triple.p_low.text, triple.p_up.text, triple.alpha.text
             )),
-            Block::Heading("P".to_owned()),
+            Block::heading("P"),
         ];
         let waves = self.matrix.harmonics.iter().zip(1..).flat_map(|([cos, sin], k)| {
             [
@@ -50,7 +49,7 @@ impl Readable for LyapunovReport {
             blocks.push(Block::says(format!("P, {title}, by rows:")));
             blocks.push(Block::List(rows.iter().map(|row| row_text(row)).collect()));
         }
-        blocks.push(Block::Heading("Candidates".to_owned()));
+        blocks.push(Block::heading("Candidates"));
         blocks.push(Block::says(
             "Floating point: what was tried, by its rate. The one with the smallest sigma* that could be proved is the one above.",
         ));
@@ -64,7 +63,7 @@ impl Readable for LyapunovReport {
             ]);
         }
         blocks.push(Block::Table(table));
-        blocks.push(Block::Heading("Floquet exponents (floating point, not certified)".to_owned()));
+        blocks.push(Block::heading("Floquet exponents (floating point, not certified)"));
         blocks.push(Block::says(
             "Of the middle of the Jacobian, in 1/time. Minus the largest real part bounds alpha for every P(t).",
         ));
@@ -78,28 +77,25 @@ impl Readable for LyapunovReport {
 
     /// As JSON: `{"format": "sigmastar/lyapunov", "version": 1, ...}`.
     fn json(&self) -> Value {
-        let mut fields = serde_json::Map::new();
-        fields.insert("format".to_owned(), json!("sigmastar/lyapunov"));
-        fields.insert("version".to_owned(), json!(1));
-        fields.insert("verdict".to_owned(), json!("certified"));
-        fields.extend(matrix_json(&self.matrix));
-        for (name, value) in [("p_low", &self.triple.p_low), ("p_up", &self.triple.p_up), ("alpha", &self.triple.alpha)]
-        {
-            fields.insert(name.to_owned(), json!(value.text));
+        let Lyapunov { p_low, p_up, alpha, .. } = &self.triple;
+        let mut report = json!({ "format": "sigmastar/lyapunov", "version": 1, "verdict": "certified" });
+        for (name, value) in matrix_json(&self.matrix) {
+            report[name] = value;
         }
-        let candidates =
-            self.resolution.candidates.found.iter().zip(&self.resolution.sigmas).map(|(candidate, sigma)| {
-                json!({
-                    "alpha": estimate(candidate.alpha),
-                    "ratio": estimate(candidate.ratio),
-                    "degree": candidate.matrix.harmonics.len(),
-                    "sigma_star": sigma.map(estimate),
-                })
-            });
-        fields.insert("candidates_estimates".to_owned(), candidates.collect());
+        for (name, value) in [("p_low", p_low), ("p_up", p_up), ("alpha", alpha)] {
+            report[name] = json!(value.text);
+        }
+        let tried = self.resolution.candidates.found.iter().zip(&self.resolution.sigmas);
+        let candidates = tried.map(|(candidate, sigma)| {
+            json!({
+                "alpha": estimate(candidate.alpha), "ratio": estimate(candidate.ratio),
+                "degree": candidate.matrix.harmonics.len(), "sigma_star": sigma.map(estimate),
+            })
+        });
+        report["candidates_estimates"] = candidates.collect();
         let floquet = self.resolution.candidates.floquet.iter().map(|pair| json!(pair.map(estimate)));
-        fields.insert("floquet_exponents_not_certified".to_owned(), floquet.collect());
-        Value::Object(fields)
+        report["floquet_exponents_not_certified"] = floquet.collect();
+        report
     }
 }
 

@@ -1,7 +1,6 @@
 //! The matrix inequalities of a run: C5, C3 and R.
 
-use super::blocks::{Block, Table};
-use super::json::interval;
+use super::document::{Block, Table};
 use super::number::{exact, pair};
 use crate::certify::{Certification, Derivation};
 use crate::lmi::{CrossCheck, SigmaBothWays};
@@ -79,7 +78,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     let mut blocks = Vec::new();
     if !items.is_empty() || checks.sylvester.is_some() {
-        blocks.push(Block::Heading("Matrix inequalities".to_owned()));
+        blocks.push(Block::heading("Matrix inequalities"));
     }
     if !items.is_empty() {
         blocks.push(Block::List(items));
@@ -116,7 +115,7 @@ pub(super) fn checks_json(run: &Certification<'_>) -> Value {
     let decay = checks.decay.as_ref().map(|decay| match decay {
         Ok(check) => {
             let mut fixed = figures_json(&check.fixed);
-            fixed["closed_form"] = interval(&check.fixed.closed_form);
+            fixed["closed_form"] = json!(check.fixed.closed_form.decimals());
             fixed["contradiction"] = json!(check.contradicts());
             fixed["proved_at_sigma_star"] = json!(check.multipliers.is_some());
             fixed["best_weights"] = match &check.free {

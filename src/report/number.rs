@@ -1,6 +1,6 @@
 //! Numbers as they are printed: claims rounded outward, estimates marked as such by their section.
 
-use crate::enclosure::Enclosure;
+use crate::enclosure::{self, Enclosure};
 use crate::number::{Direction, round_f64, round_rational, write_exact};
 use rug::Rational;
 
@@ -25,6 +25,12 @@ fn shorter(text: String) -> String {
 #[must_use]
 pub fn upper(value: &Enclosure) -> String {
     shorter(value.upper_decimal(DIGITS))
+}
+
+/// An upper bound for JSON: the upper end with all its digits.
+#[must_use]
+pub fn full(value: &Enclosure) -> String {
+    value.upper_decimal(enclosure::DIGITS)
 }
 
 /// A lower bound, rounded down, in few digits.

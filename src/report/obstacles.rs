@@ -1,43 +1,40 @@
 //! Why nothing was certified, and what to try.
 
-use super::blocks::{Block, clean};
+use super::document::{Block, clean};
 use super::number::{pair, upper};
-use super::verdict::largest_arguments;
-use crate::certify::{Certification, Derivation, Outcome, TransferChoice, Verdict};
-use crate::data::Data;
+use crate::certify::{Certification, Derivation, Outcome, Verdict};
 use crate::derivation::condition::Condition;
 use crate::enclosure::Truth;
 use crate::expr::BoundingFailure;
 use crate::number::write_exact;
-use crate::search::{FloatModel, Obstacle, SmallerSet, smaller_set};
-use crate::transfer::TradeOff;
+use crate::search::{Obstacle, SmallerSet};
 
-/// The outcome of one derivation, without its type.
-enum Status<'r> {
+/// What came of one derivation, without the type of its proof.
+enum Attempt<'r> {
     Proved,
     Failing(&'r [Condition]),
     NotFound(Obstacle),
     Skipped,
 }
 
-fn status<P>(outcome: &Outcome<P>) -> Status<'_> {
+fn attempt<P>(outcome: &Outcome<P>) -> Attempt<'_> {
     match outcome {
-        Outcome::Proved(_) => Status::Proved,
-        Outcome::NotProved { failing, .. } => Status::Failing(failing),
-        Outcome::NotFound(obstacle) => Status::NotFound(*obstacle),
-        Outcome::Skipped => Status::Skipped,
+        Outcome::Proved(_) => Attempt::Proved,
+        Outcome::NotProved { failing, .. } => Attempt::Failing(failing),
+        Outcome::NotFound(obstacle) => Attempt::NotFound(*obstacle),
+        Outcome::Skipped => Attempt::Skipped,
     }
 }
 
-fn chosen<'r>(run: &'r Certification<'_>) -> Status<'r> {
+fn chosen<'r>(run: &'r Certification<'_>) -> Attempt<'r> {
     match run.options.derivation {
         // The claim itself is proved, and what the certificate says beyond it is not.
         Derivation::Sharp if run.sharp.proved().is_some() && !run.exact_failing.is_empty() => {
-            Status::Failing(&run.exact_failing)
+            Attempt::Failing(&run.exact_failing)
         }
-        Derivation::Sharp => status(&run.sharp),
-        Derivation::Repaired => status(&run.repaired),
-        Derivation::Printed => Status::Skipped,
+        Derivation::Sharp => attempt(&run.sharp),
+        Derivation::Repaired => attempt(&run.repaired),
+        Derivation::Printed => Attempt::Skipped,
     }
 }
 
@@ -53,18 +50,18 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
         };
     }
     let what = match chosen(run) {
-        Status::Proved => match run.unproved_bounds.first() {
+        Attempt::Proved => match run.unproved_bounds.first() {
             Some(problem) => {
                 format!("the bounding function {} could not be proved: {}", problem.which.field(), problem.sentence())
             }
             None => "the claim was not proved".to_owned(),
         },
-        Status::Failing(conditions) => match conditions.first() {
+        Attempt::Failing(conditions) => match conditions.first() {
             Some(condition) => format!("condition {} is {}", condition.id, truth(condition)),
             None => "the conditions were not proved".to_owned(),
         },
-        Status::NotFound(obstacle) => format!("no candidate was found. {}", obstacle.describe()),
-        Status::Skipped => "this derivation was not worked out".to_owned(),
+        Attempt::NotFound(obstacle) => format!("no candidate was found. {}", obstacle.describe()),
+        Attempt::Skipped => "this derivation was not worked out".to_owned(),
     };
     let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };
     format!(
@@ -75,13 +72,16 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
 /// The figures of what failed, and what to try.
 pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     let mut blocks = Vec::new();
-    let unproved: Vec<String> =
-        run.unproved_bounds.iter().map(|problem| format!("{}: {}", problem.which.field(), problem.sentence())).collect();
+    let unproved: Vec<String> = run
+        .unproved_bounds
+        .iter()
+        .map(|problem| format!("{}: {}", problem.which.field(), problem.sentence()))
+        .collect();
     if !unproved.is_empty() {
         blocks.push(Block::says("Bounding functions that were neither proved nor refuted:"));
         blocks.push(Block::List(unproved));
     }
-    if let Status::Failing(conditions) = chosen(run) {
+    if let Attempt::Failing(conditions) = chosen(run) {
         blocks.push(Block::says("Conditions that are not proved:"));
         blocks.push(Block::List(conditions.iter().map(describe).collect()));
     }
@@ -118,7 +118,7 @@ pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
     let mut items: Vec<String> = Vec::new();
     let mut add = |text: &str| items.push(text.to_owned());
     match chosen(run) {
-        Status::Proved => {
+        Attempt::Proved => {
             let at_the_edge = run
                 .unproved_bounds
                 .iter()
@@ -128,18 +128,18 @@ pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
                 add("see the place in the expression that is shown with this report");
             }
         }
-        Status::Failing(conditions)
+        Attempt::Failing(conditions)
             if conditions.iter().any(|condition| condition.truth().is_undecided())
                 && !conditions.iter().any(|condition| condition.truth().is_false()) =>
         {
             add("raise --precision-limit");
         }
-        Status::Failing(_) if !rechecked => {
+        Attempt::Failing(_) if !rechecked => {
             add("other units of time, x and e, in which the data have ordinary magnitudes");
         }
-        Status::Failing(_) => add("search again (without --witness): another witness may exist"),
-        Status::NotFound(obstacle) => obstacle_advice(run, obstacle, &mut add),
-        Status::Skipped => {}
+        Attempt::Failing(_) => add("search again (without --witness): another witness may exist"),
+        Attempt::NotFound(obstacle) => obstacle_advice(run, obstacle, &mut add),
+        Attempt::Skipped => {}
     }
     let other = matches!(run.options.derivation, Derivation::Printed | Derivation::Repaired);
     if other && run.unproved_bounds.is_empty() {
@@ -182,19 +182,14 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         }
         Obstacle::Bounds => add("a `domain` on which the bounding functions are valid"),
     }
-    if let Some([x, e]) = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper)) {
+    if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
     }
 }
 
 /// Which smaller initial set would do, in floating point.
 fn smaller(run: &Certification<'_>) -> String {
-    // The working precision of what only proposes.
-    let data = Data::new(run.spec, 64);
-    let matched = run.options.transfer == TransferChoice::Best && run.spec.internal_model.matched;
-    let repaired = run.options.derivation == Derivation::Repaired;
-    let trade_off = if matched && !repaired { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
-    match smaller_set(&FloatModel::new(&data, trade_off), repaired) {
+    match run.smaller_set() {
         SmallerSet::AtRest => "a smaller initial set: the floating-point search (an estimate, no proof) succeeds with \
                                `\"initial_set\": { \"kind\": \"at-rest\" }`"
             .to_owned(),

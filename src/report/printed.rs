@@ -1,6 +1,6 @@
 //! What the printed chain says about the data.
 
-use super::blocks::Block;
+use super::document::Block;
 use super::number::{compact, estimate};
 use crate::certify::Certification;
 
@@ -38,5 +38,5 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
                 .to_owned(),
         );
     }
-    vec![Block::Heading("What the printed formulas say".to_owned()), Block::List(items)]
+    vec![Block::heading("What the printed formulas say"), Block::List(items)]
 }

@@ -1,7 +1,6 @@
 //! The report of `sigmastar rate`.
 
-use super::Readable;
-use super::blocks::{Block, Table, clean};
+use super::document::{Block, Readable, Table, clean};
 use super::number::{estimate, exact, margin};
 use crate::certify::Certification;
 use crate::number::{Direction, write_exact};

@@ -1,10 +1,8 @@
 //! A relative degree above 1: from the filtered error to the regulated output.
 
-use super::blocks::Block;
-use super::consequences::full;
-use super::number::upper;
-use crate::certify::{Certification, RelativeDegreeGains};
-use crate::enclosure::Enclosure;
+use super::document::Block;
+use super::number::{full, upper};
+use crate::certify::Certification;
 use serde_json::{Value, json};
 
 /// The gains of the filter e = xi_r + a_{r-1} xi_{r-1} + ... + a_1 xi_1; nothing where the specification has none.
@@ -20,7 +18,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
                     upper(&gains.k_2)
                 ),
             ];
-            if let Some([sup, rms]) = steady_state(run, gains) {
+            if let Some([sup, rms]) = run.regulated_output(gains) {
                 items.push(format!(
                     "so, for every n_o and every sigma from sigma* on, sup|xi_1| <= {} and rms(xi_1) <= {} along the \
                      periodic solution; the bounds of e for a given n_o carry over by the factors k_inf and sqrt(k_2) = {}",
@@ -33,14 +31,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         }
         Err(error) => Block::says(format!("No bound of xi_1: {error}.")),
     };
-    vec![Block::Heading("Relative degree (from e to xi_1)".to_owned()), body]
-}
-
-/// Upper bounds of sup|xi_1| and rms(xi_1) along the periodic solution, for every n_o: k_inf and sqrt(k_2) times the
-/// certified bound of sup|e|, which also bounds rms(e). `None` without a certified claim.
-fn steady_state(run: &Certification<'_>, gains: &RelativeDegreeGains) -> Option<[Enclosure; 2]> {
-    let [_, e, _, _] = run.periodic_solution()?;
-    Some([&gains.k_inf * &e, gains.k_2.sqrt() * e])
+    vec![Block::heading("Relative degree (from e to xi_1)"), body]
 }
 
 /// The gains for JSON.
@@ -48,7 +39,7 @@ pub(super) fn gains_json(run: &Certification<'_>) -> Value {
     match &run.relative_degree {
         None => Value::Null,
         Some(Ok(gains)) => {
-            let bounds = steady_state(run, gains).map(|bounds| bounds.map(|bound| full(&bound)));
+            let bounds = run.regulated_output(gains).map(|bounds| bounds.map(|bound| full(&bound)));
             let [sup, rms] = bounds.map_or([None, None], |[sup, rms]| [Some(sup), Some(rms)]);
             json!({ "k_inf": gains.k_inf.decimals(), "k_2": gains.k_2.decimals(), "sup_xi_1": sup, "rms_xi_1": rms })
         }

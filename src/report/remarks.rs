@@ -1,7 +1,6 @@
 //! What the data themselves are to be looked at for; no verdict depends on it.
 
 use crate::certify::{Certification, ExceededBy};
-use crate::data::{Bound, Data, Problem};
 
 /// One sentence or two for each.
 pub(crate) fn remarks(run: &Certification<'_>) -> Vec<String> {
@@ -13,9 +12,7 @@ pub(crate) fn remarks(run: &Certification<'_>) -> Vec<String> {
         };
         remarks.push(format!("Remark: {reason}. What is proved of all such plants is proved of none. Check {check}."));
     }
-    let data = Data::new(run.spec, run.precision);
-    let at_origin = data.bound(Bound::F, &data.zero(), &data.zero());
-    if at_origin.is_positive().is_true() {
+    if run.has_force_at_origin() {
         remarks.push(
             "Remark: f(0,0) > 0, although |f(t,0,0)| = 0 for every plant of the family. Were the bounds taken before the \
              shift by x_0(t), the periodic solution of x' = f(t,x,0)? They are to hold after it (erratum E18; the guide)."

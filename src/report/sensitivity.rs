@@ -1,6 +1,6 @@
 //! What binds sigma*, and which datum would lower it most.
 
-use super::blocks::{Block, Table};
+use super::document::{Block, Table};
 use super::number::estimate;
 use crate::certify::{Certification, Derivation, Verdict};
 
@@ -10,10 +10,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         return Vec::new();
     }
     let Some(binding) = run.binding else { return Vec::new() };
-    let mut blocks = vec![
-        Block::Heading("What sets sigma* (estimates)".to_owned()),
-        Block::says(format!("sigma* is set by {binding}.")),
-    ];
+    let mut blocks =
+        vec![Block::heading("What sets sigma* (estimates)"), Block::says(format!("sigma* is set by {binding}."))];
     let shown: Vec<_> = run.sensitivities.iter().filter(|(_, gain)| *gain >= 1e-6).collect();
     if let Some((datum, gain)) = shown.first() {
         blocks.push(Block::says(format!(

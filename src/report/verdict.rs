@@ -1,11 +1,10 @@
 //! The verdict in one sentence, and what it rests on.
 
-use super::blocks::{Block, clean};
+use super::document::{Block, clean};
 use super::number::{exact, upper};
 use super::obstacles;
 use super::remarks::remarks;
 use crate::certify::{Certification, Derivation, Verdict};
-use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
 use crate::spec::model::LyapunovSource;
 use crate::transfer::TransferProof;
@@ -33,7 +32,7 @@ pub fn sentence(run: &Certification<'_>) -> String {
 
 /// The sentence, the derivation and the assumptions; without a certificate, what failed and what to try.
 pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
-    let mut blocks = vec![Block::says(sentence(run))];
+    let mut blocks = vec![Block::Verdict(sentence(run))];
     blocks.extend(remarks(run).into_iter().map(Block::says));
     if run.verdict == Verdict::Certified {
         blocks.push(Block::says(
@@ -54,7 +53,7 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         Derivation::Printed => "Derivation: printed (the paper to the letter).",
     };
     let mut items = vec![derivation.to_owned()];
-    let used = largest_arguments(run).map(|arguments| arguments.each_ref().map(upper));
+    let used = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper));
     let of_the_zero_dynamics = match &run.spec.lyapunov {
         LyapunovSource::Proved { triple, .. } => {
             items.push(format!(
@@ -65,7 +64,7 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         }
         _ => "the Lyapunov triple (p_low, p_up, alpha)",
     };
-    let further = exact_arguments(run).map(|arguments| arguments.each_ref().map(upper)).filter(|_| used.is_some());
+    let further = run.exact_arguments().map(|arguments| arguments.each_ref().map(upper)).filter(|_| used.is_some());
     items.push(format!(
         "Assumed of the plant: {of_the_zero_dynamics}, and that the bounding functions bound the plant{}{}.",
         used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments")),
@@ -87,15 +86,4 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         .to_owned()
     }));
     items
-}
-
-/// The largest X and E at which exact regulation uses a bounding function; it does so for an error box of its own.
-pub(super) fn exact_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2]> {
-    let claim = run.exact.as_ref().filter(|_| run.options.derivation == Derivation::Sharp)?;
-    Some([&claim.witness.d_x, &claim.witness.d_e].map(|radius| Enclosure::from_rational(radius, run.precision)))
-}
-
-/// The largest X and E at which the claim for every n_o uses a bounding function; upper bounds.
-pub(super) fn largest_arguments(run: &Certification<'_>) -> Option<[Enclosure; 2]> {
-    run.attempt().map(|attempt| attempt.arguments)
 }

@@ -4,12 +4,12 @@
 //! E20), so both are computed; their second column is the root mean square, not its square (E19); the columns with
 //! noise are shown as ranges over seeds for both readings of the law (E22), and nothing is tuned to meet them.
 
-mod document;
 mod figures;
 mod printed;
+mod report;
 mod run;
 
-pub use document::{FORMAT, VERSION, json, markdown};
 pub use figures::figures;
-pub use printed::{PAPER_PLANT, ROWS, Row, Table, last_place};
-pub use run::{Cell, ComputedRow, NoiseRange, Parts, Reproduction, Settings, reproduce, units};
+pub use printed::{PAPER_PLANT, PrintedRow, PrintedTable, ROWS, last_place};
+pub use report::ReproductionReport;
+pub use run::{Cell, ComputedRow, NoiseRange, Parts, Reproduction, ReproductionSettings, reproduce, units};

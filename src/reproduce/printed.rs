@@ -7,7 +7,7 @@ pub const PAPER_PLANT: &str = include_str!("../../specs/plants/paper-example.jso
 
 /// One of the two tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Table {
+pub enum PrintedTable {
     /// P:table:high-gain.
     HighGain,
     /// P:table:example-norms.
@@ -16,9 +16,9 @@ pub enum Table {
 
 /// A row of a table: its parameters, and its cells as printed.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct PrintedRow {
     /// The table.
-    pub table: Table,
+    pub table: PrintedTable,
     /// sigma.
     pub sigma: f64,
     /// The number of oscillators; `None` in the table of the high-gain feedback.
@@ -31,7 +31,7 @@ pub struct Row {
     pub noisy: [&'static str; 2],
 }
 
-impl Row {
+impl PrintedRow {
     /// The base frequency; T = 1.
     #[must_use]
     pub fn base_frequency(&self) -> f64 {
@@ -52,16 +52,16 @@ pub fn last_place(printed: &str) -> f64 {
     10_f64.powi(exponent.parse::<i32>().unwrap_or(0) - decimals)
 }
 
-const fn high_gain(sigma: f64, quiet: [&'static str; 2], noisy: [&'static str; 2]) -> Row {
-    Row { table: Table::HighGain, sigma, n_o: None, ratio: "-", quiet, noisy }
+const fn high_gain(sigma: f64, quiet: [&'static str; 2], noisy: [&'static str; 2]) -> PrintedRow {
+    PrintedRow { table: PrintedTable::HighGain, sigma, n_o: None, ratio: "-", quiet, noisy }
 }
 
-const fn model(ratio: &'static str, n_o: u32, quiet: [&'static str; 2], noisy: [&'static str; 2]) -> Row {
-    Row { table: Table::InternalModel, sigma: 2.0, n_o: Some(n_o), ratio, quiet, noisy }
+const fn model(ratio: &'static str, n_o: u32, quiet: [&'static str; 2], noisy: [&'static str; 2]) -> PrintedRow {
+    PrintedRow { table: PrintedTable::InternalModel, sigma: 2.0, n_o: Some(n_o), ratio, quiet, noisy }
 }
 
 /// Every row of both tables, in the order of the paper.
-pub const ROWS: [Row; 19] = [
+pub const ROWS: [PrintedRow; 19] = [
     high_gain(2.0, ["1.2555", "0.9657"], ["1.3023", "0.9743"]),
     high_gain(5.0, ["0.6577", "0.4083"], ["0.7995", "0.4244"]),
     high_gain(10.0, ["0.400", "0.2166"], ["0.6619", "0.2489"]),

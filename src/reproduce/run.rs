@@ -1,6 +1,6 @@
 //! Computing the cells.
 
-use super::printed::{PAPER_PLANT, ROWS, Row, Table, last_place};
+use super::printed::{PAPER_PLANT, PrintedRow, PrintedTable, ROWS, last_place};
 use crate::number::Portable;
 use crate::plant::Plant;
 use crate::progress::{Progress, Silent};
@@ -48,7 +48,7 @@ impl Parts {
 
 /// What is computed, and how finely.
 #[derive(Clone, Copy, Debug)]
-pub struct Settings {
+pub struct ReproductionSettings {
     /// The parts.
     pub parts: Parts,
     /// The number of seeds: 1, ..., `seeds`.
@@ -57,7 +57,7 @@ pub struct Settings {
     pub noise_steps: usize,
 }
 
-impl Settings {
+impl ReproductionSettings {
     /// The units of work that a [`Progress`] hears of.
     #[must_use]
     pub fn work(&self) -> u64 {
@@ -98,7 +98,7 @@ pub struct NoiseRange {
 #[derive(Clone, Debug)]
 pub struct ComputedRow {
     /// The printed row.
-    pub row: &'static Row,
+    pub row: &'static PrintedRow,
     /// n_0; `None` for the high-gain feedback.
     pub n_0: Option<f64>,
     /// The steady state, or why there is none: sup|e|, rms(e) and the Fourier coefficients.
@@ -123,7 +123,7 @@ impl ComputedRow {
 #[derive(Clone, Debug)]
 pub struct Reproduction {
     /// What was asked for.
-    pub settings: Settings,
+    pub settings: ReproductionSettings,
     /// The rows.
     pub rows: Vec<ComputedRow>,
     /// For each seed the largest |v| over 150 s at the paper's sampling time.
@@ -131,7 +131,7 @@ pub struct Reproduction {
 }
 
 /// The paper's regulator of a row.
-pub(super) fn regulator(row: &Row, n_0: f64) -> Regulator {
+pub(super) fn regulator(row: &PrintedRow, n_0: f64) -> Regulator {
     match row.n_o {
         None => Regulator::high_gain(row.sigma),
         Some(n_o) => internal_model(row.sigma, n_0, n_o, row.base_frequency()),
@@ -152,8 +152,8 @@ fn jobs(seeds: u64) -> Vec<Job> {
     for (index, row) in ROWS.iter().enumerate() {
         // For the high-gain feedback there is one law and no n_0.
         let (weights, laws) = match row.table {
-            Table::HighGain => (&N_0[..1], &[Noise::Printed][..]),
-            Table::InternalModel => (&N_0[..], &[Noise::Printed, Noise::Everywhere][..]),
+            PrintedTable::HighGain => (&N_0[..1], &[Noise::Printed][..]),
+            PrintedTable::InternalModel => (&N_0[..], &[Noise::Printed, Noise::Everywhere][..]),
         };
         for &n_0 in weights {
             for &law in laws {
@@ -168,14 +168,14 @@ fn jobs(seeds: u64) -> Vec<Job> {
 ///
 /// # Errors
 /// None is known: the plant is part of the program.
-pub fn reproduce(settings: Settings, progress: &dyn Progress) -> Result<Reproduction, SpecErrors> {
+pub fn reproduce(settings: ReproductionSettings, progress: &dyn Progress) -> Result<Reproduction, SpecErrors> {
     let plant = Plant::from_json("specs/plants/paper-example.json", PAPER_PLANT)?;
     let parts = settings.parts;
     let mut variants: Vec<(usize, Option<f64>)> = Vec::new();
     for (index, row) in ROWS.iter().enumerate() {
         match row.table {
-            Table::HighGain => variants.push((index, None)),
-            Table::InternalModel => variants.extend(N_0.iter().map(|&n_0| (index, Some(n_0)))),
+            PrintedTable::HighGain => variants.push((index, None)),
+            PrintedTable::InternalModel => variants.extend(N_0.iter().map(|&n_0| (index, Some(n_0)))),
         }
     }
     let noise: Vec<(Job, Option<NoiseRange>)> = match parts.noise {
@@ -194,10 +194,10 @@ pub fn reproduce(settings: Settings, progress: &dyn Progress) -> Result<Reproduc
         .map(|(index, n_0)| {
             let row = &ROWS[index];
             let wanted = match row.table {
-                Table::HighGain => parts.table_1,
-                Table::InternalModel => parts.table_2,
+                PrintedTable::HighGain => parts.table_1,
+                PrintedTable::InternalModel => parts.table_2,
             };
-            let steady = wanted.then(|| steady(&plant, row, n_0.unwrap_or(N_0[0])));
+            let steady = wanted.then(|| figures_of(&plant, regulator(row, n_0.unwrap_or(N_0[0]))));
             progress.advance();
             let (quiet, multiplier) = match steady {
                 None => (None, None),
@@ -232,10 +232,6 @@ pub fn reproduce(settings: Settings, progress: &dyn Progress) -> Result<Reproduc
             .collect(),
     };
     Ok(Reproduction { settings, rows, largest_noise })
-}
-
-fn steady(plant: &Plant, row: &Row, n_0: f64) -> Result<(SteadyFigures, f64), SteadyStateError> {
-    figures_of(plant, regulator(row, n_0))
 }
 
 /// The steady figures of the paper's plant with a regulator, and the largest Floquet multiplier.

@@ -7,11 +7,11 @@ mod adaptive;
 mod bode;
 mod closed_loop;
 mod effort;
+mod figures;
 mod fixed;
 mod noise;
 mod orbit;
 mod report;
-
 mod run;
 mod steady;
 mod stiffness;
@@ -20,11 +20,11 @@ pub use adaptive::{IntegrationFailure, Tolerance, derivative, flow, trajectory};
 pub use bode::{frequencies, magnitude};
 pub use closed_loop::{ClosedLoop, Disturbance, Noise};
 pub use effort::{MAX_NUMBERS, MAX_OPERATIONS};
+pub use figures::{bode, csv, figures, spectrum, spectrum_curve};
 pub use fixed::{FixedStep, fixed_derivative, fixed_flow};
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};
-
-pub use report::{FORMAT, VERSION, bode, csv, figures, json, spectrum, spectrum_curve, text};
-pub use run::{LongRun, Method, NoisyRun, Settings, Simulation, SteadyFigures, noisy_run, simulate};
+pub use report::SimulationReport;
+pub use run::{Integrator, LongRun, NoisyRun, Simulation, SimulationSettings, SteadyFigures, noisy_run, simulate};
 pub use steady::{SteadyState, SteadyStateError, fixed_steady_state, steady_state};
 pub use stiffness::{MAX_FIXED_STEPS, enough_steps, is_stable};

@@ -12,7 +12,7 @@ use crate::progress::Progress;
 
 /// How a long run is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
+pub enum Integrator {
     /// Dormand-Prince 8(5,3) with step control.
     Adaptive,
     /// Classical Runge-Kutta with this many steps per period.
@@ -21,11 +21,11 @@ pub enum Method {
 
 /// What is simulated.
 #[derive(Clone, Copy, Debug)]
-pub struct Settings {
+pub struct SimulationSettings {
     /// The length of the long run in periods, at least 1.
     pub periods: usize,
-    /// Its method.
-    pub method: Method,
+    /// How it is integrated.
+    pub integrator: Integrator,
     /// Samples of a period in the long run, at least 1.
     pub samples: usize,
     /// Noise, if any, and where it enters.
@@ -36,14 +36,14 @@ pub struct Settings {
     pub harmonics: usize,
 }
 
-impl Settings {
+impl SimulationSettings {
     /// The steps per period of the fixed method in use: the number asked for, raised to a multiple of the samples.
     #[must_use]
     pub fn fixed_steps(&self) -> Option<usize> {
         let samples = self.samples.max(1);
-        match self.method {
-            Method::Adaptive => None,
-            Method::Fixed(steps) => Some(steps.div_ceil(samples).max(1) * samples),
+        match self.integrator {
+            Integrator::Adaptive => None,
+            Integrator::Fixed(steps) => Some(steps.div_ceil(samples).max(1) * samples),
         }
     }
 }
@@ -80,7 +80,7 @@ pub struct NoisyRun {
 #[derive(Clone, Debug)]
 pub struct Simulation {
     /// What was asked for.
-    pub settings: Settings,
+    pub settings: SimulationSettings,
     /// The steady state, or why there is none.
     pub steady: Result<(SteadyState, SteadyFigures), SteadyStateError>,
     /// The long run, or why it ended early.
@@ -122,7 +122,12 @@ impl SteadyFigures {
 
 /// Runs everything that the settings ask for.
 #[must_use]
-pub fn simulate(closed_loop: &ClosedLoop, start: &[f64], settings: &Settings, progress: &dyn Progress) -> Simulation {
+pub fn simulate(
+    closed_loop: &ClosedLoop,
+    start: &[f64],
+    settings: &SimulationSettings,
+    progress: &dyn Progress,
+) -> Simulation {
     let steady = steady_state(closed_loop, start, progress).and_then(|steady| {
         let figures = SteadyFigures::new(closed_loop, &steady, settings.harmonics)?;
         Ok((steady, figures))
@@ -153,7 +158,7 @@ const MAX_SAMPLED: usize = MAX_NUMBERS / 2;
 fn long_run(
     closed_loop: &ClosedLoop,
     start: &[f64],
-    settings: &Settings,
+    settings: &SimulationSettings,
     progress: &dyn Progress,
 ) -> Result<LongRun, IntegrationFailure> {
     let samples = settings.samples.max(1);

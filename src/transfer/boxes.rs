@@ -1,6 +1,6 @@
 //! A proof by boxes of T_N(x) <= k0 + k1 x^2 for every N and every x >= 0 (derivation, section 2, "certified").
 
-use super::lorentz::{LorentzSums, Oscillators, weight_tail};
+use super::lorentz::{LorentzSums, OscillatorRange, weight_tail};
 use super::{TransferStep, decide_steps};
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
@@ -33,11 +33,11 @@ pub(super) fn edge(m0: u32) -> Rational {
 }
 
 /// Which oscillators the list with this index is about.
-pub(super) fn group(data: &Data<'_>, n0: u32, index: usize) -> Oscillators {
+pub(super) fn group(data: &Data<'_>, n0: u32, index: usize) -> OscillatorRange {
     if index + 1 == n0 as usize {
-        Oscillators::AtLeast { first: n0, tail: weight_tail(data, n0) }
+        OscillatorRange::AtLeast { first: n0, tail: weight_tail(data, n0) }
     } else {
-        Oscillators::Exactly(index as u32 + 1)
+        OscillatorRange::Exactly(index as u32 + 1)
     }
 }
 
@@ -46,7 +46,7 @@ pub(super) fn group(data: &Data<'_>, n0: u32, index: usize) -> Oscillators {
 pub(super) fn sides(
     data: &Data<'_>,
     sums: &LorentzSums,
-    oscillators: &Oscillators,
+    oscillators: &OscillatorRange,
     [a, b]: [&Rational; 2],
     pair: [&Enclosure; 2],
 ) -> (Enclosure, Enclosure) {
@@ -234,19 +234,19 @@ mod tests {
         let data = Data::new(&spec, 128);
         let sums = LorentzSums::new(&data, 4);
         let pair = [decimal("7"), decimal("18")].map(|k| data.rational(&k));
-        let sides_of = |a: &str, b: &str, oscillators: &Oscillators| {
+        let sides_of = |a: &str, b: &str, oscillators: &OscillatorRange| {
             sides(&data, &sums, oscillators, [&decimal(a), &decimal(b)], [&pair[0], &pair[1]])
         };
-        let (lhs, rhs) = sides_of("0.75", "0.8", &Oscillators::Exactly(3));
+        let (lhs, rhs) = sides_of("0.75", "0.8", &OscillatorRange::Exactly(3));
         assert!(lhs.is_bounded() && rhs.contains(&decimal("17.125")), "7 + 18 (3/4)^2");
-        assert!(!sides_of("0.4", "0.6", &Oscillators::Exactly(3)).0.is_defined());
+        assert!(!sides_of("0.4", "0.6", &OscillatorRange::Exactly(3)).0.is_defined());
         // The same beyond the last pole, where no pole would be hit.
-        assert!(!sides_of("2.4", "2.6", &Oscillators::Exactly(1)).0.is_defined());
+        assert!(!sides_of("2.4", "2.6", &OscillatorRange::Exactly(1)).0.is_defined());
         match group(&data, 4, 3) {
-            Oscillators::AtLeast { first: 4, tail } => assert!(tail == weight_tail(&data, 4)),
+            OscillatorRange::AtLeast { first: 4, tail } => assert!(tail == weight_tail(&data, 4)),
             other => panic!("{other:?}"),
         }
-        assert!(matches!(group(&data, 4, 2), Oscillators::Exactly(3)));
+        assert!(matches!(group(&data, 4, 2), OscillatorRange::Exactly(3)));
     }
 
     /// The form divided by x^2 would hold: only the comparison at 0 itself refuses.

@@ -15,7 +15,7 @@ pub struct LorentzSums {
 
 /// Which numbers of oscillators an evaluation covers.
 #[derive(Clone, Debug)]
-pub enum Oscillators {
+pub enum OscillatorRange {
     /// Exactly N.
     Exactly(u32),
     /// Every N >= N0; `tail` bounds sum_{l >= N0} n_l/l^2.
@@ -40,11 +40,11 @@ impl LorentzSums {
     }
 
     /// The last pole that is summed one by one, if the weights reach it and the tail, if any, may be used near `nearest`.
-    fn last(&self, nearest: u32, oscillators: &Oscillators) -> Option<u32> {
+    fn last(&self, nearest: u32, oscillators: &OscillatorRange) -> Option<u32> {
         let last = match oscillators {
-            Oscillators::Exactly(n) => *n,
-            Oscillators::AtLeast { first, .. } if *first > nearest => first - 1,
-            Oscillators::AtLeast { .. } => return None,
+            OscillatorRange::Exactly(n) => *n,
+            OscillatorRange::AtLeast { first, .. } if *first > nearest => first - 1,
+            OscillatorRange::AtLeast { .. } => return None,
         };
         (self.weights.len() > last as usize).then_some(last)
     }
@@ -56,7 +56,7 @@ impl LorentzSums {
     /// sums beyond N0 - 1 lie in [0, x th/(1-(x/N0)^2)] and [0, 2 th/(1-(x/N0)^2)^2]; this needs m <= N0 - 1.
     /// Undefined when a hypothesis fails or the interval is too wide.
     #[must_use]
-    pub fn enclose(&self, x: &Enclosure, nearest: u32, oscillators: &Oscillators) -> Enclosure {
+    pub fn enclose(&self, x: &Enclosure, nearest: u32, oscillators: &OscillatorRange) -> Enclosure {
         let Some(last) = self.last(nearest, oscillators) else { return Enclosure::undefined(self.precision) };
         let has_pole = nearest <= last;
         let (mut sum, mut slope) = (Enclosure::zero(self.precision), Enclosure::zero(self.precision));
@@ -76,7 +76,7 @@ impl LorentzSums {
                 add(&half, l as i64 - x);
             }
         }
-        if let Oscillators::AtLeast { first, tail } = oscillators {
+        if let OscillatorRange::AtLeast { first, tail } = oscillators {
             let (more, steeper) = beyond(x, *first, tail);
             sum = sum + x * more;
             slope = slope + steeper;
@@ -97,7 +97,12 @@ impl LorentzSums {
     /// (n_0 - S y)^2). Multiplied out, the bound has the terms k0 nu^2 n_0^2 - n_0 >= 0 of order 0, and y times
     /// k0 (1 - 2 nu^2 n_0 S + nu^2 S^2 y) + k1 (y + nu^2 (n_0 - S y)^2) - D.
     #[must_use]
-    pub fn near_zero(&self, b: &Enclosure, oscillators: &Oscillators, pair: [&Enclosure; 2]) -> (Enclosure, Enclosure) {
+    pub fn near_zero(
+        &self,
+        b: &Enclosure,
+        oscillators: &OscillatorRange,
+        pair: [&Enclosure; 2],
+    ) -> (Enclosure, Enclosure) {
         let undefined = || (Enclosure::undefined(self.precision), Enclosure::undefined(self.precision));
         let Some(last) = self.last(0, oscillators) else { return undefined() };
         if !(2 * b).le(&Enclosure::one(self.precision)).is_true() {
@@ -113,7 +118,7 @@ impl LorentzSums {
             slope = slope + weight * (square + &y) * inverse.sqr();
             s = s + weight * inverse;
         }
-        if let Oscillators::AtLeast { first, tail } = oscillators {
+        if let OscillatorRange::AtLeast { first, tail } = oscillators {
             let (more, steeper) = beyond(&x, *first, tail);
             s = s + more;
             slope = slope + steeper;
@@ -179,12 +184,12 @@ mod tests {
         let data = Data::new(&spec, 128);
         let sums = LorentzSums::new(&data, 40);
         let nu = data.nu.midpoint_f64();
-        let later = Oscillators::AtLeast { first: 8, tail: weight_tail(&data, 8) };
+        let later = OscillatorRange::AtLeast { first: 8, tail: weight_tail(&data, 8) };
         for (numerator, nearest) in [(13, 0), (45, 0), (55, 1), (103, 1), (149, 1), (151, 2), (249, 2), (312, 3)] {
             let x = Enclosure::from_rational(&Rational::from((numerator, 100)), 128);
             let value = f64::from(numerator) / 100.0;
             for n in [1, 2, 3, 7, 8, 20, 40] {
-                let exact = sums.enclose(&x, nearest, &Oscillators::Exactly(n));
+                let exact = sums.enclose(&x, nearest, &OscillatorRange::Exactly(n));
                 let expected = direct(value, n, nu);
                 assert!((exact.midpoint_f64() / expected - 1.0).abs() < 1e-9, "x = {value}, N = {n}");
                 if n >= 8 {
@@ -201,7 +206,7 @@ mod tests {
         let data = Data::new(&spec, 128);
         let sums = LorentzSums::new(&data, 5);
         let inverse = data.nu.sqr().recip();
-        let at = |m: u32| sums.enclose(&Enclosure::from_integer(i64::from(m), 128), m, &Oscillators::Exactly(5));
+        let at = |m: u32| sums.enclose(&Enclosure::from_integer(i64::from(m), 128), m, &OscillatorRange::Exactly(5));
         assert!((at(0) / (&inverse / &data.n_0)).contains(&Rational::from(1)));
         let two = 2 * &inverse / spec.internal_model.weights.weight(2, 128);
         assert!((at(2) / two).contains(&Rational::from(1)));
@@ -224,14 +229,14 @@ mod tests {
         let data = Data::new(&spec, 128);
         let sums = LorentzSums::new(&data, 60);
         for first in [1, 2, 3, 8] {
-            let later = Oscillators::AtLeast { first, tail: weight_tail(&data, first) };
+            let later = OscillatorRange::AtLeast { first, tail: weight_tail(&data, first) };
             for numerator in [1, 3, 7, 10 * first - 8, 10 * first - 6, 10 * first - 5] {
                 let x = Enclosure::from_rational(&Rational::from((numerator, 10)), 128);
                 let nearest = (numerator + 4) / 10;
                 let all = sums.enclose(&x, nearest, &later);
                 assert!(all.is_bounded() || nearest >= first);
                 for n in [first, first + 1, first + 5, 60] {
-                    let one = sums.enclose(&x, nearest, &Oscillators::Exactly(n));
+                    let one = sums.enclose(&x, nearest, &OscillatorRange::Exactly(n));
                     let inside = all.lower() <= one.upper() && one.lower() <= all.upper();
                     let strictly = all.lower() <= one.lower() && one.upper() <= all.upper();
                     assert!(!all.is_defined() || (inside && strictly), "N0 = {first}, N = {n}, x = {numerator}/10");
@@ -275,9 +280,10 @@ mod tests {
             let denominator = y + nu_squared * (2.0 - s * y).powi(2);
             ((k0 + k1 * y) * denominator - 2.0 - d * y - (k0 * nu_squared * 4.0 - 2.0)) / y
         };
-        let cases = [(Oscillators::Exactly(1), vec![1]), (Oscillators::Exactly(5), vec![5])];
-        let all = [1, 2, 4]
-            .map(|first| (Oscillators::AtLeast { first, tail: weight_tail(&data, first) }, vec![first, first + 2, 60]));
+        let cases = [(OscillatorRange::Exactly(1), vec![1]), (OscillatorRange::Exactly(5), vec![5])];
+        let all = [1, 2, 4].map(|first| {
+            (OscillatorRange::AtLeast { first, tail: weight_tail(&data, first) }, vec![first, first + 2, 60])
+        });
         for (oscillators, members) in cases.into_iter().chain(all) {
             for pair in [[20.0, 75.0], [25.0, 40.0], [1000.0, 1.0]] {
                 for b in [0.5, 0.25, 1.0 / 64.0] {
@@ -291,7 +297,7 @@ mod tests {
                         }
                     }
                     // And for one N it is nearly that on small boxes.
-                    if let (Oscillators::Exactly(n), true) = (&oscillators, b < 0.1) {
+                    if let (OscillatorRange::Exactly(n), true) = (&oscillators, b < 0.1) {
                         let truth = exact(b, *n, pair);
                         assert!(promised >= truth - 0.05 * truth.abs() - 1.0, "N = {n}: {promised} {truth}");
                     }
@@ -300,7 +306,7 @@ mod tests {
         }
         let wide = Enclosure::from_rational(&Rational::from((51, 100)), 128);
         let k = Enclosure::from_integer(1000, 128);
-        assert!(!sums.near_zero(&wide, &Oscillators::Exactly(5), [&k, &k]).1.is_defined());
+        assert!(!sums.near_zero(&wide, &OscillatorRange::Exactly(5), [&k, &k]).1.is_defined());
     }
 
     #[test]
@@ -309,8 +315,8 @@ mod tests {
         let data = Data::new(&spec, 128);
         let sums = LorentzSums::new(&data, 5);
         let x = Enclosure::from_integer(3, 128);
-        assert!(!sums.enclose(&x, 3, &Oscillators::Exactly(6)).is_defined());
+        assert!(!sums.enclose(&x, 3, &OscillatorRange::Exactly(6)).is_defined());
         let tail = weight_tail(&data, 3);
-        assert!(!sums.enclose(&x, 3, &Oscillators::AtLeast { first: 3, tail }).is_defined());
+        assert!(!sums.enclose(&x, 3, &OscillatorRange::AtLeast { first: 3, tail }).is_defined());
     }
 }

@@ -20,6 +20,7 @@ mod phase;
 mod pole_sums;
 mod poles;
 mod printed;
+mod study;
 mod uniformity;
 #[cfg(test)]
 mod weights_only;
@@ -29,12 +30,13 @@ pub use closed_form::closed_form_pair;
 pub use graph::transfer_graph;
 pub use matched::{MatchedProof, TradeOff};
 pub use pair::{
-    CertifiedPair, Obstacle, PairCounterexample, PairError, PairStatus, cheapest_pair, pair_status, prove_above,
+    BindingPoint, CertifiedPair, PairCounterexample, PairError, PairStatus, cheapest_pair, pair_status, prove_above,
     smallest_k1, trade_off_pairs,
 };
 pub use pole_sums::{AroundPole, MAX_DIRECT_POLES, MAX_PIECES, OscillatorCount, PoleSums};
 pub use poles::{MAX_POLE_OSCILLATORS, PoleDisc, PolesError, internal_model_poles, slowest_decay, transfer_from_poles};
-pub use printed::{PrintedTransfer, lambda_interval, printed_transfer};
+pub use printed::{PrintedCheck, PrintedChecks, PrintedTransfer, lambda_interval, printed_transfer};
+pub use study::{MatchedPair, PairChoice, TransferStudy, Uniformity, kappas, rational_k0};
 pub use uniformity::{SupRatio, sup_ratios};
 
 use crate::data::Data;

@@ -2,7 +2,7 @@
 
 use super::boxes::BoxProof;
 use super::curve::{Sample, SampledGraph};
-use super::lorentz::{LorentzSums, Oscillators};
+use super::lorentz::{LorentzSums, OscillatorRange};
 use super::{TransferProof, decide};
 use crate::data::Data;
 use crate::enclosure::{Enclosure, Truth};
@@ -35,12 +35,12 @@ pub struct CertifiedPair {
     /// The proof that T_N(x) <= k0 + k1 x^2 for every N >= 0 and every x >= 0.
     pub proof: BoxProof,
     /// Why k1 cannot be much smaller for this k0, if some point shows it.
-    pub obstacle: Option<Obstacle>,
+    pub binding: Option<BindingPoint>,
 }
 
 /// A point that forces k1 up.
 #[derive(Clone, Debug)]
-pub struct Obstacle {
+pub struct BindingPoint {
     /// The number of oscillators.
     pub n_o: u32,
     /// x.
@@ -55,7 +55,7 @@ impl CertifiedPair {
     /// By how much, relatively, k1 exceeds the proved lower bound of every admissible k1 with this k0, rounded up.
     #[must_use]
     pub fn excess(&self, data: &Data<'_>) -> Option<Enclosure> {
-        let least = &self.obstacle.as_ref()?.least_k1;
+        let least = &self.binding.as_ref()?.least_k1;
         least.is_positive().is_true().then(|| (data.rational(&self.k1) / least - 1).ceiling())
     }
 }
@@ -92,6 +92,26 @@ pub enum PairError {
     },
 }
 
+impl PairError {
+    /// What to try.
+    #[must_use]
+    pub fn way_out(&self) -> &'static str {
+        match self {
+            PairError::BelowZeroValue { .. } => "choose a k0 that is not below T_N(0)",
+            PairError::OutOfRange { .. } => {
+                "scale mu, base_frequency or the weights, or choose a k0 within 1e-300 to 1e300"
+            }
+            PairError::NotFound { .. } => "choose a smaller k0, which lets k1 be larger",
+        }
+    }
+
+    /// Whether it is proved that there is no such pair; otherwise none was found.
+    #[must_use]
+    pub fn is_refuted(&self) -> bool {
+        matches!(self, PairError::BelowZeroValue { .. })
+    }
+}
+
 /// The smallest k1, nearly, with which a given k0 is proved admissible.
 ///
 /// Guarantee: the pair is admissible for every N >= 0 and every x >= 0. How near k1 is to the best is a figure of the
@@ -120,11 +140,11 @@ fn prove_smallest_k1(
     if !least.is_normal() || !k0.to_f64().is_normal() {
         return Err(out_of_range());
     }
-    let obstacle = sample.and_then(|sample| obstacle(data, k0, sample));
+    let binding = sample.and_then(|sample| binding(data, k0, sample));
     for room in rooms {
         let Some(k1) = round_f64(least * (1.0 + room), DIGITS, Direction::Up) else { break };
         if let Some(proof) = BoxProof::find(data, k0, &k1) {
-            return Ok(CertifiedPair { k0: k0.clone(), k1, proof, obstacle });
+            return Ok(CertifiedPair { k0: k0.clone(), k1, proof, binding });
         }
     }
     if !at_zero.midpoint_f64().is_normal() {
@@ -227,15 +247,15 @@ fn value_at(data: &Data<'_>, sample: Sample) -> Option<(u32, Rational, Enclosure
     let x = round_f64(sample.x, POINT_DIGITS, Direction::Nearest)?;
     let n_o = u32::try_from(sample.n).ok()?;
     let nearest = sample.x.round() as u32;
-    let value = LorentzSums::new(data, n_o).enclose(&data.rational(&x), nearest, &Oscillators::Exactly(n_o));
+    let value = LorentzSums::new(data, n_o).enclose(&data.rational(&x), nearest, &OscillatorRange::Exactly(n_o));
     value.is_bounded().then_some((n_o, x, value))
 }
 
 /// Decides how large T is at a sample.
-fn obstacle(data: &Data<'_>, k0: &Rational, sample: Sample) -> Option<Obstacle> {
+fn binding(data: &Data<'_>, k0: &Rational, sample: Sample) -> Option<BindingPoint> {
     let (n_o, x, value) = value_at(data, sample)?;
     let least_k1 = (&value - data.rational(k0)) / data.rational(&x).sqr();
-    Some(Obstacle { n_o, x, value, least_k1 })
+    Some(BindingPoint { n_o, x, value, least_k1 })
 }
 
 /// Proves a pair that a floating-point search proposed, or one a little above it in both members.
@@ -286,7 +306,7 @@ mod tests {
             let case = format!("n0 {n0}, eps {epsilon}, w {frequency}, k0 {}", k0.to_f64());
             let pair = smallest_k1(&data, &k0).unwrap_or_else(|error| panic!("{case}: {error}"));
             assert_eq!(pair.proof.decide(&data, &pair.k0, &pair.k1).0, Truth::True);
-            let excess = pair.excess(&data).unwrap_or_else(|| panic!("{case}: no obstacle"));
+            let excess = pair.excess(&data).unwrap_or_else(|| panic!("{case}: no binding point"));
             assert!(excess.upper_f64() < 0.01, "{case}: {}", excess.upper_f64());
         }
     }
@@ -312,17 +332,17 @@ mod tests {
     }
 
     #[test]
-    fn the_obstacle_is_what_its_point_shows() {
+    fn the_binding_point_is_what_it_shows() {
         let spec = weights_only("2", "1/2", "1", "1");
         let data = Data::new(&spec, 128);
         let pair = smallest_k1(&data, &Rational::from(7)).unwrap();
-        let obstacle = pair.obstacle.as_ref().unwrap();
+        let binding = pair.binding.as_ref().unwrap();
         // T_N(x) lies on the line of slope `least_k1` through (0, k0).
-        let on_line = data.rational(&pair.k0) + &obstacle.least_k1 * data.rational(&obstacle.x).sqr();
-        assert!(on_line.intersect(&obstacle.value).is_defined());
+        let on_line = data.rational(&pair.k0) + &binding.least_k1 * data.rational(&binding.x).sqr();
+        assert!(on_line.intersect(&binding.value).is_defined());
         let excess = pair.excess(&data).unwrap();
         let needed = data.rational(&pair.k1) / (1 + &excess);
-        assert!(needed.le(&obstacle.least_k1.ceiling()).is_true() && excess.upper_f64() < 0.01);
+        assert!(needed.le(&binding.least_k1.ceiling()).is_true() && excess.upper_f64() < 0.01);
     }
 
     #[test]

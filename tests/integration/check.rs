@@ -1,7 +1,8 @@
 //! Certificates as they are written today, read by the independent checker; and the command `check`.
 
 use crate::support::{program, specification, specification_text};
-use predicates::str::{contains, is_empty, starts_with};
+use predicates::prelude::*;
+use predicates::str::{contains, ends_with, is_empty, starts_with};
 use sigmastar::certificate::certificate_json;
 use sigmastar::certify::{Derivation, Options, TransferChoice, certify};
 use sigmastar::spec::Specification;
@@ -53,6 +54,8 @@ fn the_command() {
     program().args(["check", valid, "--verbose"]).assert().code(0).stdout(contains("C5b holds"));
     program().args(["check", forged]).assert().code(1).stdout(contains("invalid")).stdout(contains("C4"));
     program().args(["check", forged, "--format", "json"]).assert().code(1).stdout(contains("\"field\": \"/witness\""));
+    let markdown = ["check", forged, "--format", "markdown"];
+    program().args(markdown).assert().code(1).stdout(starts_with("```text\ninvalid").and(ends_with("\n```\n")));
     program().args(["check", "specs/linear.json"]).assert().code(2).stdout(contains("bad-input"));
     program().args(["check", "-"]).write_stdin("{").assert().code(2).stdout(contains("not JSON"));
     program().args(["check", "nowhere.json"]).assert().code(2).stdout(is_empty()).stderr(contains("nowhere.json"));

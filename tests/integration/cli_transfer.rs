@@ -87,6 +87,13 @@ fn too_small_a_k0_is_refuted_with_the_figure() {
     assert!(value["reason"].as_str().expect("text").contains("19.7392"));
 }
 
+/// A k0 that is admissible and larger than any rational that is made: nothing was found, and nothing is refuted.
+#[test]
+fn a_k0_beyond_range_is_undecided() {
+    let refused = transfer(&[EXAMPLE, "--n-o", "0", "--k0", "exp(1e6)"]).assert().code(3).stdout(is_empty());
+    refused.stderr(contains("leaves the range of doubles").and(contains("undecided")));
+}
+
 #[test]
 fn wrong_calls_are_bad_input() {
     for args in [

@@ -4,6 +4,8 @@ use rug::Rational;
 use sigmastar::enclosure::Truth;
 use sigmastar::errata::{Class, Erratum, Evidence, Kind, Relation, Side, errata};
 use sigmastar::number::parse_decimal;
+use sigmastar::report::ErrataReport;
+use sigmastar::report::document::{Block, Readable};
 
 /// The only evidence of an item whose statement contains the fragment.
 fn find<'l>(list: &'l [Erratum], id: &str, fragment: &str) -> &'l Evidence {
@@ -221,12 +223,18 @@ fn the_noise_is_never_within_the_stated_bound() {
 
 #[test]
 fn texts_are_plain() {
-    for item in errata(None) {
-        let text = item.to_string();
-        assert!(text.starts_with(&format!("{} [{}] ", item.id, item.class)), "{text}");
-        assert!(text.contains("  printed: ") && text.contains("  instead: ") && !text.contains("for this data"));
-        assert!(text.is_ascii() && !text.contains("  the") && !text.contains("undefined"), "{text}");
-        assert_eq!(text.matches("\n  - ").count(), item.evidence.len());
+    let (items, blocks) = (errata(None), ErrataReport::new(None).blocks());
+    // Two blocks for each item, below the title and the sentence at the top.
+    assert_eq!(blocks.len(), 2 + 2 * items.len());
+    for (item, blocks) in items.iter().zip(blocks[2..].chunks(2)) {
+        let [Block::Heading(title), Block::Facts(facts)] = blocks else { panic!("{}: {blocks:?}", item.id) };
+        assert_eq!(*title, format!("{} [{}]", item.id, item.class));
+        let names: Vec<&str> = facts.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names[..3], ["place", "printed", "instead"], "{}", item.id);
+        assert_eq!(names[3..], vec!["evidence"; item.evidence.len()], "{}", item.id);
+        for (_, text) in facts {
+            assert!(text.is_ascii() && !text.contains("  ") && !text.contains("undefined"), "{text}");
+        }
     }
 }
 

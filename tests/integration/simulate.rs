@@ -170,6 +170,10 @@ fn remarks_and_failures_follow_the_flags() {
         let assert = sigmastar(command).write_stdin("{").assert().code(2).stdout("");
         assert.stderr(predicate::str::contains("bad-input: nothing was written"));
     }
+    // Markdown has the same blocks as the text.
+    let markdown = [&raised[..], &["--quiet", "--format", "markdown"]].concat();
+    let starts = predicate::str::starts_with("# Example of the paper: simulation\n\nFloating point, no claim.");
+    sigmastar(&markdown).assert().success().stdout(starts.and(predicate::str::contains("| k | \\|c_k\\| of e |")));
     // A file that is not there is a call.
     for command in [&["simulate", "nothing.json", "--sigma", "2", "--n-o", "1"][..], &["falsify", "nothing.json"]] {
         let assert = sigmastar(command).args(["--format", "json", "-q"]).assert().code(2).stderr("");

@@ -78,7 +78,7 @@ fn pairs_are_near_the_optimum_and_no_smaller_one_is_accepted() {
         let k1 = pair.k1.to_f64();
         assert!(k1 <= 1.01 * dense && k1 >= dense, "{name}: {k1} against {dense}");
         // The proved lower bound agrees with the search.
-        let least = &pair.obstacle.as_ref().unwrap().least_k1;
+        let least = &pair.binding.as_ref().unwrap().least_k1;
         assert!(least.upper_f64() <= k1 && least.lower_f64() >= 0.999 * dense, "{name}");
 
         let lower = &pair.k1 * Rational::from((98, 100));

@@ -1,18 +1,16 @@
 //! The sections of the report on the transfer bound.
 
-use super::{MatchedPair, Row};
 use crate::data::Data;
 use crate::number::{Direction, write_exact};
-use crate::report::blocks::{Block, Table};
+use crate::report::document::{Block, Table};
 use crate::report::number::{compact, exact, upper};
-use crate::transfer::CertifiedPair;
+use crate::transfer::{CertifiedPair, MatchedPair, Uniformity, kappas};
 
 /// The claim itself.
 pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
-    let w = &data.base_frequency;
-    let (kappa_0, kappa_1) = (data.rational(&pair.k0) / w.sqr(), data.rational(&pair.k1) / w.sqr().sqr());
+    let [kappa_0, kappa_1] = kappas(data, &pair.k0, &pair.k1);
     let mut blocks = vec![
-        Block::says(format!(
+        Block::Verdict(format!(
             "Proved: T_N(x) <= k0 + k1 x^2 with k0 = {} and k1 = {}, for every number of oscillators N = n_o >= 0 and every \
              x = omega/w >= 0, where nu = mu/w = {}.",
             write_exact(&pair.k0),
@@ -40,13 +38,13 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
             pair.proof.n0,
         )),
     ];
-    if let (Some(obstacle), Some(excess)) = (&pair.obstacle, pair.excess(data)) {
+    if let (Some(point), Some(excess)) = (&pair.binding, pair.excess(data)) {
         blocks.push(Block::says(format!(
             "With this k0 no k1 below {} is admissible, because of T_{}({}) = {}: k1 is at most {} % above the best.",
-            obstacle.least_k1.lower_decimal(7),
-            obstacle.n_o,
-            exact(&obstacle.x, Direction::Nearest),
-            compact(&obstacle.value),
+            point.least_k1.lower_decimal(7),
+            point.n_o,
+            exact(&point.x, Direction::Nearest),
+            compact(&point.value),
             upper(&(100 * excess)),
         )));
     }
@@ -54,22 +52,22 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
 }
 
 /// One line for each number of oscillators.
-pub(super) fn uniformity(rows: &[Row]) -> Vec<Block> {
+pub(super) fn uniformity(rows: &[Uniformity]) -> Vec<Block> {
     if rows.is_empty() {
         return Vec::new();
     }
     let mut table = Table::new(&["n_o", "at least", "at most", "at x", "slowest decay, 1/time"]);
-    for Row { ratio, decay } in rows {
+    for Uniformity { sup, decay } in rows {
         table.push([
-            ratio.n_o.to_string(),
-            ratio.ratio.lower_decimal(7),
-            ratio.ratio.upper_decimal(7),
-            exact(&ratio.x, Direction::Nearest),
+            sup.n_o.to_string(),
+            sup.ratio.lower_decimal(7),
+            sup.ratio.upper_decimal(7),
+            exact(&sup.x, Direction::Nearest),
             decay.as_ref().map_or_else(|| "-".to_owned(), compact),
         ]);
     }
     vec![
-        Block::Heading("How much of the bound each n_o uses".to_owned()),
+        Block::heading("How much of the bound each n_o uses"),
         Block::says(
             "The supremum of T_N(x)/(k0 + k1 x^2) over x >= 0, enclosed; its lower end is the value at x. Beside it the \
              decay rate of the slowest mode of the internal model, Phi - mu M M'N, from its enclosed poles: the bound \
@@ -95,7 +93,7 @@ pub(super) fn trade_off(data: &Data<'_>, pairs: &[CertifiedPair]) -> Vec<Block> 
         ]);
     }
     vec![
-        Block::Heading("The trade-off between k0 and k1".to_owned()),
+        Block::heading("The trade-off between k0 and k1"),
         Block::says(
             "Each pair is proved; k1 is compared with a proved lower bound of every k1 that goes with that k0.",
         ),
@@ -105,17 +103,17 @@ pub(super) fn trade_off(data: &Data<'_>, pairs: &[CertifiedPair]) -> Vec<Block> 
 
 /// The pair that only integers x need.
 pub(super) fn matched(data: &Data<'_>, matched: &MatchedPair) -> Vec<Block> {
-    let w = &data.base_frequency;
+    let [kappa_0, kappa_1] = kappas(data, &matched.k0, &matched.k1);
     vec![
-        Block::Heading("Matched base frequency".to_owned()),
+        Block::heading("Matched base frequency"),
         Block::says(format!(
             "The base frequency is exactly 2 pi/T, so only integers x occur. Proved for these: k0 = {}, k1 = {} \
              (harmonics below {} one by one, the others by one inequality), that is kappa_0 = {}, kappa_1 = {}.",
             write_exact(&matched.k0),
             write_exact(&matched.k1),
             matched.first_of_tail,
-            upper(&(data.rational(&matched.k0) / w.sqr())),
-            upper(&(data.rational(&matched.k1) / w.sqr().sqr())),
+            upper(&kappa_0),
+            upper(&kappa_1),
         )),
     ]
 }

@@ -1,6 +1,6 @@
 //! Reports as plain text for a terminal of 100 columns.
 
-use super::blocks::{Align, Block, Table};
+use super::block::{Align, Block, Table};
 
 /// The width to which sentences are wrapped.
 const WIDTH: usize = 100;
@@ -17,9 +17,12 @@ pub fn render(blocks: &[Block]) -> String {
             Block::Title(title) => underlined(&mut output, title, "="),
             Block::Heading(title) => underlined(&mut output, title, "-"),
             Block::Subheading(title) => wrap(&mut output, &format!("{title}:"), "", ""),
-            Block::Paragraph(text) => wrap(&mut output, text, "", ""),
-            Block::List(items) => items.iter().for_each(|item| wrap(&mut output, item, "  - ", "    ")),
+            Block::Verdict(text) | Block::Paragraph(text) => wrap(&mut output, text, "", ""),
+            Block::List(_) | Block::Facts(_) | Block::Figures(_) => {
+                block.items().iter().for_each(|item| wrap(&mut output, item, "  - ", "    "));
+            }
             Block::Table(table) => render_table(&mut output, table),
+            Block::Code(lines) => output.push_str(lines),
         }
     }
     output

@@ -1,6 +1,6 @@
 //! Reports as GitHub-flavoured Markdown.
 
-use super::blocks::{Align, Block, Table};
+use super::block::{Align, Block, Table};
 
 /// The blocks as Markdown, ending in a line feed. What has a meaning in Markdown is escaped.
 #[must_use]
@@ -11,9 +11,12 @@ pub fn render(blocks: &[Block]) -> String {
             Block::Title(title) => format!("# {}\n", escape(title)),
             Block::Heading(title) => format!("## {}\n", escape(title)),
             Block::Subheading(title) => format!("### {}\n", escape(title)),
-            Block::Paragraph(text) => format!("{}\n", escape_line(text)),
-            Block::List(items) => items.iter().map(|item| format!("- {}\n", escape_line(item))).collect(),
+            Block::Verdict(text) | Block::Paragraph(text) => format!("{}\n", escape_line(text)),
+            Block::List(_) | Block::Facts(_) | Block::Figures(_) => {
+                block.items().iter().map(|item| format!("- {}\n", escape_line(item))).collect()
+            }
             Block::Table(table) => render_table(table),
+            Block::Code(lines) => fenced(lines),
         })
         .collect();
     parts.join("\n")
@@ -33,6 +36,13 @@ fn render_table(table: &Table) -> String {
         output.push_str(&row(&mut cells.iter().map(|cell| escape(cell))));
     }
     output
+}
+
+/// Lines between fences that are longer than any row of backticks in them, so that nothing in them ends the block.
+fn fenced(lines: &str) -> String {
+    let longest = lines.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(longest.max(2) + 1);
+    format!("{fence}text\n{}\n{fence}\n", lines.trim_end())
 }
 
 /// Text at the start of a line, where a few more characters are markup.
@@ -77,6 +87,12 @@ mod tests {
         assert_eq!(escape("[1, 2] [a](b)"), "[1, 2] [a\\](b)");
         assert_eq!(escape_line("# no heading"), "\\# no heading");
         assert_eq!(escape("`a_b*` * `c`"), "`a_b*` \\* `c`");
+    }
+
+    #[test]
+    fn no_line_of_code_ends_its_block() {
+        assert_eq!(render(&[Block::Code("a | b\n".to_owned())]), "```text\na | b\n```\n");
+        assert_eq!(render(&[Block::Code("```\n# a\n````\n".to_owned())]), "`````text\n```\n# a\n````\n`````\n");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The document model that the text and the Markdown renderer share.
+//! The parts of a document, without any format.
 
 /// How the cells of a column are placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,12 +58,20 @@ pub enum Block {
     Heading(String),
     /// The title of a part of a section.
     Subheading(String),
+    /// What is proved, refuted or undecided, in one sentence.
+    Verdict(String),
     /// One or more sentences.
     Paragraph(String),
     /// Items of one line or a few.
     List(Vec<String>),
+    /// What something is called, and what is said of it.
+    Facts(Vec<(String, String)>),
     /// A table.
     Table(Table),
+    /// The names of the files with the figures of the report.
+    Figures(Vec<String>),
+    /// Lines that are shown as they are.
+    Code(String),
 }
 
 impl Block {
@@ -71,6 +79,28 @@ impl Block {
     #[must_use]
     pub fn says(text: impl Into<String>) -> Block {
         Block::Paragraph(text.into())
+    }
+
+    /// The title of a section.
+    #[must_use]
+    pub fn heading(title: impl Into<String>) -> Block {
+        Block::Heading(title.into())
+    }
+
+    /// Names, and what is said of each.
+    #[must_use]
+    pub fn facts(facts: impl IntoIterator<Item = (impl Into<String>, String)>) -> Block {
+        Block::Facts(facts.into_iter().map(|(name, said)| (name.into(), said)).collect())
+    }
+
+    /// The items of a list, where the block is one of its kinds.
+    pub(super) fn items(&self) -> Vec<String> {
+        match self {
+            Block::List(items) => items.clone(),
+            Block::Facts(facts) => facts.iter().map(|(name, said)| format!("{name}: {said}")).collect(),
+            Block::Figures(names) => names.iter().map(|name| format!("`{name}`")).collect(),
+            _ => Vec::new(),
+        }
     }
 }
 

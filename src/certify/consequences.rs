@@ -1,0 +1,68 @@
+//! What follows from a run beyond its claim: the error for given numbers of oscillators, the arguments that were used, the
+//! error box, the regulated output behind a filter, and which smaller initial set may do.
+
+use super::certification::{Certification, RelativeDegreeGains};
+use super::options::{Derivation, TransferChoice};
+use crate::data::{Bound, Data, Problem};
+use crate::derivation::targets::{Consequences, Target};
+use crate::enclosure::Enclosure;
+use crate::search::{FloatModel, SmallerSet, smaller_set};
+use crate::transfer::TradeOff;
+
+impl Certification<'_> {
+    /// Certified bounds of the periodic error, with answers to the targets; `None` without a certified claim.
+    ///
+    /// Guarantee: they hold for every sigma' >= sigma* and the stated n_o, along the periodic solution.
+    #[must_use]
+    pub fn consequences(&self, targets: &[Target]) -> Option<Consequences> {
+        let claim = self.claim()?;
+        let data = Data::new(self.spec, claim.precision);
+        let [_, e_per, _] = claim.periodic;
+        Some(Consequences::new(&data, claim.excitation, &data.rational(claim.sigma), e_per, targets))
+    }
+
+    /// Radii of the error box in x and e of the chosen derivation, if certified.
+    #[must_use]
+    pub fn error_box(&self) -> Option<[Enclosure; 2]> {
+        self.claim().map(|claim| claim.error_box)
+    }
+
+    /// The largest X and E at which the claim for every n_o uses a bounding function; upper bounds.
+    #[must_use]
+    pub fn largest_arguments(&self) -> Option<[Enclosure; 2]> {
+        self.attempt().map(|attempt| attempt.arguments)
+    }
+
+    /// The largest X and E at which exact regulation uses a bounding function; it does so for an error box of its own.
+    #[must_use]
+    pub fn exact_arguments(&self) -> Option<[Enclosure; 2]> {
+        let claim = self.exact.as_ref().filter(|_| self.options.derivation == Derivation::Sharp)?;
+        Some([&claim.witness.d_x, &claim.witness.d_e].map(|radius| Enclosure::from_rational(radius, self.precision)))
+    }
+
+    /// Upper bounds of sup|xi_1| and rms(xi_1) along the periodic solution, for every n_o: k_inf and sqrt(k_2) times the
+    /// certified bound of sup|e|, which also bounds rms(e). `None` without a certified claim.
+    #[must_use]
+    pub fn regulated_output(&self, gains: &RelativeDegreeGains) -> Option<[Enclosure; 2]> {
+        let [_, e, _, _] = self.periodic_solution()?;
+        Some([&gains.k_inf * &e, gains.k_2.sqrt() * e])
+    }
+
+    /// Whether f(0,0) > 0 is proved of the bounding function, although |f(t,0,0)| = 0 for every plant of the family.
+    #[must_use]
+    pub fn has_force_at_origin(&self) -> bool {
+        let data = Data::new(self.spec, self.precision);
+        data.bound(Bound::F, &data.zero(), &data.zero()).is_positive().is_true()
+    }
+
+    /// Which smaller initial set would do, in floating point: a proposal, no proof.
+    #[must_use]
+    pub fn smaller_set(&self) -> SmallerSet {
+        // The working precision of what only proposes.
+        let data = Data::new(self.spec, 64);
+        let matched = self.options.transfer == TransferChoice::Best && self.spec.internal_model.matched;
+        let repaired = self.options.derivation == Derivation::Repaired;
+        let trade_off = if matched && !repaired { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
+        smaller_set(&FloatModel::new(&data, trade_off), repaired)
+    }
+}

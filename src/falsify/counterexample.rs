@@ -1,0 +1,40 @@
+//! The plant of a trial as a plant file, which anyone can simulate again.
+
+use super::claim::Claim;
+use super::finding::{Trial, Violation};
+use crate::plant;
+use crate::report::document::clean;
+use crate::spec::{Document, SpecErrors};
+use serde_json::json;
+
+/// The plant of a trial as a plant file with its initial condition, as a document.
+///
+/// # Errors
+/// None is known: the text is made here.
+pub fn counterexample_plant(
+    claim: &Claim,
+    trial: &Trial,
+    violation: Option<&Violation>,
+) -> Result<Document, SpecErrors> {
+    let (f, q) = trial.plant.family.texts();
+    let states = f.len();
+    let names: Vec<String> = (1..=states).map(|i| format!("x{i}")).collect();
+    let (x, rest) = trial.start.split_at(states);
+    let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
+    let description = violation.map_or_else(String::new, |violation| {
+        format!(
+            "Counterexample: {} is {} where at most {} is claimed. Simulate it with --sigma {:?} --n-o {}.",
+            violation.quantity, violation.found, violation.bound, trial.sigma, trial.n_o
+        )
+    });
+    let file = json!({
+        "format": plant::FORMAT, "version": 1,
+        "name": format!("Trial {} for {}", trial.number, clean(&claim.spec.name)),
+        "description": description,
+        "period": claim.spec.period.text,
+        "states": names, "f": f, "q": q,
+        "initial": { "x": x, "e": e, "z": z },
+        "internal_model": claim.spec.document["internal_model"],
+    });
+    Document::parse("trial", &format!("{file:#}\n"))
+}

@@ -1,0 +1,29 @@
+//! The document that every command reports with, and its renderers.
+//!
+//! A report makes blocks once; a renderer is one function of them, in a file of its own. JSON is data and not text: each
+//! report writes it from the same figures, because its fields are a contract that headings and sentences are not.
+
+mod block;
+mod markdown;
+mod text;
+
+pub use block::{Align, Block, Column, Table, clean};
+
+/// A report that can be written in every format, with the same content in each.
+pub trait Readable {
+    /// The document that the renderers of text and Markdown share.
+    fn blocks(&self) -> Vec<Block>;
+
+    /// As JSON: claims are strings, enclosures `["lo", "hi"]`; floating point that claims nothing may be a number.
+    fn json(&self) -> serde_json::Value;
+
+    /// As plain text, readable without colour at 100 columns.
+    fn text(&self) -> String {
+        text::render(&self.blocks())
+    }
+
+    /// As GitHub-flavoured Markdown.
+    fn markdown(&self) -> String {
+        markdown::render(&self.blocks())
+    }
+}
