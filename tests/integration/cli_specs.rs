@@ -3,13 +3,16 @@
 use crate::support::{files, json, program, stem};
 use std::collections::BTreeSet;
 
-const CERTIFIED: [&str; 15] = [
+const CERTIFIED: [&str; 18] = [
     "explicit-weights",
     "ill-conditioned",
     "linear",
+    "motor-axis",
+    "motor-axis-friction",
     "no-x",
     "paper-example",
     "paper-example-at-rest",
+    "paper-example-harmonics-at-rest",
     "paper-example-jacobian",
     "paper-example-rms",
     "paper-example-rms-at-rest",
@@ -21,23 +24,26 @@ const CERTIFIED: [&str; 15] = [
     "short-period",
 ];
 
-const BAD_INPUT: [&str; 38] = [
+const BAD_INPUT: [&str; 42] = [
     "bad-expression",
     "bad-family",
     "bad-kind",
     "decreasing-bound",
+    "decreasing-one-sided",
     "duplicate-key",
     "empty",
     "escaped-text",
     "exponent-too-large",
     "foreign-field",
     "half-a-domain",
+    "increasing-rate",
     "irrational-coefficient",
     "jacobian",
     "many-errors",
     "missing-field",
     "misspelt-field",
     "negative-bound",
+    "negative-harmonic",
     "negative-initial-set",
     "negative-period",
     "no-tail",
@@ -45,6 +51,7 @@ const BAD_INPUT: [&str; 38] = [
     "not-json",
     "not-matched",
     "p-order",
+    "rate-beside-jacobian",
     "too-deep",
     "trailing-comma",
     "unknown-field",

@@ -20,7 +20,7 @@ fn valid_examples_are_read() {
 type Found<'t> = (ErrorKind, &'t str, &'t str);
 
 /// These are read: what is wrong with them is for the proof of the bounding functions to find.
-const READ_FINE: [&str; 2] = ["decreasing-bound", "negative-bound"];
+const READ_FINE: [&str; 4] = ["decreasing-bound", "decreasing-one-sided", "increasing-rate", "negative-bound"];
 
 #[test]
 fn invalid_examples_are_refused_where_they_are_wrong() {
@@ -56,6 +56,8 @@ fn invalid_examples_are_refused_where_they_are_wrong() {
         ("matched-undecided", &[(Undecided, "/internal_model/base_frequency", "exp(log(2*pi))")]),
         ("missing-field", &[(MissingField, "/period", "{"), (MissingField, "/bounds/q_t", "\"bounds\"")]),
         ("misspelt-field", &[(MissingField, "/bounds/q_e", "\"bounds\""), (UnknownField, "/bounds/qe", "\"qe\"")]),
+        ("negative-harmonic", &[(Range, "/q_0/harmonics/1", "-0.8")]),
+        ("rate-beside-jacobian", &[(UnknownField, "/lyapunov/rate", "\"rate\"")]),
         ("negative-initial-set", &[(Range, "/initial_set/X0", "-1")]),
         ("negative-period", &[(Range, "/period", "-1")]),
         ("no-tail", &[(MissingField, "/internal_model/weights/tail", "\"weights\"")]),
