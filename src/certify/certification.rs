@@ -14,7 +14,7 @@ use crate::derivation::relative_degree::RelativeDegreeError;
 use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::table::Row;
 use crate::enclosure::Enclosure;
-use crate::search::Datum;
+use crate::search::{Binding, Datum, OptionalDatum};
 use crate::spec::model::Specification;
 use rug::Rational;
 
@@ -74,7 +74,9 @@ pub struct Certification<'s> {
     /// That no plant with a state x satisfies the data, where it is proved; the claim then says nothing about any.
     pub no_plant: Option<NoPlant>,
     /// Which condition sets sigma*, according to the search.
-    pub binding: Option<&'static str>,
+    pub binding: Option<Binding>,
+    /// For each optional datum that is given, sigma* without it (an estimate), and none where nothing is found then.
+    pub without_optional: Vec<(OptionalDatum, Option<f64>)>,
     /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.
     pub sensitivities: Vec<(Datum, f64)>,
     /// Bounding functions that were neither proved nor refuted.

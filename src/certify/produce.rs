@@ -21,7 +21,10 @@ use crate::derivation::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
-use crate::search::{FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, sensitivities};
+use crate::search::{
+    FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, sensitivities,
+    without_optional_data,
+};
 use crate::spec::model::Specification;
 use crate::transfer::{TradeOff, printed_transfer};
 use rug::Rational;
@@ -164,6 +167,10 @@ fn assemble<'s>(
         Derivation::Sharp | Derivation::Printed => reach(&sharp).or_else(|| reach(&repaired)),
     };
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
+    let without_optional = match (&sharp, &proposal) {
+        (Outcome::Proved(_), Some(_)) => without_optional_data(model),
+        _ => Vec::new(),
+    };
     sensitivities.retain(|(_, gain)| *gain > 0.0);
     sensitivities.sort_by(|a, b| b.1.total_cmp(&a.1));
     Ok(Certification {
@@ -181,6 +188,7 @@ fn assemble<'s>(
         checks,
         no_plant,
         sensitivities,
+        without_optional,
         unproved_bounds: unproved,
         constants: constants.rows,
     })

@@ -12,6 +12,7 @@ use crate::certify::{Certification, Outcome, Verdict};
 use crate::derivation::condition::Condition;
 use crate::derivation::targets::{Consequences, TargetKind, TargetOutcome};
 use crate::number::write_exact;
+use crate::search::{Binding, OptionalDatum};
 use rug::Rational;
 use serde_json::{Value, json};
 
@@ -51,7 +52,9 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("derivations", derivations(run)),
         ("constants", constants_json(&run.constants)),
         ("printed", printed(run)),
-        ("binding", json!(run.binding)),
+        ("binding", json!(run.binding.map(Binding::describe))),
+        ("binding_advice", json!(run.binding.map(Binding::advice))),
+        ("without_optional", without_optional(run)),
         ("sensitivities", sensitivities(run)),
         ("consequences", consequences.map_or(Value::Null, consequences_json)),
         ("exact_regulation", exact_regulation(run)),
@@ -105,6 +108,14 @@ fn printed(run: &Certification<'_>) -> Value {
 }
 
 /// Relative falls of sigma* for 1 %; floating-point estimates.
+/// The optional data with the estimate of sigma* without each; null where none is found.
+fn without_optional(run: &Certification<'_>) -> Value {
+    let one = |(datum, sigma): &(OptionalDatum, Option<f64>)| {
+        json!({ "datum": datum.field(), "estimate": sigma.map(estimate) })
+    };
+    run.without_optional.iter().map(one).collect()
+}
+
 fn sensitivities(run: &Certification<'_>) -> Value {
     run.sensitivities
         .iter()

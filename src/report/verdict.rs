@@ -6,6 +6,7 @@ use super::obstacles;
 use super::remarks::remarks;
 use crate::certify::{Certification, Derivation, Verdict};
 use crate::number::{Direction, write_exact};
+use crate::spec::Bound;
 use crate::spec::model::LyapunovSource;
 use crate::transfer::TransferProof;
 
@@ -48,7 +49,7 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
 /// What the claim rests on: derivation, assumptions about the plant, the transfer constants.
 pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
     let derivation = match run.options.derivation {
-        Derivation::Sharp => "Derivation: sharp (sections 2 to 5 of the derivation).",
+        Derivation::Sharp => "Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics).",
         Derivation::Repaired => "Derivation: repaired (the architecture of the paper, each formula repaired).",
         Derivation::Printed => "Derivation: printed (the paper to the letter).",
     };
@@ -62,17 +63,20 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
             ));
             "that its Jacobian df/dx(t,0,0) is within the one given"
         }
+        _ if run.spec.bounds.own(Bound::Rate).is_some() => "the Lyapunov triple (p_low, p_up, alpha) and the rate",
         _ => "the Lyapunov triple (p_low, p_up, alpha)",
     };
+    let of_the_disturbance =
+        if run.spec.q_0.is_some() { ", that q_0 bounds the harmonics of q(t,0,0) and the rest" } else { "" };
     let further = run.exact_arguments().map(|arguments| arguments.each_ref().map(upper)).filter(|_| used.is_some());
     items.push(format!(
-        "Assumed of the plant: {of_the_zero_dynamics}, and that the bounding functions bound the plant{}{}.",
+        "Assumed of the plant: {of_the_zero_dynamics}{of_the_disturbance}, and that the bounding functions bound the plant{}{}.",
         used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments")),
         further.map_or_else(String::new, |[x, e]| format!("; exact regulation needs them for |x| <= {x}, |e| <= {e}")),
     ));
     items.push(
-        "Proved of the bounding functions: finite and nondecreasing there; their positive parts are used. Proved of the \
-         weights: W1 to W3."
+        "Proved of the bounding functions: finite and nondecreasing there (a rate nonincreasing); of bounds of norms the \
+         positive parts are used. Proved of the weights: W1 to W3."
         .to_owned(),
     );
     items.extend(run.claim().map(|claim| {

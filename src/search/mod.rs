@@ -3,6 +3,7 @@
 //! Everything here is deterministic: candidates are generated in a fixed order, evaluated in parallel, and compared in
 //! that order, so that the number of threads does not change the result.
 
+mod binding;
 mod candidate;
 mod effort;
 mod error_box;
@@ -17,11 +18,15 @@ mod scan;
 mod sharp;
 mod smaller_set;
 
+pub use binding::Binding;
 pub use candidate::{AtSigma, Obstacle, active_level, weight_h};
 pub use exact::search_exact;
 pub use model::{Datum, FloatModel};
 pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
-pub use sharp::{SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_near, sensitivities};
+pub use sharp::{
+    OptionalDatum, SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_near, sensitivities,
+    without_optional_data,
+};
 pub use smaller_set::{SmallerSet, smaller_set};

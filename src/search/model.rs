@@ -1,6 +1,7 @@
 //! The specification in floating point, for searches only.
 
 use super::effort::Effort;
+use super::sharp::OptionalDatum;
 use crate::data::{Bound, Data, ExistenceTriple, KnownForcing, Numbers, Problem};
 use crate::derivation::initial_set::paper_z0;
 use crate::enclosure::Enclosure;
@@ -237,6 +238,31 @@ impl FloatModel {
                 for (bound, _) in model.bounds.iter_mut().zip(Bound::ALL).filter(|(_, bound)| *bound == which) {
                     bound.change = if which.is_nonincreasing() { by } else { -by };
                 }
+            }
+        }
+        model
+    }
+
+    /// What is given beyond the data that every specification has.
+    #[must_use]
+    pub fn optional_data(&self) -> Vec<OptionalDatum> {
+        let bounds = Bound::ALL.into_iter().filter(|bound| !bound.is_required() && self.given(*bound));
+        let harmonics = self.q_0.is_some().then_some(OptionalDatum::Harmonics);
+        bounds.map(OptionalDatum::Bound).chain(harmonics).collect()
+    }
+
+    /// The same model without an optional datum.
+    #[must_use]
+    pub fn without(&self, datum: OptionalDatum) -> FloatModel {
+        let mut model = self.clone();
+        match datum {
+            OptionalDatum::Harmonics => model.numbers.q_0 = None,
+            OptionalDatum::Bound(which) => {
+                let serves = which.replacement().map(|other| self.bounds[other as usize].clone());
+                let absent =
+                    ScaledBound { function: None, change: 0.0, given: false, signed: false, supremum: None };
+                model.bounds[which as usize] =
+                    ScaledBound { given: false, ..serves.unwrap_or(absent) };
             }
         }
         model

@@ -1,11 +1,13 @@
 //! The search of the sharp derivation: the smallest sigma at which the smallest set with a periodic solution has an error box.
 
+use super::binding::Binding;
 use super::candidate::{AtSigma, Obstacle};
 use super::error_box::{best_error_box, error_box_near};
 use super::model::{Datum, FloatModel};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
 use super::root::crossing;
 use super::scan;
+use crate::data::Bound;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::initial_set::distances;
 use crate::number::Portable;
@@ -31,8 +33,8 @@ pub struct SharpProposal {
     pub parameters: SharpParameters,
     /// The smallest sigma found for them.
     pub sigma: f64,
-    /// Which condition sets sigma.
-    pub binding: &'static str,
+    /// What sets sigma.
+    pub binding: Binding,
 }
 
 /// The room between both sides of S1 and S2 that a search leaves: well below the digits of sigma*.
@@ -252,11 +254,11 @@ fn with_ordinary_floors(mut search: Search<'_>, ordinary: Floors, sigma: f64) ->
 }
 
 fn proposal(search: &Search<'_>, sigma: f64) -> Result<SharpProposal, Obstacle> {
-    let (_, at) = search.at(sigma, ROOM)?;
+    let (set, at) = search.at(sigma, ROOM)?;
     let parameters = SharpParameters { form: search.form, floors: search.floors, rho: at.rho, eta: at.eta };
     let binding = match search.at(sigma * (1.0 - 1e-6), ROOM) {
-        Err(Obstacle::Existence) => "S2 (existence of the periodic solution)",
-        _ => "C5 (decay in the error box)",
+        Err(Obstacle::Existence) => Binding::Existence,
+        _ => Binding::of_decay(search.model, &set, &at),
     };
     Ok(SharpProposal { parameters, sigma, binding })
 }
@@ -286,5 +288,33 @@ pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum
         let improved = model.improved(datum, 0.01);
         let gain = search_sharp_near(&improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / proposal.sigma);
         (datum, gain.max(0.0))
+    })
+}
+
+/// What a specification may give beyond the data that every one has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OptionalDatum {
+    /// A bounding function.
+    Bound(Bound),
+    /// The harmonics of q(t,0,0).
+    Harmonics,
+}
+
+impl OptionalDatum {
+    /// The name of its field in a specification.
+    #[must_use]
+    pub fn field(self) -> &'static str {
+        match self {
+            OptionalDatum::Bound(bound) => bound.field(),
+            OptionalDatum::Harmonics => "q_0",
+        }
+    }
+}
+
+/// For each optional datum that is given, sigma* without it, and none where there is no candidate then; floating point.
+#[must_use]
+pub fn without_optional_data(model: &FloatModel) -> Vec<(OptionalDatum, Option<f64>)> {
+    scan::evaluate_all(&model.optional_data(), |&datum| {
+        (datum, search_sharp(&model.without(datum)).ok().map(|found| found.sigma))
     })
 }

@@ -1,0 +1,78 @@
+//! What sets sigma*, in words that a user can act on. Floating point: an explanation, not a claim.
+
+use super::candidate::{AtSigma, active_level, weight_h};
+use super::model::FloatModel;
+use super::periodic::PeriodicSet;
+use crate::derivation::stability::{DecayTerms, ErrorBox};
+
+/// The mechanism that asks for most of sigma*.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// S2: below sigma* no periodic solution is proved.
+    Existence,
+    /// The term D^2/(4 ht) of C5 where ht is as large as dq/de allows: D is 2 or so.
+    Slope {
+        /// Whether damping is told apart from the rest by `q_e_max`.
+        one_sided: bool,
+    },
+    /// The same term where ht is small: what the state of the internal model has to lose at the start keeps h small.
+    InternalModel,
+    /// The other term of C5: the loop through x, by df/de and dq/dx.
+    Coupling,
+}
+
+/// The share of ht k_l above which dq/de, and not the start of the internal model, limits h.
+const SLOPE_SHARE: f64 = 0.3;
+
+impl Binding {
+    /// Which term of the threshold of C5 is the larger one.
+    pub(super) fn of_decay(model: &FloatModel, set: &PeriodicSet, at: &AtSigma) -> Binding {
+        let level = active_level(at.eta, at.dist_e, at.rho);
+        let error_box = ErrorBox::new(model, &set.x_per, &set.e_per, &at.d_x, &level.sqrt());
+        let (w_x, h) = (level / (model.p_low * at.d_x * at.d_x), weight_h(at.eta, at.dist_e, at.dist_z));
+        let ErrorBox { k_x, k_f, rate, sector, .. } = &error_box;
+        let terms = DecayTerms::new([&w_x, &h], [rate, &model.mu, &model.p_up.sqrt()], [k_x, k_f], sector);
+        let by_coupling = terms.cross * terms.cross / (terms.curvature - terms.coupling);
+        if by_coupling > 0.5 * at.threshold {
+            Binding::Coupling
+        } else if terms.h_over_mu * sector.below > SLOPE_SHARE {
+            Binding::Slope { one_sided: model.has_one_sided() }
+        } else {
+            Binding::InternalModel
+        }
+    }
+
+    /// What it is.
+    #[must_use]
+    pub fn describe(self) -> &'static str {
+        match self {
+            Binding::Existence => "S2: below it no periodic solution is proved to exist",
+            Binding::Slope { .. } => "C5: dq/de in the error box",
+            Binding::InternalModel => "C5: how far the state of the internal model starts from the periodic solution",
+            Binding::Coupling => "C5: the loop through x in the error box, by df/de and dq/dx against the decay rate",
+        }
+    }
+
+    /// What lowers it.
+    #[must_use]
+    pub fn advice(self) -> &'static str {
+        match self {
+            Binding::Existence => {
+                "Bounds of q in the mean (q_rms, q_t_rms), its harmonics (q_0), or a bound of dq/de from above (q_e_max) \
+                 lower it."
+            }
+            Binding::Slope { one_sided: false } => {
+                "A smaller initial set, or a bound of dq/de from above that tells damping apart (q_e_max), lowers it; a \
+                 smaller mu hardly does."
+            }
+            Binding::Slope { one_sided: true } => "A smaller initial set or a smaller q_e_max lowers it.",
+            Binding::InternalModel => {
+                "A controller started at rest, a smaller initial set, bounds of q in the mean (q_rms, q_t_rms) or its \
+                 harmonics (q_0) lower it; so does a mu that fits the plant."
+            }
+            Binding::Coupling => {
+                "Smaller f_e or q_x, a larger alpha or a rate on the box, or coordinates of x in which they are, lower it."
+            }
+        }
+    }
+}
