@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::output::{reason, shown};
 use super::temporary::{Temporary, place};
+use sigmastar::plot::Figure;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -137,4 +138,16 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
         let message = format!("cannot create the folder `{}`: {}", shown(path), reason(&error));
         Failure::call(message, "name a folder that exists or can be created")
     })
+}
+
+/// Writes figures into a folder, each under its name; `help` is what to do where one cannot be drawn.
+///
+/// # Errors
+/// A figure that cannot be drawn, and the file system's reason.
+pub fn figures(folder: &Path, figures: &[(&str, Figure)], input: Input<'_>, help: &str) -> Result<(), Failure> {
+    for (name, figure) in figures {
+        let svg = figure.svg().map_err(|error| Failure::call(error.to_string(), help))?;
+        OutputFile::new(&folder.join(name), input, "a figure")?.write(svg)?;
+    }
+    Ok(())
 }

@@ -28,11 +28,7 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
     let reproduction = reproduce(settings, &bar)?;
     bar.finish();
     let figures = if parts.figures { figures()? } else { Vec::new() };
-    for (name, figure) in &figures {
-        let svg =
-            figure.svg().map_err(|error| Failure::call(error.to_string(), "leave the figures out with --only"))?;
-        write(&args.output, name, &svg)?;
-    }
+    files::figures(&args.output, &figures, Input::None, "leave the figures out with --only")?;
     let figures = figures.iter().map(|(name, _)| (*name).to_owned()).collect();
     let report = ReproductionReport { reproduction: &reproduction, figures };
     let markdown = report.markdown();

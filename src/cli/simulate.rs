@@ -10,10 +10,8 @@ use sigmastar::certify::Verdict;
 use sigmastar::plant::Plant;
 use sigmastar::regulator::{Design, Regulator, read_regulator};
 use sigmastar::simulate::{
-    ClosedLoop, Integrator, Noise, NoiseSettings, Simulation, SimulationReport, SimulationSettings, csv, figures,
-    simulate,
+    ClosedLoop, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures, simulate,
 };
-use std::path::Path;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SimulateArgs) -> u8 {
@@ -72,7 +70,8 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         file.write(csv(&plant, &closed_loop, run))?;
     }
     if let Some(folder) = &args.plots {
-        write_figures(folder, &args.plant, &closed_loop, &simulation)?;
+        let drawn = figures(&closed_loop, &simulation);
+        files::figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
     }
     if let Err(code) = output::data(&text) {
         return Ok(code);
@@ -105,17 +104,4 @@ fn remarks(plant: &Plant, regulator: &Regulator, settings: &SimulationSettings, 
             shown(path)
         ));
     }
-}
-
-fn write_figures(
-    folder: &Path,
-    input: &Path,
-    closed_loop: &ClosedLoop,
-    simulation: &Simulation,
-) -> Result<(), Failure> {
-    for (name, figure) in figures(closed_loop, simulation) {
-        let svg = figure.svg().map_err(|error| Failure::call(error.to_string(), "leave --plots out"))?;
-        OutputFile::new(&folder.join(name), Input::Plant(input), "a figure")?.write(svg)?;
-    }
-    Ok(())
 }

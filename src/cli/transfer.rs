@@ -9,7 +9,7 @@ use super::{input, output};
 use sigmastar::certify::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
 use sigmastar::progress::Progress;
-use sigmastar::report::transfer_figure;
+use sigmastar::report::{pair_failure_json, transfer_figure};
 use sigmastar::spec::Specification;
 use sigmastar::transfer::{PairChoice, PairError, TransferStudy};
 use std::path::Path;
@@ -69,15 +69,11 @@ fn svg_file(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
 /// Says why there is no pair, and returns the exit code.
 fn no_pair(args: &TransferArgs, error: &PairError) -> u8 {
     let verdict = if error.is_refuted() { Verdict::Refuted } else { Verdict::Undecided };
-    let help = error.way_out();
     if args.format == Format::Json {
-        let value = serde_json::json!({
-            "format": "sigmastar/transfer", "version": 1, "verdict": verdict.to_string(),
-            "reason": error.to_string(), "help": help,
-        });
-        return output::data(&output::json_text(&value)).map_or_else(|code| code, |()| verdict.exit_code());
+        return output::data(&output::json_text(&pair_failure_json(verdict, error)))
+            .map_or_else(|code| code, |()| verdict.exit_code());
     }
-    output::error(&error.to_string(), help);
+    output::error(&error.to_string(), error.way_out());
     output::remark(&verdict.to_string());
     verdict.exit_code()
 }

@@ -32,5 +32,5 @@ pub use failures::{call_failure_json, failure_json};
 pub use lyapunov::LyapunovReport;
 pub use rate::RateReport;
 pub(crate) use remarks::remarks;
-pub use transfer::transfer_figure;
+pub use transfer::{pair_failure_json, transfer_figure};
 pub use verdict::sentence;

@@ -1,10 +1,11 @@
 //! The report on the transfer bound as JSON.
 
+use crate::certify::Verdict;
 use crate::data::Data;
 use crate::number::write_exact;
 use crate::transfer::{
-    CertifiedPair, OscillatorCount, PairStatus, PrintedCheck, PrintedChecks, TransferStudy, Uniformity, kappas,
-    lambda_interval,
+    CertifiedPair, OscillatorCount, PairError, PairStatus, PrintedCheck, PrintedChecks, TransferStudy, Uniformity,
+    kappas, lambda_interval,
 };
 use serde_json::{Value, json};
 
@@ -40,6 +41,15 @@ pub(super) fn report(study: &TransferStudy<'_>) -> Value {
         "matched": matched,
         "printed": printed(&study.printed),
         "repaired": { "k0": study.printed.repaired.0.decimals(), "k1": study.printed.repaired.1.decimals() },
+    })
+}
+
+/// The report object of a call that came to no pair.
+#[must_use]
+pub fn pair_failure_json(verdict: Verdict, error: &PairError) -> Value {
+    json!({
+        "format": "sigmastar/transfer", "version": 1, "verdict": verdict.to_string(),
+        "reason": error.to_string(), "help": error.way_out(),
     })
 }
 

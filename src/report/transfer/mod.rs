@@ -6,6 +6,7 @@ mod printed;
 mod sections;
 
 pub use figure::transfer_figure;
+pub use json::pair_failure_json;
 
 use super::document::{Block, Readable, clean};
 use crate::transfer::TransferStudy;
