@@ -5,7 +5,6 @@ use super::triple::{lyapunov_json, rows};
 use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
-use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::table::{At, Entry, Row, Value as Cell};
 use crate::enclosure::Enclosure;
@@ -72,7 +71,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ),
         ("statement", text(statement(run, sigma, set))),
     ]);
-    let regulation = run.exact.as_ref().map(|claim| &claim.witness);
+    let regulation = run.exact.as_ref().map(|exact| ("exact_regulation", object(exact.witness.json())));
     let sharp = run.sharp.proved().map(|proof| with_witness(proof, regulation));
     let repaired = run.repaired.proved().map(|proof| with_witness(proof, None));
     // The free numbers of the other derivation, without which its column of the constants could not be checked.
@@ -223,15 +222,14 @@ fn transfer_json(proof: &TransferProof) -> Value {
     }
 }
 
-/// A proof with its witness as JSON: the numbers, the transfer proof, and what is proved beside.
-fn with_witness<'p, W: Witness + Numbers>(
-    proof: &'p Proof<W>,
-    regulation: Option<&ExactWitness>,
-) -> (Decided<'p>, Value) {
+/// A proof with its witness as JSON: the numbers, the transfer proof, and further parts.
+fn with_witness<W: Witness + Numbers>(
+    proof: &Proof<W>,
+    parts: impl IntoIterator<Item = (&'static str, Value)>,
+) -> (Decided<'_>, Value) {
     let decided = proof.decided();
     let transfer = ("transfer", transfer_json(decided.transfer));
-    let regulation = regulation.map(|regulation| ("exact_regulation", object(regulation.json())));
-    (decided, object(proof.witness.json().into_iter().chain([transfer]).chain(regulation)))
+    (decided, object(proof.witness.json().into_iter().chain([transfer]).chain(parts)))
 }
 
 /// Conditions with outward-rounded sides, and the margin rounded down.
