@@ -1,7 +1,7 @@
 //! The free numbers of every witness: their names in a certificate, listed once for the writer, the reader and messages.
 //!
-//! A further number of a witness is one line here, beside its field in `derivation`; a part that is nested or may be
-//! missing is listed by itself, and read and written as its derivation's `exact_regulation` is.
+//! A further number of a witness is one line here, beside its field in `derivation`. A part that is nested, or may be
+//! missing, is a list of its own; it is read and written as `exact_regulation` is.
 
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::mean_squares::MeanSquares;

@@ -1,7 +1,6 @@
 //! C3 with weights and as a matrix inequality: the enclosed spectral radius, and the diagonal Stein inequality.
 
-use crate::matrix::AffineMatrix;
-use crate::matrix::is_positive_definite;
+use crate::matrix::{AffineMatrix, is_positive_definite};
 use crate::number::{Direction, round_f64};
 use crate::semidefinite::{SolverFailure, margin, propose};
 use rug::Rational;

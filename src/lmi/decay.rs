@@ -3,8 +3,7 @@
 use crate::data::Data;
 use crate::derivation::stability::ErrorBox;
 use crate::enclosure::Enclosure;
-use crate::matrix::AffineMatrix;
-use crate::matrix::is_positive_definite;
+use crate::matrix::{AffineMatrix, is_positive_definite};
 use rug::Rational;
 
 /// The numbers of C5, each an exact bound in the direction in which C5 is harder (see [`verify_decay`]).

@@ -26,7 +26,7 @@
 //! - *Without x.* If b_f is 0 on the error box, f = 0 there, so `F = 0` and `P_x' <= -2 alpha P_x`, which no P_x >= P_low I on the
 //!   whole line satisfies unless n = 0. Then xi, u_x and phi are left out, and with them the bound alpha - gam of the rate.
 
-use super::oscillators::Oscillators;
+use super::oscillators::OscillatorMatrix;
 use crate::data::{Bound, Data, Problem};
 use crate::derivation::stability::ErrorBox;
 use crate::enclosure::{Enclosure, Truth};
@@ -65,7 +65,7 @@ impl LoopBounds {
 /// The error system of one n_o at one gain.
 pub struct ErrorDynamics<'a> {
     /// The internal model.
-    pub oscillators: &'a Oscillators,
+    pub oscillators: &'a OscillatorMatrix,
     /// The gain, in 1/time.
     pub sigma: Rational,
     /// The bounds of the rest.

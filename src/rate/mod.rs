@@ -18,7 +18,7 @@ use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational};
 use by_kappa::RateByKappa;
 use inequality::{ErrorDynamics, LoopBounds};
-use oscillators::{Oscillators, ProvedLyapunov};
+use oscillators::{OscillatorMatrix, ProvedLyapunov};
 use rug::Rational;
 use small_gain::SmallGain;
 
@@ -61,7 +61,7 @@ pub enum NoRates {
     /// Nothing is certified by the sharp derivation; the verdict.
     NotCertified(Verdict),
     /// No plant with a state satisfies the data: a rate of all of them would be one of a plant without x.
-    NoPlant(NoPlant),
+    NoPlant(Box<NoPlant>),
     /// The gain is below this sigma*.
     BelowSigmaStar(Rational),
 }
@@ -79,7 +79,7 @@ pub fn certified_rates(
         return Err(NoRates::NotCertified(run.verdict));
     };
     if let Some(reason) = &run.no_plant {
-        return Err(NoRates::NoPlant(reason.clone()));
+        return Err(NoRates::NoPlant(Box::new(reason.clone())));
     }
     let sigma = sigma.unwrap_or_else(|| sigma_star.clone());
     if sigma < *sigma_star {
@@ -108,7 +108,7 @@ fn at(
     bounds: Option<&LoopBounds>,
     by_kappa: Option<&RateByKappa>,
 ) -> Rates {
-    let system = Oscillators::new(data, n_o);
+    let system = OscillatorMatrix::new(data, n_o);
     let eigen = system.eigen();
     let spectral = eigen.as_ref().map(|eigen| -eigen.abscissa());
     let prove = |rate: f64| eigen.as_ref().and_then(|eigen| system.prove(eigen, rate));

@@ -11,7 +11,7 @@ use faer::{Mat, Side, c64};
 use rug::Rational;
 
 /// The matrix A of one n_o, enclosed.
-pub struct Oscillators {
+pub struct OscillatorMatrix {
     order: usize,
     frequency: Enclosure,
     pub(super) mu: Enclosure,
@@ -53,15 +53,15 @@ pub struct ProvedLyapunov {
     pub gain: Enclosure,
 }
 
-impl Oscillators {
+impl OscillatorMatrix {
     /// The matrix of a specification for n_o oscillators.
     #[must_use]
-    pub fn new(data: &Data<'_>, n_o: u32) -> Oscillators {
+    pub fn new(data: &Data<'_>, n_o: u32) -> OscillatorMatrix {
         let weights = &data.spec.internal_model.weights;
         let root = |l: u64| weights.weight(l, data.precision).sqrt();
         let mut b = vec![root(0)];
         b.extend((1..=u64::from(n_o)).flat_map(|l| [root(l), data.zero()]));
-        Oscillators { order: b.len(), frequency: data.base_frequency.clone(), mu: data.mu.clone(), b }
+        OscillatorMatrix { order: b.len(), frequency: data.base_frequency.clone(), mu: data.mu.clone(), b }
     }
 
     /// `2 n_o + 1`.

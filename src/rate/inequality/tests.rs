@@ -55,7 +55,7 @@ fn the_matrix_is_that_of_the_quadratic_form() {
     let data = Data::new(&spec, 128);
     let (bounds, sigma) = (bounds(), sigma());
     for n_o in 0..4_u32 {
-        let oscillators = Oscillators::new(&data, n_o);
+        let oscillators = OscillatorMatrix::new(&data, n_o);
         let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: sigma.clone(), bounds: &bounds };
         let n = 2 * n_o as usize + 2;
         let mut next = numbers(u64::from(n_o) + 1);
@@ -115,7 +115,7 @@ fn a_proof_stops_at_the_largest_rate() {
     let data = Data::new(&spec, 128);
     let (bounds, sigma) = (bounds(), sigma());
     for n_o in [0, 1, 2, 5, 20] {
-        let oscillators = Oscillators::new(&data, n_o);
+        let oscillators = OscillatorMatrix::new(&data, n_o);
         let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: sigma.clone(), bounds: &bounds };
         let (witness, largest) = proposed(&dynamics, 0.9999);
         assert!(dynamics.proves(&witness), "{n_o}");
@@ -135,7 +135,7 @@ fn a_semidefinite_program_finds_the_same_largest_rate() {
     let data = Data::new(&spec, 128);
     let (bounds, sigma) = (bounds(), sigma());
     for n_o in [0, 1, 2] {
-        let oscillators = Oscillators::new(&data, n_o);
+        let oscillators = OscillatorMatrix::new(&data, n_o);
         let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: sigma.clone(), bounds: &bounds };
         let (found, largest) = proposed(&dynamics, 0.99);
         let n = found.q.nrows();
@@ -193,7 +193,7 @@ fn changed_numbers_prove_nothing() {
     let spec = example();
     let data = Data::new(&spec, 128);
     let (plain, sigma) = (bounds(), sigma());
-    let oscillators = Oscillators::new(&data, 2);
+    let oscillators = OscillatorMatrix::new(&data, 2);
     let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: sigma.clone(), bounds: &plain };
     let (witness, _) = proposed(&dynamics, 0.9999);
     assert!(dynamics.proves(&witness));
@@ -234,7 +234,7 @@ fn changed_numbers_prove_nothing() {
     assert!(!under(&|b| b.x_decay /= &more) && under(&|b| b.x_decay *= &more));
     let other = ErrorDynamics { oscillators: &oscillators, sigma: rational(47, 1), bounds: &plain };
     assert!(!other.proves(&witness));
-    let other = Oscillators::new(&data, 3);
+    let other = OscillatorMatrix::new(&data, 3);
     assert!(!ErrorDynamics { oscillators: &other, sigma: sigma.clone(), bounds: &plain }.proves(&witness));
 }
 
@@ -246,7 +246,7 @@ fn no_admissible_linear_plant_is_slower() {
     for (gains, sigma) in [([3, 1, 1], 48), ([3, 1, 1], 20), ([1, 4, 1], 10), ([6, 0, 2], 70), ([0, 2, 0], 5)] {
         let bounds = LoopBounds { gains: gains.map(|k| rational(k, 1)), ..bounds() };
         for n_o in [0, 1, 2, 5] {
-            let oscillators = Oscillators::new(&data, n_o);
+            let oscillators = OscillatorMatrix::new(&data, n_o);
             let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: rational(sigma, 1), bounds: &bounds };
             let (witness, _) = proposed(&dynamics, 0.9999);
             assert!(dynamics.proves(&witness), "{gains:?} {sigma} {n_o}");
@@ -285,7 +285,7 @@ fn no_admissible_linear_plant_is_slower() {
 fn signals_that_vanish_are_left_out() {
     let spec = example();
     let data = Data::new(&spec, 128);
-    let oscillators = Oscillators::new(&data, 1);
+    let oscillators = OscillatorMatrix::new(&data, 1);
     for present in 0..8 {
         let mut bounds = bounds();
         for (signal, gain) in bounds.gains.iter_mut().enumerate().filter(|(signal, _)| present >> signal & 1 == 0) {
@@ -325,7 +325,7 @@ fn a_plant_without_x_is_recognised() {
 fn a_w_that_is_not_definite_proves_nothing() {
     let spec = example();
     let data = Data::new(&spec, 128);
-    let oscillators = Oscillators::new(&data, 0);
+    let oscillators = OscillatorMatrix::new(&data, 0);
     let none = || Rational::new();
     let without = LoopBounds { has_x: false, gains: [none(), rational(1, 1), none()], ..bounds() };
     let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: sigma(), bounds: &without };
