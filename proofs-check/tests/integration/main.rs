@@ -9,6 +9,7 @@ mod hostile;
 mod intervals;
 mod lmi;
 mod lyapunov;
+mod mean_squares;
 mod monotone;
 mod mutations;
 mod specification;
