@@ -4,6 +4,7 @@ mod arguments;
 mod claim;
 mod common;
 mod forged;
+mod formulas;
 mod fuzz;
 mod hostile;
 mod intervals;
