@@ -228,7 +228,7 @@ fn the_upper_bound_of_dq_de() {
 fn rates() {
     let at = "/specification/lyapunov/rate";
     let weak = ("/specification/lyapunov/alpha", json!("0.3"));
-    let report = answer(made(), &[weak.clone()]);
+    let report = answer(made(), std::slice::from_ref(&weak));
     assert!(report.verdict == Invalid && open(&report).contains(&"S1c".to_owned()), "{}", shown(&report));
     // The larger of the two rates is used, for existence, stability and exact regulation.
     holds(made(), &[weak.clone(), (at, json!("0.57 - X/100 - E/100"))]);
@@ -257,7 +257,7 @@ fn rates() {
 fn harmonics_of_q() {
     let q_0 = |value: Value| ("/specification/q_0", value);
     let narrow = ("/witness/E_p", json!("0.168"));
-    fails(made(), &[narrow.clone()], &["S2"]);
+    fails(made(), std::slice::from_ref(&narrow), &["S2"]);
     holds(made(), &[narrow.clone(), q_0(harmonics())]);
     // They bound the answer to q itself: kap > 0 does not mix with them.
     holds(damped(), &[q_0(harmonics())]);
