@@ -7,12 +7,12 @@
 //! expression is nondecreasing along it. A function that is defined on every piece is bounded there, hence finite.
 
 mod jets;
-mod polynomials;
+pub mod polynomials;
 mod slopes;
 
 use crate::expr::Expr;
 use crate::interval::Interval;
-use polynomials::Polynomials;
+use polynomials::{Polynomials, Propose};
 use rug::Rational;
 use slopes::Part;
 use std::cell::OnceCell;
@@ -57,9 +57,9 @@ pub struct Function<'e> {
 }
 
 impl<'e> Function<'e> {
-    /// For a working precision in bits.
-    pub fn new(expr: &'e Expr, precision: u32) -> Function<'e> {
-        Function { expr, polynomials: Polynomials::new(expr), precision }
+    /// For a working precision in bits; `factor` proposes the factors of polynomials.
+    pub fn new(expr: &'e Expr, factor: &Propose<'_>, precision: u32) -> Function<'e> {
+        Function { expr, polynomials: Polynomials::new(expr, factor), precision }
     }
 
     /// The value at a point.
@@ -143,7 +143,7 @@ mod tests {
 
     fn verified(text: &str, steps: &[Step]) -> bool {
         let whole = [0, 0].map(|from| [Rational::from(from), Rational::from(1)]);
-        Function::new(&Expr::parse(text, ARGUMENTS).unwrap(), 128).verify(whole, steps)
+        Function::new(&Expr::parse(text, ARGUMENTS).unwrap(), &|_| Vec::new(), 128).verify(whole, steps)
     }
 
     fn cut(along: usize, numerator: i32) -> Step {

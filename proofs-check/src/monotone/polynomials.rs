@@ -2,7 +2,7 @@
 //!
 //! A derivative that touches 0 inside a box, as 3 (X - 1)^2 of X^3 - 3 X^2 + 3 X does, is never seen to be nonnegative in
 //! rounded arithmetic. So every sum is split into p(X) + q(E) + rest with exact rational polynomials, and p' and q' into
-//! c g_1 g_2^2 g_3^3 ... with square-free g_k (Yun), a product that is multiplied out again and compared. An even power is
+//! c g_1 g_2^2 g_3^3 ..., factors that somebody proposes: the product is multiplied out and compared. An even power is
 //! nonnegative whatever the box is.
 
 use crate::expr::{Expr, Op};
@@ -14,13 +14,17 @@ const MAX_DEGREE: usize = 32;
 const MAX_BITS: u32 = 8192;
 
 /// Coefficients from the constant term up, the last one not 0; empty for the polynomial 0.
-type Polynomial = Vec<Rational>;
+pub type Polynomial = Vec<Rational>;
+/// A factor with its exponent.
+pub type Factor = (Polynomial, u32);
+/// Proposes the factors of a polynomial with leading coefficients 1; what multiplies them is its leading coefficient.
+pub type Propose<'a> = dyn Fn(&Polynomial) -> Vec<Factor> + 'a;
 
 /// c g_1 g_2^2 ...: the nonconstant factors with their exponents.
 #[derive(Clone, Debug)]
 struct Factored {
     constant: Rational,
-    factors: Vec<(Polynomial, i32)>,
+    factors: Vec<Factor>,
 }
 
 /// What is left of an operation when its polynomials are taken away.
@@ -72,13 +76,13 @@ impl Split {
 }
 
 impl Polynomials {
-    pub(super) fn new(expr: &Expr) -> Polynomials {
+    pub(super) fn new(expr: &Expr, factor: &Propose<'_>) -> Polynomials {
         let mut places: Vec<Place> = Vec::new();
         let root = expr.fold(|op, a: Option<Split>, b: Option<Split>| {
             let found = split(op, &a, &b).filter(|(polynomials, _)| polynomials.iter().all(is_moderate));
             // A sum ends where something else is made of it.
             if found.is_none() {
-                [&a, &b].into_iter().flatten().for_each(|part| finish(&mut places, part));
+                [&a, &b].into_iter().flatten().for_each(|part| finish(&mut places, part, factor));
             }
             let rest = match &found {
                 Some((_, false)) => Rest::Nothing,
@@ -89,7 +93,7 @@ impl Polynomials {
             let (polynomials, _) = found.unwrap_or_default();
             Split { at: places.len() - 1, polynomials, rest: rest != Rest::Nothing }
         });
-        root.iter().for_each(|part| finish(&mut places, part));
+        root.iter().for_each(|part| finish(&mut places, part, factor));
         Polynomials { places }
     }
 
@@ -104,13 +108,13 @@ impl Polynomials {
         let p = side.precision();
         let value =
             |g: &Polynomial| g.iter().rev().fold(Interval::int(0, p), |sum, a| sum * side + Interval::rational(a, p));
-        let all = |product, (g, exponent): &(Polynomial, i32)| product * value(g).powi(*exponent);
+        let all = |product, (g, exponent): &Factor| product * value(g).powi(*exponent as i32);
         Some(factors.iter().fold(Interval::rational(constant, p), all))
     }
 }
 
-fn finish(places: &mut [Place], part: &Split) {
-    places[part.at].derivatives = part.polynomials.each_ref().map(|p| factored(&derivative(p)));
+fn finish(places: &mut [Place], part: &Split, factor: &Propose<'_>) {
+    places[part.at].derivatives = part.polynomials.each_ref().map(|p| factored(&derivative(p), factor));
 }
 
 fn is_moderate(p: &Polynomial) -> bool {
@@ -170,23 +174,27 @@ fn split(op: &Op, a: &Option<Split>, b: &Option<Split>) -> Option<([Polynomial; 
     }
 }
 
-fn trimmed(mut p: Polynomial) -> Polynomial {
+/// Without leading zeros.
+pub fn trimmed(mut p: Polynomial) -> Polynomial {
     while p.last().is_some_and(|last| *last == 0) {
         p.pop();
     }
     p
 }
 
-fn scaled(p: &Polynomial, factor: &Rational) -> Polynomial {
+/// The product with a number.
+pub fn scaled(p: &Polynomial, factor: &Rational) -> Polynomial {
     trimmed(p.iter().map(|a| Rational::from(a * factor)).collect())
 }
 
-fn plus(p: &Polynomial, q: &Polynomial) -> Polynomial {
+/// The sum.
+pub fn plus(p: &Polynomial, q: &Polynomial) -> Polynomial {
     let coefficient = |p: &Polynomial, k: usize| p.get(k).cloned().unwrap_or_default();
     trimmed((0..p.len().max(q.len())).map(|k| coefficient(p, k) + coefficient(q, k)).collect())
 }
 
-fn times(p: &Polynomial, q: &Polynomial) -> Polynomial {
+/// The product.
+pub fn times(p: &Polynomial, q: &Polynomial) -> Polynomial {
     let mut product = vec![Rational::new(); (p.len() + q.len()).saturating_sub(1)];
     for (i, a) in p.iter().enumerate() {
         for (j, b) in q.iter().enumerate() {
@@ -196,63 +204,20 @@ fn times(p: &Polynomial, q: &Polynomial) -> Polynomial {
     trimmed(product)
 }
 
-fn derivative(p: &Polynomial) -> Polynomial {
+/// The derivative.
+pub fn derivative(p: &Polynomial) -> Polynomial {
     p.iter().enumerate().skip(1).map(|(k, a)| Rational::from(a * k as u32)).collect()
 }
 
-/// Quotient and remainder by a polynomial other than 0.
-fn divided(p: &Polynomial, q: &Polynomial) -> (Polynomial, Polynomial) {
-    let Some(lead) = q.last() else { return (Vec::new(), p.clone()) };
-    let (mut quotient, mut rest) = (Vec::new(), p.clone());
-    while rest.len() >= q.len() {
-        let factor = rest.pop().unwrap_or_default() / lead;
-        let shift = rest.len() + 1 - q.len();
-        for (k, b) in q[..q.len() - 1].iter().enumerate() {
-            rest[shift + k] -= Rational::from(&factor * b);
-        }
-        quotient.push(factor);
-    }
-    quotient.reverse();
-    (trimmed(quotient), trimmed(rest))
-}
-
-/// The greatest common divisor, with leading coefficient 1.
-fn common(p: &Polynomial, q: &Polynomial) -> Polynomial {
-    let (mut p, mut q) = (monic(p), monic(q));
-    while !q.is_empty() {
-        let (_, rest) = divided(&p, &q);
-        (p, q) = (q, monic(&rest));
-    }
-    p
-}
-
-fn monic(p: &Polynomial) -> Polynomial {
-    p.last().map_or_else(Vec::new, |lead| scaled(p, &Rational::from(lead.recip_ref())))
-}
-
-/// The square-free factors of a polynomial, where one of them is repeated; checked by multiplying out.
-fn factored(p: &Polynomial) -> Option<Factored> {
+/// The factors that are proposed for a polynomial, where one of them is repeated; checked by multiplying out.
+fn factored(p: &Polynomial, factor: &Propose<'_>) -> Option<Factored> {
     let constant = p.last()?.clone();
-    let d = derivative(p);
-    let shared = common(p, &d);
-    if shared.len() <= 1 {
+    let factors = factor(p);
+    let moderate = factors.iter().all(|(_, exponent)| (1..=MAX_DEGREE as u32).contains(exponent));
+    if !moderate || factors.iter().all(|(_, exponent)| *exponent < 2) {
         return None;
     }
-    let (mut bare, mut slope) =
-        (divided(&monic(p), &shared).0, divided(&scaled(&d, &Rational::from(constant.recip_ref())), &shared).0);
-    let mut factors = Vec::new();
-    let mut exponent = 1;
-    while bare.len() > 1 {
-        let left = plus(&slope, &scaled(&derivative(&bare), &Rational::from(-1)));
-        let factor = common(&bare, &left);
-        (bare, slope) = (divided(&bare, &factor).0, divided(&left, &factor).0);
-        if factor.len() > 1 {
-            factors.push((factor, exponent));
-        }
-        exponent += 1;
-    }
-    let power =
-        |(g, exponent): &(Polynomial, i32)| (0..*exponent).fold(vec![Rational::from(1)], |all, _| times(&all, g));
+    let power = |(g, exponent): &Factor| (0..*exponent).fold(vec![Rational::from(1)], |all, _| times(&all, g));
     let product = factors.iter().fold(vec![constant.clone()], |all, factor| times(&all, &power(factor)));
     (product == *p).then_some(Factored { constant, factors })
 }
@@ -261,6 +226,7 @@ fn factored(p: &Polynomial) -> Option<Factored> {
 mod tests {
     use super::*;
     use crate::expr::ARGUMENTS;
+    use crate::propose::square_free;
 
     fn integers(coefficients: &[i32]) -> Polynomial {
         coefficients.iter().map(|a| Rational::from(*a)).collect()
@@ -271,19 +237,39 @@ mod tests {
         // -2 (X + 1) (X - 1)^2 (X - 3)^3
         let cube = times(&integers(&[-3, 1]), &times(&integers(&[-3, 1]), &integers(&[-3, 1])));
         let p = times(&times(&integers(&[-2, -2]), &integers(&[1, -2, 1])), &cube);
-        let found = factored(&p).unwrap();
+        let found = factored(&p, &square_free).unwrap();
         assert_eq!(found.constant, -2);
         let expected = [(integers(&[1, 1]), 1), (integers(&[-1, 1]), 2), (integers(&[-3, 1]), 3)];
         assert_eq!(found.factors, expected);
         for simple in [&[][..], &[5], &[0, 1], &[-1, 0, 1]] {
-            assert!(factored(&integers(simple)).is_none(), "{simple:?}");
+            assert!(factored(&integers(simple), &square_free).is_none(), "{simple:?}");
         }
+    }
+
+    #[test]
+    fn wrong_factors_are_refused() {
+        // (X - 1)^2, and what is said of it.
+        let p = integers(&[1, -2, 1]);
+        for factors in [
+            vec![],
+            vec![(integers(&[-1, 1]), 1)],
+            vec![(integers(&[-1, 1]), 1), (integers(&[-1, 1]), 1)],
+            vec![(integers(&[-1, 1]), 3)],
+            vec![(integers(&[1, 1]), 2)],
+            vec![(integers(&[-1, 1]), 2), (integers(&[5]), 1)],
+            vec![(integers(&[-1, 1]), 2), (integers(&[5, 1]), 0)],
+            vec![(integers(&[-1, 1]), 2), (integers(&[]), 1)],
+            vec![(integers(&[-1, 1]), u32::MAX)],
+        ] {
+            assert!(factored(&p, &|_| factors.clone()).is_none(), "{factors:?}");
+        }
+        assert!(factored(&p, &|_| vec![(integers(&[-1, 1]), 2)]).is_some());
     }
 
     #[test]
     fn sums_are_split_where_they_end() {
         let count = |text: &str| {
-            let found = Polynomials::new(&Expr::parse(text, ARGUMENTS).unwrap());
+            let found = Polynomials::new(&Expr::parse(text, ARGUMENTS).unwrap(), &square_free);
             found.places.iter().flat_map(|place| &place.derivatives).flatten().count()
         };
         for (text, expected) in [

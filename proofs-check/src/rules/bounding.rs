@@ -10,7 +10,7 @@ use crate::effort;
 use crate::expr::Expr;
 use crate::interval::Interval;
 use crate::monotone::Function;
-use crate::propose::{Proposal, cuts};
+use crate::propose::{Proposal, cuts, square_free};
 use crate::spec::{BOUND_NAMES, Bound};
 use crate::verdict::{Outcome, Verdict, finding, invalid};
 use rug::Rational;
@@ -47,7 +47,7 @@ pub fn nondecreasing(
     [x, e]: [&Rational; 2],
     precision: u32,
 ) -> Outcome<()> {
-    let function = Function::new(expr, precision);
+    let function = Function::new(expr, &square_free, precision);
     let whole = [x, e].map(|end| [Rational::new(), end.clone()]);
     let open = match effort::aside(|| cuts(&function, &whole)) {
         Proposal::Steps(steps) if function.verify(whole.clone(), &steps) => return Ok(()),

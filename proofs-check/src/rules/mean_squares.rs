@@ -235,6 +235,7 @@ pub fn evaluate(
     let with_kap = w.kap > 0;
     let loop_ = [damped(d, sigma, &w.kap), kap, rho];
 
+    let is_rate = a_1.is_positive();
     let mut conditions = vec![Condition::less("S1", "0 < a_1", zero, a_1)];
     let mut at_most = |id, what: &str, lhs, rhs: &Interval| {
         conditions.push(Condition::at_most(id, what, lhs, rhs.clone()));
@@ -270,7 +271,8 @@ pub fn evaluate(
             .extend(names.into_iter().zip(sides).map(|((id, what), (lhs, rhs))| Condition::less(id, what, lhs, rhs)));
     }
     let e = e_p.min(&follows.sup_e);
-    let x = x_p.min(&(&bounds.x_gain * &e)).min(&(from_rms * &last[1]));
+    // Where S1 fails X_p stands for what is not defined.
+    let x = if is_rate { x_p.min(&(&bounds.x_gain * &e)).min(&(from_rms * &last[1])) } else { x_p.clone() };
     let z_squared = bounds.z_squared(&follows, pair, kappa);
     Solution { x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, conditions }
 }
