@@ -71,19 +71,12 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ),
         ("statement", text(statement(run, sigma, set))),
     ]);
-<<<<<<< HEAD
-    let regulation = run.exact.as_ref().map(|claim| &claim.witness);
+    let regulation = run.exact.as_ref().map(|exact| ("exact_regulation", object(exact.witness.json())));
     let sharp = run.sharp.proved().map(|proof| {
         let refined = proof.witness.refined.as_ref().map(|refined| ("refined", object(refined.json())));
-        let regulation = regulation.map(|regulation| ("exact_regulation", object(regulation.json())));
         with_witness(proof, refined.into_iter().chain(regulation))
     });
-    let repaired = run.repaired.proved().map(|proof| with_witness(proof, []));
-=======
-    let regulation = run.exact.as_ref().map(|exact| ("exact_regulation", object(exact.witness.json())));
-    let sharp = run.sharp.proved().map(|proof| with_witness(proof, regulation));
     let repaired = run.repaired.proved().map(|proof| with_witness(proof, None));
->>>>>>> 3f5883b6b46d9ca3b3ec2082b5b16406734f90e1
     // The free numbers of the other derivation, without which its column of the constants could not be checked.
     let (main, other): (Vec<_>, Vec<_>) =
         [sharp, repaired].into_iter().flatten().partition(|(proof, _)| proof.derivation == claimed.derivation);
@@ -232,16 +225,6 @@ fn transfer_json(proof: &TransferProof) -> Value {
     }
 }
 
-<<<<<<< HEAD
-/// A proof with its witness as JSON: the numbers, the transfer proof, and what is proved beside.
-fn with_witness<'p, W: Witness + Numbers>(
-    proof: &'p Proof<W>,
-    beside: impl IntoIterator<Item = (&'static str, Value)>,
-) -> (Decided<'p>, Value) {
-    let decided = proof.decided();
-    let transfer = ("transfer", transfer_json(decided.transfer));
-    (decided, object(proof.witness.json().into_iter().chain([transfer]).chain(beside)))
-=======
 /// A proof with its witness as JSON: the numbers, the transfer proof, and further parts.
 fn with_witness<W: Witness + Numbers>(
     proof: &Proof<W>,
@@ -250,7 +233,6 @@ fn with_witness<W: Witness + Numbers>(
     let decided = proof.decided();
     let transfer = ("transfer", transfer_json(decided.transfer));
     (decided, object(proof.witness.json().into_iter().chain([transfer]).chain(parts)))
->>>>>>> 3f5883b6b46d9ca3b3ec2082b5b16406734f90e1
 }
 
 /// Conditions with outward-rounded sides, and the margin rounded down.
