@@ -49,6 +49,12 @@ const FLOOR: f64 = 1e-6;
 /// The share of the smallest rate in the data below which a gain is as good as none.
 const NEGLIGIBLE: f64 = 1e-20;
 
+/// The share of an ordinary size below which a set is as good as a point.
+const TINY: f64 = 1e-40;
+
+/// Shares of the ordinary size that are tried where nothing else gives X_p or E_p a size, the largest first.
+const SHARES: [f64; 10] = [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13, 1e-17, 1e-22, 1e-30];
+
 /// The largest gain that is tried.
 const LARGEST: f64 = 1e250;
 
@@ -156,7 +162,7 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
         return Err(Obstacle::Magnitude);
     }
     let ordinary = ordinary(model);
-    let tiny = Floors { x_p: 1e-12 * ordinary.x_p, e_p: 1e-12 * ordinary.e_p };
+    let tiny = Floors { x_p: TINY * ordinary.x_p, e_p: TINY * ordinary.e_p };
     let found = scan::evaluate_all(&forms(model), |form| {
         let search = Search { model, origin: AtOrigin::new(model), form: *form, floors: tiny, near: None };
         search.smallest(first_guess(model)).map(|sigma| (sigma, *form))
@@ -204,7 +210,7 @@ pub fn search_sharp_near(model: &FloatModel, known: &SharpProposal) -> Option<Sh
 #[must_use]
 pub fn any_candidate(model: &FloatModel) -> bool {
     let ordinary = ordinary(model);
-    let floors = Floors { x_p: 1e-12 * ordinary.x_p, e_p: 1e-12 * ordinary.e_p };
+    let floors = Floors { x_p: TINY * ordinary.x_p, e_p: TINY * ordinary.e_p };
     // The sets only shrink with sigma, and kap > 0 gains nothing where that is large.
     let search = Search { model, origin: AtOrigin::new(model), form: ExistenceForm::Plain, floors, near: None };
     model.is_in_range() && search.at(LARGEST.sqrt(), ROOM).is_ok()
@@ -234,7 +240,7 @@ fn with_ordinary_floors(mut search: Search<'_>, ordinary: Floors, sigma: f64) ->
         if size > floor {
             continue;
         }
-        for share in [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10] {
+        for share in SHARES {
             let before = search.floors;
             if side == 0 {
                 search.floors.x_p = share * ordinary.x_p;
