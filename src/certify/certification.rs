@@ -7,7 +7,7 @@ use super::options::{Derivation, Options};
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
 use crate::data::Data;
-use crate::derivation::condition::Condition;
+use crate::derivation::condition::{Condition, all};
 use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
 use crate::derivation::printed::{Infeasible, PrintedEvaluation};
 use crate::derivation::relative_degree::RelativeDegreeError;
@@ -101,7 +101,8 @@ impl Certification<'_> {
     /// The proof of the claim, if certified.
     #[must_use]
     pub fn claim(&self) -> Option<Decided<'_>> {
-        if self.verdict == Verdict::Certified { self.attempt() } else { None }
+        // The verdict says so already; a claim is not to rest on one field.
+        self.attempt().filter(|attempt| self.verdict == Verdict::Certified && all(attempt.conditions).is_true())
     }
 
     /// The claimed gain of the chosen derivation, if certified.
