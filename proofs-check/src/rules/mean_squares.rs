@@ -233,7 +233,7 @@ pub fn evaluate(
     let kap = d.number(&w.kap);
     let rho = (upper + &kap).max(&(&bounds.q_e - &kap));
     let with_kap = w.kap > 0;
-    let loop_ = [damped(d, sigma, &w.kap), kap, rho];
+    let damping = [damped(d, sigma, &w.kap), kap, rho];
 
     let is_rate = a_1.is_positive();
     let mut conditions = vec![Condition::less("S1", "0 < a_1", zero, a_1)];
@@ -244,7 +244,7 @@ pub fn evaluate(
     at_most("S1b", what, (&bounds.x_gain * e_p).min(&(&from_rms * r_e)), x_p);
     at_most("S1c", "(c/a_1) b_fe r_e <= r_x", &bounds.x_gain * r_e, r_x);
     if with_kap {
-        let [rms_e, rms_e_t] = bounds.damped(&r, &loop_);
+        let [rms_e, rms_e_t] = bounds.damped(&r, &damping);
         at_most("S2", "sqrt(T r_e r_d) <= E_p", (&d.period * r_e * r_d).sqrt(), e_p);
         at_most("S2b", "g_k Rt <= r_e", rms_e, r_e);
         at_most("S2c", "Rt + kap r_e <= r_d", rms_e_t, r_d);
@@ -262,7 +262,7 @@ pub fn evaluate(
     if w.refined.is_some() {
         let (mut rms_e, mut rms_e_t) = (follows.rms_e.clone(), follows.rms_e_t.clone());
         if with_kap {
-            let damped = bounds.damped(&last, &loop_);
+            let damped = bounds.damped(&last, &damping);
             (rms_e, rms_e_t) = (rms_e.min(&damped[0]), rms_e_t.min(&damped[1]));
         }
         let sides = [&bounds.x_gain * &last[1], rms_e, rms_e_t].into_iter().zip(last.iter().cloned());

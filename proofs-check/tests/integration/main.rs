@@ -8,6 +8,7 @@ mod formulas;
 mod fuzz;
 mod hostile;
 mod intervals;
+mod linear_plants;
 mod lmi;
 mod lyapunov;
 mod mean_squares;
