@@ -1,7 +1,7 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
 use super::fields::Numbers;
-use super::triple::{lyapunov_json, rows};
+use super::triple::{lyapunov_parts, rows};
 use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
@@ -93,7 +93,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         .map(|condition| if condition.id == "T" { transfer.clone() } else { condition.clone() })
         .collect();
     if let Value::Object(fields) = &mut witness {
-        fields.extend(lyapunov_json(spec).map(|value| ("lyapunov".to_owned(), value)));
+        fields.extend(lyapunov_parts(spec).into_iter().map(|(name, value)| (name.to_owned(), value)));
         fields.extend(multipliers_json(run).map(|value| ("lmi".to_owned(), value)));
     }
     let mut certificate = object([

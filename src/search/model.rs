@@ -278,6 +278,14 @@ impl FloatModel {
         model
     }
 
+    /// The same model with another triple for the existence of the periodic solution.
+    #[must_use]
+    pub fn with_existence_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
+        let mut model = self.clone();
+        model.numbers.existence = ExistenceTriple { c: ratio.sqrt(), alpha };
+        model
+    }
+
     /// The same model with another initial set.
     #[must_use]
     pub fn with_set(&self, set: InitialSet<f64>) -> FloatModel {
