@@ -2,7 +2,7 @@
 //! sections 10.3 and 10.4).
 //!
 //! Guarantee of S1 and S2: for every n_o and every sigma' >= sigma there is a T-periodic solution with sup|x| <= X_p, sup|e| <= E_p,
-//! rms(x) <= r_x, rms(e) <= r_e, rms(e') <= r_d. All that [`Bounds::at`] and [`Bounds::damped`] say of such a solution then holds
+//! rms(x) <= r_x, rms(e) <= r_e, rms(e') <= r_d. All that `Bounds::at` and `Bounds::damped` say of such a solution then holds
 //! together, for its own root mean squares rho too: rho <= G(rho), where G takes the least of what they say.
 //!
 //! Guarantee of S3 besides: rho <= r'. For G is nondecreasing and concave with G(0) >= 0 (it is made of constants that are
