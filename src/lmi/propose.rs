@@ -69,6 +69,17 @@ pub fn propose_multipliers(data: &DecayData, sigma: &Rational) -> Result<DecayPr
     Ok(DecayProposal { sigma: sigma.to_f64(), multipliers, margin: found.x[last], remark: found.remark })
 }
 
+/// The threshold of C5 in doubles with |dq/de| at most the larger end of the sector: no damping is told apart.
+#[must_use]
+pub fn two_sided_threshold(data: &DecayData) -> f64 {
+    let [w_x, h, mu, rate] = [&data.w_x, &data.h, &data.mu[0], &data.rate].map(Rational::to_f64);
+    let [p, k_x, k_f] = [&data.root_p_up, &data.k_x, &data.k_f].map(Rational::to_f64);
+    let [below, above] = data.sector.each_ref().map(|end| end.to_f64().abs());
+    let end = if below > above { below } else { above };
+    let terms = DecayTerms::new([&w_x, &h], [&rate, &mu, &p], [&k_x, &k_f], &Sector { below: end, above: end });
+    terms.threshold(terms.curvature - terms.coupling)
+}
+
 /// The scales of rows and unknowns for which the solution is expected to have ones on the diagonal.
 pub(super) struct Scale {
     /// The root of the expected (positive part of the) diagonal entry, per row.

@@ -72,7 +72,9 @@ pub(super) fn gain_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
             At::Common,
             sound(beta.clone(), "P:eq:beta_definition"),
             sound(beta, "P:eq:beta_definition"),
-            sound(gains::zero_mean_gain(&common.sigma, &data.period), "section 10.2, bt"),
+            common
+                .own
+                .and_then(|own| sound(gains::zero_mean_gain(&own.sigma, &data.period), "section 10.2, bt")),
         ),
         row("tau", At::Common, None, None, sound(gains::tau(&common.sigma, &data.period), "section 3")),
     ]
