@@ -159,7 +159,10 @@ proptest! {
             + l_f.clone() * (square(&phi) - square(&data.k_f) * square(&et));
         let keep = |values: [Rational; 3]| values.into_iter().zip(present).filter_map(|(v, p)| p.then_some(v));
         let numbers: Vec<Rational> = std::iter::once(sigma).chain(keep([l_x, l_e, l_f])).collect();
-        let signals: Vec<Rational> = [xi, et, s].into_iter().chain(keep([ux, ue, phi])).collect();
+        // The matrix is written in v = u_e - c_0 et; u_e without a row of its own is c_0 et.
+        let [middle, _] = data.middle();
+        let v = Rational::from(&ue - product(&[&middle, &et]));
+        let signals: Vec<Rational> = [xi, et, s].into_iter().chain(keep([ux, v, phi])).collect();
         let rows = data.matrix(mu).substitute(&numbers).constant().rows();
         prop_assert_eq!(rows.len(), signals.len());
         let mut value = Rational::new();

@@ -150,9 +150,10 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let k = &common.k_alpha;
     let gain =
         k * &common.bounds.state.f_e / (&data.alpha - k * &common.bounds.state.f_xx * &common.bounds.state.x_p / 2);
-    // What a printed value is held against.
-    let sound_psi = Psi::new(data, &Excitation::by_contraction(data, &common.bounds));
     let own = common.own.map(|own| Psi::new(data, &own.excitation));
+    // What a printed value is held against.
+    let sound_psi =
+        own.clone().unwrap_or_else(|| Psi::new(data, &Excitation::by_contraction(data, &common.bounds)));
     rows.push(row(
         "r_e = psi_1",
         At::Common,
