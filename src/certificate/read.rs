@@ -186,7 +186,8 @@ fn read_sharp(
         let transfer = read_transfer(fields, errors);
         let _ = fields.optional("lmi");
         exact = fields.optional("exact_regulation").map(|value| read_numbers(&value, errors)).transpose();
-        let refined = fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
+        let refined =
+            fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
         Ok((sigma, set, transfer?, refined?))
     });
     Ok(GivenWitness::Sharp { witness: Box::new(witness?), exact: exact? })

@@ -3,7 +3,9 @@
 use super::refusal::Refusal;
 use crate::data::Data;
 use crate::enclosure::MAX_PRECISION;
-use crate::lyapunov::{Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, ProvedTriples, candidates, prove};
+use crate::lyapunov::{
+    Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, ProvedTriples, candidates, prove,
+};
 use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
 use crate::spec::model::{Constant, Jacobian, Lyapunov, LyapunovSource, Specification};
 use crate::transfer::TradeOff;
@@ -160,7 +162,11 @@ pub fn with_triple<'s>(
 pub fn resolve_with(spec: &Specification, triples: &ProvedTriples) -> Option<Result<Specification, NotProved>> {
     let LyapunovSource::Wanted(jacobian) = &spec.lyapunov else { return None };
     let all = std::iter::once(&triples.stability).chain(&triples.existence);
-    Some(all.map(|triple| decide_triple(spec, jacobian, triple)).collect::<Result<(), _>>().map(|()| carrying(spec, triples)))
+    Some(
+        all.map(|triple| decide_triple(spec, jacobian, triple))
+            .collect::<Result<(), _>>()
+            .map(|()| carrying(spec, triples)),
+    )
 }
 
 fn decide_triple(spec: &Specification, jacobian: &Jacobian, triple: &ProvedTriple) -> Result<(), NotProved> {

@@ -110,7 +110,9 @@ impl Scale {
         let present = multipliers.into_iter().zip(data.present()).filter_map(|(unit, present)| present.then_some(unit));
         let units: Vec<f64> = std::iter::once(sigma).chain(present).collect();
         // The entry of et also has -2 c_0, the middle of the sector.
-        let diagonal = [2.0 * w_x * rate, 2.0 * sigma + below - above, 2.0 * h * mu].into_iter().chain(units.iter().skip(1).copied());
+        let diagonal = [2.0 * w_x * rate, 2.0 * sigma + below - above, 2.0 * h * mu]
+            .into_iter()
+            .chain(units.iter().skip(1).copied());
         let roots: Vec<f64> = diagonal.map(f64::sqrt).collect();
         let usable = |value: &f64| value.is_finite() && *value > 0.0;
         if roots.iter().chain(&units).all(usable) { Ok(Scale { roots, units }) } else { Err(SolverFailure::Unusable) }

@@ -60,7 +60,9 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
             let shown = |triple: &Lyapunov| {
                 format!("p_low = {}, p_up = {}, alpha = {}", triple.p_low.text, triple.p_up.text, triple.alpha.text)
             };
-            let other = existence.as_ref().map(|(other, _)| format!("; for the existence of the periodic solution {}", shown(other)));
+            let other = existence
+                .as_ref()
+                .map(|(other, _)| format!("; for the existence of the periodic solution {}", shown(other)));
             items.push(format!(
                 "Proved for every t and every matrix of the Jacobian: the Lyapunov triple {}{}.",
                 shown(triple),

@@ -140,10 +140,8 @@ impl FloatModel {
             &data.fundamental,
         ]
         .map(Enclosure::midpoint_f64);
-        let existence = ExistenceTriple {
-            c: data.existence.c.midpoint_f64(),
-            alpha: data.existence.alpha.midpoint_f64(),
-        };
+        let existence =
+            ExistenceTriple { c: data.existence.c.midpoint_f64(), alpha: data.existence.alpha.midpoint_f64() };
         let q_0 = data.q_0.as_ref().map(|known| KnownForcing {
             harmonics: known.harmonics.iter().map(Enclosure::midpoint_f64).collect(),
             weights: known.weights.iter().map(Enclosure::midpoint_f64).collect(),
@@ -259,10 +257,8 @@ impl FloatModel {
             OptionalDatum::Harmonics => model.numbers.q_0 = None,
             OptionalDatum::Bound(which) => {
                 let serves = which.replacement().map(|other| self.bounds[other as usize].clone());
-                let absent =
-                    ScaledBound { function: None, change: 0.0, given: false, signed: false, supremum: None };
-                model.bounds[which as usize] =
-                    ScaledBound { given: false, ..serves.unwrap_or(absent) };
+                let absent = ScaledBound { function: None, change: 0.0, given: false, signed: false, supremum: None };
+                model.bounds[which as usize] = ScaledBound { given: false, ..serves.unwrap_or(absent) };
             }
         }
         model

@@ -108,7 +108,11 @@ impl Iteration<'_> {
         };
         let next = [bounds.x_sup(&squares), sup, bounds.x_rms(&squares), rms, rate_rms].map(|v| v * self.enlarged);
         if !next.iter().all(|value| value.is_finite() && *value < 1e140) {
-            return Err(if next.iter().any(|value| value.is_nan()) { Obstacle::NotFinite } else { Obstacle::Existence });
+            return Err(if next.iter().any(|value| value.is_nan()) {
+                Obstacle::NotFinite
+            } else {
+                Obstacle::Existence
+            });
         }
         let [x_p, e_p] = [next[0].max(self.floors.x_p), next[1].max(self.floors.e_p)];
         let least = |share: f64, of: f64| share.max(SMALLEST_SHARE * of);
@@ -182,7 +186,8 @@ impl Iteration<'_> {
         let mut at = least.clone();
         for _ in 0..STEPS {
             let next = at_the_solution(bounds, self.origin, &self.gains, Some(&kap), &at);
-            let next = [(&next.x, x), (&next.e, e), (&next.e_rate, e_rate)].map(|(v, low)| (v * self.enlarged).max(low));
+            let next =
+                [(&next.x, x), (&next.e, e), (&next.e_rate, e_rate)].map(|(v, low)| (v * self.enlarged).max(low));
             let done = change(&[at.x, at.e, at.e_rate], &next) <= NEAR;
             let [x, e, e_rate] = next;
             at = MeanSquares { x, e, e_rate };

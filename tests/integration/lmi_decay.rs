@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rug::Rational;
 use rug::ops::Pow;
-use sigmastar::lmi::{DecayData, DecayProposal, two_sided_threshold, propose_multipliers, propose_sigma, verify_decay};
+use sigmastar::lmi::{DecayData, DecayProposal, propose_multipliers, propose_sigma, two_sided_threshold, verify_decay};
 use sigmastar::semidefinite::SolverFailure;
 
 /// The closed form of C5, exactly: `D^2/(4 ht) + (w_x p k_f + k_x D/2)^2/(4A - ht k_x^2)` with
@@ -18,7 +18,8 @@ struct ClosedForm {
 fn closed_form(data: &DecayData) -> ClosedForm {
     let ht = Rational::from(&data.h / &data.mu[0]);
     let [below, above] = &data.sector;
-    let [first, second]: [Rational; 2] = [Rational::from(&ht * above) + 1, Rational::from(1) - Rational::from(&ht * below)];
+    let [first, second]: [Rational; 2] =
+        [Rational::from(&ht * above) + 1, Rational::from(1) - Rational::from(&ht * below)];
     let one_plus = first.abs().max(second.abs());
     let cross = Rational::from(&data.w_x * &data.root_p_up) * &data.k_f + Rational::from(&data.k_x * &one_plus) / 2;
     let margin = Rational::from(&data.w_x * &data.rate) * 4 - Rational::from(&data.k_x * &data.k_x) * &ht;

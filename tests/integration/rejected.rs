@@ -146,7 +146,8 @@ fn every_sharp_condition_is_refused_by_itself() {
 #[test]
 fn refined_mean_squares_are_strict() {
     // With b_fe = 0 the right side of rms(x) is exactly 0.
-    let text = TEXT.replace("DOMAIN", "1e9").replace("\"f\": \"X + E\", \"f_e\": \"1\"", "\"f\": \"X + E\", \"f_e\": \"0\"");
+    let text =
+        TEXT.replace("DOMAIN", "1e9").replace("\"f\": \"X + E\", \"f_e\": \"1\"", "\"f\": \"X + E\", \"f_e\": \"0\"");
     let spec = Specification::from_json("roomy", &text).unwrap();
     let conditions = |x: Rational| {
         let mut witness = witness();
