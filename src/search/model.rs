@@ -46,8 +46,8 @@ impl Datum {
             Datum::Alpha => "alpha".to_owned(),
             Datum::PUp => "p_up".to_owned(),
             Datum::Bound(bound) => match bound.replacement() {
-                Some(other) => format!("{} (or {})", bound.field(), other.field()),
-                None => bound.field().to_owned(),
+                Some(other) if !bound.is_signed() => format!("{} (or {})", bound.field(), other.field()),
+                _ => bound.field().to_owned(),
             },
         }
     }
@@ -233,12 +233,24 @@ impl FloatModel {
                 model.numbers.existence.c = (self.existence.c * (model.c / self.c)).max(1.0);
             }
             Datum::Bound(which) => {
-                for (bound, _) in model.bounds.iter_mut().zip(Bound::ALL).filter(|(_, bound)| *bound == which) {
-                    bound.change = if which.is_nonincreasing() { by } else { -by };
+                // Where it serves in the place of a bound of a derivative from above, that falls too.
+                let serves = |bound: Bound| bound.is_signed() && bound.replacement() == Some(which) && !self.given(bound);
+                for (bound, kind) in model.bounds.iter_mut().zip(Bound::ALL) {
+                    if kind == which || serves(kind) {
+                        bound.change = if which.is_nonincreasing() { by } else { -by };
+                    }
                 }
             }
         }
         model
+    }
+
+    /// The data that the specification has, of [`Datum::ALL`].
+    pub fn data(&self) -> impl Iterator<Item = Datum> {
+        Datum::ALL.into_iter().filter(|datum| match datum {
+            Datum::Bound(bound) => !bound.is_signed() || self.given(*bound),
+            Datum::Alpha | Datum::PUp => true,
+        })
     }
 
     /// What is given beyond the data that every specification has.
