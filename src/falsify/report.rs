@@ -93,7 +93,8 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     vec![
         Block::heading("The worst plant"),
         Block::says(format!(
-            "Trial {}, sigma = {:?}, n_o = {}, came closest to a bound: {quantity} is {share:.3} of it. `sigmastar falsify` with \
+            "Trial {}, sigma = {:?}, n_o = {}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
+             (The multiplier and the Lyapunov function are close to theirs with any plant.) `sigmastar falsify` with \
              `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description; so \
              for any other trial.",
             trial.number, trial.sigma, trial.n_o, trial.number

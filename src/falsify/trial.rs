@@ -3,7 +3,7 @@
 use super::claim::Claim;
 use super::counterexample::counterexample_plant;
 use super::draw::{DrawnPlant, draw};
-use super::finding::{Falsification, Finding, Trial, TrialSettings, Violation};
+use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, Violation};
 use super::limits::SectorEnd;
 use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
@@ -191,7 +191,7 @@ fn check_orbit(
         let zeta: Vec<f64> = y[n + 1..].iter().zip(&m).map(|(z, m)| z - m * y[n]).collect();
         closed_loop.regulator.weighted_norm(&zeta)
     });
-    checks.at_most("largest Floquet multiplier", steady.multipliers.first().copied().unwrap_or(0.0), 1.0);
+    checks.at_most(MULTIPLIER, steady.multipliers.first().copied().unwrap_or(0.0), 1.0);
     checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
     checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
     checks.at_most("sup|zeta|_N of the periodic solution", zeta, claim.periodic[2]);
@@ -250,7 +250,7 @@ fn check_approach(
     checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
     checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
     if claim.lyapunov.is_some() {
-        checks.at_most("Lyapunov function on the way, against its start", level[1], level[0]);
+        checks.at_most(LYAPUNOV, level[1], level[0]);
     }
     Ok(())
 }
