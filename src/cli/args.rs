@@ -436,6 +436,10 @@ pub struct FalsifyArgs {
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     pub seed: u64,
 
+    /// Run this trial alone; `-o` then writes its plant, whatever becomes of it
+    #[arg(long, value_name = "K", conflicts_with_all = ["trials", "base_frequency"], value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub trial: Option<u32>,
+
     /// Also certify the specification at these other base frequencies, exact positive constants separated by commas, and
     /// try those certificates
     #[arg(long, value_name = "LIST", value_delimiter = ',', allow_hyphen_values = true)]
@@ -445,7 +449,7 @@ pub struct FalsifyArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
 
-    /// Write the first counterexample to this plant file
+    /// Write the first counterexample to this plant file, or with `--trial` the plant of the trial
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
 

@@ -31,8 +31,10 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
         })?;
         claims.push(claim);
     }
-    let settings = TrialSettings { trials: u64::from(args.trials), seed: args.seed };
-    let bar = Bar::new(u64::from(args.trials) * claims.len() as u64, args.quiet);
+    let only = args.trial.map(u64::from);
+    let settings = TrialSettings { trials: u64::from(args.trials), seed: args.seed, only };
+    let trials = if only.is_some() { 1 } else { settings.trials };
+    let bar = Bar::new(trials * claims.len() as u64, args.quiet);
     let outcomes: Vec<(Claim, Falsification)> = claims
         .into_iter()
         .map(|claim| {
@@ -42,11 +44,15 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
         .collect();
     bar.finish();
     let broken = outcomes.iter().find_map(|(claim, outcome)| Some((claim, outcome.counterexample()?)));
-    if let (Some(file), Some((claim, (trial, violation)))) = (&output, broken) {
-        file.write(counterexample_plant(claim, trial, Some(violation))?.text())?;
+    let written = broken.map(|(claim, (trial, violation))| (claim, trial, Some(violation)));
+    let asked = || outcomes.iter().find_map(|(claim, outcome)| Some((claim, outcome.worst()?.trial, None)));
+    let written = written.or_else(|| only.and_then(|_| asked()));
+    if let (Some(file), Some((claim, trial, violation))) = (&output, written) {
+        file.write(counterexample_plant(claim, trial, violation)?.text())?;
         if !args.quiet {
+            let what = if violation.is_some() { "counterexample" } else { "plant" };
             output::remark(&format!(
-                "the counterexample is in `{}`; see it with: sigmastar simulate {} --sigma {:?} --n-o {}",
+                "the {what} is in `{}`; see it with: sigmastar simulate {} --sigma {:?} --n-o {}",
                 file.name(),
                 file.name(),
                 trial.sigma,

@@ -21,12 +21,11 @@ pub fn counterexample_plant(
     let names: Vec<String> = (1..=states).map(|i| format!("x{i}")).collect();
     let (x, rest) = trial.start.split_at(states);
     let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
-    let description = violation.map_or_else(String::new, |violation| {
-        format!(
-            "Counterexample: {} is {} where at most {} is claimed. Simulate it with --sigma {:?} --n-o {}.",
-            violation.quantity, violation.found, violation.bound, trial.sigma, trial.n_o
-        )
+    let found = violation.map_or_else(String::new, |violation| {
+        let Violation { quantity, bound, found } = violation;
+        format!("Counterexample: {quantity} is {found} where at most {bound} is claimed. ")
     });
+    let description = format!("{found}Simulate it with --sigma {:?} --n-o {}.", trial.sigma, trial.n_o);
     let file = json!({
         "format": plant::FORMAT, "version": 1,
         "name": format!("Trial {} for {}", trial.number, clean(&claim.spec.name)),

@@ -2,13 +2,22 @@
 
 use super::draw::DrawnPlant;
 
-/// How many trials, from which seed.
+/// Which trials, from which seed.
 #[derive(Clone, Copy, Debug)]
 pub struct TrialSettings {
     /// The number of trials.
     pub trials: u64,
     /// The seed; trial k uses it and k only.
     pub seed: u64,
+    /// The only trial that is run, where it is not all of them.
+    pub only: Option<u64>,
+}
+
+impl TrialSettings {
+    /// The numbers of the trials that are run, from 1.
+    pub(super) fn numbers(self) -> Vec<u64> {
+        self.only.map_or_else(|| (1..=self.trials).collect(), |only| vec![only])
+    }
 }
 
 /// What a trial is about.
@@ -40,8 +49,10 @@ pub struct Violation {
 /// What became of a trial.
 #[derive(Clone, Debug)]
 pub enum Finding {
-    /// Every bound holds; the largest share of one that was used.
+    /// Every bound holds.
     Holds {
+        /// What was tried.
+        trial: Box<Trial>,
         /// For each quantity the found value over the bound.
         shares: Vec<(&'static str, f64)>,
     },
@@ -49,6 +60,25 @@ pub enum Finding {
     Violated(Box<Trial>, Violation),
     /// No plant fits, or the simulation could not be finished for a reason that is no violation.
     Unfinished(String),
+}
+
+/// The quantity that is below 1 where the periodic solution is stable.
+pub(super) const MULTIPLIER: &str = "largest Floquet multiplier";
+
+/// The quantity that is 1 at the start where P_low = P_up.
+pub(super) const LYAPUNOV: &str = "Lyapunov function on the way, against its start";
+
+/// The trial that came closest to a bound, of those in which every bound holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Closest<'f> {
+    /// What is bounded.
+    pub quantity: &'static str,
+    /// The found value over the bound.
+    pub share: f64,
+    /// The first trial with this share.
+    pub trial: &'f Trial,
+    /// All shares of that trial.
+    pub shares: &'f [(&'static str, f64)],
 }
 
 /// What became of all trials, in their order.
@@ -61,6 +91,32 @@ pub struct Falsification {
 }
 
 impl Falsification {
+    /// For each quantity the trial that came closest to its bound, in the order in which quantities are checked.
+    #[must_use]
+    pub fn closest(&self) -> Vec<Closest<'_>> {
+        let mut all: Vec<Closest<'_>> = Vec::new();
+        for finding in &self.findings {
+            let Finding::Holds { trial, shares } = finding else { continue };
+            for &(quantity, share) in shares {
+                let here = Closest { quantity, share, trial, shares };
+                match all.iter_mut().find(|closest| closest.quantity == quantity) {
+                    Some(closest) if closest.share < share => *closest = here,
+                    Some(_) => {}
+                    None => all.push(here),
+                }
+            }
+        }
+        all
+    }
+
+    /// The trial that came closest to a bound of a size: the worst plant that was found. The multiplier, which tends to 1
+    /// with n_o, and the Lyapunov function, which starts at its bound, are close to theirs with any plant.
+    #[must_use]
+    pub fn worst(&self) -> Option<Closest<'_>> {
+        let sizes = self.closest().into_iter().filter(|closest| ![MULTIPLIER, LYAPUNOV].contains(&closest.quantity));
+        sizes.reduce(|a, b| if a.share < b.share { b } else { a })
+    }
+
     /// The first violation.
     #[must_use]
     pub fn counterexample(&self) -> Option<(&Trial, &Violation)> {

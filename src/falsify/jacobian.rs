@@ -1,6 +1,7 @@
 //! Drawing F(t) = df/dx(t, 0, 0) with the condition on P_x proved, and a bound of its norm.
 
 use super::claim::Claim;
+use super::contraction::{self, WantedRate};
 use super::random::Random;
 use super::shape::{Factor, Number};
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
@@ -44,7 +45,8 @@ impl Clock<'_> {
 ///
 /// With a triple: in the axes of a constant P with eigenvalues p_i, F_ij = G_ij sqrt(p_j/p_i) with
 /// G = -(alpha + slack_i) I + (skew part times a factor of the time), so that P F + F'P <= -2 alpha P up to rounding; then
-/// the inequality is proved for the entries as they are written. With a Jacobian, whose triple the claim has proved for
+/// the inequality is proved for the entries as they are written. In the place of alpha stands the contraction rate at the
+/// origin where that is larger. With a Jacobian, whose triple the claim has proved for
 /// all its matrices: a member, proved entry by entry. `None` where nothing could be proved or drawn.
 pub(super) fn draw(claim: &Claim, clock: Clock<'_>, largest: f64, random: &mut Random) -> Option<Drawn> {
     let (rows, family) = match &claim.spec.lyapunov {
@@ -72,7 +74,8 @@ fn of_triple(
     random: &mut Random,
 ) -> Option<(Vec<Vec<String>>, Family)> {
     let n = random.whole(1, 3) as usize;
-    let alpha = triple.alpha.to_f64();
+    let rate = contraction::wanted(claim, triple)?;
+    let alpha = rate.value;
     let ratio = (1.0 + (triple.p_up.to_f64() / triple.p_low.to_f64() - 1.0) * random.share()) * (1.0 - 1e-4);
     let ratio = if ratio > 1.0 && n > 1 { ratio } else { 1.0 };
     // The ends of the spectrum are taken, the rest lies between.
@@ -107,7 +110,7 @@ fn of_triple(
             };
             let rows: Vec<Vec<String>> = (0..n).map(|i| (0..n).map(|j| text(i, j)).collect()).collect();
             let family = family(claim, &rows)?;
-            return condition_holds(triple, &family, &p, ratio).then_some((rows, family));
+            return condition_holds(triple, &rate, &family, &p, ratio).then_some((rows, family));
         }
         size *= 0.9;
     }
@@ -128,12 +131,11 @@ fn rotation(n: usize, random: &mut Random) -> DMatrix<f64> {
     turn
 }
 
-/// Proves the condition on P_x with a constant P: its scale is free, so the ratio of its bounds and alpha are compared
-/// with those of the triple.
-fn condition_holds(triple: &Lyapunov, family: &Family, p: &DMatrix<f64>, ratio: f64) -> bool {
+/// Proves the condition on P_x with a constant P and a rate: its scale is free, so the ratio of its bounds is compared
+/// with that of the triple.
+fn condition_holds(triple: &Lyapunov, rate: &WantedRate, family: &Family, p: &DMatrix<f64>, ratio: f64) -> bool {
     let n = p.nrows();
     let enclosed = |constant: &Constant| constant.enclose(DEFAULT_PRECISION);
-    let Some(alpha) = enclosed(&triple.alpha).upper_rational() else { return false };
     let identity = ratio == 1.0;
     let entry = |i: usize, j: usize| match identity {
         true => Some(Rational::from(u32::from(i == j))),
@@ -149,7 +151,7 @@ fn condition_holds(triple: &Lyapunov, family: &Family, p: &DMatrix<f64>, ratio: 
     let allowed = enclosed(&triple.p_up) / enclosed(&triple.p_low);
     let fits = identity || (exact(&p_up) / exact(&p_low)).le(&allowed).is_true();
     let matrix = PeriodicMatrix { mean, harmonics: Vec::new() };
-    fits && prove(family, &ProvedTriple { matrix, p_low, p_up, alpha }).is_ok()
+    fits && prove(family, &ProvedTriple { matrix, p_low, p_up, alpha: rate.above.clone() }).is_ok()
 }
 
 /// A matrix function of a Jacobian: its functions as they are written, and for each interval a constant or a wave
@@ -274,11 +276,17 @@ mod tests {
         let family = of(&[&["-1", "1.5"], &["-1", "-1"]]);
         // In the axes diag(1, 1.5) the skew part has the entries sqrt(1.5), -sqrt(1.5): it takes nothing from the rate.
         let p = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1.5]);
-        assert!(condition_holds(&triple("1.6", "0.999"), &family, &p, 1.5));
-        assert!(!condition_holds(&triple("1.6", "1.001"), &family, &p, 1.5));
-        assert!(!condition_holds(&triple("1.4", "0.9"), &family, &p, 1.5));
-        assert!(condition_holds(&triple("1", "0.74"), &family, &DMatrix::identity(2, 2), 1.0));
-        assert!(!condition_holds(&triple("1", "0.76"), &family, &DMatrix::identity(2, 2), 1.0));
+        let holds = |p_up, alpha, p: &DMatrix<f64>, ratio| {
+            let triple = triple(p_up, alpha);
+            let above = triple.alpha.enclose(DEFAULT_PRECISION).upper_rational().unwrap();
+            let rate = WantedRate { text: alpha.to_owned(), value: above.to_f64(), above };
+            condition_holds(&triple, &rate, &family, p, ratio)
+        };
+        assert!(holds("1.6", "0.999", &p, 1.5));
+        assert!(!holds("1.6", "1.001", &p, 1.5));
+        assert!(!holds("1.4", "0.9", &p, 1.5));
+        assert!(holds("1", "0.74", &DMatrix::identity(2, 2), 1.0));
+        assert!(!holds("1", "0.76", &DMatrix::identity(2, 2), 1.0));
     }
 
     #[test]

@@ -1,12 +1,16 @@
 //! The linear member of the families: gains as large as the bounding functions allow, with adverse signs.
 
 use super::claim::Claim;
-use super::draw::{DrawnPlant, SHARE, allowed, fill, fit, harmonics};
+use super::contraction;
+use super::draw::DrawnPlant;
 use super::family::Family;
+use super::fit::{fit, fits};
+use super::forcing::{fill, harmonics};
 use super::jacobian::{self, Clock};
-use super::membership::respects;
+use super::limits::{Limits, SectorEnd};
 use super::random::Random;
 use super::shape::{Factor, Number, Shape};
+use crate::data::Bound;
 use crate::spec::model::LyapunovSource;
 
 /// Arguments E at which the slope of f is looked at, as shares of the reach.
@@ -15,25 +19,27 @@ const SLOPES: [f64; 5] = [1e-6, 1e-3, 0.1, 0.5, 1.0];
 /// What is kept of the gains where they are not proved to fit exactly: nine digits are exact to 5e-9.
 const ROUNDED: f64 = 1.0 - 1e-7;
 
-/// The plant x' = F x + g e, e' = c e + beta m'x + A(t) + u with the largest constant g, c, beta that the bounding functions
-/// allow at small arguments. With a triple x is scalar, F = -alpha as it is written (P = 1 then has the condition on P_x
-/// with equality), and x and e drive each other: g, c, beta > 0. With a Jacobian F is one of its matrices.
+/// The plant x' = F x + g e, e' = c e - damping e + beta m'x + A(t) + u with the largest constant g, beta that the bounding
+/// functions allow at small arguments, dq/de at an end of its sector, and A as large as it may be. With a triple x is
+/// scalar, F = -alpha as it is written (P = 1 then has the condition on P_x with equality), or the contraction rate at the
+/// origin where that is larger, and x and e drive each other: g, beta > 0. With a Jacobian F is one of its matrices.
+///
+/// Without `q_e_max` the lower end is the upper one with the opposite sign.
 ///
 /// A tight f leaves room for no other plant, so nothing is taken from the gains first; where that is not proved to fit, a
 /// rounding is, and then what `draw` takes. `None` where nothing could be proved.
 ///
 /// Guarantee: as for `draw`.
 #[must_use]
-pub fn linear_member(claim: &Claim, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
-    let allowed = allowed(claim);
-    let [reach_x, reach_e] = claim.reach.each_ref().map(rug::Rational::to_f64);
-    let value = |index: usize, x: f64, e: f64| allowed[index].to_float().eval(x, e);
+pub fn linear_member(claim: &Claim, end: SectorEnd, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
+    let limits = Limits::new(claim);
+    let [reach_x, reach_e] = limits.reach;
     let clock = Clock { period: &claim.spec.period.text, multiple: 1 };
     let (jacobian, jacobian_norm) = match &claim.spec.lyapunov {
-        _ if value(0, reach_x, 0.0) <= 0.0 => (Vec::new(), "0".to_owned()),
+        _ if limits.at(Bound::F, reach_x, 0.0) <= 0.0 => (Vec::new(), "0".to_owned()),
         LyapunovSource::Given(triple) => {
-            let alpha = &triple.alpha.text;
-            (vec![vec![format!("-({alpha})")]], alpha.clone())
+            let rate = contraction::wanted(claim, triple)?.text;
+            (vec![vec![format!("-({rate})")]], rate)
         }
         _ => {
             let drawn = jacobian::draw(claim, clock, 0.0, random)?;
@@ -42,14 +48,18 @@ pub fn linear_member(claim: &Claim, random: &mut Random, left: &mut u64) -> Opti
     };
     let n = jacobian.len();
     let directions = [(); 3].map(|()| if n == 1 { vec![Number::new(1.0)] } else { random.direction(n) });
-    let along_e =
-        SLOPES.iter().map(|share| value(0, 0.0, share * reach_e) / (share * reach_e)).fold(f64::INFINITY, f64::min);
-    let harmonics = harmonics(clock.multiple, random);
-    let at_zero: Vec<f64> = (0..allowed.len()).map(|index| SHARE * value(index, 0.0, 0.0)).collect();
+    let slope = |share: &f64| limits.at(Bound::F, 0.0, share * reach_e) / (share * reach_e);
+    let along_e = SLOPES.iter().map(slope).fold(f64::INFINITY, f64::min);
+    let harmonics = harmonics(claim, clock.multiple, |_| 1.0, random);
+    let sector = limits.sector();
     let of_gains = |kept: f64| {
         let gain = |largest: f64| if largest.is_finite() { kept * largest.max(0.0) } else { 0.0 };
         let of_states = |size: f64| if n == 0 { Number::default() } else { Number::new(gain(size)) };
-        let size = of_states(value(1, 0.0, 0.0).min(along_e));
+        let size = of_states(limits.at(Bound::Fe, 0.0, 0.0).min(along_e));
+        let (c, damping) = match end {
+            SectorEnd::Upper => (gain(sector.above), sector.least_damping() / kept),
+            SectorEnd::Lower => (0.0, gain(sector.norm)),
+        };
         let mut family = Family {
             period: clock.period.to_owned(),
             jacobian: jacobian.clone(),
@@ -60,25 +70,23 @@ pub fn linear_member(claim: &Claim, random: &mut Random, left: &mut u64) -> Opti
             directions: directions.clone(),
             shapes: [Shape::Linear; 2],
             wave: None,
-            beta: of_states(value(6, 0.0, 0.0)),
-            c: Number::new(gain(value(5, 0.0, 0.0))),
+            beta: of_states(limits.at(Bound::Qx, 0.0, 0.0)),
+            damping: Number::new(damping),
+            c: Number::new(c),
             delta: Number::default(),
             saturation: Shape::Linear,
             factors: [Factor::ONE; 4],
             harmonics: harmonics.clone(),
         };
-        fill(&mut family, &at_zero, claim.spec.period.to_f64());
+        fill(&mut family, claim);
         family
     };
-    let proved = |family: &Family, left: &mut u64| {
-        family.bounds().iter().zip(&allowed).all(|(bound, allowed)| respects(bound, allowed, &claim.reach, left))
-    };
     let exact = of_gains(1.0);
-    if proved(&exact, left) {
+    if fits(&exact, claim, left) {
         return Some(DrawnPlant { family: exact });
     }
     let mut rounded = of_gains(ROUNDED);
-    (proved(&rounded, left) || fit(&mut rounded, &allowed, claim, left)).then_some(DrawnPlant { family: rounded })
+    (fits(&rounded, claim, left) || fit(&mut rounded, claim, left)).then_some(DrawnPlant { family: rounded })
 }
 
 #[cfg(test)]
@@ -97,6 +105,10 @@ mod tests {
         Claim::for_tests(Specification::from_json("tight", &document.to_string()).unwrap(), [3.0, 4.0])
     }
 
+    fn member(claim: &Claim, end: SectorEnd) -> Option<DrawnPlant> {
+        linear_member(claim, end, &mut Random::new(1, 1), &mut { MAX_OPERATIONS })
+    }
+
     #[test]
     fn gains_are_taken_exactly_where_they_are_proved_to_fit() {
         for (alpha, f, f_e, g) in [
@@ -106,8 +118,7 @@ mod tests {
             ("1/3", "X/3 + 2*E/3", "2/3", 0.666_666_6),
             ("1/2", "2*X + min(E, 1)/4", "1/4", 0.25 / 4.0),
         ] {
-            let family =
-                linear_member(&claim(alpha, f, f_e), &mut Random::new(1, 1), &mut { MAX_OPERATIONS }).expect(f).family;
+            let family = member(&claim(alpha, f, f_e), SectorEnd::Upper).expect(f).family;
             assert_eq!(family.jacobian, [[format!("-({alpha})")]]);
             assert!((family.g.1.value() / g - 1.0).abs() < 1e-15, "{f}: {}", family.g.1);
             // q of linear.json: 3 + X + E/4.
@@ -121,13 +132,40 @@ mod tests {
     #[test]
     fn a_rate_that_f_does_not_allow_has_no_member() {
         // |F| >= alpha and |F x| <= f contradict each other.
-        assert!(
-            linear_member(&claim("20", "19.9*X + 2000*E", "2000"), &mut Random::new(1, 1), &mut { MAX_OPERATIONS })
-                .is_none()
-        );
-        assert!(
-            linear_member(&claim("20", "20*X + 2000*E", "2000"), &mut Random::new(1, 1), &mut { MAX_OPERATIONS })
-                .is_some()
-        );
+        assert!(member(&claim("20", "19.9*X + 2000*E", "2000"), SectorEnd::Upper).is_none());
+        assert!(member(&claim("20", "20*X + 2000*E", "2000"), SectorEnd::Upper).is_some());
+    }
+
+    /// dq/de = c - damping for certain.
+    #[test]
+    fn an_end_of_the_sector_is_taken_exactly() {
+        let text = include_str!("../../specs/linear.json");
+        for (q_e_max, end, c, damping) in [
+            (None, SectorEnd::Lower, 0.0, 0.25),
+            (Some("0"), SectorEnd::Upper, 0.0, 0.0),
+            (Some("0"), SectorEnd::Lower, 0.0, 0.25),
+            (Some("-1/8"), SectorEnd::Upper, 0.0, 0.125),
+            (Some("1/16"), SectorEnd::Upper, 0.0625, 0.0),
+            // Not more than q_e allows.
+            (Some("1"), SectorEnd::Upper, 0.25, 0.0),
+        ] {
+            let mut document: serde_json::Value = serde_json::from_str(text).unwrap();
+            if let Some(bound) = q_e_max {
+                document["bounds"]["q_e_max"] = bound.into();
+            }
+            let spec = Specification::from_json("sector", &document.to_string()).unwrap();
+            let family = member(&Claim::for_tests(spec, [3.0, 4.0]), end).expect("a linear plant fits").family;
+            let kept = (family.c.value(), family.damping.value());
+            // Nine digits below the norm or beyond the end, where it is rounded.
+            assert!((kept.0 - c).abs() + (kept.1 - damping).abs() < 1e-7, "{q_e_max:?} {end:?}: {kept:?}");
+        }
+    }
+
+    #[test]
+    fn a_sector_that_is_empty_has_no_member() {
+        let mut document: serde_json::Value = serde_json::from_str(include_str!("../../specs/linear.json")).unwrap();
+        document["bounds"]["q_e_max"] = "-1/2".into();
+        let claim = Claim::for_tests(Specification::from_json("empty", &document.to_string()).unwrap(), [3.0, 4.0]);
+        assert!([SectorEnd::Upper, SectorEnd::Lower].into_iter().all(|end| member(&claim, end).is_none()));
     }
 }

@@ -27,6 +27,16 @@ type Region = [[Rational; 2]; 2];
 /// 0 all over. False where D < 0 somewhere, and where too many boxes would be needed, or more operations than are `left`.
 #[must_use]
 pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2], left: &mut u64) -> bool {
+    holds(bound, allowed, true, reach, left)
+}
+
+/// The same without the positive part: whether `bound(X, E) <= allowed(X, E)`, which bounds no norm and may be negative.
+#[must_use]
+pub fn respects_signed(bound: &str, allowed: &Expr, reach: &[Rational; 2], left: &mut u64) -> bool {
+    holds(bound, allowed, false, reach, left)
+}
+
+fn holds(bound: &str, allowed: &Expr, positive_part: bool, reach: &[Rational; 2], left: &mut u64) -> bool {
     let texts = [format!("({}) - ({bound})", allowed.text()), format!("-({bound})")];
     let [Ok(difference), Ok(negative)] = texts.map(|text| Expr::parse(&text, Variables::XAndE)) else {
         return false;
@@ -40,7 +50,7 @@ pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2], left: &mut u
         // Where the bounding function may be undefined, so is its positive part.
         let defined = difference.enclose(&side(&region[0]), &side(&region[1])).is_defined();
         let by_function = lower_bound(&difference, region);
-        let by_zero = defined.then(|| lower_bound(&negative, region)).flatten();
+        let by_zero = (defined && positive_part).then(|| lower_bound(&negative, region)).flatten();
         match (by_function, by_zero) {
             (Some(a), Some(b)) => Some(a.max(b)),
             (a, b) => a.or(b),
@@ -151,6 +161,22 @@ mod tests {
         ] {
             let allowed = Expr::parse(allowed, Variables::XAndE).unwrap();
             assert_eq!(respects(bound, &allowed, &reach, &mut { MAX_OPERATIONS }), fits, "{bound}");
+        }
+    }
+
+    #[test]
+    fn what_may_be_negative_has_no_positive_part() {
+        let reach = [Rational::from(10), Rational::from(10)];
+        for (bound, allowed, fits) in [
+            ("-400 + X", "X - 400", true),
+            ("-3", "-3 + atan(E)", true),
+            ("0", "X - 1", false),
+            ("0", "-1", false),
+            ("-(2) + min(X, 1)", "-1 - E/1000", false),
+            ("-(2) + min(X, 1)*0.9", "-1 - E/1000", true),
+        ] {
+            let allowed = Expr::parse(allowed, Variables::XAndE).unwrap();
+            assert_eq!(respects_signed(bound, &allowed, &reach, &mut { MAX_OPERATIONS }), fits, "{bound}");
         }
     }
 }

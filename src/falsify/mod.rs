@@ -6,12 +6,16 @@
 //! frequencies are claims of their own, which [`with_base_frequency`] makes.
 
 mod claim;
+mod contraction;
 mod counterexample;
 mod draw;
 mod family;
 mod finding;
+mod fit;
+mod forcing;
 mod frequency;
 mod jacobian;
+mod limits;
 mod linear;
 mod membership;
 mod random;
@@ -22,11 +26,12 @@ mod trial;
 pub use claim::Claim;
 pub use counterexample::counterexample_plant;
 pub use draw::{DrawnPlant, draw};
-pub use family::{Family, Harmonic};
+pub use family::{Family, FamilyBound, Harmonic};
 pub use finding::{Falsification, Finding, Trial, TrialSettings, Violation};
 pub use frequency::{FrequencyError, with_base_frequency};
+pub use limits::SectorEnd;
 pub use linear::linear_member;
-pub use membership::respects;
+pub use membership::{respects, respects_signed};
 pub use random::Random;
 pub use report::FalsificationReport;
 pub use shape::{Factor, Number, Shape};

@@ -1,7 +1,8 @@
 //! What is said about the trials.
 
 use super::claim::Claim;
-use super::finding::{Falsification, Finding};
+use super::counterexample::counterexample_plant;
+use super::finding::{Closest, Falsification, Finding, Trial};
 use crate::number::{Direction, round_f64, write_exact};
 use crate::report::document::{Block, Readable, Table, clean};
 use serde_json::{Value, json};
@@ -33,18 +34,9 @@ impl Readable for FalsificationReport<'_> {
 fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
     let mut blocks = vec![Block::Title(format!("{}: falsification", clean(&claim.spec.name)))];
     let (mut held, mut unfinished) = (0, Vec::new());
-    let mut largest: Vec<(&str, f64)> = Vec::new();
     for finding in &outcome.findings {
         match finding {
-            Finding::Holds { shares } => {
-                held += 1;
-                for (quantity, share) in shares {
-                    match largest.iter_mut().find(|(name, _)| name == quantity) {
-                        Some((_, most)) => *most = most.max(*share),
-                        None => largest.push((quantity, *share)),
-                    }
-                }
-            }
+            Finding::Holds { .. } => held += 1,
             Finding::Unfinished(why) => unfinished.push(why.as_str()),
             Finding::Violated(..) => {}
         }
@@ -54,7 +46,7 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
         "{} trials at 1.000001 sigma*, sigma* = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
          does not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
          proof.",
-        outcome.settings.trials,
+        outcome.findings.len(),
         round_f64(claim.sigma, 9, Direction::Nearest).map_or_else(|| claim.sigma.to_string(), |sigma| write_exact(&sigma)),
         claim.spec.internal_model.base_frequency.text,
         outcome.settings.seed,
@@ -67,11 +59,17 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
             trial.number, trial.n_o, violation.quantity, violation.found, violation.bound
         )));
     }
-    if !largest.is_empty() {
+    if let Some(worst) = outcome.worst() {
         blocks.push(Block::heading("How much of each bound was used, at most"));
-        let mut table = Table::new(&["<quantity", "found/bound"]);
-        largest.iter().for_each(|(quantity, share)| table.push([(*quantity).to_owned(), format!("{share:.3}")]));
+        let number = worst.trial.number;
+        let mut table = Table::new(&["<quantity", "found/bound", "in trial", &format!("trial {number}")]);
+        for Closest { quantity, share, trial, .. } in outcome.closest() {
+            let of_worst = worst.shares.iter().find(|(name, _)| *name == quantity);
+            let of_worst = of_worst.map_or_else(String::new, |(_, share)| format!("{share:.3}"));
+            table.push([quantity.to_owned(), format!("{share:.3}"), trial.number.to_string(), of_worst]);
+        }
         blocks.push(Block::Table(table));
+        blocks.extend(plant_blocks(&worst, outcome.settings.seed));
     }
     unfinished.sort_unstable();
     unfinished.dedup();
@@ -82,15 +80,46 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
     blocks
 }
 
+/// The worst plant, and how to simulate it and the others again.
+fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
+    let Closest { quantity, share, trial, .. } = worst;
+    let (f, q) = trial.plant.family.texts();
+    let (x, rest) = trial.start.split_at(f.len());
+    let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
+    let mut facts: Vec<(String, String)> =
+        f.into_iter().enumerate().map(|(i, text)| (format!("dx{}/dt", i + 1), text)).collect();
+    facts.push(("de/dt - u".to_owned(), q));
+    facts.push(("start".to_owned(), format!("x = {x:?}, e = {e:?}, z = {z:?}")));
+    vec![
+        Block::heading("The worst plant"),
+        Block::says(format!(
+            "Trial {}, sigma = {:?}, n_o = {}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
+             (The multiplier and the Lyapunov function are close to theirs with any plant.) `sigmastar falsify` with \
+             `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description; so \
+             for any other trial.",
+            trial.number, trial.sigma, trial.n_o, trial.number
+        )),
+        Block::facts(facts),
+    ]
+}
+
+/// The worst plant as JSON, with the plant file.
+fn worst_json(claim: &Claim, worst: &Closest<'_>) -> Value {
+    let Closest { quantity, share, trial, .. } = worst;
+    let Trial { number, sigma, n_o, .. } = &**trial;
+    let plant = counterexample_plant(claim, trial, None).map_or(Value::Null, |document| document.root().to_json());
+    json!({ "trial": number, "quantity": quantity, "share": share, "sigma": sigma, "n_o": n_o, "plant": plant })
+}
+
 fn json(claim: &Claim, outcome: &Falsification) -> Value {
     let trials: Vec<Value> = outcome
         .findings
         .iter()
         .map(|finding| match finding {
-            Finding::Holds { shares } => {
+            Finding::Holds { trial, shares } => {
                 let shares: Vec<Value> =
                     shares.iter().map(|(quantity, share)| json!({ "quantity": quantity, "share": share })).collect();
-                json!({ "finding": "holds", "shares": shares })
+                json!({ "finding": "holds", "n_o": trial.n_o, "shares": shares })
             }
             Finding::Violated(trial, violation) => json!({
                 "finding": "violated", "n_o": trial.n_o, "quantity": violation.quantity,
@@ -99,9 +128,17 @@ fn json(claim: &Claim, outcome: &Falsification) -> Value {
             Finding::Unfinished(why) => json!({ "finding": "unfinished", "reason": why }),
         })
         .collect();
+    let closest: Vec<Value> = outcome
+        .closest()
+        .iter()
+        .map(|Closest { quantity, share, trial, .. }| {
+            json!({ "quantity": quantity, "share": share, "trial": trial.number })
+        })
+        .collect();
     json!({
         "format": "sigmastar/falsification", "version": 1, "name": clean(&claim.spec.name), "sigma_star": claim.sigma,
         "base_frequency": claim.spec.internal_model.base_frequency.text,
-        "seed": outcome.settings.seed, "trials": trials, "refuted": outcome.counterexample().is_some(),
+        "seed": outcome.settings.seed, "trials": trials, "closest": closest,
+        "worst": outcome.worst().map(|worst| worst_json(claim, &worst)), "refuted": outcome.counterexample().is_some(),
     })
 }

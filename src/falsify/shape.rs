@@ -1,5 +1,7 @@
 //! The pieces that drawn plants are made of, as texts of plant files and as texts of bounds in X and E.
 
+use crate::number::parse_decimal;
+use rug::Rational;
 use std::fmt;
 
 /// A coefficient with nine significant decimal digits: what is written is exactly what is bounded.
@@ -17,6 +19,12 @@ impl Number {
     #[must_use]
     pub fn value(self) -> f64 {
         self.0
+    }
+
+    /// The decimal that is written, exactly; `None` where it is not finite.
+    #[must_use]
+    pub fn exact(self) -> Option<Rational> {
+        parse_decimal(&format!("{:?}", self.0)).ok()
     }
 
     /// The number times a factor.
@@ -108,5 +116,7 @@ mod tests {
             assert_eq!(Number::new(value).to_string(), text);
         }
         assert_eq!(Number::new(2.0).times(0.1).to_string(), "(0.2)");
+        assert_eq!(Number::new(1.5e-9).exact(), Some(Rational::from((3, 2_000_000_000))));
+        assert_eq!(Number::new(f64::INFINITY).exact(), None);
     }
 }

@@ -3,12 +3,13 @@
 use super::claim::Claim;
 use super::counterexample::counterexample_plant;
 use super::draw::{DrawnPlant, draw};
-use super::finding::{Falsification, Finding, Trial, TrialSettings, Violation};
+use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, Violation};
+use super::limits::SectorEnd;
 use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
 use super::random::Random;
 use crate::certify::no_plant;
-use crate::data::Data;
+use crate::data::{Bound, Data};
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::plant::Plant;
 use crate::progress::{Progress, Silent};
@@ -37,10 +38,11 @@ const SAMPLES: usize = 4096;
 pub fn falsify(claim: &Claim, settings: TrialSettings, progress: &dyn Progress) -> Falsification {
     if let Some(reason) = no_plant(&Data::new(&claim.spec, DEFAULT_PRECISION), Some(&claim.reach)) {
         // A plant without x would show nothing about such data.
-        let findings = (0..settings.trials).map(|_| Finding::Unfinished(reason.to_string())).collect();
+        let findings = settings.numbers().iter().map(|_| Finding::Unfinished(reason.to_string())).collect();
         return Falsification { settings, findings };
     }
-    let findings = (1..=settings.trials)
+    let findings = settings
+        .numbers()
         .into_par_iter()
         .map(|number| {
             let finding = run(claim, settings.seed, number);
@@ -55,12 +57,17 @@ fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     let mut random = Random::new(seed, number);
     // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
     // and where none does the linear member is left.
-    let first = if number == 1 { linear_member(claim, &mut random, &mut { MAX_OPERATIONS }) } else { None };
+    let linear = |end, random: &mut Random| linear_member(claim, end, random, &mut { MAX_OPERATIONS });
+    let first = if number == 1 { linear(SectorEnd::Upper, &mut random) } else { None };
     let mut left = MAX_OPERATIONS;
     let drawn = first.or_else(|| (0..DRAWS).find_map(|_| draw(claim, &mut random, &mut left)));
-    let Some(plant) = drawn.or_else(|| linear_member(claim, &mut random, &mut { MAX_OPERATIONS })) else {
-        return Finding::Unfinished("no plant of the drawn kind is proved to lie within the families".to_owned());
-    };
+    let drawn = drawn.or_else(|| {
+        // With one bound on both sides the adverse end is the upper one.
+        let one_sided = claim.spec.bounds.own(Bound::QeMax).is_some();
+        let end = if one_sided && random.chance(0.5) { SectorEnd::Lower } else { SectorEnd::Upper };
+        linear(end, &mut random)
+    });
+    let Some(plant) = drawn else { return Finding::Unfinished(no_member(claim).to_owned()) };
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
@@ -73,6 +80,17 @@ fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     };
     let closed_loop = ClosedLoop::new(&file, regulator);
     check(claim, trial, &closed_loop)
+}
+
+/// Why there is no plant to try.
+fn no_member(claim: &Claim) -> &'static str {
+    match claim.spec.bounds.own(Bound::Rate) {
+        None => "no plant of the drawn kind is proved to lie within the families",
+        Some(_) => {
+            "no plant of the drawn kind, whose df/dx depends on t only, is proved to have the contraction rate and to lie \
+             within the families"
+        }
+    }
 }
 
 /// The regulator of the claim in double precision.
@@ -133,7 +151,7 @@ fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
     }
     match checks.violation {
         Some(violation) => Finding::Violated(Box::new(trial), violation),
-        None => Finding::Holds { shares: checks.shares },
+        None => Finding::Holds { trial: Box::new(trial), shares: checks.shares },
     }
 }
 
@@ -173,7 +191,7 @@ fn check_orbit(
         let zeta: Vec<f64> = y[n + 1..].iter().zip(&m).map(|(z, m)| z - m * y[n]).collect();
         closed_loop.regulator.weighted_norm(&zeta)
     });
-    checks.at_most("largest Floquet multiplier", steady.multipliers.first().copied().unwrap_or(0.0), 1.0);
+    checks.at_most(MULTIPLIER, steady.multipliers.first().copied().unwrap_or(0.0), 1.0);
     checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
     checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
     checks.at_most("sup|zeta|_N of the periodic solution", zeta, claim.periodic[2]);
@@ -232,7 +250,7 @@ fn check_approach(
     checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
     checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
     if claim.lyapunov.is_some() {
-        checks.at_most("Lyapunov function on the way, against its start", level[1], level[0]);
+        checks.at_most(LYAPUNOV, level[1], level[0]);
     }
     Ok(())
 }

@@ -476,6 +476,75 @@ fn false_certificates_are_refuted_with_a_counterexample() {
     }
 }
 
+/// Optional data: no plant that they exclude is held against a certificate, and too small a gain is still found.
+#[test]
+fn certificates_with_optional_data_withstand_the_trials_and_false_ones_do_not() {
+    for (name, too_small, quantity) in [
+        ("motor-axis-friction", "200", "Lyapunov function on the way, against its start"),
+        ("paper-example-harmonics-at-rest", "1/4", "Lyapunov function on the way, against its start"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut certificate = certificate(name);
+        let (code, report, counterexample) = falsify(&certificate, folder.path(), "12", &[]);
+        let trials = report["trials"].as_array().unwrap();
+        assert_eq!((code, counterexample), (0, None), "{name}: {report}");
+        assert!(trials.iter().all(|trial| trial["finding"] == "holds"), "{name}: {report}");
+        certificate["claim"]["sigma_star"] = Value::String(too_small.to_owned());
+        let (code, report, counterexample) = falsify(&certificate, folder.path(), "20", &[]);
+        assert_eq!(code, 1, "{name}: {report}");
+        assert!(counterexample.unwrap().contains(quantity), "{name}: {report}");
+    }
+}
+
+#[test]
+fn a_fast_plant_breaks_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, report, counterexample) = falsify(&certificate("motor-axis"), folder.path(), "20", &[]);
+    assert_eq!((code, counterexample), (0, None), "{report}");
+    assert!(report["trials"].as_array().unwrap().iter().all(|trial| trial["finding"] == "holds"), "{report}");
+}
+
+/// The worst plant is in the report, `--trial` writes the same, and its simulation is that of the trial.
+#[test]
+fn the_worst_plant_is_named_and_can_be_simulated_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let certificate = certificate("linear");
+    let (code, report, _) = falsify(&certificate, folder.path(), "6", &["--seed", "3"]);
+    assert_eq!(code, 0, "{report}");
+    let worst = &report["worst"];
+    let number = worst["trial"].as_u64().unwrap();
+    let trials = report["trials"].as_array().unwrap();
+    for closest in report["closest"].as_array().unwrap() {
+        let share = |trial: &Value| {
+            let shares = trial["shares"].as_array().unwrap();
+            shares.iter().find(|share| share["quantity"] == closest["quantity"]).unwrap()["share"].as_f64().unwrap()
+        };
+        let largest = trials.iter().map(share).fold(0.0, f64::max);
+        assert_eq!(share(&trials[closest["trial"].as_u64().unwrap() as usize - 1]), largest);
+        assert_eq!(closest["share"], largest);
+        let general = ["largest Floquet multiplier", "Lyapunov function on the way, against its start"];
+        assert!(general.iter().any(|name| closest["quantity"] == *name) || worst["share"].as_f64().unwrap() >= largest);
+    }
+    let (tried, plant) = (folder.path().join("tried.json"), folder.path().join("plant.json"));
+    let mut command = sigmastar(&["falsify", "--seed", "3", "--trial", &number.to_string(), "-o"]);
+    let output = command.arg(&plant).arg(&tried).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    let (text, remark) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert!(text.contains(&format!("Trial {number}, sigma = ")) && text.contains("The worst plant"), "{text}");
+    assert!(remark.contains("the plant is in"), "{remark}");
+    let written = std::fs::read_to_string(plant).unwrap();
+    assert_eq!(support::json(written.as_bytes()), worst["plant"]);
+    let again = simulated_again(&written, &["--periods", "2"]);
+    let bound: f64 = certificate["claim"]["periodic_solution"]["e"].as_str().unwrap().parse().unwrap();
+    let by_trial = &trials[number as usize - 1]["shares"].as_array().unwrap().clone();
+    let of = by_trial.iter().find(|share| share["quantity"] == "sup|e| of the periodic solution").unwrap();
+    let [again, then] = [again["steady_state"]["sup_e"].as_f64().unwrap() / bound, of["share"].as_f64().unwrap()];
+    assert!(again <= then * 1.001 && then <= 1.0, "{again} {then}");
+    // Only one of these makes sense.
+    let both = ["falsify", "--trial", "1", "--trials", "2"];
+    sigmastar(&both).arg(&tried).assert().code(2).stdout("");
+}
+
 /// What the guide tells a user to do: the samples of a counterexample show the violation.
 #[test]
 fn a_counterexample_can_be_seen_in_its_samples() {
