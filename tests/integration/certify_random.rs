@@ -57,7 +57,7 @@ fn verdict(text: &str, derivation: Derivation) -> Result<Verdict, TestCaseError>
     let run = certify(&spec, options).map_err(|e| TestCaseError::fail(format!("{e:?}\n{text}")))?;
     if let Some(certificate) = certificate_json(&run) {
         let report = proofs_check::check(certificate.to_string().as_bytes());
-        prop_assert_eq!(report.verdict, proofs_check::Verdict::Valid, "{}\n{}", report.text(), text);
+        prop_assert_eq!(report.verdict, proofs_check::verdict::Verdict::Valid, "{}\n{}", report.text(false), text);
     }
     if let Some(proof) = run.sharp.proved() {
         no_better_weights(proof.witness.sigma.to_f64(), run.checks.decay.as_ref(), text)?;
