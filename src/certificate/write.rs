@@ -123,6 +123,7 @@ pub fn no_plant_json(reason: &NoPlant) -> Value {
     let mut fields = object([("X", exact(&reason.x)), ("rate_at_most", interval(&reason.rate_at_most))]);
     let more = match &reason.exceeded_by {
         ExceededBy::Alpha { .. } => vec![("exceeded_by", text("alpha"))],
+        ExceededBy::Rate { .. } => vec![("exceeded_by", text("rate"))],
         ExceededBy::Jacobian { fraction, column, .. } => {
             vec![("exceeded_by", text("jacobian")), ("t", exact(fraction)), ("column", Value::from(*column))]
         }

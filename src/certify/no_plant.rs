@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Along `x' = F x` the triple gives `|x(t)| <= c e^(-alpha t) |x(0)|`, and `|x(t)| >= e^(-t sup|F|) |x(0)|` always, so
-//! `alpha <= sup|F|`. A Jacobian says more: at each t, |F(t)| is at least the Euclidean norm of a column, hence of the least
+//! `alpha <= sup|F|`; and so is a rate a(0,0) that is given for the same P. A Jacobian says more: at each t, |F(t)| is at least the Euclidean norm of a column, hence of the least
 //! magnitudes of its entries. Where one X contradicts one of the two, no plant with a state satisfies the data, and what
 //! is proved about all of them is proved about none. Data without x (no Jacobian, and b_f, b_fe, b_fxx, b_fex, b_qx all 0)
 //! are those of a plant without states.
@@ -53,6 +53,11 @@ pub enum ExceededBy {
         /// Its value.
         alpha: Enclosure,
     },
+    /// a(0, 0), a rate that is given.
+    Rate {
+        /// Its value.
+        rate: Enclosure,
+    },
     /// A column of the Jacobian.
     Jacobian {
         /// The time as a fraction of the period.
@@ -76,6 +81,9 @@ impl fmt::Display for NoPlant {
         let least = self.exceeded_by.value().lower_decimal(6);
         match &self.exceeded_by {
             ExceededBy::Alpha { .. } => write!(f, "alpha >= {least} needs |df/dx(t,0,0)| >= alpha at some t"),
+            ExceededBy::Rate { .. } => {
+                write!(f, "a rate of at least {least} at X = E = 0 needs |df/dx(t,0,0)| to be as large at some t")
+            }
             ExceededBy::Jacobian { fraction, column, .. } => {
                 let (column, t) = (column + 1, write_exact(fraction));
                 write!(f, "column {column} of the Jacobian has a norm of at least {least} at t = {t} periods")
@@ -90,6 +98,7 @@ impl ExceededBy {
     pub fn value(&self) -> &Enclosure {
         match self {
             ExceededBy::Alpha { alpha } => alpha,
+            ExceededBy::Rate { rate } => rate,
             ExceededBy::Jacobian { norm, .. } => norm,
         }
     }
@@ -133,7 +142,10 @@ pub fn no_plant(data: &Data<'_>, used: Option<&[Rational; 2]>) -> Option<NoPlant
         let by_f_x = given.as_ref().is_some_and(|given| given.lt(&taylor).is_true());
         let rate = given.map_or(taylor.clone(), |given| given.min(&taylor));
         let alpha = Some(ExceededBy::Alpha { alpha: data.alpha.clone() });
-        let exceeded_by = alpha.into_iter().chain(column.clone()).find(|least| least.value().gt(&rate).is_true())?;
+        let given_rate = data
+            .given(Bound::Rate)
+            .then(|| ExceededBy::Rate { rate: data.bound(Bound::Rate, &data.zero(), &data.zero()) });
+        let exceeded_by = alpha.into_iter().chain(given_rate).chain(column.clone()).find(|least| least.value().gt(&rate).is_true())?;
         Some(NoPlant { x, rate_at_most: rate, by_f_x, exceeded_by })
     };
     let decided: Vec<NoPlant> = candidates(data, largest.as_ref()).into_iter().filter_map(decide).collect();

@@ -8,6 +8,7 @@ pub(crate) fn remarks(run: &Certification<'_>) -> Vec<String> {
     if let Some(reason) = &run.no_plant {
         let check = match reason.exceeded_by {
             ExceededBy::Alpha { .. } => "f, f_xx, their domain, alpha, and the unit of time in each",
+            ExceededBy::Rate { .. } => "f, f_xx, their domain, rate, and the unit of time in each",
             ExceededBy::Jacobian { .. } => "f, f_xx, their domain, the Jacobian, and the unit of time in each",
         };
         remarks.push(format!("Remark: {reason}. What is proved of all such plants is proved of none. Check {check}."));

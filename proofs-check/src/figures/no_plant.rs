@@ -2,7 +2,7 @@
 //!
 //! For |x| = X, |F(t) x| <= |f(t,x,0)| + b_fxx(X,0) X^2/2, so |F| <= b_f(X,0)/X + b_fxx(X,0) X/2, and where b_fx is
 //! given |F| <= b_fx(X,0); and alpha <= sup |F|, since
-//! a solution of x' = F x cannot shrink faster than |F| lets it. Where one X of the domain breaks either, the data contradict
+//! a solution of x' = F x cannot shrink faster than |F| lets it, and no more does a given rate at (0,0) exceed it. Where one X of the domain breaks either, the data contradict
 //! themselves and a claim about every plant within them, true as it is, is about none.
 
 use crate::data::Data;
@@ -33,11 +33,15 @@ pub fn check(d: &Data<'_>, field: &Field<'_>) -> Outcome<()> {
     let by = fields.required("exceeded_by")?;
     let least = match by.text()? {
         "alpha" => d.alpha.clone(),
+        "rate" => match &d.spec.rate {
+            Some(rate) => rate.enclose(&zero, &zero),
+            None => return bad(&by.pointer, "the specification has no `rate`"),
+        },
         "jacobian" => {
             let (t, column) = (fields.required("t")?.rational()?, fields.required("column")?);
             column_norm(d, &t, column.whole()? as usize, &column)?
         }
-        _ => return bad(&by.pointer, "expected `alpha` or `jacobian`"),
+        _ => return bad(&by.pointer, "expected `alpha`, `rate` or `jacobian`"),
     };
     demand(most.lt(&least), RULE, &field.pointer, "the bound of |df/dx(t,0,0)| at X is exceeded")?;
     fields.finish()
