@@ -16,11 +16,11 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// How many blocks of each kind there are at least.
 const LEAST: [(&str, usize); 14] = [
     ("bounding-spec", 1),
-    ("bounding-spec-part", 6),
+    ("bounding-spec-part", 9),
     ("plant", 2),
     ("controller", 1),
-    ("certificate-fragment", 9),
-    ("report-fragment", 3),
+    ("certificate-fragment", 11),
+    ("report-fragment", 4),
     ("transfer-fragment", 2),
     ("check-fragment", 2),
     ("rates-fragment", 1),
@@ -231,7 +231,7 @@ fn run(code: i32, arguments: &[&str]) -> Value {
 
 const EXAMPLE: &str = "specs/paper-example.json";
 const PLANT: &str = "specs/plants/paper-example.json";
-const VALID: &str = "proofs-check/tests/certificates/linear.sharp.json";
+const VALID: &str = "proofs-check/tests/certificates/paper-example.means.json";
 
 /// No plant with a state has these data.
 fn without_plant(lyapunov: Value, f: &str) -> String {
@@ -246,15 +246,19 @@ fn certificates() -> Vec<Value> {
     let with = |derivation, transfer| Options { derivation, transfer, ..Options::default() };
     let (sharp, repaired) = (Derivation::Sharp, Derivation::Repaired);
     let example = specification(&file(EXAMPLE), EXAMPLE);
-    let periodic = parsed(&file("proofs-check/tests/certificates/periodic-jacobian.sharp.json"), "a certificate");
-    let periodic = specification(&periodic["specification"].to_string(), "periodic");
+    let of = |name: &str| {
+        let file = parsed(&file(&format!("proofs-check/tests/certificates/{name}.json")), name);
+        specification(&file["specification"].to_string(), name)
+    };
     let quick = Options { compare: false, ..Options::default() };
     let mut all = vec![
         certificate(&example, Options::default()),
         certificate(&example, with(repaired, TransferChoice::Best)),
         certificate(&example, with(sharp, TransferChoice::Boxes)),
-        certificate(&periodic, quick),
     ];
+    for name in ["periodic-jacobian.sharp", "refined.means", "two-matrices.means"] {
+        all.push(certificate(&of(name), quick));
+    }
     let triple = json!({ "p_low": "1", "p_up": "1", "alpha": "50" });
     let jacobian = json!({ "jacobian": [["-2", "1"], ["-1", "-2"]] });
     for (lyapunov, f) in [(triple, "0.01*X"), (jacobian, "2.1*X")] {
@@ -295,6 +299,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                 vec![
                     report(0, &[EXAMPLE, "--target-sup", "0.1", "--target-rms", "0.01"]),
                     report(0, &["specs/relative-degree-2.json"]),
+                    report(0, &["specs/motor-axis-friction.json"]),
                     report(1, &[EXAMPLE, "--derivation", "printed"]),
                     report(2, &["specs/invalid/many-errors.json"]),
                     report(2, &["specs/invalid/misspelt-field.json"]),
@@ -312,7 +317,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             (
                 "check-fragment",
                 vec![
-                    other(&["check", "proofs-check/tests/certificates/paper-example.sharp.json"]),
+                    other(&["check", VALID]),
                     other(&["check", "proofs-check/tests/forged/lmi-l_e.json"]),
                     run(1, &["check", "proofs-check/tests/forged/sharp-C4.json", "--format", "json"]),
                 ],
@@ -461,11 +466,13 @@ fn every_field_that_is_read_is_named() {
     let plant = |text: &str| Plant::from_json("x", text).err();
     let example = with(&[
         ("domain", json!({ "X": 1, "E": 1 })),
+        ("q_0", json!({ "harmonics": [1], "rest_rms": 1 })),
         ("relative_degree", json!({ "a": [1] })),
         ("initial_set", json!({ "kind": "box", "X0": 0, "E0": 0, "Z0": 0 })),
     ]);
     let mut all = Vec::new();
-    for pointer in ["", "/lyapunov", "/bounds", "/domain", "/internal_model", "/initial_set", "/relative_degree"] {
+    let parts = ["", "/lyapunov", "/bounds", "/q_0", "/domain", "/internal_model", "/initial_set", "/relative_degree"];
+    for pointer in parts {
         all.push(("specification", pointer, known(spec, &example, pointer)));
     }
     let weights = json!({ "family": "explicit", "values": [2, 1], "tail": { "coefficient": 1, "exponent": "3/2" } });

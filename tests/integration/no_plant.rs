@@ -25,6 +25,7 @@ fn run(args: &[&str]) -> (Option<i32>, String, String) {
 }
 
 const TRIPLE: &str = r#"{ "p_low": "1", "p_up": "1", "alpha": "50" }"#;
+const RATE: &str = r#"{ "p_low": "1", "p_up": "1", "alpha": "1/100", "rate": "50 - X/1e6" }"#;
 const JACOBIAN: &str = r#"{ "jacobian": [["-2", "1"], ["-1", "-2"]] }"#;
 
 #[test]
@@ -32,7 +33,14 @@ fn reports_and_certificates_say_so() {
     let folder = tempfile::tempdir().unwrap();
     let certificate = folder.path().join("certificate.json");
     let certificate = certificate.to_str().unwrap();
-    for (lyapunov, f, by) in [(TRIPLE, "0.01*X", "alpha"), (JACOBIAN, "0", "alpha"), (JACOBIAN, "2.1*X", "jacobian")] {
+    for (lyapunov, f, by) in [
+        (TRIPLE, "0.01*X", "alpha"),
+        (RATE, "2*X", "rate"),
+        (JACOBIAN, "0", "alpha"),
+        (JACOBIAN, "2.1*X", "jacobian"),
+        // f_x alone says it: what f allows is more.
+        (TRIPLE, r#"60*X", "f_x": "0.01"#, "alpha"),
+    ] {
         let path = write(folder.path(), lyapunov, f, "0");
         let (code, text, _) = run(&["certify", &path, "-o", certificate]);
         assert_eq!(code, Some(0), "{text}");
