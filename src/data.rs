@@ -55,6 +55,20 @@ pub struct ExistenceTriple<R> {
     pub alpha: R,
 }
 
+impl ExistenceTriple<Enclosure> {
+    /// Those of a triple; undefined without one.
+    fn new(triple: Option<&Lyapunov>, precision: u32) -> ExistenceTriple<Enclosure> {
+        let Some(Lyapunov { p_low, p_up, alpha }) = triple else {
+            let undefined = Enclosure::undefined(precision);
+            return ExistenceTriple { c: undefined.clone(), alpha: undefined };
+        };
+        // p_low <= p_up was proved when the triple was read or found, so the ratio is at least 1.
+        let at_least_one = Enclosure::entire(precision).max(&Enclosure::one(precision));
+        let ratio = p_up.enclose(precision) / p_low.enclose(precision);
+        ExistenceTriple { c: ratio.sqrt().intersect(&at_least_one), alpha: alpha.enclose(precision) }
+    }
+}
+
 /// `q(t,0,0) = sum_{|k| <= K} c_k e^{i k Om t} + rest` (derivation, 10.1).
 #[derive(Clone, Debug)]
 pub struct KnownForcing<R> {
@@ -121,14 +135,13 @@ impl<'s> Data<'s> {
         let number = |part: fn(&Lyapunov) -> &Constant| {
             triple.map_or_else(|| Enclosure::undefined(precision), |triple| part(triple).enclose(precision))
         };
+        let ExistenceTriple { c, .. } = ExistenceTriple::new(triple, precision);
         let p_low = number(|triple| &triple.p_low);
         let p_up = number(|triple| &triple.p_up);
         let mu = model.mu.enclose(precision);
         let base_frequency = model.base_frequency.enclose(precision);
         let n_bar_squared = model.weights.total(precision);
-        // p_low <= p_up was proved when the specification was read, so the ratio is at least 1.
-        let at_least_one = Enclosure::entire(precision).max(&Enclosure::one(precision));
-        let c = (&p_up / &p_low).sqrt().intersect(&at_least_one);
+        let existence = ExistenceTriple::new(spec.lyapunov.existence_triple(), precision);
         let period = spec.period.enclose(precision);
         let alpha = number(|triple| &triple.alpha);
         let known = spec.q_0.as_ref().map(|known| KnownForcing {
@@ -139,7 +152,7 @@ impl<'s> Data<'s> {
         });
         let numbers = Numbers {
             fundamental: 2 * Enclosure::pi(precision) / &period,
-            existence: ExistenceTriple { c: c.clone(), alpha: alpha.clone() },
+            existence,
             q_0: known,
             matched: model.matched,
             period,

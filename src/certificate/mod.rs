@@ -8,5 +8,5 @@ mod write;
 
 pub use read::{read_lyapunov, read_witness};
 pub use stated::{StatedClaim, read_claim};
-pub use triple::{lyapunov_json, matrix_json};
+pub use triple::{lyapunov_parts, matrix_json};
 pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, no_plant_json, statement};

@@ -1,11 +1,12 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
 use super::fields::{Numbers, RefinedSquares, exact_rational, rational};
+use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
 use crate::certify::GivenWitness;
 use crate::derivation::repaired::RepairedWitness;
 use crate::derivation::sharp::{ClaimedSet, SharpWitness};
-use crate::lyapunov::ProvedTriple;
+use crate::lyapunov::{ProvedTriple, ProvedTriples};
 use crate::spec::model::PeriodicMatrix;
 use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value};
 use crate::transfer::{BoxProof, TransferProof};
@@ -44,7 +45,9 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
     let ((repaired, sigma, set), witness) = (claim?, witness?);
     let mut fields = witness.object(errors)?;
     // Read by `read_lyapunov`, where the specification asks for it.
-    let _ = fields.optional("lyapunov");
+    for field in [STABILITY, EXISTENCE] {
+        let _ = fields.optional(field);
+    }
     let result = if repaired {
         let other = |fields: &mut Object<'_>, errors: &mut Errors| Ok((sigma, set, read_transfer(fields, errors)?));
         RepairedWitness::read(&mut fields, errors, other)
@@ -56,39 +59,44 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
     result
 }
 
-/// Reads the part `witness.lyapunov` of a certificate: P(t) and the triple, for a specification with a Jacobian.
+/// Reads the parts `witness.lyapunov` and `witness.lyapunov_existence` of a certificate: P(t) and the triple of each, for a
+/// specification with a Jacobian.
 ///
 /// # Errors
-/// A part that is missing, or fields in it that are missing, unknown or not exact rationals, with their places.
-pub fn read_lyapunov(document: &Document) -> Result<ProvedTriple, SpecErrors> {
+/// The first part, where it is missing, or fields that are missing, unknown or not exact rationals, with their places.
+pub fn read_lyapunov(document: &Document) -> Result<ProvedTriples, SpecErrors> {
     let mut errors = Errors::new();
     let outcome = (|| {
         let root = document.root();
         let mut file = root.object(&mut errors)?;
         let witness = file.required("witness", &mut errors)?;
         let mut witness = witness.object(&mut errors)?;
-        let value = witness.required("lyapunov", &mut errors)?;
-        let mut fields = value.object(&mut errors)?;
-        let mean =
-            fields.required("P", &mut errors).and_then(|value| read_rows(&value, "an entry of a matrix", &mut errors));
-        let mut harmonics = Vec::new();
-        if let Some(value) = fields.optional("harmonics") {
-            for pair in value.array(&mut errors)? {
-                let mut pair = pair.object(&mut errors)?;
-                let [cos, sin] = ["cos", "sin"].map(|name| {
-                    pair.required(name, &mut errors)
-                        .and_then(|value| read_rows(&value, "an entry of a matrix", &mut errors))
-                });
-                pair.finish(&mut errors);
-                harmonics.push([cos?, sin?]);
-            }
-        }
-        let [p_low, p_up, alpha] = ["p_low", "p_up", "alpha"].map(|name| rational(&mut fields, name, &mut errors));
-        fields.finish(&mut errors);
-        let matrix = PeriodicMatrix { mean: mean?, harmonics };
-        Ok(ProvedTriple { matrix, p_low: p_low?, p_up: p_up?, alpha: alpha? })
+        let stability = witness.required(STABILITY, &mut errors)?;
+        let stability = read_triple(&stability, &mut errors)?;
+        let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, &mut errors)).transpose()?;
+        Ok(ProvedTriples { stability, existence })
     })();
     errors.conclude(document, outcome)
+}
+
+fn read_triple(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedTriple, Reported> {
+    let mut fields = value.object(errors)?;
+    let mean = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of a matrix", errors));
+    let mut harmonics = Vec::new();
+    if let Some(value) = fields.optional("harmonics") {
+        for pair in value.array(errors)? {
+            let mut pair = pair.object(errors)?;
+            let [cos, sin] = ["cos", "sin"].map(|name| {
+                pair.required(name, errors).and_then(|value| read_rows(&value, "an entry of a matrix", errors))
+            });
+            pair.finish(errors);
+            harmonics.push([cos?, sin?]);
+        }
+    }
+    let [p_low, p_up, alpha] = ["p_low", "p_up", "alpha"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    let matrix = PeriodicMatrix { mean: mean?, harmonics };
+    Ok(ProvedTriple { matrix, p_low: p_low?, p_up: p_up?, alpha: alpha? })
 }
 
 /// Lists of exact rationals.
@@ -178,7 +186,8 @@ fn read_sharp(
         let transfer = read_transfer(fields, errors);
         let _ = fields.optional("lmi");
         exact = fields.optional("exact_regulation").map(|value| read_numbers(&value, errors)).transpose();
-        let refined = fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
+        let refined =
+            fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
         Ok((sigma, set, transfer?, refined?))
     });
     Ok(GivenWitness::Sharp { witness: Box::new(witness?), exact: exact? })

@@ -2,7 +2,7 @@
 
 use crate::number::write_exact;
 use crate::spec::Specification;
-use crate::spec::model::{LyapunovSource, PeriodicMatrix};
+use crate::spec::model::{Lyapunov, LyapunovSource, PeriodicMatrix};
 use rug::Rational;
 use serde_json::{Map, Value};
 
@@ -29,13 +29,26 @@ pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
     fields
 }
 
-/// The part `witness.lyapunov` of a certificate: P(t) and the triple; `None` where the user gave the triple.
+/// The parts `witness.lyapunov` and `witness.lyapunov_existence` of a certificate: P(t) and the triple of each; none where the
+/// user gave the triple.
 #[must_use]
-pub fn lyapunov_json(spec: &Specification) -> Option<Value> {
-    let LyapunovSource::Proved { triple, matrix, .. } = &spec.lyapunov else { return None };
+pub fn lyapunov_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
+    let LyapunovSource::Proved { triple, matrix, existence, .. } = &spec.lyapunov else { return Vec::new() };
+    let stability = (STABILITY, part(triple, matrix));
+    let existence = existence.as_ref().map(|(triple, matrix)| (EXISTENCE, part(triple, matrix)));
+    std::iter::once(stability).chain(existence).collect()
+}
+
+/// The field of the triple of stability.
+pub(super) const STABILITY: &str = "lyapunov";
+
+/// The field of the triple of existence.
+pub(super) const EXISTENCE: &str = "lyapunov_existence";
+
+fn part(triple: &Lyapunov, matrix: &PeriodicMatrix) -> Value {
     let mut fields = matrix_json(matrix);
     for (name, value) in [("p_low", &triple.p_low), ("p_up", &triple.p_up), ("alpha", &triple.alpha)] {
         fields.insert(name.to_owned(), Value::from(value.text.clone()));
     }
-    Some(Value::Object(fields))
+    Value::Object(fields)
 }

@@ -1,7 +1,7 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
 use super::fields::Numbers;
-use super::triple::{lyapunov_json, rows};
+use super::triple::{lyapunov_parts, rows};
 use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
@@ -9,6 +9,7 @@ use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::table::{At, Entry, Row, Value as Cell};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational, write_exact};
+use crate::spec::Bound;
 use crate::spec::model::{InitialSet, LyapunovSource};
 use crate::transfer::{TransferProof, closed_form_pair};
 use rug::Rational;
@@ -93,7 +94,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         .map(|condition| if condition.id == "T" { transfer.clone() } else { condition.clone() })
         .collect();
     if let Value::Object(fields) = &mut witness {
-        fields.extend(lyapunov_json(spec).map(|value| ("lyapunov".to_owned(), value)));
+        fields.extend(lyapunov_parts(spec).into_iter().map(|(name, value)| (name.to_owned(), value)));
         fields.extend(multipliers_json(run).map(|value| ("lmi".to_owned(), value)));
     }
     let mut certificate = object([
@@ -188,10 +189,13 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
             "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
         }
     };
+    let rate =
+        if spec.bounds.own(Bound::Rate).is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
+    let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
     format!(
         "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
-         frequency {}{reach}, every plant within the bounding functions{domain} and {triple} has a T-periodic \
-         solution of the closed loop to which every solution from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, at \
+         frequency {}{reach}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
+         has a T-periodic solution of the closed loop to which every solution from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, at \
          any initial time, converges exponentially.",
         write_exact(sigma),
         spec.period.text,

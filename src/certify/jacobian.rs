@@ -3,10 +3,13 @@
 use super::refusal::Refusal;
 use crate::data::Data;
 use crate::enclosure::MAX_PRECISION;
-use crate::lyapunov::{Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, candidates, prove};
+use crate::lyapunov::{
+    Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, ProvedTriples, candidates, prove,
+};
 use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
-use crate::spec::model::{Constant, Lyapunov, LyapunovSource, Specification};
+use crate::spec::model::{Constant, Jacobian, Lyapunov, LyapunovSource, Specification};
 use crate::transfer::TradeOff;
+use rug::Rational;
 use std::borrow::Cow;
 
 /// A specification whose triple was found and proved, and what else is known about its Jacobian.
@@ -101,18 +104,45 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         let mut order: Vec<usize> = (0..sigmas.len()).collect();
         // Stable: where no sigma* is found, the largest rate comes first.
         order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-        let triple = candidates.first_proved(order.iter().map(|at| &candidates.found[*at]))?;
-        Ok(Resolution { spec: carrying(spec, &triple), candidates, sigmas, searches })
+        let stability = candidates.first_proved(order.iter().map(|at| &candidates.found[*at]))?;
+        let existence = start.and_then(|known| for_existence(&model, &candidates, &stability, &known));
+        let triples = ProvedTriples { stability, existence };
+        Ok(Resolution { spec: carrying(spec, &triples), candidates, sigmas, searches })
     }))
 }
 
-/// A specification with a Lyapunov triple: as it is, or with the triple of its Jacobian, which is `given` or found, and proved.
+/// What a second matrix must take from sigma* to be worth its room in a certificate.
+const WORTH: f64 = 1e-5;
+
+/// A triple for the existence of the periodic solution beside that of stability, where one of the candidates is proved that
+/// lowers sigma*, in floating point.
+fn for_existence(
+    model: &FloatModel,
+    candidates: &Candidates,
+    stability: &ProvedTriple,
+    known: &SharpProposal,
+) -> Option<ProvedTriple> {
+    let ratio = Rational::from(&stability.p_up / &stability.p_low).to_f64();
+    let model = model.with_triple(ratio, stability.alpha.to_f64());
+    let alone = search_sharp_near(&model, known).or_else(|| search_sharp(&model).ok())?;
+    let sigma = |candidate: &&Candidate| {
+        let model = model.with_existence_triple(candidate.ratio, candidate.alpha);
+        search_sharp_near(&model, &alone).map_or(f64::INFINITY, |found| found.sigma)
+    };
+    let mut better: Vec<(f64, &Candidate)> =
+        candidates.found.iter().map(|candidate| (sigma(&candidate), candidate)).collect();
+    better.retain(|(sigma, _)| *sigma < alone.sigma * (1.0 - WORTH));
+    better.sort_by(|a, b| a.0.total_cmp(&b.0));
+    candidates.first_proved(better.into_iter().map(|(_, candidate)| candidate)).ok()
+}
+
+/// A specification with a Lyapunov triple: as it is, or with those of its Jacobian, which are `given` or found, and proved.
 ///
 /// # Errors
 /// [`Refusal::Jacobian`]: no triple was found, or the given one is not proved.
 pub fn with_triple<'s>(
     spec: &'s Specification,
-    given: Option<&ProvedTriple>,
+    given: Option<&ProvedTriples>,
 ) -> Result<Cow<'s, Specification>, Refusal> {
     let proved = match given {
         Some(triple) => resolve_with(spec, triple).map(|proved| proved.map_err(|failure| failure.to_string())),
@@ -124,33 +154,44 @@ pub fn with_triple<'s>(
     }
 }
 
-/// Decides the triple of a certificate for the Jacobian of a specification again. `None` if the specification has no Jacobian
+/// Decides the triples of a certificate for the Jacobian of a specification again. `None` if the specification has no Jacobian
 /// whose triple is wanted.
 ///
 /// # Errors
 /// The inequality that is not proved.
-pub fn resolve_with(spec: &Specification, triple: &ProvedTriple) -> Option<Result<Specification, NotProved>> {
+pub fn resolve_with(spec: &Specification, triples: &ProvedTriples) -> Option<Result<Specification, NotProved>> {
     let LyapunovSource::Wanted(jacobian) = &spec.lyapunov else { return None };
+    let all = std::iter::once(&triples.stability).chain(&triples.existence);
+    Some(
+        all.map(|triple| decide_triple(spec, jacobian, triple))
+            .collect::<Result<(), _>>()
+            .map(|()| carrying(spec, triples)),
+    )
+}
+
+fn decide_triple(spec: &Specification, jacobian: &Jacobian, triple: &ProvedTriple) -> Result<(), NotProved> {
     let mut precision = 128;
     loop {
         // The reader has refused entries that are no polynomials of the period.
         let family = Family::new(jacobian, &spec.period, precision);
         match family.map_or(Err(NotProved::Shape), |family| prove(&family, triple)) {
             Err(NotProved::Inequality { .. }) if precision < MAX_PRECISION => precision *= 4,
-            outcome => return Some(outcome.map(|()| carrying(spec, triple))),
+            outcome => return outcome,
         }
     }
 }
 
-fn carrying(spec: &Specification, proved: &ProvedTriple) -> Specification {
+fn carrying(spec: &Specification, proved: &ProvedTriples) -> Specification {
     let mut spec = spec.clone();
+    let constants = |proved: &ProvedTriple| Lyapunov {
+        p_low: Constant::rational(&proved.p_low),
+        p_up: Constant::rational(&proved.p_up),
+        alpha: Constant::rational(&proved.alpha),
+    };
     if let Some(jacobian) = spec.lyapunov.jacobian().cloned() {
-        let triple = Lyapunov {
-            p_low: Constant::rational(&proved.p_low),
-            p_up: Constant::rational(&proved.p_up),
-            alpha: Constant::rational(&proved.alpha),
-        };
-        spec.lyapunov = LyapunovSource::Proved { jacobian, triple, matrix: proved.matrix.clone() };
+        let (triple, matrix) = (constants(&proved.stability), proved.stability.matrix.clone());
+        let existence = proved.existence.as_ref().map(|other| (constants(other), other.matrix.clone()));
+        spec.lyapunov = LyapunovSource::Proved { jacobian, triple, matrix, existence };
     }
     spec
 }

@@ -4,7 +4,7 @@
 //! |x| = X, so for every X > 0 at which the bounding functions hold
 //!
 //! ```text
-//! sup_t |F(t)| <= b_f(X,0)/X + b_fxx(X,0) X/2.
+//! sup_t |F(t)| <= b_f(X,0)/X + b_fxx(X,0) X/2,   and where b_fx is given   sup_t |F(t)| <= b_fx(X,0).
 //! ```
 //!
 //! Along `x' = F x` the triple gives `|x(t)| <= c e^(-alpha t) |x(0)|`, and `|x(t)| >= e^(-t sup|F|) |x(0)|` always, so
@@ -13,9 +13,9 @@
 //! is proved about all of them is proved about none. Data without x (no Jacobian, and b_f, b_fe, b_fxx, b_fex, b_qx all 0)
 //! are those of a plant without states.
 
-use crate::expr::Expr;
 use crate::data::{Bound, Data, Problem};
 use crate::enclosure::Enclosure;
+use crate::expr::Expr;
 use crate::lyapunov::Family;
 use crate::number::{Direction, Portable, round_f64, round_rational, write_exact};
 use crate::spec::model::{Jacobian, JacobianEntry};
@@ -37,8 +37,10 @@ const TIMES: u32 = 64;
 pub struct NoPlant {
     /// X > 0.
     pub x: Rational,
-    /// `b_f(X,0)/X + b_fxx(X,0) X/2`, which |df/dx(t,0,0)| cannot exceed.
+    /// `b_f(X,0)/X + b_fxx(X,0) X/2`, or b_fx(X,0) where that is smaller, which |df/dx(t,0,0)| cannot exceed.
     pub rate_at_most: Enclosure,
+    /// Whether it is b_fx.
+    pub by_f_x: bool,
     /// What exceeds it.
     pub exceeded_by: ExceededBy,
 }
@@ -65,10 +67,11 @@ pub enum ExceededBy {
 impl fmt::Display for NoPlant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (x, rate) = (write_exact(&self.x), self.rate_at_most.upper_decimal(6));
+        let formula = if self.by_f_x { "f_x(X,0)" } else { "f(X,0)/X + f_xx(X,0) X/2" };
         write!(
             f,
-            "no plant with a state x satisfies these data: at X = {x} they allow |df/dx(t,0,0)| <= f(X,0)/X + f_xx(X,0) X/2 \
-             <= {rate}, but "
+            "no plant with a state x satisfies these data: at X = {x} they allow |df/dx(t,0,0)| <= {formula} <= {rate}, \
+             but "
         )?;
         let least = self.exceeded_by.value().lower_decimal(6);
         match &self.exceeded_by {
@@ -124,10 +127,14 @@ pub fn no_plant(data: &Data<'_>, used: Option<&[Rational; 2]>) -> Option<NoPlant
     let column = data.spec.lyapunov.jacobian().and_then(|jacobian| largest_column(data, jacobian));
     let decide = |x: Rational| {
         let at = data.rational(&x);
-        let rate = data.bound(Bound::F, &at, &data.zero()) / &at + data.bound(Bound::Fxx, &at, &data.zero()) * &at / 2;
+        let on_axis = |which| data.bound(which, &at, &data.zero());
+        let taylor = on_axis(Bound::F) / &at + on_axis(Bound::Fxx) * &at / 2;
+        let given = data.given(Bound::Fx).then(|| on_axis(Bound::Fx));
+        let by_f_x = given.as_ref().is_some_and(|given| given.lt(&taylor).is_true());
+        let rate = given.map_or(taylor.clone(), |given| given.min(&taylor));
         let alpha = Some(ExceededBy::Alpha { alpha: data.alpha.clone() });
         let exceeded_by = alpha.into_iter().chain(column.clone()).find(|least| least.value().gt(&rate).is_true())?;
-        Some(NoPlant { x, rate_at_most: rate, exceeded_by })
+        Some(NoPlant { x, rate_at_most: rate, by_f_x, exceeded_by })
     };
     let decided: Vec<NoPlant> = candidates(data, largest.as_ref()).into_iter().filter_map(decide).collect();
     let rate = |reason: &NoPlant| reason.rate_at_most.upper_f64();
@@ -143,8 +150,12 @@ fn candidates(data: &Data<'_>, largest: Option<&Rational>) -> Vec<Rational> {
     let [Some(f), Some(f_xx)] = [Bound::F, Bound::Fxx].map(|bound| bound.of(data.spec).map(Expr::to_float)) else {
         return Vec::new();
     };
+    let f_x = Bound::Fx.of(data.spec).map(Expr::to_float);
     let positive = |value: f64| if value < 0.0 { 0.0 } else { value };
-    let rate = |x: f64| positive(f.eval(x, 0.0)) / x + positive(f_xx.eval(x, 0.0)) * x / 2.0;
+    let rate = |x: f64| {
+        let taylor = positive(f.eval(x, 0.0)) / x + positive(f_xx.eval(x, 0.0)) * x / 2.0;
+        f_x.as_ref().map_or(taylor, |f_x| positive(f_x.eval(x, 0.0)).min(taylor))
+    };
     let limit = largest.map_or(f64::INFINITY, Rational::to_f64);
     let mut grid: Vec<f64> =
         (-4 * DECADES..=4 * DECADES).map(|k| 10f64.portable_pow(f64::from(k) / 4.0)).filter(|x| *x < limit).collect();

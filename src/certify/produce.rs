@@ -22,8 +22,7 @@ use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
 use crate::search::{
-    FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, sensitivities,
-    without_optional_data,
+    FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, sensitivities, without_optional_data,
 };
 use crate::spec::model::Specification;
 use crate::transfer::{TradeOff, printed_transfer};

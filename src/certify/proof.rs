@@ -3,8 +3,8 @@
 use super::options::Derivation;
 use crate::data::Data;
 use crate::derivation::condition::{self, Condition};
-use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::consequences::Excitation;
+use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::enclosure::{Enclosure, Truth};

@@ -18,8 +18,8 @@ use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{
-    FloatModel, RepairedProposal, SharpProposal, active_level, at_sigma, largest_e_repaired, perron_repaired, search_exact,
-    weight_h,
+    FloatModel, RepairedProposal, SharpProposal, active_level, at_sigma, largest_e_repaired, perron_repaired,
+    search_exact, weight_h,
 };
 use crate::spec::model::InitialSet;
 use crate::transfer::{TransferProof, closed_form_pair, prove_above};
@@ -177,24 +177,7 @@ fn sharp_witness(
     let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
     let RoundedBox { d_x, d_e, w_x, h } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
     let MeanSquares { x: r_x, e: r_e, e_rate: r_d } = existence;
-    Some(SharpWitness {
-        sigma,
-        x_p,
-        e_p,
-        r_x,
-        r_e,
-        r_d,
-        kap,
-        refined,
-        d_x,
-        d_e,
-        w_x,
-        h,
-        k0,
-        k1,
-        transfer,
-        set,
-    })
+    Some(SharpWitness { sigma, x_p, e_p, r_x, r_e, r_d, kap, refined, d_x, d_e, w_x, h, k0, k1, transfer, set })
 }
 
 /// D_x, D_e, w_x, h of an error box whose level condition holds with a small slack after rounding.

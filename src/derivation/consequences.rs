@@ -89,7 +89,8 @@ pub fn error_bounds(
     let modulus = (first.sqr() + sigma.sqr()).sqrt();
     let rms = e_per.min(&(&excitation.q_rms / &modulus)).min(&(&excitation.q_rate_rms / (first * modulus)));
     let [by_size, by_rate] = tail_sums(data, sigma, n_o);
-    let sup = e_per.min(&(&excitation.q_rms * (2 * by_size).sqrt())).min(&(&excitation.q_rate_rms * (2 * by_rate).sqrt()));
+    let sup =
+        e_per.min(&(&excitation.q_rms * (2 * by_size).sqrt())).min(&(&excitation.q_rate_rms * (2 * by_rate).sqrt()));
     ErrorBounds { rms: rms.ceiling(), sup: sup.ceiling() }
 }
 

@@ -225,7 +225,9 @@ where
         let sup = gains.sup_of(q_rms, q_rate_rms);
         let rms = gains.rms_of(q_rms, q_rate_rms);
         let rate_rms = q_rms.min(&(q_rate_rms * &gains.rms));
-        let (Some(known), Some(response)) = (&origin.known, &gains.known) else { return Response { sup, rms, rate_rms } };
+        let (Some(known), Some(response)) = (&origin.known, &gains.known) else {
+            return Response { sup, rms, rate_rms };
+        };
         let superposed_sup =
             &response.sup + gains.sup_of(&known.rest_rms, &known.rest_t_rms) + gains.sup_of(change, change_rate);
         let superposed_rms =

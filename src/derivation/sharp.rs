@@ -152,7 +152,6 @@ impl SharpEvaluation {
             step.rhs,
         ));
         conditions.extend(existence_conditions(data, witness, &bounds, &origin, &gains));
-        conditions.extend(one_sided(data, "(X_b, E_b)", [&error_box.x_b, &error_box.e_b]));
         let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&periodic.x_per, &periodic.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less(
@@ -161,6 +160,7 @@ impl SharpEvaluation {
             start,
             exit,
         ));
+        conditions.extend(one_sided(data, "(X_b, E_b)", [&error_box.x_b, &error_box.e_b]));
         conditions.push(Condition::less(
             "C5",
             "(h/mu) k_x^2 < 4 w_x a_2",
@@ -242,34 +242,37 @@ fn existence_conditions(
         Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", bounds.x_rms(&squares), squares.x.clone()),
     ];
     let by_squares = sup_by_mean_squares(data, &squares);
+    let known = if data.q_0.is_some() { ", q_0 form" } else { "" };
     let [sup, rms, rate_rms] = match &kap {
         None => {
             let response = Response::new(gains, origin, &Forcing::new(bounds, origin, &squares));
             [
-                ("min{bt R_q, tau R_1, sqrt(T r_e r_d)} <= E_p", response.sup.min(&by_squares)),
-                ("min{R_q/sg, R_1/(Om sg)} <= r_e", response.rms),
-                ("min{R_q, R_1/sg} <= r_d", response.rate_rms),
+                (format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){known}}} <= E_p"), response.sup.min(&by_squares)),
+                (format!("min{{R_q/sg, R_1/(Om sg){known}}} <= r_e"), response.rms),
+                ("min{R_q, R_1/sg} <= r_d".to_owned(), response.rate_rms),
             ]
         }
         Some(kap) => {
-            conditions.extend(one_sided(data, "(X_p, E_p)", [&bounds.x_p, &bounds.e_p]));
             let damped = DampedResponse::new(bounds, origin, [&gains.sigma, kap], &squares);
             [
-                ("sqrt(T r_e r_d) <= E_p", by_squares),
-                ("g_k Rt <= r_e", damped.rms),
-                ("Rt + kap r_e <= r_d", damped.rate_rms),
+                ("sqrt(T r_e r_d) <= E_p".to_owned(), by_squares),
+                ("g_k Rt <= r_e".to_owned(), damped.rms),
+                ("Rt + kap r_e <= r_d".to_owned(), damped.rate_rms),
             ]
         }
     };
     conditions.push(Condition::at_most("S2", sup.0, sup.1, bounds.e_p.clone()));
     conditions.push(Condition::at_most("S2b", rms.0, rms.1, squares.e.clone()));
     conditions.push(Condition::at_most("S2c", rate_rms.0, rate_rms.1, squares.e_rate.clone()));
+    if kap.is_some() {
+        conditions.extend(one_sided(data, "(X_p, E_p)", [&bounds.x_p, &bounds.e_p]));
+    }
     if let Some(refined) = &witness.refined {
         let refined = refined.map(|value: &Rational| data.rational(value));
         let image = at_the_solution(bounds, origin, gains, kap.as_ref(), &refined);
-        conditions.push(Condition::less("S3", "right side of rms(x) < refined r_x", image.x, refined.x));
-        conditions.push(Condition::less("S3b", "right side of rms(e) < refined r_e", image.e, refined.e));
-        conditions.push(Condition::less("S3c", "right side of rms(e') < refined r_d", image.e_rate, refined.e_rate));
+        conditions.push(Condition::less("S3", "G_x(r') < r'_x", image.x, refined.x));
+        conditions.push(Condition::less("S3b", "G_e(r') < r'_e", image.e, refined.e));
+        conditions.push(Condition::less("S3c", "G_d(r') < r'_d", image.e_rate, refined.e_rate));
     }
     conditions
 }

@@ -22,9 +22,9 @@ mod transfer;
 
 pub use evidence::{Evidence, Kind, Relation, Side};
 
-use crate::expr::Expr;
 use crate::data::{Bound, Data};
 use crate::enclosure::DEFAULT_PRECISION;
+use crate::expr::Expr;
 use crate::spec::Specification;
 use std::fmt;
 

@@ -298,7 +298,7 @@ mod tests {
         // The triple does not matter to what is drawn.
         let triple = Lyapunov { p_low: one.clone(), p_up: one.clone(), alpha: one };
         let matrix = PeriodicMatrix { mean: Vec::new(), harmonics: Vec::new() };
-        spec.lyapunov = LyapunovSource::Proved { jacobian: jacobian.clone(), triple, matrix };
+        spec.lyapunov = LyapunovSource::Proved { jacobian: jacobian.clone(), triple, matrix, existence: None };
         let claim = Claim::for_tests(spec, [10.0, 10.0]);
         let (mut random, mut largest) = (Random::new(7, 8), 0.0_f64);
         for _ in 0..20 {

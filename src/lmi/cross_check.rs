@@ -2,7 +2,7 @@
 
 use super::decay::{DecayData, verify_decay};
 use super::level::{LevelData, propose_lyapunov_weights};
-use super::propose::{propose_multipliers, propose_sigma};
+use super::propose::{propose_multipliers, propose_sigma, two_sided_threshold};
 use crate::data::Data;
 use crate::derivation::sharp::{SharpEvaluation, SharpWitness};
 use crate::derivation::stability::DecayCondition;
@@ -31,7 +31,10 @@ pub struct SigmaBothWays {
     pub closed_form: Enclosure,
     /// The smallest sigma of the matrix inequality, by the solver.
     pub solver_sigma: f64,
-    /// |solver_sigma - closed_form| / closed_form, in floating point; NaN where there is no threshold.
+    /// The size of what adds up to the threshold: that of the threshold itself, or for a one-sided dq/de, where most of it may
+    /// cancel, that of the threshold without damping told apart. No solver sees a difference much smaller than this.
+    pub scale: f64,
+    /// |solver_sigma - closed_form| / scale, in floating point; NaN where there is no threshold.
     pub relative_difference: f64,
     /// The solver's own words, where it stopped short of its tolerance.
     pub remark: Option<String>,
@@ -42,10 +45,11 @@ pub struct SigmaBothWays {
 pub const AGREEMENT: f64 = 1e-5;
 
 impl SigmaBothWays {
-    fn new(closed_form: Enclosure, solver_sigma: f64, remark: Option<String>) -> SigmaBothWays {
+    fn new(closed_form: Enclosure, solver_sigma: f64, two_sided: f64, remark: Option<String>) -> SigmaBothWays {
         let threshold = closed_form.midpoint_f64();
-        let relative_difference = ((solver_sigma - threshold) / threshold).abs();
-        SigmaBothWays { relative_difference, closed_form, solver_sigma, remark }
+        let scale = if two_sided > threshold { two_sided } else { threshold };
+        let relative_difference = ((solver_sigma - threshold) / scale).abs();
+        SigmaBothWays { scale, relative_difference, closed_form, solver_sigma, remark }
     }
 
     /// Whether the two agree to the solver's tolerance.
@@ -71,9 +75,9 @@ impl CrossCheck {
     /// Whether the last two lines of that table say so.
     #[must_use]
     pub fn free_contradicts(&self) -> bool {
-        let largest = self.fixed.closed_form.upper_f64() * (1.0 + AGREEMENT);
+        let largest = self.fixed.closed_form.upper_f64() + self.fixed.scale * AGREEMENT;
         self.free.as_ref().is_ok_and(|free| {
-            let possible = free.solver_sigma >= free.closed_form.lower_f64() * (1.0 - AGREEMENT);
+            let possible = free.solver_sigma >= free.closed_form.lower_f64() - free.scale * AGREEMENT;
             free.remark.is_none() && !(possible && free.solver_sigma <= largest)
         })
     }
@@ -118,7 +122,7 @@ pub fn cross_check(
     let short = l_x.zip(l_e).zip(l_f).map(|((l_x, l_e), l_f)| [l_x, l_e, l_f]);
     let multipliers = short.filter(proves).or_else(|| at_sigma.exact_multipliers().filter(proves));
     Ok(CrossCheck {
-        fixed: SigmaBothWays::new(closed_form, smallest.sigma, smallest.remark),
+        fixed: SigmaBothWays::new(closed_form, smallest.sigma, two_sided_threshold(&decay), smallest.remark),
         free: best_weights(evaluation, witness, data, &decay),
         multipliers,
     })
@@ -142,8 +146,11 @@ fn best_weights(
     let found = propose_lyapunov_weights(decay, &level)?;
     let weight =
         |value: f64| Rational::from_f64(value).map(|value| data.rational(&value)).ok_or(SolverFailure::Unusable);
-    let closed_form = DecayCondition::new(data, &evaluation.error_box, &weight(found.w_x)?, &weight(found.h)?);
-    Ok(SigmaBothWays::new(closed_form.sigma_threshold, found.sigma, found.remark))
+    let (w_x, h) = (weight(found.w_x)?, weight(found.h)?);
+    let closed_form = DecayCondition::new(data, &evaluation.error_box, &w_x, &h);
+    let exact = |value: f64| Rational::from_f64(value).ok_or(SolverFailure::Unusable);
+    let there = DecayData { w_x: exact(found.w_x)?, h: exact(found.h)?, ..decay.clone() };
+    Ok(SigmaBothWays::new(closed_form.sigma_threshold, found.sigma, two_sided_threshold(&there), found.remark))
 }
 
 #[cfg(test)]
@@ -151,7 +158,7 @@ mod tests {
     use super::*;
 
     fn figures(closed_form: i64, solver_sigma: f64, remark: Option<&str>) -> SigmaBothWays {
-        SigmaBothWays::new(Enclosure::from_integer(closed_form, 64), solver_sigma, remark.map(str::to_owned))
+        SigmaBothWays::new(Enclosure::from_integer(closed_form, 64), solver_sigma, 0.0, remark.map(str::to_owned))
     }
 
     #[test]
@@ -172,6 +179,9 @@ mod tests {
         // The best weights cannot need more than those of the certificate; they may need less.
         assert!(check(good(), Ok(figures(11, 11.0, None))));
         assert!(!check(good(), Ok(figures(9, 9.0, None))));
+        // A difference below what the solver sees of numbers that cancel.
+        let cancelled = |found| SigmaBothWays::new(Enclosure::from_integer(10, 64), found, 1e6, None);
+        assert!(!check(cancelled(10.5), Ok(cancelled(10.5))) && check(cancelled(21.0), Ok(good())));
         // What it finds for them need not be the smallest.
         assert!(!check(good(), Ok(figures(9, 9.1, None))));
         assert!(check(good(), Ok(figures(9, f64::NAN, None))));

@@ -38,7 +38,7 @@ enum Signal {
     S,
     /// u_x, |u_x| <= k_x xi.
     Ux,
-    /// u_e = delta et, -k_l <= delta <= m.
+    /// v = u_e - c_0 et with c_0 = (m - k_l)/2, the middle of the sector: |v| <= r |et|, r = (m + k_l)/2.
     Ue,
     /// phi, |phi| <= k_f |et|.
     Phi,
@@ -69,25 +69,32 @@ impl DecayData {
         })
     }
 
-    /// The signals with those that bound them and the sectors [-below, above] in which their quotients lie, in the order of
-    /// the multipliers.
-    fn sectors(&self) -> [(Signal, Signal, [&Rational; 2]); 3] {
-        use Signal::{E, Phi, Ue, Ux, X};
+    /// c_0 = (m - k_l)/2, at most 0, and r = (m + k_l)/2.
+    #[must_use]
+    pub fn middle(&self) -> [Rational; 2] {
         let [below, above] = &self.sector;
-        [(Ux, X, [&self.k_x, &self.k_x]), (Ue, E, [below, above]), (Phi, E, [&self.k_f, &self.k_f])]
+        [Rational::from(above - below) / 2u32, Rational::from(above + below) / 2u32]
     }
 
-    /// Which of u_x, u_e, phi are rows of the matrix: those whose sector is not 0. (The multiplier of a signal that
+    /// k_x, r, k_f with the signals they bound, in the order of the multipliers.
+    fn sectors(&self) -> [(Signal, Signal, Rational); 3] {
+        use Signal::{E, Phi, Ue, Ux, X};
+        let [_, radius] = self.middle();
+        [(Ux, X, self.k_x.clone()), (Ue, E, radius), (Phi, E, self.k_f.clone())]
+    }
+
+    /// Which of u_x, v, phi are rows of the matrix: those whose bound is not 0. (The multiplier of a signal that
     /// vanishes would run to infinity.)
     #[must_use]
     pub fn present(&self) -> [bool; 3] {
-        self.sectors().map(|(_, _, [below, above])| *below != 0 || *above != 0)
+        self.sectors().map(|(_, _, k)| k != 0)
     }
 
     /// The symmetric matrix of
     /// `2 w_x a_2 xi^2 - 2 w_x sqrt(P_up) xi phi + 2 sigma et^2 - 2 et (u_x + u_e) - 2 mu et s + 2 h mu s^2
     /// + 2 h s (u_x + u_e) + l_x (u_x^2 - k_x^2 xi^2) + l_e (u_e - m et)(u_e + k_l et) + l_f (phi^2 - k_f^2 et^2)`
-    /// in (xi, et, s, u_x, u_e, phi), affine in (sigma, l_x, l_e, l_f); rows and multipliers that are not
+    /// in (xi, et, s, u_x, v, phi) with u_e = c_0 et + v, where the product is `v^2 - r^2 et^2`: et and u_e are nearly parallel
+    /// in a narrow sector, et and v are not. Affine in (sigma, l_x, l_e, l_f); rows and multipliers that are not
     /// [`DecayData::present`] are left out.
     #[must_use]
     pub fn matrix(&self, mu: &Rational) -> AffineMatrix<Rational> {
@@ -98,11 +105,13 @@ impl DecayData {
     #[must_use]
     pub fn matrix_in_weights(&self, mu: &Rational) -> AffineMatrix<Rational> {
         use Signal::{E, Phi, S, Ue, Ux, X};
-        let sectors: Vec<_> = self.sectors().into_iter().zip(self.present()).filter_map(|(sector, is)| is.then_some(sector)).collect();
+        let sectors: Vec<_> = self.sectors().into_iter().filter(|(_, _, k)| *k != 0).collect();
+        let [middle, _] = self.middle();
         let mut signals = vec![X, E, S];
         signals.extend(sectors.iter().map(|(signal, _, _)| *signal));
         let zero = Rational::new;
         let constant = |row: usize, column: usize| match (signals[row], signals[column]) {
+            (E, E) => Rational::from(&middle * -2i32),
             (E, S) => -mu.clone(),
             (E, Ux | Ue) => Rational::from(-1),
             _ => zero(),
@@ -113,21 +122,16 @@ impl DecayData {
                 (0, (X, X)) => Rational::from(&self.rate * 2u32),
                 (0, (X, Phi)) => -self.root_p_up.clone(),
                 (1, (S, S)) => Rational::from(mu * 2u32),
+                (1, (E, S)) => middle.clone(),
                 (1, (S, Ux | Ue)) => Rational::from(1),
                 (2, (E, E)) => Rational::from(2),
                 (0..=2, _) => zero(),
-                (_, (signal, other)) => {
-                    let (bounded, by, [below, above]) = sectors[variable - 3];
-                    if signal == bounded && other == bounded {
-                        Rational::from(1)
-                    } else if signal == by && other == by {
-                        -Rational::from(below * above)
-                    } else if (signal == by && other == bounded) || (signal == bounded && other == by) {
-                        Rational::from(below - above) / 2u32
-                    } else {
-                        zero()
-                    }
-                }
+                (_, (signal, other)) if signal == other => match &sectors[variable - 3] {
+                    (bounded, _, _) if signal == *bounded => Rational::from(1),
+                    (_, by, k) if signal == *by => -Rational::from(k * k),
+                    _ => zero(),
+                },
+                _ => zero(),
             }
         };
         AffineMatrix::from_fn(signals.len(), 3 + sectors.len(), constant, term)
@@ -150,6 +154,7 @@ impl DecayData {
 /// - mu: M is affine in mu, so positive definite at both ends gives it between them.
 ///
 /// These changes combine: what is added to the diagonal does not depend on p and mu.
+/// M is written in v = u_e - c_0 et, which is a congruence.
 /// The set of all these parameters with sigma' = sigma and a_2 = rate is compact, so the least eigenvalue of the
 /// matrices has a minimum rho > 0 there, and what is added for larger ones is nonnegative. The form of C5 is v'M v minus
 /// l_x (u_x^2 - k_x^2 xi^2), l_e (u_e - m et)(u_e + k_l et) and l_f (phi^2 - k_f^2 et^2), each of which is <= 0 on the signals allowed; hence it is >= rho |v|^2. QED

@@ -18,4 +18,4 @@ pub mod propose;
 pub use cross_check::{AGREEMENT, CrossCheck, CrossCheckError, SigmaBothWays, cross_check};
 pub use decay::{DecayData, verify_decay};
 pub use level::{LevelData, WeightsProposal, propose_lyapunov_weights};
-pub use propose::{DecayProposal, propose_multipliers, propose_sigma};
+pub use propose::{DecayProposal, propose_multipliers, propose_sigma, two_sided_threshold};

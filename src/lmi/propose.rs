@@ -69,6 +69,17 @@ pub fn propose_multipliers(data: &DecayData, sigma: &Rational) -> Result<DecayPr
     Ok(DecayProposal { sigma: sigma.to_f64(), multipliers, margin: found.x[last], remark: found.remark })
 }
 
+/// The threshold of C5 in doubles with |dq/de| at most the larger end of the sector: no damping is told apart.
+#[must_use]
+pub fn two_sided_threshold(data: &DecayData) -> f64 {
+    let [w_x, h, mu, rate] = [&data.w_x, &data.h, &data.mu[0], &data.rate].map(Rational::to_f64);
+    let [p, k_x, k_f] = [&data.root_p_up, &data.k_x, &data.k_f].map(Rational::to_f64);
+    let [below, above] = data.sector.each_ref().map(|end| end.to_f64().abs());
+    let end = if below > above { below } else { above };
+    let terms = DecayTerms::new([&w_x, &h], [&rate, &mu, &p], [&k_x, &k_f], &Sector { below: end, above: end });
+    terms.threshold(terms.curvature - terms.coupling)
+}
+
 /// The scales of rows and unknowns for which the solution is expected to have ones on the diagonal.
 pub(super) struct Scale {
     /// The root of the expected (positive part of the) diagonal entry, per row.
@@ -98,7 +109,10 @@ impl Scale {
         let multipliers = [worst / (2.0 * k_x * xi), worst / (below + above), w_x * p * xi / k_f];
         let present = multipliers.into_iter().zip(data.present()).filter_map(|(unit, present)| present.then_some(unit));
         let units: Vec<f64> = std::iter::once(sigma).chain(present).collect();
-        let diagonal = [2.0 * w_x * rate, 2.0 * sigma, 2.0 * h * mu].into_iter().chain(units.iter().skip(1).copied());
+        // The entry of et also has -2 c_0, the middle of the sector.
+        let diagonal = [2.0 * w_x * rate, 2.0 * sigma + below - above, 2.0 * h * mu]
+            .into_iter()
+            .chain(units.iter().skip(1).copied());
         let roots: Vec<f64> = diagonal.map(f64::sqrt).collect();
         let usable = |value: &f64| value.is_finite() && *value > 0.0;
         if roots.iter().chain(&units).all(usable) { Ok(Scale { roots, units }) } else { Err(SolverFailure::Unusable) }

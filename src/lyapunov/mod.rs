@@ -14,4 +14,4 @@ mod prove;
 
 pub use candidates::{Candidate, Candidates, LyapunovFailure, MAX_PROGRAM_COST, candidates, floquet_exponents};
 pub use family::{Deviation, Family};
-pub use prove::{NotProved, ProvedTriple, prove};
+pub use prove::{NotProved, ProvedTriple, ProvedTriples, prove};

@@ -31,6 +31,15 @@ pub struct ProvedTriple {
     pub alpha: Rational,
 }
 
+/// The proved triples of a Jacobian.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProvedTriples {
+    /// That of stability; it serves for existence too where there is no other.
+    pub stability: ProvedTriple,
+    /// That of the existence of the periodic solution.
+    pub existence: Option<ProvedTriple>,
+}
+
 /// Which inequality could not be proved, and where.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum NotProved {

@@ -162,7 +162,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         }
         Obstacle::Existence => {
             add(
-                "a larger alpha, a smaller p_up/p_low, or smaller f_e, f_xx, f_ex: C1 and C3 do not contain sigma there",
+                "a larger alpha, a smaller p_up/p_low, or smaller f_e, f_xx: a_1 > 0 (sharp), C1 and C3 (repaired) do not contain sigma there",
             );
         }
         Obstacle::DomainX | Obstacle::DomainE => {

@@ -7,7 +7,7 @@ use super::remarks::remarks;
 use crate::certify::{Certification, Derivation, Verdict};
 use crate::number::{Direction, write_exact};
 use crate::spec::Bound;
-use crate::spec::model::LyapunovSource;
+use crate::spec::model::{Lyapunov, LyapunovSource};
 use crate::transfer::TransferProof;
 
 /// The verdict in one sentence that a control engineer understands.
@@ -56,10 +56,17 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
     let mut items = vec![derivation.to_owned()];
     let used = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper));
     let of_the_zero_dynamics = match &run.spec.lyapunov {
-        LyapunovSource::Proved { triple, .. } => {
+        LyapunovSource::Proved { triple, existence, .. } => {
+            let shown = |triple: &Lyapunov| {
+                format!("p_low = {}, p_up = {}, alpha = {}", triple.p_low.text, triple.p_up.text, triple.alpha.text)
+            };
+            let other = existence
+                .as_ref()
+                .map(|(other, _)| format!("; for the existence of the periodic solution {}", shown(other)));
             items.push(format!(
-                "Proved for every t and every matrix of the Jacobian: the Lyapunov triple p_low = {}, p_up = {}, alpha = {}.",
-                triple.p_low.text, triple.p_up.text, triple.alpha.text
+                "Proved for every t and every matrix of the Jacobian: the Lyapunov triple {}{}.",
+                shown(triple),
+                other.unwrap_or_default()
             ));
             "that its Jacobian df/dx(t,0,0) is within the one given"
         }

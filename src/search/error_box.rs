@@ -11,6 +11,12 @@ const RHO_EXPONENTS: std::ops::RangeInclusive<i32> = -10..=4;
 /// Half decades of eta in the scan.
 const ETA_EXPONENTS: std::ops::RangeInclusive<i32> = -24..=12;
 
+/// Beyond these, larger values are tried while they help: where a distance is far smaller than what the box may be.
+const FAR: usize = 60;
+
+/// So many values in a row that do not help end that.
+const PATIENCE: usize = 3;
+
 /// The best error box around a periodic solution of size (x_per, e_per), for distances dX, dE, dZ: a scan over many orders of
 /// magnitude, then a local minimisation.
 ///
@@ -18,20 +24,45 @@ const ETA_EXPONENTS: std::ops::RangeInclusive<i32> = -24..=12;
 /// The obstacle of the candidate that came closest, when none is feasible.
 pub fn best_error_box(model: &FloatModel, periodic: (f64, f64), distances: [f64; 3]) -> Result<AtSigma, Obstacle> {
     let evaluate = |rho: f64, eta: f64| error_box(model, periodic, distances, rho, eta);
-    let effort = model.effort();
+    let step = model.effort().shape_step;
+    let rhos: Vec<f64> = RHO_EXPONENTS.step_by(step).map(|k| 1.0 + 2f64.powi(k)).collect();
+    let far_rhos = (1..=FAR).map(|k| 1.0 + 2f64.powi(4 + 5 * k as i32));
+    let etas: Vec<f64> = ETA_EXPONENTS.step_by(step).map(|k| 10f64.portable_pow(f64::from(k) / 2.0)).collect();
+    let far_etas: Vec<f64> = (1..=FAR).map(|k| 10f64.powi(6 + 2 * k as i32)).collect();
+    let at_rho = |rho: f64| scan(&etas, far_etas.iter().copied(), |eta| evaluate(rho, eta));
+    refine(model, evaluate, scan(&rhos, far_rhos, at_rho)?)
+}
+
+/// The smallest threshold over all of the values and over those of `far` that help, one after the other.
+fn scan(
+    near: &[f64],
+    far: impl Iterator<Item = f64>,
+    evaluate: impl Fn(f64) -> Result<AtSigma, Obstacle>,
+) -> Result<AtSigma, Obstacle> {
     let mut closest = Obstacle::NotFinite;
     let mut best: Option<AtSigma> = None;
-    for rho_exponent in RHO_EXPONENTS.step_by(effort.shape_step) {
-        for eta_exponent in ETA_EXPONENTS.step_by(effort.shape_step) {
-            let (rho, eta) = (1.0 + 2f64.powi(rho_exponent), 10f64.portable_pow(f64::from(eta_exponent) / 2.0));
-            match evaluate(rho, eta) {
-                Ok(at) if best.is_none_or(|b| at.threshold < b.threshold) => best = Some(at),
-                Ok(_) => {}
-                Err(obstacle) => closest = closest.max(obstacle),
-            }
+    let mut look = |value: f64| match evaluate(value) {
+        Ok(at) if best.is_none_or(|b| at.threshold < b.threshold) => {
+            best = Some(at);
+            true
+        }
+        Ok(_) => false,
+        Err(obstacle) => {
+            closest = closest.max(obstacle);
+            false
+        }
+    };
+    for value in near {
+        look(*value);
+    }
+    let mut idle = 0;
+    for value in far {
+        idle = if look(value) { 0 } else { idle + 1 };
+        if idle >= PATIENCE {
+            break;
         }
     }
-    refine(model, evaluate, best.ok_or(closest)?)
+    best.ok_or(closest)
 }
 
 /// The best error box that local minimisation reaches from a known one; `None` where that is not feasible here.

@@ -46,8 +46,8 @@ impl Datum {
             Datum::Alpha => "alpha".to_owned(),
             Datum::PUp => "p_up".to_owned(),
             Datum::Bound(bound) => match bound.replacement() {
-                Some(other) => format!("{} (or {})", bound.field(), other.field()),
-                None => bound.field().to_owned(),
+                Some(other) if !bound.is_signed() => format!("{} (or {})", bound.field(), other.field()),
+                _ => bound.field().to_owned(),
             },
         }
     }
@@ -140,10 +140,8 @@ impl FloatModel {
             &data.fundamental,
         ]
         .map(Enclosure::midpoint_f64);
-        let existence = ExistenceTriple {
-            c: data.existence.c.midpoint_f64(),
-            alpha: data.existence.alpha.midpoint_f64(),
-        };
+        let existence =
+            ExistenceTriple { c: data.existence.c.midpoint_f64(), alpha: data.existence.alpha.midpoint_f64() };
         let q_0 = data.q_0.as_ref().map(|known| KnownForcing {
             harmonics: known.harmonics.iter().map(Enclosure::midpoint_f64).collect(),
             weights: known.weights.iter().map(Enclosure::midpoint_f64).collect(),
@@ -235,12 +233,24 @@ impl FloatModel {
                 model.numbers.existence.c = (self.existence.c * (model.c / self.c)).max(1.0);
             }
             Datum::Bound(which) => {
-                for (bound, _) in model.bounds.iter_mut().zip(Bound::ALL).filter(|(_, bound)| *bound == which) {
-                    bound.change = if which.is_nonincreasing() { by } else { -by };
+                // Where it serves in the place of a bound of a derivative from above, that falls too.
+                let serves = |bound: Bound| bound.is_signed() && bound.replacement() == Some(which) && !self.given(bound);
+                for (bound, kind) in model.bounds.iter_mut().zip(Bound::ALL) {
+                    if kind == which || serves(kind) {
+                        bound.change = if which.is_nonincreasing() { by } else { -by };
+                    }
                 }
             }
         }
         model
+    }
+
+    /// The data that the specification has, of [`Datum::ALL`].
+    pub fn data(&self) -> impl Iterator<Item = Datum> {
+        Datum::ALL.into_iter().filter(|datum| match datum {
+            Datum::Bound(bound) => !bound.is_signed() || self.given(*bound),
+            Datum::Alpha | Datum::PUp => true,
+        })
     }
 
     /// What is given beyond the data that every specification has.
@@ -259,10 +269,8 @@ impl FloatModel {
             OptionalDatum::Harmonics => model.numbers.q_0 = None,
             OptionalDatum::Bound(which) => {
                 let serves = which.replacement().map(|other| self.bounds[other as usize].clone());
-                let absent =
-                    ScaledBound { function: None, change: 0.0, given: false, signed: false, supremum: None };
-                model.bounds[which as usize] =
-                    ScaledBound { given: false, ..serves.unwrap_or(absent) };
+                let absent = ScaledBound { function: None, change: 0.0, given: false, signed: false, supremum: None };
+                model.bounds[which as usize] = ScaledBound { given: false, ..serves.unwrap_or(absent) };
             }
         }
         model
@@ -275,6 +283,14 @@ impl FloatModel {
         let c = ratio.sqrt();
         let existence = ExistenceTriple { c, alpha };
         model.numbers = Numbers { p_low: 1.0, p_up: ratio, c, alpha, existence, ..model.numbers };
+        model
+    }
+
+    /// The same model with another triple for the existence of the periodic solution.
+    #[must_use]
+    pub fn with_existence_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
+        let mut model = self.clone();
+        model.numbers.existence = ExistenceTriple { c: ratio.sqrt(), alpha };
         model
     }
 

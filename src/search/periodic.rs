@@ -55,13 +55,16 @@ pub struct PeriodicSet {
 }
 
 /// Steps of the iteration at most.
-const STEPS: usize = 400;
+const STEPS: usize = 1000;
 
 /// The largest relative step at which it has converged.
 const NEAR: f64 = 1e-14;
 
 /// Every so many steps, the limit of a geometric sequence is tried.
 const LEAP_EVERY: usize = 12;
+
+/// How far beyond the limit, as shares of the distance to it; the steps from there lead down to it.
+const BEYOND: [f64; 4] = [1e-9, 1e-6, 1e-3, 0.1];
 
 /// Mean squares are at least this share of the suprema: they have to be positive.
 const SMALLEST_SHARE: f64 = 1e-12;
@@ -105,7 +108,11 @@ impl Iteration<'_> {
         };
         let next = [bounds.x_sup(&squares), sup, bounds.x_rms(&squares), rms, rate_rms].map(|v| v * self.enlarged);
         if !next.iter().all(|value| value.is_finite() && *value < 1e140) {
-            return Err(if next.iter().any(|value| value.is_nan()) { Obstacle::NotFinite } else { Obstacle::Existence });
+            return Err(if next.iter().any(|value| value.is_nan()) {
+                Obstacle::NotFinite
+            } else {
+                Obstacle::Existence
+            });
         }
         let [x_p, e_p] = [next[0].max(self.floors.x_p), next[1].max(self.floors.e_p)];
         let least = |share: f64, of: f64| share.max(SMALLEST_SHARE * of);
@@ -141,24 +148,33 @@ impl Iteration<'_> {
     }
 
     /// A little beyond the limit of a geometric sequence through three points, if G maps it below itself.
-    fn leap(&self, [first, second, third]: [Point; 3]) -> Option<Point> {
+    fn leap(&self, points: [Point; 3]) -> Option<Point> {
+        BEYOND.into_iter().find_map(|beyond| self.leap_beyond(points, beyond))
+    }
+
+    /// The same, beyond the limit by a share of the distance to it.
+    fn leap_beyond(&self, [first, second, third]: [Point; 3], beyond: f64) -> Option<Point> {
         let mut limit = third;
         for (index, value) in limit.iter_mut().enumerate() {
             let (older, newer) = (second[index] - first[index], third[index] - second[index]);
             let ratio = newer / older;
             if older > 0.0 && newer > 0.0 && ratio < 1.0 {
-                *value += newer * ratio / (1.0 - ratio) * (1.0 + 1e-9);
+                *value += newer * ratio / (1.0 - ratio) * (1.0 + beyond);
             }
             *value *= 1.0 + 1e-13;
         }
-        // Two steps down remove most of what it is too large.
+        // From there down, which removes what it is too large; every point on the way is as good.
         let mut at = limit;
-        for _ in 0..2 {
+        for _ in 0..STEPS {
             let next = self.image(at).ok()?;
-            if next.iter().zip(&at).any(|(next, at)| next > at) {
+            if next.iter().zip(&at).any(|(next, at)| *next > at * (1.0 + NEAR)) {
                 return None;
             }
+            let done = change(&at, &next) <= NEAR;
             at = next;
+            if done {
+                break;
+            }
         }
         Some(at)
     }
@@ -170,15 +186,19 @@ impl Iteration<'_> {
         let mut at = least.clone();
         for _ in 0..STEPS {
             let next = at_the_solution(bounds, self.origin, &self.gains, Some(&kap), &at);
-            let next = [(&next.x, x), (&next.e, e), (&next.e_rate, e_rate)].map(|(v, low)| (v * self.enlarged).max(low));
+            let next =
+                [(&next.x, x), (&next.e, e), (&next.e_rate, e_rate)].map(|(v, low)| (v * self.enlarged).max(low));
             let done = change(&[at.x, at.e, at.e_rate], &next) <= NEAR;
             let [x, e, e_rate] = next;
             at = MeanSquares { x, e, e_rate };
             if done {
-                return Some(at);
+                break;
             }
         }
-        None
+        // Where it has not converged, the next to the last digits are missing: the mean squares of existence serve.
+        let image = at_the_solution(bounds, self.origin, &self.gains, Some(&kap), &at);
+        let below = [(image.x, at.x), (image.e, at.e), (image.e_rate, at.e_rate)];
+        below.into_iter().all(|(image, at)| image < at).then_some(at)
     }
 }
 

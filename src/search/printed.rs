@@ -3,8 +3,8 @@
 use super::minimise::minimise;
 use super::model::FloatModel;
 use super::repaired::largest_e_repaired;
-use super::scan;
 use super::repaired::{depth_of, parameter_of};
+use super::scan;
 use crate::data::Data;
 use crate::derivation::printed::{PrintedEvaluation, error_box};
 use crate::enclosure::Enclosure;

@@ -283,14 +283,14 @@ pub fn at_sigma(
     Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) }.at(sigma, room)
 }
 
-/// By how much (relatively) sigma* falls when one datum improves by 1 %, for every datum, in the order of
+/// By how much (relatively) sigma* falls when one datum improves by 1 %, for every datum that is given, in the order of
 /// [`Datum::ALL`]; floating point, local steps from the proposal. None where the bounding functions are long.
 #[must_use]
 pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum, f64)> {
     if !model.effort().sensitivities() {
         return Vec::new();
     }
-    scan::evaluate_all(&Datum::ALL, |&datum| {
+    scan::evaluate_all(&model.data().collect::<Vec<_>>(), |&datum| {
         let improved = model.improved(datum, 0.01);
         let gain = search_sharp_near(&improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / proposal.sigma);
         (datum, gain.max(0.0))

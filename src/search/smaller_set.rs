@@ -104,9 +104,8 @@ mod tests {
         let SmallerSet::Box(sizes) = smaller_set(&asked, false) else { panic!("a size is expected") };
         let [x0, e0, z0] = sizes.each_ref().map(Rational::to_f64);
         assert!(x0 > 0.0 && (e0 / x0 - 4.0).abs() < 0.4 && z0 == 0.0, "{x0} {e0} {z0}");
-        let succeeds = |factor: f64| {
-            search_sharp(&model(InitialSet::Box { x0: factor * x0, e0: factor * e0, z0: 0.0 })).is_ok()
-        };
+        let succeeds =
+            |factor: f64| search_sharp(&model(InitialSet::Box { x0: factor * x0, e0: factor * e0, z0: 0.0 })).is_ok();
         assert!(succeeds(1.0) && !succeeds(1.15), "{x0} {e0}");
     }
 

@@ -132,6 +132,8 @@ pub enum LyapunovSource {
         triple: Lyapunov,
         /// P_x(t).
         matrix: PeriodicMatrix,
+        /// Another triple, with its P(t), for the existence of the periodic solution; without, the first one serves.
+        existence: Option<(Lyapunov, PeriodicMatrix)>,
     },
 }
 
@@ -142,6 +144,15 @@ impl LyapunovSource {
         match self {
             LyapunovSource::Given(triple) | LyapunovSource::Proved { triple, .. } => Some(triple),
             LyapunovSource::Wanted(_) => None,
+        }
+    }
+
+    /// The triple for the existence of the periodic solution.
+    #[must_use]
+    pub fn existence_triple(&self) -> Option<&Lyapunov> {
+        match self {
+            LyapunovSource::Proved { existence: Some((triple, _)), .. } => Some(triple),
+            _ => self.triple(),
         }
     }
 

@@ -187,8 +187,7 @@ fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<KnownForcing, 
             let expected = format!("expected 1 to {MAX_HARMONICS} bounds of |c_0|, |c_1|, ...");
             return Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)));
         }
-        let read: Vec<Result<_, Reported>> =
-            elements.iter().map(|value| nonnegative_constant(value, errors)).collect();
+        let read: Vec<Result<_, Reported>> = elements.iter().map(|value| nonnegative_constant(value, errors)).collect();
         read.into_iter().collect()
     });
     let rest_rms = object.required("rest_rms", errors).and_then(|value| nonnegative_constant(&value, errors));

@@ -2,6 +2,7 @@
 //! user's X_0, E_0, certifies.
 
 use proptest::prelude::*;
+use sigmastar::certificate::certificate_json;
 use sigmastar::certify::{Derivation, Options, Verdict, certify};
 use sigmastar::lmi::{CrossCheck, CrossCheckError};
 use sigmastar::spec::Specification;
@@ -29,17 +30,20 @@ prop_compose! {
         n0 in prop_oneof![Just("1.001"), Just("2"), Just("1000")],
         frequency in prop_oneof![Just(None), magnitude(6).prop_map(Some)],
         kind in prop_oneof![Just("paper"), Just("at-rest")],
+        one_sided in prop_oneof![2 => Just(None), 1 => prop_oneof![Just("0"), Just("-1"), Just("1/3"), Just("-0.9")].prop_map(Some)],
     ) -> String {
         let [fx, fe, fxx, fex] = f;
         let [q0, qx, qe, qt, curved] = q;
         let matched = frequency.is_none();
         let frequency = frequency.unwrap_or_else(|| format!("2*pi/({period})"));
+        // A bound of dq/de from above that is a share of its norm where that is least, so that it never falls.
+        let one_sided = one_sided.map_or_else(String::new, |share| format!(r#""q_e_max": "({share})*({qe})","#));
         format!(
             r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "random", "period": "{period}",
             "lyapunov": {{"p_low": "{p_low}", "p_up": "{p_low}*{ratio}", "alpha": "{alpha}"}},
             "bounds": {{"f": "({fx})*X + ({fxx})*X^2/2 + (({fe}) + ({fex})*X)*E", "f_e": "({fe}) + ({fex})*X",
               "f_xx": "{fxx}", "f_ex": "{fex}", "q": "({q0}) + ({qx})*X + ({qe})*E + ({curved})*E*X^2",
-              "q_e": "({qe}) + ({curved})*X^2", "q_x": "({qx}) + 2*({curved})*E*X", "q_t": "{qt}"}},
+              "q_e": "({qe}) + ({curved})*X^2", {one_sided} "q_x": "({qx}) + 2*({curved})*E*X", "q_t": "{qt}"}},
             "internal_model": {{"mu": "{mu}", "base_frequency": "{frequency}", "matched": {matched},
               "weights": {{"family": "power", "n0": "{n0}", "epsilon": "{epsilon}"}}}},
             "initial_set": {{"kind": "{kind}"}}}}"#
@@ -51,6 +55,10 @@ fn verdict(text: &str, derivation: Derivation) -> Result<Verdict, TestCaseError>
     let spec = Specification::from_json("random", text).map_err(|e| TestCaseError::fail(format!("{e:?}\n{text}")))?;
     let options = Options { derivation, compare: false, ..Options::default() };
     let run = certify(&spec, options).map_err(|e| TestCaseError::fail(format!("{e:?}\n{text}")))?;
+    if let Some(certificate) = certificate_json(&run) {
+        let report = proofs_check::check(certificate.to_string().as_bytes());
+        prop_assert_eq!(report.verdict, proofs_check::Verdict::Valid, "{}\n{}", report.text(), text);
+    }
     if let Some(proof) = run.sharp.proved() {
         no_better_weights(proof.witness.sigma.to_f64(), run.checks.decay.as_ref(), text)?;
     }

@@ -248,7 +248,7 @@ fn a_gain_below_the_certificate_is_told() {
         let assert = controller(&[spec, "--sigma", sigma, "--n-o", "1", "--certificate"]).arg(&file).assert().success();
         utf8(assert.get_output().stderr.clone())
     };
-    assert!(call("specs/linear.json", "7/5").contains("sigma = 1.4 is below sigma* = 1.42"));
+    assert!(call("specs/linear.json", "13/10").contains("sigma = 1.3 is below sigma* = 1.32"));
     assert_eq!(call("specs/linear.json", "3/2"), "");
     assert!(call("specs/no-x.json", "3/2").contains("another specification"));
 }

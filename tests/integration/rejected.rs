@@ -146,7 +146,8 @@ fn every_sharp_condition_is_refused_by_itself() {
 #[test]
 fn refined_mean_squares_are_strict() {
     // With b_fe = 0 the right side of rms(x) is exactly 0.
-    let text = TEXT.replace("DOMAIN", "1e9").replace("\"f\": \"X + E\", \"f_e\": \"1\"", "\"f\": \"X + E\", \"f_e\": \"0\"");
+    let text =
+        TEXT.replace("DOMAIN", "1e9").replace("\"f\": \"X + E\", \"f_e\": \"1\"", "\"f\": \"X + E\", \"f_e\": \"0\"");
     let spec = Specification::from_json("roomy", &text).unwrap();
     let conditions = |x: Rational| {
         let mut witness = witness();
@@ -162,20 +163,21 @@ fn refined_mean_squares_are_strict() {
 #[test]
 fn a_one_sided_bound_below_its_norm_is_refused() {
     let failing = |q_e_max: &str, change: fn(&mut SharpWitness)| {
-        let text = TEXT.replace("DOMAIN", "1e9").replace("\"q_e\": \"0.01\"", &format!("\"q_e\": \"0.01\", \"q_e_max\": \"{q_e_max}\""));
+        let text = TEXT.replace("DOMAIN", "1e9");
+        let text = text.replace("\"q_e\": \"0.01\"", &format!("\"q_e\": \"1/128\", \"q_e_max\": \"{q_e_max}\""));
         let spec = Specification::from_json("roomy", &text).unwrap();
         let mut witness = witness();
         change(&mut witness);
         let evaluation = decide(&spec, witness, Ladder::default()).evaluation;
         evaluation.conditions.into_iter().filter(|c| !c.truth().is_true()).map(|c| c.what).collect::<Vec<_>>()
     };
-    assert!(failing("-0.01", |_| ()).is_empty());
-    assert!(failing("-0.01", damped).is_empty());
-    assert_eq!(failing("-0.0100001", |_| ()), ["-b_qe <= q_e_max at (X_b, E_b)"]);
+    assert!(failing("-1/128", |_| ()).is_empty());
+    assert!(failing("-1/128", damped).is_empty());
+    assert_eq!(failing("-1.00001/128", |_| ()), ["-b_qe <= q_e_max at (X_b, E_b)"]);
     let both = ["-b_qe <= q_e_max at (X_p, E_p)", "-b_qe <= q_e_max at (X_b, E_b)"];
-    assert_eq!(failing("-0.0100001", damped), both);
+    assert_eq!(failing("-1.00001/128", damped), both);
     // Only below the error box: at (X_p, E_p) it is too small, at (X_b, E_b) not.
-    assert_eq!(failing("-0.02 + 0.001*E", damped), both[..1]);
+    assert_eq!(failing("-1/64 + E/1000", damped), both[..1]);
 }
 
 #[test]

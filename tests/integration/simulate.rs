@@ -403,8 +403,8 @@ fn a_tight_f_leaves_its_linear_member() {
 fn what_is_too_stiff_refutes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let mut spec: Value = serde_json::from_str(&specification_text("linear")).unwrap();
-    spec["bounds"]["f"] = Value::String("20*X + 2000*E".to_owned());
-    spec["bounds"]["f_e"] = Value::String("2000".to_owned());
+    spec["bounds"]["f"] = Value::String("20*X + 2e6*E".to_owned());
+    spec["bounds"]["f_e"] = Value::String("2e6".to_owned());
     let (code, report, counterexample) = falsify(&certified(&spec, folder.path()), folder.path(), "2", &[]);
     assert_eq!((code, counterexample), (3, None), "{report}");
     for trial in report["trials"].as_array().unwrap() {

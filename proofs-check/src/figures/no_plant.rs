@@ -1,6 +1,7 @@
 //! The remark that no plant with a state x has the data of a specification (docs/mathematics.md, section 1).
 //!
-//! For |x| = X, |F(t) x| <= |f(t,x,0)| + b_fxx(X,0) X^2/2, so |F| <= b_f(X,0)/X + b_fxx(X,0) X/2; and alpha <= sup |F|, since
+//! For |x| = X, |F(t) x| <= |f(t,x,0)| + b_fxx(X,0) X^2/2, so |F| <= b_f(X,0)/X + b_fxx(X,0) X/2, and where b_fx is
+//! given |F| <= b_fx(X,0); and alpha <= sup |F|, since
 //! a solution of x' = F x cannot shrink faster than |F| lets it. Where one X of the domain breaks either, the data contradict
 //! themselves and a claim about every plant within them, true as it is, is about none.
 
@@ -26,7 +27,8 @@ pub fn check(d: &Data<'_>, field: &Field<'_>) -> Outcome<()> {
         demand(at.le(&end.enclose(d.precision)), RULE, &x.pointer, "X lies in the domain")?;
     }
     let zero = d.int(0);
-    let most = d.bound(Bound::F, &at, &zero) / &at + d.bound(Bound::Fxx, &at, &zero) * &at / 2;
+    let taylor = d.bound(Bound::F, &at, &zero) / &at + d.bound(Bound::Fxx, &at, &zero) * &at / 2;
+    let most = d.given(Bound::Fx, &at, &zero).map_or(taylor.clone(), |given| given.min(&taylor));
     compare::span(&fields.required("rate_at_most")?, &most, &most)?;
     let by = fields.required("exceeded_by")?;
     let least = match by.text()? {
@@ -37,7 +39,7 @@ pub fn check(d: &Data<'_>, field: &Field<'_>) -> Outcome<()> {
         }
         _ => return bad(&by.pointer, "expected `alpha` or `jacobian`"),
     };
-    demand(most.lt(&least), RULE, &field.pointer, "b_f(X,0)/X + b_fxx(X,0) X/2 is exceeded")?;
+    demand(most.lt(&least), RULE, &field.pointer, "the bound of |df/dx(t,0,0)| at X is exceeded")?;
     fields.finish()
 }
 

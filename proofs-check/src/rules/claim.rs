@@ -135,11 +135,14 @@ impl<'a> Claim<'a> {
             let [p_low, p_up, alpha] = [&spec.p_low, &spec.p_up, &spec.alpha].map(|constant| &constant.text);
             format!("with the Lyapunov triple p_low = {p_low}, p_up = {p_up}, alpha = {alpha} (given, not proved)")
         };
+        let rate = if spec.rate.is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
+        let harmonics =
+            if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
         let [x0, e0, z0] = self.set_text;
         format!(
             "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
-             frequency {}{reach}, every plant within the bounding functions{domain} and {triple} has a T-periodic \
-             solution of the closed loop to which every solution from |x| <= {x0}, |e| <= {e0}, sqrt(z'Nz) <= {z0}, at \
+             frequency {}{reach}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
+             has a T-periodic solution of the closed loop to which every solution from |x| <= {x0}, |e| <= {e0}, sqrt(z'Nz) <= {z0}, at \
              any initial time, converges exponentially.",
             self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
         )

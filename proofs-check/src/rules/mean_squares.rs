@@ -2,7 +2,7 @@
 //! sections 10.3 and 10.4).
 //!
 //! Guarantee of S1 and S2: for every n_o and every sigma' >= sigma there is a T-periodic solution with sup|x| <= X_p, sup|e| <= E_p,
-//! rms(x) <= r_x, rms(e) <= r_e, rms(e') <= r_d. All that [`Bounds::at`] and [`Bounds::damped`] say of such a solution then holds
+//! rms(x) <= r_x, rms(e) <= r_e, rms(e') <= r_d. All that `Bounds::at` and `Bounds::damped` say of such a solution then holds
 //! together, for its own root mean squares rho too: rho <= G(rho), where G takes the least of what they say.
 //!
 //! Guarantee of S3 besides: rho <= r'. For G is nondecreasing and concave with G(0) >= 0 (it is made of constants that are
@@ -32,6 +32,7 @@ pub struct Witness {
 }
 
 /// What a witness proves of the periodic solution.
+#[derive(Clone, Debug)]
 pub struct Solution {
     pub x: Interval,
     pub e: Interval,
@@ -40,6 +41,8 @@ pub struct Solution {
     /// (c/a_1) b_fe: |x| over |e|.
     pub x_gain: Interval,
     pub z_squared: Interval,
+    /// a_1, and r_x, r_e, r_d of the solution; only the table of constants shows them.
+    pub shown: Option<(Interval, [Interval; 3])>,
     pub conditions: Vec<Condition>,
 }
 
@@ -95,10 +98,9 @@ pub fn forcing(d: &Data<'_>, given: &Forcing) -> (Vec<Interval>, [Interval; 2]) 
     let number = |constant: &crate::constant::Constant| constant.enclose(d.precision).max(&d.int(0));
     let harmonics: Vec<Interval> = given.harmonics.iter().map(number).collect();
     let zero = d.int(0);
-    let rest_t = match &given.rest_t_rms {
-        Some(rest_t) => number(rest_t),
-        None => d.bound(Bound::QtRms, &zero, &zero) + derivative(d, &harmonics),
-    };
+    // What follows from the other data bounds it too.
+    let derived = d.bound(Bound::QtRms, &zero, &zero) + derivative(d, &harmonics);
+    let rest_t = given.rest_t_rms.as_ref().map_or(derived.clone(), |rest_t| number(rest_t).min(&derived));
     (harmonics, [number(&given.rest_rms), rest_t])
 }
 
@@ -236,7 +238,7 @@ pub fn evaluate(
     let damping = [damped(d, sigma, &w.kap), kap, rho];
 
     let is_rate = a_1.is_positive();
-    let mut conditions = vec![Condition::less("S1", "0 < a_1", zero, a_1)];
+    let mut conditions = vec![Condition::less("S1", "0 < a_1", zero, a_1.clone())];
     let mut at_most = |id, what: &str, lhs, rhs: &Interval| {
         conditions.push(Condition::at_most(id, what, lhs, rhs.clone()));
     };
@@ -274,5 +276,6 @@ pub fn evaluate(
     // Where S1 fails X_p stands for what is not defined.
     let x = if is_rate { x_p.min(&(&bounds.x_gain * &e)).min(&(from_rms * &last[1])) } else { x_p.clone() };
     let z_squared = bounds.z_squared(&follows, pair, kappa);
-    Solution { x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, conditions }
+    let shown = Some((a_1, last));
+    Solution { x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, shown, conditions }
 }

@@ -108,7 +108,8 @@ fn by_contraction(
         Condition::less("C3b", "B p_x + beta_s b_qe p_e < p_e", column_e, p_e),
     ];
     let rates = [ex.qr.clone(), ex.q1.clone()];
-    Solution { x: ex.x_p.min(&(&x_gain * &e)), e, rates, x_gain, z_squared: ex.z_squared(d, kappa), conditions }
+    let z_squared = ex.z_squared(d, kappa);
+    Solution { x: ex.x_p.min(&(&x_gain * &e)), e, rates, x_gain, z_squared, shown: None, conditions }
 }
 
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.

@@ -72,7 +72,7 @@ pub(super) fn gain_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
             At::Common,
             sound(beta.clone(), "P:eq:beta_definition"),
             sound(beta, "P:eq:beta_definition"),
-            sound(gains::zero_mean_gain(&common.sigma, &data.period), "section 10.2, bt"),
+            common.own.and_then(|own| sound(gains::zero_mean_gain(&own.sigma, &data.period), "section 10.2, bt")),
         ),
         row("tau", At::Common, None, None, sound(gains::tau(&common.sigma, &data.period), "section 3")),
     ]
@@ -83,7 +83,13 @@ pub(super) fn contraction_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row>
     let sharp = common.own.map(|own| &own.contraction);
     let label = "P:eq:def_ypsilon";
     let three = |name: &str, of: &dyn Fn(&ContractionMatrix<Enclosure>) -> Enclosure| {
-        row(name, At::Common, sound(of(&paper), label), sound(of(&paper), label), sharp.and_then(|m| sound(of(m), "section 10.3, uniqueness")))
+        row(
+            name,
+            At::Common,
+            sound(of(&paper), label),
+            sound(of(&paper), label),
+            sharp.and_then(|m| sound(of(m), "section 10.3, uniqueness")),
+        )
     };
     let mut rows = vec![
         three("Upsilon_xx", &|m| m.xx.clone()),
@@ -148,9 +154,9 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let k = &common.k_alpha;
     let gain =
         k * &common.bounds.state.f_e / (&data.alpha - k * &common.bounds.state.f_xx * &common.bounds.state.x_p / 2);
-    // What a printed value is held against.
-    let sound_psi = Psi::new(data, &Excitation::by_contraction(data, &common.bounds));
     let own = common.own.map(|own| Psi::new(data, &own.excitation));
+    // What a printed value is held against.
+    let sound_psi = own.clone().unwrap_or_else(|| Psi::new(data, &Excitation::by_contraction(data, &common.bounds)));
     rows.push(row(
         "r_e = psi_1",
         At::Common,

@@ -10,15 +10,13 @@ use rug::Rational;
 pub(super) fn size_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let k = &common.k_alpha;
     let limit = || {
-        largest_x(data, &(k * 2)).map(|value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" })
+        largest_x(data, &(k * 2)).map(|value| Entry {
+            value,
+            status: Status::Sound,
+            source: "P:prop:periodic_solution",
+        })
     };
-    let mut rows = vec![row(
-        "x_p*",
-        At::Data,
-        limit(),
-        limit(),
-        None,
-    )];
+    let mut rows = vec![row("x_p*", At::Data, limit(), limit(), None)];
     let e_limit = || {
         largest_e(data, k, &common.bounds).map(|value| Entry {
             value,
@@ -26,13 +24,7 @@ pub(super) fn size_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
             source: "P:prop:periodic_solution",
         })
     };
-    rows.push(row(
-        "e_p*(X_p)",
-        At::Common,
-        e_limit(),
-        e_limit(),
-        None,
-    ));
+    rows.push(row("e_p*(X_p)", At::Common, e_limit(), e_limit(), None));
     rows
 }
 

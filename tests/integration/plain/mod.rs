@@ -226,7 +226,8 @@ impl<'s> Spec<'s> {
             qr: rms(Bound::QRms, Bound::Q),
             qtr: rms(Bound::QtRms, Bound::Qt),
             below: of(Bound::Qe),
-            above: signed(Bound::QeMax).map_or_else(|| of(Bound::Qe), |m| if m < of(Bound::Qe) { m } else { of(Bound::Qe) }),
+            above: signed(Bound::QeMax)
+                .map_or_else(|| of(Bound::Qe), |m| if m < of(Bound::Qe) { m } else { of(Bound::Qe) }),
             fx: b.own(Bound::Fx).map(&value),
             mixed: b.own(Bound::Qtx).zip(b.own(Bound::Qte)).map(|(x, e)| [value(x), value(e)]),
             rate: signed(Bound::Rate),
@@ -325,7 +326,9 @@ impl<'s> Spec<'s> {
         let first = r(2.0) * &h * &self.mu;
         let mut threshold = r(0.0);
         let mut definite = first > r(0.0);
-        for (slope, sign) in [(edge.above.clone(), 1.0), (r(0.0) - &edge.below, 1.0), (edge.above, -1.0), (r(0.0) - edge.below, -1.0)] {
+        for (slope, sign) in
+            [(edge.above.clone(), 1.0), (r(0.0) - &edge.below, 1.0), (edge.above, -1.0), (r(0.0) - edge.below, -1.0)]
+        {
             let k_x = r(sign) * &k_x;
             let coupled = &h * &k_x;
             let mixed = &h * &slope - &self.mu;
