@@ -436,8 +436,11 @@ pub struct FalsifyArgs {
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     pub seed: u64,
 
-    /// Run this trial alone; `-o` then writes its plant, whatever becomes of it
-    #[arg(long, value_name = "K", conflicts_with_all = ["trials", "base_frequency"], value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    /// Run this trial alone; `-o` then writes its plant also where every bound holds
+    #[arg(
+        long, value_name = "K", conflicts_with_all = ["trials", "base_frequency"],
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000)
+    )]
     pub trial: Option<u32>,
 
     /// Also certify the specification at these other base frequencies, exact positive constants separated by commas, and
