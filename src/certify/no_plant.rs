@@ -145,7 +145,11 @@ pub fn no_plant(data: &Data<'_>, used: Option<&[Rational; 2]>) -> Option<NoPlant
         let given_rate = data
             .given(Bound::Rate)
             .then(|| ExceededBy::Rate { rate: data.bound(Bound::Rate, &data.zero(), &data.zero()) });
-        let exceeded_by = alpha.into_iter().chain(given_rate).chain(column.clone()).find(|least| least.value().gt(&rate).is_true())?;
+        let exceeded_by = alpha
+            .into_iter()
+            .chain(given_rate)
+            .chain(column.clone())
+            .find(|least| least.value().gt(&rate).is_true())?;
         Some(NoPlant { x, rate_at_most: rate, by_f_x, exceeded_by })
     };
     let decided: Vec<NoPlant> = candidates(data, largest.as_ref()).into_iter().filter_map(decide).collect();

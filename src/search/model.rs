@@ -234,7 +234,8 @@ impl FloatModel {
             }
             Datum::Bound(which) => {
                 // Where it serves in the place of a bound of a derivative from above, that falls too.
-                let serves = |bound: Bound| bound.is_signed() && bound.replacement() == Some(which) && !self.given(bound);
+                let serves =
+                    |bound: Bound| bound.is_signed() && bound.replacement() == Some(which) && !self.given(bound);
                 for (bound, kind) in model.bounds.iter_mut().zip(Bound::ALL) {
                     if kind == which || serves(kind) {
                         bound.change = if which.is_nonincreasing() { by } else { -by };

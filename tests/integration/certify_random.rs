@@ -30,7 +30,7 @@ prop_compose! {
         n0 in prop_oneof![Just("1.001"), Just("2"), Just("1000")],
         frequency in prop_oneof![Just(None), magnitude(6).prop_map(Some)],
         kind in prop_oneof![Just("paper"), Just("at-rest")],
-        one_sided in prop_oneof![2 => Just(None), 1 => prop_oneof![Just("0"), Just("-1"), Just("1/3"), Just("-0.9")].prop_map(Some)],
+        one_sided in prop_oneof![2 => Just(None), 1 => prop_oneof![Just("0"), Just("-0.99"), Just("1/3"), Just("-0.9")].prop_map(Some)],
     ) -> String {
         let [fx, fe, fxx, fex] = f;
         let [q0, qx, qe, qt, curved] = q;
