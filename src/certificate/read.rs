@@ -44,6 +44,11 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
     file.finish(errors);
     let ((repaired, sigma, set), witness) = (claim?, witness?);
     let mut fields = witness.object(errors)?;
+    if let (false, Some(p_x), None) = (repaired, witness.member("p_x"), witness.member("r_x")) {
+        let message = "this witness proves existence by a contraction, as earlier versions did";
+        let error = p_x.error(ErrorKind::UnknownField, message).expected("expected `r_x`, `r_e`, `r_d`, `kap`");
+        return Err(errors.report(error.help("proofs-check decides it as it is; `certify` writes a new one")));
+    }
     // Read by `read_lyapunov`, where the specification asks for it.
     for field in [STABILITY, EXISTENCE] {
         let _ = fields.optional(field);
@@ -176,11 +181,6 @@ fn read_sharp(
     sigma: Rational,
     set: ClaimedSet,
 ) -> Result<GivenWitness, Reported> {
-    if let Some(value) = fields.value().member("p_x").filter(|_| fields.value().member("r_x").is_none()) {
-        let message = "this witness proves existence by a contraction, as earlier versions did";
-        let error = value.error(ErrorKind::UnknownField, message).expected("expected `r_x`, `r_e`, `r_d`, `kap`");
-        return Err(errors.report(error.help("proofs-check decides it as it is; `certify` writes a new one")));
-    }
     let mut exact = Ok(None);
     let witness = SharpWitness::read(fields, errors, |fields, errors| {
         let transfer = read_transfer(fields, errors);

@@ -35,7 +35,7 @@ pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
 pub fn lyapunov_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     let LyapunovSource::Proved { triple, matrix, existence, .. } = &spec.lyapunov else { return Vec::new() };
     let stability = (STABILITY, part(triple, matrix));
-    let existence = existence.as_ref().map(|(triple, matrix)| (EXISTENCE, part(triple, matrix)));
+    let existence = existence.as_deref().map(|(triple, matrix)| (EXISTENCE, part(triple, matrix)));
     std::iter::once(stability).chain(existence).collect()
 }
 

@@ -161,12 +161,8 @@ pub fn with_triple<'s>(
 /// The inequality that is not proved.
 pub fn resolve_with(spec: &Specification, triples: &ProvedTriples) -> Option<Result<Specification, NotProved>> {
     let LyapunovSource::Wanted(jacobian) = &spec.lyapunov else { return None };
-    let all = std::iter::once(&triples.stability).chain(&triples.existence);
-    Some(
-        all.map(|triple| decide_triple(spec, jacobian, triple))
-            .collect::<Result<(), _>>()
-            .map(|()| carrying(spec, triples)),
-    )
+    let mut all = std::iter::once(&triples.stability).chain(&triples.existence);
+    Some(all.try_for_each(|triple| decide_triple(spec, jacobian, triple)).map(|()| carrying(spec, triples)))
 }
 
 fn decide_triple(spec: &Specification, jacobian: &Jacobian, triple: &ProvedTriple) -> Result<(), NotProved> {
@@ -190,7 +186,7 @@ fn carrying(spec: &Specification, proved: &ProvedTriples) -> Specification {
     };
     if let Some(jacobian) = spec.lyapunov.jacobian().cloned() {
         let (triple, matrix) = (constants(&proved.stability), proved.stability.matrix.clone());
-        let existence = proved.existence.as_ref().map(|other| (constants(other), other.matrix.clone()));
+        let existence = proved.existence.as_ref().map(|other| Box::new((constants(other), other.matrix.clone())));
         spec.lyapunov = LyapunovSource::Proved { jacobian, triple, matrix, existence };
     }
     spec

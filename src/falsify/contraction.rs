@@ -36,8 +36,7 @@ pub(super) fn wanted(claim: &Claim, triple: &Lyapunov) -> Option<WantedRate> {
         return Some(alpha);
     }
     let exact = rate.lower_rational().is_some_and(|below| below == above);
-    let above =
-        if exact { above } else { Rational::from(&above * (Rational::from(1) + (Rational::from(1) >> RAISED))) };
+    let above = if exact { above } else { &above * (Rational::from(1) + (Rational::from(1) >> RAISED)) };
     Some(WantedRate { text: above.to_string(), value: above.to_f64(), above })
 }
 

@@ -107,13 +107,13 @@ fn printed(run: &Certification<'_>) -> Value {
     })
 }
 
-/// Relative falls of sigma* for 1 %; floating-point estimates.
 /// The optional data with the estimate of sigma* without each; null where none is found.
 fn without_optional(run: &Certification<'_>) -> Value {
     let one = |(datum, sigma): &(OptionalDatum, Option<f64>)| json!({ "datum": datum.field(), "estimate": sigma.map(estimate) });
     run.without_optional.iter().map(one).collect()
 }
 
+/// Relative falls of sigma* for 1 %; floating-point estimates.
 fn sensitivities(run: &Certification<'_>) -> Value {
     run.sensitivities
         .iter()

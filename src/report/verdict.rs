@@ -62,7 +62,7 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
             };
             let other = existence
                 .as_ref()
-                .map(|(other, _)| format!("; for the existence of the periodic solution {}", shown(other)));
+                .map(|other| format!("; for the existence of the periodic solution {}", shown(&other.0)));
             items.push(format!(
                 "Proved for every t and every matrix of the Jacobian: the Lyapunov triple {}{}.",
                 shown(triple),

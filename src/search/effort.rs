@@ -31,7 +31,8 @@ impl Effort {
         Effort {
             x_step: less.min(4),
             e_step: less.div_ceil(4).min(4),
-            shape_step: less.min(4),
+            // The values of rho times those of eta.
+            shape_step: less.isqrt().clamp(1, 12),
             restarts_share: less,
             iterations: (400 / less as u64).max(40),
         }
@@ -54,10 +55,10 @@ impl Effort {
 mod tests {
     use super::*;
 
-    /// The candidates of a scan times the operations of the bounding functions.
+    /// The error boxes of a scan times the operations of the bounding functions.
     fn work(operations: usize) -> usize {
-        let effort = Effort::new(operations);
-        (240 / effort.x_step) * (30 / effort.e_step) * operations
+        let step = Effort::new(operations).shape_step;
+        15_usize.div_ceil(step) * 37_usize.div_ceil(step) * operations
     }
 
     #[test]

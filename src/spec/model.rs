@@ -133,7 +133,7 @@ pub enum LyapunovSource {
         /// P_x(t).
         matrix: PeriodicMatrix,
         /// Another triple, with its P(t), for the existence of the periodic solution; without, the first one serves.
-        existence: Option<(Lyapunov, PeriodicMatrix)>,
+        existence: Option<Box<(Lyapunov, PeriodicMatrix)>>,
     },
 }
 
@@ -151,7 +151,7 @@ impl LyapunovSource {
     #[must_use]
     pub fn existence_triple(&self) -> Option<&Lyapunov> {
         match self {
-            LyapunovSource::Proved { existence: Some((triple, _)), .. } => Some(triple),
+            LyapunovSource::Proved { existence: Some(other), .. } => Some(&other.0),
             _ => self.triple(),
         }
     }

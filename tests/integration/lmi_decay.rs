@@ -155,14 +155,14 @@ proptest! {
             + product(&[&sigma, &et, &et]) * 2 - product(&[&et, &u]) * 2 - product(&[mu, &et, &s]) * 2
             + product(&[&data.h, mu, &s, &s]) * 2 + product(&[&data.h, &s, &u]) * 2
             + l_x.clone() * (square(&ux) - square(&data.k_x) * square(&xi))
-            + l_e.clone() * (Rational::from(&ue - product(&[&data.sector[1], &et])))
-                * (Rational::from(&ue + product(&[&data.sector[0], &et])))
+            + l_e.clone() * (&ue - product(&[&data.sector[1], &et]))
+                * (&ue + product(&[&data.sector[0], &et]))
             + l_f.clone() * (square(&phi) - square(&data.k_f) * square(&et));
         let keep = |values: [Rational; 3]| values.into_iter().zip(present).filter_map(|(v, p)| p.then_some(v));
         let numbers: Vec<Rational> = std::iter::once(sigma).chain(keep([l_x, l_e, l_f])).collect();
         // The matrix is written in v = u_e - c_0 et; u_e without a row of its own is c_0 et.
         let [middle, _] = data.middle();
-        let v = Rational::from(&ue - product(&[&middle, &et]));
+        let v = &ue - product(&[&middle, &et]);
         let signals: Vec<Rational> = [xi, et, s].into_iter().chain(keep([ux, v, phi])).collect();
         let rows = data.matrix(mu).substitute(&numbers).constant().rows();
         prop_assert_eq!(rows.len(), signals.len());

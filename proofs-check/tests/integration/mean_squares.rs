@@ -55,6 +55,13 @@ fn answer(mut made: Value, changes: &[(&str, Value)]) -> Report {
     let alpha = made["specification"]["lyapunov"]["alpha"].as_str().unwrap_or_default();
     let text = text.replace("alpha = 0.58", &format!("alpha = {alpha}"));
     let text = text.replace("sigma >= 17.6523", &format!("sigma >= {}", made["claim"]["sigma_star"].as_str().unwrap()));
+    // The hypotheses that are named there.
+    let given = [
+        (made["specification"]["lyapunov"].get("rate"), " and the contraction `rate` (given, not proved)"),
+        (made["specification"].get("q_0"), " and harmonics of q(t,0,0) within `q_0` (given, not proved)"),
+    ];
+    let named: String = given.into_iter().filter_map(|(field, words)| field.map(|_| words)).collect();
+    let text = text.replace(" has a T-periodic solution", &format!("{named} has a T-periodic solution"));
     made["claim"]["statement"] = text.into();
     rehash(&mut made);
     check(made.to_string().as_bytes())

@@ -30,7 +30,8 @@ fn every_invalid_specification_is_refused() {
         // It must fall with the specification itself, not merely with the digest that no longer fits.
         if report.verdict == Invalid && finding.rule == "digest" {
             assert!(
-                ["decreasing-bound", "negative-bound", "not-hurwitz"].contains(&name.as_str()),
+                ["decreasing-bound", "decreasing-one-sided", "increasing-rate", "negative-bound", "not-hurwitz"]
+                    .contains(&name.as_str()),
                 "{name}: only the digest"
             );
         }
