@@ -150,6 +150,26 @@ impl SpecificationBuilder {
         self.within(which.section(), which.field(), text(expression))
     }
 
+    /// What is known of `q(t,0,0) = sum c_k exp(2 pi i k t/period) + rest`: bounds of `|c_0|`, `|c_1|`, ..., of the root mean
+    /// square of the rest and, if there is one, of that of its derivative.
+    ///
+    /// ```
+    /// use sigmastar::Specification;
+    /// let builder = Specification::builder("a plant").known_forcing(["1.88", "0.8"], "1/100", None);
+    /// ```
+    #[must_use]
+    pub fn known_forcing<'v>(
+        self,
+        harmonics: impl IntoIterator<Item = &'v str>,
+        rest_rms: &str,
+        rest_t_rms: Option<&str>,
+    ) -> SpecificationBuilder {
+        let harmonics = Value::Array(harmonics.into_iter().map(text).collect());
+        let rest_t_rms = rest_t_rms.map(|bound| ("rest_t_rms", text(bound)));
+        let known = [("harmonics", harmonics), ("rest_rms", text(rest_rms))].into_iter().chain(rest_t_rms);
+        self.with("q_0", object(known).into())
+    }
+
     /// The box `|x| <= x`, `|e| <= e` on which the bounding functions hold; they hold everywhere where none is given.
     #[must_use]
     pub fn domain(self, x: &str, e: &str) -> SpecificationBuilder {
@@ -268,6 +288,6 @@ fn text(value: impl Into<String>) -> Value {
     Value::String(value.into())
 }
 
-fn object<const N: usize>(fields: [(&str, Value); N]) -> Map<String, Value> {
+fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Map<String, Value> {
     fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }

@@ -34,6 +34,21 @@ fn example() -> Specification {
     builder().build().expect("it is the paper's example")
 }
 
+/// The optional data of the builder are those of a file.
+#[test]
+fn optional_data_lower_the_gain() {
+    let sigma = |builder: SpecificationBuilder| {
+        let certificate = certify(&builder.build().expect("it is read"), &quick()).expect("it certifies");
+        assert!(check(certificate.to_json()).is_flawless());
+        certificate.claim().sigma_star_f64()
+    };
+    let known = ["1.8756", "0.79156", "0.49414", "0.12493", "0.062502"];
+    let with = builder().known_forcing(known, "1e-5", Some("1e-3")).bound(Bound::QeMax, "X/2 + 0.05");
+    assert!(sigma(with) < 0.9 * sigma(builder()));
+    let refused = builder().known_forcing(["-1"], "0", None).build();
+    assert_eq!(kind(refused), ErrorKind::Range);
+}
+
 fn quick() -> CertifyOptions {
     CertifyOptions::new().compare(false)
 }
