@@ -1,4 +1,5 @@
-//! The Lyapunov triple of a specification with a Jacobian: chosen, proved, or given and decided again.
+//! The Lyapunov triples of a specification with a Jacobian (one for stability, one for existence where it helps): chosen,
+//! proved, or given and decided again.
 
 use super::refusal::Refusal;
 use crate::data::Data;
@@ -12,7 +13,7 @@ use crate::transfer::TradeOff;
 use rug::Rational;
 use std::borrow::Cow;
 
-/// A specification whose triple was found and proved, and what else is known about its Jacobian.
+/// A specification whose triples were found and proved, and what else is known about its Jacobian.
 pub struct Resolution {
     /// The specification with [`LyapunovSource::Proved`].
     pub spec: Specification,
@@ -47,10 +48,10 @@ fn spread(count: usize) -> Vec<usize> {
     order
 }
 
-/// Finds and proves a triple for the Jacobian of a specification: of the candidates, the one whose sigma* comes out smallest
-/// in floating point.
+/// Finds and proves a triple for the Jacobian of a specification, of the candidates the one whose sigma* comes out smallest
+/// in floating point, and a second one for existence where that gives a smaller sigma* still.
 ///
-/// Guarantee: the triple is proved for every t and every matrix of the Jacobian. That no other gives a smaller sigma* is
+/// Guarantee: each triple is proved for every t and every matrix of the Jacobian. That no other gives a smaller sigma* is
 /// not claimed. `None` if the specification has a triple already.
 ///
 /// # Errors

@@ -148,7 +148,7 @@ where
         }
     }
 
-    /// The sides of (S1b): `min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p`.
+    /// The left side of (S1b): `min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p`.
     #[must_use]
     pub fn x_sup(&self, squares: &MeanSquares<R>) -> R {
         (&self.x_gain * &self.e_p).min(&(&self.x_gain_by_rms * &squares.e))

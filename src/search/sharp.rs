@@ -136,7 +136,7 @@ impl Search<'_> {
             factor = (factor * factor).min(1e12);
             at = (next, self.excess(next));
         }
-        // Both are there, by the condition of the loop.
+        // The loop ends only with both; a gain that cannot be found has returned from within it.
         let (Some(low), Some(high)) = (low, high) else { return Err(Obstacle::Existence) };
         let exponent = |sigma: f64| sigma.portable_ln();
         let excess = |t: f64| self.excess(t.portable_exp()).unwrap_or(f64::INFINITY);
