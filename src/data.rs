@@ -195,17 +195,16 @@ impl Problem<Enclosure> for Data<'_> {
     /// Guarantee: contains the value for all X, E in the enclosures. It bounds the plant's function only where
     /// (X, E) lies in the domain of the specification and the bounding function was proved nondecreasing.
     fn bound(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
-        let value = |which: Bound| match self.spec.bounds.get(which) {
-            None => Enclosure::undefined(self.precision),
-            Some(expr) if self.given(which) && which.is_signed() => expr.enclose(x, e),
-            Some(expr) => expr.enclose(x, e).max(&self.zero()),
+        let value = |which: Bound| {
+            let value = self.spec.bounds.at(which, x, e);
+            if self.given(which) && which.is_signed() { value } else { value.max(&self.zero()) }
         };
         // The sharper one is at most the other one, should the data say otherwise.
-        which.supremum(self.spec).map_or_else(|| value(which), |supremum| value(which).min(&value(supremum)))
+        which.supremum(self.spec).map_or_else(|| value(which), |supremum| value(which).min_known(&value(supremum)))
     }
 
     fn given(&self, which: Bound) -> bool {
-        self.spec.bounds.own(which).is_some()
+        self.spec.bounds.is_given(which)
     }
 
     fn zero(&self) -> Enclosure {

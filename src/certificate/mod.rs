@@ -1,11 +1,13 @@
 //! The certificate file: the names of its numbers, reading its witness and its claim, writing it.
 
 mod fields;
+mod of_plant;
 mod read;
 mod stated;
 mod triple;
 mod write;
 
+pub use of_plant::plant_parts;
 pub use read::{read_lyapunov, read_witness};
 pub use stated::{StatedClaim, read_claim};
 pub use triple::{lyapunov_parts, matrix_json};

@@ -30,12 +30,16 @@ pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
 }
 
 /// The parts `witness.lyapunov` and `witness.lyapunov_existence` of a certificate: P(t) and the triple of each; none where the
-/// user gave the triple.
+/// user gave the triple. For a plant `witness.lyapunov` is that of the orbit too.
 #[must_use]
 pub fn lyapunov_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
-    let LyapunovSource::Proved { triple, matrix, existence, .. } = &spec.lyapunov else { return Vec::new() };
+    let (triple, matrix, existence) = match &spec.lyapunov {
+        LyapunovSource::Proved { triple, matrix, existence, .. } => (triple, matrix, existence.as_deref()),
+        LyapunovSource::Plant(plant) => (&plant.triple, &plant.matrix, None),
+        LyapunovSource::Given(_) | LyapunovSource::Wanted(_) => return Vec::new(),
+    };
     let stability = (STABILITY, part(triple, matrix));
-    let existence = existence.as_deref().map(|(triple, matrix)| (EXISTENCE, part(triple, matrix)));
+    let existence = existence.map(|(triple, matrix)| (EXISTENCE, part(triple, matrix)));
     std::iter::once(stability).chain(existence).collect()
 }
 

@@ -1,16 +1,17 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
 use super::fields::Numbers;
+use super::of_plant::plant_parts;
 use super::triple::{lyapunov_parts, rows};
-use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness};
+use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness, largest_ball};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::table::{At, Entry, Row, Value as Cell};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational, write_exact};
-use crate::spec::Bound;
 use crate::spec::model::{InitialSet, LyapunovSource};
+use crate::spec::{Bound, OfPlant, Specification};
 use crate::transfer::{TransferProof, closed_form_pair};
 use rug::Rational;
 use serde_json::{Map, Value};
@@ -65,7 +66,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("sigma_star", exact(sigma)),
         ("n_o", text("every n_o >= 0")),
         ("mu", text(mu.as_rational().map_or_else(|| mu.text.clone(), write_exact))),
-        ("initial_set", set_json(&spec.initial_set, set)),
+        ("initial_set", set_json(spec, set)),
         (
             "periodic_solution",
             object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
@@ -94,16 +95,21 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         .map(|condition| if condition.id == "T" { transfer.clone() } else { condition.clone() })
         .collect();
     if let Value::Object(fields) = &mut witness {
-        fields.extend(lyapunov_parts(spec).into_iter().map(|(name, value)| (name.to_owned(), value)));
+        let parts = lyapunov_parts(spec).into_iter().chain(plant_parts(spec));
+        fields.extend(parts.map(|(name, value)| (name.to_owned(), value)));
         fields.extend(multipliers_json(run).map(|value| ("lmi".to_owned(), value)));
     }
+    let [embedded, digest] = match spec.plant() {
+        Some(_) => ["plant", "plant_sha256"],
+        None => ["specification", "specification_sha256"],
+    };
     let mut certificate = object([
         ("format", text(FORMAT)),
         ("version", Value::from(VERSION)),
         ("tool", object([("name", text(env!("CARGO_PKG_NAME"))), ("version", text(env!("CARGO_PKG_VERSION")))])),
         ("precision_bits", Value::from(claimed.precision)),
-        ("specification", spec.document.clone()),
-        ("specification_sha256", text(spec.sha256.clone())),
+        (embedded, spec.document.clone()),
+        (digest, text(spec.sha256.clone())),
         ("claim", claim),
         ("witness", witness),
     ]);
@@ -175,6 +181,9 @@ fn checkable(rows: &[Row]) -> Vec<Row> {
 #[must_use]
 pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) -> String {
     let spec = run.spec;
+    if let Some(plant) = spec.plant() {
+        return statement_of_plant(spec, plant, sigma, set);
+    }
     let model = &spec.internal_model;
     let reach = if model.matched { "" } else { " (which need not match the period)" };
     let domain = spec
@@ -186,7 +195,7 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
             "with the Lyapunov triple p_low = {}, p_up = {}, alpha = {} (given, not proved)",
             triple.p_low.text, triple.p_up.text, triple.alpha.text
         ),
-        LyapunovSource::Wanted(_) | LyapunovSource::Proved { .. } => {
+        LyapunovSource::Wanted(_) | LyapunovSource::Proved { .. } | LyapunovSource::Plant(_) => {
             "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
         }
     };
@@ -208,13 +217,45 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
     )
 }
 
-fn set_json(asked: &InitialSet, set: &ClaimedSet) -> Value {
-    let kind = match asked {
+/// The claim in words about one plant, whose formulas are in the certificate: nothing of it is assumed.
+fn statement_of_plant(spec: &Specification, plant: &OfPlant, sigma: &Rational, set: &ClaimedSet) -> String {
+    let model = &spec.internal_model;
+    let reach = if model.matched { "" } else { " (which need not match the period)" };
+    let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
+        format!(" (a model that holds for |x - x_0| <= {}, |e| <= {})", domain.x.text, domain.e.text)
+    });
+    let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(write_exact);
+    let (state, orbit) = match largest_ball(&plant.coordinates, &set.x0) {
+        None => (String::new(), String::new()),
+        Some(ball) => (
+            format!("|L^-1 (x - x_0)| <= {x0}, "),
+            format!(
+                "; x_0(t) is the T-periodic solution of x' = f(t,x,0), proved within `radius` of `orbit`; the set contains \
+                 |x - x_0| <= {}",
+                write_exact(&ball)
+            ),
+        ),
+    };
+    format!(
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+         frequency {}{reach}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
+         every solution from {state}|e| <= {e0}, sqrt(z'Nz) <= {z0}, at any initial time, converges exponentially{orbit}.",
+        write_exact(sigma),
+        spec.period.text,
+        model.mu.text,
+        model.base_frequency.text,
+    )
+}
+
+fn set_json(spec: &Specification, set: &ClaimedSet) -> Value {
+    let kind = match spec.initial_set {
         InitialSet::Paper => "paper",
         InitialSet::AtRest { .. } => "at-rest",
         InitialSet::Box { .. } => "box",
     };
-    object([("kind", text(kind))].into_iter().chain(set.json()))
+    let ball = spec.plant().and_then(|plant| largest_ball(&plant.coordinates, &set.x0));
+    let ball = ball.map(|ball| ("ball", exact(&ball)));
+    object([("kind", text(kind))].into_iter().chain(set.json()).chain(ball))
 }
 
 fn transfer_json(proof: &TransferProof) -> Value {

@@ -3,6 +3,7 @@
 //! [`with_triple`] and [`certify`] are the whole way; [`recheck`] decides given free numbers, without any search. What either
 //! refuses is a [`Refusal`].
 
+mod ball;
 mod best;
 mod bounding;
 mod certification;
@@ -19,6 +20,7 @@ mod refusal;
 mod round;
 mod verdict;
 
+pub use ball::{covers_ball, inverse_norm, largest_ball, within_ball};
 pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 pub use certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 pub use decide::{decide, decide_exact};

@@ -7,6 +7,7 @@ use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
 use crate::data::{Bound, Data, Problem};
 use crate::enclosure::{Enclosure, Truth};
+use crate::real::Real;
 use rug::Rational;
 
 /// The free numbers of the exact-regulation claim, exactly.
@@ -40,7 +41,7 @@ pub fn steady_state_norm(data: &Data<'_>) -> Enclosure {
         None => general,
         Some(known) => {
             let rest = norm(&known.rest_rms, &harmonics::rest_t_rms(data, known));
-            general.min(&(harmonics::weighted_norm(data, known) + rest))
+            general.min_known(&(harmonics::weighted_norm(data, known) + rest))
         }
     };
     norm / &data.mu

@@ -39,7 +39,7 @@ where
         let squares = sum_of_harmonics(known, &zero, |_, c| c.sqr());
         let by_harmonics = (mean(known).sqr() + R::int(2) * squares).sqrt() + &known.rest_rms;
         AtOrigin {
-            q_rms: q_rms.min(&by_harmonics),
+            q_rms: q_rms.min_known(&by_harmonics),
             q_t_rms,
             known: Some(Known {
                 rate_rms: rate_rms(problem, known),
@@ -105,7 +105,7 @@ where
 {
     let zero = problem.zero();
     let derived = problem.bound(Bound::QtRms, &zero, &zero) + rate_rms(problem, known);
-    known.rest_t_rms.as_ref().map_or(derived.clone(), |given| derived.min(given))
+    known.rest_t_rms.as_ref().map_or(derived.clone(), |given| derived.min_known(given))
 }
 
 /// `(1/w) sqrt(sum_{|k| <= K} Tb(|k| Om/w) C_k^2)`: the rms of zeta in the norm of N that answers the known harmonics, with

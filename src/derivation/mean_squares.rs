@@ -119,15 +119,10 @@ where
         let on_axis = |which| problem.bound(which, &x_p, &zero);
         let f_xx = on_axis(Bound::Fxx);
         let by_curvature = &existence.alpha - &existence.c * &f_xx * &x_p / R::int(2);
-        let rate = match problem.given(Bound::Rate) {
-            true => by_curvature.max(&on_axis(Bound::Rate)),
-            false => by_curvature,
-        };
+        // Of what is not given nothing is known.
+        let rate = by_curvature.max_known(&on_axis(Bound::Rate));
         let by_taylor = (on_axis(Bound::F) + f_xx * x_p.sqr()) / &x_p;
-        let f_x = match problem.given(Bound::Fx) {
-            true => by_taylor.min(&on_axis(Bound::Fx)),
-            false => by_taylor,
-        };
+        let f_x = by_taylor.min_known(&on_axis(Bound::Fx));
         let f_e = at_box(Bound::Fe);
         let positive = if rate.is_certainly_positive() { rate.clone() } else { R::unknown() };
         let mixed = problem.given(Bound::Qtx) && problem.given(Bound::Qte);
@@ -186,15 +181,15 @@ where
         let moved = &bounds.q_x * x_rate + &bounds.q_e * &squares.e_rate;
         let in_time = &bounds.q_t_rms + &origin.q_t_rms;
         let in_time = match &bounds.mixed {
-            Some([x, e]) => in_time.min(&(x * &squares.x + e * &squares.e)),
+            Some([x, e]) => in_time.min_known(&(x * &squares.x + e * &squares.e)),
             None => in_time,
         };
         let change_rate = in_time + &moved;
         let q_rate_rms = &bounds.q_t_rms + moved;
         Forcing {
-            q_rms: bounds.q_rms.min(&(&origin.q_rms + &size)),
+            q_rms: bounds.q_rms.min_known(&(&origin.q_rms + &size)),
             q_rate_rms: match &origin.known {
-                Some(known) => q_rate_rms.min(&(&known.rate_rms + &known.rest_t_rms + &change_rate)),
+                Some(known) => q_rate_rms.min_known(&(&known.rate_rms + &known.rest_t_rms + &change_rate)),
                 None => q_rate_rms,
             },
             change: [size, change_rate],

@@ -20,7 +20,7 @@ pub struct ErrorBox<R> {
     /// k_f = b_fe(X_b, E_b).
     pub k_f: R,
     /// gam = c [b_fxx(x_per,0) x_per + b_fex(x_per,e_per) e_per + b_fxx(X_b,e_per) D_x/2], in 1/time: what the
-    /// nonlinearity takes from alpha.
+    /// nonlinearity takes from alpha; unknown where a rate is given in the place of these bounds.
     pub gamma: R,
     /// a_2 = alpha - gam, or a(X_b, e_per) where a rate is given and larger: a rate of df/dx averaged over a segment from the
     /// periodic solution.
@@ -50,10 +50,8 @@ where
                 + problem.bound(Bound::Fex, x_per, e_per) * e_per
                 + problem.bound(Bound::Fxx, &x_b, e_per) * d_x / R::int(2));
         let by_norms = &problem.numbers().alpha - &gamma;
-        let rate = match problem.given(Bound::Rate) {
-            true => by_norms.max(&problem.bound(Bound::Rate, &x_b, e_per)),
-            false => by_norms,
-        };
+        // Of what is not given nothing is known.
+        let rate = by_norms.max_known(&problem.bound(Bound::Rate, &x_b, e_per));
         ErrorBox {
             k_x: problem.bound(Bound::Qx, &x_b, &e_b) / problem.numbers().p_low.sqrt(),
             sector: Sector {

@@ -52,7 +52,7 @@ pub(super) fn draw(claim: &Claim, clock: Clock<'_>, largest: f64, random: &mut R
     let (rows, family) = match &claim.spec.lyapunov {
         LyapunovSource::Given(triple) => of_triple(claim, triple, clock, largest, random)?,
         LyapunovSource::Proved { jacobian, .. } => member(claim, jacobian, clock, random)?,
-        LyapunovSource::Wanted(_) => return None,
+        LyapunovSource::Wanted(_) | LyapunovSource::Plant(_) => return None,
     };
     let norm = norm(&family)?;
     Some(Drawn { rows, norm: Number::new(norm * (1.0 + 1e-8)) })

@@ -1,7 +1,4 @@
-//! Plants to simulate: x' = f(t, x, e), e' = q(t, x, e) + u, with f and q given as expressions.
-//!
-//! A plant file is to a simulation what a bounding specification is to a certificate. Nothing connects the two: that
-//! a plant lies within some bounding functions is not checked here.
+//! Plants by their formulas: x' = f(t, x, e), e' = q(t, x, e) + u, to certify and to simulate.
 
 mod periodicity;
 mod read;
@@ -9,7 +6,7 @@ mod read;
 pub use read::{FORMAT, VERSIONS};
 
 use crate::expr::{PlantExpr, PlantNames, Program};
-use crate::spec::{Constant, InternalModel};
+use crate::spec::{Constant, Document, Domain, InitialSet, InternalModel};
 
 /// A plant as read from its file.
 #[derive(Clone, Debug)]
@@ -28,8 +25,22 @@ pub struct Plant {
     pub q: PlantExpr,
     /// Where simulations start.
     pub initial: Initial,
+    /// The initial set to be covered; X0 is in the norm of the certificate.
+    pub initial_set: InitialSet,
+    /// The ball `|x - x_0|` that is asked for in the place of X0; X0 of the set then is its radius.
+    pub ball: Option<Constant>,
+    /// Where the model holds: |x - x_0(t)| and |e|; everywhere without it.
+    pub domain: Option<Domain>,
     /// The internal model of the regulator.
     pub internal_model: InternalModel,
+    /// The document as it was read.
+    pub document: serde_json::Value,
+    /// SHA-256, in hexadecimal, of the canonical form of the document.
+    pub sha256: String,
+    /// The document with its places, for errors that are found after reading.
+    pub source: Document,
+    /// The JSON pointer of the plant in `source`; empty when it is the whole document.
+    pub pointer: String,
 }
 
 /// An initial condition.

@@ -3,8 +3,8 @@
 use super::{Initial, Plant, periodicity};
 use crate::expr::{PlantExpr, PlantNames};
 use crate::spec::{
-    Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Value, any_constant, positive_constant,
-    read_internal_model,
+    Constant, Document, Domain, ErrorKind, Errors, InitialSet, Reported, SpecErrors, Value, any_constant,
+    positive_constant, read_internal_model, read_with_ball,
 };
 use std::path::Path;
 
@@ -52,7 +52,9 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let names = object.required("states", errors).and_then(|value| read_names(&value, errors));
     let f = object.required("f", errors);
     let q = object.required("q", errors);
-    let initial = object.required("initial", errors);
+    let initial = object.optional("initial");
+    let initial_set = object.optional("initial_set").map(|value| read_with_ball(&value, errors)).transpose();
+    let domain = object.optional("domain").map(|value| read_domain(&value, errors)).transpose();
     let internal_model = object
         .required("internal_model", errors)
         .and_then(|value| read_internal_model(&value, period.as_ref().ok(), errors));
@@ -65,8 +67,13 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         Ok((elements, read.into_iter().collect::<Result<Vec<_>, _>>()?))
     });
     let q = q.and_then(|value| expression(&value, &names, errors).map(|q| (value, q)));
-    let initial = initial.and_then(|value| read_initial(&value, names.states().len(), errors));
+    let states = names.states().len();
+    let initial = match initial {
+        Some(value) => read_initial(&value, states, errors),
+        None => Ok(Initial { x: vec![0.0; states], e: 0.0, z: Vec::new() }),
+    };
     let ((f_values, f), (q_value, q)) = (f?, q?);
+    let (initial_set, ball) = initial_set?.unwrap_or((InitialSet::AtRest { x0: None, e0: None }, None));
     let plant = Plant {
         name: name?,
         description: description?,
@@ -75,7 +82,14 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         f,
         q,
         initial: initial?,
+        initial_set,
+        ball,
+        domain: domain?,
         internal_model: internal_model?,
+        document: value.to_json(),
+        sha256: value.sha256(),
+        source: value.document().clone(),
+        pointer: value.pointer().to_owned(),
     };
     if let Some(broken) = periodicity::counterexample(&plant) {
         let value = f_values.get(broken.index).unwrap_or(&q_value);
@@ -120,6 +134,15 @@ fn expression(value: &Value<'_>, names: &PlantNames, errors: &mut Errors) -> Res
         return Err(value.wrong_type("a number or a string with an expression in t, the states and e", errors));
     };
     PlantExpr::parse(text, names).map_err(|error| errors.report(value.expression_error(&error)))
+}
+
+/// Where the model holds: `x` and `e`.
+fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reported> {
+    let mut object = value.object(errors)?;
+    let mut end = |name| object.required(name, errors).and_then(|value| positive_constant(&value, errors));
+    let (x, e) = (end("x"), end("e"));
+    object.finish(errors);
+    Ok(Domain { x: x?, e: e? })
 }
 
 fn read_initial(value: &Value<'_>, states: usize, errors: &mut Errors) -> Result<Initial, Reported> {

@@ -43,6 +43,10 @@ impl Real for f64 {
         if self > other || self.is_nan() { *self } else { *other }
     }
 
+    fn is_unknown(&self) -> bool {
+        self.is_nan()
+    }
+
     fn is_zero(&self) -> bool {
         *self == 0.0
     }

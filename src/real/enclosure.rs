@@ -41,6 +41,10 @@ impl Real for Enclosure {
         Enclosure::max(self, other)
     }
 
+    fn is_unknown(&self) -> bool {
+        !self.is_defined()
+    }
+
     fn is_zero(&self) -> bool {
         *self == Enclosure::zero(2)
     }

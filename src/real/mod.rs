@@ -58,6 +58,24 @@ pub trait Real: Clone + Operand<Self> + Neg<Output = Self> {
     fn min(&self, other: &Self) -> Self;
     /// The larger of two numbers.
     fn max(&self, other: &Self) -> Self;
+    /// Whether nothing is known of it, or it is undefined.
+    fn is_unknown(&self) -> bool;
+    /// The smaller one of two upper bounds of one quantity; where one of them is not known, the other one.
+    fn min_known(&self, other: &Self) -> Self {
+        match (self.is_unknown(), other.is_unknown()) {
+            (true, _) => other.clone(),
+            (_, true) => self.clone(),
+            _ => self.min(other),
+        }
+    }
+    /// The larger one of two lower bounds of one quantity; where one of them is not known, the other one.
+    fn max_known(&self, other: &Self) -> Self {
+        match (self.is_unknown(), other.is_unknown()) {
+            (true, _) => other.clone(),
+            (_, true) => self.clone(),
+            _ => self.max(other),
+        }
+    }
     /// Whether it is certainly exactly 0.
     fn is_zero(&self) -> bool;
     /// Whether it is certainly above 0.

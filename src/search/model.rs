@@ -1,11 +1,11 @@
 //! The specification in floating point, for searches only.
 
 use super::effort::Effort;
+use super::float_bound::FloatBound;
 use super::sharp::OptionalDatum;
 use crate::data::{Bound, Data, ExistenceTriple, KnownForcing, Numbers, Problem};
 use crate::derivation::initial_set::paper_z0;
 use crate::enclosure::Enclosure;
-use crate::expr::FloatExpr;
 use crate::spec::model::InitialSet;
 use crate::transfer::TradeOff;
 use std::ops::Deref;
@@ -56,8 +56,8 @@ impl Datum {
 /// A bounding function.
 #[derive(Clone, Debug)]
 struct ScaledBound {
-    /// Its expression, or that of its replacement.
-    function: Option<FloatExpr>,
+    /// It, or its replacement.
+    function: Option<FloatBound>,
     /// A relative change, for sensitivities.
     change: f64,
     /// Whether it has an expression of its own.
@@ -100,7 +100,7 @@ impl Problem<f64> for FloatModel {
         // There is one for each.
         let bound = &self.bounds[which as usize];
         let Some(function) = &bound.function else { return f64::NAN };
-        let value = function.eval(*x, *e);
+        let value = function.at(*x, *e);
         let value = value + bound.change * value.abs();
         let value = if value < 0.0 && !bound.signed { 0.0 } else { value };
         match bound.supremum.map(|supremum| self.bound(supremum, x, e)) {
@@ -176,17 +176,32 @@ impl FloatModel {
             bounds: Bound::ALL
                 .iter()
                 .map(|which| ScaledBound {
-                    function: which.of(spec).map(|expr| expr.to_float()),
+                    function: FloatBound::of(spec, *which),
                     change: 0.0,
-                    given: spec.bounds.own(*which).is_some(),
-                    signed: which.is_signed() && spec.bounds.own(*which).is_some(),
+                    given: spec.bounds.is_given(*which),
+                    signed: which.is_signed() && spec.bounds.is_given(*which),
                     supremum: which.supremum(spec),
                 })
                 .collect(),
         }
     }
 
-    fn functions(&self) -> impl Iterator<Item = &FloatExpr> {
+    /// The same model with other bounding functions: those that are listed, and no others.
+    #[must_use]
+    pub fn with_bounds(&self, functions: Vec<(Bound, FloatBound)>) -> FloatModel {
+        let mut bounds: Vec<ScaledBound> = Bound::ALL
+            .iter()
+            .map(|_| ScaledBound { function: None, change: 0.0, given: false, signed: false, supremum: None })
+            .collect();
+        for (which, function) in functions {
+            let function = Some(function);
+            bounds[which as usize] =
+                ScaledBound { function, change: 0.0, given: true, signed: which.is_signed(), supremum: None };
+        }
+        FloatModel { bounds, ..self.clone() }
+    }
+
+    fn functions(&self) -> impl Iterator<Item = &FloatBound> {
         self.bounds.iter().filter_map(|bound| bound.function.as_ref())
     }
 
@@ -205,7 +220,7 @@ impl FloatModel {
     /// How thoroughly this model is searched.
     #[must_use]
     pub fn effort(&self) -> Effort {
-        Effort::new(self.functions().map(FloatExpr::operations).sum())
+        Effort::new(self.functions().map(FloatBound::operations).sum())
     }
 
     /// Whether every number, and every bounding function at X = E = 0, is one that doubles can work with.
@@ -215,7 +230,7 @@ impl FloatModel {
         let set = self.set.required([0.0; 2], || 0.0, 0.0);
         numbers.iter().all(|value| value.is_normal())
             && set.iter().all(|value| value.is_finite())
-            && self.functions().all(|function| function.eval(0.0, 0.0) != f64::INFINITY)
+            && self.functions().all(|function| function.at(0.0, 0.0) != f64::INFINITY)
     }
 
     /// The same model with one datum improved by the relative amount `by` (alpha up, everything else down).

@@ -1,6 +1,8 @@
 //! The list of bounding functions.
 
 use super::model::Specification;
+use super::proved_values::ProvedValues;
+use crate::enclosure::Enclosure;
 use crate::expr::Expr;
 
 /// A bounding function of `(X, E)`: an upper bound on `|x| <= X`, `|e| <= E`, for every t (P:LP1, P:LP2; derivation,
@@ -139,22 +141,57 @@ impl Bound {
         spec.bounds.get(self)
     }
 
-    /// Where it has an expression of its own: the one that would serve without it, and bounds the same.
+    /// Where it is given itself: the one that would serve without it, and bounds the same.
     #[doc(hidden)]
     #[must_use]
     pub fn supremum(self, spec: &Specification) -> Option<Bound> {
-        self.replacement().filter(|_| spec.bounds.own(self).is_some())
+        self.replacement().filter(|_| spec.bounds.is_given(self))
     }
 }
 
-/// The bounding functions of a specification.
+/// The bounding functions of a specification: expressions, or values that were proved from a plant's formulas.
 #[derive(Clone, Debug)]
 pub struct Bounds {
-    /// In the order of [`TABLE`]; every required one is there.
+    /// In the order of [`TABLE`]; every required one is there, or none.
     given: Vec<Option<Expr>>,
+    /// Those of a plant.
+    proved: ProvedValues,
 }
 
 impl Bounds {
+    /// Those of a plant, known at the arguments where they were proved.
+    #[must_use]
+    pub fn proved(values: ProvedValues) -> Bounds {
+        Bounds { given: vec![None; TABLE.len()], proved: values }
+    }
+
+    /// The values that were proved from a plant's formulas; empty where the bounding functions are expressions.
+    #[must_use]
+    pub fn proved_values(&self) -> &ProvedValues {
+        &self.proved
+    }
+
+    /// Whether a bounding function itself is known, as an expression or by proved values.
+    #[must_use]
+    pub fn is_given(&self, which: Bound) -> bool {
+        self.own(which).is_some() || self.proved.has(which)
+    }
+
+    /// A bounding function, or what serves in its place, at (X, E); undefined where it is not known.
+    #[must_use]
+    pub fn at(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
+        if let Some(expr) = self.own(which) {
+            return expr.enclose(x, e);
+        }
+        if self.proved.has(which) {
+            return self.proved.at(which, x, e);
+        }
+        match which.replacement() {
+            Some(other) => self.at(other, x, e),
+            None => Enclosure::undefined(x.precision().max(e.precision())),
+        }
+    }
+
     /// Reads those of the section `bounds` one by one, all of them before an error is returned.
     ///
     /// # Errors
@@ -170,7 +207,7 @@ impl Bounds {
             Role::Sharper(_) | Role::OneSided(_) | Role::Optional => optional(context, bound.field()),
         };
         let all: Vec<_> = Bound::ALL.into_iter().map(read).collect();
-        Ok(Bounds { given: all.into_iter().collect::<Result<_, _>>()? })
+        Ok(Bounds { given: all.into_iter().collect::<Result<_, _>>()?, proved: ProvedValues::default() })
     }
 
     /// The same with the contraction rate of the section `lyapunov`.

@@ -2,7 +2,7 @@
 
 use super::constant::nonnegative_constant;
 use super::document::Value;
-use super::error::{Errors, Reported};
+use super::error::{ErrorKind, Errors, Reported};
 use super::model::{Constant, InitialSet};
 use super::object::{Object, choose};
 
@@ -11,28 +11,55 @@ use super::object::{Object, choose};
 /// # Errors
 /// Reports an unknown kind, fields that are missing or do not belong to the kind, and numbers that are negative.
 pub(super) fn read(value: &Value<'_>, errors: &mut Errors) -> Result<InitialSet, Reported> {
+    read_kinds(value, false, errors).map(|(set, _)| set)
+}
+
+/// Reads `initial_set` of a plant, where `ball` may stand for X0: the radius of a ball that the set contains. Then X0 of the
+/// set is that radius until the norm in which X0 is meant is known.
+///
+/// # Errors
+/// Those of a specification's; and both of `X0` and `ball`.
+pub(crate) fn read_with_ball(
+    value: &Value<'_>,
+    errors: &mut Errors,
+) -> Result<(InitialSet, Option<Constant>), Reported> {
+    read_kinds(value, true, errors)
+}
+
+fn read_kinds(value: &Value<'_>, balls: bool, errors: &mut Errors) -> Result<(InitialSet, Option<Constant>), Reported> {
     let mut object = value.object(errors)?;
     let kind = object.required("kind", errors);
     // Without a kind the other fields have no meaning to check.
-    match kind.and_then(|value| choose(&value, "kind of initial set", &["paper", "at-rest", "box"], errors))? {
+    let kind = kind.and_then(|value| choose(&value, "kind of initial set", &["paper", "at-rest", "box"], errors))?;
+    let ball = if balls && kind != "paper" { optional(&mut object, "ball", errors)? } else { None };
+    if let (Some(_), Some(x0)) = (&ball, value.member("X0")) {
+        let error = x0.error(ErrorKind::UnknownField, "`X0` and `ball` both say how far x may be from its orbit");
+        return Err(errors.report(error.help("leave one of them out")));
+    }
+    let set = match kind {
         "paper" => {
             object.finish_as("for the kind `paper`", errors);
-            Ok(InitialSet::Paper)
+            InitialSet::Paper
         }
         "at-rest" => {
             let x0 = optional(&mut object, "X0", errors);
             let e0 = optional(&mut object, "E0", errors);
             object.finish_as("for the kind `at-rest`", errors);
-            Ok(InitialSet::AtRest { x0: x0?, e0: e0? })
+            InitialSet::AtRest { x0: ball.clone().or(x0?), e0: e0? }
         }
         _ => {
-            let x0 = object.required("X0", errors).and_then(|value| nonnegative_constant(&value, errors));
-            let e0 = object.required("E0", errors).and_then(|value| nonnegative_constant(&value, errors));
-            let z0 = object.required("Z0", errors).and_then(|value| nonnegative_constant(&value, errors));
+            let mut number =
+                |name| object.required(name, errors).and_then(|value| nonnegative_constant(&value, errors));
+            let x0 = match &ball {
+                Some(ball) => Ok(ball.clone()),
+                None => number("X0"),
+            };
+            let (e0, z0) = (number("E0"), number("Z0"));
             object.finish_as("for the kind `box`", errors);
-            Ok(InitialSet::Box { x0: x0?, e0: e0?, z0: z0? })
+            InitialSet::Box { x0: x0?, e0: e0?, z0: z0? }
         }
-    }
+    };
+    Ok((set, ball))
 }
 
 fn optional(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Option<Constant>, Reported> {

@@ -17,7 +17,9 @@ mod json;
 mod limits;
 pub mod model;
 mod object;
+mod of_plant;
 mod power_tail;
+mod proved_values;
 mod quantity;
 mod read;
 mod render;
@@ -29,6 +31,7 @@ pub use bounding::{Bound, Bounds};
 pub use constant::{any_constant, nonnegative_constant, positive_constant};
 pub use document::{Document, Value};
 pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
+pub(crate) use initial_set::read_with_ball;
 pub use jacobian::MAX_STATES;
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use model::{
@@ -36,7 +39,9 @@ pub use model::{
     RelativeDegree, Specification,
 };
 pub use object::{MAX_UNKNOWN, Object};
+pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit, TrigonometricVector};
 pub use power_tail::power_tail;
+pub use proved_values::{ProvedValue, ProvedValues};
 pub(crate) use read::read_internal_model;
 pub use read::{FORMAT, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
 pub use weights::Weights;

@@ -8,6 +8,7 @@ use crate::number::write_exact;
 use rug::Rational;
 
 use super::document::Document;
+use super::of_plant::OfPlant;
 use super::weights::Weights;
 
 /// A checked specification: fields present, numbers exact and in range, weights proved to satisfy W1-W3.
@@ -135,6 +136,8 @@ pub enum LyapunovSource {
         /// Another triple, with its P(t), for the existence of the periodic solution; without, the first one serves.
         existence: Option<Box<(Lyapunov, PeriodicMatrix)>>,
     },
+    /// It was proved from the formulas of this plant, like all other data.
+    Plant(Box<OfPlant>),
 }
 
 impl LyapunovSource {
@@ -143,6 +146,7 @@ impl LyapunovSource {
     pub fn triple(&self) -> Option<&Lyapunov> {
         match self {
             LyapunovSource::Given(triple) | LyapunovSource::Proved { triple, .. } => Some(triple),
+            LyapunovSource::Plant(plant) => Some(&plant.triple),
             LyapunovSource::Wanted(_) => None,
         }
     }
@@ -161,7 +165,18 @@ impl LyapunovSource {
     pub fn jacobian(&self) -> Option<&Jacobian> {
         match self {
             LyapunovSource::Wanted(jacobian) | LyapunovSource::Proved { jacobian, .. } => Some(jacobian),
-            LyapunovSource::Given(_) => None,
+            LyapunovSource::Given(_) | LyapunovSource::Plant(_) => None,
+        }
+    }
+}
+
+impl Specification {
+    /// What was proved of the plant, where the data come from its formulas.
+    #[must_use]
+    pub fn plant(&self) -> Option<&OfPlant> {
+        match &self.lyapunov {
+            LyapunovSource::Plant(plant) => Some(plant),
+            _ => None,
         }
     }
 }

@@ -1,0 +1,66 @@
+//! What was proved of a plant that is known by its formulas (derivation, 11): all that a certificate has to repeat.
+
+use super::model::{Constant, Domain, Lyapunov, PeriodicMatrix};
+use rug::Rational;
+
+/// `mean + sum_k (cos_k cos(k Om t) + sin_k sin(k Om t))`, Om = 2 pi/period, with rational vectors.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TrigonometricVector {
+    /// The mean.
+    pub mean: Vec<Rational>,
+    /// (cos_k, sin_k) for k = 1, 2, ...
+    pub harmonics: Vec<[Vec<Rational>; 2]>,
+}
+
+/// `|x_0 - xb|` is at most `radius` in the norm of y (derivation, 11.2).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProvedOrbit {
+    /// xb, in the plant's own coordinates.
+    pub approximation: TrigonometricVector,
+    /// eps.
+    pub defect: Rational,
+    /// rho.
+    pub tube: Rational,
+    /// r.
+    pub radius: Rational,
+}
+
+/// q(t,x_0,0) (derivation, 11.4).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProvedForcing {
+    /// m_0.
+    pub mean: Rational,
+    /// (a_k, b_k) for k = 1, 2, ...
+    pub harmonics: Vec<[Rational; 2]>,
+    /// r_0.
+    pub rest: Rational,
+    /// r_1.
+    pub rest_t: Rational,
+}
+
+/// The plant behind the data of a specification.
+#[derive(Clone, Debug)]
+pub struct OfPlant {
+    /// The rows of L: `x = x_0 + L y`.
+    pub coordinates: Vec<Vec<Rational>>,
+    /// The orbit.
+    pub orbit: ProvedOrbit,
+    /// The triple of stability, and of the orbit, in the coordinates y.
+    pub triple: Lyapunov,
+    /// Its P(t).
+    pub matrix: PeriodicMatrix,
+    /// q along the orbit.
+    pub forcing: ProvedForcing,
+    /// Where the model holds, as it was given: `|x - x_0|` and `|e|`.
+    pub domain: Option<Domain>,
+    /// The radius of the ball `|x - x_0|` that the initial set has to contain, where one was asked for.
+    pub ball: Option<Constant>,
+}
+
+impl OfPlant {
+    /// The number of states.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.coordinates.len()
+    }
+}
