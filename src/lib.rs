@@ -91,6 +91,8 @@ pub mod rate;
 #[doc(hidden)]
 pub mod real;
 #[doc(hidden)]
+pub mod reduction;
+#[doc(hidden)]
 pub mod regulator;
 #[doc(hidden)]
 pub mod report;

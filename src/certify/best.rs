@@ -4,7 +4,7 @@ use super::options::{Options, TransferChoice};
 use super::proof::{Outcome, SharpProof};
 use super::round::{TransferKind, round_sharp};
 use crate::data::Data;
-use crate::search::{FloatModel, SharpProposal, search_sharp};
+use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
 use crate::transfer::TradeOff;
 
 /// The outcome, with the model and the proposal that it came from.
@@ -15,9 +15,10 @@ pub(super) struct BestSharp {
 }
 
 impl BestSharp {
-    fn new(data: &Data<'_>, options: Options, kind: TransferKind) -> BestSharp {
+    fn new(data: &Data<'_>, options: Options, kind: TransferKind, start: Option<&SharpProposal>) -> BestSharp {
         let model = model(data, kind);
-        let proposal = search_sharp(&model);
+        let near = start.and_then(|known| search_sharp_near(&model, known));
+        let proposal = near.map_or_else(|| search_sharp(&model), Ok);
         let outcome = match &proposal {
             Err(obstacle) => Outcome::NotFound(*obstacle),
             Ok(proposal) => round_sharp(data, &model, proposal, kind, options.ladder).into(),
@@ -44,10 +45,10 @@ pub(super) fn model(data: &Data<'_>, kind: TransferKind) -> FloatModel {
     FloatModel::new(data, trade_off)
 }
 
-/// Searches and decides the sharp derivation; the smaller one of what the closed form and the sharper proof of the transfer
+/// Searches, near `start` where there is one, and decides the sharp derivation; the smaller one of what the closed form and the sharper proof of the transfer
 /// bound lead to is taken.
-pub(super) fn best_sharp(data: &Data<'_>, options: Options) -> BestSharp {
-    let with = |kind| BestSharp::new(data, options, kind);
+pub(super) fn best_sharp(data: &Data<'_>, options: Options, start: Option<&SharpProposal>) -> BestSharp {
+    let with = |kind| BestSharp::new(data, options, kind, start);
     if options.transfer == TransferChoice::Best {
         let sharper = if data.matched { TransferKind::Matched } else { TransferKind::Boxes };
         return with(sharper).or(with(TransferKind::ClosedForm));

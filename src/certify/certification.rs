@@ -18,8 +18,8 @@ use crate::search::{Binding, Datum, OptionalDatum};
 use crate::spec::model::Specification;
 use rug::Rational;
 
-/// What the printed formulas say about the data.
-#[derive(Clone, Debug)]
+/// What the printed formulas say about the data; nothing where the data are those of a plant's formulas.
+#[derive(Clone, Debug, Default)]
 pub struct PrintedFigure {
     /// Why P:eq:boundx_bounde_1 has no solution.
     pub refutation: Option<Infeasible>,

@@ -28,7 +28,7 @@ pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple}
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
 pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
 pub use options::{Derivation, Ladder, Options, TransferChoice};
-pub use produce::{certify, recheck};
+pub use produce::{certify, certify_near, recheck};
 pub use proof::{Decided, GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness};
 pub use refusal::Refusal;
 pub use verdict::Verdict;

@@ -36,11 +36,27 @@ use rug::Rational;
 /// # Errors
 /// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
 pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Refusal> {
+    certify_near(spec, options, None)
+}
+
+/// The same, where a proposal is known: the search starts there.
+///
+/// # Errors
+/// Those of [`certify`].
+pub fn certify_near<'s>(
+    spec: &'s Specification,
+    options: Options,
+    start: Option<&SharpProposal>,
+) -> Result<Certification<'s>, Refusal> {
     let data = Data::new(spec, options.ladder.start.max(53));
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
     let paper_model = model(&data, TransferKind::ClosedForm);
-    let wanted = |derivation| options.compare || options.derivation == derivation;
+    // From a plant's formulas only the data of the sharp derivation are computed.
+    let others = spec.plant().is_none();
+    let wanted = |derivation| {
+        options.derivation == derivation || (options.compare && (others || derivation == Derivation::Sharp))
+    };
     let repaired = if wanted(Derivation::Repaired) {
         match search_repaired(&paper_model) {
             Err(obstacle) => Outcome::NotFound(obstacle),
@@ -50,7 +66,7 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
         Outcome::Skipped
     };
     let (sharp_model, proposal, sharp) = if wanted(Derivation::Sharp) {
-        let best = best_sharp(&data, options);
+        let best = best_sharp(&data, options, start);
         (best.model, best.proposal, best.outcome)
     } else {
         (model(&data, TransferKind::ClosedForm), None, Outcome::Skipped)
@@ -58,7 +74,7 @@ pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'
     let chosen = |derivation| options.derivation == derivation;
     let sharp = proved_up_to_arguments(spec, sharp, chosen(Derivation::Sharp), &mut unproved)?;
     let repaired = proved_up_to_arguments(spec, repaired, chosen(Derivation::Repaired), &mut unproved)?;
-    let printed = printed_figure(&data, &paper_model);
+    let printed = if others { printed_figure(&data, &paper_model) } else { PrintedFigure::default() };
     let exact = match (&sharp, spec.internal_model.matched) {
         (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
             // Its error box has its own size, and may reach beyond the arguments of the other derivations.
@@ -107,7 +123,8 @@ pub fn recheck<'s>(
     let repaired = proved_up_to_arguments(spec, repaired, true, &mut unproved)?;
     let exact_failing = claimed.as_ref().map_or_else(Vec::new, |claim| failing(&claim.evaluation.conditions));
     let exact = claimed.filter(|_| exact_failing.is_empty());
-    let printed = PrintedFigure { refutation: level_condition(&data).err(), evaluation: None, sigma: None };
+    let refutation = if spec.plant().is_none() { level_condition(&data).err() } else { None };
+    let printed = PrintedFigure { refutation, evaluation: None, sigma: None };
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
     let parts = Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal: None };
     let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model)?;
@@ -167,7 +184,7 @@ fn assemble<'s>(
     };
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
     let without_optional = match (&sharp, &proposal) {
-        (Outcome::Proved(_), Some(_)) => without_optional_data(model),
+        (Outcome::Proved(_), Some(_)) if spec.plant().is_none() => without_optional_data(model),
         _ => Vec::new(),
     };
     sensitivities.retain(|(_, gain)| *gain > 0.0);

@@ -23,6 +23,7 @@ pub use binding::Binding;
 pub use candidate::{AtSigma, Obstacle, active_level, weight_h};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;
+pub use minimise::{Descent, minimise};
 pub use model::{Datum, FloatModel};
 pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};

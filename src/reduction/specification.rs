@@ -1,0 +1,102 @@
+//! The specification that a plant's formulas amount to: the data of sections 1 and 10, in the coordinates y of section 11.
+
+use crate::certify::{covers_ball, inverse_norm, within_ball};
+use crate::enclosure::Enclosure;
+use crate::number::{Direction, round_f64, round_rational};
+use crate::plant::Plant;
+use crate::spec::model::{Constant, Domain, InitialSet, KnownForcing, LyapunovSource, Specification};
+use crate::spec::{Bounds, OfPlant, ProvedForcing, ProvedValues};
+use nalgebra::DMatrix;
+use rug::Rational;
+
+/// Significant digits of the X_0 that covers a ball, of a domain in the norm of y, and of the sizes of harmonics.
+const DIGITS: u32 = 10;
+
+/// Room for rounding in the norms of L and L^-1, which doubles know: the first that is proved to be enough is taken.
+const ROOMS: [f64; 4] = [1e-9, 1e-6, 1e-3, 0.1];
+
+/// Bits at which the sizes of harmonics are enclosed.
+const PRECISION: u32 = 128;
+
+/// The specification of a plant, with what was proved of it; with other values nothing is proved. `None` where L is so
+/// ill-conditioned that a ball or a domain cannot be turned into its norm.
+#[must_use]
+pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> Option<Specification> {
+    let q_0 = known_forcing(&of_plant.forcing);
+    let domain = match &plant.domain {
+        Some(domain) => Some(in_coordinates(domain, &of_plant.coordinates)?),
+        None => None,
+    };
+    let initial_set = initial_set(plant, &of_plant.coordinates)?;
+    Some(Specification {
+        name: plant.name.clone(),
+        description: plant.description.clone(),
+        period: plant.period.clone(),
+        lyapunov: LyapunovSource::Plant(Box::new(of_plant)),
+        bounds: Bounds::proved(values),
+        q_0: Some(q_0),
+        domain,
+        internal_model: plant.internal_model.clone(),
+        initial_set,
+        relative_degree: None,
+        document: plant.document.clone(),
+        sha256: plant.sha256.clone(),
+        source: plant.source.clone(),
+        pointer: plant.pointer.clone(),
+    })
+}
+
+/// C_0 = |m_0|, C_k = sqrt(a_k^2 + b_k^2)/2 rounded up, r_0 and r_1.
+fn known_forcing(forcing: &ProvedForcing) -> KnownForcing {
+    let mean = Rational::from(forcing.mean.abs_ref());
+    let size = |[a, b]: &[Rational; 2]| {
+        let squares = Rational::from(a * a) + Rational::from(b * b);
+        let size = Enclosure::from_rational(&(squares / 4u32), PRECISION).sqrt();
+        // The square root of a rational is bounded.
+        let upper = size.upper_rational().unwrap_or_default();
+        round_rational(&upper, DIGITS, Direction::Up)
+    };
+    let harmonics = std::iter::once(mean).chain(forcing.harmonics.iter().map(size));
+    KnownForcing {
+        harmonics: harmonics.map(|size| Constant::rational(&size)).collect(),
+        rest_rms: Constant::rational(&forcing.rest),
+        rest_t_rms: Some(Constant::rational(&forcing.rest_t)),
+    }
+}
+
+/// X with `|L^-1 (x - x_0)| <= X` inside of `|x - x_0| <= d_x`, proved, and E; `None` where rounding prevents it.
+fn in_coordinates(domain: &Domain, coordinates: &[Vec<Rational>]) -> Option<Domain> {
+    let distance = domain.x.enclose(PRECISION).lower_rational()?;
+    let n = coordinates.len();
+    let norm = if n == 0 { 1.0 } else { matrix(coordinates).singular_values().max() };
+    let x = ROOMS.into_iter().find_map(|room| {
+        let x = round_f64(distance.to_f64() / norm * (1.0 - room), DIGITS, Direction::Down)?;
+        (x > 0 && within_ball(coordinates, &x, &distance)).then_some(x)
+    })?;
+    Some(Domain { x: Constant::rational(&x), e: domain.e.clone() })
+}
+
+/// The set that is asked for; where a ball is, with an X_0 that is proved to cover it.
+fn initial_set(plant: &Plant, coordinates: &[Vec<Rational>]) -> Option<InitialSet> {
+    let Some(ball) = &plant.ball else { return Some(plant.initial_set.clone()) };
+    let radius = ball.enclose(PRECISION).upper_rational()?;
+    let covering = if radius == 0 {
+        radius
+    } else {
+        let size = radius.to_f64() * inverse_norm(coordinates);
+        ROOMS.into_iter().find_map(|room| {
+            let x_0 = round_f64(size * (1.0 + room), DIGITS, Direction::Up)?;
+            covers_ball(coordinates, &x_0, &radius).then_some(x_0)
+        })?
+    };
+    let covering = Constant::rational(&covering);
+    Some(match plant.initial_set.clone() {
+        InitialSet::Paper => InitialSet::Paper,
+        InitialSet::AtRest { e0, .. } => InitialSet::AtRest { x0: Some(covering), e0 },
+        InitialSet::Box { e0, z0, .. } => InitialSet::Box { x0: covering, e0, z0 },
+    })
+}
+
+fn matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j].to_f64())
+}
