@@ -36,10 +36,10 @@ pub use jacobian::MAX_STATES;
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use model::{
     Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
-    RelativeDegree, Specification,
+    RelativeDegree, Specification, TrigonometricVector,
 };
 pub use object::{MAX_UNKNOWN, Object};
-pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit, TrigonometricVector};
+pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit};
 pub use power_tail::power_tail;
 pub use proved_values::{ProvedValue, ProvedValues};
 pub(crate) use read::read_internal_model;

@@ -1,16 +1,7 @@
 //! What was proved of a plant that is known by its formulas (derivation, 11): all that a certificate has to repeat.
 
-use super::model::{Constant, Domain, Lyapunov, PeriodicMatrix};
+use super::model::{Constant, Domain, Lyapunov, PeriodicMatrix, TrigonometricVector};
 use rug::Rational;
-
-/// `mean + sum_k (cos_k cos(k Om t) + sin_k sin(k Om t))`, Om = 2 pi/period, with rational vectors.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct TrigonometricVector {
-    /// The mean.
-    pub mean: Vec<Rational>,
-    /// (cos_k, sin_k) for k = 1, 2, ...
-    pub harmonics: Vec<[Vec<Rational>; 2]>,
-}
 
 /// `|x_0 - xb|` is at most `radius` in the norm of y (derivation, 11.2).
 #[derive(Clone, Debug, PartialEq, Eq)]
