@@ -2,8 +2,8 @@
 
 use super::document::{Block, Readable, clean};
 use super::{
-    conditions, consequences, constants, exact_regulation, json, matrix_checks, printed, relative_degree, sensitivity,
-    sets, verdict,
+    conditions, consequences, constants, exact_regulation, json, matrix_checks, of_plant, printed, relative_degree,
+    sensitivity, sets, verdict,
 };
 use crate::certify::Certification;
 use crate::derivation::targets::{Consequences, Target};
@@ -47,10 +47,14 @@ impl Readable for Report<'_> {
             blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
         }
         blocks.extend(sets::section(run));
+        blocks.extend(of_plant::section(run));
         blocks.extend(conditions::section(run));
         blocks.extend(matrix_checks::section(run));
         blocks.extend(constants::section(run));
-        blocks.extend(printed::section(run, self.rechecked));
+        // The printed formulas need data that are not computed from a plant's formulas.
+        if run.spec.plant().is_none() {
+            blocks.extend(printed::section(run, self.rechecked));
+        }
         blocks.extend(sensitivity::section(run));
         blocks.extend(self.consequences.iter().flat_map(consequences::section));
         blocks.extend(exact_regulation::section(run, self.rechecked));

@@ -4,6 +4,7 @@ use super::failures::{FORMAT, VERSION, errors_json};
 use super::matrix_checks::checks_json;
 use super::number::{estimate, full};
 use super::obstacles::advice;
+use super::of_plant::plant_json;
 use super::relative_degree::gains_json;
 use super::remarks::remarks;
 use super::verdict::{basis, sentence};
@@ -51,6 +52,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("matrix_inequalities", checks_json(run)),
         ("derivations", derivations(run)),
         ("constants", constants_json(&run.constants)),
+        ("plant", plant_json(run)),
         ("printed", printed(run)),
         ("binding", json!(run.binding.map(Binding::describe))),
         ("binding_advice", json!(run.binding.map(Binding::advice))),

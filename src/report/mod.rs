@@ -17,6 +17,7 @@ mod lyapunov;
 mod matrix_checks;
 mod number;
 mod obstacles;
+mod of_plant;
 mod printed;
 mod rate;
 mod relative_degree;

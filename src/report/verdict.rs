@@ -17,11 +17,12 @@ pub fn sentence(run: &Certification<'_>) -> String {
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
             "Certified: with sigma = {} (or any larger), mu = {} and base frequency {}, for every number of oscillators \
-             n_o >= 0, every solution that starts, at any time, from |x| <= {}, |e| <= {}, |z|_N <= {} converges \
+             n_o >= 0, every solution that starts, at any time, from {} <= {}, |e| <= {}, |z|_N <= {} converges \
              exponentially to a T-periodic solution, T = {}.",
             write_exact(sigma),
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
+            if spec.plant().is_some() { "|y|" } else { "|x|" },
             exact(&set.x0, Direction::Down),
             exact(&set.e0, Direction::Down),
             exact(&set.z0, Direction::Down),
@@ -36,9 +37,11 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     let mut blocks = vec![Block::Verdict(sentence(run))];
     blocks.extend(remarks(run).into_iter().map(Block::says));
     if run.verdict == Verdict::Certified {
-        blocks.push(Block::says(
-            "Here |z|_N = sqrt(z'Nz). The same sigma serves every plant that the bounding functions describe.",
-        ));
+        let norms = match run.spec.plant().is_some() {
+            true => "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with x_0 and L as below.",
+            false => "Here |z|_N = sqrt(z'Nz). The same sigma serves every plant that the bounding functions describe.",
+        };
+        blocks.push(Block::says(norms));
         blocks.push(Block::List(basis(run)));
     } else {
         blocks.extend(obstacles::section(run, rechecked));
@@ -54,6 +57,19 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         Derivation::Printed => "Derivation: printed (the paper to the letter).",
     };
     let mut items = vec![derivation.to_owned()];
+    if let Some(plant) = run.spec.plant() {
+        items.push(
+            "Proved from the formulas: that they have the period and are smooth where they are used, the orbit x_0, the rate, \
+             the harmonics and every bound (section 11)."
+                .to_owned(),
+        );
+        let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
+            format!(", for |x - x_0| <= {}, |e| <= {}", clean(&domain.x.text), clean(&domain.e.text))
+        });
+        items.push(format!("Assumed: that these formulas are the plant{domain}."));
+        items.extend(of_the_transfer_bound(run));
+        return items;
+    }
     let used = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper));
     let of_the_zero_dynamics = match &run.spec.lyapunov {
         LyapunovSource::Proved { triple, existence, .. } => {
@@ -86,7 +102,13 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
          positive parts are used. Proved of the weights: W1 to W3."
         .to_owned(),
     );
-    items.extend(run.claim().map(|claim| {
+    items.extend(of_the_transfer_bound(run));
+    items
+}
+
+/// Whether the claim uses that the base frequency fits the period.
+fn of_the_transfer_bound(run: &Certification<'_>) -> Option<String> {
+    run.claim().map(|claim| {
         match claim.transfer {
             TransferProof::Matched { .. } => {
                 "Used: the base frequency is exactly 2 pi / period (proved of the numbers given). `--transfer boxes` does \
@@ -95,6 +117,5 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
             TransferProof::ClosedForm | TransferProof::Boxes(_) => "Not used: that the base frequency fits the period.",
         }
         .to_owned()
-    }));
-    items
+    })
 }

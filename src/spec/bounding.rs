@@ -101,6 +101,28 @@ impl Bound {
         TABLE[self as usize].1
     }
 
+    /// What it bounds, in the words of a report.
+    #[must_use]
+    pub fn of_what(self) -> &'static str {
+        match self {
+            Bound::F => "|f|",
+            Bound::Fe => "|df/de|",
+            Bound::Fxx => "|d2f/dxdx|",
+            Bound::Fex => "|d2f/dedx|",
+            Bound::Q => "|q|",
+            Bound::Qe => "|dq/de|",
+            Bound::Qx => "|dq/dx|",
+            Bound::Qt => "|dq/dt|",
+            Bound::QRms => "rms q",
+            Bound::QtRms => "rms dq/dt",
+            Bound::QeMax => "dq/de from above",
+            Bound::Fx => "|df/dx|",
+            Bound::Qtx => "|d2q/dtdx|",
+            Bound::Qte => "|d2q/dtde|",
+            Bound::Rate => "contraction of x, from below",
+        }
+    }
+
     /// The field of a specification in which its own field is.
     #[must_use]
     pub fn section(self) -> &'static str {
