@@ -3,12 +3,14 @@
 mod fields;
 mod of_plant;
 mod read;
+mod read_plant;
 mod stated;
 mod triple;
 mod write;
 
 pub use of_plant::plant_parts;
 pub use read::{read_lyapunov, read_witness};
+pub use read_plant::read_plant_witness;
 pub use stated::{StatedClaim, read_claim};
 pub use triple::{lyapunov_parts, matrix_json};
 pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, no_plant_json, statement};

@@ -1,6 +1,7 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
 use super::fields::{Numbers, RefinedSquares, exact_rational, rational};
+use super::read_plant::PLANT_FIELDS;
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
 use crate::certify::GivenWitness;
@@ -31,6 +32,8 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
         "precision_bits",
         "specification",
         "specification_sha256",
+        "plant",
+        "plant_sha256",
         "no_plant",
         "comparison",
         "conditions",
@@ -50,7 +53,8 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
         return Err(errors.report(error.help("proofs-check decides it as it is; `certify` writes a new one")));
     }
     // Read by `read_lyapunov`, where the specification asks for it.
-    for field in [STABILITY, EXISTENCE] {
+    let of_plant: &[&'static str] = if root.member("plant").is_some() { &PLANT_FIELDS } else { &[] };
+    for field in [STABILITY, EXISTENCE].iter().chain(of_plant) {
         let _ = fields.optional(field);
     }
     let result = if repaired {
@@ -84,7 +88,7 @@ pub fn read_lyapunov(document: &Document) -> Result<ProvedTriples, SpecErrors> {
     errors.conclude(document, outcome)
 }
 
-fn read_triple(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedTriple, Reported> {
+pub(super) fn read_triple(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedTriple, Reported> {
     let mut fields = value.object(errors)?;
     let mean = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of a matrix", errors));
     let mut harmonics = Vec::new();
@@ -105,7 +109,7 @@ fn read_triple(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedTriple, R
 }
 
 /// Lists of exact rationals.
-fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
+pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
     let mut rows = Vec::new();
     for row in value.array(errors)? {
         let mut entries = Vec::new();
@@ -134,7 +138,7 @@ fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(bool, Rational,
     let sigma = rational(&mut claim, "sigma_star", errors);
     let set = claim.required("initial_set", errors).and_then(|value| {
         let mut set = value.object(errors)?;
-        let _ = set.optional("kind");
+        let _ = (set.optional("kind"), set.optional("ball"));
         let sizes = ClaimedSet::read(&mut set, errors, |_, _| Ok(()));
         set.finish(errors);
         sizes

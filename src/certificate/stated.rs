@@ -1,7 +1,10 @@
 //! What a certificate states: its specification, its witness, and its bounds of the periodic solution.
 
 use super::read::{read_lyapunov, read_witness};
+use super::read_plant::read_plant_witness;
 use crate::certify::{GivenWitness, resolve_with};
+use crate::plant::Plant;
+use crate::reduction::specification;
 use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
 
 /// The statement of a certificate, for whoever holds it against something else.
@@ -13,6 +16,8 @@ pub struct StatedClaim {
     pub witness: GivenWitness,
     /// The stated bounds of sup|x|, sup|e|, sup|zeta|_N and sup|z|_N along the periodic solution; infinite where there is none.
     pub periodic: [f64; 4],
+    /// The plant, where the certificate is of one.
+    pub plant: Option<Plant>,
 }
 
 /// Reads the claim, the witness and the specification of a certificate. What a falsified certificate says is taken as it
@@ -28,6 +33,15 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
         let reported = Err(errors.report(error));
         errors.conclude(document, reported)
     };
+    if document.at("/plant").is_some() {
+        let (plant, of_plant, values) = read_plant_witness(document)?;
+        let Some(spec) = specification(&plant, of_plant, values) else {
+            let place = document.at("/witness/coordinates").unwrap_or(root.clone());
+            return refused(place.error(ErrorKind::Range, "this matrix is singular, or too nearly so"));
+        };
+        let periodic = stated_periodic(document)?;
+        return Ok(StatedClaim { spec, witness, periodic, plant: Some(plant) });
+    }
     let Some(embedded) = document.at("/specification") else {
         return refused(root.error(ErrorKind::MissingField, "the field `specification` is missing"));
     };
@@ -43,6 +57,13 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
             None => {}
         }
     }
+    let periodic = stated_periodic(document)?;
+    Ok(StatedClaim { spec, witness, periodic, plant: None })
+}
+
+/// The stated bounds of the periodic solution.
+fn stated_periodic(document: &Document) -> Result<[f64; 4], SpecErrors> {
+    let root = document.root();
     let mut errors = Errors::new();
     let stated = ["x", "e", "zeta", "z"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
         Some(value) => bound(&value, &mut errors),
@@ -53,8 +74,7 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
     });
     let [x, e, zeta, z] = stated;
     let stated = x.and_then(|x| Ok([x, e?, zeta?, z?]));
-    let periodic = errors.conclude(document, stated)?;
-    Ok(StatedClaim { spec, witness, periodic })
+    errors.conclude(document, stated)
 }
 
 /// An upper end of the claim; `inf` where there is none.

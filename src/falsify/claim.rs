@@ -1,5 +1,6 @@
 //! What a certificate claims, as a simulation can check it.
 
+use super::frame::OwnPlant;
 use crate::certificate::{StatedClaim, read_claim};
 use crate::certify::{Derivation, GivenWitness};
 use crate::data::Data;
@@ -37,6 +38,8 @@ pub struct Claim {
     pub reach: [Rational; 2],
     /// What drives the periodic error, and E_p.
     drive: Option<(Excitation, Rational)>,
+    /// The plant that the claim is about, where it is about one; it is tried in the place of drawn ones.
+    pub own: Option<OwnPlant>,
 }
 
 impl Claim {
@@ -49,7 +52,9 @@ impl Claim {
     }
 
     fn new(stated: StatedClaim) -> Claim {
-        let StatedClaim { spec, witness, periodic: [x, e, zeta, z] } = stated;
+        let own = stated.plant.as_ref().zip(stated.spec.plant());
+        let own = own.and_then(|(plant, proved)| OwnPlant::new(plant.clone(), proved));
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, z], .. } = stated;
         let data = Data::new(&spec, DEFAULT_PRECISION);
         let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
         let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
@@ -85,7 +90,7 @@ impl Claim {
         let psi = Psi::new(&data, &excitation);
         let psi = [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()];
         let (sigma, drive) = (sigma.to_f64(), Some((excitation, e_p.clone())));
-        Claim { spec, derivation, sigma, initial, periodic, periodic_z: z, error_box, lyapunov, psi, reach, drive }
+        Claim { spec, derivation, sigma, initial, periodic, periodic_z: z, error_box, lyapunov, psi, reach, drive, own }
     }
 
     /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*, for a matched base frequency.
@@ -105,11 +110,24 @@ impl Claim {
     #[cfg(test)]
     pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> Claim {
         let reach = reach.map(|end| Rational::from_f64(end).unwrap());
-        let drive = None;
+        let (drive, own) = (None, None);
         let (initial, periodic, error_box) = ([0.0; 3], [0.0; 3], [0.0; 2]);
         let (periodic_z, lyapunov, psi) = (0.0, None, [0.0; 2]);
         let derivation = Derivation::Sharp;
-        Claim { spec, derivation, sigma: 1.0, initial, periodic, periodic_z, error_box, lyapunov, psi, reach, drive }
+        Claim {
+            spec,
+            derivation,
+            sigma: 1.0,
+            initial,
+            periodic,
+            periodic_z,
+            error_box,
+            lyapunov,
+            psi,
+            reach,
+            drive,
+            own,
+        }
     }
 }
 

@@ -16,9 +16,8 @@ pub fn counterexample_plant(
     trial: &Trial,
     violation: Option<&Violation>,
 ) -> Result<Document, SpecErrors> {
-    let (f, q) = trial.plant.family.texts();
+    let ((f, q), names) = (trial.plant.texts(), trial.plant.names());
     let states = f.len();
-    let names: Vec<String> = (1..=states).map(|i| format!("x{i}")).collect();
     let (x, rest) = trial.start.split_at(states);
     let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
     let found = violation.map_or_else(String::new, |violation| {

@@ -1,6 +1,7 @@
 //! What a trial is about, and what became of it.
 
 use super::draw::DrawnPlant;
+use crate::plant::Plant;
 
 /// Which trials, from which seed.
 #[derive(Clone, Copy, Debug)]
@@ -20,13 +21,42 @@ impl TrialSettings {
     }
 }
 
+/// The plant of a trial.
+#[derive(Clone, Debug)]
+pub enum TriedPlant {
+    /// Drawn within the families of a claim.
+    Drawn(DrawnPlant),
+    /// The plant that the claim is about.
+    Own(Box<Plant>),
+}
+
+impl TriedPlant {
+    /// The names of the states.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        match self {
+            TriedPlant::Drawn(plant) => (1..=plant.family.states()).map(|i| format!("x{i}")).collect(),
+            TriedPlant::Own(plant) => plant.names.states().to_vec(),
+        }
+    }
+
+    /// f and q as expressions.
+    #[must_use]
+    pub fn texts(&self) -> (Vec<String>, String) {
+        match self {
+            TriedPlant::Drawn(plant) => plant.family.texts(),
+            TriedPlant::Own(plant) => (plant.f.iter().map(ToString::to_string).collect(), plant.q.to_string()),
+        }
+    }
+}
+
 /// What a trial is about.
 #[derive(Clone, Debug)]
 pub struct Trial {
     /// Its number, from 1.
     pub number: u64,
     /// The plant.
-    pub plant: DrawnPlant,
+    pub plant: TriedPlant,
     /// sigma, a little above sigma*.
     pub sigma: f64,
     /// n_o.

@@ -42,8 +42,9 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
         }
     }
     let violated = outcome.findings.len() - held - unfinished.len();
+    let gains = if claim.own.is_some() { "of the plant itself at sigma* and above" } else { "at 1.000001 sigma*" };
     blocks.push(Block::says(format!(
-        "{} trials at 1.000001 sigma*, sigma* = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
+        "{} trials {gains}, sigma* = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
          does not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
          proof.",
         outcome.findings.len(),
@@ -83,11 +84,11 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
 /// The worst plant, and how to simulate it and the others again.
 fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     let Closest { quantity, share, trial, .. } = worst;
-    let (f, q) = trial.plant.family.texts();
+    let ((f, q), names) = (trial.plant.texts(), trial.plant.names());
     let (x, rest) = trial.start.split_at(f.len());
     let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
     let mut facts: Vec<(String, String)> =
-        f.into_iter().enumerate().map(|(i, text)| (format!("dx{}/dt", i + 1), text)).collect();
+        f.into_iter().zip(names).map(|(text, name)| (format!("d{name}/dt"), text)).collect();
     facts.push(("de/dt - u".to_owned(), q));
     facts.push(("start".to_owned(), format!("x = {x:?}, e = {e:?}, z = {z:?}")));
     vec![

@@ -2,8 +2,9 @@
 
 use super::claim::Claim;
 use super::counterexample::counterexample_plant;
-use super::draw::{DrawnPlant, draw};
-use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, Violation};
+use super::draw::draw;
+use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, TriedPlant, Violation};
+use super::frame::OwnPlant;
 use super::limits::SectorEnd;
 use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
@@ -24,7 +25,7 @@ const TRIED_N_O: [u32; 6] = [0, 1, 2, 3, 5, 8];
 /// Draws before a trial is given up.
 const DRAWS: usize = 30;
 /// How far above sigma* a trial is.
-const ABOVE: f64 = 1.0 + 1e-6;
+pub(super) const ABOVE: f64 = 1.0 + 1e-6;
 /// What a bound may be exceeded by before it counts: integration and rounding.
 const TOLERANCE: f64 = 1e-6;
 /// Periods from the initial condition that are compared with the periodic solution.
@@ -36,6 +37,7 @@ const SAMPLES: usize = 4096;
 /// state satisfies data that speak of one.
 #[must_use]
 pub fn falsify(claim: &Claim, settings: TrialSettings, progress: &dyn Progress) -> Falsification {
+    let no_plant = |data: &Data<'_>, reach| if claim.own.is_none() { no_plant(data, reach) } else { None };
     if let Some(reason) = no_plant(&Data::new(&claim.spec, DEFAULT_PRECISION), Some(&claim.reach)) {
         // A plant without x would show nothing about such data.
         let findings = settings.numbers().iter().map(|_| Finding::Unfinished(reason.to_string())).collect();
@@ -55,6 +57,9 @@ pub fn falsify(claim: &Claim, settings: TrialSettings, progress: &dyn Progress) 
 
 fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     let mut random = Random::new(seed, number);
+    if let Some(own) = &claim.own {
+        return run_own(claim, own, random, number);
+    }
     // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
     // and where none does the linear member is left.
     let linear = |end, random: &mut Random| linear_member(claim, end, random, &mut { MAX_OPERATIONS });
@@ -71,8 +76,8 @@ fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
-    let start = start(claim, &plant, &regulator, &mut random);
-    let trial = Trial { number, plant, sigma, n_o, start };
+    let start = boundary(claim, plant.family.states(), &regulator, &mut random);
+    let trial = Trial { number, plant: TriedPlant::Drawn(plant), sigma, n_o, start };
     let file = counterexample_plant(claim, &trial, None).and_then(|document| Plant::from_value(&document.root()));
     let file = match file {
         Ok(file) => file,
@@ -80,6 +85,20 @@ fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     };
     let closed_loop = ClosedLoop::new(&file, regulator);
     check(claim, trial, &closed_loop)
+}
+
+/// A trial of the plant that the claim is about.
+fn run_own(claim: &Claim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
+    let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
+    let sigma = claim.sigma * OwnPlant::gain(number);
+    let regulator = regulator(claim, sigma, n_o);
+    let n = own.plant.states();
+    let mut start = boundary(claim, n, &regulator, &mut random);
+    let x = own.state(&start[..n]);
+    start[..n].copy_from_slice(&x);
+    let closed_loop = ClosedLoop::new(&own.plant, regulator);
+    let plant = TriedPlant::Own(Box::new(own.plant.clone()));
+    check(claim, Trial { number, plant, sigma, n_o, start }, &closed_loop)
 }
 
 /// Why there is no plant to try.
@@ -100,10 +119,10 @@ fn regulator(claim: &Claim, sigma: f64, n_o: u32) -> Regulator {
     Regulator::new(sigma, model.mu.to_f64(), model.base_frequency.to_f64(), weights)
 }
 
-/// A point of the boundary: |x| = X0, |e| = E0, |z|_N = Z0.
-fn start(claim: &Claim, plant: &DrawnPlant, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
+/// A point of the boundary, for n states: |x| = X0, |e| = E0, |z|_N = Z0.
+fn boundary(claim: &Claim, n: usize, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
     let [x_0, e_0, z_0] = claim.initial;
-    let mut start: Vec<f64> = random.direction(plant.family.states()).iter().map(|part| x_0 * part.value()).collect();
+    let mut start: Vec<f64> = random.direction(n).iter().map(|part| x_0 * part.value()).collect();
     start.push(if random.chance(0.5) { e_0 } else { -e_0 });
     let mut z: Vec<f64> = (0..regulator.dimension()).map(|_| 2.0 * random.uniform() - 1.0).collect();
     let size = regulator.weighted_norm(&z);
@@ -183,7 +202,14 @@ fn check_orbit(
 ) {
     let n = closed_loop.states();
     let largest = |of: &dyn Fn(&[f64]) -> f64| orbit.samples.iter().fold(0.0_f64, |size, y| size.max(of(y)));
-    let x = largest(&|y| norm(&y[..n]));
+    let count = orbit.samples.len() as f64;
+    let x = match &claim.own {
+        None => largest(&|y| norm(&y[..n])),
+        Some(own) => {
+            let distances = orbit.samples.iter().enumerate().map(|(at, y)| own.distance(at as f64 / count, &y[..n]));
+            distances.fold(0.0, f64::max)
+        }
+    };
     let error = orbit.error();
     let e = sup(&error);
     let m = closed_loop.regulator.m();
@@ -233,7 +259,8 @@ fn check_approach(
         };
         for (at, (sample, point)) in samples.iter().zip(&orbit.samples).enumerate() {
             let difference: Vec<f64> = sample.iter().zip(point).map(|(a, b)| a - b).collect();
-            let (x, e) = (norm(&difference[..n]), difference[n]);
+            let own = |own: &OwnPlant| own.norm(&difference[..n]);
+            let (x, e) = (claim.own.as_ref().map_or_else(|| norm(&difference[..n]), own), difference[n]);
             away = [away[0].max(x), away[1].max(e.abs())];
             if let Some([low, up, h]) = claim.lyapunov {
                 let zeta: Vec<f64> = difference[n + 1..].iter().zip(&m).map(|(z, m)| z - m * e).collect();
@@ -280,8 +307,8 @@ mod tests {
         let mut random = Random::new(3, 4);
         let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).unwrap();
         let regulator = regulator(&claim, claim.sigma, 3);
-        let start = start(&claim, &plant, &regulator, &mut random);
         let n = plant.family.states();
+        let start = boundary(&claim, n, &regulator, &mut random);
         assert!((norm(&start[..n]) - 2.0).abs() < 1e-5 && start[n].abs() == 0.5);
         assert!((regulator.weighted_norm(&start[n + 1..]) - 7.0).abs() < 1e-12);
         assert_eq!(start.len(), n + 1 + 7);
