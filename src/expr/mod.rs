@@ -7,18 +7,21 @@
 //! for every base if n >= 0 (`0^0 = 1`) and for nonzero bases if n < 0; every other `u^v` is the real power, defined
 //! for u > 0, and for u = 0 with v > 0 where it is 0. On that set every expression is continuous.
 //!
-//! The same grammar serves the right sides of a plant ([`PlantExpr`], in t, the states and e), which are only ever
-//! evaluated in double precision, by a [`Program`]; the two kinds of expressions are different types.
+//! The same grammar serves the right sides of a plant ([`PlantExpr`], in t, the states and e); the two kinds of
+//! expressions are different types. [`Formulas`] hold right sides and their derivatives exactly; a [`Walk`] evaluates them in
+//! any algebra, a [`Program`] in doubles.
 //!
 //! Expressions come from strangers' files. Every limit that keeps them harmless is a public constant here; parsing
 //! and evaluation take time and memory linear in the number of nodes, apart from the arithmetic itself.
 
 mod coefficients;
 mod enclose;
+mod enclosing;
 mod error;
 mod exact;
 mod failure;
 mod float;
+mod formulas;
 mod graph;
 mod growth;
 mod jet;
@@ -35,16 +38,21 @@ mod refute;
 mod slope;
 mod syntax;
 mod trigonometric;
+mod walk;
 
+pub use enclosing::{Enclosing, enclosed_step};
 pub use error::{ExprError, ExprErrorKind};
 pub use failure::{BoundingFailure, Counterexample, DomainBox, Evaluation, Property, Reason};
 pub use float::FloatExpr;
+pub use formulas::{Demand, Formula, Formulas, Operations};
 pub use monomial::Monomial;
 pub use plant::{MAX_STATES, NameError, PlantExpr, PlantNames, PlantVariable};
 pub use program::{Evaluator, Program};
 pub use prove::{ProofSettings, prove_bounding};
 pub use slope::Slopes;
+pub use syntax::{Binary, Unary};
 pub use trigonometric::{MAX_HARMONIC, NotTrigonometric, TrigonometricPolynomial};
+pub use walk::{Memory, VariableSet, Walk};
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};

@@ -1,6 +1,7 @@
 //! Flat evaluation of a plant's right sides in double precision.
 
 use super::float::{binary, unary};
+use super::formulas::{Formula, Formulas};
 use super::graph::{Graph, Id, Term, operands, reachable, step};
 use super::syntax::{Binary, Unary};
 use super::{PlantExpr, PlantVariable};
@@ -72,22 +73,31 @@ impl Program {
     /// The values of some expressions of a plant with `states` states, in their order.
     #[must_use]
     pub fn values(outputs: &[&PlantExpr], states: usize) -> Program {
-        let mut graph = Graph::default();
-        let outputs: Vec<Id> = outputs.iter().map(|output| graph.insert(output)).collect();
-        Program::compile(&graph, &outputs, states)
+        let mut formulas = Formulas::new();
+        let outputs: Vec<Formula> = outputs.iter().map(|output| formulas.insert(output)).collect();
+        Program::of_formulas(&formulas, &outputs, states)
     }
 
     /// The values, followed by the derivatives of all expressions with respect to the first state, the second, ...,
     /// and e: `(1 + states + 1)` blocks.
     #[must_use]
     pub fn with_derivatives(outputs: &[&PlantExpr], states: usize) -> Program {
-        let mut graph = Graph::default();
-        let values: Vec<Id> = outputs.iter().map(|output| graph.insert(output)).collect();
+        let mut formulas = Formulas::new();
+        let values: Vec<Formula> = outputs.iter().map(|output| formulas.insert(output)).collect();
         let mut all = values.clone();
         for variable in (0..states).map(PlantVariable::State).chain([PlantVariable::Error]) {
-            all.extend(graph.derivatives(&values, variable));
+            all.extend(formulas.derivatives(&values, variable));
         }
-        Program::compile(&graph, &all, states)
+        Program::of_formulas(&formulas, &all, states)
+    }
+
+    /// The values of some formulas of a plant with `states` states, in their order. Where min, max or abs have a corner, a
+    /// derivative is that of one side.
+    #[must_use]
+    pub fn of_formulas(formulas: &Formulas, outputs: &[Formula], states: usize) -> Program {
+        let mut graph = Graph::default();
+        let outputs = formulas.walk(outputs).evaluate(&mut graph);
+        Program::compile(&graph, &outputs, states)
     }
 
     fn compile(graph: &Graph, outputs: &[Id], states: usize) -> Program {

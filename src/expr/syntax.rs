@@ -32,29 +32,45 @@ pub(super) enum NodeKind<V = Argument> {
 
 /// Operations on one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Unary {
+pub enum Unary {
+    /// The opposite.
     Neg,
+    /// The square root.
     Sqrt,
+    /// The exponential.
     Exp,
+    /// The natural logarithm.
     Log,
+    /// The sine.
     Sin,
+    /// The cosine.
     Cos,
+    /// The tangent.
     Tan,
+    /// The arc tangent.
     Atan,
+    /// The hyperbolic tangent.
     Tanh,
+    /// The absolute value.
     Abs,
 }
 
 /// Operations on two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Binary {
+pub enum Binary {
+    /// The sum.
     Add,
+    /// The difference.
     Sub,
+    /// The product.
     Mul,
+    /// The quotient.
     Div,
     /// The real power.
     Pow,
+    /// The smaller one.
     Min,
+    /// The larger one.
     Max,
 }
 

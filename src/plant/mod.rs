@@ -8,7 +8,7 @@ mod read;
 
 pub use read::{FORMAT, VERSIONS};
 
-use crate::expr::{PlantExpr, PlantNames, Program};
+use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, Program};
 use crate::spec::{Constant, InternalModel};
 
 /// A plant as read from its file.
@@ -53,6 +53,14 @@ impl Plant {
     /// f and then q.
     fn right_sides(&self) -> Vec<&PlantExpr> {
         self.f.iter().chain([&self.q]).collect()
+    }
+
+    /// f and then q as exact formulas: n + 1 of them.
+    #[must_use]
+    pub fn formulas(&self) -> (Formulas, Vec<Formula>) {
+        let mut formulas = Formulas::new();
+        let all = self.right_sides().into_iter().map(|expr| formulas.insert(expr)).collect();
+        (formulas, all)
     }
 
     /// f and q compiled: n + 1 outputs.

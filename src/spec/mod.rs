@@ -33,7 +33,7 @@ pub use jacobian::MAX_STATES;
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use model::{
     Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
-    RelativeDegree, Specification,
+    RelativeDegree, Specification, TrigonometricVector,
 };
 pub use object::{MAX_UNKNOWN, Object};
 pub use power_tail::power_tail;

@@ -193,6 +193,15 @@ pub struct PeriodicMatrix {
     pub harmonics: Vec<[Vec<Vec<Rational>>; 2]>,
 }
 
+/// `mean + sum_k (cos_k cos(k w t) + sin_k sin(k w t))` with exact vectors, w = 2 pi / period.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TrigonometricVector {
+    /// The mean.
+    pub mean: Vec<Rational>,
+    /// (cos_k, sin_k) for k = 1, 2, ...; empty for a constant vector.
+    pub harmonics: Vec<[Vec<Rational>; 2]>,
+}
+
 /// The box |x| <= X, |e| <= E on which the bounding functions hold; both positive.
 #[derive(Clone, Debug)]
 pub struct Domain {
