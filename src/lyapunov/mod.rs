@@ -16,4 +16,4 @@ pub use candidates::{
     Candidate, Candidates, LyapunovFailure, MAX_PROGRAM_COST, candidates, candidates_of, floquet_exponents,
 };
 pub use family::{Deviation, Family};
-pub use prove::{NotProved, ProvedTriple, ProvedTriples, prove};
+pub use prove::{NotProved, ProvedTriple, ProvedTriples, prove, prove_bounds};

@@ -223,7 +223,8 @@ fn periodic(
     while series.harmonics.last().is_some_and(|pair| pair.iter().flatten().all(|c| c.abs() <= NEGLIGIBLE * size)) {
         series.harmonics.pop();
     }
-    let number = |value: f64| Rational::from_f64(value).map(|value| Enclosure::from_rational(&value, DEFAULT_PRECISION));
+    let number =
+        |value: f64| Rational::from_f64(value).map(|value| Enclosure::from_rational(&value, DEFAULT_PRECISION));
     let entry = |i: usize, j: usize| -> Option<TrigonometricPolynomial> {
         // Column by column.
         let at = |values: &Vec<f64>| number(values[j * n + i]);
@@ -238,7 +239,10 @@ fn periodic(
     let family = Family { frequency, centre, deviation: Deviation::Vertices(vec![Vec::new()]) };
     let Ok(candidates) = candidates_of(family) else { return Vec::new() };
     let periodic = candidates.found.iter().filter(|candidate| !candidate.matrix.harmonics.is_empty());
-    periodic.take(MAX_PERIODIC).filter_map(|candidate| in_coordinates(&candidate.matrix, candidate.alpha, scale)).collect()
+    periodic
+        .take(MAX_PERIODIC)
+        .filter_map(|candidate| in_coordinates(&candidate.matrix, candidate.alpha, scale))
+        .collect()
 }
 
 /// A P(t) in coordinates in which its mean is nearly the identity.

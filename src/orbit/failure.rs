@@ -73,9 +73,19 @@ pub enum OrbitNotProved {
         /// The least radius that it allows.
         radius: f64,
     },
+    /// The bound of the defect is larger than the stated one.
+    #[error("|L^-1 (f(t,xb,0) - xb')| <= {} is not proved; what is proved is {}", short(*stated), short(*found))]
+    Defect {
+        /// The bound that was found.
+        found: f64,
+        /// eps.
+        stated: f64,
+    },
     /// The rate is not proved.
-    #[error("no rate alpha > 0 is proved in the tube |v| <= {}: {reason}", short(*tube))]
+    #[error("the rate {} is not proved in the tube |v| <= {}: {reason}", short(*alpha), short(*tube))]
     Rate {
+        /// alpha.
+        alpha: f64,
         /// The tube.
         tube: f64,
         /// In words.

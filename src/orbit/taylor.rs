@@ -143,8 +143,8 @@ impl Expansion {
     /// An upper bound of |dg/dd| on the cell; per time it is 1/T of that. The rest of g' is, again by Lagrange's form for g',
     /// of order N - 1 with the coefficient N R'.
     pub(super) fn slope_bound(&self, half: &Enclosure) -> Enclosure {
-        let slopes = self.polynomial.iter().zip(0_i64..).skip(1).map(|(c, j)| c.abs() * j);
-        horner(slopes, self.rest.abs() * self.order as i64, self.order - 1, half)
+        let slopes: Taylor = self.polynomial.iter().zip(0_i64..).skip(1).map(|(c, j)| c.abs() * j).collect();
+        horner(slopes.into_iter(), self.rest.abs() * self.order as i64, self.order - 1, half)
     }
 }
 
@@ -215,11 +215,9 @@ mod tests {
                     assert!(over.lower() <= coefficient.upper() && coefficient.lower() <= over.upper(), "{text} {j}");
                 }
                 let power = Enclosure::from_rational(&d, 128);
-                let terms = expansion.polynomial.iter().chain([&expansion.rest]);
-                let (sum, _) = terms.enumerate().fold((zero.clone(), ()), |(sum, ()), (j, c)| {
-                    let exponent = if j < expansion.polynomial.len() { j } else { order };
-                    (sum + c * power.pow_integer(&exponent.into()), ())
-                });
+                let rest = &expansion.rest * power.pow_integer(&order.into());
+                let terms = expansion.polynomial.iter().enumerate();
+                let sum = terms.fold(rest, |sum, (j, c)| sum + c * power.pow_integer(&j.into()));
                 assert!(sum.lower() <= at[0].upper() && at[0].lower() <= sum.upper(), "{text} {d}");
                 assert!((sum.upper().clone() - sum.lower()) < 1e-9, "{text}: {sum:?}");
                 let half = Enclosure::from_rational(&half, 128);
@@ -234,8 +232,19 @@ mod tests {
     fn what_is_not_smooth_is_undefined() {
         let cell = Enclosure::between(&Rational::from((-1, 8)), &Rational::from((1, 8)), 128);
         for text in [
-            "1/t", "sqrt(t)", "log(t)", "abs(t)", "max(t, 0)", "min(x, 2 + t)", "t^(1/2)", "tan(pi/2 + t)", "t^-2",
-            "0*abs(t)", "max(x, sqrt(t))", "sqrt(0)", "abs(0)",
+            "1/t",
+            "sqrt(t)",
+            "log(t)",
+            "abs(t)",
+            "max(t, 0)",
+            "min(x, 2 + t)",
+            "t^(1/2)",
+            "tan(pi/2 + t)",
+            "t^-2",
+            "0*abs(t)",
+            "max(x, sqrt(t))",
+            "sqrt(0)",
+            "abs(0)",
         ] {
             let value = taylor(text, &cell, 6);
             assert!(!Expansion::new(&value, &value, 6, 128).bound(&Enclosure::one(128)).is_defined(), "{text}");

@@ -76,3 +76,36 @@ fn plants_without_a_stable_orbit_are_answered_with_exponents() {
     let orbit = find_orbit(&plant("1", &["x"], &["x - x^3 + cos(2*pi*t)/10"], "x")).unwrap();
     assert!(orbit.series.mean[0].abs() > 0.9 && orbit.floquet[0][0] < -1.9);
 }
+
+/// Everything for a plant: the curve, the coordinates of the largest rate, the proof.
+fn proved(plant: &Plant) -> (Coordinates, ProvedOrbit) {
+    let found = find_orbit(plant).unwrap();
+    let orbit = round_orbit(plant, &found).unwrap();
+    let coordinates = propose_coordinates(plant, &found, 0.0, 0.0).unwrap().remove(0);
+    let proof = prove_orbit(plant, &orbit, &coordinates).unwrap_or_else(|failure| panic!("{failure}"));
+    (coordinates, proof)
+}
+
+#[test]
+fn the_orbit_of_the_paper_is_proved() {
+    let plant = paper();
+    let clock = std::time::Instant::now();
+    let found = find_orbit(&plant).unwrap();
+    println!("found {:?} K {} defect {}", clock.elapsed(), found.series.harmonics.len(), found.defect);
+    let clock = std::time::Instant::now();
+    let orbit = round_orbit(&plant, &found).unwrap();
+    println!("rounded {:?} K {}", clock.elapsed(), orbit.harmonics.len());
+    let clock = std::time::Instant::now();
+    let candidates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap();
+    println!("coordinates {:?}", clock.elapsed());
+    for candidate in &candidates {
+        println!("{} {:?} {}", candidate.rate, candidate.l, candidate.p.harmonics.len());
+    }
+    let clock = std::time::Instant::now();
+    let proof = prove_orbit(&plant, &orbit, &candidates[0]).unwrap();
+    println!("proved {:?} {proof:?}", clock.elapsed());
+    let clock = std::time::Instant::now();
+    decide_orbit(&plant, &candidates[0], &proof).unwrap();
+    println!("decided {:?}", clock.elapsed());
+    assert!(proof.radius <= 1e-8);
+}
