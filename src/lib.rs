@@ -81,6 +81,8 @@ pub mod matrix;
 #[doc(hidden)]
 pub mod number;
 #[doc(hidden)]
+pub mod orbit;
+#[doc(hidden)]
 pub mod plant;
 #[doc(hidden)]
 pub mod plot;

@@ -148,7 +148,14 @@ const ROOM: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-2];
 /// # Errors
 /// Nothing was found; nothing is claimed about there being nothing.
 pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, LyapunovFailure> {
-    let family = Family::new(jacobian, period, DEFAULT_PRECISION).ok_or(LyapunovFailure::NotFinite)?;
+    candidates_of(Family::new(jacobian, period, DEFAULT_PRECISION).ok_or(LyapunovFailure::NotFinite)?)
+}
+
+/// Candidates for a family of matrices, in the same way.
+///
+/// # Errors
+/// Those of [`candidates`].
+pub fn candidates_of(family: Family) -> Result<Candidates, LyapunovFailure> {
     let float = FloatFamily::new(&family);
     // Steps in time are counted by the norm.
     if !float.size.is_finite() {

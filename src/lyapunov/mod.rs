@@ -12,6 +12,8 @@ mod float;
 mod propose;
 mod prove;
 
-pub use candidates::{Candidate, Candidates, LyapunovFailure, MAX_PROGRAM_COST, candidates, floquet_exponents};
+pub use candidates::{
+    Candidate, Candidates, LyapunovFailure, MAX_PROGRAM_COST, candidates, candidates_of, floquet_exponents,
+};
 pub use family::{Deviation, Family};
-pub use prove::{NotProved, ProvedTriple, ProvedTriples, prove};
+pub use prove::{NotProved, ProvedTriple, ProvedTriples, prove, prove_bounds};

@@ -109,28 +109,8 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
     }
     let precision = family.frequency.precision();
     let rational = |value: &Rational| Enclosure::from_rational(value, precision);
-    let p: Vec<Vec<TrigonometricPolynomial>> = (0..order)
-        .map(|i| {
-            (0..order)
-                .map(|j| TrigonometricPolynomial {
-                    mean: rational(&matrix.mean[i][j]),
-                    harmonics: matrix.harmonics.iter().map(|[a, b]| [rational(&a[i][j]), rational(&b[i][j])]).collect(),
-                })
-                .collect()
-        })
-        .collect();
-    // Symmetric, so entry (i, j) with j <= i is asked for.
-    let shifted = |scale: i64, shift: &Rational| {
-        Symmetric::from_fn(order, |j, i| {
-            let mut entry = p[i][j].scaled(&Enclosure::from_integer(scale, precision));
-            if i == j {
-                entry.mean = entry.mean + rational(shift);
-            }
-            entry
-        })
-    };
-    shifted(1, &Rational::from(-p_low)).is_positive_definite("p_low I <= P", 1)?;
-    shifted(-1, p_up).is_positive_definite("P <= p_up I", 1)?;
+    let p = entries(matrix, precision);
+    prove_bounds(matrix, p_low, p_up, precision)?;
     let twice_alpha = rational(alpha) * 2;
     let centre = Symmetric::from_fn(order, |j, i| {
         let mut sum = p[i][j].derivative().scaled(&family.frequency).plus(&p[i][j].scaled(&twice_alpha), 1);
@@ -169,6 +149,42 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
             at_worst.is_positive_definite(DECAY, 1)
         }
     }
+}
+
+/// The entries of a matrix, row by row.
+fn entries(matrix: &PeriodicMatrix, precision: u32) -> Vec<Vec<TrigonometricPolynomial>> {
+    let rational = |value: &Rational| Enclosure::from_rational(value, precision);
+    let entry = |i: usize, j: usize| TrigonometricPolynomial {
+        mean: rational(&matrix.mean[i][j]),
+        harmonics: matrix.harmonics.iter().map(|[a, b]| [rational(&a[i][j]), rational(&b[i][j])]).collect(),
+    };
+    let order = matrix.mean.len();
+    (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect()
+}
+
+/// Proves `p_low I <= P(t) <= p_up I` for every t; all parts of P are symmetric and of one order, at least 1.
+///
+/// # Errors
+/// The inequality that is not proved; this says nothing about its truth.
+pub fn prove_bounds(
+    matrix: &PeriodicMatrix,
+    p_low: &Rational,
+    p_up: &Rational,
+    precision: u32,
+) -> Result<(), NotProved> {
+    let p = entries(matrix, precision);
+    // Symmetric, so entry (i, j) with j <= i is asked for.
+    let shifted = |scale: i64, shift: &Rational| {
+        Symmetric::from_fn(p.len(), |j, i| {
+            let mut entry = p[i][j].scaled(&Enclosure::from_integer(scale, precision));
+            if i == j {
+                entry.mean = entry.mean + Enclosure::from_rational(shift, precision);
+            }
+            entry
+        })
+    };
+    shifted(1, &Rational::from(-p_low)).is_positive_definite("p_low I <= P", 1)?;
+    shifted(-1, p_up).is_positive_definite("P <= p_up I", 1)
 }
 
 /// A symmetric matrix of trigonometric polynomials in the angle.

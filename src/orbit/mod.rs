@@ -1,0 +1,31 @@
+//! The T-periodic solution x_0(t) of x' = f(t, x, 0): found in floating point, proved; the harmonics of q(t, x_0, 0); and
+//! coordinates in which the zero dynamics contract (derivation, 11.2, 11.4, 11.5).
+
+mod cells;
+mod collocation;
+mod coordinates;
+mod curve;
+mod defect;
+mod failure;
+mod field;
+mod find;
+mod floquet;
+mod linear;
+mod prove;
+mod rate;
+mod recurrences;
+mod round;
+mod sampled;
+mod series;
+mod shape;
+mod taylor;
+#[cfg(test)]
+mod tests;
+
+pub use coordinates::{Coordinates, propose_coordinates};
+pub use failure::{OrbitFailure, OrbitNotProved};
+pub use find::{FloatOrbit, find_orbit};
+pub use linear::inverse;
+pub use prove::{ProvedOrbit, decide_orbit, prove_orbit};
+pub use round::round_orbit;
+pub use series::FloatSeries;
