@@ -4,13 +4,16 @@ use super::args::{CertifyArgs, Format};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::progress::{Audience, Working};
+use super::subject::{Subject, seeking_triple};
 use super::{input, output};
-use sigmastar::certificate::{certificate_json, read_lyapunov, read_witness};
-use sigmastar::certify::{Certification, certify, recheck, with_triple};
+use sigmastar::certificate::{certificate_json, read_lyapunov, read_plant_witness, read_witness};
+use sigmastar::certify::{Certification, Derivation, Options, certify_near, recheck, with_triple};
 use sigmastar::derivation::targets::TargetKind;
+use sigmastar::plant::Plant;
+use sigmastar::reduction::decide_again;
 use sigmastar::report::Report;
+use sigmastar::search::SharpProposal;
 use sigmastar::spec::{Document, SpecErrors, Specification};
-use std::borrow::Cow;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &CertifyArgs) -> u8 {
@@ -34,17 +37,18 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         let message = "the specification and the witness cannot be the same file";
         return Err(Failure::call(message, "--witness names a certificate written with -o"));
     }
-    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let subject = Subject::read(&input::document(&args.spec)?)?;
     let witness = args.witness.as_deref().map(input::document).transpose()?;
-    let spec = triple(&spec, witness.as_ref(), args.quiet)?;
+    let (spec, start) = data(subject, witness.as_ref(), &args.options(), args.quiet)?;
 
     let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
     let working = Working::new("searching the free numbers, deciding the conditions", audience);
     let run = match &witness {
-        None => certify(&spec, args.options()),
+        None => certify_near(&spec, args.options(), start.as_ref()),
         Some(document) => {
             let witness = read_witness(document)?;
-            let made_for = document.at("/specification_sha256");
+            let digest = if spec.plant().is_some() { "/plant_sha256" } else { "/specification_sha256" };
+            let made_for = document.at(digest);
             if made_for.is_some_and(|digest| digest.text() != Some(&spec.sha256)) && !args.quiet {
                 output::remark("the certificate was made for another specification; its witness is tried on this one");
             }
@@ -68,22 +72,37 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     Ok(run.verdict.exit_code())
 }
 
-/// The specification with a proved triple: where it has a Jacobian, that of the witness, or one that is found.
-pub(super) fn triple<'s>(
-    spec: &'s Specification,
+/// The specification with proved data: those of the witness, proved again, or those that are found.
+fn data(
+    subject: Subject,
     witness: Option<&Document>,
+    options: &Options,
     quiet: bool,
-) -> Result<Cow<'s, Specification>, Failure> {
-    let wanted = spec.lyapunov.triple().is_none();
-    let _working = wanted.then(|| seeking_triple(quiet));
-    let given = witness.filter(|_| wanted).map(read_lyapunov).transpose()?;
-    with_triple(spec, given.as_ref()).map_err(|refusal| Failure::Documents(refusal.errors(spec)))
+) -> Result<(Specification, Option<SharpProposal>), Failure> {
+    match (subject, witness) {
+        (Subject::Plant(_), _) if options.derivation != Derivation::Sharp => Err(Failure::call(
+            format!(
+                "the derivation `{}` needs bounding functions that a plant does not give",
+                options.derivation.name()
+            ),
+            "leave --derivation out, or give a bounding specification",
+        )),
+        (Subject::Plant(plant), Some(document)) => Ok((proved_again(&plant, document)?, None)),
+        (Subject::Specification(spec), Some(document)) => {
+            let wanted = spec.lyapunov.triple().is_none();
+            let _working = wanted.then(|| seeking_triple(quiet));
+            let given = wanted.then(|| read_lyapunov(document)).transpose()?;
+            let proved = with_triple(&spec, given.as_ref());
+            Ok((proved.map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?.into_owned(), None))
+        }
+        (subject, None) => subject.into_data(quiet),
+    }
 }
 
-/// Says that a triple is sought, where that takes long.
-pub(super) fn seeking_triple(quiet: bool) -> Working {
-    let audience = if quiet { Audience::Nobody } else { Audience::Everywhere };
-    Working::new("finding and proving the Lyapunov triple of the Jacobian", audience)
+/// The data that the witness of a certificate says of a plant, proved again.
+fn proved_again(plant: &Plant, document: &Document) -> Result<Specification, Failure> {
+    let (_, of_plant, values) = read_plant_witness(document)?;
+    decide_again(plant, of_plant, values).map_err(|refusal| Failure::Documents(refusal.errors(plant)))
 }
 
 /// Writes the certificate, or says why there is none.

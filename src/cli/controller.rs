@@ -5,13 +5,14 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile, write_together};
 use super::input;
 use super::output::{self, shown};
+use super::subject::Subject;
 use sigmastar::certificate::read_witness;
 use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar::number::write_exact;
 use sigmastar::regulator::export::{self, CSources, Export};
 use sigmastar::regulator::{Design, Discrete, Regulator, SampledLoop};
 use sigmastar::report::document::clean;
-use sigmastar::spec::{Constant, Document, Specification};
+use sigmastar::spec::{Constant, Document};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
@@ -30,9 +31,9 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let sigma = input::positive("--sigma", &args.sigma)?;
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
     let certificate = args.certificate.as_deref().map(input::document).transpose()?;
-    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let subject = Subject::read(&input::document(&args.spec)?)?;
 
-    let design = Design::new(&spec.internal_model, &sigma, args.n_o);
+    let design = Design::new(subject.internal_model(), &sigma, args.n_o);
     let regulator = design.regulator();
     if let Some(step) = &step {
         design.check_sampling(step).map_err(|error| Failure::call(error.to_string(), error.way_out()))?;
@@ -55,13 +56,13 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
         }
     };
     if let Some(document) = &certificate {
-        compare(document, &spec, &sigma)?;
+        compare(document, &subject, &sigma)?;
     }
     if let Some((discrete, sampled)) = &discrete {
         remarks(&regulator, discrete, *sampled);
     }
     let discrete = discrete.as_ref().map(|(discrete, sampled)| (discrete, *sampled));
-    let export = Export { name: &clean(&spec.name), regulator: &regulator, discrete };
+    let export = Export { name: &clean(subject.name()), regulator: &regulator, discrete };
     let text = match args.format {
         RegulatorForm::Json => output::json_text(&export::json(&export)),
         RegulatorForm::Matlab => export::matlab(&export),
@@ -125,12 +126,15 @@ fn remarks(regulator: &Regulator, discrete: &Discrete, sampled: SampledLoop) {
 }
 
 /// Says where the certificate does not speak of this regulator.
-fn compare(document: &Document, spec: &Specification, sigma: &Constant) -> Result<(), Failure> {
+fn compare(document: &Document, subject: &Subject, sigma: &Constant) -> Result<(), Failure> {
     let witness = read_witness(document)?;
     let sigma_star = witness.sigma();
-    let digest = document.at("/specification_sha256");
-    if digest.is_none_or(|digest| digest.text() != Some(&spec.sha256)) {
-        output::remark("the certificate was made for another specification: it says nothing about this regulator");
+    let (digest, what) = match subject {
+        Subject::Specification(_) => ("/specification_sha256", "specification"),
+        Subject::Plant(_) => ("/plant_sha256", "plant"),
+    };
+    if document.at(digest).is_none_or(|digest| digest.text() != Some(subject.sha256())) {
+        output::remark(&format!("the certificate was made for another {what}: it says nothing about this regulator"));
     }
     let sigma = sigma.enclose(DEFAULT_PRECISION);
     if !sigma.ge(&Enclosure::from_rational(sigma_star, DEFAULT_PRECISION)).is_true() {

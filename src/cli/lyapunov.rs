@@ -1,8 +1,8 @@
 //! `sigmastar lyapunov`.
 
 use super::args::LyapunovArgs;
-use super::certify::seeking_triple;
 use super::failure::Failure;
+use super::subject::seeking_triple;
 use super::{input, output};
 use sigmastar::certify::{Refusal, resolve};
 use sigmastar::report::LyapunovReport;

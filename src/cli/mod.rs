@@ -17,6 +17,7 @@ mod progress;
 mod rate;
 mod reproduce;
 mod simulate;
+mod subject;
 mod temporary;
 mod transfer;
 

@@ -1,15 +1,14 @@
 //! `sigmastar rate`.
 
 use super::args::RateArgs;
-use super::certify::triple;
 use super::counts::finite_counts;
 use super::failure::Failure;
+use super::subject::Subject;
 use super::{input, output};
-use sigmastar::certify::{Options, Verdict, certify};
+use sigmastar::certify::{Options, Verdict, certify_near};
 use sigmastar::number::write_exact;
 use sigmastar::rate::{MAX_OSCILLATORS, NoRates, certified_rates};
 use sigmastar::report::RateReport;
-use sigmastar::spec::Specification;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &RateArgs) -> u8 {
@@ -18,15 +17,15 @@ pub fn run(args: &RateArgs) -> u8 {
 
 fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     let n_o = finite_counts(&args.n_o, MAX_OSCILLATORS)?;
-    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let subject = Subject::read(&input::document(&args.spec)?)?;
     let sigma = args.sigma.as_ref().map(|text| input::positive("--sigma", text)).transpose()?;
     let sigma = sigma.map(|sigma| {
         let help = "write it as a decimal or a fraction";
         sigma.as_rational().cloned().ok_or_else(|| Failure::call("--sigma is not a rational number", help))
     });
     let sigma = sigma.transpose()?;
-    let spec = triple(&spec, None, false)?;
-    let run = certify(&spec, Options { compare: false, ..Options::default() })
+    let (spec, start) = subject.into_data(false)?;
+    let run = certify_near(&spec, Options { compare: false, ..Options::default() }, start.as_ref())
         .map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
     let (sigma, found) = match certified_rates(&run, sigma, &n_o) {
         Ok(found) => found,

@@ -6,7 +6,8 @@ mod read;
 pub use read::{FORMAT, VERSIONS};
 
 use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, Program};
-use crate::spec::{Constant, Document, Domain, InitialSet, InternalModel};
+use crate::spec::{Constant, Document, Domain, ErrorKind, InitialSet, InternalModel, SpecErrors};
+use std::ops::Range;
 
 /// A plant as read from its file.
 #[derive(Clone, Debug)]
@@ -59,6 +60,20 @@ impl Plant {
     #[must_use]
     pub fn states(&self) -> usize {
         self.f.len()
+    }
+
+    /// Errors found after reading, in a string of the plant: `field` is its pointer inside the plant (`/f/0`), `part` the
+    /// bytes of the decoded text at fault.
+    #[must_use]
+    pub fn errors_at(
+        &self,
+        field: &str,
+        part: &Range<usize>,
+        kind: ErrorKind,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SpecErrors {
+        self.source.errors_at(&format!("{}{field}", self.pointer), part, kind, message, help)
     }
 
     /// f and then q.

@@ -24,6 +24,9 @@ pub type Sampler<'a> = dyn Fn(&DMatrix<f64>, Density) -> Arc<Source> + Sync + 'a
 /// What depends on the coordinates beside the bounds: the initial set and the domain.
 pub type Frame<'a> = dyn Fn(&DMatrix<f64>, &FloatModel) -> FloatModel + Sync + 'a;
 
+/// Ordinary sizes of |y| and |e|.
+pub type Units<'a> = dyn Fn(&DMatrix<f64>) -> [f64; 2] + Sync + 'a;
+
 /// The ratio of neighbouring nodes of a coarse grid.
 const COARSE: f64 = 1.6;
 
@@ -46,9 +49,11 @@ pub struct CoordinateSearch<'a> {
     /// The bounds.
     pub sampler: &'a Sampler<'a>,
     /// The rest.
-    pub frame: &'a Frame<'a>,
+    pub frame: Box<Frame<'a>>,
     /// Ordinary sizes of |y| and |e| where L is a given matrix.
-    pub units: &'a (dyn Fn(&DMatrix<f64>) -> [f64; 2] + Sync),
+    pub units: Box<Units<'a>>,
+    /// P_up/P_low of the P in the coordinates y.
+    pub ratio: f64,
 }
 
 /// Coordinates, the model in them, and the smallest gain that was found.
@@ -72,7 +77,7 @@ impl CoordinateSearch<'_> {
         let source = (self.sampler)(l, density);
         let alpha = source(0.0, 0.0)[super::grid::RATE];
         let grid = Grid::new(source, (self.units)(l), ratio);
-        (self.frame)(l, &self.base.with_bounds(grid.functions()).with_triple(1.0, alpha))
+        (self.frame)(l, &self.base.with_bounds(grid.functions()).with_triple(self.ratio, alpha))
     }
 
     /// The best of the candidates, improved by a local search.

@@ -1,9 +1,17 @@
 //! From a plant's formulas to a specification whose data are proved (derivation, 11).
+//!
+//! [`reduce`] finds the orbit and coordinates, searches for a gain over sampled bounds, and proves the bounds at the arguments
+//! that the conditions will use. What it returns goes through `certify` as any specification does. [`decide_again`] proves
+//! what a certificate says of a plant.
 
 mod coordinates;
+mod entries;
 mod grid;
+mod reduce;
+mod refusal;
+mod sampling;
 mod specification;
 
-pub use coordinates::{Chosen, CoordinateSearch, Density, Frame, Sampler};
-pub use grid::{Grid, KINDS, Source, Values};
+pub use reduce::{Reduced, decide_again, reduce};
+pub use refusal::{MAX_STATES, PlantRefusal};
 pub use specification::specification;

@@ -156,6 +156,22 @@ impl Document {
     pub(super) fn source(&self) -> &Arc<Source> {
         &self.source
     }
+
+    /// An error that is found after reading, in the string at a pointer; `part` are the bytes of the decoded text at fault.
+    #[must_use]
+    pub fn errors_at(
+        &self,
+        pointer: &str,
+        part: &Range<usize>,
+        kind: ErrorKind,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SpecErrors {
+        let value = self.at(pointer).unwrap_or_else(|| self.root());
+        let mut error = value.error_in(kind, part, message);
+        error.help = help;
+        SpecErrors::single(self.source.clone(), error)
+    }
 }
 
 fn source(label: &str, text: &str) -> Arc<Source> {

@@ -75,11 +75,7 @@ impl Specification {
         message: impl Into<String>,
         help: Option<String>,
     ) -> SpecErrors {
-        let pointer = format!("{}{field}", self.pointer);
-        let value = self.source.at(&pointer).unwrap_or_else(|| self.source.root());
-        let mut error = value.error_in(kind, part, message);
-        error.help = help;
-        SpecErrors::single(self.source.source().clone(), error)
+        self.source.errors_at(&format!("{}{field}", self.pointer), part, kind, message, help)
     }
 }
 

@@ -1,0 +1,101 @@
+//! The arguments at which the sharp derivation uses a bound, and the proof of each value.
+
+use super::refusal::PlantRefusal;
+use crate::bounds::{Engine, Entry, FloatSuprema, Kind};
+use crate::number::{Direction, round_f64};
+use crate::search::{AtSigma, PeriodicSet, active_level};
+use crate::spec::{Bound, ProvedValue, ProvedValues};
+use rayon::prelude::*;
+use rug::Rational;
+
+/// Significant digits of an argument.
+const DIGITS: u32 = 8;
+
+/// Boxes that a proof of a given value may take.
+const EFFORT: usize = 1 << 18;
+
+/// The arguments, rounded up.
+pub struct Needed {
+    x_p: Rational,
+    e_p: Rational,
+    e_per: Rational,
+    x_b: Rational,
+    e_b: Rational,
+}
+
+/// Those of a candidate, enlarged by a share.
+pub(super) fn needed(set: &PeriodicSet, at: &AtSigma, enlarged: f64) -> Option<Needed> {
+    let up = |value: f64| round_f64(value * (1.0 + enlarged), DIGITS, Direction::Up).filter(|value| *value >= 0);
+    let d_e = active_level(at.eta, at.dist_e, at.rho).sqrt();
+    Some(Needed {
+        x_p: up(set.x_p)?,
+        e_p: up(set.e_p)?,
+        e_per: up(set.e_per)?,
+        x_b: up(set.x_per + at.d_x)?,
+        e_b: up(set.e_per + d_e)?,
+    })
+}
+
+impl Needed {
+    /// The largest X and E.
+    pub(super) fn largest(&self) -> [Rational; 2] {
+        let larger = |a: &Rational, b: &Rational| if a > b { a.clone() } else { b.clone() };
+        [larger(&self.x_p, &self.x_b), larger(&self.e_p, &self.e_b)]
+    }
+
+    /// Which bound is used where (derivation, 11.3).
+    fn list(&self) -> Vec<(Bound, Rational, Rational)> {
+        let Needed { x_p, e_p, e_per, x_b, e_b } = self;
+        let zero = Rational::new();
+        let mut list = vec![
+            (Bound::Fx, x_p, &zero),
+            (Bound::Rate, x_p, &zero),
+            (Bound::Rate, x_b, e_per),
+        ];
+        for bound in [Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax] {
+            list.extend([(bound, x_p, e_p), (bound, x_b, e_b)]);
+        }
+        list.extend([(Bound::Qtx, x_p, e_p), (Bound::Qte, x_p, e_p)]);
+        list.into_iter().map(|(bound, x, e)| (bound, x.clone(), e.clone())).collect()
+    }
+}
+
+/// The row of the table of 11.3.
+pub(super) fn kind(bound: Bound) -> Option<Kind> {
+    Kind::ALL.into_iter().find(|kind| kind.name() == bound.field())
+}
+
+/// Proves a value for each argument; without states the bounds of x are 0, and the rate is any number.
+///
+/// # Errors
+/// The first bound for which none is proved.
+pub(super) fn prove_all(
+    engine: &Engine,
+    suprema: &FloatSuprema,
+    needed: &Needed,
+) -> Result<ProvedValues, PlantRefusal> {
+    let proofs: Vec<Result<ProvedValue, PlantRefusal>> = needed
+        .list()
+        .into_par_iter()
+        .map(|(bound, x, e)| {
+            let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
+            let kind = kind(bound).ok_or_else(refusal)?;
+            let proved = engine.prove_value(suprema, kind, &x, &e).ok_or_else(refusal)?;
+            Ok(ProvedValue { bound, value: proved.value, x, e })
+        })
+        .collect();
+    Ok(ProvedValues::new(proofs.into_iter().collect::<Result<_, _>>()?))
+}
+
+/// Decides given values.
+///
+/// # Errors
+/// The first that is not proved.
+pub(super) fn decide_all(engine: &Engine, values: &ProvedValues) -> Result<(), PlantRefusal> {
+    values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value }| {
+        let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
+        let kind = kind(*bound).ok_or_else(refusal)?;
+        let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value: value.clone() };
+        if engine.decide(&entry, EFFORT).truth.is_true() { Ok(()) } else { Err(refusal()) }
+    })
+}

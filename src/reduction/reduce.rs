@@ -1,0 +1,288 @@
+//! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
+
+use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler};
+use super::entries::{Needed, needed, prove_all};
+use super::refusal::{MAX_STATES, PlantRefusal};
+use super::sampling::{Sampling, float_matrix, rational_matrix};
+use super::specification::specification;
+use crate::bounds::{Engine, Region};
+use crate::data::Data;
+use crate::orbit::{
+    self, Coordinates, ProvedForcing, ProvedOrbit, decide_forcing, decide_orbit, find_orbit, propose_coordinates,
+    prove_forcing, prove_orbit, round_orbit,
+};
+use crate::plant::Plant;
+use crate::search::{FloatModel, SharpProposal, at_sigma, search_sharp_near};
+use crate::spec::model::{Constant, InitialSet, Lyapunov};
+use crate::spec::{self, OfPlant, PeriodicMatrix, ProvedValues, Specification, TrigonometricVector};
+use crate::transfer::TradeOff;
+use nalgebra::DMatrix;
+use rug::Rational;
+
+/// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
+const PRECISION: u32 = 64;
+
+/// How far beyond the arguments of a proposal the bounds are proved, in turn: first with room for what the proved values are
+/// larger than the sampled ones, then close to the arguments that are used.
+const ENLARGED: [f64; 2] = [1e-2, 1e-5];
+
+/// A smaller gain than by this share is not worth another round of proofs.
+const WORTH: f64 = 1e-4;
+
+/// A specification whose data were proved from a plant's formulas, and where the search for its gain may start.
+pub struct Reduced {
+    /// The specification.
+    pub spec: Specification,
+    /// Free numbers for it, in floating point.
+    pub proposal: SharpProposal,
+}
+
+/// Proves the data that the sharp derivation needs, at the arguments where it will need them.
+///
+/// Guarantee: every value of the specification holds for the plant, relative to its orbit and in the coordinates of its
+/// [`OfPlant`]; f and q have the period, and are smooth up to the largest arguments. That the gain comes out small is not
+/// claimed.
+///
+/// # Errors
+/// What could not be proved or found.
+pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
+    if plant.states() > MAX_STATES {
+        return Err(PlantRefusal::TooManyStates { states: plant.states() });
+    }
+    plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
+    let found = find_orbit(plant).map_err(PlantRefusal::NoOrbit)?;
+    let curve = round_orbit(plant, &found).ok_or(PlantRefusal::NoOrbit(orbit::OrbitFailure::NotFinite))?;
+    let candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
+    let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
+    let base = along(plant, &curve, first)?;
+    let spec = base.specification(plant, ProvedValues::default())?;
+    let data = Data::new(&spec, PRECISION);
+    // The transfer constants hardly move the best coordinates: the cheap ones do.
+    let trade_off = match spec.internal_model.matched {
+        true => TradeOff::matched(&data),
+        false => TradeOff::closed_form(&data),
+    };
+    let model = FloatModel::new(&data, trade_off);
+    let sampling = Sampling::new(plant, &curve, &model);
+    let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
+    let (coordinates, chosen) = match constant.is_empty() {
+        false => {
+            let matrices: Vec<DMatrix<f64>> = constant.iter().map(|candidate| float_matrix(&candidate.l)).collect();
+            let sampler = |l: &DMatrix<f64>, density: Density| sampling.source(l, None, density);
+            let search = search(&model, plant, &sampling, &sampler, 1.0);
+            let chosen = search.choose(&matrices).map_err(PlantRefusal::NoGain)?;
+            let l = rational_matrix(&chosen.l).ok_or(PlantRefusal::NoContraction)?;
+            let coordinates = Coordinates { l, p: constant[0].p.clone(), rate: f64::NAN };
+            // The rounded L is the one that counts.
+            let chosen = search.with(float_matrix(&coordinates.l), Some(&chosen.proposal));
+            (coordinates, chosen.map_err(PlantRefusal::NoGain)?)
+        }
+        true => best_periodic(plant, &curve, &candidates, &model, &sampling)?,
+    };
+    let base = along(plant, &curve, &coordinates)?;
+    prove_bounds(plant, &base, &sampling, &chosen)
+}
+
+fn search<'a>(
+    model: &'a FloatModel,
+    plant: &'a Plant,
+    sampling: &'a Sampling<'a>,
+    sampler: &'a Sampler<'a>,
+    ratio: f64,
+) -> CoordinateSearch<'a> {
+    let frame = |l: &DMatrix<f64>, model: &FloatModel| in_frame(plant, l, model);
+    let units = |l: &DMatrix<f64>| sampling.units(l);
+    CoordinateSearch { base: model, sampler, frame: Box::new(frame), units: Box::new(units), ratio }
+}
+
+/// The initial set and the domain in the norm of y.
+fn in_frame(plant: &Plant, l: &DMatrix<f64>, model: &FloatModel) -> FloatModel {
+    let values = if l.nrows() == 0 { None } else { Some(l.singular_values()) };
+    let (largest, smallest) = values.map_or((1.0, 1.0), |values| (values.max(), values.min()));
+    let mut model = model.clone();
+    if let Some(ball) = &plant.ball {
+        let covering = ball.to_f64() / smallest;
+        model = model.with_set(match plant.initial_set.map(Constant::to_f64) {
+            InitialSet::Paper => InitialSet::Paper,
+            InitialSet::AtRest { e0, .. } => InitialSet::AtRest { x0: Some(covering), e0 },
+            InitialSet::Box { e0, z0, .. } => InitialSet::Box { x0: covering, e0, z0 },
+        });
+    }
+    if let Some(domain) = &plant.domain {
+        model.domain = (domain.x.to_f64() / largest, domain.e.to_f64());
+    }
+    model
+}
+
+/// The best of the candidates with a P(t).
+fn best_periodic(
+    plant: &Plant,
+    curve: &TrigonometricVector,
+    candidates: &[Coordinates],
+    model: &FloatModel,
+    sampling: &Sampling<'_>,
+) -> Result<(Coordinates, Chosen), PlantRefusal> {
+    let mut best: Option<(Coordinates, Chosen)> = None;
+    let mut failure = PlantRefusal::NoContraction;
+    for candidate in candidates {
+        let proved = match prove_orbit(plant, curve, candidate) {
+            Ok(proved) => proved,
+            Err(error) => {
+                failure = PlantRefusal::OrbitNotProved(error);
+                continue;
+            }
+        };
+        let ratio = Rational::from(&proved.p_up / &proved.p_low).to_f64();
+        let sampler = |l: &DMatrix<f64>, density: Density| sampling.source(l, Some(&candidate.p), density);
+        let search = search(model, plant, sampling, &sampler, ratio);
+        match search.with(float_matrix(&candidate.l), None) {
+            Ok(chosen) if best.as_ref().is_none_or(|(_, known)| chosen.proposal.sigma < known.proposal.sigma) => {
+                best = Some((candidate.clone(), chosen));
+            }
+            Ok(_) => {}
+            Err(obstacle) => failure = PlantRefusal::NoGain(obstacle),
+        }
+    }
+    best.ok_or(failure)
+}
+
+/// The orbit and the harmonics of q, proved in some coordinates.
+struct Along {
+    coordinates: Coordinates,
+    orbit: ProvedOrbit,
+    forcing: ProvedForcing,
+}
+
+fn along(plant: &Plant, curve: &TrigonometricVector, coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
+    let orbit = prove_orbit(plant, curve, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
+    let forcing = prove_forcing(plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
+    Ok(Along { coordinates: coordinates.clone(), orbit, forcing })
+}
+
+impl Along {
+    /// The specification with these values.
+    fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
+        let ProvedOrbit { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
+        let ProvedForcing { mean, harmonics, rest, rest_t } = &self.forcing;
+        let of_plant = OfPlant {
+            coordinates: self.coordinates.l.clone(),
+            orbit: spec::ProvedOrbit {
+                approximation: orbit.clone(),
+                defect: defect.clone(),
+                tube: tube.clone(),
+                radius: radius.clone(),
+            },
+            triple: Lyapunov {
+                p_low: Constant::rational(p_low),
+                p_up: Constant::rational(p_up),
+                alpha: Constant::rational(alpha),
+            },
+            matrix: self.coordinates.p.clone(),
+            forcing: spec::ProvedForcing {
+                mean: mean.clone(),
+                harmonics: harmonics.clone(),
+                rest: rest.clone(),
+                rest_t: rest_t.clone(),
+            },
+            domain: plant.domain.clone(),
+            ball: plant.ball.clone(),
+        };
+        specification(plant, of_plant, values).ok_or(PlantRefusal::Coordinates)
+    }
+
+    fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
+        let region = Region::new(self.coordinates.l.clone(), self.orbit.orbit.clone(), self.orbit.radius.clone());
+        let engine = region.and_then(|region| Engine::new(plant, region, Some(self.coordinates.p.clone()), None));
+        engine.map_err(|_| PlantRefusal::Coordinates)
+    }
+}
+
+/// Proves the bounds at the arguments of a proposal, looks for the best proposal with them, and once more near its arguments.
+fn prove_bounds(
+    plant: &Plant,
+    along: &Along,
+    sampling: &Sampling<'_>,
+    chosen: &Chosen,
+) -> Result<Reduced, PlantRefusal> {
+    let engine = along.engine(plant)?;
+    let suprema = sampling.suprema(&float_matrix(&along.coordinates.l), Some(&along.coordinates.p), Density::Fine);
+    let mut best: Option<Reduced> = None;
+    let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
+    for enlarged in ENLARGED {
+        let at = arguments(&model, &proposal, enlarged)?;
+        engine.smooth(&at.largest()[0], &at.largest()[1]).map_err(|failure| PlantRefusal::NotSmooth {
+            index: failure.index,
+            span: failure.span.clone(),
+            message: failure.to_string(),
+        })?;
+        let proved = prove_all(&engine, &suprema, &at);
+        let values = match (proved, &best) {
+            (Ok(values), _) => values,
+            (Err(_), Some(_)) => break,
+            (Err(refusal), None) => return Err(refusal),
+        };
+        let spec = along.specification(plant, values)?;
+        let data = Data::new(&spec, PRECISION);
+        let trade_off = match spec.internal_model.matched {
+            true => TradeOff::matched(&data),
+            false => TradeOff::curve(&data),
+        };
+        let with_values = FloatModel::new(&data, trade_off);
+        let Some(found) = search_sharp_near(&with_values, &proposal) else {
+            break;
+        };
+        let improved = best.as_ref().is_none_or(|known| found.sigma < known.proposal.sigma * (1.0 - WORTH));
+        if !improved {
+            break;
+        }
+        (model, proposal) = (with_values, found);
+        best = Some(Reduced { spec, proposal: found });
+    }
+    best.ok_or(PlantRefusal::NoGain(crate::search::Obstacle::Bounds))
+}
+
+/// The arguments of a proposal, enlarged.
+fn arguments(model: &FloatModel, proposal: &SharpProposal, enlarged: f64) -> Result<Needed, PlantRefusal> {
+    let (set, at) = at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + 1e-9), 1e-9)
+        .map_err(PlantRefusal::NoGain)?;
+    needed(&set, &at, enlarged).ok_or(PlantRefusal::NoGain(crate::search::Obstacle::Magnitude))
+}
+
+/// Proves again what a certificate says of a plant, without any search.
+///
+/// Guarantee: as for [`reduce`].
+///
+/// # Errors
+/// The first part that is not proved.
+pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
+    if plant.states() > MAX_STATES {
+        return Err(PlantRefusal::TooManyStates { states: plant.states() });
+    }
+    plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
+    let coordinates = Coordinates { l: of_plant.coordinates.clone(), p: of_plant.matrix.clone(), rate: f64::NAN };
+    let rational = |constant: &Constant| constant.as_rational().cloned().unwrap_or_default();
+    let proved = ProvedOrbit {
+        orbit: of_plant.orbit.approximation.clone(),
+        defect: of_plant.orbit.defect.clone(),
+        tube: of_plant.orbit.tube.clone(),
+        radius: of_plant.orbit.radius.clone(),
+        alpha: rational(&of_plant.triple.alpha),
+        p_low: rational(&of_plant.triple.p_low),
+        p_up: rational(&of_plant.triple.p_up),
+    };
+    decide_orbit(plant, &coordinates, &proved).map_err(PlantRefusal::OrbitNotProved)?;
+    let spec::ProvedForcing { mean, harmonics, rest, rest_t } = of_plant.forcing.clone();
+    let forcing = ProvedForcing { mean, harmonics, rest, rest_t };
+    decide_forcing(plant, &coordinates, &proved, &forcing).map_err(PlantRefusal::OrbitNotProved)?;
+    let along = Along { coordinates, orbit: proved, forcing };
+    let engine = along.engine(plant)?;
+    if let Some([x, e]) = values.reach() {
+        engine.smooth(&x, &e).map_err(|failure| PlantRefusal::NotSmooth {
+            index: failure.index,
+            span: failure.span.clone(),
+            message: failure.to_string(),
+        })?;
+    }
+    super::entries::decide_all(&engine, &values)?;
+    along.specification(plant, values)
+}

@@ -1,0 +1,105 @@
+//! What keeps a plant from being certified, as errors at their places in its file.
+
+use crate::orbit::{OrbitFailure, OrbitNotProved};
+use crate::plant::{PeriodicityFailure, Plant};
+use crate::search::Obstacle;
+use crate::spec::{ErrorKind, SpecErrors};
+use std::ops::Range;
+
+/// Why a plant comes to no run.
+#[derive(Clone, Debug)]
+pub enum PlantRefusal {
+    /// A right side that is not proved to have the period: bad input, as it is written.
+    NotPeriodic(PeriodicityFailure),
+    /// An operation of a right side that is not proved to be smooth where it is used.
+    NotSmooth {
+        /// The index of the right side: a state, or the number of states for q.
+        index: usize,
+        /// The bytes of the operation in its text.
+        span: Range<usize>,
+        /// In words.
+        message: String,
+    },
+    /// More states than are taken.
+    TooManyStates {
+        /// How many there are.
+        states: usize,
+    },
+    /// No orbit was found, or an unstable one.
+    NoOrbit(OrbitFailure),
+    /// The orbit, or q along it, is not proved.
+    OrbitNotProved(OrbitNotProved),
+    /// No coordinates in which the zero dynamics contract.
+    NoContraction,
+    /// No gain was found in floating point.
+    NoGain(Obstacle),
+    /// A bound is not proved, at an argument that is needed.
+    NotProved {
+        /// Its name.
+        bound: &'static str,
+        /// X and E.
+        at: [f64; 2],
+    },
+    /// A ball or a domain that L cannot be compared with.
+    Coordinates,
+}
+
+/// The most states of a plant that is to be certified.
+pub const MAX_STATES: usize = 6;
+
+impl PlantRefusal {
+    /// The errors at their places in the plant file; not empty.
+    #[must_use]
+    pub fn errors(&self, plant: &Plant) -> Vec<SpecErrors> {
+        let states = plant.states();
+        let field = |index: usize| if index < states { format!("/f/{index}") } else { "/q".to_owned() };
+        let undecided = |place: &str, message: String, help: Option<&str>| {
+            vec![plant.errors_at(place, &(0..0), ErrorKind::Undecided, message, help.map(str::to_owned))]
+        };
+        match self {
+            PlantRefusal::NotPeriodic(failure) => {
+                let help = "write the disturbance with sin(2*pi*k*t/period), cos(...) and the like, k whole";
+                let message = format!("the period is not proved: {failure}");
+                vec![plant.errors_at(&field(failure.index), &failure.span, ErrorKind::Range, message, Some(help.into()))]
+            }
+            PlantRefusal::NotSmooth { index, span, message } => {
+                let help = "keep its argument away from there, or write a smooth function in its place, such as \
+                            sqrt(x^2 + 1/100) for abs(x) and tanh(20*x) for a sign";
+                let kind = ErrorKind::Undecided;
+                vec![plant.errors_at(&field(*index), span, kind, message.clone(), Some(help.into()))]
+            }
+            PlantRefusal::TooManyStates { states } => {
+                let message = format!("{states} states; a plant of at most {MAX_STATES} is certified");
+                let help = "leave out states that do not act on e, or give a bounding specification";
+                vec![plant.errors_at("/states", &(0..0), ErrorKind::Range, message, Some(help.into()))]
+            }
+            PlantRefusal::NoOrbit(failure) => undecided("/f", failure.to_string(), failure.way_out()),
+            PlantRefusal::OrbitNotProved(failure) => undecided(
+                "/f",
+                failure.to_string(),
+                Some("write the plant in units in which its numbers are of ordinary size"),
+            ),
+            PlantRefusal::NoContraction => undecided(
+                "/f",
+                "no matrix P was found in which the zero dynamics x' = f(t,x,0) contract along their periodic solution"
+                    .to_owned(),
+                Some("they have to be stable with a margin: close a loop around them first, or choose another output e"),
+            ),
+            PlantRefusal::NoGain(obstacle) => undecided(
+                "",
+                format!("no gain was found for this initial set in floating point. {}", obstacle.describe()),
+                Some("a smaller initial set (`at-rest` without sizes is the smallest), or a larger domain"),
+            ),
+            PlantRefusal::NotProved { bound, at: [x, e] } => undecided(
+                "",
+                format!("the bound `{bound}` is not proved for |y| <= {x:.6}, |e| <= {e:.6} within the effort"),
+                Some("a smaller initial set, or a smoother plant"),
+            ),
+            PlantRefusal::Coordinates => undecided(
+                "/initial_set",
+                "the coordinates are too ill-conditioned to turn this ball or domain into their norm".to_owned(),
+                Some("write the states in units in which they are of one size"),
+            ),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Sampled suprema of a plant's derivatives as a search takes them.
+
+use super::coordinates::Density;
+use super::entries::kind;
+use super::grid::{KINDS, Source, Values};
+use crate::bounds::{self, FloatSuprema, Kind};
+use crate::number::{Direction, round_f64};
+use crate::plant::Plant;
+use crate::search::FloatModel;
+use crate::spec::{PeriodicMatrix, TrigonometricVector};
+use nalgebra::DMatrix;
+use rug::Rational;
+use std::sync::Arc;
+
+/// Significant digits of L.
+const DIGITS: u32 = 4;
+
+/// The suprema along one orbit, for any coordinates.
+pub(super) struct Sampling<'a> {
+    plant: &'a Plant,
+    curve: &'a TrigonometricVector,
+    /// Of |e|.
+    unit_e: f64,
+    /// X_0 and E_0 that were asked for; 0 where none was.
+    asked: [f64; 2],
+}
+
+impl<'a> Sampling<'a> {
+    /// The ordinary size of e is what q makes of it over a period, or the initial set.
+    pub(super) fn new(plant: &'a Plant, curve: &'a TrigonometricVector, model: &FloatModel) -> Sampling<'a> {
+        let known = model.q_0.as_ref();
+        let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());
+        let [x_0, e_0, _] = model.set.required([0.0; 2], || 0.0, 0.0);
+        let by_forcing = 0.1 * squares.sqrt() * model.period;
+        let unit_e = [e_0, by_forcing].into_iter().fold(0.0, f64::max);
+        Sampling { plant, curve, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
+    }
+
+    /// Ordinary sizes of |y| and |e|.
+    pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
+        let values = self.source(l, None, Density::Coarse)(0.0, 0.0);
+        let of = |bound| KINDS.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
+        let (rate, f_e) = (of(crate::spec::Bound::Rate), of(crate::spec::Bound::Fe));
+        let size = f_e / rate * self.unit_e;
+        let size = if size.is_finite() { size.max(self.asked[0]) } else { self.asked[0] };
+        [if size > 0.0 { size } else { 1.0 }, self.unit_e]
+    }
+
+    /// The sampler for these coordinates; P is the identity without one.
+    pub(super) fn suprema(&self, l: &DMatrix<f64>, p: Option<&PeriodicMatrix>, _density: Density) -> FloatSuprema {
+        let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
+            (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
+        };
+        let doubles = |values: &[Rational]| values.iter().map(Rational::to_f64).collect::<Vec<f64>>();
+        let orbit = bounds::FloatOrbit {
+            mean: doubles(&self.curve.mean),
+            harmonics: self.curve.harmonics.iter().map(|pair| pair.each_ref().map(|part| doubles(part))).collect(),
+        };
+        let identity = identity(l.nrows());
+        FloatSuprema::new(self.plant, orbit, rows(l), [Some(p.unwrap_or(&identity)), None])
+    }
+
+    /// The same as a function of (X, E).
+    pub(super) fn source(&self, l: &DMatrix<f64>, p: Option<&PeriodicMatrix>, density: Density) -> Arc<Source> {
+        let suprema = self.suprema(l, p, density);
+        let places: Vec<usize> = KINDS
+            .iter()
+            .map(|bound| Kind::ALL.iter().position(|other| Some(*other) == kind(*bound)).unwrap_or_default())
+            .collect();
+        Arc::new(move |x, e| -> Values {
+            let all = suprema.at_all(x, e);
+            std::array::from_fn(|k| all[places[k]])
+        })
+    }
+}
+
+/// P = I.
+fn identity(n: usize) -> PeriodicMatrix {
+    let row = |i: usize| (0..n).map(|j| Rational::from(u32::from(i == j))).collect();
+    PeriodicMatrix { mean: (0..n).map(row).collect(), harmonics: Vec::new() }
+}
+
+/// A rational matrix in doubles.
+pub(super) fn float_matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j].to_f64())
+}
+
+/// L with short entries, lower triangular: what is right of it, a rotation, changes no norm of y.
+pub(super) fn rational_matrix(l: &DMatrix<f64>) -> Option<Vec<Vec<Rational>>> {
+    let n = l.nrows();
+    let triangular = match n {
+        0 => l.clone(),
+        _ => (l * l.transpose()).cholesky()?.l(),
+    };
+    let entry = |i: usize, j: usize| match j > i {
+        true => Some(Rational::new()),
+        false => round_f64(triangular[(i, j)], DIGITS, Direction::Nearest),
+    };
+    (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+}
