@@ -29,6 +29,7 @@ mod lex;
 mod monomial;
 mod names;
 mod parse;
+mod periodic;
 mod plant;
 mod point;
 mod polynomial;
@@ -46,6 +47,7 @@ pub use failure::{BoundingFailure, Counterexample, DomainBox, Evaluation, Proper
 pub use float::FloatExpr;
 pub use formulas::{Demand, Formula, Formulas, Operations};
 pub use monomial::Monomial;
+pub use periodic::{NotPeriodic, PeriodicityReason};
 pub use plant::{MAX_STATES, NameError, PlantExpr, PlantNames, PlantVariable};
 pub use program::{Evaluator, Program};
 pub use prove::{ProofSettings, prove_bounding};

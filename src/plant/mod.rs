@@ -3,6 +3,7 @@
 mod periodicity;
 mod read;
 
+pub use periodicity::PeriodicityFailure;
 pub use read::{FORMAT, VERSIONS};
 
 use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, Program};

@@ -1,9 +1,11 @@
-//! Whether the right sides have the stated period, as far as points can tell.
+//! Whether the right sides have the stated period: as far as points can tell, and by proof.
 
 use super::Plant;
-use crate::expr::Evaluator;
+use crate::expr::{Evaluator, NotPeriodic, PeriodicityReason};
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
+use thiserror::Error;
 
 /// Points at which the periodicity is checked.
 const POINTS: u32 = 200;
@@ -52,4 +54,52 @@ pub(super) fn counterexample(plant: &Plant) -> Option<Counterexample> {
         }
     }
     None
+}
+
+/// A right side that is not proved to have the period of its plant.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("`{part}`: {reason}")]
+pub struct PeriodicityFailure {
+    /// The index of the right side: a state, or the number of states for q.
+    pub index: usize,
+    /// The bytes of the part at fault in the text of the right side.
+    pub span: Range<usize>,
+    /// The part at fault.
+    pub part: String,
+    /// Why.
+    pub reason: PeriodicityReason,
+}
+
+impl Plant {
+    /// Proves that f and q have the period in t, for every x and e (derivation, 11.1).
+    ///
+    /// # Errors
+    /// The first part that has not the form which is asked for there; it says nothing against the period.
+    pub fn prove_periodic(&self) -> Result<(), PeriodicityFailure> {
+        for (index, expr) in self.right_sides().into_iter().enumerate() {
+            expr.prove_periodic(self.period.exact.as_ref()).map_err(|NotPeriodic { span, reason }| {
+                let part = expr.text().get(span.clone()).unwrap_or_default().to_owned();
+                PeriodicityFailure { index, span, part, reason }
+            })?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn the_plants_of_the_examples_are_periodic() {
+        for name in ["paper-example", "linear"] {
+            let file = format!("{}/specs/plants/{name}.json", env!("CARGO_MANIFEST_DIR"));
+            let mut plant = Plant::load(Path::new(&file)).unwrap();
+            assert_eq!(plant.prove_periodic(), Ok(()));
+            plant.period = crate::spec::Constant::rational(&rug::Rational::from((2, 3)));
+            let failure = plant.prove_periodic().unwrap_err();
+            assert_eq!(failure.reason, PeriodicityReason::Frequency, "{failure}");
+        }
+    }
 }
