@@ -14,7 +14,7 @@ use crate::orbit::{
 use crate::plant::Plant;
 use crate::search::{FloatModel, SharpProposal, at_sigma, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
-use crate::spec::{self, OfPlant, PeriodicMatrix, ProvedValues, Specification, TrigonometricVector};
+use crate::spec::{self, OfPlant, ProvedValues, Specification, TrigonometricVector};
 use crate::transfer::TradeOff;
 use nalgebra::DMatrix;
 use rug::Rational;
