@@ -23,11 +23,13 @@ pub(super) struct Cells {
     pub(super) precision: u32,
     /// (cos, sin) of `2 pi m/(2 count)`, m = 0, 1, ..., 2 count - 1.
     circle: Vec<[Enclosure; 2]>,
+    /// `(2 pi k)^j/j!` for k = 1, 2, ... and j = 0, 1, ...
+    powers: Vec<Vec<Enclosure>>,
 }
 
 impl Cells {
-    /// `2^exponent` cells.
-    pub(super) fn new(exponent: u32, precision: u32) -> Cells {
+    /// `2^exponent` cells, for so many harmonics and series up to an order.
+    pub(super) fn new(exponent: u32, precision: u32, harmonics: usize, order: usize) -> Cells {
         let count = 1_usize << exponent;
         let ratio = |numerator: i64, denominator: usize| {
             Enclosure::from_rational(&Rational::from((numerator, denominator as u64)), precision)
@@ -40,7 +42,15 @@ impl Cells {
                 [angle.cos(), angle.sin()]
             })
             .collect();
-        Cells { count, width: half.negate().hull(&half), half, precision, circle }
+        let powers = (1..=harmonics)
+            .map(|k| {
+                let w = &turn * k as i64;
+                let next = |(j, power): &(i64, Enclosure)| Some((j + 1, power * &w / (j + 1)));
+                let all = std::iter::successors(Some((0, Enclosure::one(precision))), next);
+                all.take(order + 2).map(|(_, power)| power).collect()
+            })
+            .collect();
+        Cells { count, width: half.negate().hull(&half), half, precision, circle, powers }
     }
 
     /// The middle of a cell.
@@ -55,7 +65,7 @@ impl Cells {
         [middle, over].map(|s| vec![s * period, period.clone()])
     }
 
-    /// The coefficients up to `order` of a wave about the middle of a cell, and over the cell.
+    /// The coefficients up to `order` of a wave, within what the cells were made for, about the middle of a cell, and over the cell.
     ///
     /// About the middle by the addition theorem; over the cell by Lagrange's form of Taylor's formula for each derivative: with
     /// w = 2 pi k and R a bound of `sum |c_k| w^M/M!`, M = order + 1,
@@ -65,8 +75,7 @@ impl Cells {
         let mut middle = vec![zero.clone(); order + 1];
         middle[0] = wave.mean.clone();
         let mut rest = zero;
-        let turn = Enclosure::pi(self.precision) * 2;
-        for (index, [a, b]) in wave.harmonics.iter().enumerate() {
+        for (index, ([a, b], powers)) in wave.harmonics.iter().zip(&self.powers).enumerate() {
             if [a, b].iter().all(|part| part.is_exact() && part.contains_zero()) {
                 continue;
             }
@@ -74,14 +83,11 @@ impl Cells {
             let [cos, sin] = &self.circle[k * (2 * cell + 1) % self.circle.len()];
             // a cos + b sin and its derivative with respect to the angle; from there on each is minus the one before the last.
             let (value, slope) = (a * cos + b * sin, b * cos - a * sin);
-            let w = &turn * k as i64;
-            let mut power = Enclosure::one(self.precision);
-            for (j, coefficient) in middle.iter_mut().enumerate() {
-                let term = &power * if j % 2 == 0 { &value } else { &slope };
+            for (j, (coefficient, power)) in middle.iter_mut().zip(powers).enumerate() {
+                let term = power * if j % 2 == 0 { &value } else { &slope };
                 *coefficient = if j % 4 < 2 { &*coefficient + term } else { &*coefficient - term };
-                power = power * &w / (j as i64 + 1);
             }
-            rest = rest + (a.sqr() + b.sqr()).sqrt() * power;
+            rest = rest + (a.sqr() + b.sqr()).sqrt() * &powers[order + 1];
         }
         let rest = rest.ceiling();
         let mut over: Taylor = middle.clone();

@@ -31,9 +31,20 @@ pub(super) fn waves(vector: &TrigonometricVector) -> Vec<Wave> {
 }
 
 impl Curve {
-    /// The curve over `2^exponent` cells.
-    pub(super) fn new(waves: &[Wave], period: &Constant, exponent: u32) -> Curve {
-        Curve { cells: Cells::new(exponent, PRECISION), waves: waves.to_vec(), period: period.enclose(PRECISION) }
+    /// The curve over `2^exponent` cells; `others` are waves that are to be expanded on them as well, all of them up to `order`.
+    pub(super) fn new<'a>(
+        waves: &'a [Wave],
+        others: impl Iterator<Item = &'a Wave>,
+        period: &Constant,
+        exponent: u32,
+        order: usize,
+    ) -> Curve {
+        let harmonics = waves.iter().chain(others).map(|wave| wave.harmonics.len()).max().unwrap_or(0);
+        Curve {
+            cells: Cells::new(exponent, PRECISION, harmonics, order),
+            waves: waves.to_vec(),
+            period: period.enclose(PRECISION),
+        }
     }
 
     /// The states up to an order about the middle of a cell, and over it.
@@ -54,5 +65,13 @@ impl Curve {
             let mut algebra = TaylorAlgebra { time: &time[which], states: &states[which], order, precision: PRECISION };
             walk.evaluate(&mut algebra)
         })
+    }
+
+    /// Whether the outputs of a walk are proved to be smooth at e = 0 and every point of a box of times and states.
+    pub(super) fn in_box(&self, walk: &Walk, time: &Enclosure, states: &[Enclosure]) -> bool {
+        // The first coefficient of a series is defined only where the operations are smooth.
+        let states: Vec<Taylor> = states.iter().map(|value| vec![value.clone()]).collect();
+        let mut algebra = TaylorAlgebra { time: &vec![time.clone()], states: &states, order: 0, precision: PRECISION };
+        walk.evaluate(&mut algebra).iter().flatten().all(Enclosure::is_defined)
     }
 }

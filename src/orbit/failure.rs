@@ -81,6 +81,14 @@ pub enum OrbitNotProved {
         /// eps.
         stated: f64,
     },
+    /// A bound of what the harmonics leave is larger than the stated one.
+    #[error("|q(t,x_0,0) - qb|, or its derivative, is not proved to be at most {}; what is proved is {}", short(*stated), short(*found))]
+    Rest {
+        /// The bound that was found.
+        found: f64,
+        /// r_0 or r_1.
+        stated: f64,
+    },
     /// The rate is not proved.
     #[error("the rate {} is not proved in the tube |v| <= {}: {reason}", short(*alpha), short(*tube))]
     Rate {

@@ -3,7 +3,7 @@
 use super::cells::Wave;
 use super::coordinates::Coordinates;
 use super::curve::{Curve, PRECISION, wave, waves};
-use super::defect::{CELLS, CLOSE, bound, first_exponent};
+use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent};
 use super::failure::OrbitNotProved;
 use super::linear::{enclosed, inverse};
 use super::rate::Contraction;
@@ -56,7 +56,7 @@ pub struct ProvedOrbit {
 
 /// A plant, a curve, and coordinates around it, prepared for the proofs.
 pub(super) struct Around<'a> {
-    plant: &'a Plant,
+    pub(super) plant: &'a Plant,
     waves: Vec<Wave>,
     f: Walk,
     f_and_jacobian: Walk,
@@ -108,12 +108,12 @@ impl<'a> Around<'a> {
         })
     }
 
-    /// The curve over `2^exponent` cells.
-    pub(super) fn curve(&self, exponent: u32) -> Curve {
-        Curve::new(&self.waves, &self.plant.period, exponent)
+    /// The curve over `2^exponent` cells, where another wave may be expanded as well.
+    pub(super) fn curve(&self, exponent: u32, other: Option<&Wave>) -> Curve {
+        Curve::new(&self.waves, other.into_iter(), &self.plant.period, exponent, ORDER + 1)
     }
 
-    fn harmonics(&self) -> usize {
+    pub(super) fn harmonics(&self) -> usize {
         self.waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0)
     }
 
@@ -122,7 +122,7 @@ impl<'a> Around<'a> {
     fn defect(&self, enough: f64) -> Result<Enclosure, OrbitNotProved> {
         let mut best: Result<Enclosure, OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
         for exponent in first_exponent(self.harmonics())..=*CELLS.end() {
-            let found = bound(&self.curve(exponent), &self.f, &self.inverse);
+            let found = bound(&self.curve(exponent, None), &self.f, &self.inverse);
             let done = found.as_ref().is_ok_and(|bound| bound.upper_f64() <= enough);
             best = match (best, found) {
                 (Ok(best), Ok(found)) => Ok(if found.upper() < best.upper() { found } else { best }),

@@ -67,7 +67,7 @@ impl Contraction<'_> {
         for exponent in CELLS {
             let Some(rest) = left.checked_sub(pending.len() * cell_cost) else { break };
             left = rest;
-            let curve = Curve::new(self.waves, self.period, exponent);
+            let curve = Curve::new(self.waves, self.p.entries().iter(), self.period, exponent, ORDER + 1);
             // Level by level, so that what is examined does not depend on the number of threads.
             let outcomes: Vec<Outcome> =
                 pending.par_iter().map(|cell| self.on_cell(&curve, *cell, alpha, &reach)).collect();

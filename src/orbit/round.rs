@@ -9,10 +9,10 @@ use rug::{Integer, Rational};
 use std::f64::consts::TAU;
 
 /// A defect that is small enough, relative to the size of the terms: no digit is spent on a smaller one.
-const WANTED_DEFECT: f64 = 1e-10;
+const WANTED_DEFECT: f64 = 1e-9;
 
 /// The share of the defect that rounding all coefficients may add.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.5;
 
 /// Decimal places beyond which nothing is rounded: doubles end at about 324.
 const MAX_PLACES: f64 = 330.0;
@@ -38,8 +38,8 @@ pub(super) fn shorten(vector: &mut TrigonometricVector) {
 }
 
 /// The curve with short rational coefficients: an error in the harmonic k of state j changes the right side i by at most
-/// `T |J_ij|` times it, and its own derivative by `2 pi k`; both stay below a tenth of the defect, or of the defect that is
-/// small enough. Harmonics that do not matter at this accuracy are 0, and the last of them left out. `None` where
+/// `T |J_ij|` times it, and its own derivative by `2 pi k`; all of them together stay about below half of
+/// the defect, or of the defect that is small enough. Harmonics that do not matter at this accuracy are 0, and the last of them left out. `None` where
 /// a number is not finite.
 #[must_use]
 pub fn round_orbit(plant: &Plant, orbit: &FloatOrbit) -> Option<TrigonometricVector> {

@@ -15,7 +15,7 @@ const MAX_COST: usize = 60_000_000;
 const ROW_OVERHEAD: usize = 1_000;
 
 /// The most matrices that one program holds.
-const MAX_MATRICES: usize = 192;
+const MAX_MATRICES: usize = 48;
 
 /// How many matrices the programs of an order can be asked for.
 pub(super) fn most_matrices(order: usize) -> usize {

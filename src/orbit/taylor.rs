@@ -219,7 +219,7 @@ mod tests {
                 let terms = expansion.polynomial.iter().enumerate();
                 let sum = terms.fold(rest, |sum, (j, c)| sum + c * power.pow_integer(&j.into()));
                 assert!(sum.lower() <= at[0].upper() && at[0].lower() <= sum.upper(), "{text} {d}");
-                assert!((sum.upper().clone() - sum.lower()) < 1e-9, "{text}: {sum:?}");
+                assert!((sum.upper().clone() - sum.lower()) < 1e-8, "{text}: {sum:?}");
                 let half = Enclosure::from_rational(&half, 128);
                 assert!(at[0].abs().le(&expansion.bound(&half)).is_true(), "{text}");
                 let slope = at.get(1).unwrap_or(&zero).abs();
@@ -244,7 +244,6 @@ mod tests {
             "0*abs(t)",
             "max(x, sqrt(t))",
             "sqrt(0)",
-            "abs(0)",
         ] {
             let value = taylor(text, &cell, 6);
             assert!(!Expansion::new(&value, &value, 6, 128).bound(&Enclosure::one(128)).is_defined(), "{text}");
