@@ -13,6 +13,8 @@ impl VariableSet {
     pub const NONE: VariableSet = VariableSet(0);
     /// All of them.
     pub const ALL: VariableSet = VariableSet(u128::MAX);
+    /// The states and e.
+    pub const ALL_BUT_TIME: VariableSet = VariableSet(u128::MAX - 1);
 
     /// One variable. There are at most [`super::MAX_STATES`] states, which 126 places hold; more would share the last one.
     #[must_use]

@@ -1,0 +1,213 @@
+//! Decision of an entry by subdivision (derivation, 11.3 and 11.6).
+
+use super::PRECISION;
+use super::centred::{Centred, Frame, OnBox};
+use super::chart::{Ball, Cell, Chart, MAX_LEVEL, Placed, Side};
+use super::definite::{SymmetricValues, Verdict, definite, nonnegative};
+use super::engine::Engine;
+use super::entry::{Entry, Kind};
+use super::quantity::Quantity;
+use super::time_cell::TimeCell;
+use crate::enclosure::{Enclosure, Truth};
+use crate::expr::{Memory, VariableSet};
+use rug::Rational;
+use std::sync::Arc;
+
+/// The answer for an entry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Decision {
+    /// Whether the bound holds on the whole region; `False` is a proof as well.
+    pub truth: Truth,
+    /// The boxes that were examined.
+    pub boxes: usize,
+}
+
+/// Examines boxes until all hold, one fails or the effort is spent.
+pub(super) fn subdivide(chart: &Chart, effort: usize, mut examine: impl FnMut(&Cell, &Ball) -> Verdict) -> Decision {
+    let mut open: Vec<Cell> = vec![vec![Side::WHOLE; chart.sides()]];
+    let mut boxes = 0;
+    while let Some(cell) = open.pop() {
+        let Some(ball) = chart.ball(&cell) else { continue };
+        if boxes == effort {
+            return Decision { truth: Truth::Undecided, boxes };
+        }
+        boxes += 1;
+        match examine(&cell, &ball) {
+            Verdict::Holds => {}
+            Verdict::Fails => {
+                let squares = ball.ends.iter().zip(&ball.member).filter(|(_, member)| **member);
+                let square = squares.fold(Enclosure::zero(PRECISION), |sum, ([_, middle, _], _)| sum + middle.sqr());
+                let inside = square.le(&Enclosure::one(PRECISION)).is_true();
+                if inside && chart.is_exact() {
+                    return Decision { truth: Truth::False, boxes };
+                }
+                if inside {
+                    return Decision { truth: Truth::Undecided, boxes };
+                }
+                // The middle lies outside of the ball: of its sides the widest is halved.
+                let widest = (0..cell.len()).filter(|&i| ball.member[i]).min_by_key(|&i| cell[i].level);
+                match widest {
+                    Some(side) if cell[side].level < MAX_LEVEL => halve(&mut open, cell, side),
+                    _ => return Decision { truth: Truth::Undecided, boxes },
+                }
+            }
+            Verdict::Halve(side) if cell[side].level < MAX_LEVEL => halve(&mut open, cell, side),
+            Verdict::Halve(_) | Verdict::Stuck => return Decision { truth: Truth::Undecided, boxes },
+        }
+    }
+    Decision { truth: Truth::True, boxes }
+}
+
+fn halve(open: &mut Vec<Cell>, cell: Cell, side: usize) {
+    for half in cell[side].halves() {
+        let mut next = cell.clone();
+        next[side] = half;
+        open.push(next);
+    }
+}
+
+impl Engine {
+    /// Decides whether a bound holds on `G(X,E)`, with so many boxes at most.
+    ///
+    /// Guarantee: `True` only if the inequality of the table (derivation, 11.3) holds for every (t,x,e) of `G(X,E)` and every
+    /// value of x_0'; all formulas in it are then defined there. `False` only if it fails at a point of it. A negative X or E has
+    /// no region and is undecided, and so is a rate without a P.
+    #[must_use]
+    pub fn decide(&self, entry: &Entry, effort: usize) -> Decision {
+        let Entry { bound, x, e, value } = entry;
+        let undecided = Decision { truth: Truth::Undecided, boxes: 0 };
+        if *x < 0 || *e < 0 || (bound.is_rate() && !self.has_matrix(*bound)) {
+            return undecided;
+        }
+        if bound.is_norm() && *value < 0 {
+            return Decision { truth: Truth::False, boxes: 0 };
+        }
+        let quantity = self.quantity(*bound);
+        let chart = Chart::new(&self.region, self.period(), &quantity.active, [x, e], |index| self.extent(index));
+        let mut memory = Memory::default();
+        let mut last: Option<Side> = None;
+        subdivide(&chart, effort, |cell, ball| {
+            let side = if chart.time { cell[0] } else { Side::WHOLE };
+            let time = self.time_cell(side);
+            let placed = chart.place(cell, ball, Some(&time));
+            // Formulas of t alone keep their values while its interval does; the slopes are per side, and sides stay.
+            let changed = if last == Some(side) { VariableSet::ALL_BUT_TIME } else { VariableSet::ALL };
+            last = Some(side);
+            let Placed { frame, t, x, e } = &placed;
+            let outputs = quantity.walk.evaluate_again(&mut OnBox { frame, t, x, e }, &mut memory, changed);
+            let values = Values { engine: self, chart: &chart, frame, quantity, outputs, time };
+            values.examine(*bound, value, ball)
+        })
+    }
+}
+
+/// The formulas of a bound on a box.
+struct Values<'a> {
+    engine: &'a Engine,
+    chart: &'a Chart,
+    frame: &'a Frame,
+    quantity: &'a Quantity,
+    outputs: Vec<Centred>,
+    time: Arc<TimeCell>,
+}
+
+impl Values<'_> {
+    /// The matrix of the quantity, in the coordinates y.
+    fn matrix(&self) -> Vec<Vec<Centred>> {
+        let frame = self.frame;
+        let mut rows: Vec<Vec<Centred>> = self
+            .quantity
+            .plain
+            .iter()
+            .map(|row| row.iter().map(|&output| self.outputs[output].clone()).collect())
+            .collect();
+        for (row, along) in rows.iter_mut().zip(&self.quantity.along) {
+            for (entry, terms) in row.iter_mut().zip(along) {
+                for (output, state) in terms {
+                    let velocity = self.chart.moving(frame, &self.time.velocity[*state]);
+                    *entry = frame.add(entry, &frame.mul(&self.outputs[*output], &velocity));
+                }
+            }
+        }
+        if self.quantity.inverse {
+            rows = self.product(self.engine.region.inverse(), &rows, false);
+        }
+        if self.quantity.matrix {
+            rows = self.product(self.engine.region.matrix(), &rows, true);
+        }
+        rows
+    }
+
+    /// `exact * rows`, or `rows * exact`.
+    fn product(&self, exact: &[Vec<Rational>], rows: &[Vec<Centred>], right: bool) -> Vec<Vec<Centred>> {
+        let frame = self.frame;
+        let columns = if right { exact.len() } else { rows.first().map_or(0, Vec::len) };
+        let entry = |i: usize, j: usize| {
+            let zero = frame.constant(Enclosure::zero(PRECISION));
+            (0..exact.len()).fold(zero, |sum, k| {
+                let (factor, value) = if right { (&exact[k][j], &rows[i][k]) } else { (&exact[i][k], &rows[k][j]) };
+                if factor.is_zero() {
+                    return sum;
+                }
+                frame.add(&sum, &frame.scale(value, &Enclosure::from_rational(factor, PRECISION)))
+            })
+        };
+        (0..rows.len()).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()
+    }
+
+    fn examine(&self, kind: Kind, value: &Rational, ball: &Ball) -> Verdict {
+        let frame = self.frame;
+        let matrix = self.matrix();
+        if kind.is_rate() {
+            return match self.decay(kind, &matrix, value) {
+                Some(values) => definite(frame, &values, ball),
+                None => Verdict::Stuck,
+            };
+        }
+        if matrix.iter().flatten().all(Centred::is_zero) && *value >= 0 {
+            return Verdict::Holds;
+        }
+        let bound = frame.rational(value);
+        if let [row] = &matrix[..]
+            && let [number] = &row[..]
+        {
+            let above = nonnegative(frame, &frame.sub(&bound, number), ball, false);
+            if kind == Kind::QEMax || above != Verdict::Holds {
+                return above;
+            }
+            return nonnegative(frame, &frame.add(&bound, number), ball, false);
+        }
+        // |M| < value exactly if [[value I, M], [M^T, value I]] is positive definite.
+        let rows = matrix.len();
+        let order = rows + matrix.first().map_or(0, Vec::len);
+        let diagonal = (0..order).map(|i| (i, i, bound.clone()));
+        let off = matrix.iter().enumerate().flat_map(|(i, row)| {
+            row.iter()
+                .enumerate()
+                .filter(|(_, value)| !value.is_zero())
+                .map(move |(j, value)| (i, rows + j, value.clone()))
+        });
+        definite(frame, &SymmetricValues { order, entries: diagonal.chain(off).collect() }, ball)
+    }
+
+    /// `-(P' + P J + J^T P + 2 value P)`.
+    fn decay(&self, kind: Kind, jacobian: &[Vec<Centred>], value: &Rational) -> Option<SymmetricValues> {
+        let frame = self.frame;
+        let [p, derivative] = self.time.matrices[usize::from(kind == Kind::RateExistence)].as_ref()?;
+        let order = jacobian.len();
+        let rate = Enclosure::from_rational(&Rational::from(value * 2), PRECISION);
+        let moved = |value: &Centred| self.chart.moving(frame, value);
+        let entry = |i: usize, j: usize| {
+            let start = frame.add(&moved(&derivative[i][j]), &frame.scale(&moved(&p[i][j]), &rate));
+            let sum = (0..order).fold(start, |sum, k| {
+                let (left, right) = (&p[i][k], &p[k][j]);
+                let sum = if left.is_zero() { sum } else { frame.add(&sum, &frame.mul(&moved(left), &jacobian[k][j])) };
+                if right.is_zero() { sum } else { frame.add(&sum, &frame.mul(&jacobian[k][i], &moved(right))) }
+            });
+            frame.scale(&sum, &Enclosure::from_integer(-1, PRECISION))
+        };
+        let entries = (0..order).flat_map(|i| (i..order).map(move |j| (i, j)));
+        let entries = entries.map(|(i, j)| (i, j, entry(i, j))).collect();
+        Some(SymmetricValues { order, entries })
+    }
+}

@@ -1,0 +1,72 @@
+//! Eigenvalues of small symmetric matrices in doubles, by Jacobi's rotations. They propose; nothing rests on them.
+
+/// Sweeps after which the rotations end; convergence is quadratic.
+const SWEEPS: usize = 12;
+
+/// The eigenvalues of a symmetric matrix, and the eigenvectors as columns. Of the entries both triangles are read.
+pub(super) fn eigen(mut matrix: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let order = matrix.len();
+    let mut vectors: Vec<Vec<f64>> = (0..order).map(|i| (0..order).map(|j| f64::from(i == j)).collect()).collect();
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for p in 0..order {
+            for q in p + 1..order {
+                let off = matrix[p][q];
+                let size = matrix[p][p].abs() + matrix[q][q].abs();
+                // A NaN ends it as well.
+                if off == 0.0 || off.abs() <= size * 1e-15 || !off.is_finite() {
+                    continue;
+                }
+                rotated = true;
+                let theta = (matrix[q][q] - matrix[p][p]) / (2.0 * off);
+                let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
+                let sine = tangent * cosine;
+                for row in &mut matrix {
+                    let (a, b) = (row[p], row[q]);
+                    (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+                for k in 0..order {
+                    let (a, b) = (matrix[p][k], matrix[q][k]);
+                    (matrix[p][k], matrix[q][k]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+                for row in &mut vectors {
+                    let (a, b) = (row[p], row[q]);
+                    (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    ((0..order).map(|i| matrix[i][i]).collect(), vectors)
+}
+
+/// The largest eigenvalue of a symmetric matrix; of order 0, negative infinity.
+pub(super) fn largest(matrix: Vec<Vec<f64>>) -> f64 {
+    if let [[a, b], [_, d]] = matrix.iter().map(Vec::as_slice).collect::<Vec<_>>()[..] {
+        return (a + d) / 2.0 + ((a - d).powi(2) / 4.0 + b * b).sqrt();
+    }
+    eigen(matrix).0.into_iter().fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eigenvalues_by_hand() {
+        let matrix = vec![vec![2.0, 1.0, 0.0], vec![1.0, 2.0, 0.0], vec![0.0, 0.0, -5.0]];
+        let (mut values, vectors) = eigen(matrix.clone());
+        for (k, value) in values.iter().enumerate() {
+            for row in 0..3 {
+                let image: f64 = (0..3).map(|j| matrix[row][j] * vectors[j][k]).sum();
+                assert!((image - value * vectors[row][k]).abs() < 1e-12);
+            }
+        }
+        values.sort_by(f64::total_cmp);
+        assert!(values.iter().zip([-5.0, 1.0, 3.0]).all(|(a, b)| (a - b).abs() < 1e-12));
+        assert!((largest(vec![vec![2.0, 1.0], vec![1.0, 2.0]]) - 3.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,73 @@
+//! Entries of a table of bounds.
+
+use rug::Rational;
+
+/// What is bounded: the rows of the table of the derivation, 11.3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Kind {
+    /// `|L^-1 f_x L| <= value`.
+    FX,
+    /// `|L^-1 f_e| <= value`.
+    FE,
+    /// `|q_x L| <= value`.
+    QX,
+    /// `|q_e| <= value`.
+    QE,
+    /// `q_e <= value`.
+    QEMax,
+    /// `|(q_tx + q_xx x_0') L| <= value`.
+    QTX,
+    /// `|q_te + q_xe x_0'| <= value`.
+    QTE,
+    /// `P' + P J + J^T P <= -2 value P`, `J = L^-1 f_x L`.
+    Rate,
+    /// The same with the P of existence.
+    RateExistence,
+}
+
+impl Kind {
+    /// All of them, in the order of the table.
+    pub const ALL: [Kind; 9] =
+        [Kind::FX, Kind::FE, Kind::QX, Kind::QE, Kind::QEMax, Kind::QTX, Kind::QTE, Kind::Rate, Kind::RateExistence];
+
+    /// The name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::FX => "f_x",
+            Kind::FE => "f_e",
+            Kind::QX => "q_x",
+            Kind::QE => "q_e",
+            Kind::QEMax => "q_e_max",
+            Kind::QTX => "q_tx",
+            Kind::QTE => "q_te",
+            Kind::Rate => "rate",
+            Kind::RateExistence => "rate_existence",
+        }
+    }
+
+    /// Whether the bound is a rate, which is proved from below.
+    #[must_use]
+    pub fn is_rate(self) -> bool {
+        matches!(self, Kind::Rate | Kind::RateExistence)
+    }
+
+    /// Whether the bound is that of a norm, and so not negative.
+    #[must_use]
+    pub fn is_norm(self) -> bool {
+        !self.is_rate() && self != Kind::QEMax
+    }
+}
+
+/// One number of the table: the bound holds with this value on `G(x, e)`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Which bound.
+    pub bound: Kind,
+    /// X, not negative.
+    pub x: Rational,
+    /// E, not negative.
+    pub e: Rational,
+    /// The value.
+    pub value: Rational,
+}

@@ -1,0 +1,38 @@
+//! Bounds of a plant's formulas on a tube around an orbit (derivation, 11.1 and 11.3): proposed in doubles, decided with
+//! enclosures.
+//!
+//! - [`Region`]: the coordinates L, the orbit xb(t), the radius r;
+//! - [`Engine`]: decides an [`Entry`] of a table of bounds, and smoothness, by subdivision;
+//! - [`FloatSuprema`]: the same bounds by sampling, for searches;
+//! - [`Engine::prove_value`]: from a sampled supremum to a decided bound a little above.
+//!
+//! Within: `chart` (coordinates of boxes), `time_cell` (what depends on t alone), `centred` (values with slopes about the
+//! middle of a box), `quantity` (the formulas of each bound), `definite` (semidefiniteness on a box).
+
+mod centred;
+mod chart;
+mod decide;
+mod definite;
+mod eigen;
+mod engine;
+mod entry;
+mod extent;
+mod prove_value;
+mod quantity;
+mod region;
+mod smooth;
+mod suprema;
+#[cfg(test)]
+mod tests;
+mod time_cell;
+
+pub use decide::Decision;
+pub use engine::Engine;
+pub use entry::{Entry, Kind};
+pub use prove_value::ProvedValue;
+pub use region::{Region, RegionError};
+pub use smooth::SmoothnessFailure;
+pub use suprema::{FloatOrbit, FloatSuprema};
+
+/// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.
+const PRECISION: u32 = 64;

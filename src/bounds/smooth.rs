@@ -1,0 +1,101 @@
+//! Smoothness of the right sides on the region (derivation, 11.1).
+
+use super::centred::OnBox;
+use super::chart::{Active, Chart, Placed, Side};
+use super::decide::subdivide;
+use super::definite::{Verdict, nonnegative};
+use super::engine::Engine;
+use crate::enclosure::Truth;
+use crate::expr::{Demand, Formulas, Memory, PlantExpr, PlantVariable, VariableSet, Walk};
+use rug::Rational;
+use std::ops::Range;
+use thiserror::Error;
+
+/// The boxes that each operation may take.
+pub(super) const BOXES: usize = 1 << 14;
+
+/// An operation of a right side that is not proved to be applied where it is smooth.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("`{part}`: it is not {} that {what} for all states and errors within X and E of the orbit",
+    if .truth.is_false() { "true" } else { "proved" })]
+pub struct SmoothnessFailure {
+    /// The index of the right side: a state, or the number of states for q.
+    pub index: usize,
+    /// The bytes of the operation in the text of the right side.
+    pub span: Range<usize>,
+    /// The operation.
+    pub part: String,
+    /// What is demanded of it, in words.
+    pub what: &'static str,
+    /// False where the demand fails somewhere; undecided where it was not proved.
+    pub truth: Truth,
+}
+
+/// One demand on a right side, ready to be decided.
+#[derive(Debug)]
+pub(super) struct Requirement {
+    index: usize,
+    part: String,
+    demand: Demand,
+    walk: Walk,
+    active: Active,
+}
+
+impl Requirement {
+    pub(super) fn new(index: usize, expr: &PlantExpr, demand: Demand, formulas: &Formulas) -> Requirement {
+        let walk = formulas.walk(&[demand.of]);
+        let variables = walk.all_variables();
+        let states = (0..crate::expr::MAX_STATES).filter(|&index| variables.has(PlantVariable::State(index)));
+        let active = Active {
+            time: variables.has(PlantVariable::Time),
+            states: states.collect(),
+            error: variables.has(PlantVariable::Error),
+        };
+        let part = expr.text().get(demand.span.clone()).unwrap_or_default().to_owned();
+        Requirement { index, part, demand, walk, active }
+    }
+}
+
+impl Engine {
+    /// Decides that f and q are infinitely often differentiable near `G(X,E)`: every operation is applied strictly inside of
+    /// where it is smooth.
+    ///
+    /// # Errors
+    /// The first operation of which this is not proved, with what it demands in words; also for a negative X or E.
+    pub fn smooth(&self, x: &Rational, e: &Rational) -> Result<(), SmoothnessFailure> {
+        for requirement in &self.requirements {
+            let truth = if *x < 0 || *e < 0 { Truth::Undecided } else { self.meets(requirement, [x, e]) };
+            if !truth.is_true() {
+                let Requirement { index, part, demand, .. } = requirement;
+                let (span, part) = (demand.span.clone(), part.clone());
+                return Err(SmoothnessFailure { index: *index, span, part, what: demand.what, truth });
+            }
+        }
+        Ok(())
+    }
+
+    fn meets(&self, requirement: &Requirement, arguments: [&Rational; 2]) -> Truth {
+        let Requirement { walk, active, demand, .. } = requirement;
+        let chart = Chart::new(&self.region, self.period(), active, arguments, |index| self.extent(index));
+        let mut memory = Memory::default();
+        let decision = subdivide(&chart, BOXES, |cell, ball| {
+            let time = self.time_cell(if chart.time { cell[0] } else { Side::WHOLE });
+            let placed = chart.place(cell, ball, Some(&time));
+            let Placed { frame, t, x, e } = &placed;
+            let outputs = walk.evaluate_again(&mut OnBox { frame, t, x, e }, &mut memory, VariableSet::ALL);
+            let Some(value) = outputs.first() else { return Verdict::Stuck };
+            let above = nonnegative(frame, value, ball, true);
+            if demand.positive || above == Verdict::Holds {
+                return above;
+            }
+            let negative = super::centred::negated(value);
+            match (nonnegative(frame, &negative, ball, true), above) {
+                (Verdict::Holds, _) => Verdict::Holds,
+                // Not positive in the middle and not negative: it vanishes there.
+                (Verdict::Fails, Verdict::Fails) => Verdict::Fails,
+                (Verdict::Fails, other) | (other, _) => other,
+            }
+        });
+        decision.truth
+    }
+}

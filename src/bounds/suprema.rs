@@ -1,0 +1,481 @@
+//! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
+
+use super::eigen::{eigen, largest};
+use super::entry::Kind;
+use crate::expr::{Evaluator, Formulas, PlantVariable, Program};
+use crate::plant::Plant;
+use crate::spec::{PeriodicMatrix, TrigonometricVector};
+use rug::Rational;
+use std::sync::Arc;
+
+/// Points of a period.
+const TIMES: usize = 64;
+
+/// Steps of the local search for the largest value, and how often its step is halved: roughly, and for a proof.
+const ROUGH: u32 = 5;
+const FINE: u32 = 14;
+
+/// The first step of the local search, in coordinates of the cube.
+const FIRST_STEP: f64 = 0.15;
+
+/// The best points from which a fine local search starts.
+const STARTS: usize = 6;
+
+/// `mean + sum_k (a_k cos(k w t) + b_k sin(k w t))` in doubles.
+#[derive(Clone, Debug)]
+pub struct FloatOrbit {
+    /// The mean.
+    pub mean: Vec<f64>,
+    /// (a_k, b_k) for k = 1, 2, ...
+    pub harmonics: Vec<[Vec<f64>; 2]>,
+}
+
+impl From<&TrigonometricVector> for FloatOrbit {
+    fn from(orbit: &TrigonometricVector) -> FloatOrbit {
+        let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect::<Vec<f64>>();
+        let harmonics = orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
+        FloatOrbit { mean: doubles(&orbit.mean), harmonics }
+    }
+}
+
+/// A sampled supremum.
+#[derive(Clone, Copy, Debug)]
+pub struct Sampled {
+    /// The supremum; for a rate the infimum.
+    pub value: f64,
+    /// The difference between the largest and the smallest value that was met.
+    pub spread: f64,
+}
+
+/// What depends on t alone at one time.
+#[derive(Clone, Debug)]
+struct Moment {
+    time: f64,
+    orbit: Vec<f64>,
+    /// f(t, xb, 0).
+    velocity: Vec<f64>,
+    /// What the program computes from t alone.
+    kept: Vec<f64>,
+}
+
+/// The suprema of all bounds by sampling, for one plant, orbit and L.
+#[derive(Debug)]
+pub struct FloatSuprema {
+    order: usize,
+    period: f64,
+    orbit: FloatOrbit,
+    matrix: Vec<Vec<f64>>,
+    inverse: Vec<Vec<f64>>,
+    matrices: [Option<FloatMatrix>; 2],
+    program: Arc<Program>,
+    moments: Vec<Moment>,
+    /// Points of the unit ball.
+    ball: Vec<Vec<f64>>,
+    velocity: Arc<Program>,
+}
+
+/// P(t).
+#[derive(Clone, Debug)]
+struct FloatMatrix {
+    mean: Vec<Vec<f64>>,
+    harmonics: Vec<[Vec<Vec<f64>>; 2]>,
+    /// Whether P is the identity.
+    identity: bool,
+}
+
+/// Where the blocks of outputs of the program begin: f_x (rows), f_e, q_x, q_e, q_tx, q_te, q_xx (rows), q_xe.
+struct Blocks {
+    f_e: usize,
+    q_x: usize,
+    q_e: usize,
+    q_tx: usize,
+    q_te: usize,
+    q_xx: usize,
+    q_xe: usize,
+}
+
+impl Blocks {
+    fn new(n: usize) -> Blocks {
+        let f_e = n * n;
+        let (q_x, q_e) = (f_e + n, f_e + 2 * n);
+        let (q_tx, q_te) = (q_e + 1, q_e + 1 + n);
+        Blocks { f_e, q_x, q_e, q_tx, q_te, q_xx: q_te + 1, q_xe: q_te + 1 + n * n }
+    }
+}
+
+/// A point of the cube: t/T, y and e/E.
+#[derive(Clone, Debug)]
+struct Point {
+    time: f64,
+    y: Vec<f64>,
+    e: f64,
+}
+
+impl FloatSuprema {
+    /// Prepares sampling; `matrix` is L, and `lyapunov` the P of the rate and that of the rate of existence.
+    #[must_use]
+    pub fn new(
+        plant: &Plant,
+        orbit: FloatOrbit,
+        matrix: Vec<Vec<f64>>,
+        lyapunov: [Option<&PeriodicMatrix>; 2],
+    ) -> FloatSuprema {
+        let n = plant.states();
+        let (mut formulas, sides) = plant.formulas();
+        let (f, q) = sides.split_at(n);
+        let states: Vec<PlantVariable> = (0..n).map(PlantVariable::State).collect();
+        let rows = |formulas: &mut Formulas, of: &[crate::expr::Formula]| {
+            let columns: Vec<Vec<_>> = states.iter().map(|x| formulas.derivatives(of, *x)).collect();
+            (0..of.len()).flat_map(|row| columns.iter().map(move |column| column[row]).collect::<Vec<_>>()).collect()
+        };
+        let mut outputs: Vec<crate::expr::Formula> = rows(&mut formulas, f);
+        outputs.extend(formulas.derivatives(f, PlantVariable::Error));
+        let q_x: Vec<_> = rows(&mut formulas, q);
+        let q_e = formulas.derivatives(q, PlantVariable::Error);
+        outputs.extend(q_x.iter().chain(&q_e));
+        outputs.extend(formulas.derivatives(&q_x, PlantVariable::Time));
+        outputs.extend(formulas.derivatives(&q_e, PlantVariable::Time));
+        outputs.extend(rows(&mut formulas, &q_x));
+        outputs.extend(rows(&mut formulas, &q_e));
+        let program = Arc::new(Program::of_formulas(&formulas, &outputs, n));
+        let velocity = Arc::new(Program::of_formulas(&formulas, f, n));
+        let mut suprema = FloatSuprema {
+            order: n,
+            period: plant.period.to_f64(),
+            orbit,
+            inverse: inverse(&matrix),
+            matrix,
+            matrices: lyapunov.map(|matrix| matrix.map(FloatMatrix::new)),
+            program,
+            moments: Vec::new(),
+            ball: ball_points(n),
+            velocity,
+        };
+        let mut evaluator = Evaluator::new(suprema.program.clone());
+        let mut slow = Evaluator::new(suprema.velocity.clone());
+        suprema.moments =
+            (0..TIMES).map(|i| suprema.moment((i as f64 + 0.5) / TIMES as f64, &mut evaluator, &mut slow)).collect();
+        suprema
+    }
+
+    fn moment(&self, time: f64, evaluator: &mut Evaluator, slow: &mut Evaluator) -> Moment {
+        let orbit = self.orbit.at(time);
+        let mut velocity = vec![0.0; self.order];
+        slow.set_time(time * self.period);
+        slow.evaluate(&orbit, 0.0, &mut velocity);
+        evaluator.set_time(time * self.period);
+        let mut kept = Vec::new();
+        evaluator.time_values(&mut kept);
+        Moment { time, orbit, velocity, kept }
+    }
+
+    /// The supremum of one bound, roughly; for a rate the infimum. `reach` is X + r.
+    #[must_use]
+    pub fn at(&self, kind: Kind, reach: f64, e: f64) -> f64 {
+        self.search(&[kind], reach, e, ROUGH, 1)[0].value
+    }
+
+    /// The suprema of all bounds, in the order of [`Kind::ALL`], for hardly more work than one.
+    #[must_use]
+    pub fn at_all(&self, reach: f64, e: f64) -> [f64; Kind::ALL.len()] {
+        let found = self.search(&Kind::ALL, reach, e, ROUGH, 1);
+        std::array::from_fn(|index| found[index].value)
+    }
+
+    /// The supremum of one bound by a longer search.
+    #[must_use]
+    pub fn refined(&self, kind: Kind, reach: f64, e: f64) -> Sampled {
+        self.search(&[kind], reach, e, FINE, STARTS)[0]
+    }
+
+    /// For each kind the largest value at the points of the grid, and a local search from the best of them.
+    fn search(&self, kinds: &[Kind], reach: f64, e: f64, halvings: u32, starts: usize) -> Vec<Sampled> {
+        let n = self.order;
+        let mut evaluator = Evaluator::new(self.program.clone());
+        let mut slow = Evaluator::new(self.velocity.clone());
+        let mut outputs = vec![0.0; self.program.outputs()];
+        let mut x = vec![0.0; n];
+        let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, -0.4, 0.0, 0.4, 1.0] };
+        // The best values with their points, and the least value, of each kind.
+        let mut best: Vec<Vec<(f64, [usize; 3])>> = vec![Vec::new(); kinds.len()];
+        let mut least = vec![f64::INFINITY; kinds.len()];
+        for (i, moment) in self.moments.iter().enumerate() {
+            evaluator.load_time_values(&moment.kept);
+            let matrices = self.matrices_at(moment.time);
+            for (j, y) in self.ball.iter().enumerate() {
+                self.place(&moment.orbit, y, reach, &mut x);
+                for (k, error) in errors.iter().enumerate() {
+                    evaluator.evaluate(&x, error * e, &mut outputs);
+                    for (slot, kind) in kinds.iter().enumerate() {
+                        let value = self.value(*kind, &outputs, &moment.velocity, &matrices);
+                        least[slot] = least[slot].min(value);
+                        keep(&mut best[slot], starts, value, [i, j, k]);
+                    }
+                }
+            }
+        }
+        let mut value_at = |kind: Kind, point: &Point| {
+            let moment = self.moment(point.time, &mut evaluator, &mut slow);
+            self.place(&moment.orbit, &point.y, reach, &mut x);
+            evaluator.evaluate(&x, point.e * e, &mut outputs);
+            self.value(kind, &outputs, &moment.velocity, &self.matrices_at(moment.time))
+        };
+        let sampled = kinds.iter().zip(&best).zip(&least).map(|((kind, best), least)| {
+            let mut largest = f64::NEG_INFINITY;
+            for (value, [i, j, k]) in best {
+                let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: errors[*k] };
+                let improved = climb(point, *value, halvings, e != 0.0, |point| value_at(*kind, point));
+                largest = largest.max(improved);
+            }
+            let spread = largest - least;
+            Sampled { value: if kind.is_rate() { -largest } else { largest }, spread }
+        });
+        sampled.collect()
+    }
+
+    /// xb + (X + r) L y.
+    fn place(&self, orbit: &[f64], y: &[f64], reach: f64, x: &mut [f64]) {
+        for ((x, orbit), row) in x.iter_mut().zip(orbit).zip(&self.matrix) {
+            *x = orbit + reach * row.iter().zip(y).map(|(l, y)| l * y).sum::<f64>();
+        }
+    }
+
+    fn matrices_at(&self, time: f64) -> [Option<[Vec<Vec<f64>>; 2]>; 2] {
+        self.matrices.each_ref().map(|matrix| {
+            let matrix = matrix.as_ref().filter(|matrix| !matrix.identity)?;
+            Some(matrix.at(time, self.period))
+        })
+    }
+
+    /// What is to be bounded from above at one point: a norm, q_e, or the negative of the local rate.
+    fn value(&self, kind: Kind, outputs: &[f64], velocity: &[f64], matrices: &[Option<[Vec<Vec<f64>>; 2]>; 2]) -> f64 {
+        let n = self.order;
+        let blocks = Blocks::new(n);
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        // |row L|.
+        let row_norm = |row: &dyn Fn(usize) -> f64| {
+            let entry = |j: usize| (0..n).map(|i| row(i) * self.matrix[i][j]).sum::<f64>();
+            (0..n).map(|j| entry(j).powi(2)).sum::<f64>().sqrt()
+        };
+        match kind {
+            Kind::FX => spectral_norm(&self.jacobian(outputs)),
+            Kind::FE => {
+                let column = &outputs[blocks.f_e..blocks.f_e + n];
+                self.inverse.iter().map(|row| dot(row, column).powi(2)).sum::<f64>().sqrt()
+            }
+            Kind::QX => row_norm(&|i| outputs[blocks.q_x + i]),
+            Kind::QE => outputs[blocks.q_e].abs(),
+            Kind::QEMax => outputs[blocks.q_e],
+            Kind::QTX => row_norm(&|i| {
+                let along = &outputs[blocks.q_xx + i * n..blocks.q_xx + (i + 1) * n];
+                outputs[blocks.q_tx + i] + dot(along, velocity)
+            }),
+            Kind::QTE => (outputs[blocks.q_te] + dot(&outputs[blocks.q_xe..blocks.q_xe + n], velocity)).abs(),
+            Kind::Rate | Kind::RateExistence => {
+                let index = usize::from(kind == Kind::RateExistence);
+                let jacobian = self.jacobian(outputs);
+                match (&self.matrices[index], &matrices[index]) {
+                    (None, _) => f64::NAN,
+                    (_, Some([p, derivative])) => growth(p, derivative, &jacobian),
+                    (Some(_), None) => {
+                        let half = |i: usize, j: usize| (jacobian[i][j] + jacobian[j][i]) / 2.0;
+                        largest((0..n).map(|i| (0..n).map(|j| half(i, j)).collect()).collect())
+                    }
+                }
+            }
+        }
+    }
+
+    /// L^-1 f_x L.
+    fn jacobian(&self, outputs: &[f64]) -> Vec<Vec<f64>> {
+        let n = self.order;
+        let right: Vec<Vec<f64>> = (0..n)
+            .map(|i| (0..n).map(|j| (0..n).map(|k| outputs[i * n + k] * self.matrix[k][j]).sum()).collect())
+            .collect();
+        product(&self.inverse, &right)
+    }
+}
+
+impl FloatOrbit {
+    fn at(&self, time: f64) -> Vec<f64> {
+        let mut x = self.mean.clone();
+        for ([a, b], k) in self.harmonics.iter().zip(1..) {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * time * f64::from(k));
+            for ((x, a), b) in x.iter_mut().zip(a).zip(b) {
+                *x += a * cos + b * sin;
+            }
+        }
+        x
+    }
+}
+
+impl FloatMatrix {
+    fn new(matrix: &PeriodicMatrix) -> FloatMatrix {
+        let doubles = |rows: &Vec<Vec<Rational>>| -> Vec<Vec<f64>> {
+            rows.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect()
+        };
+        let unit =
+            |(i, row): (usize, &Vec<Rational>)| row.iter().enumerate().all(|(j, entry)| *entry == i32::from(i == j));
+        let identity = matrix.harmonics.is_empty() && matrix.mean.iter().enumerate().all(unit);
+        let harmonics = matrix.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
+        FloatMatrix { mean: doubles(&matrix.mean), harmonics, identity }
+    }
+
+    /// P and dP/dt.
+    fn at(&self, time: f64, period: f64) -> [Vec<Vec<f64>>; 2] {
+        let n = self.mean.len();
+        let (mut value, mut derivative) = (self.mean.clone(), vec![vec![0.0; n]; n]);
+        for ([a, b], k) in self.harmonics.iter().zip(1..) {
+            let frequency = std::f64::consts::TAU * f64::from(k);
+            let (sin, cos) = libm::sincos(frequency * time);
+            for i in 0..n {
+                for j in 0..n {
+                    value[i][j] += a[i][j] * cos + b[i][j] * sin;
+                    derivative[i][j] += (b[i][j] * cos - a[i][j] * sin) * frequency / period;
+                }
+            }
+        }
+        [value, derivative]
+    }
+}
+
+/// Keeps the largest values.
+fn keep(best: &mut Vec<(f64, [usize; 3])>, count: usize, value: f64, at: [usize; 3]) {
+    if best.len() == count && best.last().is_some_and(|(least, _)| !(value > *least)) {
+        return;
+    }
+    let place = best.iter().position(|(other, _)| value > *other).unwrap_or(best.len());
+    best.insert(place, (value, at));
+    best.truncate(count);
+}
+
+/// A search along the coordinates with steps that are halved when none of them helps.
+fn climb(
+    mut point: Point,
+    mut value: f64,
+    halvings: u32,
+    errors: bool,
+    mut value_at: impl FnMut(&Point) -> f64,
+) -> f64 {
+    let mut step = FIRST_STEP;
+    for _ in 0..halvings {
+        for _ in 0..MOVES {
+            let mut moved = false;
+            for coordinate in 0..point.y.len() + 2 {
+                for sign in [1.0, -1.0] {
+                    let mut next = point.clone();
+                    match coordinate {
+                        0 => next.time += sign * step / TIME_SCALE,
+                        1 if !errors => continue,
+                        1 => next.e = (next.e + sign * step).clamp(-1.0, 1.0),
+                        _ => {
+                            next.y[coordinate - 2] += sign * step;
+                            let norm = next.y.iter().map(|y| y * y).sum::<f64>().sqrt();
+                            if norm > 1.0 {
+                                next.y.iter_mut().for_each(|y| *y /= norm);
+                            }
+                        }
+                    }
+                    let found = value_at(&next);
+                    if found > value {
+                        (point, value, moved) = (next, found, true);
+                    }
+                }
+            }
+            if !moved {
+                break;
+            }
+        }
+        step /= 2.0;
+    }
+    value
+}
+
+/// Moves with the same step.
+const MOVES: u32 = 4;
+
+/// A step in time is so much smaller than one in the ball.
+const TIME_SCALE: f64 = 16.0;
+
+/// Points of the unit ball: its centre, the axes and the corners of the cube on the sphere, and points spread evenly.
+fn ball_points(order: usize) -> Vec<Vec<f64>> {
+    match order {
+        0 => vec![Vec::new()],
+        1 => [-1.0, -0.5, 0.0, 0.5, 1.0].map(|y| vec![y]).to_vec(),
+        2 => {
+            let circle = |count: u32, radius: f64| {
+                (0..count).map(move |i| {
+                    let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(count));
+                    vec![radius * cos, radius * sin]
+                })
+            };
+            std::iter::once(vec![0.0, 0.0]).chain(circle(12, 1.0)).chain(circle(6, 0.5)).collect()
+        }
+        _ => {
+            let axis = |i: usize, sign: f64| (0..order).map(|j| if i == j { sign } else { 0.0 }).collect::<Vec<f64>>();
+            let axes = (0..order).flat_map(|i| [axis(i, 1.0), axis(i, -1.0)]);
+            let spread = (1..=SPREAD).map(|k| {
+                // An additive recurrence, as even as square roots of odd numbers make it.
+                let direction: Vec<f64> =
+                    (0..order).map(|j| 2.0 * (f64::from(k) * ((2 * j + 3) as f64).sqrt()).fract() - 1.0).collect();
+                let norm = direction.iter().map(|y| y * y).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+                let radius = if k % 4 == 0 { 0.5 } else { 1.0 };
+                direction.into_iter().map(|y| radius * y / norm).collect()
+            });
+            std::iter::once(vec![0.0; order]).chain(axes).chain(spread).collect()
+        }
+    }
+}
+
+/// Points in other directions than those of the axes, for three states and more.
+const SPREAD: u32 = 24;
+
+fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let columns = b.first().map_or(0, Vec::len);
+    let entry = |row: &Vec<f64>, j: usize| row.iter().zip(b).map(|(x, row)| x * row[j]).sum();
+    a.iter().map(|row| (0..columns).map(|j| entry(row, j)).collect()).collect()
+}
+
+/// The largest singular value.
+fn spectral_norm(matrix: &[Vec<f64>]) -> f64 {
+    let columns = matrix.first().map_or(0, Vec::len);
+    if columns == 0 {
+        return 0.0;
+    }
+    let entry = |i: usize, j: usize| matrix.iter().map(|row| row[i] * row[j]).sum();
+    largest((0..columns).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()).max(0.0).sqrt()
+}
+
+/// The least g with `P' + P J + J^T P <= 2 g P`: the largest eigenvalue of half of the left side between roots of P.
+fn growth(p: &[Vec<f64>], derivative: &[Vec<f64>], jacobian: &[Vec<f64>]) -> f64 {
+    let n = p.len();
+    let (values, vectors) = eigen(p.to_vec());
+    // P^(-1/2).
+    let root: Vec<Vec<f64>> = (0..n)
+        .map(|i| (0..n).map(|j| (0..n).map(|k| vectors[i][k] * vectors[j][k] / values[k].sqrt()).sum()).collect())
+        .collect();
+    let moved = product(p, jacobian);
+    let form: Vec<Vec<f64>> =
+        (0..n).map(|i| (0..n).map(|j| (derivative[i][j] + moved[i][j] + moved[j][i]) / 2.0).collect()).collect();
+    largest(product(&root, &product(&form, &root)))
+}
+
+/// The inverse in doubles, by Gauss and Jordan with pivots; without one, entries that are not numbers.
+fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let n = matrix.len();
+    let unit = |i: usize| (0..n).map(move |j| f64::from(i == j));
+    let mut rows: Vec<Vec<f64>> =
+        matrix.iter().enumerate().map(|(i, row)| row.iter().copied().chain(unit(i)).collect()).collect();
+    for column in 0..n {
+        let pivot = (column..n).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()));
+        rows.swap(column, pivot.unwrap_or(column));
+        let divisor = rows[column][column];
+        rows[column].iter_mut().for_each(|entry| *entry /= divisor);
+        let pivot = rows[column].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != column) {
+            let factor = row[column];
+            row.iter_mut().zip(&pivot).for_each(|(entry, by)| *entry -= factor * by);
+        }
+    }
+    rows.into_iter().map(|row| row.into_iter().skip(n).collect()).collect()
+}
