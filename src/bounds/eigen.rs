@@ -51,9 +51,56 @@ pub(super) fn largest(matrix: Vec<Vec<f64>>) -> f64 {
     eigen(matrix).0.into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
 
+/// The same of a matrix by rows, which is used as working memory.
+pub(super) fn largest_of(matrix: &mut [f64], order: usize) -> f64 {
+    match (order, &*matrix) {
+        (1, [a]) => return *a,
+        (2, [a, b, _, d]) => return (a + d) / 2.0 + ((a - d).powi(2) / 4.0 + b * b).sqrt(),
+        _ => {}
+    }
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for p in 0..order {
+            for q in p + 1..order {
+                let off = matrix[p * order + q];
+                let (at_p, at_q) = (matrix[p * order + p], matrix[q * order + q]);
+                if off == 0.0 || off.abs() <= (at_p.abs() + at_q.abs()) * 1e-15 || !off.is_finite() {
+                    continue;
+                }
+                rotated = true;
+                let theta = (at_q - at_p) / (2.0 * off);
+                let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
+                let sine = tangent * cosine;
+                for row in matrix.chunks_mut(order) {
+                    let (a, b) = (row[p], row[q]);
+                    (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+                for k in 0..order {
+                    let (a, b) = (matrix[p * order + k], matrix[q * order + k]);
+                    (matrix[p * order + k], matrix[q * order + k]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    (0..order).map(|i| matrix[i * order + i]).fold(f64::NEG_INFINITY, f64::max)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn both_find_the_same_largest_one() {
+        for order in 1..=6 {
+            let entry = |i: usize, j: usize| libm::sin((3 * i.min(j) + 7 * i.max(j) + order) as f64);
+            let rows: Vec<Vec<f64>> = (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect();
+            assert!((largest_of(&mut rows.concat(), order) - largest(rows)).abs() < 1e-12, "{order}");
+        }
+    }
 
     #[test]
     fn eigenvalues_by_hand() {

@@ -17,6 +17,7 @@ mod eigen;
 mod engine;
 mod entry;
 mod extent;
+mod pointwise;
 mod prove_value;
 mod quantity;
 mod region;

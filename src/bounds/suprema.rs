@@ -1,7 +1,7 @@
 //! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
 
-use super::eigen::{eigen, largest};
 use super::entry::Kind;
+use super::pointwise::{MatrixAt, Pointwise};
 use crate::expr::{Evaluator, Formulas, PlantVariable, Program};
 use crate::plant::Plant;
 use crate::spec::{PeriodicMatrix, TrigonometricVector};
@@ -83,26 +83,6 @@ struct FloatMatrix {
     identity: bool,
 }
 
-/// Where the blocks of outputs of the program begin: f_x (rows), f_e, q_x, q_e, q_tx, q_te, q_xx (rows), q_xe.
-struct Blocks {
-    f_e: usize,
-    q_x: usize,
-    q_e: usize,
-    q_tx: usize,
-    q_te: usize,
-    q_xx: usize,
-    q_xe: usize,
-}
-
-impl Blocks {
-    fn new(n: usize) -> Blocks {
-        let f_e = n * n;
-        let (q_x, q_e) = (f_e + n, f_e + 2 * n);
-        let (q_tx, q_te) = (q_e + 1, q_e + 1 + n);
-        Blocks { f_e, q_x, q_e, q_tx, q_te, q_xx: q_te + 1, q_xe: q_te + 1 + n * n }
-    }
-}
-
 /// A point of the cube: t/T, y and e/E.
 #[derive(Clone, Debug)]
 struct Point {
@@ -172,65 +152,85 @@ impl FloatSuprema {
     /// The supremum of one bound, roughly; for a rate the infimum. `reach` is X + r.
     #[must_use]
     pub fn at(&self, kind: Kind, reach: f64, e: f64) -> f64 {
-        self.search(&[kind], reach, e, ROUGH, 1)[0].value
+        self.search(kind, reach, e, ROUGH, 1).value
     }
 
-    /// The suprema of all bounds, in the order of [`Kind::ALL`], for hardly more work than one.
+    /// The suprema of all bounds, in the order of [`Kind::ALL`], at the points of the grid: every `stride`-th time only.
     #[must_use]
-    pub fn at_all(&self, reach: f64, e: f64) -> [f64; Kind::ALL.len()] {
-        let found = self.search(&Kind::ALL, reach, e, ROUGH, 1);
-        std::array::from_fn(|index| found[index].value)
+    pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; Kind::ALL.len()] {
+        let mut largest = [f64::NEG_INFINITY; Kind::ALL.len()];
+        let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, 0.0, 1.0] };
+        self.at_points(reach, e, (stride, errors), |_, values| {
+            for (largest, value) in largest.iter_mut().zip(values) {
+                // Where a value is undefined, so is the supremum.
+                *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
+            }
+        });
+        std::array::from_fn(|index| if Kind::ALL[index].is_rate() { -largest[index] } else { largest[index] })
     }
 
-    /// The supremum of one bound by a longer search.
-    #[must_use]
-    pub fn refined(&self, kind: Kind, reach: f64, e: f64) -> Sampled {
-        self.search(&[kind], reach, e, FINE, STARTS)[0]
-    }
-
-    /// For each kind the largest value at the points of the grid, and a local search from the best of them.
-    fn search(&self, kinds: &[Kind], reach: f64, e: f64, halvings: u32, starts: usize) -> Vec<Sampled> {
-        let n = self.order;
+    /// Calls `see` with the place and the values of every point of the grid.
+    fn at_points(
+        &self,
+        reach: f64,
+        e: f64,
+        (stride, errors): (usize, &[f64]),
+        mut see: impl FnMut([usize; 3], [f64; Kind::ALL.len()]),
+    ) {
         let mut evaluator = Evaluator::new(self.program.clone());
-        let mut slow = Evaluator::new(self.velocity.clone());
         let mut outputs = vec![0.0; self.program.outputs()];
-        let mut x = vec![0.0; n];
-        let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, -0.4, 0.0, 0.4, 1.0] };
-        // The best values with their points, and the least value, of each kind.
-        let mut best: Vec<Vec<(f64, [usize; 3])>> = vec![Vec::new(); kinds.len()];
-        let mut least = vec![f64::INFINITY; kinds.len()];
-        for (i, moment) in self.moments.iter().enumerate() {
+        let mut x = vec![0.0; self.order];
+        let mut pointwise = self.pointwise();
+        for (i, moment) in self.moments.iter().enumerate().step_by(stride) {
             evaluator.load_time_values(&moment.kept);
             let matrices = self.matrices_at(moment.time);
             for (j, y) in self.ball.iter().enumerate() {
                 self.place(&moment.orbit, y, reach, &mut x);
                 for (k, error) in errors.iter().enumerate() {
                     evaluator.evaluate(&x, error * e, &mut outputs);
-                    for (slot, kind) in kinds.iter().enumerate() {
-                        let value = self.value(*kind, &outputs, &moment.velocity, &matrices);
-                        least[slot] = least[slot].min(value);
-                        keep(&mut best[slot], starts, value, [i, j, k]);
-                    }
+                    see([i, j, k], pointwise.all(&outputs, &moment.velocity, &matrices));
                 }
             }
         }
-        let mut value_at = |kind: Kind, point: &Point| {
+    }
+
+    fn pointwise(&self) -> Pointwise {
+        Pointwise::new(&self.matrix, &self.inverse, self.matrices.each_ref().map(Option::is_some))
+    }
+
+    /// The supremum of one bound by a longer search.
+    #[must_use]
+    pub fn refined(&self, kind: Kind, reach: f64, e: f64) -> Sampled {
+        self.search(kind, reach, e, FINE, STARTS)
+    }
+
+    /// The largest value at the points of the grid, and a local search from the best of them.
+    fn search(&self, kind: Kind, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
+        let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, -0.4, 0.0, 0.4, 1.0] };
+        let slot = Kind::ALL.iter().position(|other| *other == kind).unwrap_or_default();
+        // The best values with their points, and the least value.
+        let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
+        self.at_points(reach, e, (1, errors), |at, values| {
+            least = least.min(values[slot]);
+            keep(&mut best, starts, values[slot], at);
+        });
+        let mut evaluator = Evaluator::new(self.program.clone());
+        let mut slow = Evaluator::new(self.velocity.clone());
+        let mut outputs = vec![0.0; self.program.outputs()];
+        let mut x = vec![0.0; self.order];
+        let mut pointwise = self.pointwise();
+        let mut value_at = |point: &Point| {
             let moment = self.moment(point.time, &mut evaluator, &mut slow);
             self.place(&moment.orbit, &point.y, reach, &mut x);
             evaluator.evaluate(&x, point.e * e, &mut outputs);
-            self.value(kind, &outputs, &moment.velocity, &self.matrices_at(moment.time))
+            pointwise.all(&outputs, &moment.velocity, &self.matrices_at(moment.time))[slot]
         };
-        let sampled = kinds.iter().zip(&best).zip(&least).map(|((kind, best), least)| {
-            let mut largest = f64::NEG_INFINITY;
-            for (value, [i, j, k]) in best {
-                let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: errors[*k] };
-                let improved = climb(point, *value, halvings, e != 0.0, |point| value_at(*kind, point));
-                largest = largest.max(improved);
-            }
-            let spread = largest - least;
-            Sampled { value: if kind.is_rate() { -largest } else { largest }, spread }
-        });
-        sampled.collect()
+        let mut largest = f64::NEG_INFINITY;
+        for (value, [i, j, k]) in &best {
+            let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: errors[*k] };
+            largest = largest.max(climb(point, *value, halvings, e != 0.0, &mut value_at));
+        }
+        Sampled { value: if kind.is_rate() { -largest } else { largest }, spread: largest - least }
     }
 
     /// xb + (X + r) L y.
@@ -240,59 +240,11 @@ impl FloatSuprema {
         }
     }
 
-    fn matrices_at(&self, time: f64) -> [Option<[Vec<Vec<f64>>; 2]>; 2] {
+    fn matrices_at(&self, time: f64) -> [MatrixAt; 2] {
         self.matrices.each_ref().map(|matrix| {
             let matrix = matrix.as_ref().filter(|matrix| !matrix.identity)?;
             Some(matrix.at(time, self.period))
         })
-    }
-
-    /// What is to be bounded from above at one point: a norm, q_e, or the negative of the local rate.
-    fn value(&self, kind: Kind, outputs: &[f64], velocity: &[f64], matrices: &[Option<[Vec<Vec<f64>>; 2]>; 2]) -> f64 {
-        let n = self.order;
-        let blocks = Blocks::new(n);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        // |row L|.
-        let row_norm = |row: &dyn Fn(usize) -> f64| {
-            let entry = |j: usize| (0..n).map(|i| row(i) * self.matrix[i][j]).sum::<f64>();
-            (0..n).map(|j| entry(j).powi(2)).sum::<f64>().sqrt()
-        };
-        match kind {
-            Kind::FX => spectral_norm(&self.jacobian(outputs)),
-            Kind::FE => {
-                let column = &outputs[blocks.f_e..blocks.f_e + n];
-                self.inverse.iter().map(|row| dot(row, column).powi(2)).sum::<f64>().sqrt()
-            }
-            Kind::QX => row_norm(&|i| outputs[blocks.q_x + i]),
-            Kind::QE => outputs[blocks.q_e].abs(),
-            Kind::QEMax => outputs[blocks.q_e],
-            Kind::QTX => row_norm(&|i| {
-                let along = &outputs[blocks.q_xx + i * n..blocks.q_xx + (i + 1) * n];
-                outputs[blocks.q_tx + i] + dot(along, velocity)
-            }),
-            Kind::QTE => (outputs[blocks.q_te] + dot(&outputs[blocks.q_xe..blocks.q_xe + n], velocity)).abs(),
-            Kind::Rate | Kind::RateExistence => {
-                let index = usize::from(kind == Kind::RateExistence);
-                let jacobian = self.jacobian(outputs);
-                match (&self.matrices[index], &matrices[index]) {
-                    (None, _) => f64::NAN,
-                    (_, Some([p, derivative])) => growth(p, derivative, &jacobian),
-                    (Some(_), None) => {
-                        let half = |i: usize, j: usize| (jacobian[i][j] + jacobian[j][i]) / 2.0;
-                        largest((0..n).map(|i| (0..n).map(|j| half(i, j)).collect()).collect())
-                    }
-                }
-            }
-        }
-    }
-
-    /// L^-1 f_x L.
-    fn jacobian(&self, outputs: &[f64]) -> Vec<Vec<f64>> {
-        let n = self.order;
-        let right: Vec<Vec<f64>> = (0..n)
-            .map(|i| (0..n).map(|j| (0..n).map(|k| outputs[i * n + k] * self.matrix[k][j]).sum()).collect())
-            .collect();
-        product(&self.inverse, &right)
     }
 }
 
@@ -429,36 +381,6 @@ fn ball_points(order: usize) -> Vec<Vec<f64>> {
 
 /// Points in other directions than those of the axes, for three states and more.
 const SPREAD: u32 = 24;
-
-fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let columns = b.first().map_or(0, Vec::len);
-    let entry = |row: &Vec<f64>, j: usize| row.iter().zip(b).map(|(x, row)| x * row[j]).sum();
-    a.iter().map(|row| (0..columns).map(|j| entry(row, j)).collect()).collect()
-}
-
-/// The largest singular value.
-fn spectral_norm(matrix: &[Vec<f64>]) -> f64 {
-    let columns = matrix.first().map_or(0, Vec::len);
-    if columns == 0 {
-        return 0.0;
-    }
-    let entry = |i: usize, j: usize| matrix.iter().map(|row| row[i] * row[j]).sum();
-    largest((0..columns).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()).max(0.0).sqrt()
-}
-
-/// The least g with `P' + P J + J^T P <= 2 g P`: the largest eigenvalue of half of the left side between roots of P.
-fn growth(p: &[Vec<f64>], derivative: &[Vec<f64>], jacobian: &[Vec<f64>]) -> f64 {
-    let n = p.len();
-    let (values, vectors) = eigen(p.to_vec());
-    // P^(-1/2).
-    let root: Vec<Vec<f64>> = (0..n)
-        .map(|i| (0..n).map(|j| (0..n).map(|k| vectors[i][k] * vectors[j][k] / values[k].sqrt()).sum()).collect())
-        .collect();
-    let moved = product(p, jacobian);
-    let form: Vec<Vec<f64>> =
-        (0..n).map(|i| (0..n).map(|j| (derivative[i][j] + moved[i][j] + moved[j][i]) / 2.0).collect()).collect();
-    largest(product(&root, &product(&form, &root)))
-}
 
 /// The inverse in doubles, by Gauss and Jordan with pivots; without one, entries that are not numbers.
 fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {

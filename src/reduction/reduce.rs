@@ -205,7 +205,7 @@ fn prove_bounds(
     chosen: &Chosen,
 ) -> Result<Reduced, PlantRefusal> {
     let engine = along.engine(plant)?;
-    let suprema = sampling.suprema(&float_matrix(&along.coordinates.l), Some(&along.coordinates.p), Density::Fine);
+    let suprema = sampling.suprema(&float_matrix(&along.coordinates.l), Some(&along.coordinates.p));
     let mut best: Option<Reduced> = None;
     let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
     for enlarged in ENLARGED {

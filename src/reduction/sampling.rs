@@ -47,7 +47,7 @@ impl<'a> Sampling<'a> {
     }
 
     /// The sampler for these coordinates; P is the identity without one.
-    pub(super) fn suprema(&self, l: &DMatrix<f64>, p: Option<&PeriodicMatrix>, _density: Density) -> FloatSuprema {
+    pub(super) fn suprema(&self, l: &DMatrix<f64>, p: Option<&PeriodicMatrix>) -> FloatSuprema {
         let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
             (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
         };
@@ -62,13 +62,17 @@ impl<'a> Sampling<'a> {
 
     /// The same as a function of (X, E).
     pub(super) fn source(&self, l: &DMatrix<f64>, p: Option<&PeriodicMatrix>, density: Density) -> Arc<Source> {
-        let suprema = self.suprema(l, p, density);
+        let suprema = self.suprema(l, p);
+        let stride = match density {
+            Density::Coarse => 3,
+            Density::Fine => 1,
+        };
         let places: Vec<usize> = KINDS
             .iter()
             .map(|bound| Kind::ALL.iter().position(|other| Some(*other) == kind(*bound)).unwrap_or_default())
             .collect();
         Arc::new(move |x, e| -> Values {
-            let all = suprema.at_all(x, e);
+            let all = suprema.survey(x, e, stride);
             std::array::from_fn(|k| all[places[k]])
         })
     }
