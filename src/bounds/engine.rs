@@ -78,6 +78,12 @@ impl Engine {
         Ok(Engine { region, period, quantities, requirements, velocity, matrices, cells, extents })
     }
 
+    /// The number of states.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.region.states()
+    }
+
     pub(super) fn quantity(&self, kind: Kind) -> &Quantity {
         // The list has every kind, in the order of the table.
         &self.quantities[Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0)].1

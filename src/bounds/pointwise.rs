@@ -59,7 +59,12 @@ impl Pointwise {
 
     /// What is to be bounded from above, in the order of [`Kind::ALL`]: norms, q_e, the negatives of the local rates; NaN where
     /// there is no P.
-    pub(super) fn all(&mut self, outputs: &[f64], velocity: &[f64], matrices: &[MatrixAt; 2]) -> [f64; Kind::ALL.len()] {
+    pub(super) fn all(
+        &mut self,
+        outputs: &[f64],
+        velocity: &[f64],
+        matrices: &[MatrixAt; 2],
+    ) -> [f64; Kind::ALL.len()] {
         let (n, blocks) = (self.order, self.blocks);
         self.transform(outputs);
         let column = &outputs[blocks.f_e..blocks.f_e + n];

@@ -155,12 +155,18 @@ impl FloatSuprema {
         self.search(kind, reach, e, ROUGH, 1).value
     }
 
-    /// The suprema of all bounds, in the order of [`Kind::ALL`], at the points of the grid: every `stride`-th time only.
+    /// The suprema of all bounds, in the order of [`Kind::ALL`], at the points of the grid: every `stride`-th time only, and
+    /// with a stride above 1 fewer points at each time.
     #[must_use]
     pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; Kind::ALL.len()] {
         let mut largest = [f64::NEG_INFINITY; Kind::ALL.len()];
-        let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, 0.0, 1.0] };
-        self.at_points(reach, e, (stride, errors), |_, values| {
+        let errors: &[f64] = match stride {
+            _ if e == 0.0 => &[0.0],
+            1 => &[-1.0, 0.0, 1.0],
+            _ => &[-1.0, 1.0],
+        };
+        let sparse = if stride > 1 && self.order > 2 { 3 } else { 1 };
+        self.at_points(reach, e, ([stride, sparse], errors), |_, values| {
             for (largest, value) in largest.iter_mut().zip(values) {
                 // Where a value is undefined, so is the supremum.
                 *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
@@ -174,17 +180,17 @@ impl FloatSuprema {
         &self,
         reach: f64,
         e: f64,
-        (stride, errors): (usize, &[f64]),
+        (strides, errors): ([usize; 2], &[f64]),
         mut see: impl FnMut([usize; 3], [f64; Kind::ALL.len()]),
     ) {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut outputs = vec![0.0; self.program.outputs()];
         let mut x = vec![0.0; self.order];
         let mut pointwise = self.pointwise();
-        for (i, moment) in self.moments.iter().enumerate().step_by(stride) {
+        for (i, moment) in self.moments.iter().enumerate().step_by(strides[0]) {
             evaluator.load_time_values(&moment.kept);
             let matrices = self.matrices_at(moment.time);
-            for (j, y) in self.ball.iter().enumerate() {
+            for (j, y) in self.ball.iter().enumerate().step_by(strides[1]) {
                 self.place(&moment.orbit, y, reach, &mut x);
                 for (k, error) in errors.iter().enumerate() {
                     evaluator.evaluate(&x, error * e, &mut outputs);
@@ -210,7 +216,7 @@ impl FloatSuprema {
         let slot = Kind::ALL.iter().position(|other| *other == kind).unwrap_or_default();
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
-        self.at_points(reach, e, (1, errors), |at, values| {
+        self.at_points(reach, e, ([1, 1], errors), |at, values| {
             least = least.min(values[slot]);
             keep(&mut best, starts, values[slot], at);
         });

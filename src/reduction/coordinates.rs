@@ -12,6 +12,8 @@ use std::sync::Arc;
 /// How densely suprema are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Density {
+    /// To find a gain at all.
+    Rough,
     /// To compare coordinates.
     Coarse,
     /// For the coordinates that are taken.
@@ -27,7 +29,10 @@ pub type Frame<'a> = dyn Fn(&DMatrix<f64>, &FloatModel) -> FloatModel + Sync + '
 /// Ordinary sizes of |y| and |e|.
 pub type Units<'a> = dyn Fn(&DMatrix<f64>) -> [f64; 2] + Sync + 'a;
 
-/// The ratio of neighbouring nodes of a coarse grid.
+/// The ratio of neighbouring nodes of a rough grid.
+const ROUGH: f64 = 2.5;
+
+/// That of a coarse one.
 const COARSE: f64 = 1.6;
 
 /// That of a fine one.
@@ -71,6 +76,7 @@ impl CoordinateSearch<'_> {
     #[must_use]
     pub fn model(&self, l: &DMatrix<f64>, density: Density) -> FloatModel {
         let ratio = match density {
+            Density::Rough => ROUGH,
             Density::Coarse => COARSE,
             Density::Fine => FINE,
         };
@@ -85,17 +91,21 @@ impl CoordinateSearch<'_> {
     /// # Errors
     /// The obstacle of the candidate that came closest.
     pub fn choose(&self, candidates: &[DMatrix<f64>]) -> Result<Chosen, Obstacle> {
-        let found: Vec<Result<SharpProposal, Obstacle>> =
-            candidates.par_iter().map(|l| search_sharp(&self.model(l, Density::Coarse))).collect();
+        // The first one that has a gain leads to those of the others by local steps.
         let mut closest = Obstacle::NotFinite;
+        let first = candidates.iter().find_map(|l| {
+            let found = search_sharp(&self.model(l, Density::Rough));
+            found.map_err(|obstacle| closest = closest.max(obstacle)).ok()
+        });
+        let first = first.ok_or(closest)?;
+        let near = |l: &DMatrix<f64>| search_sharp_near(&self.model(l, Density::Coarse), &first);
+        let found: Vec<Option<SharpProposal>> = candidates.par_iter().map(near).collect();
         let mut best: Option<(SharpProposal, &DMatrix<f64>)> = None;
-        for (l, outcome) in candidates.iter().zip(found) {
-            match outcome {
-                Ok(found) if best.as_ref().is_none_or(|(known, _)| found.sigma < known.sigma) => {
-                    best = Some((found, l))
-                }
-                Ok(_) => {}
-                Err(obstacle) => closest = closest.max(obstacle),
+        for (l, found) in candidates.iter().zip(found) {
+            if let Some(found) = found
+                && best.as_ref().is_none_or(|(known, _)| found.sigma < known.sigma)
+            {
+                best = Some((found, l));
             }
         }
         let (start, l) = best.ok_or(closest)?;

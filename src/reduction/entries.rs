@@ -11,6 +11,12 @@ use rug::Rational;
 /// Significant digits of an argument.
 const DIGITS: u32 = 8;
 
+/// What is tried, as powers of ten, where a bound that is 0 on the orbit itself is so small that nothing sets its size.
+const SMALL: [i32; 8] = [-15, -12, -9, -6, -3, 0, 3, 6];
+
+/// Boxes that a proof of a small value may take.
+const SMALL_EFFORT: usize = 1 << 10;
+
 /// Boxes that a proof of a given value may take.
 const EFFORT: usize = 1 << 18;
 
@@ -47,11 +53,7 @@ impl Needed {
     fn list(&self) -> Vec<(Bound, Rational, Rational)> {
         let Needed { x_p, e_p, e_per, x_b, e_b } = self;
         let zero = Rational::new();
-        let mut list = vec![
-            (Bound::Fx, x_p, &zero),
-            (Bound::Rate, x_p, &zero),
-            (Bound::Rate, x_b, e_per),
-        ];
+        let mut list = vec![(Bound::Fx, x_p, &zero), (Bound::Rate, x_p, &zero), (Bound::Rate, x_b, e_per)];
         for bound in [Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax] {
             list.extend([(bound, x_p, e_p), (bound, x_b, e_b)]);
         }
@@ -74,17 +76,33 @@ pub(super) fn prove_all(
     suprema: &FloatSuprema,
     needed: &Needed,
 ) -> Result<ProvedValues, PlantRefusal> {
+    let stateless = engine.states() == 0;
     let proofs: Vec<Result<ProvedValue, PlantRefusal>> = needed
         .list()
         .into_par_iter()
         .map(|(bound, x, e)| {
             let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
             let kind = kind(bound).ok_or_else(refusal)?;
-            let proved = engine.prove_value(suprema, kind, &x, &e).ok_or_else(refusal)?;
-            Ok(ProvedValue { bound, value: proved.value, x, e })
+            let value = match engine.prove_value(suprema, kind, &x, &e) {
+                Some(proved) => proved.value,
+                // Without states every rate is as good as any other, and the checker asks for none.
+                None if kind.is_rate() && stateless => Rational::from(1),
+                None if kind.is_rate() => return Err(refusal()),
+                None => smallest(engine, kind, [&x, &e]).ok_or_else(refusal)?,
+            };
+            Ok(ProvedValue { bound, value, x, e })
         })
         .collect();
     Ok(ProvedValues::new(proofs.into_iter().collect::<Result<_, _>>()?))
+}
+
+/// The smallest power of ten that is proved.
+fn smallest(engine: &Engine, kind: Kind, [x, e]: [&Rational; 2]) -> Option<Rational> {
+    SMALL.into_iter().find_map(|exponent| {
+        let value = round_f64(10f64.powi(exponent), 1, Direction::Up)?;
+        let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value };
+        engine.decide(&entry, SMALL_EFFORT).truth.is_true().then_some(entry.value)
+    })
 }
 
 /// Decides given values.
@@ -95,6 +113,9 @@ pub(super) fn decide_all(engine: &Engine, values: &ProvedValues) -> Result<(), P
     values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
         let kind = kind(*bound).ok_or_else(refusal)?;
+        if kind.is_rate() && engine.states() == 0 {
+            return Ok(());
+        }
         let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value: value.clone() };
         if engine.decide(&entry, EFFORT).truth.is_true() { Ok(()) } else { Err(refusal()) }
     })

@@ -243,8 +243,8 @@ fn prove_bounds(
 
 /// The arguments of a proposal, enlarged.
 fn arguments(model: &FloatModel, proposal: &SharpProposal, enlarged: f64) -> Result<Needed, PlantRefusal> {
-    let (set, at) = at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + 1e-9), 1e-9)
-        .map_err(PlantRefusal::NoGain)?;
+    let (set, at) =
+        at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + 1e-9), 1e-9).map_err(PlantRefusal::NoGain)?;
     needed(&set, &at, enlarged).ok_or(PlantRefusal::NoGain(crate::search::Obstacle::Magnitude))
 }
 

@@ -60,7 +60,13 @@ impl PlantRefusal {
             PlantRefusal::NotPeriodic(failure) => {
                 let help = "write the disturbance with sin(2*pi*k*t/period), cos(...) and the like, k whole";
                 let message = format!("the period is not proved: {failure}");
-                vec![plant.errors_at(&field(failure.index), &failure.span, ErrorKind::Range, message, Some(help.into()))]
+                vec![plant.errors_at(
+                    &field(failure.index),
+                    &failure.span,
+                    ErrorKind::Range,
+                    message,
+                    Some(help.into()),
+                )]
             }
             PlantRefusal::NotSmooth { index, span, message } => {
                 let help = "keep its argument away from there, or write a smooth function in its place, such as \
@@ -83,7 +89,9 @@ impl PlantRefusal {
                 "/f",
                 "no matrix P was found in which the zero dynamics x' = f(t,x,0) contract along their periodic solution"
                     .to_owned(),
-                Some("they have to be stable with a margin: close a loop around them first, or choose another output e"),
+                Some(
+                    "they have to be stable with a margin: close a loop around them first, or choose another output e",
+                ),
             ),
             PlantRefusal::NoGain(obstacle) => undecided(
                 "",

@@ -2,7 +2,7 @@
 
 use super::coordinates::Density;
 use super::entries::kind;
-use super::grid::{KINDS, Source, Values};
+use super::grid::{KINDS, RATE, Source, Values};
 use crate::bounds::{self, FloatSuprema, Kind};
 use crate::number::{Direction, round_f64};
 use crate::plant::Plant;
@@ -38,7 +38,7 @@ impl<'a> Sampling<'a> {
 
     /// Ordinary sizes of |y| and |e|.
     pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
-        let values = self.source(l, None, Density::Coarse)(0.0, 0.0);
+        let values = self.source(l, None, Density::Rough)(0.0, 0.0);
         let of = |bound| KINDS.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
         let (rate, f_e) = (of(crate::spec::Bound::Rate), of(crate::spec::Bound::Fe));
         let size = f_e / rate * self.unit_e;
@@ -64,16 +64,23 @@ impl<'a> Sampling<'a> {
     pub(super) fn source(&self, l: &DMatrix<f64>, p: Option<&PeriodicMatrix>, density: Density) -> Arc<Source> {
         let suprema = self.suprema(l, p);
         let stride = match density {
+            Density::Rough => 6,
             Density::Coarse => 3,
             Density::Fine => 1,
         };
+        let stateless = l.nrows() == 0;
         let places: Vec<usize> = KINDS
             .iter()
             .map(|bound| Kind::ALL.iter().position(|other| Some(*other) == kind(*bound)).unwrap_or_default())
             .collect();
         Arc::new(move |x, e| -> Values {
             let all = suprema.survey(x, e, stride);
-            std::array::from_fn(|k| all[places[k]])
+            let mut values: Values = std::array::from_fn(|k| all[places[k]]);
+            if stateless {
+                // Without states every rate is as good as any other.
+                values[RATE] = 1.0;
+            }
+            values
         })
     }
 }
