@@ -25,7 +25,7 @@ const DIGITS: [u32; 4] = [3, 4, 5, 7];
 const KEPT: f64 = 0.999;
 
 /// Where no constant P has this share of the Floquet rate, P(t) are looked for as well.
-const ENOUGH: f64 = 0.9;
+const ENOUGH: f64 = 0.2;
 
 /// The P(t) that are offered.
 const MAX_PERIODIC: usize = 8;

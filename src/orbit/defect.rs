@@ -10,17 +10,17 @@ use crate::expr::Walk;
 use rayon::prelude::*;
 
 /// The order of the Taylor polynomials in t.
-pub(super) const ORDER: usize = 12;
+pub(super) const ORDER: usize = 10;
 
 /// Powers of two that the number of cells runs through.
 pub(super) const CELLS: std::ops::RangeInclusive<u32> = 4..=9;
 
 /// A bound at most this many times a sampled maximum is good enough.
-pub(super) const CLOSE: f64 = 3.0;
+pub(super) const CLOSE: f64 = 6.0;
 
-/// The power of two from which the number of cells starts: four times the number of harmonics.
+/// The power of two from which the number of cells starts: twice the number of harmonics.
 pub(super) fn first_exponent(harmonics: usize) -> u32 {
-    (4 * harmonics).next_power_of_two().trailing_zeros().clamp(*CELLS.start(), *CELLS.end())
+    (2 * harmonics).next_power_of_two().trailing_zeros().clamp(*CELLS.start(), *CELLS.end())
 }
 
 /// An upper bound of `|L^-1 (f(t,xb,0) - xb')|` over all cells; `walk` has the components of f, `inverse` is `L^-1`.

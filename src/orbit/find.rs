@@ -135,7 +135,9 @@ fn simulate(field: &mut Field, start: &[f64], periods: usize) -> Option<FloatSer
     // |J| h is at most 1/2.
     let needed = 2.0 * field.jacobian().norm() * field.period;
     let per_sample = (needed.max(LEAST_STEPS as f64) / kept as f64).ceil();
-    if !(per_sample * (kept * periods) as f64 <= MAX_STEPS as f64) {
+    // False for NaN as well.
+    let affordable = per_sample * (kept * periods) as f64 <= MAX_STEPS as f64;
+    if !affordable {
         return None;
     }
     let per_sample = per_sample as usize;

@@ -13,7 +13,7 @@ use super::sampled::doubles;
 use super::series::FloatSeries;
 use super::taylor::Expansion;
 use crate::enclosure::Enclosure;
-use crate::expr::{Enclosing, Formula, Formulas, PlantVariable};
+use crate::expr::{Enclosing, Formula, Formulas, PlantVariable, Walk};
 use crate::number::{Direction, round_f64};
 use crate::plant::Plant;
 use crate::spec::TrigonometricVector;
@@ -31,7 +31,10 @@ const WANTED_REST: f64 = 1e-8;
 /// Significant digits of the bounds of the rest.
 const DIGITS: u32 = 6;
 
-/// The least rest that is stated, as a share of the size: below it cells are not made smaller for it.
+/// The least size of the derivative (per period) relative to that of q: what varies less is rounding.
+const LEAST_SLOPE: f64 = 1e-2;
+
+/// The least rest that is looked for, as a share of the size: below it cells are not made smaller for it.
 const NEGLIGIBLE_REST: f64 = 1e-12;
 
 /// `qb(t)`, and what is proved of it: `|q(t,x_0,0) - qb| <= rest`, and its derivative in t at most `rest_t`, for all t.
@@ -74,7 +77,7 @@ fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<
         pairs.iter().enumerate().map(|(at, pair)| (weight(at + 1) * amplitude(*pair)).powi(2) / 2.0).sum()
     };
     let size = (mean * mean + square(&|_| 1.0)).sqrt();
-    let slope = square(&|k| TAU * k as f64).sqrt();
+    let slope = square(&|k| TAU * k as f64).sqrt().max(LEAST_SLOPE * size);
     if !(size.is_finite() && slope.is_finite()) {
         return None;
     }
@@ -171,60 +174,81 @@ fn sampled_rests(plant: &Plant, orbit: &TrigonometricVector, forcing: &ProvedFor
     [rest.max(least), rest_t.max(least * TAU) / period]
 }
 
-/// Upper bounds of r_0 and r_1 of 11.4, over more and smaller cells while one of them is above `enough`; the least of each.
+/// Upper bounds of r_0 and r_1 of 11.4, over more and smaller cells while one of them is above `enough`, and above twice its
+/// terms in r and eps, which smaller cells do not change much; the least of each.
 fn rests(
     around: &Around<'_>,
     forcing: &ProvedForcing,
     proved: &ProvedOrbit,
     enough: [f64; 2],
 ) -> Result<[Enclosure; 2], OrbitNotProved> {
-    let mut best: Result<[Enclosure; 2], OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
+    let formulas = Rows::new(around.plant);
     let harmonics = around.harmonics().max(forcing.harmonics.len());
+    let mut best: Result<[Enclosure; 2], OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
     for exponent in first_exponent(harmonics)..=*CELLS.end() {
-        let found = rests_on(around, forcing, proved, exponent);
-        best = match (best, found) {
-            (Ok(best), Ok(found)) => {
-                let smaller = |i: usize| if found[i].upper() < best[i].upper() { &found[i] } else { &best[i] };
-                Ok([smaller(0).clone(), smaller(1).clone()])
+        let (found, of_radius) = match rests_on(around, &formulas, forcing, proved, exponent) {
+            Ok(found) => found,
+            Err(failure) => {
+                best = best.or(Err(failure));
+                continue;
             }
-            (Ok(best), Err(_)) => Ok(best),
-            (Err(_), found) => found,
         };
-        let good =
-            |bounds: &[Enclosure; 2]| bounds.iter().zip(enough).all(|(bound, enough)| bound.upper_f64() <= enough);
-        if best.as_ref().is_ok_and(good) {
+        best = Ok(match best {
+            Ok(best) => {
+                [0, 1].map(|i| if found[i].upper() < best[i].upper() { found[i].clone() } else { best[i].clone() })
+            }
+            Err(_) => found,
+        });
+        let reached = |bounds: &[Enclosure; 2]| {
+            (0..2).all(|i| bounds[i].upper_f64() <= enough[i].max(2.0 * of_radius[i].upper_f64()))
+        };
+        if best.as_ref().is_ok_and(reached) {
             break;
         }
     }
     best
 }
 
-/// The two bounds over `2^exponent` cells.
+/// The formulas of 11.4 at e = 0.
+struct Rows {
+    /// q.
+    value: Walk,
+    /// q_x and D_x.
+    derivatives: Walk,
+    /// f and q, to see that both are smooth where the derivatives are taken.
+    smooth: Walk,
+}
+
+impl Rows {
+    fn new(plant: &Plant) -> Rows {
+        let states = || (0..plant.states()).map(PlantVariable::State);
+        let mut formulas = Formulas::new();
+        let mut all: Vec<Formula> = plant.f.iter().map(|f| formulas.insert(f)).collect();
+        let q = formulas.insert(&plant.q);
+        let slope = |formulas: &mut Formulas, of: Formula, variable| formulas.derivatives(&[of], variable)[0];
+        let q_x: Vec<Formula> = states().map(|state| slope(&mut formulas, q, state)).collect();
+        // D = q_t + q_x f.
+        let mut along = slope(&mut formulas, q, PlantVariable::Time);
+        for (q_x, f) in q_x.iter().zip(&all) {
+            let term = formulas.product(*q_x, *f);
+            along = formulas.sum(along, term);
+        }
+        let d_x: Vec<Formula> = states().map(|state| slope(&mut formulas, along, state)).collect();
+        let rows: Vec<Formula> = q_x.into_iter().chain(d_x).collect();
+        all.push(q);
+        Rows { value: formulas.walk(&[q]), derivatives: formulas.walk(&rows), smooth: formulas.walk(&all) }
+    }
+}
+
+/// The two bounds over `2^exponent` cells, and their terms in r and eps.
 fn rests_on(
     around: &Around<'_>,
+    formulas: &Rows,
     forcing: &ProvedForcing,
     proved: &ProvedOrbit,
     exponent: u32,
-) -> Result<[Enclosure; 2], OrbitNotProved> {
-    let plant = around.plant;
-    let n = plant.states();
-    let mut formulas = Formulas::new();
-    let f: Vec<Formula> = plant.f.iter().map(|f| formulas.insert(f)).collect();
-    let q = formulas.insert(&plant.q);
-    let slope = |formulas: &mut Formulas, of: Formula, variable| formulas.derivatives(&[of], variable)[0];
-    let q_x: Vec<Formula> = (0..n).map(|i| slope(&mut formulas, q, PlantVariable::State(i))).collect();
-    // D = q_t + q_x f, and its derivatives with respect to the states.
-    let mut along = slope(&mut formulas, q, PlantVariable::Time);
-    for (q_x, f) in q_x.iter().zip(&f) {
-        let term = formulas.product(*q_x, *f);
-        along = formulas.sum(along, term);
-    }
-    let d_x: Vec<Formula> = (0..n).map(|i| slope(&mut formulas, along, PlantVariable::State(i))).collect();
-    let value = formulas.walk(&[q]);
-    // With q and f themselves, so that both are seen to be smooth wherever derivatives are taken.
-    let all: Vec<Formula> = q_x.iter().chain(&d_x).copied().collect();
-    let derivatives = formulas.walk(&all);
-    let smooth = formulas.walk(&f.iter().copied().chain([q]).collect::<Vec<_>>());
+) -> Result<([Enclosure; 2], [Enclosure; 2]), OrbitNotProved> {
+    let n = around.plant.states();
     let qb = wave(&forcing.mean, forcing.harmonics.iter().map(|pair| [&pair[0], &pair[1]]));
     let curve = around.curve(exponent, Some(&qb));
     let cells = &curve.cells;
@@ -236,35 +260,32 @@ fn rests_on(
         let column = |j: usize| (0..n).fold(zero.clone(), |sum, i| sum + &row[i] * &around.l[i][j]);
         norm((0..n).map(column), PRECISION)
     };
-    let bounds: Vec<[Enclosure; 2]> = (0..cells.count)
+    let bounds: Vec<[Enclosure; 4]> = (0..cells.count)
         .into_par_iter()
         .map(|cell| {
             let states = curve.states(cell, ORDER + 1);
-            let own = curve.along(&value, cell, &states, ORDER);
+            let own = curve.along(&formulas.value, cell, &states, ORDER);
             let known = cells.expand(&qb, cell, ORDER);
             let [middle, over] = [0, 1].map(|which| combine(&own[which][0], &known[which], -1));
             let expansion = Expansion::new(&middle, &over, ORDER, PRECISION);
-            let tube: Vec<Enclosure> = states[1]
-                .iter()
-                .zip(&reach)
-                .map(|(component, reach)| &component[0] + reach.negate().hull(reach))
-                .collect();
-            let time = cells.time(cell, &curve.period);
-            let seen = curve.in_box(&smooth, &time[1][0], &tube);
-            let rows =
-                derivatives.evaluate(&mut Enclosing { t: &time[1][0], x: &tube, e: &zero, precision: PRECISION });
-            if !seen {
-                return [Enclosure::undefined(PRECISION), Enclosure::undefined(PRECISION)];
+            let widened = states[1].iter().zip(&reach).map(|(series, reach)| &series[0] + reach.negate().hull(reach));
+            let tube: Vec<Enclosure> = widened.collect();
+            let [_, time] = cells.time(cell, &curve.period);
+            if !curve.in_box(&formulas.smooth, &time[0], &tube) {
+                return [(); 4].map(|()| Enclosure::undefined(PRECISION));
             }
+            let mut natural = Enclosing { t: &time[0], x: &tube, e: &zero, precision: PRECISION };
+            let rows = formulas.derivatives.evaluate(&mut natural);
             let [of_q, of_d] = [norm_of(&rows[..n]), norm_of(&rows[n..])];
-            let rest = expansion.bound(&cells.half) + &radius * &of_q;
-            let rest_t = expansion.slope_bound(&cells.half) / &curve.period + &radius * of_d + &defect * of_q;
-            [rest, rest_t]
+            let [rest, rest_t] = [&radius * &of_q, &radius * of_d + &defect * of_q];
+            let value = expansion.bound(&cells.half) + &rest;
+            let slope = expansion.slope_bound(&cells.half) / &curve.period + &rest_t;
+            [value, slope, rest, rest_t]
         })
         .collect();
     let bound = |which: usize| {
-        let own: Vec<Enclosure> = bounds.iter().map(|pair| pair[which].clone()).collect();
+        let own: Vec<Enclosure> = bounds.iter().map(|all| all[which].clone()).collect();
         largest(&own, cells.count)
     };
-    Ok([bound(0)?, bound(1)?])
+    Ok(([bound(0)?, bound(1)?], [bound(2)?, bound(3)?]))
 }

@@ -154,9 +154,9 @@ impl Contraction<'_> {
         Symmetric::from_fn(n, |i, j| {
             let mut sum =
                 combine(&slope(p.at(i, j), period), &p.at(i, j).iter().map(|c| c * alpha * 2).collect::<Taylor>(), 1);
-            for k in 0..n {
-                sum = combine(&sum, &mul(p.at(i, k), &rows[k][j], ORDER), 1);
-                sum = combine(&sum, &mul(p.at(k, j), &rows[k][i], ORDER), 1);
+            for (k, row) in rows.iter().enumerate() {
+                sum = combine(&sum, &mul(p.at(i, k), &row[j], ORDER), 1);
+                sum = combine(&sum, &mul(p.at(k, j), &row[i], ORDER), 1);
             }
             sum.iter().map(Enclosure::negate).collect()
         })

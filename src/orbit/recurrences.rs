@@ -15,10 +15,15 @@ fn is_constant(a: &[Enclosure]) -> bool {
     a.len() <= 1
 }
 
-/// `sum_{i=1..k} i a_i b_{k-i}` over what is there.
-fn weighted(a: &[Enclosure], b: &[Enclosure], k: usize, precision: u32) -> Enclosure {
-    let terms = (1..=k.min(a.len() - 1)).filter(|i| k - i < b.len());
-    terms.fold(Enclosure::zero(precision), |sum, i| sum + &a[i] * &b[k - i] * i as i64)
+/// The coefficients `i u_i` of d u'.
+fn weights(u: &[Enclosure]) -> Series {
+    u.iter().zip(0_i64..).map(|(u, i)| u * i).collect()
+}
+
+/// `sum_{i=1..k} w_i b_{k-i}` over what is there.
+fn weighted(w: &[Enclosure], b: &[Enclosure], k: usize, precision: u32) -> Enclosure {
+    let terms = (1..=k.min(w.len() - 1)).filter(|i| k - i < b.len());
+    terms.fold(Enclosure::zero(precision), |sum, i| sum + &w[i] * &b[k - i])
 }
 
 /// `sum_{i=0..k} a_i b_{k-i}` over what is there.
@@ -84,8 +89,9 @@ fn length(u: &[Enclosure], order: usize) -> usize {
 /// The exponential: `v' = u' v`.
 pub(super) fn exp(u: &[Enclosure], order: usize) -> Series {
     let mut v = vec![u[0].exp()];
+    let w = weights(u);
     for k in 1..length(u, order) {
-        let next = weighted(u, &v, k, precision(u)) / k as i64;
+        let next = weighted(&w, &v, k, precision(u)) / k as i64;
         v.push(next);
     }
     v
@@ -106,8 +112,9 @@ pub(super) fn log(u: &[Enclosure], order: usize) -> Series {
 /// Sine and cosine: `s' = u' c`, `c' = -u' s`.
 pub(super) fn sin_cos(u: &[Enclosure], order: usize) -> [Series; 2] {
     let (mut sin, mut cos) = (vec![u[0].sin()], vec![u[0].cos()]);
+    let w = weights(u);
     for k in 1..length(u, order) {
-        let next = [weighted(u, &cos, k, precision(u)), weighted(u, &sin, k, precision(u)).negate()];
+        let next = [weighted(&w, &cos, k, precision(u)), weighted(&w, &sin, k, precision(u)).negate()];
         let [s, c] = next.map(|sum| sum / k as i64);
         sin.push(s);
         cos.push(c);
@@ -118,10 +125,11 @@ pub(super) fn sin_cos(u: &[Enclosure], order: usize) -> [Series; 2] {
 /// The tangent (`sign` 1) or the hyperbolic tangent (-1): `v' = u' w` with `w = 1 + sign v^2`.
 pub(super) fn tangent(u: &[Enclosure], order: usize, sign: i64) -> Series {
     let value = if sign > 0 { u[0].tan() } else { u[0].tanh() };
+    let own = weights(u);
     let mut w = vec![1 + value.sqr() * sign];
     let mut v = vec![value];
     for k in 1..length(u, order) {
-        let next = weighted(u, &w, k, precision(u)) / k as i64;
+        let next = weighted(&own, &w, k, precision(u)) / k as i64;
         v.push(next);
         w.push(product(&v, &v, k, precision(u)) * sign);
     }

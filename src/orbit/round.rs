@@ -26,7 +26,7 @@ pub(super) fn to_grain(value: f64, unit: f64) -> Option<Rational> {
     let power = Rational::from(Integer::from(Integer::u_pow_u(10, places.unsigned_abs())));
     let scaled = Rational::from_f64(value)?;
     let scaled = if places >= 0 { scaled * &power } else { scaled / &power };
-    let whole = Rational::from(scaled.round());
+    let whole = scaled.round();
     Some(if places >= 0 { whole / power } else { whole * power })
 }
 
