@@ -9,7 +9,7 @@ use rug::Rational;
 const SAMPLES: u32 = 512;
 
 /// What is added to the sampled extremes, relative to the sum of the amplitudes; then 30 times as much, and so on.
-const SLACK: f64 = 1e-7;
+const SLACK: f64 = 1e-5;
 const GROWTH: f64 = 30.0;
 const ATTEMPTS: u32 = 4;
 
