@@ -1,70 +1,67 @@
 //! The interval through which a component of the orbit moves.
 
-use super::chart::{MAX_LEVEL, Side};
-use super::time_cell::Waves;
+use super::PRECISION;
+use crate::enclosure::Enclosure;
 use crate::spec::TrigonometricVector;
 use rug::Rational;
 
-/// Points at which the extremes are sampled.
-const SAMPLES: u32 = 512;
+/// Points of a period at which the component is enclosed.
+const SAMPLES: usize = 512;
 
-/// What is added to the sampled extremes, relative to the sum of the amplitudes; then 30 times as much, and so on.
-const SLACK: f64 = 1e-7;
-const GROWTH: f64 = 30.0;
-const ATTEMPTS: u32 = 4;
-
-/// The parts of the period of an attempt.
-const MAX_PARTS: usize = 4096;
-
-/// An interval that contains the component at all t, and is little larger than need be.
+/// An interval that contains the component at all t.
+///
+/// In the angle a the second derivative is at most `B = sum k^2 (|a_k| + |b_k|)`, and the derivative vanishes at a maximum; so the
+/// value at the nearest sample, no farther than `h = pi/SAMPLES < (22/7)/SAMPLES`, is at least the maximum minus `B h^2/2`. As much for
+/// a minimum.
 pub(super) fn extent(orbit: &TrigonometricVector, index: usize) -> [Rational; 2] {
     let mean = &orbit.mean[index];
-    let pairs = || orbit.harmonics.iter().map(move |[a, b]| [&a[index], &b[index]]);
-    let amplitude = pairs().flatten().fold(Rational::new(), |sum, value| sum + Rational::from(value.abs_ref()));
+    let pairs: Vec<[&Rational; 2]> = orbit.harmonics.iter().map(|[a, b]| [&a[index], &b[index]]).collect();
+    let size = |pair: &[&Rational; 2]| Rational::from(pair[0].abs_ref()) + Rational::from(pair[1].abs_ref());
+    let amplitude = pairs.iter().fold(Rational::new(), |sum, pair| sum + size(pair));
     if amplitude.is_zero() {
         return [mean.clone(), mean.clone()];
     }
-    let doubles: Vec<[f64; 2]> = pairs().map(|pair| pair.map(Rational::to_f64)).collect();
-    let value = |angle: f64| {
-        doubles.iter().zip(1..).fold(mean.to_f64(), |sum, ([a, b], k)| {
-            let (sin, cos) = libm::sincos(angle * f64::from(k));
+    let bend = pairs.iter().zip(1_u64..).fold(Rational::new(), |sum, (pair, k)| sum + size(pair) * (k * k));
+    let step = Rational::from((22, 7 * SAMPLES as u64));
+    let missed = bend * step.square() / 2u32;
+    let turn = Enclosure::pi(PRECISION) * 2;
+    let waves: Vec<[Enclosure; 2]> = (0..SAMPLES as i64)
+        .map(|sample| {
+            let angle = &turn * sample / SAMPLES as i64;
+            [angle.cos(), angle.sin()]
+        })
+        .collect();
+    let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+    let coefficients: Vec<[Enclosure; 2]> = pairs.iter().map(|pair| pair.map(exact)).collect();
+    let value = |sample: usize| {
+        coefficients.iter().zip(1..).fold(exact(mean), |sum, ([a, b], k)| {
+            let [cos, sin] = &waves[sample * k % SAMPLES];
             sum + a * cos + b * sin
         })
     };
-    let angles = (0..SAMPLES).map(|sample| std::f64::consts::TAU * f64::from(sample) / f64::from(SAMPLES));
-    let [low, high] = angles
-        .map(value)
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
-    let size = amplitude.to_f64();
-    // A sampled extreme is off by at most half of the second derivative times the square of half a step.
-    let bend: f64 = doubles.iter().zip(1..).map(|([a, b], k)| f64::from(k * k) * (a.abs() + b.abs())).sum();
-    let missed = bend * (std::f64::consts::PI / f64::from(SAMPLES)).powi(2) / 2.0;
-    for attempt in 0..ATTEMPTS {
-        let slack = missed + size * SLACK * GROWTH.powi(attempt as i32);
-        let bounds = Rational::from_f64(low - slack).zip(Rational::from_f64(high + slack));
-        if let Some((low, high)) = bounds
-            && lies_within(orbit, index, &low, &high)
-        {
-            return [low, high];
-        }
+    let hull = (1..SAMPLES).map(value).fold(value(0), |hull, value| hull.hull(&value));
+    match hull.lower_rational().zip(hull.upper_rational()) {
+        Some((low, high)) => [low - &missed, high + missed],
+        // Beyond the range of exact ends: what the amplitudes say.
+        None => [Rational::from(mean - &amplitude), mean + amplitude],
     }
-    [Rational::from(mean - &amplitude), Rational::from(mean + &amplitude)]
 }
 
-/// Whether the component is proved to lie in the interval at all t.
-fn lies_within(orbit: &TrigonometricVector, index: usize, low: &Rational, high: &Rational) -> bool {
-    let mut open = vec![Side::WHOLE];
-    let mut parts = 0;
-    while let Some(side) = open.pop() {
-        parts += 1;
-        if parts > MAX_PARTS || side.level >= MAX_LEVEL {
-            return false;
-        }
-        let coefficients = orbit.harmonics.iter().map(move |[a, b]| [&a[index], &b[index]]);
-        let value = Waves::new(side, orbit.harmonics.len()).polynomial(&orbit.mean[index], coefficients, false);
-        if !(*value.range.lower() >= *low && *value.range.upper() <= *high) {
-            open.extend(side.halves());
-        }
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_are_met_from_outside() {
+        let rational = |value: i32| vec![Rational::from(value)];
+        // 1 + 3 cos a + 4 sin a lies in [-4, 6]; with a third harmonic of size 2 more it still lies in [-6, 8].
+        let mut orbit = TrigonometricVector { mean: rational(1), harmonics: vec![[rational(3), rational(4)]] };
+        let [low, high] = extent(&orbit, 0);
+        assert!(low <= -4 && high >= 6 && low.to_f64() > -4.001 && high.to_f64() < 6.001);
+        orbit.harmonics.extend([[rational(0), rational(0)], [rational(0), rational(2)]]);
+        let [low, high] = extent(&orbit, 0);
+        assert!(low.to_f64() > -6.01 && high.to_f64() < 8.01 && high > 6);
+        orbit.harmonics.clear();
+        assert_eq!(extent(&orbit, 0), [1, 1]);
     }
-    true
 }

@@ -6,12 +6,9 @@ use super::suprema::FloatSuprema;
 use crate::number::{Direction, round_f64};
 use rug::Rational;
 
-/// What a sampled supremum is enlarged by, until a bound is proved.
-const SLACKS: [f64; 6] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3];
-
-/// The boxes that each attempt may take; the last one may take [`LAST_EFFORT`].
-const EFFORT: usize = 3000;
-const LAST_EFFORT: usize = 20_000;
+/// What a sampled supremum is enlarged by, until a bound is proved, and the boxes that each attempt may take.
+const ATTEMPTS: [(f64, usize); 6] =
+    [(0.001, 1500), (0.003, 3000), (0.01, 4000), (0.03, 6000), (0.1, 6000), (0.3, 20_000)];
 
 /// Digits of a value, beyond those that its slack takes.
 const DIGITS: u32 = 6;
@@ -44,13 +41,12 @@ impl Engine {
             true => sampled.value.abs().max(PART_OF_SPREAD * sampled.spread),
             false => sampled.value.abs(),
         };
-        for (attempt, slack) in SLACKS.into_iter().enumerate() {
+        for (slack, effort) in ATTEMPTS {
             let (moved, direction) = match kind.is_rate() {
                 true => (sampled.value - slack * size, Direction::Down),
                 false => (sampled.value + slack * size, Direction::Up),
             };
             let value = round_f64(moved, DIGITS, direction)?;
-            let effort = if attempt + 1 == SLACKS.len() { LAST_EFFORT } else { EFFORT };
             let decision =
                 self.decide(&Entry { bound: kind, x: x.clone(), e: e.clone(), value: value.clone() }, effort);
             if decision.truth.is_true() {

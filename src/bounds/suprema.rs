@@ -12,8 +12,11 @@ use std::sync::Arc;
 const TIMES: usize = 64;
 
 /// Steps of the local search for the largest value, and how often its step is halved: roughly, and for a proof.
-const ROUGH: u32 = 5;
+const ROUGH: u32 = 3;
 const FINE: u32 = 14;
+
+/// Moves with the same step, at most.
+const MOVES: u32 = 4;
 
 /// The first step of the local search, in coordinates of the cube.
 const FIRST_STEP: f64 = 0.15;
@@ -210,9 +213,22 @@ impl FloatSuprema {
         self.search(kind, reach, e, FINE, STARTS)
     }
 
+    /// The value at one point: t/T, y in the unit ball, e; of a rate the negative.
+    #[cfg(test)]
+    pub(super) fn sample(&self, kind: Kind, time: f64, y: &[f64], reach: f64, e: f64) -> f64 {
+        let mut evaluator = Evaluator::new(self.program.clone());
+        let moment = self.moment(time, &mut evaluator, &mut Evaluator::new(self.velocity.clone()));
+        let mut x = vec![0.0; self.order];
+        self.place(&moment.orbit, y, reach, &mut x);
+        let mut outputs = vec![0.0; self.program.outputs()];
+        evaluator.evaluate(&x, e, &mut outputs);
+        let slot = Kind::ALL.iter().position(|other| *other == kind).unwrap_or_default();
+        self.pointwise().all(&outputs, &moment.velocity, &self.matrices_at(time))[slot]
+    }
+
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Kind, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
-        let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, -0.4, 0.0, 0.4, 1.0] };
+        let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, 0.0, 1.0] };
         let slot = Kind::ALL.iter().position(|other| *other == kind).unwrap_or_default();
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
@@ -225,13 +241,19 @@ impl FloatSuprema {
         let mut outputs = vec![0.0; self.program.outputs()];
         let mut x = vec![0.0; self.order];
         let mut pointwise = self.pointwise();
+        // Most steps leave the time as it is.
+        let mut moment = self.moment(0.0, &mut evaluator, &mut slow);
         let mut value_at = |point: &Point| {
-            let moment = self.moment(point.time, &mut evaluator, &mut slow);
+            if point.time != moment.time {
+                moment = self.moment(point.time, &mut evaluator, &mut slow);
+            }
+            evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, &point.y, reach, &mut x);
             evaluator.evaluate(&x, point.e * e, &mut outputs);
             pointwise.all(&outputs, &moment.velocity, &self.matrices_at(moment.time))[slot]
         };
-        let mut largest = f64::NEG_INFINITY;
+        // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
+        let mut largest = f64::NAN;
         for (value, [i, j, k]) in &best {
             let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: errors[*k] };
             largest = largest.max(climb(point, *value, halvings, e != 0.0, &mut value_at));
@@ -299,7 +321,7 @@ impl FloatMatrix {
 
 /// Keeps the largest values.
 fn keep(best: &mut Vec<(f64, [usize; 3])>, count: usize, value: f64, at: [usize; 3]) {
-    if best.len() == count && best.last().is_some_and(|(least, _)| !(value > *least)) {
+    if value.is_nan() || (best.len() == count && best.last().is_some_and(|(least, _)| value <= *least)) {
         return;
     }
     let place = best.iter().position(|(other, _)| value > *other).unwrap_or(best.len());
@@ -348,9 +370,6 @@ fn climb(
     }
     value
 }
-
-/// Moves with the same step.
-const MOVES: u32 = 4;
 
 /// A step in time is so much smaller than one in the ball.
 const TIME_SCALE: f64 = 16.0;
