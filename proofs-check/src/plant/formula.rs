@@ -154,14 +154,6 @@ impl Formulas {
         self.insert(Kind::Sign(a), self.depends(a), None)
     }
 
-    /// The rational value of a number.
-    fn rational(&self, id: Id) -> Option<Rational> {
-        match &self.nodes[id].kind {
-            Kind::Apply(Op::Number(value), _) => Some(value.clone()),
-            _ => None,
-        }
-    }
-
     /// Whether it is the number 0.
     pub fn is_zero(&self, id: Id) -> bool {
         self.is(id, 0)

@@ -14,5 +14,7 @@ mod lyapunov;
 mod mean_squares;
 mod monotone;
 mod mutations;
+mod plant_paper;
+mod plant_support;
 mod specification;
 mod transfer;
