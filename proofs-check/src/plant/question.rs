@@ -16,11 +16,14 @@ use super::time::{around, point};
 use crate::effort;
 use crate::interval::Interval;
 use crate::matrix::semidefinite;
-use rug::Float;
+use rug::{Float, Rational};
 use std::rc::Rc;
 
 /// The most boxes that one question may take.
 const MAX_PIECES: usize = 40_000;
+
+/// After so many boxes, places where the matrix may not be semidefinite are tried as well.
+const PROBED_AFTER: usize = 24;
 
 /// The rows of a symmetric matrix, its lower triangle, with its derivatives.
 #[derive(Clone, Debug)]
@@ -77,7 +80,7 @@ impl Question {
             if count > MAX_PIECES || effort::exhausted() {
                 return Answer::Open(place(&piece));
             }
-            match decision.judge(&piece) {
+            match decision.judge(&piece, count > PROBED_AFTER) {
                 Judgement::Proved => {}
                 Judgement::Refuted => return Answer::Refuted(place(&piece)),
                 Judgement::Halve(side) => match side.or_else(|| piece.widest(&whole, self.depends)) {
@@ -120,7 +123,7 @@ impl Decision<'_, '_> {
         rows.iter().map(|row| row.iter().map(|id| self.machine.get(*id, at, cell, self.values)).collect()).collect()
     }
 
-    fn judge(&mut self, piece: &Piece) -> Judgement {
+    fn judge(&mut self, piece: &Piece, probed: bool) -> Judgement {
         let states = self.region.states;
         if self.region.misses(piece) {
             return Judgement::Proved;
@@ -146,7 +149,38 @@ impl Decision<'_, '_> {
         if semidefinite(middle.clone()) == Some(false) && self.region.has_middle(piece) {
             return Judgement::Refuted;
         }
-        self.by_mean_value(piece, &middle, &slopes)
+        let judgement = self.by_mean_value(piece, &middle, &slopes);
+        let open = matches!(judgement, Judgement::Halve(_));
+        if open && probed && self.fails_at_end(piece, &middle, &slopes) { Judgement::Refuted } else { judgement }
+    }
+
+    /// Whether the matrix is certainly not semidefinite where its last pivot falls to, at the time in the middle: at ends of the
+    /// box, moved into the ball.
+    fn fails_at_end(&mut self, piece: &Piece, middle: &Matrix, slopes: &[(Option<usize>, Matrix)]) -> bool {
+        let states = self.region.states;
+        let Some(basis) = Basis::new(middle) else { return false };
+        let last = middle.len() - 1;
+        let mut place: Vec<Float> = (0..=states).map(|side| piece.middle(side)).collect();
+        for (side, matrix) in slopes {
+            let Some(side) = *side else { continue };
+            let rate = middle_of(&basis.form(matrix, last, last));
+            let end = usize::from(rate < 0);
+            if rate != 0 {
+                place[side].clone_from(&piece.sides[side][end]);
+            }
+        }
+        let zero = Interval::int(0, self.machine.precision);
+        let distance = place[..states].iter().fold(zero, |sum, v| sum + point(v).sqr()).sqrt();
+        if distance.lt(&self.region.radius) != Some(true) && distance.is_positive() {
+            let inward = Interval::rational(&Rational::from((999_999, 1_000_000)), self.machine.precision);
+            let factor = middle_of(&(&self.region.radius * inward / distance));
+            place[..states].iter_mut().for_each(|v| *v *= &factor);
+        }
+        let points: Vec<Interval> = place.iter().map(point).collect();
+        let (v, e) = points.split_at(states);
+        self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, &e[0], self.values);
+        let there = self.read(&self.question.rows, At::Middle, &piece.cell);
+        self.region.has(&points) && semidefinite(there) == Some(false)
     }
 
     fn by_mean_value(&self, piece: &Piece, middle: &Matrix, slopes: &[(Option<usize>, Matrix)]) -> Judgement {

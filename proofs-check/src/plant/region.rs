@@ -69,10 +69,16 @@ impl Region {
 
     /// Whether the middle of a box certainly belongs to the region.
     pub fn has_middle(&self, piece: &Piece) -> bool {
+        let middle: Vec<Interval> = (0..=self.states).map(|i| super::time::point(&piece.middle(i))).collect();
+        self.has(&middle)
+    }
+
+    /// Whether v_1, ..., v_n and e certainly belong to it.
+    pub fn has(&self, place: &[Interval]) -> bool {
         let zero = Interval::int(0, self.radius.precision());
-        let middle = |i: usize| super::time::point(&piece.middle(i));
-        let distance = (0..self.states).fold(zero, |sum, i| sum + middle(i).sqr());
-        distance.le(&self.radius.sqr()) == Some(true) && middle(self.states).abs().le(&self.output) == Some(true)
+        let distance = place[..self.states].iter().fold(zero, |sum, v| sum + v.sqr());
+        let lies_within = |value: &Interval, end: &Interval| value.hi() <= end.lo();
+        lies_within(&distance, &self.radius.sqr()) && lies_within(&place[self.states].abs(), &self.output)
     }
 }
 
