@@ -244,7 +244,17 @@ pub fn exact_op(op: &Op, a: Option<Option<Exact>>, b: Option<Option<Exact>>) -> 
             let first = (a.compare(&b)? == Ordering::Less) == (*op == Op::Min);
             Some(if first { a } else { b })
         }
-        Op::X | Op::E | Op::State(_) | Op::Exp | Op::Log | Op::Sin | Op::Cos | Op::Tan | Op::Atan | Op::Tanh | Op::Pow => None,
+        Op::X
+        | Op::E
+        | Op::State(_)
+        | Op::Exp
+        | Op::Log
+        | Op::Sin
+        | Op::Cos
+        | Op::Tan
+        | Op::Atan
+        | Op::Tanh
+        | Op::Pow => None,
     }
 }
 

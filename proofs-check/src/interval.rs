@@ -428,9 +428,8 @@ fn mul(a: &Interval, b: &Interval) -> Interval {
     let product = |x: &Float, y: &Float, round| {
         if x.is_zero() || y.is_zero() { Float::new(p) } else { rounded(p, x * y, round) }
     };
-    let between = |[x, y]: [&Float; 2], [z, w]: [&Float; 2]| {
-        Interval::new(product(x, y, Round::Down), product(z, w, Round::Up))
-    };
+    let between =
+        |[x, y]: [&Float; 2], [z, w]: [&Float; 2]| Interval::new(product(x, y, Round::Down), product(z, w, Round::Up));
     // The sign of each factor says which ends make the extremes: + where it is nonnegative, - where it is nonpositive.
     match (Sign::of(a), Sign::of(b)) {
         (Sign::Plus, Sign::Plus) => between([&a.lo, &b.lo], [&a.hi, &b.hi]),

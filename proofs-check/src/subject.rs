@@ -118,7 +118,10 @@ fn assumed_of_plant(spec: &Specification, plant: &Plant) -> Vec<String> {
         Some([_, e]) if of_x.is_empty() => format!(" for |e| <= {}", printable(&e.text)),
         Some([x, e]) => format!(" for {of_x}{}, |e| <= {}", printable(&x.text), printable(&e.text)),
     };
-    vec![format!("the machine is x' = f(t,x,e), e' = q(t,x,e) + u with exactly these formulas{where_}"), regulator(spec)]
+    vec![
+        format!("the machine is x' = f(t,x,e), e' = q(t,x,e) + u with exactly these formulas{where_}"),
+        regulator(spec),
+    ]
 }
 
 /// A free text on one line: control characters are escaped, and what is long is cut.

@@ -15,7 +15,7 @@ use rug::{Float, Rational};
 /// The name of this rule.
 pub const RULE: &str = "bounds of the plant";
 /// The most entries.
-const MAX_ENTRIES: usize = 500;
+const MAX_ENTRIES: usize = 100;
 /// The precision, in bits, at which the arguments of an entry are rounded up: that at which a claim is decided first, so that
 /// an argument that is the entry's own finds it.
 const ARGUMENT_PRECISION: u32 = 128;
@@ -132,7 +132,8 @@ impl Entries {
 
     /// A bound of section 1 or 10 at (X, E).
     pub fn at(&self, which: Bound, x: &Interval, e: &Interval, precision: u32) -> Option<Interval> {
-        let nothing = matches!(which, Bound::F | Bound::Fe | Bound::Fxx | Bound::Fex | Bound::Fx | Bound::Qx | Bound::Qtx);
+        let nothing =
+            matches!(which, Bound::F | Bound::Fe | Bound::Fxx | Bound::Fex | Bound::Fx | Bound::Qx | Bound::Qtx);
         if nothing && !self.has_states {
             return Some(Interval::int(0, precision));
         }
@@ -148,11 +149,10 @@ impl Entries {
     pub fn largest(&self) -> [Float; 2] {
         let zero = || Float::new(ARGUMENT_PRECISION);
         self.list.iter().fold([zero(), zero()], |[x, e], entry| {
-            [if entry.arguments[0] > x { entry.arguments[0].clone() } else { x }, if entry.arguments[1] > e {
-                entry.arguments[1].clone()
-            } else {
-                e
-            }]
+            [
+                if entry.arguments[0] > x { entry.arguments[0].clone() } else { x },
+                if entry.arguments[1] > e { entry.arguments[1].clone() } else { e },
+            ]
         })
     }
 }

@@ -71,9 +71,7 @@ fn shifted(matrix: &Matrix, factor: &Rational, shift: &Rational) -> Matrix {
         let scaled = Rational::from(value * &factor);
         if i == j { scaled - &shift } else { scaled }
     };
-    let row = |(i, row): (usize, &Vec<Rational>)| {
-        row.iter().enumerate().map(|(j, value)| entry(i, j, value)).collect()
-    };
+    let row = |(i, row): (usize, &Vec<Rational>)| row.iter().enumerate().map(|(j, value)| entry(i, j, value)).collect();
     matrix.iter().enumerate().map(row).collect()
 }
 
@@ -100,7 +98,8 @@ pub fn semidefinite(mut rows: Matrix) -> bool {
 fn inverse(matrix: &Matrix) -> Option<Matrix> {
     let order = matrix.len();
     let unit = |i: usize| (0..order).map(move |j| Rational::from(u32::from(i == j)));
-    let mut rows: Matrix = matrix.iter().enumerate().map(|(i, row)| row.iter().cloned().chain(unit(i)).collect()).collect();
+    let mut rows: Matrix =
+        matrix.iter().enumerate().map(|(i, row)| row.iter().cloned().chain(unit(i)).collect()).collect();
     for k in 0..order {
         let pivot = (k..order).find(|i| rows[*i][k] != 0)?;
         rows.swap(k, pivot);
@@ -116,4 +115,37 @@ fn inverse(matrix: &Matrix) -> Option<Matrix> {
         }
     }
     Some(rows.into_iter().map(|row| row[order..].to_vec()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn matrix<const N: usize>(rows: [[(i32, i32); N]; N]) -> Matrix {
+        rows.map(|row| row.map(Rational::from).to_vec()).to_vec()
+    }
+
+    #[test]
+    fn definiteness_is_decided_exactly() {
+        let quarter = |value: i32| matrix([[(1, 1), (1, 2)], [(1, 2), (value, 1_000_000)]]);
+        assert!(semidefinite(quarter(250_000)) && semidefinite(quarter(250_001)) && !semidefinite(quarter(249_999)));
+        assert!(semidefinite(matrix([[(0, 1), (0, 1)], [(0, 1), (3, 1)]])));
+        assert!(!semidefinite(matrix([[(0, 1), (1, 9)], [(1, 9), (3, 1)]])) && semidefinite(Vec::new()));
+    }
+
+    #[test]
+    fn balls_and_domains_are_those_of_l() {
+        // L has the singular values 1 and 3.
+        let l = matrix([[(2, 1), (1, 1)], [(1, 1), (2, 1)]]);
+        let found = Coordinates { inverse: inverse(&l).unwrap(), matrix: l };
+        assert_eq!(found.inverse, matrix([[(2, 3), (-1, 3)], [(-1, 3), (2, 3)]]));
+        let number = |value: (i32, i32)| Rational::from(value);
+        assert!(found.covers_ball(&number((5, 2)), &number((5, 2))));
+        assert!(!found.covers_ball(&number((5, 2)), &number((2_501, 1000))));
+        assert!(found.lies_within(&number((1, 3)), &number((1, 1))));
+        assert!(!found.lies_within(&number((1, 3)), &number((999, 1000))));
+        assert!(inverse(&matrix([[(1, 1), (2, 1)], [(2, 1), (4, 1)]])).is_none());
+        // A pivot that is 0 at first.
+        assert!(inverse(&matrix([[(0, 1), (1, 1)], [(1, 1), (0, 1)]])).is_some());
+    }
 }

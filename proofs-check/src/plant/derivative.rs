@@ -124,3 +124,88 @@ impl Formulas {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Expr;
+    use crate::interval::Interval;
+    use crate::plant::formula::Leaf;
+    use crate::plant::machine::{At, Curves, Machine};
+    use rug::Rational;
+
+    const PRECISION: u32 = 320;
+
+    fn number(text: (i64, i64)) -> Interval {
+        Interval::rational(&Rational::from(text), PRECISION)
+    }
+
+    /// A node at a place (t, x, e).
+    fn value(formulas: &Formulas, id: Id, [t, x, e]: &[Interval; 3]) -> Interval {
+        let curves = Curves { orbit: Vec::new(), lyapunov: Vec::new() };
+        let machine = Machine::new(formulas, &curves, &Interval::pi(PRECISION));
+        // The time is the middle of a cell.
+        let (cell, mut values) = (machine.period(&(t * 2)), machine.values());
+        machine.run(&machine.program(&[id]), At::Middle, &cell, std::slice::from_ref(x), e, &mut values);
+        machine.get(id, At::Middle, &cell, &values)
+    }
+
+    #[test]
+    fn derivatives_are_the_limits_of_difference_quotients() {
+        let place = [number((3, 8)), number((7, 10)), number((-2, 5))];
+        let step = Interval::rational(&(Rational::from(1) >> 60), PRECISION);
+        for text in [
+            "x*e + x/(3 + e) - e^3/x",
+            "sqrt(x)*sqrt(x + e)",
+            "exp(x*e)",
+            "log(x - e)",
+            "sin(2*pi*t + x)*cos(e*x)",
+            "tan(x*e + cos(t))",
+            "atan(x^2 - e)/tanh(x)",
+            "abs(e)*abs(x)*x",
+            "min(x, e)*max(x, e^2)",
+            "x^2.5 + (x - e)^x",
+            "x^-3 + 2^e",
+            "-x^2*-e",
+            "sin(t)^3*exp(-cos(t))*x*e",
+            "min(x*e, 1, x)",
+            "pi*x - x/pi + 0*e",
+        ] {
+            let mut formulas = Formulas::default();
+            let variables = [Leaf::Time, Leaf::Output, Leaf::State(0)].map(|leaf| formulas.leaf(leaf));
+            let expr = Expr::parse(text, &["t", "e", "x"]).unwrap();
+            let id = formulas.read(&expr, &variables, &mut Vec::new());
+            for (index, axis) in [Axis::Time, Axis::State(0), Axis::Output].into_iter().enumerate() {
+                let slope = formulas.derivative(id, axis);
+                let (mut after, mut before) = (place.clone(), place.clone());
+                after[index] = &place[index] + &step;
+                before[index] = &place[index] - &step;
+                let quotient = (value(&formulas, id, &after) - value(&formulas, id, &before)) / (&step * 2);
+                let apart = (value(&formulas, slope, &place) - quotient).abs();
+                assert!(apart.hi().to_f64() < 1e-28, "{text} along {axis:?}: {apart:?}");
+                // Twice, for what the bounds of mixed derivatives need.
+                let again = formulas.derivative(slope, Axis::State(0));
+                let (mut after, mut before) = (place.clone(), place.clone());
+                after[1] = &place[1] + &step;
+                before[1] = &place[1] - &step;
+                let quotient = (value(&formulas, slope, &after) - value(&formulas, slope, &before)) / (&step * 2);
+                let apart = (value(&formulas, again, &place) - quotient).abs();
+                assert!(apart.hi().to_f64() < 1e-26, "{text} along {axis:?} and x: {apart:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_corner_has_no_derivative() {
+        let mut formulas = Formulas::default();
+        let variables = [Leaf::Time, Leaf::Output, Leaf::State(0)].map(|leaf| formulas.leaf(leaf));
+        let zero = number((0, 1));
+        let mut demands = Vec::new();
+        for text in ["abs(x)", "min(x, e)", "max(x, 2*x)"] {
+            let id = formulas.read(&Expr::parse(text, &["t", "e", "x"]).unwrap(), &variables, &mut demands);
+            let slope = formulas.derivative(id, Axis::State(0));
+            assert!(!value(&formulas, slope, &[number((1, 3)), zero.clone(), zero.clone()]).is_defined(), "{text}");
+        }
+        assert_eq!(demands.len(), 3);
+    }
+}

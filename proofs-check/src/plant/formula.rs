@@ -25,9 +25,16 @@ pub enum Leaf {
     /// e.
     Output,
     /// A derivative of a component of xb(t).
-    Orbit { state: usize, order: usize },
+    Orbit {
+        state: usize,
+        order: usize,
+    },
     /// A derivative of an entry of the first or second P(t).
-    Lyapunov { which: usize, entry: [usize; 2], order: usize },
+    Lyapunov {
+        which: usize,
+        entry: [usize; 2],
+        order: usize,
+    },
     /// A component of `L^-1 (x_0' - xb')`: any number between two bounds, at each t.
     Drift(usize),
 }
@@ -245,6 +252,9 @@ impl Formulas {
     }
 
     fn demand(&mut self, op: &Op, [a, b]: [Id; 2], value: Id, demands: &mut Vec<(Id, Demand)>) {
+        if operands(op) == 0 {
+            return;
+        }
         let constant = [a, b].iter().take(operands(op)).all(|id| self.depends(*id) == 0);
         if constant {
             // A constant is smooth where it is a number; an operation that gives none is still there.

@@ -83,7 +83,8 @@ impl Rest {
             if fails { Judged::Refuted } else { Judged::Halve }
         };
         everywhere(&machine.period(period), judge).or_else(|(t, refuted)| {
-            let what = format!("q(t,x_0,0) - qb is at most `rest`, and its derivative at most `rest_t`, near t = {t:.6}");
+            let what =
+                format!("q(t,x_0,0) - qb is at most `rest`, and its derivative at most `rest_t`, near t = {t:.6}");
             demand(refuted.then_some(false), RULE, &plant.forcing.pointer, what).map(|()| 0)
         })
     }

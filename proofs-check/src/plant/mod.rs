@@ -54,7 +54,12 @@ struct Asked {
 pub fn prove(spec: &Specification, plant: &Plant, arguments: [&Float; 2], lines: &mut Vec<String>) -> Outcome<()> {
     for formula in plant.f.iter().chain([&plant.q]) {
         let what = "t occurs only inside sin, cos and tan, as A t + B with A period/(2 pi) a whole number";
-        demand(periodic::is_periodic(&formula.expr, spec.period.exact.as_ref()), "periodicity", &formula.pointer, what)?;
+        demand(
+            periodic::is_periodic(&formula.expr, spec.period.exact.as_ref()),
+            "periodicity",
+            &formula.pointer,
+            what,
+        )?;
     }
     lines.push("formulas: periodic in t, by their form".to_owned());
     let mut model = Model::new(plant);

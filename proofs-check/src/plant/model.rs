@@ -39,8 +39,7 @@ impl Model {
             let moved = linear(&mut formulas, row, &states);
             variables.push(formulas.add(orbit, moved));
         }
-        let f: Vec<Id> =
-            plant.f.iter().map(|formula| formulas.read(&formula.expr, &variables, &mut demands)).collect();
+        let f: Vec<Id> = plant.f.iter().map(|formula| formulas.read(&formula.expr, &variables, &mut demands)).collect();
         let q = formulas.read(&plant.q.expr, &variables, &mut demands);
         let apart: Vec<Id> = (0..order)
             .map(|i| {
@@ -51,10 +50,8 @@ impl Model {
         let inverse = &plant.coordinates.inverse;
         let defect = inverse.iter().map(|row| linear(&mut formulas, row, &apart)).collect();
         let f: Vec<Id> = inverse.iter().map(|row| linear(&mut formulas, row, &f)).collect();
-        let jacobian = f
-            .iter()
-            .map(|id| (0..order).map(|j| formulas.derivative(*id, Axis::State(j))).collect())
-            .collect();
+        let jacobian =
+            f.iter().map(|id| (0..order).map(|j| formulas.derivative(*id, Axis::State(j))).collect()).collect();
         let matrices = plant.lyapunov.iter().enumerate();
         let lyapunov = matrices.map(|(which, w)| matrix(&mut formulas, which, w)).collect();
         Model { formulas, f, q, defect, jacobian, lyapunov, demands }

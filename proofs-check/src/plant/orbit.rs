@@ -67,13 +67,7 @@ fn shifted(formulas: &mut Formulas, p: &[Vec<Id>], end: &Rational, sign: i32) ->
 }
 
 /// `|L^-1 (f(t,xb,0) - xb')| <= eps` for all t; how many cells that took.
-pub fn defect(
-    plant: &Plant,
-    model: &Model,
-    curves: &Curves,
-    om: &Interval,
-    period: &Interval,
-) -> Outcome<usize> {
+pub fn defect(plant: &Plant, model: &Model, curves: &Curves, om: &Interval, period: &Interval) -> Outcome<usize> {
     let p = om.precision();
     let machine = super::machine::Machine::new(&model.formulas, curves, om);
     let values = machine.values();

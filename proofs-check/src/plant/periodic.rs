@@ -33,11 +33,9 @@ impl Part {
             (_, _, Some(Other(certain))) => Other(*certain),
             (Op::X, ..) => Exact::rational(&Rational::from(1)).map_or(Other(false), Line),
             (Op::E | Op::State(_), ..) => Free(None),
-            (_, None | Some(Free(_)), None | Some(Free(_))) => Free(exact_op(
-                op,
-                a.as_ref().map(|_| known(&a)),
-                b.as_ref().map(|_| known(&b)),
-            )),
+            (_, None | Some(Free(_)), None | Some(Free(_))) => {
+                Free(exact_op(op, a.as_ref().map(|_| known(&a)), b.as_ref().map(|_| known(&b))))
+            }
             (Op::Sin | Op::Cos | Op::Tan, Some(Line(slope)), _) => Part::wave(slope, period),
             (Op::Neg, Some(Line(slope)), _) => Line(slope.neg()),
             (Op::Add | Op::Sub, Some(Line(slope)), Some(Free(_))) | (Op::Add, Some(Free(_)), Some(Line(slope))) => {

@@ -135,12 +135,8 @@ impl Decision<'_, '_> {
         if semidefinite(on_box.clone()) == Some(true) {
             return Judgement::Proved;
         }
-        let slopes: Vec<(Option<usize>, Matrix)> = self
-            .question
-            .slopes
-            .iter()
-            .map(|(side, rows)| (*side, self.read(rows, At::Box, &piece.cell)))
-            .collect();
+        let slopes: Vec<(Option<usize>, Matrix)> =
+            self.question.slopes.iter().map(|(side, rows)| (*side, self.read(rows, At::Box, &piece.cell))).collect();
         let middles: Vec<Float> = (0..=states).map(|i| piece.middle(i)).collect();
         let points: Vec<Interval> = middles.iter().map(point).collect();
         let (v, e) = points.split_at(states);

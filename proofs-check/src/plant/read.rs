@@ -82,9 +82,8 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<Specificatio
     let period = spec::positive(&mut file, "period")?;
     let names = states(&file.required("states")?)?;
     let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).collect();
-    let formula = |field: &Field<'_>| {
-        expression(field, &variables).map(|expr| Formula { pointer: field.pointer.clone(), expr })
-    };
+    let formula =
+        |field: &Field<'_>| expression(field, &variables).map(|expr| Formula { pointer: field.pointer.clone(), expr });
     let list = file.required("f")?;
     let f: Vec<Formula> = list.elements()?.iter().map(formula).collect::<Outcome<_>>()?;
     if f.len() != names.len() {

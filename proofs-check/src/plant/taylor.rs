@@ -208,3 +208,88 @@ fn power(a: &[Interval], n: i32, length: usize) -> Series {
     }
     result
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Expr, TIME};
+    use rug::Rational;
+
+    const ORDER: usize = 8;
+
+    fn number(numerator: i64, denominator: i64) -> Interval {
+        Interval::rational(&Rational::from((numerator, denominator)), 256)
+    }
+
+    /// The series of an expression in t, where t is as given.
+    fn series(formulas: &Formulas, root: Id, t: &Interval, length: usize) -> Series {
+        let numbers = |id: Id| {
+            let value = |id: Id, find: &dyn Fn(Id) -> Interval| match &formulas.node(id).kind {
+                Kind::Apply(op, [a, b]) => match formulas.operands(id).len() {
+                    0 => interval_op(op, t, t),
+                    1 => interval_op(op, &find(*a), t),
+                    _ => interval_op(op, &find(*a), &find(*b)),
+                },
+                _ => Interval::undefined(256),
+            };
+            // Constants of constants do not occur here.
+            value(id, &|id| value(id, &|_| Interval::undefined(256)))
+        };
+        let leaf = |_: Leaf| vec![t.clone(), Interval::int(1, 256)];
+        expand(formulas, &formulas.below(&[root]), numbers, leaf, length)[root].clone()
+    }
+
+    #[test]
+    fn the_polynomial_and_its_remainder_contain_the_function() {
+        let (middle, half) = (number(3, 10), number(1, 20));
+        let cell = (&middle - &half).hull(&(&middle + &half));
+        for text in [
+            "t*t*t - 2*t",
+            "sin(7*t)*cos(3*t)",
+            "exp(t)*log(1 + t)",
+            "sqrt(t)/(1 + t)",
+            "tan(t) + tanh(3*t)",
+            "atan(5*t)",
+            "t^7 - (1 + t)^-3",
+            "t^1.5",
+            "(1 + t)^t",
+            "abs(t - 1)*t",
+            "min(t, 2)*max(t, sin(t) - 1)",
+            "1/(t - 2) + 1/cos(t)",
+            "exp(-4*sin(t)^2)",
+            "-t/3",
+        ] {
+            let expr = Expr::parse(text, TIME).unwrap();
+            let mut formulas = Formulas::default();
+            let t = formulas.leaf(Leaf::Time);
+            let root = formulas.read(&expr, &[t, t], &mut Vec::new());
+            let (thin, thick) = (series(&formulas, root, &middle, ORDER), series(&formulas, root, &cell, ORDER + 1));
+            for part in -4..=4 {
+                let apart = &half * part / 4;
+                let last = thick.get(ORDER).cloned().unwrap_or_else(|| number(0, 1));
+                let polynomial = (0..ORDER)
+                    .rev()
+                    .fold(last, |sum, k| thin.get(k).cloned().unwrap_or_else(|| number(0, 1)) + &apart * sum);
+                let direct = expr.enclose(&(&middle + &apart), &middle);
+                assert!(polynomial.intersect(&direct).is_defined(), "{text} at {part}: {polynomial:?}, {direct:?}");
+                assert!(Rational::from(1) > polynomial.upper().unwrap() - polynomial.lower().unwrap(), "{text}");
+            }
+            // The k-th coefficient on the cell contains that at the middle.
+            for (k, coefficient) in thin.iter().enumerate() {
+                let on_cell = thick.get(k).cloned().unwrap_or_else(|| number(0, 1));
+                assert!(on_cell.intersect(coefficient).is_defined(), "{text}, {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_smooth_on_the_cell_is_not_known() {
+        let cell = number(-1, 10).hull(&number(1, 10));
+        for text in ["abs(t)", "sqrt(t)", "1/t", "log(t)", "min(t, 0)", "t^0.5", "t^-2"] {
+            let mut formulas = Formulas::default();
+            let t = formulas.leaf(Leaf::Time);
+            let root = formulas.read(&Expr::parse(text, TIME).unwrap(), &[t, t], &mut Vec::new());
+            assert!(!series(&formulas, root, &cell, 4).iter().all(Interval::is_defined), "{text}");
+        }
+    }
+}

@@ -105,3 +105,48 @@ pub fn waves(om: &Interval, time: &Interval, count: usize) -> Vec<[Interval; 2]>
     }
     list
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_contains_what_its_times_give() {
+        let p = 128;
+        let number = |q: (i64, i64)| Interval::rational(&Rational::from(q), p);
+        let om = Interval::pi(p) * 2;
+        let wave = Wave {
+            mean: Rational::from((1, 3)),
+            harmonics: [((1, 2), (-1, 4)), ((0, 1), (1, 5)), ((1, 7), (0, 1))]
+                .map(|(a, b)| [Rational::from(a), Rational::from(b)])
+                .to_vec(),
+        };
+        let table = Table::new(&wave, &om, 7);
+        let at = |order: usize, t: &Interval| table.at(order, &waves(&om, t, 3), p);
+        let (middle, half) = (number((2, 9)), number((1, 40)));
+        for order in 0..4 {
+            let values: Vec<Interval> = (order..order + 3).map(|order| at(order, &middle)).collect();
+            let on_cell = table.around(order, &values, &half);
+            for part in -3..=3 {
+                let there = at(order, &(&middle + &half * part / 3));
+                assert!(on_cell.intersect(&there).is_defined(), "{order} at {part}");
+            }
+            // By the formula itself.
+            let direct = (1..=3_i64).zip(&wave.harmonics).fold(number((0, 1)), |sum, (k, [a, b])| {
+                let angle = &om * k * &middle;
+                let turned = [
+                    (angle.cos(), angle.sin()),
+                    (-angle.sin(), angle.cos()),
+                    (-angle.cos(), -angle.sin()),
+                    (angle.sin(), -angle.cos()),
+                ];
+                let (cos, sin) = &turned[order % 4];
+                let power = (&om * k).powi(order as i32);
+                sum + power * (Interval::rational(a, p) * cos + Interval::rational(b, p) * sin)
+            });
+            let direct = if order == 0 { direct + number((1, 3)) } else { direct };
+            assert!((direct - at(order, &middle)).abs().hi().to_f64() < 1e-30);
+        }
+        assert!(!table.around(5, &[at(5, &middle), at(6, &middle), at(7, &middle)], &half).is_defined());
+    }
+}

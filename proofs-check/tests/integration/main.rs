@@ -14,6 +14,7 @@ mod lyapunov;
 mod mean_squares;
 mod monotone;
 mod mutations;
+mod plant_certificates;
 mod plant_paper;
 mod plant_rules;
 mod plant_support;

@@ -28,10 +28,13 @@ fn cubic() -> Parts {
     let f = "-(x - sin(2*pi*t)) - (x - sin(2*pi*t))^3 + 2*pi*cos(2*pi*t) + e*(1 + x)";
     Parts::scalar(f, "x^2/2 + e*x + cos(2*pi*t)")
         .orbit(0.0, 1.0, "1e-17", "1e-16")
-        .with("/witness/forcing", json!({
-            "mean": "0.25", "rest": "1e-14", "rest_t": "1e-13",
-            "harmonics": [{ "cos": "1", "sin": "0" }, { "cos": "-0.25", "sin": "0" }],
-        }))
+        .with(
+            "/witness/forcing",
+            json!({
+                "mean": "0.25", "rest": "1e-14", "rest_t": "1e-13",
+                "harmonics": [{ "cos": "1", "sin": "0" }, { "cos": "-0.25", "sin": "0" }],
+            }),
+        )
         .bounds(&[
             ("f_x", "1/2", "0", "1.751"),
             ("f_e", "1/2", "1/4", "2.501"),
@@ -119,9 +122,7 @@ fn coordinates_and_a_periodic_p_are_used() {
 
 #[test]
 fn the_forcing_must_be_what_it_says() {
-    for (field, wrong) in
-        [("rest", "1e-16"), ("rest_t", "1e-16"), ("mean", "1e-6"), ("harmonics", "")]
-    {
+    for (field, wrong) in [("rest", "1e-16"), ("rest_t", "1e-16"), ("mean", "1e-6"), ("harmonics", "")] {
         let value = if wrong.is_empty() { json!([]) } else { json!(wrong) };
         let parts = linear().with(&format!("/witness/forcing/{field}"), value);
         parts.refused(Verdict::Invalid, "forcing", "/witness/forcing");
@@ -143,9 +144,9 @@ fn a_narrow_spike_is_seen() {
     parts("0.1").refused(Verdict::Invalid, "bounds of the plant", at);
     // The rate is 1 but near one time.
     let rate = |value: &str| {
-        linear().with("/plant/f/0", json!(format!("-x*(1 - {SPIKE}*e) + e + cos(2*pi*t)"))).bounds(&[
-            ("f_e", "1", "1", "2.5"), ("rate", "1", "1/2", value)
-        ])
+        linear()
+            .with("/plant/f/0", json!(format!("-x*(1 - {SPIKE}*e) + e + cos(2*pi*t)")))
+            .bounds(&[("f_e", "1", "1", "2.5"), ("rate", "1", "1/2", value)])
     };
     rate("0.499").accepted();
     for wrong in ["0.51", "0.9", "0.999"] {
@@ -157,16 +158,37 @@ fn a_narrow_spike_is_seen() {
 fn only_periodic_formulas_are_taken() {
     let verdict = |q: &str| linear().with("/plant/q", json!(q)).verdict();
     for q in [
-        "sin(t) + x", "t*x", "t", "sin(2*pi*t/3) + x", "sin(t^2)", "exp(t)", "cos(2*pi*t + t*x)", "sin(2*pi*t*x)",
-        "sin(6.283185307179586*t)", "tan(t/10)", "cos(2*pi*t*1.5)", "abs(t)", "sin(2*pi*t + sin(t))", "t - 2*t/2 + x*t",
-        "cos(exp(1)*t)", "min(t, 1)", "2^t", "t^2", "atan(t)",
+        "sin(t) + x",
+        "t*x",
+        "t",
+        "sin(2*pi*t/3) + x",
+        "sin(t^2)",
+        "exp(t)",
+        "cos(2*pi*t + t*x)",
+        "sin(2*pi*t*x)",
+        "sin(6.283185307179586*t)",
+        "tan(t/10)",
+        "cos(2*pi*t*1.5)",
+        "abs(t)",
+        "sin(2*pi*t + sin(t))",
+        "t - 2*t/2 + x*t",
+        "cos(exp(1)*t)",
+        "min(t, 1)",
+        "2^t",
+        "t^2",
+        "atan(t)",
     ] {
         let (verdict, rule) = verdict(q);
         assert!(rule == "periodicity" && verdict != Verdict::Valid, "{q}: {verdict} by {rule}");
     }
     for q in [
-        "sin(2*pi*t) + x", "sin(2*pi*(t + 1/3)) + x - sin(2*pi*(t + 1/3)) + sin(2*pi*t)", "sin(-(2*pi)*(-t)) + x",
-        "sin(4*pi*t/2 + 0*x*e) + x", "x - cos(2*pi*t + pi/2)", "x + sin(2*pi*t + x*e - e*x)", "x + sin(2*pi*t) + 0*tan(pi/8 + 0*t)",
+        "sin(2*pi*t) + x",
+        "sin(2*pi*(t + 1/3)) + x - sin(2*pi*(t + 1/3)) + sin(2*pi*t)",
+        "sin(-(2*pi)*(-t)) + x",
+        "sin(4*pi*t/2 + 0*x*e) + x",
+        "x - cos(2*pi*t + pi/2)",
+        "x + sin(2*pi*t + x*e - e*x)",
+        "x + sin(2*pi*t) + 0*tan(pi/8 + 0*t)",
     ] {
         let (_, rule) = verdict(q);
         assert_ne!(rule, "periodicity", "{q}");
@@ -178,15 +200,41 @@ fn formulas_must_be_smooth_where_they_are_used() {
     let added = |part: &str| linear().with("/plant/q", json!(format!("sin(2*pi*t) + x + {part}")));
     // |x_0| <= 0.16, |v| <= 2, |e| <= 3.
     for part in [
-        "0*abs(x)", "0*sqrt(x)", "0*sqrt(x + 2)", "0*log(x + 2)", "0/x", "0*x^-1", "0*(x + 2)^0.5", "0*min(x, e)", "0*max(x, 1)",
-        "0*tan(x)", "0*abs(e)", "0*(1/0)", "0*log(-1)", "0*sqrt(2 - 3)", "0*min(x, x)", "0*tan(cos(2*pi*t)*2)",
+        "0*abs(x)",
+        "0*sqrt(x)",
+        "0*sqrt(x + 2)",
+        "0*log(x + 2)",
+        "0/x",
+        "0*x^-1",
+        "0*(x + 2)^0.5",
+        "0*min(x, e)",
+        "0*max(x, 1)",
+        "0*tan(x)",
+        "0*abs(e)",
+        "0*(1/0)",
+        "0*log(-1)",
+        "0*sqrt(2 - 3)",
+        "0*min(x, x)",
+        "0*tan(cos(2*pi*t)*2)",
     ] {
         let (verdict, rule) = added(part).verdict();
         assert!(rule == "smoothness" && verdict != Verdict::Valid, "{part}: {verdict} by {rule}");
     }
     for part in [
-        "0*abs(x + 3)", "0*sqrt(x + 3)", "0*log(x + 3)", "0/(x + 3)", "0*(x + 3)^-1", "0*(x + 3)^0.5", "0*min(x, e + 6)",
-        "0*max(x, 4)", "0*tan(x/2)", "0*sqrt(0)", "0*abs(0)", "0*exp(x)", "0*(x + 3)^x", "0*tan(cos(2*pi*t))",
+        "0*abs(x + 3)",
+        "0*sqrt(x + 3)",
+        "0*log(x + 3)",
+        "0/(x + 3)",
+        "0*(x + 3)^-1",
+        "0*(x + 3)^0.5",
+        "0*min(x, e + 6)",
+        "0*max(x, 4)",
+        "0*tan(x/2)",
+        "0*sqrt(0)",
+        "0*abs(0)",
+        "0*exp(x)",
+        "0*(x + 3)^x",
+        "0*tan(cos(2*pi*t))",
     ] {
         added(part).accepted();
     }
@@ -196,15 +244,24 @@ fn formulas_must_be_smooth_where_they_are_used() {
 fn functions_of_every_kind_have_bounds() {
     // q_e at x = sin(2 pi t) + v, |v| <= 1/2, of e g(x): the largest |g|.
     for (g, value) in [
-        ("abs(x - 3)", 4.5), ("min(x, 4) + 3", 4.5), ("max(x, -4)", 1.5), ("sqrt(x + 3)", 4.5_f64.sqrt()),
-        ("log(x + 3)", 4.5_f64.ln()), ("(x + 3)^1.5", 4.5_f64.powf(1.5)), ("tanh(x)", 1.5_f64.tanh()), ("exp(-x)", 1.5_f64.exp()),
-        ("1/(x + 2)", 2.0), ("tan(x)", 1.5_f64.tan()), ("2^x", 1.5_f64.exp2()), ("atan(x)^3", 1.5_f64.atan().powi(3)),
-        ("x^-2 - x^-2 + x", 0.0), ("(x + 3)^-2", 1.5_f64.powi(-2)),
+        ("abs(x - 3)", 4.5),
+        ("min(x, 4) + 3", 4.5),
+        ("max(x, -4)", 1.5),
+        ("sqrt(x + 3)", 4.5_f64.sqrt()),
+        ("log(x + 3)", 4.5_f64.ln()),
+        ("(x + 3)^1.5", 4.5_f64.powf(1.5)),
+        ("tanh(x)", 1.5_f64.tanh()),
+        ("exp(-x)", 1.5_f64.exp()),
+        ("1/(x + 2)", 2.0),
+        ("tan(x)", 1.5_f64.tan()),
+        ("2^x", 1.5_f64.exp2()),
+        ("atan(x)^3", 1.5_f64.atan().powi(3)),
+        ("x^-2 - x^-2 + x", 0.0),
+        ("(x + 3)^-2", 1.5_f64.powi(-2)),
     ] {
         let q = format!("x^2/2 + cos(2*pi*t) + e*({g})");
-        let parts = |value: f64| {
-            cubic().with("/plant/q", json!(q)).bounds(&[("q_e", "1/2", "1/4", &format!("{value:.9}"))])
-        };
+        let parts =
+            |value: f64| cubic().with("/plant/q", json!(q)).bounds(&[("q_e", "1/2", "1/4", &format!("{value:.9}"))]);
         if value == 0.0 {
             assert_eq!(parts(2.0).verdict().1, "smoothness");
             continue;
@@ -217,21 +274,41 @@ fn functions_of_every_kind_have_bounds() {
 #[test]
 fn what_is_read_is_read_strictly() {
     for (at, value) in [
-        ("/plant/states", json!(["t"])), ("/plant/states", json!(["x", "x"])), ("/plant/states", json!(["1x"])),
-        ("/plant/states", json!([])), ("/plant/f", json!(["-x", "x"])), ("/plant/q", json!("y")),
-        ("/plant/internal_model/extra", json!(1)), ("/witness/orbit/mean", json!([])), ("/witness/coordinates", json!([])),
-        ("/witness/coordinates/L", json!([["1", "0"]])), ("/witness/bounds/0/bound", json!("f_xx")), ("/plant/initial", json!({ "x": [] })),
-        ("/witness/bounds/0/extra", json!(1)), ("/witness/forcing/mean", json!("pi")), ("/witness/orbit/extra", json!(1)),
-        ("/witness/bounds/0/bound", json!("rate_existence")), ("/plant/initial_set", json!({ "kind": "at-rest", "ball": "1", "X0": "1" })),
-        ("/plant/domain", json!({ "X": "1", "E": "1" })), ("/witness/lyapunov/P", json!([])),
+        ("/plant/states", json!(["t"])),
+        ("/plant/states", json!(["x", "x"])),
+        ("/plant/states", json!(["1x"])),
+        ("/plant/states", json!([])),
+        ("/plant/f", json!(["-x", "x"])),
+        ("/plant/q", json!("y")),
+        ("/plant/internal_model/extra", json!(1)),
+        ("/witness/orbit/mean", json!([])),
+        ("/witness/coordinates", json!([])),
+        ("/witness/coordinates/L", json!([["1", "0"]])),
+        ("/witness/bounds/0/bound", json!("f_xx")),
+        ("/plant/initial", json!({ "x": [] })),
+        ("/witness/bounds/0/extra", json!(1)),
+        ("/witness/forcing/mean", json!("pi")),
+        ("/witness/orbit/extra", json!(1)),
+        ("/witness/bounds/0/bound", json!("rate_existence")),
+        ("/plant/initial_set", json!({ "kind": "at-rest", "ball": "1", "X0": "1" })),
+        ("/plant/domain", json!({ "X": "1", "E": "1" })),
+        ("/witness/lyapunov/P", json!([])),
     ] {
         linear().with(at, value).refused(Verdict::BadInput, "format", "");
     }
-    for (at, value) in [("/witness/bounds/0/X", json!("-1")), ("/plant/domain", json!({ "x": "0", "e": "1" })), ("/witness/orbit/tube", json!("0"))] {
+    for (at, value) in [
+        ("/witness/bounds/0/X", json!("-1")),
+        ("/plant/domain", json!({ "x": "0", "e": "1" })),
+        ("/witness/orbit/tube", json!("0")),
+    ] {
         linear().with(at, value).refused(Verdict::Invalid, "", "");
     }
     let names: Vec<String> = (0..7).map(|i| format!("x{i}")).collect();
     let f: Vec<String> = names.iter().map(|name| format!("-{name}")).collect();
-    linear().with("/plant/states", json!(names)).with("/plant/f", json!(f)).refused(Verdict::BadInput, "format", "/plant/states");
+    linear().with("/plant/states", json!(names)).with("/plant/f", json!(f)).refused(
+        Verdict::BadInput,
+        "format",
+        "/plant/states",
+    );
     assert!(judged(&linear().0).is_ok());
 }

@@ -29,8 +29,7 @@ pub fn judged(parts: &Value) -> Result<Vec<String>, Finding> {
     let plant = spec.plant.as_ref().expect("it is a plant");
     let none = Float::new(128);
     let mut lines = Vec::new();
-    let (answer, steps) =
-        effort::limited(effort::LIMIT, || plant::prove(&spec, plant, [&none, &none], &mut lines));
+    let (answer, steps) = effort::limited(effort::LIMIT, || plant::prove(&spec, plant, [&none, &none], &mut lines));
     lines.push(format!("{steps} steps"));
     answer.map(|()| lines).map_err(|finding| *finding)
 }
@@ -76,7 +75,8 @@ impl Parts {
 
     /// Other entries: name, X, E, value.
     pub fn bounds(self, entries: &[(&str, &str, &str, &str)]) -> Parts {
-        let entry = |(bound, x, e, value): &(&str, &str, &str, &str)| json!({ "bound": bound, "X": x, "E": e, "value": value });
+        let entry =
+            |(bound, x, e, value): &(&str, &str, &str, &str)| json!({ "bound": bound, "X": x, "E": e, "value": value });
         self.with("/witness/bounds", entries.iter().map(entry).collect())
     }
 
