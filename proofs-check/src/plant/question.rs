@@ -189,22 +189,23 @@ impl Decision<'_, '_> {
         let mut scores = vec![0.0; slopes.len()];
         for i in 0..order {
             let mut row = Vec::with_capacity(i + 1);
-            for j in 0..=i {
-                let value = basis.form(middle, i, j);
-                let rates: Vec<Interval> = slopes.iter().map(|(_, matrix)| basis.form(matrix, i, j)).collect();
-                let parts: Vec<Interval> = rates.iter().zip(&widths).map(|(rate, width)| rate.abs() * width).collect();
-                if i != j {
-                    let size = parts.iter().fold(Interval::int(0, value.precision()), |sum, part| sum + part);
-                    // It counts with its square over the pivot before it.
-                    let weight = size.hi().to_f64() / enclosed_end(&enclosed[j][j]);
-                    scores.iter_mut().zip(&parts).for_each(|(score, part)| *score += part.hi().to_f64() * weight);
-                    row.push(value + around(&size));
-                    continue;
-                }
-                row.push(value - self.fall(piece, slopes, &rates, &parts, inside));
-                for ((score, rate), width) in scores.iter_mut().zip(&rates).zip(&widths) {
-                    *score += Float::with_val(53, rate.hi() - rate.lo()).to_f64() * width.hi().to_f64();
-                }
+            let rates =
+                |j: usize| -> Vec<Interval> { slopes.iter().map(|(_, matrix)| basis.form(matrix, i, j)).collect() };
+            let moves = |rates: &[Interval]| -> Vec<Interval> {
+                rates.iter().zip(&widths).map(|(rate, width)| rate.abs() * width).collect()
+            };
+            for (j, before) in enclosed.iter().enumerate() {
+                let (value, parts) = (basis.form(middle, i, j), moves(&rates(j)));
+                let size = parts.iter().fold(Interval::int(0, value.precision()), |sum, part| sum + part);
+                // It counts with its square over the pivot before it.
+                let weight = size.hi().to_f64() / enclosed_end(&before[j]);
+                scores.iter_mut().zip(&parts).for_each(|(score, part)| *score += part.hi().to_f64() * weight);
+                row.push(value + around(&size));
+            }
+            let own = rates(i);
+            row.push(basis.form(middle, i, i) - self.fall(piece, slopes, &own, &moves(&own), inside));
+            for ((score, rate), width) in scores.iter_mut().zip(&own).zip(&widths) {
+                *score += Float::with_val(53, rate.hi() - rate.lo()).to_f64() * width.hi().to_f64();
             }
             enclosed.push(row);
         }
@@ -301,16 +302,18 @@ impl Basis {
                     continue;
                 }
                 let factor = Float::with_val(p, &a[*other][pivot] / &a[pivot][pivot]);
-                for k in 0..order {
-                    let moved = Float::with_val(p, &factor * &columns[pivot][k]);
-                    columns[*other][k] -= moved;
-                }
-                let row = a[pivot].clone();
-                for k in 0..order {
-                    a[*other][k] -= Float::with_val(p, &factor * &row[k]);
-                }
+                let less = |from: &mut Vec<Float>, row: &[Float]| {
+                    from.iter_mut().zip(row).for_each(|(entry, of)| *entry -= Float::with_val(p, &factor * of));
+                };
+                let (column, row) = (columns[pivot].clone(), a[pivot].clone());
+                less(&mut columns[*other], &column);
+                less(&mut a[*other], &row);
             }
             sorted.push(pivot);
+        }
+        // S is triangular in the order of the pivots with 1 on its diagonal, whatever was rounded: so it is invertible.
+        if !columns.iter().flatten().all(Float::is_finite) {
+            return None;
         }
         let entry = |x: &Float| match () {
             () if *x == 0 => Factor::Zero,

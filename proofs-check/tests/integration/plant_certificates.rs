@@ -131,7 +131,7 @@ fn a_condition_needs_an_entry_at_its_arguments() {
         let valid = smallest && others > 1;
         assert_eq!(smaller.verdict == Verdict::Valid, valid, "{bound}: {}", smaller.text(false));
         if !valid {
-            assert_eq!(changed("linear", &[(&at, Value::Null)]).verdict, Verdict::Undecided, "{bound}");
+            assert_ne!(changed("linear", &[(&at, Value::Null)]).verdict, Verdict::Valid, "{bound}");
         }
     }
     let at = format!("/witness/bounds/{}/value", entry(&linear, "f_e", false));

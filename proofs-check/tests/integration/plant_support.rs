@@ -5,7 +5,7 @@ use proofs_check::effort;
 use proofs_check::json::{Field, Json, parse};
 use proofs_check::plant;
 use proofs_check::spec::Specification;
-use proofs_check::verdict::{Finding, Outcome, Verdict};
+use proofs_check::verdict::{Outcome, Verdict};
 use rug::Float;
 use serde_json::{Value, json};
 
@@ -24,14 +24,14 @@ fn read(parts: &Value) -> Outcome<Specification> {
 }
 
 /// Applies the rules of section 11; the lines of the argument.
-pub fn judged(parts: &Value) -> Result<Vec<String>, Finding> {
-    let spec = read(parts).map_err(|finding| *finding)?;
+pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
+    let spec = read(parts)?;
     let plant = spec.plant.as_ref().expect("it is a plant");
     let none = Float::new(128);
     let mut lines = Vec::new();
     let (answer, steps) = effort::limited(effort::LIMIT, || plant::prove(&spec, plant, [&none, &none], &mut lines));
     lines.push(format!("{steps} steps"));
-    answer.map(|()| lines).map_err(|finding| *finding)
+    answer.map(|()| lines)
 }
 
 /// A plant with parts of a witness, to be changed.
