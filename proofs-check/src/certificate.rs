@@ -4,6 +4,7 @@ use crate::data::Data;
 use crate::effort;
 use crate::figures::{self, Figures};
 use crate::json::{Field, Json};
+use crate::plant;
 use crate::rules::claim::{Claim, reads};
 use crate::rules::derivation::Derivation;
 use crate::rules::{bounding, lyapunov};
@@ -11,6 +12,7 @@ use crate::sha256;
 use crate::spec::{Specification, header};
 use crate::subject::{Subject, same_data};
 use crate::verdict::{Finding, Outcome, Verdict, bad};
+use rug::Float;
 
 /// The precisions that a certificate may name, in bits: those at which it may have been written.
 const PRECISIONS: std::ops::RangeInclusive<u32> = 128..=4096;
@@ -40,20 +42,31 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     if !PRECISIONS.contains(&written_at) {
         return bad(&bits.pointer, format!("expected {PRECISIONS:?} bits"));
     }
-    let embedded = file.required("specification")?;
+    // A plant stands in the place of a specification.
+    let plant = file.optional("plant");
+    let (embedded, about) = match plant {
+        Some(plant) => (plant, "plant"),
+        None => (file.required("specification")?, "specification"),
+    };
     let mut witness = file.required("witness")?.fields()?;
-    let spec = Specification::read(&embedded, &mut witness)?;
+    let spec = match about {
+        "plant" => plant::read::read(&embedded, &mut witness)?,
+        _ => Specification::read(&embedded, &mut witness)?,
+    };
     let mut canonical = String::new();
     embedded.json.canonical(&mut canonical);
     let digest = sha256::hex_digest(canonical.as_bytes());
-    reads("digest", &file.required("specification_sha256")?, &digest)?;
-    lines.push(
-        "specification: well-formed; T, w, mu, alpha, P_low > 0, P_up >= P_low; W1-W3 and n_0 > n_1; digest right"
-            .to_owned(),
-    );
+    reads("digest", &file.required(&format!("{about}_sha256"))?, &digest)?;
+    lines.push(format!(
+        "{about}: well-formed; T, w, mu, alpha, P_low > 0, P_up >= P_low; W1-W3 and n_0 > n_1; digest right"
+    ));
 
-    let claim = Claim::read(&file.required("claim")?)?;
+    let has_states = spec.plant.as_ref().is_some_and(|plant| plant.states() > 0);
+    let claim = Claim::read(&file.required("claim")?, has_states)?;
     let derivation = Derivation::read(&mut witness, claim.sharp, claim.sigma.clone(), claim.set.clone())?;
+    if spec.plant.is_some() && !derivation.is_by_mean_squares() {
+        return bad("/witness", "the claim about a plant is of the sharp derivation, with r_x, r_e, r_d");
+    }
     let parts = figures::Parts {
         conditions: file.optional("conditions"),
         constants: file.optional("constants"),
@@ -79,15 +92,19 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         }
         precision = (precision * 2).min(last);
     };
+    let shown = arguments.each_ref().map(Float::to_f64);
     // Last, because it may take the longest.
+    if let Some(plant) = &spec.plant {
+        plant::prove(&spec, plant, arguments.each_ref(), lines)?;
+    }
     if let Some((jacobian, witness)) = &spec.jacobian {
         for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {
             lines.push(format!("Lyapunov triple: {}", lyapunov::prove(jacobian, &spec.period, witness)?));
         }
     }
-    let subject = Subject::new(&embedded, &spec, &claim, &derivation, &digest, [tool_name, tool_version], arguments);
+    let subject = Subject::new(&embedded, &spec, &claim, &derivation, &digest, [tool_name, tool_version], shown);
     if let Some(other) = other {
-        same_data(embedded.json, other)?;
+        same_data(about, embedded.json, other)?;
     }
     let figures = figures::check(&spec, &parts, &derivation, figures_limit);
     lines.push(format!("figures on which no claim rests: {figures}"));
@@ -95,7 +112,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
 }
 
 /// The claim at one precision; the largest X and E at which bounding functions are used.
-fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut Vec<String>) -> Outcome<[f64; 2]> {
+fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut Vec<String>) -> Outcome<[Float; 2]> {
     lines.push(format!("working precision: {} bits", d.precision));
     if let Some([x, e]) = &d.spec.domain {
         let (x, e) = (x.enclose(d.precision), e.enclose(d.precision));
@@ -104,5 +121,15 @@ fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut V
     let proved = derivation.prove(d, lines)?;
     claim.check(d, &proved.sizes(), derivation.exact())?;
     lines.push("claim: verdict, n_o, mu, set, periodic solution and statement follow from what is proved".to_owned());
-    Ok(proved.arguments().each_ref().map(|argument| argument.hi().to_f64()))
+    let mut largest = proved.arguments().each_ref().map(|argument| argument.hi().clone());
+    if let Some(plant) = &d.spec.plant {
+        // Those of exact regulation, which has no figures of them, count as well.
+        for (end, other) in largest.iter_mut().zip(derivation.regulated(d).into_iter().flatten()) {
+            if other.hi() > end {
+                end.clone_from(other.hi());
+            }
+        }
+        plant::domain(plant, largest.each_ref(), "/witness")?;
+    }
+    Ok(largest)
 }

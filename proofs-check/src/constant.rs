@@ -85,6 +85,6 @@ impl<'a> Number<'a> {
 }
 
 /// Reads an expression in the given variables.
-pub fn expression(field: &Field<'_>, variables: &'static [&'static str]) -> Outcome<Expr> {
+pub fn expression(field: &Field<'_>, variables: &[&str]) -> Outcome<Expr> {
     Expr::parse(field.numeral()?, variables).or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))
 }

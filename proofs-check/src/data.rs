@@ -1,6 +1,7 @@
 //! The data of a specification, enclosed at one working precision (docs/mathematics.md, section 1).
 
 use crate::interval::Interval;
+use crate::plant::bounds::Name;
 use crate::spec::{Bound, Specification};
 use rug::Rational;
 
@@ -93,17 +94,30 @@ impl<'s> Data<'s> {
 
     /// The positive part of a bounding function, if it is given.
     pub fn given(&self, which: Bound, x: &Interval, e: &Interval) -> Option<Interval> {
+        if let Some(plant) = &self.spec.plant {
+            return plant.entries.at(which, x, e, self.precision).map(|value| value.max(&self.int(0)));
+        }
         let expr = self.spec.bounds[which as usize].as_ref()?;
         Some(expr.enclose(x, e).max(&self.int(0)))
     }
 
     /// q_e_max at (X, E), if it is given: it may be negative.
     pub fn q_e_max(&self, x: &Interval, e: &Interval) -> Option<Interval> {
+        if let Some(plant) = &self.spec.plant {
+            return plant.entries.at(Bound::QeMax, x, e, self.precision);
+        }
         self.spec.bounds[Bound::QeMax as usize].as_ref().map(|expr| expr.enclose(x, e))
     }
 
-    /// The larger of a rate and the one that is given at (X, E), if one is given.
-    pub fn better_rate(&self, rate: &Interval, x: &Interval, e: &Interval) -> Interval {
+    /// The larger of a rate, which need not be defined for a plant, and the one that is given at (X, E), if one is given: of the P
+    /// of stability, or of that of existence.
+    pub fn better_rate(&self, rate: &Interval, of_existence: bool, x: &Interval, e: &Interval) -> Interval {
+        if let Some(plant) = &self.spec.plant {
+            let second = of_existence && plant.lyapunov.len() > 1;
+            let name = if second { Name::RateExistence } else { Name::Rate };
+            let given = plant.entries.rate(name, x, e, self.precision);
+            return given.map_or_else(|| rate.clone(), |given| given.greatest(rate));
+        }
         self.spec.rate.as_ref().map_or_else(|| rate.clone(), |expr| expr.enclose(x, e).max(rate))
     }
 }

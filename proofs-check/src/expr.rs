@@ -21,10 +21,12 @@ const MAX_NODES: usize = 5_000;
 const MAX_EXPONENT: i32 = 1_000;
 
 /// One operation of an expression in postfix order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[rustfmt::skip]
 pub enum Op {
     Number(Rational), Pi, X, E,
+    /// A variable beyond the first two, by its position: a state of a plant.
+    State(usize),
     Neg, Sqrt, Exp, Log, Sin, Cos, Tan, Atan, Tanh, Abs,
     /// An integer power; the exponent is at most `MAX_EXPONENT` in magnitude.
     Power(i32),
@@ -38,7 +40,7 @@ const FUNCTIONS: [(&str, Op); 11] = [
 ];
 
 /// The variables of a constant, of a bounding function, and of an entry of a Jacobian; the first is [`Op::X`], the second
-/// [`Op::E`].
+/// [`Op::E`], and any other [`Op::State`].
 pub const NONE: &[&str] = &[];
 pub const ARGUMENTS: &[&str] = &["X", "E"];
 pub const TIME: &[&str] = &["t"];
@@ -56,7 +58,7 @@ struct Parser<'a> {
     ops: Vec<Op>,
     /// The exact values of the operands so far, to recognise integer exponents.
     exact: Vec<Option<Exact>>,
-    variables: &'static [&'static str],
+    variables: &'a [&'a str],
 }
 
 type Parsed = Result<(), String>;
@@ -177,7 +179,11 @@ impl Parser<'_> {
             return self.push(Op::Pi);
         }
         if let Some(index) = self.variables.iter().position(|variable| *variable == name) {
-            return self.push(if index == 0 { Op::X } else { Op::E });
+            return self.push(match index {
+                0 => Op::X,
+                1 => Op::E,
+                _ => Op::State(index),
+            });
         }
         let Some(function) = FUNCTIONS.iter().find(|function| function.0 == name).map(|function| function.1.clone())
         else {
@@ -210,7 +216,7 @@ impl Parser<'_> {
 /// One operation on a stack of values. A well-formed expression never meets an empty stack.
 fn step<V: Clone>(op: &Op, stack: &mut Vec<V>, apply: &mut impl FnMut(&Op, Option<V>, Option<V>) -> V) {
     let operands = match op {
-        Op::Number(_) | Op::Pi | Op::X | Op::E => 0,
+        Op::Number(_) | Op::Pi | Op::X | Op::E | Op::State(_) => 0,
         Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Pow | Op::Min | Op::Max => 2,
         _ => 1,
     };
@@ -238,7 +244,17 @@ pub fn exact_op(op: &Op, a: Option<Option<Exact>>, b: Option<Option<Exact>>) -> 
             let first = (a.compare(&b)? == Ordering::Less) == (*op == Op::Min);
             Some(if first { a } else { b })
         }
-        Op::X | Op::E | Op::Exp | Op::Log | Op::Sin | Op::Cos | Op::Tan | Op::Atan | Op::Tanh | Op::Pow => None,
+        Op::X
+        | Op::E
+        | Op::State(_)
+        | Op::Exp
+        | Op::Log
+        | Op::Sin
+        | Op::Cos
+        | Op::Tan
+        | Op::Atan
+        | Op::Tanh
+        | Op::Pow => None,
     }
 }
 
@@ -266,16 +282,16 @@ pub fn interval_op(op: &Op, a: &Interval, b: &Interval) -> Interval {
         Op::Number(value) => Interval::rational(value, a.precision()),
         Op::Pi => Interval::pi(a.precision()),
         // Variables have no value of their own.
-        Op::X | Op::E => Interval::undefined(a.precision()),
+        Op::X | Op::E | Op::State(_) => Interval::undefined(a.precision()),
     }
 }
 
 impl Expr {
-    /// Reads an expression in [`NONE`], [`ARGUMENTS`] or [`TIME`].
+    /// Reads an expression in [`NONE`], [`ARGUMENTS`], [`TIME`] or other variables.
     ///
     /// # Errors
     /// What is wrong, in words; sizes are bounded before anything is computed.
-    pub fn parse(text: &str, variables: &'static [&'static str]) -> Result<Expr, String> {
+    pub fn parse(text: &str, variables: &[&str]) -> Result<Expr, String> {
         if text.len() > MAX_TEXT {
             return Err(format!("an expression of more than {MAX_TEXT} bytes"));
         }

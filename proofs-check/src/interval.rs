@@ -215,6 +215,20 @@ impl Interval {
         -&(-self).min(&-other)
     }
 
+    /// The smaller of two upper bounds of the same thing, of which one need not be known.
+    pub fn least(&self, other: &Interval) -> Interval {
+        match (self.is_defined(), other.is_defined()) {
+            (false, true) => other.clone(),
+            (true, false) => self.clone(),
+            _ => self.min(other),
+        }
+    }
+
+    /// The larger of two lower bounds of the same thing, of which one need not be known.
+    pub fn greatest(&self, other: &Interval) -> Interval {
+        -&(-self).least(&-other)
+    }
+
     /// |x|.
     pub fn abs(&self) -> Interval {
         let zero = Interval::int(0, self.precision());
@@ -414,15 +428,39 @@ fn mul(a: &Interval, b: &Interval) -> Interval {
     let product = |x: &Float, y: &Float, round| {
         if x.is_zero() || y.is_zero() { Float::new(p) } else { rounded(p, x * y, round) }
     };
-    if a.is_nonnegative() && b.is_nonnegative() {
-        return Interval::new(product(&a.lo, &b.lo, Round::Down), product(&a.hi, &b.hi, Round::Up));
+    let between =
+        |[x, y]: [&Float; 2], [z, w]: [&Float; 2]| Interval::new(product(x, y, Round::Down), product(z, w, Round::Up));
+    // The sign of each factor says which ends make the extremes: + where it is nonnegative, - where it is nonpositive.
+    match (Sign::of(a), Sign::of(b)) {
+        (Sign::Plus, Sign::Plus) => between([&a.lo, &b.lo], [&a.hi, &b.hi]),
+        (Sign::Plus, Sign::Minus) => between([&a.hi, &b.lo], [&a.lo, &b.hi]),
+        (Sign::Plus, Sign::Both) => between([&a.hi, &b.lo], [&a.hi, &b.hi]),
+        (Sign::Minus, Sign::Plus) => between([&a.lo, &b.hi], [&a.hi, &b.lo]),
+        (Sign::Minus, Sign::Minus) => between([&a.hi, &b.hi], [&a.lo, &b.lo]),
+        (Sign::Minus, Sign::Both) => between([&a.lo, &b.hi], [&a.lo, &b.lo]),
+        (Sign::Both, Sign::Plus) => between([&a.lo, &b.hi], [&a.hi, &b.hi]),
+        (Sign::Both, Sign::Minus) => between([&a.hi, &b.lo], [&a.lo, &b.lo]),
+        (Sign::Both, Sign::Both) => {
+            between([&a.lo, &b.hi], [&a.lo, &b.lo]).hull(&between([&a.hi, &b.lo], [&a.hi, &b.hi]))
+        }
     }
-    let ends = [(&a.lo, &b.lo), (&a.lo, &b.hi), (&a.hi, &b.lo), (&a.hi, &b.hi)];
-    let extreme = |round, pick: fn(Float, &Float) -> Float| {
-        let values = ends.map(|(x, y)| product(x, y, round));
-        values.iter().skip(1).fold(values[0].clone(), pick)
-    };
-    Interval::new(extreme(Round::Down, Float::min), extreme(Round::Up, Float::max))
+}
+
+/// Which signs the numbers of an interval have.
+enum Sign {
+    Plus,
+    Minus,
+    Both,
+}
+
+impl Sign {
+    fn of(x: &Interval) -> Sign {
+        match (x.is_nonnegative(), x.is_nonpositive()) {
+            (true, _) => Sign::Plus,
+            (_, true) => Sign::Minus,
+            _ => Sign::Both,
+        }
+    }
 }
 
 fn div(a: &Interval, b: &Interval) -> Interval {

@@ -17,6 +17,7 @@ pub mod jacobian;
 pub mod json;
 pub mod matrix;
 pub mod monotone;
+pub mod plant;
 pub mod propose;
 pub mod report;
 pub mod rules;

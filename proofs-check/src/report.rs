@@ -55,7 +55,7 @@ impl Report {
             let findings: Vec<_> = figures.findings.iter().map(finding_json).collect();
             fields.insert("statement".to_owned(), subject.statement.as_str().into());
             fields.insert("also_proved".to_owned(), subject.also.as_deref().into());
-            fields.insert("specification_sha256".to_owned(), subject.digest.as_str().into());
+            fields.insert(format!("{}_sha256", subject.about), subject.digest.as_str().into());
             fields.insert("assumed".to_owned(), subject.assumed.clone().into());
             fields.insert("free_texts".to_owned(), free.into());
             let figures = serde_json::json!({
@@ -71,7 +71,7 @@ fn subject_text(Proved { subject, figures }: &Proved) -> String {
     let mut text = format!("  proved:  {}\n", subject.statement);
     subject.also.iter().for_each(|also| text += &format!("  proved:  {also}\n"));
     subject.assumed.iter().for_each(|line| text += &format!("  assumed: {line}\n"));
-    text += &format!("  specification: SHA-256 {}\n", subject.digest);
+    text += &format!("  {}: SHA-256 {}\n", subject.about, subject.digest);
     subject.free_texts.iter().for_each(|(name, free)| text += &format!("  {name} (free text): {free}\n"));
     if !figures.findings.is_empty() {
         text += "Figures on which no claim rests:\n";

@@ -9,6 +9,7 @@ use crate::expr::{ARGUMENTS, Expr};
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
 use crate::json::{Field, Fields, Json};
+use crate::plant::read::Plant;
 use crate::verdict::{Outcome, bad, demand};
 use crate::weights::Weights;
 use rug::Rational;
@@ -48,11 +49,32 @@ pub const BOUND_NAMES: [&str; BOUNDS] = [
 #[derive(Clone, Debug)]
 pub struct Forcing {
     /// Bounds of |c_0|, ..., |c_K|.
-    pub harmonics: Vec<Constant>,
+    pub harmonics: Vec<Size>,
     /// A bound of rms(rest).
-    pub rest_rms: Constant,
+    pub rest_rms: Size,
     /// A bound of rms(rest'), if given.
-    pub rest_t_rms: Option<Constant>,
+    pub rest_t_rms: Option<Size>,
+}
+
+/// A number that is not negative: as a specification has it, or as it follows from a plant's witness.
+#[derive(Clone, Debug)]
+pub enum Size {
+    Constant(Constant),
+    Number(Rational),
+    /// The root of this number.
+    Root(Rational),
+}
+
+impl Size {
+    /// An enclosure, without what may lie below 0.
+    pub fn enclose(&self, precision: u32) -> Interval {
+        let value = match self {
+            Size::Constant(constant) => constant.enclose(precision),
+            Size::Number(value) => Interval::rational(value, precision),
+            Size::Root(square) => Interval::rational(square, precision).sqrt(),
+        };
+        value.max(&Interval::int(0, precision))
+    }
 }
 
 /// The most harmonics that are read.
@@ -90,9 +112,20 @@ pub struct Specification {
     pub q_0: Option<Forcing>,
     pub domain: Option<[Constant; 2]>,
     pub initial_set: AskedSet,
+    /// Where the specification is a plant's formulas: these, with what proves its bounds.
+    pub plant: Option<Box<Plant>>,
 }
 
-fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
+/// The regulator, as far as it is given.
+pub struct InternalModel {
+    pub mu: Constant,
+    pub base_frequency: Constant,
+    pub matched: bool,
+    pub weights: Weights,
+}
+
+/// Reads a constant that has to be positive.
+pub fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
     let field = fields.required(name)?;
     let constant = Constant::read(&field)?;
     let truth = Number::rational(Rational::new()).lt(&constant.number());
@@ -151,7 +184,38 @@ impl Specification {
             fields.finish().map(|()| ends)
         });
 
-        let mut model = file.required("internal_model")?.fields()?;
+        let InternalModel { mu, base_frequency, matched, weights } =
+            InternalModel::read(&file.required("internal_model")?, &period)?;
+
+        let (initial_set, _) = read_set(&file.required("initial_set")?, false)?;
+        file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
+        file.finish()?;
+        let domain = domain.transpose()?;
+        Ok(Specification {
+            period,
+            p_low,
+            p_up,
+            alpha,
+            jacobian,
+            existence,
+            rate,
+            mu,
+            base_frequency,
+            matched,
+            weights,
+            bounds,
+            q_0,
+            domain,
+            initial_set,
+            plant: None,
+        })
+    }
+}
+
+impl InternalModel {
+    /// Reads `internal_model`; `matched` only where base_frequency * period = 2 pi exactly.
+    pub fn read(field: &Field<'_>, period: &Constant) -> Outcome<InternalModel> {
+        let mut model = field.fields()?;
         let (mu, base_frequency) = (positive(&mut model, "mu")?, positive(&mut model, "base_frequency")?);
         let matched = match model.optional("matched") {
             None => false,
@@ -175,28 +239,7 @@ impl Specification {
             demand(equal, RULE, &format!("{}/matched", model.pointer), "base_frequency * period = 2 pi")?;
         }
         model.finish()?;
-
-        let initial_set = read_set(&file.required("initial_set")?)?;
-        file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
-        file.finish()?;
-        let domain = domain.transpose()?;
-        Ok(Specification {
-            period,
-            p_low,
-            p_up,
-            alpha,
-            jacobian,
-            existence,
-            rate,
-            mu,
-            base_frequency,
-            matched,
-            weights,
-            bounds,
-            q_0,
-            domain,
-            initial_set,
-        })
+        Ok(InternalModel { mu, base_frequency, matched, weights })
     }
 }
 
@@ -218,31 +261,41 @@ fn read_forcing(field: &Field<'_>) -> Outcome<Forcing> {
         return bad(&list.pointer, format!("expected 1 to {MAX_HARMONICS} harmonics"));
     }
     let forcing = Forcing {
-        harmonics: elements.into_iter().map(nonnegative).collect::<Outcome<_>>()?,
-        rest_rms: nonnegative(fields.required("rest_rms")?)?,
-        rest_t_rms: fields.optional("rest_t_rms").map(nonnegative).transpose()?,
+        harmonics: elements.into_iter().map(size).collect::<Outcome<_>>()?,
+        rest_rms: size(fields.required("rest_rms")?)?,
+        rest_t_rms: fields.optional("rest_t_rms").map(size).transpose()?,
     };
     fields.finish()?;
     Ok(forcing)
 }
 
-fn read_set(field: &Field<'_>) -> Outcome<AskedSet> {
+/// Reads the set that is asked for; that of a plant may have `ball` in the place of `X0`: then it is returned too.
+pub fn read_set(field: &Field<'_>, of_plant: bool) -> Outcome<(AskedSet, Option<Constant>)> {
     let mut fields = field.fields()?;
     let kind = fields.required("kind")?;
-    let set = match kind.text()? {
+    let name = kind.text()?;
+    let takes_ball = of_plant && matches!(name, "at-rest" | "box");
+    let ball = if takes_ball { fields.optional("ball") } else { None }.map(nonnegative).transpose()?;
+    let set = match name {
         "paper" => AskedSet::Paper,
         "at-rest" => {
             let mut end = |name| fields.optional(name).map(nonnegative).transpose();
-            AskedSet::AtRest([end("X0")?, end("E0")?])
+            // Where there is a ball, `X0` is left to be refused as unknown.
+            AskedSet::AtRest([if ball.is_some() { None } else { end("X0")? }, end("E0")?])
         }
         "box" => {
             let mut end = |name| fields.required(name).and_then(nonnegative);
-            AskedSet::Box([end("X0")?, end("E0")?, end("Z0")?])
+            let x0 = ball.clone().map_or_else(|| end("X0"), Ok)?;
+            AskedSet::Box([x0, end("E0")?, end("Z0")?])
         }
         _ => return bad(&kind.pointer, "expected `paper`, `at-rest` or `box`"),
     };
     fields.finish()?;
-    Ok(set)
+    Ok((set, ball))
+}
+
+fn size(field: Field<'_>) -> Outcome<Size> {
+    nonnegative(field).map(Size::Constant)
 }
 
 /// The filter e = xi_r + sum a_i xi_i: s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 must be Hurwitz (docs/mathematics.md, section 6),

@@ -2,6 +2,7 @@
 //! specification of somebody else's file.
 
 use crate::json::{Field, Json, join};
+use crate::plant::read::Plant;
 use crate::rules::claim::Claim;
 use crate::rules::derivation::Derivation;
 use crate::spec::{BOUND_NAMES, Bound, Specification};
@@ -20,7 +21,9 @@ pub struct Subject {
     pub statement: String,
     /// What is proved besides: exact regulation.
     pub also: Option<String>,
-    /// The SHA-256 of the specification's canonical form: right.
+    /// What stands in the file: `specification` or `plant`.
+    pub about: &'static str,
+    /// The SHA-256 of its canonical form: right.
     pub digest: String,
     /// What is assumed and not proved, one a line.
     pub assumed: Vec<String>,
@@ -58,7 +61,11 @@ impl Subject {
             statement: printable_whole(claim.statement.text().unwrap_or_default()),
             also,
             digest: digest.to_owned(),
-            assumed: assumed(spec, arguments),
+            about: if spec.plant.is_some() { "plant" } else { "specification" },
+            assumed: match &spec.plant {
+                Some(plant) => assumed_of_plant(spec, plant),
+                None => assumed(spec, arguments),
+            },
             free_texts,
         }
     }
@@ -91,12 +98,30 @@ fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
     if spec.q_0.is_some() {
         list.push("q(t,0,0) is made of the harmonics and the rest that `q_0` bounds".to_owned());
     }
+    list.push(regulator(spec));
+    list
+}
+
+fn regulator(spec: &Specification) -> String {
     let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
-    list.push(format!(
+    format!(
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}: no \
          sampling, delay, saturation or noise"
-    ));
-    list
+    )
+}
+
+/// What a claim about formulas takes for granted.
+fn assumed_of_plant(spec: &Specification, plant: &Plant) -> Vec<String> {
+    let of_x = if plant.states() > 0 { "|x - x_0| <= " } else { "" };
+    let where_ = match &plant.domain {
+        None => String::new(),
+        Some([_, e]) if of_x.is_empty() => format!(" for |e| <= {}", printable(&e.text)),
+        Some([x, e]) => format!(" for {of_x}{}, |e| <= {}", printable(&x.text), printable(&e.text)),
+    };
+    vec![
+        format!("the machine is x' = f(t,x,e), e' = q(t,x,e) + u with exactly these formulas{where_}"),
+        regulator(spec),
+    ]
 }
 
 /// A free text on one line: control characters are escaped, and what is long is cut.
@@ -115,20 +140,21 @@ fn printable_whole(text: &str) -> String {
 ///
 /// # Errors
 /// `invalid`, with the first place where they differ and what each says there.
-pub fn same_data(embedded: &Json, asked: &Json) -> Outcome<()> {
-    match difference(embedded, asked, "") {
+pub fn same_data(about: &str, embedded: &Json, asked: &Json) -> Outcome<()> {
+    let free = if about == "plant" { &FREE[..] } else { &FREE[..2] };
+    match difference(embedded, asked, "", free) {
         None => Ok(()),
         Some((place, ours, theirs)) => {
-            let message = format!("the certificate says {ours}, the specification that was asked for says {theirs}");
-            invalid(RULE, &format!("/specification{place}"), message)
+            let message = format!("the certificate says {ours}, the {about} that was asked for says {theirs}");
+            invalid(RULE, &format!("/{about}{place}"), message)
         }
     }
 }
 
-/// Fields of a specification that hold no data.
-const FREE: [&str; 2] = ["/name", "/description"];
+/// Fields of a specification that hold no data; the last one, of a plant alone: where simulations start.
+const FREE: [&str; 3] = ["/name", "/description", "/initial"];
 
-fn difference(a: &Json, b: &Json, place: &str) -> Option<(String, String, String)> {
+fn difference(a: &Json, b: &Json, place: &str, free: &[&str]) -> Option<(String, String, String)> {
     let differ = || Some((place.to_owned(), shown(Some(a)), shown(Some(b))));
     match (a, b) {
         (Json::Object(a), Json::Object(b)) => {
@@ -136,9 +162,9 @@ fn difference(a: &Json, b: &Json, place: &str) -> Option<(String, String, String
             let mut keys: Vec<&str> = a.iter().chain(b).map(|(key, _)| key.as_str()).collect();
             keys.sort_unstable();
             keys.dedup();
-            keys.into_iter().map(|key| (join(place, key), key)).filter(|(at, _)| !FREE.contains(&at.as_str())).find_map(
+            keys.into_iter().map(|key| (join(place, key), key)).filter(|(at, _)| !free.contains(&at.as_str())).find_map(
                 |(at, key)| match (find(a, key), find(b, key)) {
-                    (Some(i), Some(j)) => difference(&a[i].1, &b[j].1, &at),
+                    (Some(i), Some(j)) => difference(&a[i].1, &b[j].1, &at, free),
                     (i, j) => {
                         let (ours, theirs) = (i.map(|i| &a[i].1), j.map(|j| &b[j].1));
                         // Not matched is the default.
@@ -151,7 +177,7 @@ fn difference(a: &Json, b: &Json, place: &str) -> Option<(String, String, String
         }
         (Json::Array(a), Json::Array(b)) if a.len() == b.len() => {
             let pairs = a.iter().zip(b).enumerate();
-            pairs.into_iter().find_map(|(i, (a, b))| difference(a, b, &join(place, &i.to_string())))
+            pairs.into_iter().find_map(|(i, (a, b))| difference(a, b, &join(place, &i.to_string()), free))
         }
         (Json::Text(_) | Json::Number(_), Json::Text(_) | Json::Number(_)) => {
             if same_numeral(a, b) {

@@ -4,6 +4,8 @@ use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
+use crate::plant::coordinates;
+use crate::plant::read::Plant;
 use crate::spec::{AskedSet, Specification};
 use crate::verdict::{Outcome, bad, demand, invalid};
 use rug::Rational;
@@ -22,6 +24,8 @@ pub struct Claim<'a> {
     pub periodic: Field<'a>,
     /// The claim in words.
     pub statement: Field<'a>,
+    /// The radius of the ball that the set of a plant contains, with its place and as it is written.
+    ball: Option<(Rational, Field<'a>)>,
     sigma_text: &'a str,
     set_text: [&'a str; 3],
     verdict: Field<'a>,
@@ -65,8 +69,8 @@ pub fn read_set<'a>(fields: &mut Fields<'a>) -> Outcome<([Rational; 3], [&'a str
 }
 
 impl<'a> Claim<'a> {
-    /// Reads the claim.
-    pub fn read(field: &Field<'a>) -> Outcome<Claim<'a>> {
+    /// Reads the claim; `has_ball`: it is about a plant with states.
+    pub fn read(field: &Field<'a>, has_ball: bool) -> Outcome<Claim<'a>> {
         let mut fields = field.fields()?;
         let derivation = fields.required("derivation")?;
         let sharp = match derivation.text()? {
@@ -78,11 +82,14 @@ impl<'a> Claim<'a> {
         let mut set = fields.required("initial_set")?.fields()?;
         let kind = set.required("kind")?;
         let (numbers, set_text) = read_set(&mut set)?;
+        let ball = if has_ball { Some(set.required("ball")?) } else { None };
+        let ball = ball.map(|field| field.rational().map(|value| (value, field))).transpose()?;
         set.finish()?;
         let claim = Claim {
             sharp,
             sigma: sigma.rational()?,
             set: numbers,
+            ball,
             sigma_text: sigma.numeral()?,
             set_text,
             verdict: fields.required("verdict")?,
@@ -119,7 +126,48 @@ impl<'a> Claim<'a> {
             bounds(d, &fields.required(name)?, &mine, exact.get(index).copied())?;
         }
         fields.finish()?;
-        reads(RULE, &self.statement, &self.in_words(spec))
+        match &spec.plant {
+            None => reads(RULE, &self.statement, &self.in_words(spec)),
+            Some(plant) => {
+                self.check_ball(plant)?;
+                reads(RULE, &self.statement, &self.of_plant(spec, plant)?)
+            }
+        }
+    }
+
+    /// The set contains the ball (docs/mathematics.md, section 11.5), and the ball is no smaller than the one that is asked for.
+    fn check_ball(&self, plant: &Plant) -> Outcome<()> {
+        let Some((ball, field)) = &self.ball else { return Ok(()) };
+        demand(Some(*ball >= 0), coordinates::RULE, &field.pointer, "the radius is not negative")?;
+        let covered = plant.coordinates.covers_ball(&self.set[0], ball);
+        demand(Some(covered), coordinates::RULE, &field.pointer, "X0^2 L L' - ball^2 I >= 0")?;
+        demand(plant.asks_for(ball), coordinates::RULE, &field.pointer, "the ball that is asked for <= ball")
+    }
+
+    /// The claim about a plant in words.
+    fn of_plant(&self, spec: &Specification, plant: &Plant) -> Outcome<String> {
+        let reach = if spec.matched { "" } else { " (which need not match the period)" };
+        let domain = plant.domain.as_ref().map_or_else(String::new, |[x, e]| {
+            format!(" (a model that holds for |x - x_0| <= {}, |e| <= {})", x.text, e.text)
+        });
+        let [x0, e0, z0] = self.set_text;
+        let (states, orbit) = match &self.ball {
+            None => (String::new(), String::new()),
+            Some((_, field)) => (
+                format!("|L^-1 (x - x_0)| <= {x0}, "),
+                format!(
+                    "; x_0(t) is the T-periodic solution of x' = f(t,x,0), proved within `radius` of `orbit`; the set \
+                     contains |x - x_0| <= {}",
+                    field.numeral()?
+                ),
+            ),
+        };
+        Ok(format!(
+            "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+             frequency {}{reach}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
+             every solution from {states}|e| <= {e0}, sqrt(z'Nz) <= {z0}, at any initial time, converges exponentially{orbit}.",
+            self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
+        ))
     }
 
     /// The claim in words, as the specification and the numbers of the claim make it.

@@ -118,6 +118,16 @@ impl Derivation {
         matches!(self.witnesses, Witnesses::Sharp(_))
     }
 
+    /// Whether it is the one of section 10.
+    pub fn is_by_mean_squares(&self) -> bool {
+        matches!(&self.witnesses, Witnesses::Sharp(w) if matches!(w.existence, sharp::By::MeanSquares(_)))
+    }
+
+    /// The largest X and E of exact regulation, where that is claimed.
+    pub fn regulated(&self, d: &Data<'_>) -> Option<[Interval; 2]> {
+        self.regulation.as_ref().map(|w| [d.number(&w.d_x), d.number(&w.d_e)])
+    }
+
     /// X_p and E_p of the witness, which bound the periodic solution exactly.
     pub fn exact(&self) -> [&Rational; 2] {
         match &self.witnesses {
@@ -186,7 +196,8 @@ impl Proved {
 
 /// Without a domain the bounding functions are proved up to the arguments that are used.
 fn without_domain(d: &Data<'_>, [x, e]: &[Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
-    if d.spec.domain.is_some() { Ok(()) } else { bounding::prove_all(d, [x, e], lines) }
+    // Those of a plant are numbers, which are proved apart.
+    if d.spec.domain.is_some() || d.spec.plant.is_some() { Ok(()) } else { bounding::prove_all(d, [x, e], lines) }
 }
 
 /// Writes down all conditions, then demands each.

@@ -46,7 +46,8 @@ pub struct Solution {
     pub conditions: Vec<Condition>,
 }
 
-/// The bounding functions at (X_p, E_p), b_fx at (X_p, 0), and the gains at sigma.
+/// The bounding functions at (X_p, E_p), b_fx at (X_p, 0), and the gains at sigma. What is not given is undefined, and the least
+/// of several bounds leaves it out (docs/mathematics.md, section 11.3).
 struct Bounds<'a> {
     d: &'a Data<'a>,
     f_x: Interval,
@@ -95,12 +96,12 @@ struct Follows {
 
 /// The numbers of `q_0` under their names in the derivation: C_k, r_0, r_1.
 pub fn forcing(d: &Data<'_>, given: &Forcing) -> (Vec<Interval>, [Interval; 2]) {
-    let number = |constant: &crate::constant::Constant| constant.enclose(d.precision).max(&d.int(0));
+    let number = |size: &crate::spec::Size| size.enclose(d.precision);
     let harmonics: Vec<Interval> = given.harmonics.iter().map(number).collect();
     let zero = d.int(0);
     // What follows from the other data bounds it too.
     let derived = d.bound(Bound::QtRms, &zero, &zero) + derivative(d, &harmonics);
-    let rest_t = given.rest_t_rms.as_ref().map_or(derived.clone(), |rest_t| number(rest_t).min(&derived));
+    let rest_t = given.rest_t_rms.as_ref().map_or(derived.clone(), |rest_t| number(rest_t).least(&derived));
     (harmonics, [number(&given.rest_rms), rest_t])
 }
 
@@ -144,14 +145,14 @@ impl<'a> Bounds<'a> {
         let bends = d.given(Bound::Qtx, x_p, e_p).zip(d.given(Bound::Qte, x_p, e_p));
         let om = d.frequency();
         Bounds {
-            f_x: d.given(Bound::Fx, x_p, &zero).map_or(secant.clone(), |f_x| f_x.min(&secant)),
+            f_x: d.given(Bound::Fx, x_p, &zero).map_or(secant.clone(), |f_x| f_x.least(&secant)),
             f_e: at(Bound::Fe),
             q_x: at(Bound::Qx),
             q_e: at(Bound::Qe),
             rates: [at(Bound::QRms), at(Bound::QtRms)],
             q_t_start: d.bound(Bound::QtRms, &zero, &zero),
             bends: bends.map(|(q_tx, q_te)| [q_tx, q_te]),
-            start: forced.as_ref().map_or(start.clone(), |forced| forced.rms(d).min(&start)),
+            start: forced.as_ref().map_or(start.clone(), |forced| forced.rms(d).least(&start)),
             forced,
             x_gain: &d.existence[0] / a_1 * at(Bound::Fe),
             bt: bt(d, sigma),
@@ -168,22 +169,22 @@ impl<'a> Bounds<'a> {
         let along = &self.q_x * (&self.f_x * r_x + &self.f_e * r_e) + &self.q_e * r_d;
         let generic = &self.rates[1] + &self.q_t_start + &along;
         let d_1 = match &self.bends {
-            Some([q_tx, q_te]) => generic.min(&(q_tx * r_x + q_te * r_e + &along)),
+            Some([q_tx, q_te]) => generic.least(&(q_tx * r_x + q_te * r_e + &along)),
             None => generic,
         };
-        let r_q = self.rates[0].min(&(&self.start + &d_0));
+        let r_q = self.rates[0].least(&(&self.start + &d_0));
         let r_1 = &self.rates[1] + along;
-        let r_1 = self.forced.as_ref().map_or(r_1.clone(), |f| r_1.min(&(&f.rate + &f.rest[1] + &d_1)));
+        let r_1 = self.forced.as_ref().map_or(r_1.clone(), |f| r_1.least(&(&f.rate + &f.rest[1] + &d_1)));
         // Of the response to an input with these root mean squares of itself and of its derivative.
-        let sup = |q: &Interval, q_t: &Interval| (&self.bt * q).min(&(&self.tau * q_t));
-        let rms = |q: &Interval, q_t: &Interval| (q / &self.sg).min(&(q_t / (&self.om * &self.sg)));
-        let mut sup_e = sup(&r_q, &r_1).min(&(&self.d.period * r_e * r_d).sqrt());
+        let sup = |q: &Interval, q_t: &Interval| (&self.bt * q).least(&(&self.tau * q_t));
+        let rms = |q: &Interval, q_t: &Interval| (q / &self.sg).least(&(q_t / (&self.om * &self.sg)));
+        let mut sup_e = sup(&r_q, &r_1).least(&(&self.d.period * r_e * r_d).sqrt());
         let mut rms_e = rms(&r_q, &r_1);
         if let Some(f) = &self.forced {
-            sup_e = sup_e.min(&(&f.sup_e + sup(&f.rest[0], &f.rest[1]) + sup(&d_0, &d_1)));
-            rms_e = rms_e.min(&(&f.rms_e + rms(&f.rest[0], &f.rest[1]) + rms(&d_0, &d_1)));
+            sup_e = sup_e.least(&(&f.sup_e + sup(&f.rest[0], &f.rest[1]) + sup(&d_0, &d_1)));
+            rms_e = rms_e.least(&(&f.rms_e + rms(&f.rest[0], &f.rest[1]) + rms(&d_0, &d_1)));
         }
-        Follows { sup_e, rms_e, rms_e_t: r_q.min(&(&r_1 / &self.sg)), rates: [r_q, r_1], apart: [d_0, d_1] }
+        Follows { sup_e, rms_e, rms_e_t: r_q.least(&(&r_1 / &self.sg)), rates: [r_q, r_1], apart: [d_0, d_1] }
     }
 
     /// Section 10.4 at (r_x, r_e): rms(e) <= g_k Rt and rms(e') <= Rt + kap r_e, with Rt = Q_0 + b_qx r_x + rho r_e.
@@ -209,7 +210,7 @@ impl<'a> Bounds<'a> {
         let mean_part = &inverse / &d.n_0 * forced.harmonics[0].sqr();
         let harmonics = mean_part + twice_sum(d, &forced.harmonics, |k, c| transfer(k) * c.sqr());
         let z = harmonics.sqrt() / &d.w + mean(&forced.rest).sqrt() + mean(&follows.apart).sqrt();
-        plain.min(&(swing + z.sqr()))
+        plain.least(&(swing + z.sqr()))
     }
 }
 
@@ -225,7 +226,7 @@ pub fn evaluate(
     let zero = d.int(0);
     let [c, alpha] = &d.existence;
     let bent = alpha - c * d.bound(Bound::Fxx, x_p, &zero) * x_p / 2;
-    let a_1 = d.better_rate(&bent, x_p, &zero);
+    let a_1 = d.better_rate(&bent, true, x_p, &zero);
     let bounds = Bounds::new(d, &d.number(sigma), [x_p, e_p], &a_1);
     let from_rms = c * beta_s(d, &a_1) * &bounds.f_e;
     let r = w.r.each_ref().map(|value| d.number(value));
@@ -265,7 +266,7 @@ pub fn evaluate(
         let (mut rms_e, mut rms_e_t) = (follows.rms_e.clone(), follows.rms_e_t.clone());
         if with_kap {
             let damped = bounds.damped(&last, &damping);
-            (rms_e, rms_e_t) = (rms_e.min(&damped[0]), rms_e_t.min(&damped[1]));
+            (rms_e, rms_e_t) = (rms_e.least(&damped[0]), rms_e_t.least(&damped[1]));
         }
         let sides = [&bounds.x_gain * &last[1], rms_e, rms_e_t].into_iter().zip(last.iter().cloned());
         let names = [("S3", "G_x(r') < r'_x"), ("S3b", "G_e(r') < r'_e"), ("S3c", "G_d(r') < r'_d")];

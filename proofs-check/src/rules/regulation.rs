@@ -61,7 +61,7 @@ fn steady_state(d: &Data<'_>, plant: Plant) -> Interval {
     let weight = |k: u64| d.spec.weights.weight(k, d.precision);
     let later = (1..).zip(&harmonics[1..]).fold(d.int(0), |sum, (k, c)| sum + c.sqr() * 4 / weight(k));
     let forced = (harmonics[0].sqr() / &d.n_0 + later).sqrt() + root(&rest, &rest_t);
-    generic.min(&forced) / &d.mu
+    generic.least(&forced) / &d.mu
 }
 
 /// Evaluates the conditions; only `matched` and the signs are decided yet.

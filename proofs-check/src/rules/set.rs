@@ -11,11 +11,13 @@ use rug::Rational;
 pub fn covers(d: &Data<'_>, set: &[Rational; 3], [x_p, e_p]: [&Rational; 2], z: &Interval) -> Vec<Condition> {
     let exact = |required: &Rational, i: usize| d.number(&Rational::from(required - &set[i]));
     let twice = |value: &Rational, i| exact(&Rational::from(value * 2u32), i);
+    // That a ball lies in the claimed set is decided exactly, with the claim.
+    let ball = d.spec.plant.as_ref().is_some_and(|plant| plant.ball.is_some());
     let user = |constant: &Constant, i: usize| match constant.rational() {
         Some(required) => exact(&required, i),
         None => constant.enclose(d.precision) - d.number(&set[i]),
     };
-    let excess = match &d.spec.initial_set {
+    let mut excess = match &d.spec.initial_set {
         AskedSet::Paper => [twice(x_p, 0), twice(e_p, 1), (z + &d.n_bar * d.number(e_p)) * 2 - d.number(&set[2])],
         AskedSet::AtRest([x0, e0]) => [
             x0.as_ref().map_or_else(|| twice(x_p, 0), |x0| user(x0, 0)),
@@ -24,6 +26,9 @@ pub fn covers(d: &Data<'_>, set: &[Rational; 3], [x_p, e_p]: [&Rational; 2], z: 
         ],
         AskedSet::Box(given) => [0, 1, 2].map(|i| user(&given[i], i)),
     };
+    if ball {
+        excess[0] = exact(&Rational::new(), 0);
+    }
     let what = |name| format!("the required {name} - the claimed {name} <= 0");
     let named = ["X0", "E0", "Z0"].into_iter().zip(excess);
     named.map(|(name, excess)| Condition::at_most("set", what(name), excess, d.int(0))).collect()

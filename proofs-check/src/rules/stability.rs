@@ -51,7 +51,7 @@ impl ErrorBox {
             e_b,
         };
         if plant == Plant::OneSided {
-            error_box.rate = d.better_rate(&error_box.rate, &error_box.x_b, e_per);
+            error_box.rate = d.better_rate(&error_box.rate, false, &error_box.x_b, e_per);
             let given = d.q_e_max(&error_box.x_b, &error_box.e_b);
             error_box.one_sided = one_sided("(X_b, E_b)", &error_box.k_e, given.as_ref());
             error_box.most = given.map_or(error_box.most, |given| given.min(&error_box.k_e));

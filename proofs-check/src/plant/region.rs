@@ -1,0 +1,137 @@
+//! The region on which something is decided, in boxes: t over a period, v in a ball, e in an interval (docs/mathematics.md,
+//! section 11.3).
+//!
+//! Boxes that are certainly outside of the ball are left out. The ends of a box are shared with its neighbours, so the boxes
+//! cover the region whatever is rounded.
+
+use super::formula::Axis;
+use super::machine::{Cell, Machine};
+use crate::interval::Interval;
+use rug::Float;
+use std::rc::Rc;
+
+/// How many cells of t there are before anything is halved for a reason.
+const FIRST_CELLS_LOG: u32 = 4;
+
+/// `|v| <= radius` in `states` dimensions, `|e| <= output`, all t.
+#[derive(Clone)]
+pub struct Region {
+    pub states: usize,
+    pub radius: Interval,
+    pub output: Interval,
+}
+
+/// A box: those axes on which nothing depends have the whole range.
+#[derive(Clone)]
+pub struct Piece {
+    pub cell: Rc<Cell>,
+    /// The ends of v_1, ..., v_n and of e.
+    pub sides: Vec<[Float; 2]>,
+}
+
+impl Region {
+    /// Boxes that cover it, cut along t if something depends on t.
+    pub fn pieces(&self, machine: &Machine<'_>, root: &Rc<Cell>, depends: u16) -> Vec<Piece> {
+        let mut cells = vec![root.clone()];
+        if depends & Axis::Time.bit() != 0 {
+            for _ in 0..FIRST_CELLS_LOG {
+                cells = cells.iter().flat_map(|cell| cell.halves()).collect();
+            }
+        }
+        let ends = |size: &Interval| {
+            let end = Float::with_val_round(machine.precision, size.hi(), rug::float::Round::Up).0;
+            [Float::with_val(machine.precision, -&end), end]
+        };
+        let mut sides = vec![ends(&self.radius); self.states];
+        sides.push(ends(&self.output));
+        cells.into_iter().map(|cell| Piece { cell, sides: sides.clone() }).collect()
+    }
+
+    /// Whether a box has no point of the ball.
+    pub fn misses(&self, piece: &Piece) -> bool {
+        let nearest = |side: &[Float; 2]| {
+            let end = if side[0] > 0 { &side[0] } else { &side[1] };
+            let outside = side[0] > 0 || side[1] < 0;
+            outside.then(|| super::time::point(end).sqr())
+        };
+        let zero = Interval::int(0, self.radius.precision());
+        let distance = piece.sides[..self.states].iter().filter_map(nearest).fold(zero, |sum, part| sum + part);
+        self.radius.sqr().lt(&distance) == Some(true)
+    }
+
+    /// Whether a box is certainly within the ball.
+    pub fn contains(&self, piece: &Piece) -> bool {
+        let farthest = |[lo, hi]: &[Float; 2]| Interval::new(lo.clone(), hi.clone()).sqr();
+        let zero = Interval::int(0, self.radius.precision());
+        let distance = piece.sides[..self.states].iter().map(farthest).fold(zero, |sum, part| sum + part);
+        distance.ceiling().le(&self.radius.sqr()) == Some(true)
+    }
+
+    /// Whether the middle of a box certainly belongs to the region.
+    pub fn has_middle(&self, piece: &Piece) -> bool {
+        let middle: Vec<Interval> = (0..=self.states).map(|i| super::time::point(&piece.middle(i))).collect();
+        self.has(&middle)
+    }
+
+    /// Whether v_1, ..., v_n and e certainly belong to it.
+    pub fn has(&self, place: &[Interval]) -> bool {
+        let zero = Interval::int(0, self.radius.precision());
+        let distance = place[..self.states].iter().fold(zero, |sum, v| sum + v.sqr());
+        let lies_within = |value: &Interval, end: &Interval| value.hi() <= end.lo();
+        lies_within(&distance, &self.radius.sqr()) && lies_within(&place[self.states].abs(), &self.output)
+    }
+}
+
+impl Piece {
+    /// The middle of a side.
+    pub fn middle(&self, side: usize) -> Float {
+        let [lo, hi] = &self.sides[side];
+        Float::with_val(lo.prec(), lo + hi) / 2u32
+    }
+
+    /// A side.
+    pub fn side(&self, side: usize) -> Interval {
+        let [lo, hi] = &self.sides[side];
+        Interval::new(lo.clone(), hi.clone())
+    }
+
+    /// A bound of the distance to the middle, along t (`None`) or a side.
+    pub fn half_width(&self, side: Option<usize>) -> Interval {
+        let Some(side) = side else { return self.cell.half_width() };
+        let ([lo, hi], middle) = (&self.sides[side], super::time::point(&self.middle(side)));
+        (super::time::point(hi) - &middle).max(&(middle - super::time::point(lo))).ceiling()
+    }
+
+    /// The two halves along t (`None`) or a side.
+    pub fn halves(&self, side: Option<usize>) -> [Piece; 2] {
+        let Some(side) = side else {
+            return self.cell.halves().map(|cell| Piece { cell, sides: self.sides.clone() });
+        };
+        let middle = self.middle(side);
+        [1, 0].map(|end| {
+            let mut half = self.clone();
+            half.sides[side][end] = middle.clone();
+            half
+        })
+    }
+
+    /// Along which of these axes a box is widest, in comparison with the widths at the beginning: t (`None`) or a side. A hint,
+    /// of which nothing is believed.
+    pub fn widest(&self, whole: &Piece, depends: u16) -> Option<Option<usize>> {
+        let states = self.sides.len() - 1;
+        let share = |side: Option<usize>| {
+            let width = |piece: &Piece| piece.half_width(side).hi().to_f64();
+            let (now, first) = (width(self), width(whole));
+            if first > 0.0 { now / first } else { 0.0 }
+        };
+        let time = (depends & Axis::Time.bit() != 0).then_some(None);
+        let sides = (0..=states).filter(|side| depends & axis(*side, states).bit() != 0).map(Some);
+        let all = time.into_iter().chain(sides).map(|side| (share(side), side)).filter(|(share, _)| *share > 0.0);
+        all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, side)| side)
+    }
+}
+
+/// The axis of a side.
+pub fn axis(side: usize, states: usize) -> Axis {
+    if side < states { Axis::State(side) } else { Axis::Output }
+}

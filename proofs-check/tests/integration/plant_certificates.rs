@@ -1,0 +1,168 @@
+//! Whole certificates of plants: a linear one, one without states, the paper's example; and what must not pass.
+
+use super::common::folder;
+use proofs_check::json::{Json, parse};
+use proofs_check::verdict::Verdict;
+use proofs_check::{Report, check, check_against, sha256};
+use serde_json::{Value, json};
+
+const ALL: [&str; 3] = ["linear", "no-states", "paper-example"];
+
+fn stored(name: &str) -> Value {
+    let text = std::fs::read_to_string(folder("plants").join(format!("{name}.certificate.json"))).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+/// The answer after changes at places, which need not be there yet, with the digest made right again; `null` takes away.
+fn changed(name: &str, changes: &[(&str, Value)]) -> Report {
+    let mut certificate = stored(name);
+    for (at, value) in changes {
+        let (object, key) = at.rsplit_once('/').unwrap();
+        let object = certificate.pointer_mut(object).unwrap();
+        match (key.parse::<usize>(), value) {
+            (Ok(index), Value::Null) => drop(object.as_array_mut().unwrap().remove(index)),
+            (Ok(index), _) => object[index] = value.clone(),
+            (Err(_), Value::Null) => drop(object.as_object_mut().unwrap().remove(key)),
+            (Err(_), _) => object[key] = value.clone(),
+        }
+    }
+    let mut canonical = String::new();
+    let plant: Json = parse(certificate["plant"].to_string().as_bytes()).unwrap();
+    plant.canonical(&mut canonical);
+    certificate["plant_sha256"] = sha256::hex_digest(canonical.as_bytes()).into();
+    check(certificate.to_string().as_bytes())
+}
+
+#[track_caller]
+fn refused(report: &Report, verdict: Verdict, rule: &str) {
+    let finding = report.finding.as_ref().expect("it must be refused");
+    assert_eq!((report.verdict, finding.rule), (verdict, rule), "{}", report.text(false));
+}
+
+/// The place of the entry with this bound at the smallest X, and with this E.
+fn entry(certificate: &Value, bound: &str, smallest: bool) -> usize {
+    let size = |entry: &Value| entry["X"].as_str().unwrap().parse::<f64>().unwrap();
+    let list = certificate["witness"]["bounds"].as_array().unwrap();
+    let of = list.iter().enumerate().filter(|(_, entry)| entry["bound"] == bound);
+    let order = |a: &(usize, &Value), b: &(usize, &Value)| size(a.1).total_cmp(&size(b.1));
+    if smallest { of.min_by(order).unwrap().0 } else { of.max_by(order).unwrap().0 }
+}
+
+#[test]
+fn certificates_are_valid_and_take_little_for_granted() {
+    for name in ALL {
+        let report = check(stored(name).to_string().as_bytes());
+        assert_eq!(report.verdict, Verdict::Valid, "{}", report.text(false));
+        let subject = &report.proved.as_ref().unwrap().subject;
+        assert!(subject.assumed.len() == 2 && subject.also.is_some() && subject.about == "plant", "{subject:?}");
+        assert_eq!(report.json()["plant_sha256"], stored(name)["plant_sha256"]);
+        assert!(report.text(false).contains("  plant: SHA-256 "));
+    }
+}
+
+#[test]
+fn the_claim_says_what_is_proved() {
+    let statement = |name: &str| stored(name)["claim"]["statement"].as_str().unwrap().to_owned();
+    for name in ALL {
+        let text = statement(name).replace("sigma >= ", "sigma >= 1");
+        refused(&changed(name, &[("/claim/statement", json!(text))]), Verdict::Invalid, "claim");
+        refused(&changed(name, &[("/claim/sigma_star", json!("0.1"))]), Verdict::Invalid, "sharp");
+        refused(&changed(name, &[("/claim/derivation", json!("repaired"))]), Verdict::BadInput, "format");
+        refused(&changed(name, &[("/specification", json!({}))]), Verdict::BadInput, "format");
+        refused(&changed(name, &[("/witness/orbit", Value::Null)]), Verdict::BadInput, "format");
+        let without =
+            changed(name, &[("/witness/r_x", Value::Null), ("/witness/p_x", json!("1")), ("/witness/p_e", json!("1"))]);
+        assert_eq!(without.verdict, Verdict::BadInput);
+    }
+    let mut forged = stored("linear");
+    forged["plant_sha256"] = "0".repeat(64).into();
+    refused(&check(forged.to_string().as_bytes()), Verdict::Invalid, "digest");
+}
+
+#[test]
+fn the_ball_and_the_domain_are_decided_exactly() {
+    let with_ball = |ball: &str| {
+        let statement =
+            stored("linear")["claim"]["statement"].as_str().unwrap().replace("0.0825203.", &format!("{ball}."));
+        vec![("/claim/initial_set/ball", json!(ball)), ("/claim/statement", json!(statement))]
+    };
+    // L = 1: the ball is the set.
+    assert_eq!(changed("linear", &with_ball("0.08252114")).verdict, Verdict::Valid);
+    refused(&changed("linear", &with_ball("0.08252115")), Verdict::Invalid, "coordinates");
+    refused(&changed("linear", &with_ball("-0.01")), Verdict::Invalid, "coordinates");
+    refused(&changed("linear", &[("/claim/initial_set/ball", Value::Null)]), Verdict::BadInput, "format");
+    refused(&changed("no-states", &[("/claim/initial_set/ball", json!("0"))]), Verdict::BadInput, "format");
+    for (asked, verdict) in [("0.0825", Verdict::Valid), ("0.0826", Verdict::Invalid)] {
+        let set = json!({ "kind": "at-rest", "ball": asked });
+        assert_eq!(changed("linear", &[("/plant/initial_set", set)]).verdict, verdict);
+    }
+    for (x, e, verdict) in
+        [("1.16", "1.1", Verdict::Valid), ("1.1", "1.1", Verdict::Invalid), ("1.16", "0.9", Verdict::Invalid)]
+    {
+        let certificate = stored("linear");
+        let statement = certificate["claim"]["statement"].as_str().unwrap();
+        let statement = statement.replace("x_0| <= 50, |e| <= 50)", &format!("x_0| <= {x}, |e| <= {e})"));
+        let report =
+            changed("linear", &[("/plant/domain", json!({ "x": x, "e": e })), ("/claim/statement", json!(statement))]);
+        assert_eq!(report.verdict, verdict, "{x}, {e}: {}", report.text(false));
+    }
+}
+
+#[test]
+fn a_condition_needs_an_entry_at_its_arguments() {
+    let linear = stored("linear");
+    for (bound, smallest) in [
+        ("f_x", true),
+        ("rate", true),
+        ("f_e", false),
+        ("q_x", false),
+        ("q_e", false),
+        ("rate", false),
+        ("q_tx", true),
+        ("q_te", true),
+    ] {
+        let index = entry(&linear, bound, smallest);
+        let at = format!("/witness/bounds/{index}");
+        let x: f64 = linear["witness"]["bounds"][index]["X"].as_str().unwrap().parse().unwrap();
+        let smaller = changed("linear", &[(&format!("{at}/X"), json!(format!("{}", x * 0.999)))]);
+        // Where a larger entry answers as well the certificate stays valid, for all values are the same here.
+        let others =
+            linear["witness"]["bounds"].as_array().unwrap().iter().filter(|other| other["bound"] == bound).count();
+        let valid = smallest && others > 1;
+        assert_eq!(smaller.verdict == Verdict::Valid, valid, "{bound}: {}", smaller.text(false));
+        if !valid {
+            assert_ne!(changed("linear", &[(&at, Value::Null)]).verdict, Verdict::Valid, "{bound}");
+        }
+    }
+    let at = format!("/witness/bounds/{}/value", entry(&linear, "f_e", false));
+    refused(&changed("linear", &[(&at, json!("0.5"))]), Verdict::Invalid, "bounds of the plant");
+}
+
+#[test]
+fn a_second_matrix_has_rates_of_its_own() {
+    let second = json!({ "P": [["2"]], "p_low": "2", "p_up": "2", "alpha": "1" });
+    refused(&changed("linear", &[("/witness/lyapunov_existence", second.clone())]), Verdict::Undecided, "sharp");
+    let index = entry(&stored("linear"), "rate", true);
+    let name = format!("/witness/bounds/{index}/bound");
+    let both = [("/witness/lyapunov_existence", second), (name.as_str(), json!("rate_existence"))];
+    assert_eq!(changed("linear", &both).verdict, Verdict::Valid);
+    let mut wrong = both.to_vec();
+    let value = format!("/witness/bounds/{index}/value");
+    wrong.push((&value, json!("1.01")));
+    refused(&changed("linear", &wrong), Verdict::Invalid, "bounds of the plant");
+}
+
+#[test]
+fn it_is_about_the_plant_that_is_asked_for() {
+    let certificate = stored("paper-example");
+    let asked = |plant: &Value| check_against(certificate.to_string().as_bytes(), Some(plant.to_string().as_bytes()));
+    let mut plant = certificate["plant"].clone();
+    assert_eq!(asked(&plant).verdict, Verdict::Valid);
+    plant["initial"]["e"] = "5".into();
+    plant["name"] = "another name".into();
+    assert_eq!(asked(&plant).verdict, Verdict::Valid);
+    plant["q"] = "x1".into();
+    let report = asked(&plant);
+    refused(&report, Verdict::Invalid, "the specification that was asked for");
+    assert_eq!(report.finding.unwrap().pointer, "/plant/q");
+}

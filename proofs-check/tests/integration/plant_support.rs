@@ -1,0 +1,117 @@
+//! Plants with the parts of a witness that are about their formulas, and what the rules of section 11 say of them.
+
+use super::common::folder;
+use proofs_check::effort;
+use proofs_check::json::{Field, Json, parse};
+use proofs_check::plant;
+use proofs_check::spec::Specification;
+use proofs_check::verdict::{Outcome, Verdict};
+use rug::Float;
+use serde_json::{Value, json};
+
+/// A file of `tests/plants`: a plant, and parts of a witness.
+pub fn stored(name: &str) -> Value {
+    let text = std::fs::read_to_string(folder("plants").join(format!("{name}.json"))).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+fn read(parts: &Value) -> Outcome<Specification> {
+    let parse = |part: &str| -> Json { parse(parts[part].to_string().as_bytes()).unwrap() };
+    let (plant, witness) = (parse("plant"), parse("witness"));
+    let mut fields = Field { json: &witness, pointer: "/witness".to_owned() }.fields()?;
+    let spec = plant::read::read(&Field { json: &plant, pointer: "/plant".to_owned() }, &mut fields)?;
+    fields.finish().map(|()| spec)
+}
+
+/// Applies the rules of section 11; the lines of the argument.
+pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
+    let spec = read(parts)?;
+    let plant = spec.plant.as_ref().expect("it is a plant");
+    let none = Float::new(128);
+    let mut lines = Vec::new();
+    let (answer, steps) = effort::limited(effort::LIMIT, || plant::prove(&spec, plant, [&none, &none], &mut lines));
+    lines.push(format!("{steps} steps"));
+    answer.map(|()| lines)
+}
+
+/// A plant with parts of a witness, to be changed.
+#[derive(Clone)]
+pub struct Parts(pub Value);
+
+impl Parts {
+    /// One state, the period 1, L = 1, P = 1 with the rate 1.
+    pub fn scalar(f: &str, q: &str) -> Parts {
+        Parts(json!({
+            "plant": {
+                "format": "sigmastar/plant", "version": 1, "name": "a test", "period": "1", "states": ["x"], "f": [f], "q": q,
+                "internal_model": {
+                    "mu": "1", "base_frequency": "2*pi", "matched": true,
+                    "weights": { "family": "power", "n0": "2", "epsilon": "1/2" },
+                },
+            },
+            "witness": {
+                "coordinates": { "L": [["1"]] },
+                "orbit": null,
+                "lyapunov": { "P": [["1"]], "p_low": "1", "p_up": "1", "alpha": "1" },
+                "forcing": null,
+                "bounds": [],
+            },
+        }))
+    }
+
+    /// `xb = cos * cos(2 pi t) + sin * sin(2 pi t)`.
+    pub fn orbit(self, cos: f64, sin: f64, defect: &str, radius: &str) -> Parts {
+        let harmonic = json!([{ "cos": [format!("{cos:.17}")], "sin": [format!("{sin:.17}")] }]);
+        let orbit = json!({ "mean": ["0"], "harmonics": harmonic, "defect": defect, "tube": "0.1", "radius": radius });
+        self.with("/witness/orbit", orbit)
+    }
+
+    /// `qb`, with one harmonic.
+    pub fn forcing(self, mean: f64, cos: f64, sin: f64, rest: &str, rest_t: &str) -> Parts {
+        let harmonic = json!([{ "cos": format!("{cos:.17}"), "sin": format!("{sin:.17}") }]);
+        let forcing = json!({ "mean": format!("{mean}"), "harmonics": harmonic, "rest": rest, "rest_t": rest_t });
+        self.with("/witness/forcing", forcing)
+    }
+
+    /// Other entries: name, X, E, value.
+    pub fn bounds(self, entries: &[(&str, &str, &str, &str)]) -> Parts {
+        let entry =
+            |(bound, x, e, value): &(&str, &str, &str, &str)| json!({ "bound": bound, "X": x, "E": e, "value": value });
+        self.with("/witness/bounds", entries.iter().map(entry).collect())
+    }
+
+    /// Another value at a place, which need not be there yet.
+    pub fn with(mut self, at: &str, value: Value) -> Parts {
+        let (object, key) = at.rsplit_once('/').unwrap();
+        let object = self.0.pointer_mut(object).unwrap();
+        match key.parse::<usize>() {
+            Ok(index) => object[index] = value,
+            Err(_) => object[key] = value,
+        }
+        self
+    }
+
+    #[track_caller]
+    pub fn accepted(&self) {
+        if let Err(finding) = judged(&self.0) {
+            panic!("{}: {finding:?}", self.0["plant"]["q"]);
+        }
+    }
+
+    /// The verdict and the rule.
+    pub fn verdict(&self) -> (Verdict, &'static str) {
+        judged(&self.0).map_or_else(|finding| (finding.verdict, finding.rule), |_| (Verdict::Valid, ""))
+    }
+
+    /// Refused with this verdict, by this rule (any: empty) and at or below this place.
+    #[track_caller]
+    pub fn refused(&self, verdict: Verdict, rule: &str, pointer: &str) {
+        match judged(&self.0) {
+            Ok(_) => panic!("accepted: {}", self.0),
+            Err(finding) => {
+                let right = finding.verdict == verdict && (rule.is_empty() || finding.rule == rule);
+                assert!(right && finding.pointer.starts_with(pointer), "{finding:?}");
+            }
+        }
+    }
+}
