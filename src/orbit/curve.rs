@@ -10,6 +10,9 @@ use rug::Rational;
 /// The precision of the enclosures, in bits: cells lose a dozen of them, and a defect is some 40 below the terms.
 pub(super) const PRECISION: u32 = 96;
 
+/// The most harmonics of a curve, of a P and of q that are expanded.
+pub const MAX_HARMONICS: usize = 1_000;
+
 /// xb(t) over the cells of a period.
 pub(super) struct Curve {
     pub(super) cells: Cells,

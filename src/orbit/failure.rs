@@ -1,5 +1,6 @@
 //! Why there is no proved orbit, and what to try.
 
+use super::find::MAX_STATES;
 use crate::number::{Direction, round_f64, write_exact};
 use thiserror::Error;
 
@@ -29,6 +30,12 @@ pub enum OrbitFailure {
         /// The exponents (real, imaginary) in 1/time, the largest real part first.
         floquet: Vec<[f64; 2]>,
     },
+    /// Too many states.
+    #[error("{states} states; the orbit of at most {MAX_STATES} is sought")]
+    TooLarge {
+        /// How many there are.
+        states: usize,
+    },
     /// Numbers out of range.
     #[error("the right sides, or their derivatives, are not finite along x_0(t) in floating point")]
     NotFinite,
@@ -46,6 +53,7 @@ impl OrbitFailure {
             OrbitFailure::NotStable { .. } => {
                 Some("the zero dynamics have to be stable: close a loop around them first, or choose another output e")
             }
+            OrbitFailure::TooLarge { .. } => None,
             OrbitFailure::NotFinite => Some("write the plant in units in which its numbers are of ordinary size"),
         }
     }

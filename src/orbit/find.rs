@@ -8,6 +8,10 @@ use super::series::{FloatSeries, Turn};
 use crate::plant::Plant;
 use nalgebra::DVector;
 
+/// The most states of a plant whose orbit is sought, as for a Jacobian of a specification: semidefinite programs and proofs of
+/// a rate grow with a high power of their number.
+pub const MAX_STATES: usize = 12;
+
 /// The numbers of harmonics, in turn.
 const HARMONICS: [usize; 5] = [8, 16, 32, 64, 128];
 
@@ -48,8 +52,11 @@ pub struct FloatOrbit {
 /// # Errors
 /// [`OrbitFailure`]: none was found, or none that attracts its neighbours; nothing is proved by that.
 pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
+    let n = plant.states();
+    if n > MAX_STATES {
+        return Err(OrbitFailure::TooLarge { states: n });
+    }
     let mut field = Field::new(plant);
-    let n = field.states();
     if n == 0 {
         return Ok(FloatOrbit { series: FloatSeries::zero(0), defect: 0.0, floquet: Vec::new() });
     }

@@ -1,7 +1,7 @@
 //! The harmonics of q(t, x_0, 0) (derivation, 11.4): proposed in doubles, the rest proved.
 
 use super::coordinates::Coordinates;
-use super::curve::{PRECISION, wave};
+use super::curve::{MAX_HARMONICS, PRECISION, wave};
 use super::defect::{CELLS, CLOSE, ORDER, first_exponent, largest};
 use super::failure::OrbitNotProved;
 use super::field::Field;
@@ -21,8 +21,8 @@ use rayon::prelude::*;
 use rug::Rational;
 use std::f64::consts::TAU;
 
-/// The most harmonics of qb, and the points of the transform.
-const MAX_HARMONICS: usize = 128;
+/// The most harmonics of qb that are proposed, and the points of the transform.
+const PROPOSED_HARMONICS: usize = 128;
 const POINTS: usize = 1024;
 
 /// What is left out and rounded, relative to the root mean square of q(t,x_0,0) and of its derivative.
@@ -69,7 +69,7 @@ fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<
         vec![field.q()]
     };
     let samples: Vec<Vec<f64>> = (0..POINTS).map(sample).collect();
-    let series = FloatSeries::from_samples(&samples, MAX_HARMONICS);
+    let series = FloatSeries::from_samples(&samples, PROPOSED_HARMONICS);
     let pairs: Vec<[f64; 2]> = series.harmonics.iter().map(|[a, b]| [a[0], b[0]]).collect();
     let mean = series.mean[0];
     let amplitude = |[a, b]: [f64; 2]| libm::hypot(a, b);
@@ -182,6 +182,9 @@ fn rests(
     proved: &ProvedOrbit,
     enough: [f64; 2],
 ) -> Result<[Enclosure; 2], OrbitNotProved> {
+    if forcing.harmonics.len() > MAX_HARMONICS {
+        return Err(OrbitNotProved::Shape("too many harmonics"));
+    }
     let formulas = Rows::new(around.plant);
     let harmonics = around.harmonics().max(forcing.harmonics.len());
     let mut best: Result<[Enclosure; 2], OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });

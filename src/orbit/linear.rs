@@ -53,11 +53,9 @@ mod tests {
         };
         let a = matrix([[0, 2, 1], [3, 1, 0], [1, 0, -5]]);
         let b = inverse(&a).unwrap();
-        for i in 0..3 {
-            for j in 0..3 {
-                let entry: Rational = (0..3).map(|k| Rational::from(&a[i][k] * &b[k][j])).sum();
-                assert_eq!(entry, Rational::from(u8::from(i == j)));
-            }
+        for (i, row) in a.iter().enumerate() {
+            let entry = |j: usize| -> Rational { row.iter().zip(&b).map(|(a, b)| Rational::from(a * &b[j])).sum() };
+            assert!((0..3).all(|j| entry(j) == u8::from(i == j)));
         }
         assert_eq!(inverse(&matrix([[1, 2, 3], [2, 4, 6], [0, 0, 1]])), None);
         assert_eq!(inverse(&[vec![Rational::from(1), Rational::new()]]), None);

@@ -1,5 +1,11 @@
 //! The T-periodic solution x_0(t) of x' = f(t, x, 0): found in floating point, proved; the harmonics of q(t, x_0, 0); and
 //! coordinates in which the zero dynamics contract (derivation, 11.2, 11.4, 11.5).
+//!
+//! - `field`, `series`, `collocation`, `floquet`, `find`: the orbit in doubles;
+//! - `round`, `shape`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
+//! - `recurrences`, `taylor`, `cells`, `curve`: Taylor series of formulas along a curve, over enclosures;
+//! - `defect`, `rate`, `prove`: the orbit, proved;
+//! - `forcing`: the harmonics of q, proposed and proved.
 
 mod cells;
 mod collocation;
@@ -24,8 +30,9 @@ mod taylor;
 mod tests;
 
 pub use coordinates::{Coordinates, propose_coordinates};
+pub use curve::MAX_HARMONICS;
 pub use failure::{OrbitFailure, OrbitNotProved};
-pub use find::{FloatOrbit, find_orbit};
+pub use find::{FloatOrbit, MAX_STATES, find_orbit};
 pub use forcing::{ProvedForcing, decide_forcing, prove_forcing};
 pub use linear::inverse;
 pub use prove::{ProvedOrbit, decide_orbit, prove_orbit};

@@ -2,7 +2,7 @@
 
 use super::cells::Wave;
 use super::coordinates::Coordinates;
-use super::curve::{Curve, PRECISION, wave, waves};
+use super::curve::{Curve, MAX_HARMONICS, PRECISION, wave, waves};
 use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent};
 use super::failure::OrbitNotProved;
 use super::linear::{enclosed, inverse};
@@ -79,6 +79,9 @@ impl<'a> Around<'a> {
             return Err(OrbitNotProved::Shape("a vector of the orbit has another length"));
         }
         let matrix = &coordinates.p;
+        if orbit.harmonics.len().max(matrix.harmonics.len()) > MAX_HARMONICS {
+            return Err(OrbitNotProved::Shape("too many harmonics"));
+        }
         let square = |rows: &Vec<Vec<Rational>>| rows.len() == n && rows.iter().all(|row| row.len() == n);
         let symmetric = |rows: &Vec<Vec<Rational>>| (0..n).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]));
         let parts = || std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten());

@@ -128,7 +128,7 @@ fn forged_orbits_are_refused() {
     assert!(matches!(refused(&small), OrbitNotProved::Defect { .. }));
     let fast = exact(1.001 * sampled.rate);
     assert!(matches!(refused(&ProvedOrbit { alpha: fast, ..proof.clone() }), OrbitNotProved::Rate { .. }));
-    let near = ProvedOrbit { radius: Rational::from(&proof.radius * Rational::from((99, 100))), ..proof.clone() };
+    let near = ProvedOrbit { radius: &proof.radius * Rational::from((99, 100)), ..proof.clone() };
     assert!(matches!(refused(&near), OrbitNotProved::DefectTooLarge { .. }));
     let wide = ProvedOrbit { radius: proof.tube.clone(), ..proof.clone() };
     assert!(matches!(refused(&wide), OrbitNotProved::DefectTooLarge { .. }));
@@ -230,4 +230,18 @@ fn what_is_not_smooth_on_the_orbit_is_told() {
     let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().remove(0);
     let failure = prove_orbit(&plant, &orbit, &coordinates).unwrap_err();
     assert!(matches!(failure, OrbitNotProved::NotSmooth { .. }), "{failure}");
+}
+
+#[test]
+fn what_is_too_large_is_refused() {
+    let states: Vec<String> = (0..=MAX_STATES).map(|i| format!("x{i}")).collect();
+    let f: Vec<String> = states.iter().map(|x| format!("-{x}")).collect();
+    let [states, f] = [&states, &f].map(|list| list.iter().map(String::as_str).collect::<Vec<_>>());
+    let failure = find_orbit(&plant("1", &states, &f, "x0")).unwrap_err();
+    assert_eq!(failure, OrbitFailure::TooLarge { states: MAX_STATES + 1 });
+    let plant = plant("1", &["x"], &["-x"], "x");
+    let (coordinates, mut proof) = proved(&plant);
+    let none = || vec![Rational::new()];
+    proof.orbit.harmonics = (0..=MAX_HARMONICS).map(|_| [none(), none()]).collect();
+    assert!(matches!(decide_orbit(&plant, &coordinates, &proof), Err(OrbitNotProved::Shape(_))));
 }
