@@ -57,6 +57,7 @@ pub(super) fn largest_of(matrix: &mut [f64], order: usize) -> f64 {
     match (order, &*matrix) {
         (1, [a]) => return *a,
         (2, [a, b, _, d]) => return (a + d) / 2.0 + ((a - d).powi(2) / 4.0 + b * b).sqrt(),
+        (3, [a, b, c, _, d, e, _, _, f]) => return largest_of_three([*a, *d, *f], [*b, *c, *e]),
         _ => {}
     }
     for _ in 0..SWEEPS {
@@ -88,6 +89,20 @@ pub(super) fn largest_of(matrix: &mut [f64], order: usize) -> f64 {
         }
     }
     (0..order).map(|i| matrix[i * order + i]).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The largest root of the characteristic polynomial, by cosines; from the diagonal and (1,2), (1,3), (2,3).
+fn largest_of_three([a, d, f]: [f64; 3], [b, c, e]: [f64; 3]) -> f64 {
+    let mean = (a + d + f) / 3.0;
+    let off = b * b + c * c + e * e;
+    let [a, d, f] = [a - mean, d - mean, f - mean];
+    let size = ((a * a + d * d + f * f + 2.0 * off) / 6.0).sqrt();
+    if size == 0.0 {
+        return mean;
+    }
+    let determinant = a * (d * f - e * e) - b * (b * f - e * c) + c * (b * e - d * c);
+    let cosine = (determinant / (2.0 * size.powi(3))).clamp(-1.0, 1.0);
+    mean + 2.0 * size * libm::cos(libm::acos(cosine) / 3.0)
 }
 
 #[cfg(test)]

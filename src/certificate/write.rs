@@ -3,7 +3,7 @@
 use super::fields::Numbers;
 use super::of_plant::plant_parts;
 use super::triple::{lyapunov_parts, rows};
-use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness, largest_ball};
+use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness, claimed_ball};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::derivation::sharp::ClaimedSet;
@@ -225,7 +225,7 @@ fn statement_of_plant(spec: &Specification, plant: &OfPlant, sigma: &Rational, s
         format!(" (a model that holds for |x - x_0| <= {}, |e| <= {})", domain.x.text, domain.e.text)
     });
     let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(write_exact);
-    let (state, orbit) = match largest_ball(&plant.coordinates, &set.x0) {
+    let (state, orbit) = match claimed_ball(plant, &set.x0) {
         None => (String::new(), String::new()),
         Some(ball) => (
             format!("|L^-1 (x - x_0)| <= {x0}, "),
@@ -253,7 +253,7 @@ fn set_json(spec: &Specification, set: &ClaimedSet) -> Value {
         InitialSet::AtRest { .. } => "at-rest",
         InitialSet::Box { .. } => "box",
     };
-    let ball = spec.plant().and_then(|plant| largest_ball(&plant.coordinates, &set.x0));
+    let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
     let ball = ball.map(|ball| ("ball", exact(&ball)));
     object([("kind", text(kind))].into_iter().chain(set.json()).chain(ball))
 }

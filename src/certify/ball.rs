@@ -2,6 +2,7 @@
 
 use crate::matrix::is_positive_definite;
 use crate::number::{Direction, round_f64};
+use crate::spec::OfPlant;
 use nalgebra::DMatrix;
 use rug::Rational;
 
@@ -37,6 +38,18 @@ fn excess(rows: &[Vec<Rational>], x: &Rational, radius: &Rational) -> Vec<Vec<Ra
         if i == j { product - &diagonal } else { product }
     };
     (0..rows.len()).map(|i| (0..rows.len()).map(|j| entry(i, j)).collect()).collect()
+}
+
+/// The ball of a claim: the one that was asked for where it is proved, else the largest R_0 of a few digits; `None` without
+/// states.
+#[must_use]
+pub fn claimed_ball(plant: &OfPlant, x_0: &Rational) -> Option<Rational> {
+    let asked = plant.ball.as_ref().and_then(|ball| ball.as_rational());
+    let largest = largest_ball(&plant.coordinates, x_0)?;
+    Some(match asked {
+        Some(asked) if *asked > largest && covers_ball(&plant.coordinates, x_0, asked) => asked.clone(),
+        _ => largest,
+    })
 }
 
 /// The largest R_0 of a few digits that is proved; 0 where none is. `None` without states.

@@ -20,7 +20,7 @@ mod refusal;
 mod round;
 mod verdict;
 
-pub use ball::{covers_ball, inverse_norm, largest_ball, within_ball};
+pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
 pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 pub use certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 pub use decide::{decide, decide_exact};

@@ -42,7 +42,10 @@ const FINE: f64 = 1.12;
 const STEP: f64 = 0.15;
 
 /// The descent over S; a relative change of sigma* by the tolerance is none.
-const DESCENT: Descent = Descent { restarts: 2, iterations: 60, tolerance: 1e-4 };
+const DESCENT: Descent = Descent { restarts: 1, iterations: 40, tolerance: 1e-4 };
+
+/// That of three states and more, where a step costs more.
+const SHORT: Descent = Descent { restarts: 0, iterations: 40, tolerance: 1e-3 };
 
 /// Beyond so many states L is taken as it is proposed: the numbers in S are too many.
 const MOST_STATES: usize = 4;
@@ -136,7 +139,7 @@ impl CoordinateSearch<'_> {
             search_sharp_near(&model, start).map(|found| crate::number::Portable::portable_ln(found.sigma))
         };
         let (zero, steps) = (vec![0.0; freedom], vec![STEP; freedom]);
-        match minimise(cost, &zero, &steps, DESCENT) {
+        match minimise(cost, &zero, &steps, if n > 2 { SHORT } else { DESCENT }) {
             Some((best, _)) => l * exponential(n, &best),
             None => l.clone(),
         }

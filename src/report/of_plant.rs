@@ -2,7 +2,7 @@
 
 use super::document::{Block, Table};
 use super::number::exact;
-use crate::certify::{Certification, largest_ball};
+use crate::certify::{Certification, claimed_ball};
 use crate::number::{Direction, write_exact};
 use crate::spec::{OfPlant, ProvedValue};
 use rug::Rational;
@@ -67,7 +67,7 @@ fn facts(run: &Certification<'_>, plant: &OfPlant) -> Vec<(&'static str, String)
             up(&plant.forcing.rest_t)
         ),
     ));
-    if let Some(ball) = run.claimed_set().and_then(|set| largest_ball(&plant.coordinates, &set.x0)) {
+    if let Some(ball) = run.claimed_set().and_then(|set| claimed_ball(plant, &set.x0)) {
         facts.push(("the initial set contains", format!("|x - x_0| <= {}", exact(&ball, Direction::Down))));
     }
     facts
@@ -85,7 +85,7 @@ pub(super) fn plant_json(run: &Certification<'_>) -> Value {
     let rows = |matrix: &[Vec<Rational>]| -> Vec<Vec<String>> {
         matrix.iter().map(|row| row.iter().map(write_exact).collect()).collect()
     };
-    let ball = run.claimed_set().and_then(|set| largest_ball(&plant.coordinates, &set.x0));
+    let ball = run.claimed_set().and_then(|set| claimed_ball(plant, &set.x0));
     let values: Vec<Value> = run
         .spec
         .bounds

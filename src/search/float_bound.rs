@@ -21,6 +21,9 @@ pub enum FloatBound {
     Function(Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>),
 }
 
+/// Proved values end where they end: a search stays so far inside that rounding does not lead beyond.
+const EDGE: f64 = 1.0 + 1e-6;
+
 impl fmt::Debug for FloatBound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -53,7 +56,8 @@ impl FloatBound {
         match self {
             FloatBound::Expression(expr) => expr.eval(x, e),
             FloatBound::Values { entries, from_below } => {
-                let reaching = entries.iter().filter(|entry| x <= entry[0] && e <= entry[1]).map(|entry| entry[2]);
+                let reaches = |entry: &&[f64; 3]| x * EDGE <= entry[0] && e * EDGE <= entry[1];
+                let reaching = entries.iter().filter(reaches).map(|entry| entry[2]);
                 let best = if *from_below { reaching.reduce(f64::max) } else { reaching.reduce(f64::min) };
                 best.unwrap_or(f64::NAN)
             }

@@ -16,28 +16,18 @@ pub struct Coordinates {
 }
 
 impl Coordinates {
-    /// Reads `coordinates`, which has `L`, or is `[]` without states. L must be invertible.
+    /// Reads `coordinates`, the rows of L, `[]` without states. L must be invertible.
     pub fn read_part(field: &Field<'_>, order: usize) -> Outcome<Coordinates> {
-        if order == 0 {
-            let none = Coordinates { matrix: Vec::new(), inverse: Vec::new() };
-            return match field.elements()?.is_empty() {
-                true => Ok(none),
-                false => bad(&field.pointer, "expected [], as there are no states"),
-            };
-        }
-        let mut fields = field.fields()?;
-        let rows = fields.required("L")?;
-        fields.finish()?;
         let row = |row: &Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
-        let matrix = rows.elements()?.iter().map(row).collect::<Outcome<Matrix>>()?;
+        let matrix = field.elements()?.iter().map(row).collect::<Outcome<Matrix>>()?;
         if matrix.len() != order || matrix.iter().any(|row| row.len() != order) {
-            return bad(&rows.pointer, format!("expected {order} rows of {order} numbers, one for each state"));
+            return bad(&field.pointer, format!("expected {order} rows of {order} numbers, one for each state"));
         }
         match inverse(&matrix) {
             Some(inverse) => Ok(Coordinates { matrix, inverse }),
             None => {
-                demand(Some(false), RULE, &rows.pointer, "L is invertible")?;
-                bad(&rows.pointer, "L is not invertible")
+                demand(Some(false), RULE, &field.pointer, "L is invertible")?;
+                bad(&field.pointer, "L is not invertible")
             }
         }
     }

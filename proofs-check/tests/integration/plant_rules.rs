@@ -95,12 +95,12 @@ fn the_orbit_must_be_one() {
 fn coordinates_and_a_periodic_p_are_used() {
     // v = 2 x: f_e doubles, q_x halves.
     let scaled = linear()
-        .with("/witness/coordinates", json!({ "L": [["1/2"]] }))
+        .with("/witness/coordinates", json!([["1/2"]]))
         .with("/witness/orbit/defect", json!("2e-14"))
         .with("/witness/orbit/radius", json!("2.2e-14"));
     scaled.clone().refused(Verdict::Invalid, "bounds of the plant", "/witness/bounds/1/value");
     scaled.with("/witness/bounds/1/value", json!("2")).with("/witness/bounds/2/value", json!("1/2")).accepted();
-    linear().with("/witness/coordinates", json!({ "L": [["0"]] })).refused(Verdict::Invalid, "coordinates", "");
+    linear().with("/witness/coordinates", json!([["0"]])).refused(Verdict::Invalid, "coordinates", "");
     // P = 1 + cos/4: P' - 2 P <= -2 a P, with a = 1 - max P'/(2 P) = 1 - pi/4/sqrt(15/16) = 0.1888.
     let p = json!({
         "P": [["1"]], "harmonics": [{ "cos": [["1/4"]], "sin": [["0"]] }], "p_low": "0.7499", "p_up": "1.2501", "alpha": "0.188",
@@ -283,7 +283,7 @@ fn what_is_read_is_read_strictly() {
         ("/plant/internal_model/extra", json!(1)),
         ("/witness/orbit/mean", json!([])),
         ("/witness/coordinates", json!([])),
-        ("/witness/coordinates/L", json!([["1", "0"]])),
+        ("/witness/coordinates", json!([["1", "0"]])),
         ("/witness/bounds/0/bound", json!("f_xx")),
         ("/plant/initial", json!({ "x": [] })),
         ("/witness/bounds/0/extra", json!(1)),

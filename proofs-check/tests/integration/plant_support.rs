@@ -50,7 +50,7 @@ impl Parts {
                 },
             },
             "witness": {
-                "coordinates": { "L": [["1"]] },
+                "coordinates": [["1"]],
                 "orbit": null,
                 "lyapunov": { "P": [["1"]], "p_low": "1", "p_up": "1", "alpha": "1" },
                 "forcing": null,
