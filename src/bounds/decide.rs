@@ -72,6 +72,9 @@ impl Engine {
     /// Guarantee: `True` only if the inequality of the table (derivation, 11.3) holds for every (t,x,e) of `G(X,E)` and every
     /// value of x_0'; all formulas in it are then defined there. `False` only if it fails at a point of it. A negative X or E has
     /// no region and is undecided, and so is a rate without a P.
+    ///
+    /// Two things are for the caller to prove besides: the period ([`crate::plant::Plant::prove_periodic`]), and smoothness on the
+    /// same region ([`Engine::smooth`]), without which a derivative that is written as 0 need not be one.
     #[must_use]
     pub fn decide(&self, entry: &Entry, effort: usize) -> Decision {
         let Entry { bound, x, e, value } = entry;
