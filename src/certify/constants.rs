@@ -97,7 +97,7 @@ fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
     let Some(common) = sharp.map(Proof::decided).or(repaired.map(Proof::decided)) else { return Vec::new() };
     let ([x, e], [k0, k1]) = (common.point, common.pair);
     let numbers = |set: &ClaimedSet| [set.x0.clone(), set.e0.clone(), set.z0.clone()];
-    table(&TableInput {
+    let rows = table(&TableInput {
         data,
         common: [x.clone(), e.clone(), common.sigma.clone()],
         sharp_pair: (k0.clone(), k1.clone()),
@@ -115,5 +115,13 @@ fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
             sharp.map(|proof| data.rational(&proof.witness.sigma)),
         ],
         sigma_exact: columns.exact.map(|claim| claim.witness.sigma.clone()),
-    })
+    });
+    if data.spec.plant().is_some() { rows.into_iter().filter_map(of_a_plant).collect() } else { rows }
+}
+
+/// A row without the figures that rest on data which are not computed from a plant's formulas.
+fn of_a_plant(row: Row) -> Option<Row> {
+    let known = |value: &Value| matches!(value, Value::Number(value) | Value::Span(value) if value.is_bounded());
+    let sharp = row.sharp.filter(|entry| known(&entry.value))?;
+    Some(Row { printed: None, repaired: None, sharp: Some(sharp), ..row })
 }

@@ -9,8 +9,11 @@ use crate::spec::{Bounds, OfPlant, ProvedForcing, ProvedValues};
 use nalgebra::DMatrix;
 use rug::Rational;
 
-/// Significant digits of the X_0 that covers a ball, of a domain in the norm of y, and of the sizes of harmonics.
+/// Significant digits of the X_0 that covers a ball, and of a domain in the norm of y.
 const DIGITS: u32 = 10;
+
+/// Significant digits of the sizes of harmonics: of which nothing is written, so that they may be long.
+const LONG_DIGITS: u32 = 30;
 
 /// Room for rounding in the norms of L and L^-1, which doubles know: the first that is proved to be enough is taken.
 const ROOMS: [f64; 4] = [1e-9, 1e-6, 1e-3, 0.1];
@@ -54,7 +57,7 @@ fn known_forcing(forcing: &ProvedForcing) -> KnownForcing {
         let size = Enclosure::from_rational(&(squares / 4u32), PRECISION).sqrt();
         // The square root of a rational is bounded.
         let upper = size.upper_rational().unwrap_or_default();
-        round_rational(&upper, DIGITS, Direction::Up)
+        round_rational(&upper, LONG_DIGITS, Direction::Up)
     };
     let harmonics = std::iter::once(mean).chain(forcing.harmonics.iter().map(size));
     KnownForcing {
