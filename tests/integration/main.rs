@@ -24,6 +24,7 @@ mod mutants;
 mod mutated_specifications;
 mod no_plant;
 mod plain;
+mod plants;
 mod positive_part;
 mod rate;
 mod rejected;

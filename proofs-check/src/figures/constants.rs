@@ -309,13 +309,22 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     rows
 }
 
+/// From a plant's formulas only the data of the sharp derivation are computed: what rests on others has no value.
+fn of_a_plant([_, _, sharp]: [Cell<'_>; 3]) -> [Cell<'_>; 3] {
+    let bounded = |(value, ..): &(Value<'_>, bool, &str)| matches!(value, Value::Number(value) if value.is_bounded());
+    [None, None, sharp.filter(bounded)]
+}
+
 /// Compares the stored table with the computed one; `note` receives each cell.
 pub fn check(d: &Data<'_>, table: &Field<'_>, input: &Input<'_>, note: &mut dyn FnMut(String, Outcome<()>)) {
     let mut stored = match table.fields() {
         Ok(stored) => stored,
         Err(finding) => return note(table.pointer.clone(), Err(finding)),
     };
-    for (name, at, row) in common(d, input).into_iter().chain(own(d, input)) {
+    for (name, at, mut row) in common(d, input).into_iter().chain(own(d, input)) {
+        if d.spec.plant.is_some() {
+            row = of_a_plant(row);
+        }
         if row.iter().all(Option::is_none) {
             continue;
         }

@@ -1,0 +1,169 @@
+//! Plants by their formulas: every file of `specs/plants` with its verdict, its certificate before the checker, and what
+//! other commands make of it.
+
+use crate::support::{files, json, program, stem};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// The certified ones, with the largest gain that is accepted.
+const CERTIFIED: [(&str, f64); 12] = [
+    ("chain", 4.0),
+    ("converter", 2300.0),
+    ("duffing", 1.1),
+    ("linear", 1e-3),
+    ("motor-axis", 30.0),
+    ("paper-example", 9.8),
+    ("paper-example-ball", 60.0),
+    ("paper-example-paper-set", 17.0),
+    ("paper-example-rotated", 9.8),
+    ("pendulum", 1.2),
+    ("relative-degree-2", 4.0),
+    ("relative-degree-2-domain", 4.0),
+];
+
+/// Those that are refused, with the exit code and words of the message.
+const REFUSED: [(&str, i32, &str); 6] = [
+    ("corner", 3, "corner"),
+    ("marginal", 3, "Floquet exponents"),
+    ("not-periodic", 2, "`sin(t)`: the coefficient of t times the period is not a whole multiple of 2 pi"),
+    ("root", 3, "not finite"),
+    ("time-outside", 2, "t stands outside of sin, cos, tan"),
+    ("unstable", 3, "no certificate of this kind"),
+];
+
+/// The certificate of a plant, written into a folder, and its gain.
+fn certified(folder: &Path, name: &str) -> (PathBuf, f64) {
+    let file = folder.join(format!("{name}.certificate.json"));
+    let plant = format!("specs/plants/{name}.json");
+    let output = program().args(["certify", &plant, "--quiet", "--format", "json", "-o"]).arg(&file).output().unwrap();
+    let report = json(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{name}: {report:#}");
+    assert_eq!(report["verdict"], "certified", "{name}");
+    let sigma = report["sigma_star"].as_str().and_then(|text| text.parse().ok());
+    (file, sigma.unwrap_or_else(|| panic!("{name}: {}", report["sigma_star"])))
+}
+
+fn checked(certificate: &Path) -> Value {
+    let output = program().args(["check", "--format", "json"]).arg(certificate).output().unwrap();
+    json(&output.stdout)
+}
+
+/// The certificate with one number replaced.
+fn altered(certificate: &Path, pointer: &str, value: &str) -> PathBuf {
+    let mut document: Value = serde_json::from_str(&std::fs::read_to_string(certificate).unwrap()).unwrap();
+    *document.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}")) = value.into();
+    let file = certificate.with_extension("altered.json");
+    std::fs::write(&file, document.to_string()).unwrap();
+    file
+}
+
+#[test]
+fn every_plant_is_listed() {
+    let names = |folder: &str| files(folder).iter().map(|path| stem(path).to_owned()).collect::<BTreeSet<_>>();
+    assert_eq!(names("specs/plants"), BTreeSet::from(CERTIFIED.map(|(name, _)| name.to_owned())));
+    assert_eq!(names("specs/plants/invalid"), BTreeSet::from(REFUSED.map(|(name, ..)| name.to_owned())));
+}
+
+/// Each certificate is decided by the checker, which has no line in common with what made it, and every figure agrees.
+#[test]
+fn the_shipped_plants_are_certified_and_checked() {
+    let folder = TempDir::new().unwrap();
+    let mut gains = BTreeMap::new();
+    for (name, most) in CERTIFIED {
+        let (certificate, sigma) = certified(folder.path(), name);
+        assert!(sigma <= most, "{name}: {sigma}");
+        let answer = checked(&certificate);
+        assert_eq!(answer["verdict"], "valid", "{name}: {answer:#}");
+        assert_eq!(answer["figures"]["verdict"], "agree", "{name}: {answer:#}");
+        gains.insert(name, sigma);
+    }
+    // The gain does not depend on the units and the axes in which a plant is written.
+    let ratio = gains["paper-example-rotated"] / gains["paper-example"];
+    assert!((ratio - 1.0).abs() < 0.03, "{ratio}");
+}
+
+#[test]
+fn plants_that_have_no_certificate_are_told_why() {
+    for (name, code, words) in REFUSED {
+        let plant = format!("specs/plants/invalid/{name}.json");
+        let output = program().args(["certify", &plant, "--quiet"]).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{name}: {said}");
+        assert!(said.contains(words), "{name}: {said}");
+        assert!(output.stdout.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn derivations_that_a_plant_has_no_data_for_are_refused() {
+    for derivation in ["repaired", "printed"] {
+        let output =
+            program().args(["certify", "specs/plants/motor-axis.json", "--derivation", derivation]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("bounding functions that a plant does not give"));
+    }
+}
+
+/// `--witness` proves the data of a certificate again; numbers that are too good are not proved.
+#[test]
+fn the_witness_of_a_plant_is_decided_again() {
+    let folder = TempDir::new().unwrap();
+    let (certificate, _) = certified(folder.path(), "relative-degree-2");
+    let again = |certificate: &Path| {
+        let call = ["certify", "specs/plants/relative-degree-2.json", "--quiet", "--format", "json", "--witness"];
+        let output = program().args(call).arg(certificate).output().unwrap();
+        (output.status.code(), json(&output.stdout))
+    };
+    assert_eq!(again(&certificate).0, Some(0));
+    for (pointer, value) in [
+        ("/witness/orbit/defect", "1e-40"),
+        ("/witness/orbit/radius", "1"),
+        ("/witness/lyapunov/alpha", "2.1"),
+        ("/witness/forcing/rest", "1e-30"),
+        ("/witness/bounds/1/value", "2.1"),
+        ("/witness/bounds/5/value", "0.5"),
+        ("/claim/sigma_star", "3"),
+    ] {
+        let (code, report) = again(&altered(&certificate, pointer, value));
+        assert!(code != Some(0), "{pointer}: {report:#}");
+        assert_ne!(report["verdict"], "certified", "{pointer}");
+        let answer = checked(&altered(&certificate, pointer, value));
+        assert_ne!(answer["verdict"], "valid", "{pointer}: {answer:#}");
+    }
+}
+
+/// The plant itself, from the boundary of its set, at the gain and above it.
+#[test]
+fn a_plants_own_simulation_does_not_contradict_its_certificate() {
+    let folder = TempDir::new().unwrap();
+    let (certificate, sigma) = certified(folder.path(), "pendulum");
+    let falsify = |certificate: &Path| {
+        let call = ["falsify", "--trials", "6", "--format", "json", "--quiet"];
+        let output = program().args(call).arg(certificate).output().unwrap();
+        (output.status.code(), json(&output.stdout))
+    };
+    let (code, report) = falsify(&certificate);
+    assert_eq!(code, Some(0), "{report:#}");
+    let held = |trial: &Value| trial["finding"] == "holds";
+    assert!(
+        report["trials"].as_array().is_some_and(|trials| trials.len() == 6 && trials.iter().all(held)),
+        "{report:#}"
+    );
+    assert_eq!(report["worst"]["plant"]["states"], serde_json::json!(["theta", "omega"]));
+    // A set that is larger than the error box is contradicted.
+    let (code, _) = falsify(&altered(&certificate, "/claim/initial_set/X0", "30"));
+    assert_eq!(code, Some(1), "sigma = {sigma}");
+}
+
+/// Rates and the regulator of a plant.
+#[test]
+fn other_commands_take_plants() {
+    let plant = "specs/plants/motor-axis.json";
+    let output = program().args(["rate", plant, "--n-o", "0,1", "--format", "json"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = program().args(["controller", plant, "--sigma", "30", "--n-o", "2"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(json(&output.stdout)["format"], "sigmastar/controller");
+}
