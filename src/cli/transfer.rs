@@ -5,12 +5,12 @@ use super::counts::counts;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::progress::Bar;
+use super::subject::Subject;
 use super::{input, output};
 use sigmastar::certify::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
 use sigmastar::progress::Progress;
 use sigmastar::report::{pair_failure_json, transfer_figure};
-use sigmastar::spec::Specification;
 use sigmastar::transfer::{PairChoice, PairError, TransferStudy};
 use std::path::Path;
 
@@ -36,7 +36,10 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
         (None, None) => PairChoice::ForData,
     };
     let n_o = counts(&args.n_o)?;
-    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let spec = match Subject::read(&input::document(&args.spec)?)? {
+        Subject::Specification(spec) => *spec,
+        plant @ Subject::Plant(_) => plant.into_data(args.quiet)?.0,
+    };
     let bar = Bar::new(n_o.len() as u64, args.quiet);
     let study = TransferStudy::new(&spec, DEFAULT_PRECISION, &pair, &n_o, || bar.advance());
     bar.finish();
