@@ -180,8 +180,7 @@ fn too_stiff(failure: &IntegrationFailure) -> Finding {
     Finding::Unfinished(match failure {
         IntegrationFailure::Escaped { .. } => failure.to_string(),
         IntegrationFailure::TooMuchWork { .. } => "the simulation of the closed loop takes too much work".to_owned(),
-        IntegrationFailure::Stiff { .. }
-        | IntegrationFailure::StepTooLong { .. } => {
+        IntegrationFailure::Stiff { .. } | IntegrationFailure::StepTooLong { .. } => {
             "the closed loop at this gain is too stiff to be simulated".to_owned()
         }
     })

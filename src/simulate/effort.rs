@@ -61,7 +61,8 @@ impl ClosedLoop {
     pub(super) fn implicit_step_cost(&self, columns: usize) -> u64 {
         let (n, d, columns) = (self.states() as u64 + 1, self.dimension() as u64, columns as u64);
         let size = n * STAGES;
-        let iterations = STAGES * (self.operations(true) + ITERATIONS * self.operations(false)) + ITERATIONS * size * size;
+        let iterations =
+            STAGES * (self.operations(true) + ITERATIONS * self.operations(false)) + ITERATIONS * size * size;
         let factors = if columns > 0 { 2 } else { 1 } * size * size * size / 3;
         iterations + factors + (1 + columns) * 2 * STAGES * d + columns * size * size
     }

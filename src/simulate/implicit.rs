@@ -204,7 +204,56 @@ impl<'l> Steps<'l> {
                 return;
             }
             let end = states.len() == self.span.units;
-            states.push(if end { made.end.clone() } else { self.collocation.sample(table, place, start, &made.stages) });
+            states.push(if end {
+                made.end.clone()
+            } else {
+                self.collocation.sample(table, place, start, &made.stages)
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plant::Plant;
+    use crate::regulator::Regulator;
+
+    fn closed_loop(sigma: f64) -> ClosedLoop {
+        let text = include_str!("../../specs/plants/paper-example.json");
+        let plant = Plant::from_json("paper-example", text).unwrap();
+        ClosedLoop::new(&plant, Regulator::new(sigma, 1.0, std::f64::consts::TAU, vec![2.0, 1.0]))
+    }
+
+    /// Each component is held to its own size: e to that of the last samples, however small.
+    #[test]
+    fn another_solution_is_told() {
+        let closed_loop = closed_loop(1e6);
+        let y = |e: f64| vec![vec![1.0, -2.0, e, 0.5, 0.1, 0.2]];
+        let differ = |a: f64, b: f64| disagreement(&closed_loop, &y(a), &y(b), Tolerance::ORDINARY);
+        assert_eq!(differ(1e-6, 1e-6 * (1.0 + 5e-7)), None);
+        let found = differ(1e-6, 1e-6 * (1.0 + 2e-6)).unwrap();
+        assert!((found - 2e-6).abs() < 1e-9, "{found}");
+        assert_eq!(differ(1e-19, 2e-19), None);
+        assert!(differ(1e-6, f64::NAN).is_some());
+    }
+
+    #[test]
+    fn the_first_and_the_last_sample_are_the_ends() {
+        let closed_loop = closed_loop(1e4);
+        let start = closed_loop.start(&[1.0, -2.0], 4.0);
+        let run = |units: usize| {
+            let span = Span { t: 0.25, unit: 0.5 / units as f64, units };
+            implicit(&closed_loop, span, &start, Tolerance::ORDINARY).unwrap()
+        };
+        let (one, many) = (run(1), run(300));
+        assert_eq!((one.len(), many.len()), (2, 301));
+        assert_eq!((&one[0], &many[0], &one[1]), (&start, &start, &many[300]));
+        // Samples between are those of a shorter span.
+        let span = Span { t: 0.25, unit: 0.5 / 3.0, units: 1 };
+        let exact = implicit(&closed_loop, span, &start, Tolerance::ORDINARY).unwrap();
+        for (a, b) in exact[1].iter().zip(&many[100]) {
+            assert!((a - b).abs() < 1e-9 * (1e-4 + a.abs()), "{a} {b}");
         }
     }
 }

@@ -29,6 +29,8 @@ pub use fixed::FixedStep;
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};
 pub use report::SimulationReport;
-pub use run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SimulationSettings, SteadyFigures, noisy_run, simulate};
+pub use run::{
+    Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SimulationSettings, SteadyFigures, noisy_run, simulate,
+};
 pub use steady::{SteadyState, SteadyStateError, steady_state};
 pub use stiffness::{MAX_FIXED_STEPS, enough_steps, is_stable};

@@ -139,3 +139,58 @@ impl<'l> Period<'l> {
         Ok(samples)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plant::Plant;
+    use crate::regulator::Regulator;
+    use crate::simulate::{Tolerance, flow};
+
+    /// The derivative against difference quotients of the flow, by explicit steps and, with the larger gain, by implicit ones.
+    #[test]
+    fn the_derivative_is_that_of_the_flow() {
+        let text = include_str!("../../specs/plants/paper-example.json");
+        let plant = Plant::from_json("paper-example", text).unwrap();
+        for sigma in [3.0, 1e5] {
+            let regulator = Regulator::new(sigma, 1.5, std::f64::consts::TAU, vec![2.0, 1.0, 0.4]);
+            let closed_loop = ClosedLoop::new(&plant, regulator);
+            let d = closed_loop.dimension();
+            // A state on the slow manifold.
+            let y = flow(&closed_loop, 0.0, 1.0, &closed_loop.start(&[0.3, -0.2], 0.0), Tolerance::TIGHT).unwrap();
+            let passed = Period::new(&closed_loop, 64).pass(&y, true).unwrap();
+            let end = flow(&closed_loop, 0.0, 1.0, &y, Tolerance::TIGHT).unwrap();
+            end.iter().zip(&passed.end).for_each(|(a, b)| assert!((a - b).abs() < 1e-10, "{sigma}: {a} {b}"));
+            let derivative = passed.derivative.unwrap();
+            for column in (0..d).filter(|column| *column != 2 || sigma < 10.0) {
+                let shifted = |by: f64| {
+                    let mut y = y.clone();
+                    y[column] += by;
+                    flow(&closed_loop, 0.0, 1.0, &y, Tolerance::TIGHT).unwrap()
+                };
+                let (up, down) = (shifted(1e-4), shifted(-1e-4));
+                for row in 0..d {
+                    let quotient = (up[row] - down[row]) / 2e-4;
+                    assert!((derivative[(row, column)] - quotient).abs() < 1e-6, "{sigma} {row} {column}: {quotient}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn samples_are_at_equal_distances() {
+        let text = include_str!("../../specs/plants/paper-example.json");
+        let plant = Plant::from_json("paper-example", text).unwrap();
+        let closed_loop = ClosedLoop::new(&plant, Regulator::new(3.0, 1.0, std::f64::consts::TAU, vec![2.0, 1.0]));
+        let y = closed_loop.start(&[0.3, -0.2], 0.5);
+        for (steps, count) in [(32, 128), (32, 32), (64, 16)] {
+            let samples = Period::new(&closed_loop, steps).samples(&y, count).unwrap();
+            assert_eq!((samples.len(), &samples[0]), (count, &y));
+            for at in [1, count / 2, count - 1] {
+                let exact = flow(&closed_loop, 0.0, at as f64 / count as f64, &y, Tolerance::TIGHT).unwrap();
+                let error = exact.iter().zip(&samples[at]).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+                assert!(error < 1e-9, "{steps} {count} {at}: {error}");
+            }
+        }
+    }
+}

@@ -32,7 +32,7 @@ const ACCEPTED: f64 = 1e-11;
 const MOST_STEPS: usize = 1 << 14;
 
 /// Steps and steps of half their length agree to this share: what is shown has six digits.
-const AGREED: f64 = 1e-9;
+const AGREED: f64 = 1e-8;
 
 /// A share that is accepted where the steps are as many as allowed.
 const ENOUGH_DIGITS: f64 = 1e-6;
@@ -147,11 +147,7 @@ fn shoot_implicitly(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, 
     loop {
         let mut period = Period::new(closed_loop, steps);
         let guess = coarse.as_ref().map_or(y, |shot| &shot.start).to_vec();
-        let shot = shoot(
-            &guess,
-            |y| Ok(period.pass(y, false)?.end),
-            |y| passed(closed_loop, steps, y),
-        );
+        let shot = shoot(&guess, |y| Ok(period.pass(y, false)?.end), |y| passed(closed_loop, steps, y));
         let fine = match shot {
             Ok(shot) => shot,
             // Steps that are too long for the iteration, or for the solution to stay where it is.
