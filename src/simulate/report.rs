@@ -66,7 +66,7 @@ impl Readable for SimulationReport<'_> {
         let failure =
             |error: &IntegrationFailure, flag| json!({ "error": error.to_string(), "help": error.way_out(flag) });
         let method = match simulation.settings.integrator {
-            Integrator::Adaptive => json!({ "name": "dormand-prince-8, or radau-13 where the loop is stiff" }),
+            Integrator::Adaptive => json!({ "name": "dormand-prince-8", "where_stiff": "radau-13" }),
             Integrator::Fixed(asked) => json!({
                 "name": "runge-kutta-4", "steps_per_period": simulation.settings.fixed_steps(), "asked": asked,
             }),
