@@ -7,7 +7,7 @@ use crate::plot::{Curve, Figure, Scale, Style};
 use crate::regulator::Regulator;
 use std::f64::consts::TAU;
 
-/// Amplitudes below this are rounding; it is the floor of spectra.
+/// Amplitudes below this share of the largest one are rounding: the floor of spectra. It is no higher than this either.
 const SPECTRUM_FLOOR: f64 = 1e-16;
 
 /// The regulator in words.
@@ -113,12 +113,14 @@ pub fn spectrum_curve(label: &str, amplitudes: &[f64]) -> Curve {
 /// A figure of Fourier coefficients.
 #[must_use]
 pub fn spectrum(title: &str, curves: Vec<Curve>) -> Figure {
+    let amplitudes = curves.iter().flat_map(|curve| curve.points.iter());
+    let largest = amplitudes.fold(0.0, |largest: f64, (_, amplitude)| largest.max(*amplitude));
     Figure {
         title: title.to_owned(),
         x: "harmonic k, of frequency k/T".to_owned(),
         y: "|c_k| of e [unit of e]".to_owned(),
         scale: Scale::LogY,
-        floor: SPECTRUM_FLOOR,
+        floor: SPECTRUM_FLOOR * if largest > 0.0 { largest.min(1.0) } else { 1.0 },
         curves,
     }
 }
