@@ -278,7 +278,7 @@ mod tests {
     use super::*;
     use crate::plant::Plant;
     use crate::regulator::Regulator;
-    use crate::simulate::{Disturbance, Tolerance, flow};
+    use crate::simulate::{Tolerance, flow};
 
     fn closed_loop(sigma: f64) -> ClosedLoop {
         let text = include_str!("../../specs/plants/paper-example.json");
@@ -293,12 +293,13 @@ mod tests {
         let mut collocation = Collocation::new(&closed_loop);
         let table = Table::new(&closed_loop, 0.05);
         let stages = collocation.stages(&table, 0.2, &y).unwrap();
-        for (place, state) in
-            [(1.0, collocation.end(&table, &y, &stages)), (0.4, collocation.sample(&table, 0.4, &y, &stages))]
-        {
+        let ends = [(1.0, 1e-12, collocation.end(&table, &y, &stages))];
+        // Between the nodes x and e are polynomials of degree 7.
+        let between = [(0.4, 1e-10, collocation.sample(&table, 0.4, &y, &stages))];
+        for (place, allowed, state) in ends.into_iter().chain(between) {
             let exact = flow(&closed_loop, 0.2, 0.05 * place, &y, Tolerance::TIGHT).unwrap();
             let error = exact.iter().zip(&state).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-            assert!(error < 1e-12, "{place}: {error}");
+            assert!(error < allowed, "{place}: {error}");
         }
     }
 
@@ -311,11 +312,8 @@ mod tests {
         let table = Table::new(&closed_loop, 1e-3);
         let stages = collocation.stages(&table, 0.0, &y).unwrap();
         let end = collocation.end(&table, &y, &stages);
-        let mut slope = vec![0.0; y.len()];
-        let mut evaluator = closed_loop.evaluator();
-        evaluator.set_time(1e-3);
-        closed_loop.right_side(&mut evaluator, &end, Disturbance::default(), &mut slope);
-        assert!(end[2].abs() < 1e-5, "{end:?}");
+        // What is left of e after one long step is its start over h sigma.
+        assert!(end[2].abs() < 1e-4, "{end:?}");
         // The integral of sigma e from 4 to 0 is 4.
         assert!((end[3] + 4.0).abs() < 0.1 && (end[4] + 4.0).abs() < 0.1, "{end:?}");
     }

@@ -59,9 +59,11 @@ fn disagreement(
     let sizes = closed_loop.natural_sizes();
     let relative = |(i, natural): (usize, &f64)| {
         let size = states.iter().chain(others).fold(0.0_f64, |size, y| size.max(y[i].abs()));
-        let most = states.iter().zip(others).fold(0.0_f64, |most, (a, b)| most.max((a[i] - b[i]).abs()));
+        // What is undefined agrees with nothing.
+        let apart = |a: f64, b: f64| if (a - b).is_nan() { f64::INFINITY } else { (a - b).abs() };
+        let most = states.iter().zip(others).fold(0.0_f64, |most, (a, b)| most.max(apart(a[i], b[i])));
         let share = most / size.max(natural * ROUNDING / (AGREEMENT * tolerance.relative));
-        (share > AGREEMENT * tolerance.relative || share.is_nan()).then_some(share)
+        (share > AGREEMENT * tolerance.relative).then_some(share)
     };
     sizes.iter().enumerate().filter_map(relative).max_by(f64::total_cmp)
 }
