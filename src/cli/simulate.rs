@@ -70,7 +70,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         file.write(csv(&plant, &closed_loop, run))?;
     }
     if let Some(folder) = &args.plots {
-        let drawn = figures(&closed_loop, &simulation);
+        let drawn = figures(&plant, &closed_loop, &simulation);
         files::figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
     }
     if let Err(code) = output::data(&text) {

@@ -156,17 +156,17 @@ fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
             return Finding::Violated(Box::new(trial), escape("the solution from the initial set (it escapes)"));
         }
         // That an integration does not come to its end says nothing about the solution.
-        Err(SteadyStateError::Integration(failure)) => return too_stiff(&failure),
+        Err(SteadyStateError::Integration(failure)) => return unfinished(&failure),
         Err(error @ SteadyStateError::NoConvergence { .. }) => return Finding::Unfinished(error.to_string()),
     };
     let orbit = match Orbit::new(closed_loop, &steady) {
         Ok(orbit) => orbit,
-        Err(failure) => return too_stiff(&failure),
+        Err(failure) => return unfinished(&failure),
     };
     let mut checks = Checks { shares: Vec::new(), violation: None };
     check_orbit(claim, &trial, closed_loop, &steady, &orbit, &mut checks);
     if let Err(failure) = check_approach(claim, &trial, closed_loop, &orbit, &mut checks) {
-        return too_stiff(&failure);
+        return unfinished(&failure);
     }
     match checks.violation {
         Some(violation) => Finding::Violated(Box::new(trial), violation),
@@ -175,15 +175,13 @@ fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
 }
 
 /// A trial whose simulation the machine could not finish.
-fn too_stiff(failure: &IntegrationFailure) -> Finding {
+fn unfinished(failure: &IntegrationFailure) -> Finding {
     // Without the time and the size, so that trials with the same reason are told together.
     Finding::Unfinished(match failure {
         IntegrationFailure::Escaped { .. } => failure.to_string(),
         IntegrationFailure::TooMuchWork { .. } => "the simulation of the closed loop takes too much work".to_owned(),
-        IntegrationFailure::TooManySteps { .. }
-        | IntegrationFailure::Stiff { .. }
-        | IntegrationFailure::StepTooLong { .. } => {
-            "the closed loop at this gain is too stiff to be simulated".to_owned()
+        IntegrationFailure::Stiff { .. } | IntegrationFailure::StepTooLong { .. } => {
+            "what the simulation of the closed loop gives depends on its tolerance".to_owned()
         }
     })
 }

@@ -158,6 +158,24 @@ impl ClosedLoop {
         *de += mu * sum;
     }
 
+    /// The derivatives of (f, q) by x and e at a time and state, column by column. `evaluator` is one of
+    /// [`ClosedLoop::derivative_evaluator`].
+    pub(super) fn plant_jacobian(&self, evaluator: &mut Evaluator, t: f64, y: &[f64]) -> Vec<f64> {
+        let n = self.states;
+        let mut outputs = vec![0.0; (n + 1) * (n + 2)];
+        evaluator.set_time(t);
+        evaluator.evaluate(&y[..n], y[n], &mut outputs);
+        outputs.split_off(n + 1)
+    }
+
+    /// The size of a component of y beside those of x and z, by which absolute tolerances are multiplied: e is what a
+    /// control of ordinary size leaves over, u/sigma.
+    pub(super) fn natural_sizes(&self) -> Vec<f64> {
+        let mut sizes = vec![1.0; self.dimension()];
+        sizes[self.states] = 1.0 / (self.period * self.regulator.sigma).max(1.0);
+        sizes
+    }
+
     /// y' and the Jacobian dy'/dy, row by row, at a time and without noise. `evaluator` is one of
     /// [`ClosedLoop::derivative_evaluator`].
     #[must_use]
@@ -192,31 +210,6 @@ impl ClosedLoop {
             }
         }
         (dy, jacobian)
-    }
-
-    /// The slopes of y and of columns of Y with Y' = J(t, y) Y, which follow y in `state`. `evaluator` is one of
-    /// [`ClosedLoop::derivative_evaluator`].
-    ///
-    /// The regulator is linear, so what it does to y it does to every column: the cost of a column grows with the dimension,
-    /// not with its square.
-    pub(super) fn variational(&self, evaluator: &mut Evaluator, t: f64, state: &[f64], slope: &mut [f64]) {
-        let (n, d) = (self.states, self.dimension());
-        let mut outputs = vec![0.0; (n + 1) * (n + 2)];
-        evaluator.set_time(t);
-        evaluator.evaluate(&state[..n], state[n], &mut outputs);
-        let (values, blocks) = outputs.split_at(n + 1);
-        for (index, (y, dy)) in state.chunks_exact(d).zip(slope.chunks_exact_mut(d)).enumerate() {
-            let (plant, dz) = dy.split_at_mut(n + 1);
-            if index == 0 {
-                plant.copy_from_slice(values);
-            } else {
-                plant.fill(0.0);
-                for (part, block) in y.iter().zip(blocks.chunks_exact(n + 1)).filter(|(part, _)| **part != 0.0) {
-                    plant.iter_mut().zip(block).for_each(|(slope, derivative)| *slope += part * derivative);
-                }
-            }
-            self.add_regulator(y, Disturbance::default(), &mut plant[n], dz);
-        }
     }
 }
 

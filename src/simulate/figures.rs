@@ -7,7 +7,7 @@ use crate::plot::{Curve, Figure, Scale, Style};
 use crate::regulator::Regulator;
 use std::f64::consts::TAU;
 
-/// Amplitudes below this are rounding; it is the floor of spectra.
+/// Amplitudes below this share of the largest one are rounding: the floor of spectra. It is no higher than this either.
 const SPECTRUM_FLOOR: f64 = 1e-16;
 
 /// The regulator in words.
@@ -41,13 +41,18 @@ pub fn csv(plant: &Plant, closed_loop: &ClosedLoop, run: &LongRun) -> String {
     text
 }
 
-/// The figures of a simulation, each with the name of its file: the time response, the spectrum of the steady state
-/// and, of the linear example e' = u + q with this regulator and without its internal model, the Bode magnitude.
+/// The figures of a simulation, each with the name of its file: the time response, the states of the plant and the control
+/// beside it, the spectrum of the steady state and, of the linear example e' = u + q with this regulator and without its internal model, the Bode magnitude.
 #[must_use]
-pub fn figures(closed_loop: &ClosedLoop, simulation: &Simulation) -> Vec<(&'static str, Figure)> {
+pub fn figures(plant: &Plant, closed_loop: &ClosedLoop, simulation: &Simulation) -> Vec<(&'static str, Figure)> {
     let mut figures = Vec::new();
     if let Ok(run) = &simulation.long {
         figures.push(("response.svg", response(closed_loop, run)));
+        // A plant without states has no curve to draw.
+        if closed_loop.states() > 0 {
+            figures.push(("states.svg", states(plant, closed_loop, run)));
+        }
+        figures.push(("control.svg", control(closed_loop, run)));
     }
     if let Ok((_, steady)) = &simulation.steady {
         let curve = spectrum_curve("e", &steady.amplitudes);
@@ -59,13 +64,36 @@ pub fn figures(closed_loop: &ClosedLoop, simulation: &Simulation) -> Vec<(&'stat
 
 fn response(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let points = run.times.iter().zip(&run.states).map(|(t, y)| (*t, y[closed_loop.states()])).collect();
+    let curves = vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }];
+    over_time(closed_loop, "Regulated error", "e [unit of e]", curves)
+}
+
+fn states(plant: &Plant, closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
+    let curve = |(index, name): (usize, &String)| {
+        let points = run.times.iter().zip(&run.states).map(|(t, y)| (*t, y[index])).collect();
+        Curve { label: name.clone(), points, style: Style::Line }
+    };
+    let curves = plant.names.states().iter().enumerate().map(curve).collect();
+    over_time(closed_loop, "States of the plant", "x [units of the states]", curves)
+}
+
+/// The last period alone: at the start u is as large as the gain, and nothing else would be seen.
+fn control(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
+    let samples = (run.times.len() - 1) / run.return_distances.len().max(1);
+    let last = run.times.iter().zip(&run.states).skip(run.times.len() - 1 - samples);
+    let points = last.map(|(t, y)| (*t, closed_loop.control(y, Disturbance::default()))).collect();
+    let curves = vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }];
+    over_time(closed_loop, "Control over the last period", "u [unit of e per unit of time]", curves)
+}
+
+fn over_time(closed_loop: &ClosedLoop, title: &str, y: &str, curves: Vec<Curve>) -> Figure {
     Figure {
-        title: "Regulated error".to_owned(),
+        title: title.to_owned(),
         x: format!("time t [unit of time of the plant file; period {}]", number_short(closed_loop.period)),
-        y: "e [unit of e]".to_owned(),
+        y: y.to_owned(),
         scale: Scale::Linear,
         floor: 0.0,
-        curves: vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }],
+        curves,
     }
 }
 
@@ -85,12 +113,14 @@ pub fn spectrum_curve(label: &str, amplitudes: &[f64]) -> Curve {
 /// A figure of Fourier coefficients.
 #[must_use]
 pub fn spectrum(title: &str, curves: Vec<Curve>) -> Figure {
+    let amplitudes = curves.iter().flat_map(|curve| curve.points.iter());
+    let largest = amplitudes.fold(0.0, |largest: f64, (_, amplitude)| largest.max(*amplitude));
     Figure {
         title: title.to_owned(),
         x: "harmonic k, of frequency k/T".to_owned(),
         y: "|c_k| of e [unit of e]".to_owned(),
         scale: Scale::LogY,
-        floor: SPECTRUM_FLOOR,
+        floor: SPECTRUM_FLOOR * if largest > 0.0 { largest.min(1.0) } else { 1.0 },
         curves,
     }
 }

@@ -4,7 +4,6 @@ use super::adaptive::IntegrationFailure;
 use super::stiffness::{enough_steps, is_stable};
 use super::{ClosedLoop, Disturbance};
 use crate::expr::Evaluator;
-use nalgebra::DMatrix;
 
 /// The largest number of time values that are tabulated; beyond it they are computed at each step.
 const LARGEST_TABLE: usize = 1 << 24;
@@ -80,45 +79,6 @@ impl<'l> FixedStep<'l> {
         slope(half + 2, between, k4);
         combine(y, h, [k1, k2, k3, k4]);
     }
-}
-
-/// y(t + T) from y(t), t a whole number of periods: a period of fixed steps.
-///
-/// # Errors
-/// [`IntegrationFailure`]: a solution that escapes, or steps that are too long for the loop.
-pub fn fixed_flow(method: &mut FixedStep<'_>, y: &[f64]) -> Result<Vec<f64>, IntegrationFailure> {
-    let mut end = y.to_vec();
-    method.closed_loop.pay_fixed(0.0, method.steps_per_period, 0)?;
-    (0..method.steps_per_period).for_each(|step| method.step(step, &mut end, Disturbance::default()));
-    checked(method.closed_loop, method.steps_per_period, 0.0, y, &end)?;
-    Ok(end)
-}
-
-/// The derivative dy(T)/dy(0) at y(0), from the variational equations by fixed steps.
-///
-/// # Errors
-/// Those of [`fixed_flow`].
-pub fn fixed_derivative(closed_loop: &ClosedLoop, steps: usize, y: &[f64]) -> Result<DMatrix<f64>, IntegrationFailure> {
-    let d = closed_loop.dimension();
-    closed_loop.pay_fixed(0.0, steps, d)?;
-    let mut evaluator = closed_loop.derivative_evaluator();
-    let mut state = y.to_vec();
-    state.extend(DMatrix::<f64>::identity(d, d).as_slice());
-    let h = closed_loop.period / steps as f64;
-    let [mut k1, mut k2, mut k3, mut k4, mut between] = std::array::from_fn(|_| vec![0.0; state.len()]);
-    for step in 0..steps {
-        let time = |halves: usize| (2 * step + halves) as f64 * 0.5 * h;
-        closed_loop.variational(&mut evaluator, time(0), &state, &mut k1);
-        advance(&mut between, &state, 0.5 * h, &k1);
-        closed_loop.variational(&mut evaluator, time(1), &between, &mut k2);
-        advance(&mut between, &state, 0.5 * h, &k2);
-        closed_loop.variational(&mut evaluator, time(1), &between, &mut k3);
-        advance(&mut between, &state, h, &k3);
-        closed_loop.variational(&mut evaluator, time(2), &between, &mut k4);
-        combine(&mut state, h, [&k1, &k2, &k3, &k4]);
-    }
-    checked(closed_loop, steps, 0.0, y, &state)?;
-    Ok(DMatrix::from_column_slice(d, d, &state[d..]))
 }
 
 /// Whether a period of fixed steps from `y` to `end` counts.

@@ -6,25 +6,31 @@
 mod adaptive;
 mod bode;
 mod closed_loop;
+mod collocation;
 mod effort;
 mod figures;
 mod fixed;
+mod implicit;
 mod noise;
 mod orbit;
+mod period;
+mod radau;
 mod report;
 mod run;
 mod steady;
 mod stiffness;
 
-pub use adaptive::{IntegrationFailure, Tolerance, derivative, flow, trajectory};
+pub use adaptive::{IntegrationFailure, Tolerance, flow, trajectory};
 pub use bode::{frequencies, magnitude};
 pub use closed_loop::{ClosedLoop, Disturbance, Noise};
 pub use effort::{MAX_NUMBERS, MAX_OPERATIONS};
 pub use figures::{bode, csv, figures, spectrum, spectrum_curve};
-pub use fixed::{FixedStep, fixed_derivative, fixed_flow};
+pub use fixed::FixedStep;
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};
 pub use report::SimulationReport;
-pub use run::{Integrator, LongRun, NoisyRun, Simulation, SimulationSettings, SteadyFigures, noisy_run, simulate};
-pub use steady::{SteadyState, SteadyStateError, fixed_steady_state, steady_state};
+pub use run::{
+    Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SimulationSettings, SteadyFigures, noisy_run, simulate,
+};
+pub use steady::{SteadyState, SteadyStateError, steady_state};
 pub use stiffness::{MAX_FIXED_STEPS, enough_steps, is_stable};

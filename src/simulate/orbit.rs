@@ -1,7 +1,8 @@
 //! A periodic signal from its samples: largest value, root mean square, Fourier coefficients.
 
 use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
-use super::{ClosedLoop, Disturbance, FixedStep, SteadyState};
+use super::period::Period;
+use super::{ClosedLoop, SteadyState};
 use num_complex::Complex;
 use rustfft::FftPlanner;
 
@@ -23,24 +24,14 @@ impl Orbit {
     /// # Errors
     /// [`IntegrationFailure`].
     pub fn new(closed_loop: &ClosedLoop, steady: &SteadyState) -> Result<Orbit, IntegrationFailure> {
+        if let Some(steps) = steady.implicit_steps {
+            let samples = Period::new(closed_loop, steps).samples(&steady.start, SAMPLES)?;
+            return Ok(Orbit { samples, error_index: closed_loop.states() });
+        }
         let tolerance = Tolerance::TIGHT;
         let mut samples = trajectory(closed_loop, 0.0, closed_loop.period, SAMPLES, &steady.start, tolerance)?;
         samples.truncate(SAMPLES);
         Ok(Orbit { samples, error_index: closed_loop.states() })
-    }
-
-    /// Samples a steady state over a period of fixed steps: at least `steps` of them, a whole number to a sample.
-    #[must_use]
-    pub fn fixed(closed_loop: &ClosedLoop, steady: &SteadyState, steps: usize) -> Orbit {
-        let stride = steps.div_ceil(SAMPLES).max(1);
-        let mut method = FixedStep::new(closed_loop, stride * SAMPLES);
-        let mut y = steady.start.clone();
-        let mut samples = Vec::with_capacity(SAMPLES);
-        for sample in 0..SAMPLES {
-            samples.push(y.clone());
-            (0..stride).for_each(|step| method.step(sample * stride + step, &mut y, Disturbance::default()));
-        }
-        Orbit { samples, error_index: closed_loop.states() }
     }
 
     /// The samples of e.

@@ -1,7 +1,7 @@
 //! What a person, or a script, reads about a simulation.
 
 use super::figures::regulator_words;
-use super::run::{Integrator, LongRun, NoisyRun, Simulation, SteadyFigures};
+use super::run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SteadyFigures};
 use super::{ClosedLoop, IntegrationFailure, SteadyState};
 use crate::plant::Plant;
 use crate::report::document::{Block, Readable, Table, clean};
@@ -30,14 +30,14 @@ impl Readable for SimulationReport<'_> {
             Block::heading("Steady state"),
         ];
         match &simulation.steady {
-            Ok((steady, figures)) => blocks.extend(steady_blocks(steady, figures)),
+            Ok((steady, figures)) => blocks.extend(steady_blocks(plant, steady, figures)),
             Err(error) => {
                 blocks.push(Block::says(format!("None was found: {error}{}.", advice(error.way_out("--fixed")))))
             }
         }
         blocks.push(Block::heading("From the initial condition"));
         match &simulation.long {
-            Ok(run) => blocks.push(Block::says(long_words(run))),
+            Ok(run) => blocks.push(Block::says(long_words(plant, run))),
             Err(error) => blocks.push(ended_early(error, "--fixed")),
         }
         if let Some(noisy) = &simulation.noisy {
@@ -57,14 +57,16 @@ impl Readable for SimulationReport<'_> {
         let steady = match &simulation.steady {
             Ok((steady, figures)) => json!({
                 "sup_e": figures.sup, "rms_e": figures.rms, "amplitudes": figures.amplitudes,
-                "residual": steady.residual, "multipliers": steady.multipliers, "start": steady.start,
+                "sup_u": figures.period.sup_u, "energy_u": figures.period.energy, "sup_x": figures.period.sup_x,
+                "residual": steady.residual, "multipliers": steady.multipliers,
+                "multipliers_uncertainty": steady.uncertainty, "method": steady.method(), "start": steady.start,
             }),
             Err(error) => json!({ "error": error.to_string(), "help": error.way_out("--fixed") }),
         };
         let failure =
             |error: &IntegrationFailure, flag| json!({ "error": error.to_string(), "help": error.way_out(flag) });
         let method = match simulation.settings.integrator {
-            Integrator::Adaptive => json!({ "name": "dormand-prince-8" }),
+            Integrator::Adaptive => json!({ "name": "dormand-prince-8", "where_stiff": "radau-13" }),
             Integrator::Fixed(asked) => json!({
                 "name": "runge-kutta-4", "steps_per_period": simulation.settings.fixed_steps(), "asked": asked,
             }),
@@ -72,6 +74,8 @@ impl Readable for SimulationReport<'_> {
         let long = match &simulation.long {
             Ok(run) => json!({
                 "periods": run.return_distances.len(), "sup_e_last_period": run.sup, "rms_e_last_period": run.rms,
+                "sup_u": run.peak_u, "sup_u_last_period": run.last_period.sup_u,
+                "energy_u_last_period": run.last_period.energy, "sup_x_last_period": run.last_period.sup_x,
                 "return_distances": run.return_distances, "settled_period": run.settled, "method": method,
             }),
             Err(error) => failure(error, "--fixed"),
@@ -109,35 +113,52 @@ fn advice(way_out: Option<String>) -> String {
     way_out.map_or_else(String::new, |help| format!("; {help}"))
 }
 
-fn steady_blocks(steady: &SteadyState, figures: &SteadyFigures) -> Vec<Block> {
+fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -> Vec<Block> {
     let slowest = steady.multipliers.first().copied().unwrap_or(0.0);
     let verdict = if slowest < 1.0 { "it attracts its neighbours" } else { "it does not attract its neighbours" };
+    // Six digits are shown.
+    let doubt = match steady.uncertainty > 1e-6 {
+        true => format!(" (uncertain: the derivative that it is of is known to {:.0e} only)", steady.uncertainty),
+        false => String::new(),
+    };
     let mut table = Table::new(&["k", "|c_k| of e"]);
     for (k, amplitude) in figures.amplitudes.iter().enumerate() {
         table.push([k.to_string(), format!("{amplitude:.4e}")]);
     }
     vec![
         Block::says(format!(
-            "sup|e| = {}, rms(e) = {}. Periodic to {:.1e}; largest Floquet multiplier {}: {verdict}.",
+            "sup|e| = {}, rms(e) = {}. Periodic to {:.1e}; largest Floquet multiplier {}{doubt}: {verdict}.",
             number(figures.sup),
             number(figures.rms),
             steady.residual,
             number(slowest),
         )),
+        Block::says(format!("Over a period: {}.", period_words(plant, &figures.period))),
         Block::Table(table),
     ]
 }
 
-fn long_words(run: &LongRun) -> String {
+/// The control and the states over a period.
+fn period_words(plant: &Plant, figures: &PeriodFigures) -> String {
+    let mut words = format!("largest |u| = {}, integral of u^2 = {}", number(figures.sup_u), number(figures.energy));
+    for (name, sup) in plant.names.states().iter().zip(&figures.sup_x) {
+        words.push_str(&format!(", largest |{name}| = {}", number(*sup)));
+    }
+    words
+}
+
+fn long_words(plant: &Plant, run: &LongRun) -> String {
     let settled = match run.settled {
         Some(period) => format!("Steady to 1e-6 from period {period} on"),
         None => "Not steady to 1e-6 at the end".to_owned(),
     };
     format!(
-        "{} periods. {settled}. Over the last period: largest |e| = {}, rms(e) = {}.",
+        "{} periods. {settled}. Over the last period: largest |e| = {}, rms(e) = {}, {}. Over all: largest |u| = {}.",
         run.return_distances.len(),
         number(run.sup),
-        number(run.rms)
+        number(run.rms),
+        period_words(plant, &run.last_period),
+        number(run.peak_u)
     )
 }
 

@@ -6,7 +6,7 @@ use super::fixed::checked;
 use super::orbit::{Orbit, amplitudes, rms, sup};
 use super::{
     BandLimitedNoise, ClosedLoop, Disturbance, FixedStep, Noise, NoiseSettings, SteadyState, SteadyStateError,
-    fixed_steady_state, steady_state,
+    steady_state,
 };
 use crate::progress::Progress;
 
@@ -59,6 +59,10 @@ pub struct LongRun {
     pub sup: f64,
     /// The root mean square of e over the last period.
     pub rms: f64,
+    /// The largest |u| among the samples of the whole run, the start included.
+    pub peak_u: f64,
+    /// The control and the states among the samples of the last period.
+    pub last_period: PeriodFigures,
     /// The distance max|y(t + T) - y(t)| at the end of each period.
     pub return_distances: Vec<f64>,
     /// The first period at whose end that distance is below 1e-6 (1 + max|y|), counted from 1.
@@ -89,7 +93,33 @@ pub struct Simulation {
     pub noisy: Option<Result<NoisyRun, IntegrationFailure>>,
 }
 
-/// Figures of e over a period of the steady state.
+/// What a period of the control and of the states of the plant comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PeriodFigures {
+    /// The largest |u|.
+    pub sup_u: f64,
+    /// The energy of the control, the integral of u^2 over the period.
+    pub energy: f64,
+    /// For each state of the plant the largest |x|.
+    pub sup_x: Vec<f64>,
+}
+
+impl PeriodFigures {
+    /// From samples at equal distances, the first at the start of the period and the last at its end.
+    fn new(closed_loop: &ClosedLoop, samples: &[Vec<f64>]) -> PeriodFigures {
+        let controls: Vec<f64> = samples.iter().map(|y| closed_loop.control(y, Disturbance::default())).collect();
+        let last = controls.len().saturating_sub(1);
+        let trapezoids = controls.windows(2).map(|pair| 0.5 * (pair[0] * pair[0] + pair[1] * pair[1])).sum::<f64>();
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |most, value| most.max(value.abs()));
+        PeriodFigures {
+            sup_u: largest(&mut controls.iter().copied()),
+            energy: trapezoids * closed_loop.period / last.max(1) as f64,
+            sup_x: (0..closed_loop.states()).map(|i| largest(&mut samples.iter().map(|y| y[i]))).collect(),
+        }
+    }
+}
+
+/// Figures over a period of the steady state.
 #[derive(Clone, Debug)]
 pub struct SteadyFigures {
     /// sup|e|.
@@ -100,6 +130,8 @@ pub struct SteadyFigures {
     pub amplitudes: Vec<f64>,
     /// Samples of e over a period.
     pub error: Vec<f64>,
+    /// The control and the states.
+    pub period: PeriodFigures,
 }
 
 impl SteadyFigures {
@@ -112,11 +144,17 @@ impl SteadyFigures {
         steady: &SteadyState,
         harmonics: usize,
     ) -> Result<SteadyFigures, IntegrationFailure> {
-        Ok(SteadyFigures::of(Orbit::new(closed_loop, steady)?.error(), harmonics))
-    }
-
-    fn of(error: Vec<f64>, harmonics: usize) -> SteadyFigures {
-        SteadyFigures { sup: sup(&error), rms: rms(&error), amplitudes: amplitudes(&error, harmonics), error }
+        let orbit = Orbit::new(closed_loop, steady)?;
+        let error = orbit.error();
+        // A period ends where it started.
+        let closed: Vec<Vec<f64>> = orbit.samples.iter().chain(orbit.samples.first()).cloned().collect();
+        Ok(SteadyFigures {
+            sup: sup(&error),
+            rms: rms(&error),
+            amplitudes: amplitudes(&error, harmonics),
+            period: PeriodFigures::new(closed_loop, &closed),
+            error,
+        })
     }
 }
 
@@ -132,19 +170,6 @@ pub fn simulate(
         let figures = SteadyFigures::new(closed_loop, &steady, settings.harmonics)?;
         Ok((steady, figures))
     });
-    // A loop that is too stiff for steps with control may have fixed ones.
-    let steady = match (steady, settings.fixed_steps()) {
-        (
-            Err(SteadyStateError::Integration(
-                IntegrationFailure::TooManySteps { .. } | IntegrationFailure::Stiff { .. },
-            )),
-            Some(steps),
-        ) => fixed_steady_state(closed_loop, start, steps, progress).map(|steady| {
-            let figures = SteadyFigures::of(Orbit::fixed(closed_loop, &steady, steps).error(), settings.harmonics);
-            (steady, figures)
-        }),
-        (steady, _) => steady,
-    };
     let long = long_run(closed_loop, start, settings, progress);
     let noisy = settings.noise.map(|(noise, enters)| {
         noisy_run(closed_loop, start, settings.periods, settings.noise_steps, noise, enters, progress)
@@ -173,6 +198,8 @@ fn long_run(
         states: vec![y.clone()],
         sup: 0.0,
         rms: 0.0,
+        peak_u: 0.0,
+        last_period: PeriodFigures { sup_u: 0.0, energy: 0.0, sup_x: Vec::new() },
         return_distances: Vec::new(),
         settled: None,
     };
@@ -184,7 +211,7 @@ fn long_run(
         let states = match &mut fixed {
             None => trajectory(closed_loop, t, period, samples, &y, Tolerance::ORDINARY)?.split_off(1),
             Some((stride, method)) => {
-                closed_loop.pay_fixed(t, *stride * samples, 0)?;
+                closed_loop.pay_fixed(t, *stride * samples)?;
                 let mut states = Vec::with_capacity(samples);
                 for sample in 0..samples {
                     for step in 0..*stride {
@@ -204,6 +231,8 @@ fn long_run(
         (run.sup, run.rms) = (errors.iter().fold(0.0, |largest: f64, e| largest.max(e.abs())), rms(&errors));
         run.times.extend((1..=states.len()).map(|k| t + period * k as f64 / samples as f64));
         run.states.extend(states);
+        run.last_period = PeriodFigures::new(closed_loop, &run.states[index * samples..]);
+        run.peak_u = run.peak_u.max(run.last_period.sup_u);
         y.clone_from(run.states.last().unwrap_or(&before));
         let distance = y.iter().zip(&before).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
         let size = y.iter().fold(1.0, |largest: f64, value| largest.max(1.0 + value.abs()));
@@ -237,7 +266,7 @@ pub fn noisy_run(
     let mut run = NoisyRun { sup: Vec::new(), rms: Vec::new(), largest_noise: 0.0 };
     closed_loop.renew_effort();
     for period in 0..periods {
-        closed_loop.pay_fixed(period as f64 * closed_loop.period, steps_per_period, 0)?;
+        closed_loop.pay_fixed(period as f64 * closed_loop.period, steps_per_period)?;
         let before = y.clone();
         let (mut largest, mut squares) = (0.0_f64, 0.0);
         for step in 0..steps_per_period {

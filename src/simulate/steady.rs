@@ -1,8 +1,8 @@
 //! Steady states: the T-periodic solution by Newton shooting.
 
 use super::ClosedLoop;
-use super::adaptive::{IntegrationFailure, Tolerance, derivative, flow};
-use super::fixed::{FixedStep, fixed_derivative, fixed_flow};
+use super::adaptive::{IntegrationFailure, Span, Tolerance, flow, is_stiff};
+use super::period::Period;
 use crate::progress::Progress;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use thiserror::Error;
@@ -28,6 +28,15 @@ const CONVERGED: f64 = 1e-16;
 /// A residual that is accepted where rounding allows no smaller one.
 const ACCEPTED: f64 = 1e-11;
 
+/// Implicit steps of a period at most.
+const MOST_STEPS: usize = 1 << 14;
+
+/// Steps and steps of half their length agree to this share: what is shown has six digits.
+const AGREED: f64 = 1e-8;
+
+/// A share that is accepted where the steps are as many as allowed.
+const ENOUGH_DIGITS: f64 = 1e-6;
+
 /// A T-periodic solution of the closed loop, as a point of it and what happens around it.
 #[derive(Clone, Debug)]
 pub struct SteadyState {
@@ -37,6 +46,18 @@ pub struct SteadyState {
     pub residual: f64,
     /// The moduli of the Floquet multipliers, largest first: below 1 the solution attracts its neighbours.
     pub multipliers: Vec<f64>,
+    /// How far the derivative that they are of changes with steps of half the length, relative to its largest entry.
+    pub uncertainty: f64,
+    /// The implicit steps of a period whose periodic solution it is; `None` for the one of explicit steps with control.
+    pub(super) implicit_steps: Option<usize>,
+}
+
+impl SteadyState {
+    /// The name of the method that it is periodic by.
+    #[must_use]
+    pub fn method(&self) -> &'static str {
+        if self.implicit_steps.is_some() { "radau-13" } else { "dormand-prince-8" }
+    }
 }
 
 /// Why no steady state was found.
@@ -54,6 +75,10 @@ pub enum SteadyStateError {
 }
 
 impl SteadyStateError {
+    fn is_too_much_work(&self) -> bool {
+        matches!(self, SteadyStateError::Integration(IntegrationFailure::TooMuchWork { .. }))
+    }
+
     /// What to try, where that is known; `flag` is the flag that sets the steps per period.
     #[must_use]
     pub fn way_out(&self, flag: &str) -> Option<String> {
@@ -78,31 +103,106 @@ pub fn steady_state(
         flow(closed_loop, f64::from(period) * closed_loop.period, closed_loop.period, y, Tolerance::ORDINARY)
     };
     closed_loop.renew_effort();
-    let shoot = |y: &[f64]| {
-        let end = |y: &[f64]| flow(closed_loop, 0.0, closed_loop.period, y, Tolerance::TIGHT);
-        shoot(y, end, |y| derivative(closed_loop, y, Tolerance::DERIVATIVE))
+    let one_period = Span { t: 0.0, unit: closed_loop.period, units: 1 };
+    let shoot = |y: &[f64]| match is_stiff(closed_loop, one_period, y, Tolerance::TIGHT)? {
+        false => shoot_explicitly(closed_loop, y),
+        true => shoot_implicitly(closed_loop, y),
     };
     search(start, approach, shoot, progress)
 }
 
-/// The same by fixed steps, for loops that are too stiff for steps with control: the periodic solution of the method,
-/// which differs from the one of the loop by its error of order 4.
-///
-/// # Errors
-/// [`SteadyStateError`], as above; and steps that are too long for the loop.
-pub fn fixed_steady_state(
-    closed_loop: &ClosedLoop,
-    start: &[f64],
-    steps: usize,
-    progress: &dyn Progress,
-) -> Result<SteadyState, SteadyStateError> {
-    let mut method = FixedStep::new(closed_loop, steps);
-    closed_loop.renew_effort();
-    let shoot = |y: &[f64]| {
-        let mut method = FixedStep::new(closed_loop, steps);
-        shoot(y, |y| fixed_flow(&mut method, y), |y| fixed_derivative(closed_loop, steps, y))
-    };
-    search(start, |_, y| fixed_flow(&mut method, y), shoot, progress)
+/// Newton's method with explicit flows at the tightest tolerance; only the derivative is by implicit steps.
+fn shoot_explicitly(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, SteadyStateError> {
+    let mut steps = Period::fewest_steps(closed_loop);
+    let shot = shoot(
+        y,
+        |y| flow(closed_loop, 0.0, closed_loop.period, y, Tolerance::TIGHT),
+        |y| {
+            loop {
+                match passed(closed_loop, steps, y) {
+                    Err(IntegrationFailure::Escaped { .. }) if steps < MOST_STEPS => steps *= 2,
+                    other => return other,
+                }
+            }
+        },
+    )?;
+    let mut coarse = shot.monodromy;
+    loop {
+        steps *= 2;
+        let fine = passed(closed_loop, steps, &shot.start)?;
+        let uncertainty = distance(&coarse, &fine);
+        if uncertainty <= AGREED || steps >= MOST_STEPS {
+            let multipliers = multipliers(&fine);
+            let (start, residual) = (shot.start, shot.residual);
+            return Ok(SteadyState { start, residual, multipliers, uncertainty, implicit_steps: None });
+        }
+        coarse = fine;
+    }
+}
+
+/// The periodic solution of the implicit method with ever shorter steps, until two of them agree.
+fn shoot_implicitly(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, SteadyStateError> {
+    let mut coarse: Option<Shot> = None;
+    let mut steps = Period::fewest_steps(closed_loop);
+    loop {
+        let mut period = Period::new(closed_loop, steps);
+        let guess = coarse.as_ref().map_or(y, |shot| &shot.start).to_vec();
+        let shot = shoot(&guess, |y| Ok(period.pass(y, false)?.end), |y| passed(closed_loop, steps, y));
+        let fine = match shot {
+            Ok(shot) => shot,
+            // Steps that are too long for the iteration, or for the solution to stay where it is.
+            Err(error) if error.is_too_much_work() || steps >= MOST_STEPS => return Err(error),
+            Err(_) => {
+                steps *= 2;
+                continue;
+            }
+        };
+        if let Some(coarse) = &coarse {
+            let size = period.pass(&fine.start, false)?.largest_error;
+            let difference = start_difference(closed_loop, &coarse.start, &fine.start, size);
+            let uncertainty = distance(&coarse.monodromy, &fine.monodromy);
+            if difference.max(uncertainty) <= AGREED || (steps >= MOST_STEPS && difference <= ENOUGH_DIGITS) {
+                let (start, residual) = (fine.start, fine.residual);
+                let multipliers = multipliers(&fine.monodromy);
+                return Ok(SteadyState { start, residual, multipliers, uncertainty, implicit_steps: Some(steps) });
+            }
+            if steps >= MOST_STEPS {
+                return Err(IntegrationFailure::Stiff { t: closed_loop.period, difference }.into());
+            }
+        }
+        coarse = Some(fine);
+        steps *= 2;
+    }
+}
+
+/// dy(T)/dy(0) by implicit steps of a number.
+fn passed(closed_loop: &ClosedLoop, steps: usize, y: &[f64]) -> Result<DMatrix<f64>, IntegrationFailure> {
+    let passed = Period::new(closed_loop, steps).pass(y, true)?;
+    Ok(passed.derivative.unwrap_or_default())
+}
+
+/// The difference of two starts, relative to the largest component in natural sizes; of e, whose sizes over the period is
+/// given, relative to that.
+fn start_difference(closed_loop: &ClosedLoop, a: &[f64], b: &[f64], size_of_e: f64) -> f64 {
+    let largest = b.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let components = a.iter().zip(b).enumerate();
+    components.fold(0.0, |most, (component, (a, b))| {
+        let size = if component == closed_loop.states() { size_of_e } else { largest };
+        let share = if a == b { 0.0 } else { (a - b).abs() / size };
+        most.max(share)
+    })
+}
+
+/// The largest difference of two derivatives, relative to their largest entry.
+fn distance(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
+    (a - b).amax() / b.amax().max(f64::MIN_POSITIVE)
+}
+
+/// The moduli of the eigenvalues, largest first.
+fn multipliers(monodromy: &DMatrix<f64>) -> Vec<f64> {
+    let mut multipliers: Vec<f64> = monodromy.complex_eigenvalues().iter().map(|value| value.norm()).collect();
+    multipliers.sort_by(|a, b| b.total_cmp(a));
+    multipliers
 }
 
 /// Approaches by simulation and then shoots, again from further along where that fails.
@@ -136,8 +236,8 @@ fn search(
 fn shoot(
     guess: &[f64],
     mut end: impl FnMut(&[f64]) -> Result<Vec<f64>, IntegrationFailure>,
-    derivative: impl Fn(&[f64]) -> Result<DMatrix<f64>, IntegrationFailure>,
-) -> Result<SteadyState, SteadyStateError> {
+    mut derivative: impl FnMut(&[f64]) -> Result<DMatrix<f64>, IntegrationFailure>,
+) -> Result<Shot, SteadyStateError> {
     let mut y = DVector::from_column_slice(guess);
     let mut best: Option<(f64, DVector<f64>)> = None;
     let mut known: Option<Known> = None;
@@ -179,16 +279,20 @@ fn shoot(
                 Some(known) => known.monodromy,
                 None => derivative(y.as_slice())?,
             };
-            let mut multipliers: Vec<f64> =
-                monodromy.complex_eigenvalues().iter().map(|multiplier| multiplier.norm()).collect();
-            multipliers.sort_by(|a, b| b.total_cmp(a));
-            Ok(SteadyState { start: y.as_slice().to_vec(), residual, multipliers })
+            Ok(Shot { start: y.as_slice().to_vec(), residual, monodromy })
         }
         other => {
             let residual = other.map_or(f64::INFINITY, |(residual, ..)| residual);
             Err(SteadyStateError::NoConvergence { residual })
         }
     }
+}
+
+/// What Newton's method arrived at.
+struct Shot {
+    start: Vec<f64>,
+    residual: f64,
+    monodromy: DMatrix<f64>,
 }
 
 /// A derivative that was computed, and where.

@@ -12,7 +12,7 @@ use sigmastar::progress::Silent;
 use sigmastar::regulator::Design;
 use sigmastar::search::Obstacle;
 use sigmastar::simulate::{
-    ClosedLoop, IntegrationFailure, MAX_NUMBERS, MAX_OPERATIONS, SteadyStateError, derivative, steady_state,
+    ClosedLoop, IntegrationFailure, MAX_NUMBERS, MAX_OPERATIONS, SteadyStateError, steady_state,
 };
 use sigmastar::spec::{Document, MAX_UNKNOWN, Specification, any_constant};
 
@@ -176,26 +176,21 @@ fn simulated(text: &str, n_o: u32) -> (ClosedLoop, Vec<f64>) {
     (closed_loop, start)
 }
 
-/// 50 states, and 50 oscillators, take a small part of the operations that are allowed: they ran for minutes.
+/// 50 states, and 200 oscillators, take a part of the operations that are allowed: they ran for minutes.
 #[test]
 fn many_states_and_oscillators_are_simulated_within_the_limit() {
-    for (text, n_o) in [(large_plant(50), 2), (PLANT_TEXT.to_owned(), 50)] {
+    for (text, n_o) in [(large_plant(50), 2), (PLANT_TEXT.to_owned(), 200)] {
         let (closed_loop, start) = simulated(&text, n_o);
         let steady = steady_state(&closed_loop, &start, &Silent).unwrap();
         assert!(steady.multipliers[0] < 1.0 && steady.multipliers.len() == closed_loop.dimension());
-        assert!(closed_loop.spent() < MAX_OPERATIONS / 2, "{}", closed_loop.spent());
-        // The multipliers are those of a derivative at the tightest tolerance.
-        if n_o == 2 {
-            let tight = derivative(&closed_loop, &steady.start, sigmastar::simulate::Tolerance::TIGHT).unwrap();
-            let largest = tight.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max);
-            assert!((largest - steady.multipliers[0]).abs() < 1e-9 * largest);
-        }
+        assert!(closed_loop.spent() < MAX_OPERATIONS / 4 * 3, "{}", closed_loop.spent());
+        assert!(steady.uncertainty < 1e-8, "{}", steady.uncertainty);
     }
 }
 
 #[test]
 fn a_simulation_beyond_the_limit_is_undecided() {
-    let (closed_loop, start) = simulated(PLANT_TEXT, 200);
+    let (closed_loop, start) = simulated(&large_plant(50), 200);
     let failure = steady_state(&closed_loop, &start, &Silent).unwrap_err();
     assert!(matches!(failure, SteadyStateError::Integration(IntegrationFailure::TooMuchWork { .. })), "{failure}");
     // Two evaluations of the last integration choose its first step.

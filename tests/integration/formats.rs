@@ -332,7 +332,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             ("simulation-fragment", {
                 let quick = ["simulate", "-q", PLANT, "--sigma", "2", "--periods", "2"];
                 let noise = ["--noise-power", "1e-3", "--noise-steps", "1000", "--fixed", "1000"];
-                let stiff = ["simulate", "-q", PLANT, "--sigma", "100000", "--n-o", "2", "--periods", "3"];
+                let stiff = ["simulate", "-q", PLANT, "--sigma", "100000", "--n-o", "2", "--fixed", "20000"];
                 vec![
                     other(&[&quick[..], &["--n-o", "1"]].concat()),
                     other(&[&quick[..], &["--high-gain"], &noise].concat()),
