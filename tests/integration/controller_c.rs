@@ -20,7 +20,9 @@ fn run_c(folder: &Path, n_o: u32, limit: Option<&str>, steps: u32) -> Vec<u64> {
     let n_o_text = n_o.to_string();
     let arguments = ["specs/paper-example.json", "--sigma", "97/2", "--n-o", &n_o_text, "--discretise", "1/500"];
     let mut call = controller(&arguments);
-    limit.into_iter().for_each(|limit| drop(call.args(["--saturation", limit])));
+    if let Some(limit) = limit {
+        call.args(["--saturation", limit]);
+    }
     call.args(["--format", "c", "-o"]).arg(&source).assert().success().stdout("").stderr("");
     let inputs: Vec<String> = (0..steps).map(|k| format!("0x{:016x}ULL", signal(k).to_bits())).collect();
     let main = format!(

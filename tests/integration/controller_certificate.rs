@@ -106,5 +106,5 @@ fn certificates_that_do_not_hold_together_are_refused() {
     changed("\"specification\":", "\"no_plant\":", "embeds neither");
     let spec_mu = "\"internal_model\": {";
     changed(spec_mu, &format!("{spec_mu} \"surplus\": 1,"), "surplus");
-    changed("\"name\": \"", "\"name\": \"Not the ", "not the one that its digest is of");
+    changed("Linear zero dynamics", "Other dynamics", "not the one that its digest is of");
 }

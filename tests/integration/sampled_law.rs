@@ -63,7 +63,7 @@ fn every_number_of_oscillators_below_half_the_samples_is_stable() {
     for samples in [20, 50, 101] {
         for mu in ["0.1", "1", "10"] {
             // sigma enters by 1 - h sigma alone; the other one is for the code.
-            for sigma in if samples == 20 { vec!["2", "10"] } else { vec!["2", "47"] } {
+            for sigma in if samples == 20 { vec!["2", "10"] } else { vec!["2", "10", "47"] } {
                 let (radius, n_o) = largest(mu, sigma, samples, 0..samples.div_ceil(2));
                 println!(
                     "mu {mu}, sigma {sigma}, {samples} samples: largest radius 1 - {:.3e} at n_o = {n_o}",
