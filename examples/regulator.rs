@@ -21,7 +21,7 @@ fn main() -> Result<(), Error> {
 
     // One step from rest with the error 1/2.
     let (z, e) = (vec![0.0; regulator.m.len()], 0.5);
-    let u = regulator.control(&z, e);
+    let u = sampled.control(&z, e);
     let next: Vec<f64> = sampled
         .phi
         .iter()

@@ -3,7 +3,8 @@
 use super::error::{Error, ErrorKind};
 use super::positive;
 use super::specification::Specification;
-use crate::regulator::{Design, MAX_EXPORTED_OSCILLATORS, Regulator, SampledLoop};
+use crate::regulator::{Design, Discrete, MAX_EXPORTED_OSCILLATORS, Regulator, SampledLoop};
+use crate::spec::Constant;
 
 /// The regulator `z' = Phi z + Gamma e`, `u = -sigma e + mu M'N(z - M e)` in double precision. Each number is the exact one
 /// of the specification, rounded once to nearest; no claim is made of them.
@@ -41,21 +42,40 @@ impl RegulatorMatrices {
     }
 }
 
-/// The regulator at the samples of a computer, the error held over each sample: `z(k+1) = Phi z(k) + Gamma e(k)`. Each
-/// number is the exact one, rounded once to nearest.
+/// The regulator at samples, its control held between them: `u(k) = C z(k) + D e(k)`, `z(k+1) = Phi z(k) + Gamma e(k)`. Each
+/// number is the exact one for the gain K, rounded once to nearest; K is the number itself.
 ///
-/// A certificate is about continuous time: it says nothing about a sampled regulator.
+/// This is `v = M'N R (z - M e)`, `u = -sigma e + K v`, `z(k+1) = R (z - M e) + (1 - step sigma) M e` with `R = e^(Phi step)` and
+/// `K = mu/(1 + step mu Nbar^2/2)`, Nbar^2 the sum of all weights. On the plant `e' = u` it converges for every number of
+/// oscillators that is not refused. A certificate is about continuous time: it says nothing about a sampled regulator.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SampledRegulator {
     /// The sampling time.
     pub step: f64,
+    /// The gain K.
+    pub gain: f64,
     /// The rows of the transition matrix.
     pub phi: Vec<Vec<f64>>,
     /// The input vector.
     pub gamma: Vec<f64>,
-    /// The spectral radius of the sampled loop on the plant `e' = u`, in floating point: from 1 on it does not converge.
+    /// The output vector C.
+    pub c: Vec<f64>,
+    /// D.
+    pub d: f64,
+    /// The spectral radius of the sampled loop on the plant `e' = u`, in floating point.
     pub spectral_radius: f64,
+}
+
+impl SampledRegulator {
+    /// The control u of a sample for a state z and a measured error e.
+    ///
+    /// `None` where z does not have the dimension of the regulator.
+    #[must_use]
+    pub fn control(&self, z: &[f64], e: f64) -> Option<f64> {
+        let sum: f64 = self.c.iter().zip(z).map(|(c, z)| c * z).sum();
+        (z.len() == self.c.len()).then_some(sum + self.d * e)
+    }
 }
 
 /// The matrices of the regulator of a specification with the gain sigma, an exact positive constant, and n_o oscillators.
@@ -66,7 +86,8 @@ pub struct SampledRegulator {
 /// What is wrong with sigma; [`Range`](ErrorKind::Range) beyond [`RegulatorMatrices::MAX_OSCILLATORS`];
 /// [`Overflow`](ErrorKind::Overflow) where a number is beyond double precision.
 pub fn regulator_matrices(specification: &Specification, sigma: &str, n_o: u32) -> Result<RegulatorMatrices, Error> {
-    let regulator = representable(&design(specification, sigma, n_o)?)?;
+    let sigma = positive("sigma", sigma)?;
+    let regulator = representable(&design(specification, &sigma, n_o)?)?;
     Ok(RegulatorMatrices {
         sigma: regulator.sigma,
         mu: regulator.mu,
@@ -77,35 +98,43 @@ pub fn regulator_matrices(specification: &Specification, sigma: &str, n_o: u32) 
     })
 }
 
-/// The exact discretisation of the same regulator for a sampling time, an exact positive constant.
+/// The same regulator for a sampling time, an exact positive constant.
 ///
 /// # Errors
-/// Those of [`regulator_matrices`]; what is wrong with the sampling time; [`Range`](ErrorKind::Range) for one that cannot
-/// work: `sigma step >= 2`, or the fastest oscillator turns by half a turn or more in a sample.
+/// Those of [`regulator_matrices`]; what is wrong with the sampling time; [`Range`](ErrorKind::Range) for one that works
+/// badly or not at all: `sigma step > 1`, or the fastest oscillator turns by half a turn or more in a sample.
 pub fn sampled_regulator(
     specification: &Specification,
     sigma: &str,
     n_o: u32,
     step: &str,
 ) -> Result<SampledRegulator, Error> {
-    let design = design(specification, sigma, n_o)?;
+    let sigma = positive("sigma", sigma)?;
+    let design = design(specification, &sigma, n_o)?;
     let regulator = representable(&design)?;
     let step = positive("step", step)?;
-    design.check_sampling(&step).map_err(|error| Error::new(ErrorKind::Range, error.to_string(), &error.way_out()))?;
-    let discrete = design.discretise(&step);
-    let sampled = SampledLoop::new(&regulator, &discrete).filter(|_| discrete.is_representable());
-    let spectral_radius = sampled.ok_or_else(overflow)?.spectral_radius();
-    let phi = rows(&discrete.transition());
-    Ok(SampledRegulator { step: discrete.step, phi, gamma: discrete.input, spectral_radius })
+    if let Some(error) = design.sampling_errors(&step).first() {
+        return Err(Error::new(ErrorKind::Range, error.to_string(), &error.way_out()));
+    }
+    let discrete = design.discretise(&step).filter(Discrete::is_representable).ok_or_else(overflow)?;
+    let sampled = SampledLoop::new(&design, &step, &regulator, &discrete).ok_or_else(overflow)?;
+    Ok(SampledRegulator {
+        step: discrete.step,
+        gain: discrete.gain,
+        phi: rows(&discrete.transition()),
+        gamma: discrete.input,
+        c: discrete.output,
+        d: discrete.feedthrough,
+        spectral_radius: sampled.spectral_radius(),
+    })
 }
 
-fn design<'s>(specification: &'s Specification, sigma: &str, n_o: u32) -> Result<Design<'s>, Error> {
-    let sigma = positive("sigma", sigma)?;
+fn design<'s>(specification: &'s Specification, sigma: &'s Constant, n_o: u32) -> Result<Design<'s>, Error> {
     if n_o > MAX_EXPORTED_OSCILLATORS {
         let help = format!("choose at most {MAX_EXPORTED_OSCILLATORS}");
         return Err(Error::new(ErrorKind::Range, format!("n_o: {n_o} oscillators are too many"), &help));
     }
-    Ok(Design::new(&specification.read.internal_model, &sigma, n_o))
+    Ok(Design::new(&specification.read.internal_model, sigma, n_o))
 }
 
 fn representable(design: &Design<'_>) -> Result<Regulator, Error> {

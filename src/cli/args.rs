@@ -36,6 +36,11 @@ const TRANSFER_EXAMPLES: &str = "Examples:
   sigmastar transfer plant.json --k0 1/2 --n-o 0..10,inf
   sigmastar transfer plant.json --minimise 1,2/3 --plot bound.svg";
 
+/// Examples of `controller`.
+const CONTROLLER_EXAMPLES: &str = "Examples:
+  sigmastar controller plant.certificate.json --n-o 4 --discretise 1/1000 --format c -o regulator.c --example
+  sigmastar controller plant.json --sigma 48 --n-o 4 --format matlab -o regulator.m";
+
 /// Examples of simulations.
 pub const SIMULATE_EXAMPLES: &str = "Examples:
   sigmastar simulate plant.json --sigma 2 --n-o 4
@@ -82,9 +87,12 @@ pub enum Command {
     /// `proofs-check`. Says what is proved, of which specification, and what is assumed; figures on which no claim rests
     /// have an answer of their own. Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
     Check(CheckArgs),
-    /// Write the regulator of a specification: matrices, exact discretisation, C code
+    /// Write the regulator of a specification, plant or certificate: matrices, the law for a computer, C code
     ///
-    /// Every number is the exact one rounded once to double precision.
+    /// Every number is the exact one rounded once to double precision. Of a certificate the gain is its sigma* unless --sigma
+    /// says otherwise. What is known to be bad is refused: sampling that cannot tell the oscillators apart, DT sigma > 1, a gain
+    /// below sigma* of the certificate. No claim covers the sampling.
+    #[command(after_help = CONTROLLER_EXAMPLES)]
     Controller(ControllerArgs),
     /// Simulate a plant with a regulator: steady state, long run, measurement noise
     ///
@@ -291,30 +299,46 @@ pub struct RateArgs {
 /// The flags of `controller`.
 #[derive(Args, Debug)]
 pub struct ControllerArgs {
-    /// Bounding specification (JSON) with the internal model, or `-` for standard input
-    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    /// Bounding specification or plant (JSON) with the internal model, or a certificate of one, or `-` for standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
-    /// The gain sigma, an exact positive constant such as `48.5` or `97/2`
+    /// The gain sigma, an exact positive constant such as `48.5` or `97/2` [default: sigma* of the certificate, where one is given]
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
-    pub sigma: String,
+    pub sigma: Option<String>,
 
     /// The number of oscillators n_o (the high-gain feedback u = -sigma e needs no file: see `simulate --high-gain`)
     #[arg(long, value_name = "N",
           value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_EXPORTED_OSCILLATORS)))]
     pub n_o: u32,
 
-    /// Also discretise for this sampling time, an exact positive constant, with e held over each sample
+    /// Also the law for a computer with this sampling time, an exact positive constant; the control is held over each sample
     #[arg(long, value_name = "DT", allow_hyphen_values = true)]
     pub discretise: Option<String>,
 
-    /// Also compare with this certificate: a remark says where sigma is below its sigma*
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Certificate for the specification or plant: a gain below its sigma* is refused, and its claim goes into the export
+    #[arg(long, value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
     pub certificate: Option<PathBuf>,
+
+    /// Export what is refused otherwise: too slow sampling, or a gain below sigma* of the certificate
+    #[arg(long)]
+    pub uncertified: bool,
+
+    /// Clip the control to |u| <= U, an exact positive constant, without windup; outside every claim
+    #[arg(long, value_name = "U", allow_hyphen_values = true, requires = "discretise")]
+    pub saturation: Option<String>,
 
     /// Form in which the regulator is written
     #[arg(long, value_enum, value_name = "NAME", default_value_t = RegulatorForm::Json)]
     pub format: RegulatorForm,
+
+    /// What the symbols of the C code begin with, for several regulators in one program [default: sigmastar]
+    #[arg(long, value_name = "PREFIX")]
+    pub prefix: Option<String>,
+
+    /// Write a program beside FILE.c that runs the C code on a small plant: FILE_example.c
+    #[arg(long)]
+    pub example: bool,
 
     /// Write to this file; the C source takes its header beside it
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]

@@ -1,19 +1,16 @@
 //! `sigmastar controller`.
 
 use super::args::{ControllerArgs, Format, RegulatorForm};
+use super::controller_source::{self, Given};
 use super::failure::Failure;
 use super::files::{Input, OutputFile, write_together};
 use super::input;
 use super::output::{self, shown};
-use super::subject::Subject;
-use sigmastar::certificate::read_witness;
-use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
-use sigmastar::number::write_exact;
-use sigmastar::regulator::export::{self, CSources, Export};
-use sigmastar::regulator::{Design, Discrete, Regulator, SampledLoop};
+use sigmastar::regulator::export::{self, CNames, CSources, Export, Prefix, Provenance};
+use sigmastar::regulator::{Design, Discrete, SampledLoop};
 use sigmastar::report::document::clean;
-use sigmastar::spec::{Constant, Document};
-use std::path::Path;
+use sigmastar::spec::Constant;
+use std::path::{Path, PathBuf};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &ControllerArgs) -> u8 {
@@ -23,55 +20,109 @@ pub fn run(args: &ControllerArgs) -> u8 {
 fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let (input, what) = (Input::Specification(&args.spec), "the regulator");
     let output = OutputFile::asked(args.output.as_deref(), input, what)?;
-    let header = match args.format {
-        RegulatorForm::C => Some(header_path(args)?),
+    let c = match args.format {
+        RegulatorForm::C => Some(CFiles::new(args, input)?),
+        _ if args.prefix.is_some() || args.example => {
+            return Err(Failure::call("--prefix and --example are for C code", "add --format c, or leave them out"));
+        }
         _ => None,
     };
-    let header = OutputFile::asked(header.as_deref(), input, what)?;
-    let sigma = input::positive("--sigma", &args.sigma)?;
+    let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
-    let certificate = args.certificate.as_deref().map(input::document).transpose()?;
-    let subject = Subject::read(&input::document(&args.spec)?)?;
-
-    let design = Design::new(subject.internal_model(), &sigma, args.n_o);
-    let regulator = design.regulator();
-    if let Some(step) = &step {
-        design.check_sampling(step).map_err(|error| Failure::call(error.to_string(), error.way_out()))?;
+    let saturation = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
+    let other = args.certificate.as_deref().map(|path| Given::read(&input::document(path)?)).transpose()?;
+    let (source, own) = controller_source::read(&input::document(&args.spec)?)?;
+    if own.is_some() && other.is_some() {
+        return Err(Failure::call("two certificates are given", "leave --certificate out"));
     }
-    let discrete = step.map(|step| design.discretise(&step));
+    let given = own.or(other);
+    let from_certificate = given.as_ref().and_then(Given::gain);
+    let sigma = sigma.or(from_certificate).ok_or_else(|| {
+        Failure::call("no gain is given", "give it with --sigma, or name a certificate, whose sigma* is taken then")
+    })?;
+
+    let design = Design::new(&source.model, &sigma, args.n_o);
+    let certificate = provenance(given.as_ref(), &source, &sigma);
+    refuse(args, &design, step.as_ref(), certificate.as_ref())?;
+    let regulator = design.regulator();
     let beyond = || {
         Failure::call(
             "a number of this regulator is beyond double precision",
             "use units of time in which the gains, frequencies and sampling time have ordinary magnitudes",
         )
     };
+    let limit = saturation.map(|limit| limit.to_f64());
+    let discrete = step.as_ref().map(|step| design.discretise(step).ok_or_else(beyond)).transpose()?;
+    let discrete = discrete.map(|discrete| discrete.saturated(limit));
     if !regulator.is_representable() || !discrete.as_ref().is_none_or(Discrete::is_representable) {
         return Err(beyond());
     }
-    let discrete = match discrete {
+    let discrete = match discrete.as_ref().zip(step.as_ref()) {
         None => None,
-        Some(discrete) => {
-            let sampled = SampledLoop::new(&regulator, &discrete).ok_or_else(beyond)?;
+        Some((discrete, step)) => {
+            let sampled = SampledLoop::new(&design, step, &regulator, discrete).ok_or_else(beyond)?;
+            remarks(&design, step, sampled);
             Some((discrete, sampled))
         }
     };
-    if let Some(document) = &certificate {
-        compare(document, &subject, &sigma)?;
-    }
-    if let Some((discrete, sampled)) = &discrete {
-        remarks(&regulator, discrete, *sampled);
-    }
-    let discrete = discrete.as_ref().map(|(discrete, sampled)| (discrete, *sampled));
-    let export = Export { name: &clean(subject.name()), regulator: &regulator, discrete };
+    let export =
+        Export { name: &clean(&source.name), regulator: &regulator, discrete, certificate: certificate.as_ref() };
     let text = match args.format {
         RegulatorForm::Json => output::json_text(&export::json(&export)),
         RegulatorForm::Matlab => export::matlab(&export),
         RegulatorForm::Npz => return npz(&export, output.as_ref()),
-        RegulatorForm::C => return c(&export, output.as_ref(), header.as_ref()),
+        RegulatorForm::C => return c.map_or_else(|| Err(needs_file()), |files| files.write(&export)),
     };
     match output {
         Some(file) => file.write(text).map(|()| 0),
         None => Ok(output::data(&text).map_or_else(|code| code, |()| 0)),
+    }
+}
+
+/// What the certificate has to do with this regulator; one that is about something else is told and left out.
+fn provenance(given: Option<&Given>, source: &controller_source::Source, sigma: &Constant) -> Option<Provenance> {
+    let given = given?;
+    if let Some(what) = given.not_about(source) {
+        output::remark(&format!("the certificate was made for another {what}: it says nothing about this regulator"));
+        return None;
+    }
+    Some(given.provenance(sigma))
+}
+
+/// Refuses what is known to be bad; with `--uncertified` it is told instead.
+fn refuse(
+    args: &ControllerArgs,
+    design: &Design<'_>,
+    step: Option<&Constant>,
+    certificate: Option<&Provenance>,
+) -> Result<(), Failure> {
+    let mut reasons: Vec<(String, String)> = Vec::new();
+    for error in step.map_or_else(Vec::new, |step| design.sampling_errors(step)) {
+        reasons.push((error.to_string(), error.way_out()));
+    }
+    if let Some(Provenance { sigma_star, .. }) = certificate.filter(|certificate| !certificate.covers_sigma) {
+        let way_out = "take a gain of at least sigma*, or leave --sigma out where a certificate is exported";
+        reasons.push((format!("sigma is below sigma* = {sigma_star} of the certificate"), way_out.to_owned()));
+    }
+    for (message, way_out) in reasons {
+        if !args.uncertified {
+            return Err(Failure::call(message, format!("{way_out}; --uncertified exports it as it is")));
+        }
+        output::remark(&format!("{message}; exported because of --uncertified"));
+    }
+    Ok(())
+}
+
+/// Says what the sampling does that is no reason to refuse it.
+fn remarks(design: &Design<'_>, step: &Constant, sampled: SampledLoop) {
+    if let Some(samples) = design.uneven_samples(step) {
+        output::remark(&format!(
+            "a period has {samples:.6} samples, not a whole number: the samples fall differently in every period, and the \
+             error at them is not periodic"
+        ));
+    }
+    if sampled.is_unstable() {
+        output::remark(&format!("{sampled}; the export says so too"));
     }
 }
 
@@ -84,65 +135,54 @@ fn npz(export: &Export<'_>, output: Option<&OutputFile>) -> Result<u8, Failure> 
     file.write(bytes).map(|()| 0)
 }
 
-/// The header beside the C source.
-fn header_path(args: &ControllerArgs) -> Result<std::path::PathBuf, Failure> {
-    if args.discretise.is_none() {
-        return Err(Failure::call("C code runs at samples", "give the sampling time with --discretise"));
-    }
-    let path = args.output.as_deref();
-    let source = path.filter(|path| path.extension().is_some_and(|extension| extension == "c"));
-    let source = source.ok_or_else(|| {
-        Failure::call(
-            "the C source needs the name of a file",
-            "give it with -o, ending in `.c`; the header goes beside it",
-        )
-    })?;
-    Ok(source.with_extension("h"))
+fn needs_file() -> Failure {
+    let help = "give it with -o, ending in `.c`; the header goes beside it";
+    Failure::call("the C source needs the name of a file", help)
 }
 
-fn c(export: &Export<'_>, source: Option<&OutputFile>, header: Option<&OutputFile>) -> Result<u8, Failure> {
-    let needed = || Failure::call("the C source needs --discretise and -o", "give both");
-    let (source, header) = source.zip(header).ok_or_else(needed)?;
-    let name = header.name();
-    let name = Path::new(&name).file_name().map_or_else(String::new, |name| shown(Path::new(name)));
-    if name.contains(['"', '\\']) {
-        return Err(Failure::call(format!("`{name}` cannot be included by C code"), "name a file without quotes"));
-    }
-    let CSources { header: header_text, source: source_text } = export::c_sources(export, &name).ok_or_else(needed)?;
-    write_together(&[(header, header_text.as_bytes()), (source, source_text.as_bytes())]).map(|()| 0)
+/// The files of C code, checked before the work starts.
+struct CFiles {
+    source: OutputFile,
+    header: OutputFile,
+    example: Option<OutputFile>,
+    names: CNames,
 }
 
-/// Says what makes a sampled regulator work badly, or not at all.
-fn remarks(regulator: &Regulator, discrete: &Discrete, sampled: SampledLoop) {
-    let product = regulator.sigma * discrete.step;
-    if product > 1.0 {
-        output::remark(&format!(
-            "sigma times the sampling time is {product:.3}: above 1 the error changes its sign at every sample; sample faster"
-        ));
+impl CFiles {
+    fn new(args: &ControllerArgs, input: Input<'_>) -> Result<CFiles, Failure> {
+        if args.discretise.is_none() {
+            return Err(Failure::call("C code runs at samples", "give the sampling time with --discretise"));
+        }
+        let path = args.output.as_deref();
+        let path = path.filter(|path| path.extension().is_some_and(|extension| extension == "c"));
+        let path = path.ok_or_else(needs_file)?;
+        let prefix = match &args.prefix {
+            None => Prefix::default(),
+            Some(text) => Prefix::new(text).map_err(|error| {
+                Failure::call(format!("`{}` cannot begin C names: {error}", shown(Path::new(text))), "such as `axis_1`")
+            })?,
+        };
+        let header = path.with_extension("h");
+        let name = header.file_name().map_or_else(String::new, |name| shown(Path::new(name)));
+        if name.contains(['"', '\\']) {
+            let message = format!("`{name}` cannot be included by C code");
+            return Err(Failure::call(message, "name a file without quotes"));
+        }
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let example: Option<PathBuf> = args.example.then(|| path.with_file_name(format!("{stem}_example.c")));
+        let what = "the regulator";
+        Ok(CFiles {
+            source: OutputFile::new(path, input, what)?,
+            header: OutputFile::new(&header, input, what)?,
+            example: OutputFile::asked(example.as_deref(), input, "the example")?,
+            names: CNames { header: name, prefix },
+        })
     }
-    if sampled.is_unstable() {
-        output::remark(&format!("{sampled}; sample faster, or use fewer oscillators; the export says so too"));
-    }
-}
 
-/// Says where the certificate does not speak of this regulator.
-fn compare(document: &Document, subject: &Subject, sigma: &Constant) -> Result<(), Failure> {
-    let witness = read_witness(document)?;
-    let sigma_star = witness.sigma();
-    let (digest, what) = match subject {
-        Subject::Specification(_) => ("/specification_sha256", "specification"),
-        Subject::Plant(_) => ("/plant_sha256", "plant"),
-    };
-    if document.at(digest).is_none_or(|digest| digest.text() != Some(subject.sha256())) {
-        output::remark(&format!("the certificate was made for another {what}: it says nothing about this regulator"));
+    fn write(&self, export: &Export<'_>) -> Result<u8, Failure> {
+        let CSources { header, source, example } = export::c_sources(export, &self.names).ok_or_else(needs_file)?;
+        let mut files = vec![(&self.header, header.as_bytes()), (&self.source, source.as_bytes())];
+        files.extend(self.example.as_ref().map(|file| (file, example.as_bytes())));
+        write_together(&files).map(|()| 0)
     }
-    let sigma = sigma.enclose(DEFAULT_PRECISION);
-    if !sigma.ge(&Enclosure::from_rational(sigma_star, DEFAULT_PRECISION)).is_true() {
-        output::remark(&format!(
-            "sigma = {} is below sigma* = {} of the certificate: nothing is certified with it",
-            sigma.midpoint_f64(),
-            write_exact(sigma_star)
-        ));
-    }
-    Ok(())
 }

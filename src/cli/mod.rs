@@ -4,6 +4,7 @@ mod args;
 mod certify;
 mod check;
 mod controller;
+mod controller_source;
 mod counts;
 mod errata;
 mod failure;

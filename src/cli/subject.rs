@@ -6,7 +6,7 @@ use sigmastar::certify::with_triple;
 use sigmastar::plant::{self, Plant};
 use sigmastar::reduction::reduce;
 use sigmastar::search::SharpProposal;
-use sigmastar::spec::{Document, InternalModel, Specification};
+use sigmastar::spec::{Document, Specification};
 
 /// A document of either kind.
 pub enum Subject {
@@ -27,30 +27,6 @@ impl Subject {
             return Ok(Subject::Plant(Box::new(Plant::from_value(&root)?)));
         }
         Ok(Subject::Specification(Box::new(Specification::from_value(&root)?)))
-    }
-
-    /// Its name.
-    pub fn name(&self) -> &str {
-        match self {
-            Subject::Specification(spec) => &spec.name,
-            Subject::Plant(plant) => &plant.name,
-        }
-    }
-
-    /// The internal model of the regulator.
-    pub fn internal_model(&self) -> &InternalModel {
-        match self {
-            Subject::Specification(spec) => &spec.internal_model,
-            Subject::Plant(plant) => &plant.internal_model,
-        }
-    }
-
-    /// The digest of its document.
-    pub fn sha256(&self) -> &str {
-        match self {
-            Subject::Specification(spec) => &spec.sha256,
-            Subject::Plant(plant) => &plant.sha256,
-        }
     }
 
     /// The specification with proved data, and where the search for a gain may start: the triple of a Jacobian is sought, the

@@ -3,27 +3,28 @@
 use super::{Discrete, Regulator};
 use crate::enclosure::Enclosure;
 use crate::spec::{Constant, InternalModel};
+use rug::Rational;
 
 /// The most oscillators that are exported: the matrices are written out in full.
 pub const MAX_EXPORTED_OSCILLATORS: u32 = 1000;
 
 /// Bits at which the entries are enclosed before they are rounded. An entry such as 1 - cos(l w dt) loses twice as
 /// many bits as l w dt has leading zeros, and none of that may show in 53.
-const PRECISION: u32 = 512;
+pub(super) const PRECISION: u32 = 512;
 
 /// A regulator with its numbers exact: an internal model, a gain, a number of oscillators.
 #[derive(Clone, Debug)]
 pub struct Design<'m> {
-    model: &'m InternalModel,
-    sigma: Enclosure,
-    n_o: u32,
+    pub(super) model: &'m InternalModel,
+    pub(super) sigma: &'m Constant,
+    pub(super) n_o: u32,
 }
 
 impl<'m> Design<'m> {
     /// The regulator of an internal model with the gain sigma and n_o oscillators.
     #[must_use]
-    pub fn new(model: &'m InternalModel, sigma: &Constant, n_o: u32) -> Design<'m> {
-        Design { model, sigma: sigma.enclose(PRECISION), n_o }
+    pub fn new(model: &'m InternalModel, sigma: &'m Constant, n_o: u32) -> Design<'m> {
+        Design { model, sigma, n_o }
     }
 
     /// The regulator in double precision.
@@ -32,46 +33,78 @@ impl<'m> Design<'m> {
     #[must_use]
     pub fn regulator(&self) -> Regulator {
         Regulator {
-            sigma: self.sigma.midpoint_f64(),
+            sigma: self.sigma.enclose(PRECISION).midpoint_f64(),
             mu: self.model.mu.enclose(PRECISION).midpoint_f64(),
             frequencies: self.frequencies().iter().map(Enclosure::midpoint_f64).collect(),
-            weights: (0..=u64::from(self.n_o))
-                .map(|l| self.model.weights.weight(l, PRECISION).midpoint_f64())
-                .collect(),
+            weights: self.weights().iter().map(Enclosure::midpoint_f64).collect(),
         }
     }
 
-    /// The exact discretisation for a sampling time dt > 0 with e held constant over each sample:
-    /// z(t + dt) = e^(Phi dt) z(t) + int_0^dt e^(Phi s) ds Gamma e(t).
+    /// The law of section 12 of the derivation for a sampling time h > 0, e measured at the samples and u held between
+    /// them. [`Discrete`] states it.
     ///
-    /// Each block is a rotation. With a = l w dt: e^(Phi_l dt) = [[cos a, sin a], [-sin a, cos a]], and the input
-    /// vector of the block is (1 - cos a - r sin a, sin a + r (1 - cos a)) with r = sigma/(l w); that of the
-    /// integrator is -sigma dt. Guarantee: each entry is the exact one rounded once.
+    /// With a = l w h: R = e^(Phi h) has the blocks [[cos a, sin a], [-sin a, cos a]], so that R M = (cos a, -sin a) in
+    /// block l, and 1 in the integrator. Guarantee: K is the double itself, with K h Nb2 < 2 proved for the double Nb2,
+    /// which is not below the sum of all weights; each other entry is the exact one for that K, rounded once.
+    ///
+    /// `None` where that is not to be had in double precision: h mu times the sum of the weights is beyond 2^50.
     #[must_use]
-    pub fn discretise(&self, step: &Constant) -> Discrete {
+    pub fn discretise(&self, step: &Constant) -> Option<Discrete> {
         let step = step.enclose(PRECISION);
-        let mut rotations = Vec::new();
-        let mut input = vec![(-(&self.sigma * &step)).midpoint_f64()];
-        for frequency in self.frequencies() {
-            let angle = &frequency * &step;
+        let (gain, weight_sum) = self.gain(&step)?;
+        let exact_gain = exact(gain)?;
+        let sigma = self.sigma.enclose(PRECISION);
+        let product = &sigma * &step;
+        let weights = self.weights();
+        let (mut rotations, mut input) = (Vec::new(), vec![(-&product).midpoint_f64()]);
+        let mut output = vec![(&exact_gain * &weights[0]).midpoint_f64()];
+        let mut direct = weights[0].clone();
+        for (frequency, weight) in self.frequencies().iter().zip(&weights[1..]) {
+            let angle = frequency * &step;
             let (sine, cosine) = (angle.sin(), angle.cos());
             // 1 - cos a = 2 sin^2(a/2), which cancels nothing.
             let versine = 2 * (angle / 2).sin().sqr();
-            let ratio = &self.sigma / frequency;
-            input.push((&versine - &ratio * &sine).midpoint_f64());
-            input.push((&sine + ratio * versine).midpoint_f64());
+            input.extend([(&versine - &product).midpoint_f64(), sine.midpoint_f64()]);
+            let scaled = &exact_gain * weight;
+            output.extend([(&scaled * &cosine).midpoint_f64(), (&scaled * &sine).midpoint_f64()]);
+            direct = &direct + &(weight * &cosine);
             rotations.push([cosine.midpoint_f64(), sine.midpoint_f64()]);
         }
-        Discrete { step: step.midpoint_f64(), rotations, input }
+        Some(Discrete {
+            step: step.midpoint_f64(),
+            gain,
+            weight_sum,
+            decay: (Enclosure::one(PRECISION) - product).midpoint_f64(),
+            rotations,
+            input,
+            output,
+            feedthrough: (-(sigma + exact_gain * direct)).midpoint_f64(),
+            saturation: None,
+        })
     }
 
-    /// sigma, the base frequency and n_o.
-    pub(super) fn rates(&self) -> (&Enclosure, Enclosure, u32) {
-        (&self.sigma, self.model.base_frequency.enclose(PRECISION), self.n_o)
+    /// K near mu/(1 + theta) with theta = h mu Nbar^2/2, and Nb2. The sum is over all weights: one K for every n_o.
+    fn gain(&self, step: &Enclosure) -> Option<(f64, f64)> {
+        let mu = self.model.mu.enclose(PRECISION);
+        let total = self.model.weights.total(PRECISION);
+        let theta = step * &mu * &total / 2;
+        let (gain, weight_sum) = ((mu / (theta + 1)).midpoint_f64(), total.upper_f64());
+        let two = Enclosure::from_integer(2, PRECISION);
+        let proved = (exact(gain)? * step * exact(weight_sum)?).lt(&two).is_true();
+        (proved && gain > 0.0).then_some((gain, weight_sum))
     }
 
-    fn frequencies(&self) -> Vec<Enclosure> {
+    fn weights(&self) -> Vec<Enclosure> {
+        (0..=u64::from(self.n_o)).map(|l| self.model.weights.weight(l, PRECISION)).collect()
+    }
+
+    pub(super) fn frequencies(&self) -> Vec<Enclosure> {
         let base = self.model.base_frequency.enclose(PRECISION);
         (1..=i64::from(self.n_o)).map(|l| l * &base).collect()
     }
+}
+
+/// A finite double, exactly.
+fn exact(value: f64) -> Option<Enclosure> {
+    Some(Enclosure::from_rational(&Rational::from_f64(value)?, PRECISION))
 }

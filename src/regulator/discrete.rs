@@ -1,29 +1,57 @@
-//! The regulator at the samples of a computer.
+//! The regulator at the samples of a computer: the law of section 12 of the derivation.
 
 use super::Regulator;
 
-/// The exact discretisation of z' = Phi z + Gamma e for an e that is constant over each sample.
+/// The regulator at samples h apart, the control held between them. With R = e^(Phi h), at each sample
 ///
-/// Made by [`Design::discretise`](super::Design::discretise), which states the formulas.
+/// v = M'N R (z - M e),   u = -sigma e + K v,   z_next = R (z - M e) + (1 - h sigma) M e.
+///
+/// K = mu/(1 + h mu Nbar^2/2) with the sum Nbar^2 of all weights, so that the energy zeta'N zeta of zeta = z - M e has
+/// the balance that it has in continuous time, for every number of oscillators that the samples can tell apart. (e^(Phi h)
+/// with the error held and the continuous u is unstable for many oscillators.) The same as a linear system:
+/// z_next = Phi z + Gamma e, u = C z + D e with Phi = R, Gamma = (1 - h sigma) M - R M, C = K M'N R,
+/// D = -sigma - K M'N R M.
+///
+/// Made by [`Design::discretise`](super::Design::discretise), which says how each number is rounded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Discrete {
-    /// The sampling time dt.
+    /// The sampling time h.
     pub step: f64,
-    /// (cos(l w dt), sin(l w dt)) for l = 1, ..., n_o.
+    /// K.
+    pub gain: f64,
+    /// Nb2, not below the sum of all weights; K h Nb2 < 2 is proved.
+    pub weight_sum: f64,
+    /// 1 - h sigma.
+    pub decay: f64,
+    /// (cos(l w h), sin(l w h)) for l = 1, ..., n_o.
     pub rotations: Vec<[f64; 2]>,
-    /// The input vector, of dimension 2 n_o + 1.
+    /// Gamma, of dimension 2 n_o + 1.
     pub input: Vec<f64>,
+    /// C, of dimension 2 n_o + 1.
+    pub output: Vec<f64>,
+    /// D.
+    pub feedthrough: f64,
+    /// The largest |u| that is applied; without it u is never clipped.
+    pub saturation: Option<f64>,
 }
 
 impl Discrete {
-    /// Whether the sampling time is a positive double and every entry a finite one.
+    /// The same regulator with its control clipped to |u| <= limit; [`Stepper::step`] says what keeps it from winding up.
     #[must_use]
-    pub fn is_representable(&self) -> bool {
-        let mut all = [self.step].into_iter().chain(self.rotations.iter().flatten().chain(&self.input).copied());
-        self.step > 0.0 && all.all(f64::is_finite)
+    pub fn saturated(self, limit: Option<f64>) -> Discrete {
+        Discrete { saturation: limit, ..self }
     }
 
-    /// e^(Phi dt) = blkdiag(1, [[cos a, sin a], [-sin a, cos a]]) with a = l w dt.
+    /// Whether the sampling time and the limit of the control are positive doubles and every entry is a finite one.
+    #[must_use]
+    pub fn is_representable(&self) -> bool {
+        let singles = [self.step, self.gain, self.weight_sum, self.decay, self.feedthrough];
+        let lists = self.rotations.iter().flatten().chain(&self.input).chain(&self.output);
+        let limit = self.saturation.is_none_or(|limit| limit > 0.0 && limit.is_finite());
+        self.step > 0.0 && limit && singles.iter().chain(lists).all(|entry| entry.is_finite())
+    }
+
+    /// R = e^(Phi h) = blkdiag(1, [[cos a, sin a], [-sin a, cos a]]) with a = l w h.
     #[must_use]
     pub fn transition(&self) -> ndarray::Array2<f64> {
         let dimension = self.input.len();
@@ -58,6 +86,12 @@ impl Stepper {
         Stepper { regulator, discrete, z }
     }
 
+    /// A regulator in the state z; `None` where z has not its dimension.
+    #[must_use]
+    pub fn starting(regulator: Regulator, discrete: Discrete, z: Vec<f64>) -> Option<Stepper> {
+        (z.len() == regulator.dimension()).then_some(Stepper { regulator, discrete, z })
+    }
+
     /// The state z.
     #[must_use]
     pub fn state(&self) -> &[f64] {
@@ -65,18 +99,37 @@ impl Stepper {
     }
 
     /// Takes the measured error e of this sample, returns the control u for it, and moves z to the next sample.
+    ///
+    /// Where u is clipped, z_next has h M (the control applied - the control wanted) added: (1 - h sigma) e is e + h (u - K v),
+    /// and it is the u applied that the plant sees. So z moves as an observer of the disturbance that is told the control
+    /// applied: zeta = z - M e has the same recursion with and without clipping, and its balance of energy.
     pub fn step(&mut self, e: f64) -> f64 {
-        let sum = self.regulator.internal_model_output(&self.z, e);
-        let u = self.regulator.mu * sum - self.regulator.sigma * e;
-        let input = &self.discrete.input;
-        if let Some(integrator) = self.z.first_mut() {
-            *integrator += input[0] * e;
-        }
-        for (at, [cosine, sine]) in self.discrete.rotations.iter().enumerate() {
+        let Some((n_0, weights)) = self.regulator.weights.split_first() else { return -self.regulator.sigma * e };
+        // z becomes R (z - M e).
+        self.z[0] -= e;
+        let mut sum = n_0 * self.z[0];
+        for (at, ([cosine, sine], n_l)) in self.discrete.rotations.iter().zip(weights).enumerate() {
             let first = 2 * at + 1;
-            let (a, b) = (self.z[first], self.z[first + 1]);
-            self.z[first] = (cosine * a + sine * b) + input[first] * e;
-            self.z[first + 1] = (cosine * b - sine * a) + input[first + 1] * e;
+            let (a, b) = (self.z[first] - e, self.z[first + 1]);
+            self.z[first] = cosine * a + sine * b;
+            self.z[first + 1] = cosine * b - sine * a;
+            sum += n_l * self.z[first];
+        }
+        let wanted = self.discrete.gain * sum - self.regulator.sigma * e;
+        let mut carry = self.discrete.decay * e;
+        let mut u = wanted;
+        if let Some(limit) = self.discrete.saturation {
+            if u > limit {
+                u = limit;
+            }
+            if u < -limit {
+                u = -limit;
+            }
+            carry += self.discrete.step * (u - wanted);
+        }
+        self.z[0] += carry;
+        for at in 0..self.discrete.rotations.len() {
+            self.z[2 * at + 1] += carry;
         }
         u
     }

@@ -1,4 +1,4 @@
-//! The regulator that a certificate speaks of: its matrices, its exact discretisation, and the forms it is exported in.
+//! The regulator that a certificate speaks of: its matrices, the law for computers, and the forms both are exported in.
 //!
 //! With n_o oscillators, gains sigma and mu, weights n_0, n_1, ... and base frequency w (derivation, section 1):
 //! z' = Phi z + Gamma e, u = -sigma e + mu M'N(z - M e), with Phi = blkdiag(0, l w [[0, 1], [-1, 0]]),
@@ -12,9 +12,11 @@ pub mod export;
 mod law;
 mod read;
 mod sampled;
+mod sampling;
 
 pub use design::{Design, MAX_EXPORTED_OSCILLATORS};
 pub use discrete::{Discrete, Stepper};
 pub use law::Regulator;
 pub use read::read_regulator;
-pub use sampled::{SampledLoop, SamplingError, spectral_radius};
+pub use sampled::{SampledLoop, spectral_radius};
+pub use sampling::SamplingError;

@@ -1,7 +1,7 @@
 //! Reading a regulator back from its JSON export.
 
 use super::Regulator;
-use super::export::{FORMAT, VERSION};
+use super::export::{FORMAT, VERSIONS};
 use crate::spec::{Document, ErrorKind, Errors, Reported, SpecErrors, Value, any_constant};
 
 /// Reads the gains, frequencies and weights of a regulator; the matrices follow from them and are not read.
@@ -16,8 +16,8 @@ pub fn read_regulator(document: &Document) -> Result<Regulator, SpecErrors> {
 
 fn read(root: &Value<'_>, errors: &mut Errors) -> Result<Regulator, Reported> {
     let mut file = root.object(errors)?;
-    file.header(FORMAT, &[VERSION], errors)?;
-    for derived in ["name", "n_o", "law", "Phi", "Gamma", "M", "N_diagonal", "discrete"] {
+    file.header(FORMAT, &VERSIONS, errors)?;
+    for derived in ["name", "n_o", "law", "Phi", "Gamma", "M", "N_diagonal", "discrete", "certificate", "notice"] {
         let _ = file.optional(derived);
     }
     let sigma = file.required("sigma", errors).and_then(|value| positive(&value, errors));

@@ -1,25 +1,24 @@
 //! `sigmastar controller`: the exported forms agree with each other, with the formulas and with the Rust stepper.
 
-use crate::support::{ROOT, json, process, program, specification, utf8};
+use crate::support::{json, program, specification, utf8};
 use assert_cmd::Command;
 use ndarray::{Array1, Array2};
 use predicates::prelude::*;
 use sigmastar::regulator::{Design, Stepper};
 use sigmastar::spec::{Constant, Document, Errors, Specification, positive_constant};
-use std::path::{Path, PathBuf};
 use std::process::Command as Process;
 
-fn controller(arguments: &[&str]) -> Command {
+pub fn controller(arguments: &[&str]) -> Command {
     let mut command = program();
     command.arg("controller").args(arguments);
     command
 }
 
-fn example() -> Specification {
+pub fn example() -> Specification {
     specification("paper-example")
 }
 
-fn constant(text: &str) -> Constant {
+pub fn constant(text: &str) -> Constant {
     let document = Document::parse("test", &format!("{{\"value\": \"{text}\"}}")).unwrap();
     let mut errors = Errors::new();
     let value = positive_constant(&document.at("/value").unwrap(), &mut errors);
@@ -27,7 +26,7 @@ fn constant(text: &str) -> Constant {
 }
 
 /// Whether a program answers; the tests that need it say when it does not.
-fn installed(program: &str, arguments: &[&str]) -> bool {
+pub fn installed(program: &str, arguments: &[&str]) -> bool {
     let found = Process::new(program).args(arguments).output().is_ok_and(|output| output.status.success());
     if !found {
         println!("skipped: `{program} {}` does not run here", arguments.join(" "));
@@ -48,23 +47,34 @@ fn exponential(matrix: &Array2<f64>) -> Array2<f64> {
 }
 
 #[test]
-fn the_discretisation_is_the_exponential_of_the_matrices() {
+fn the_discretisation_is_the_law_of_the_matrices() {
     let spec = example();
     for (sigma, n_o, step) in [("48", 3_u32, "1/1000"), ("2", 5, "0.3"), ("1/10", 0, "2")] {
-        let design = Design::new(&spec.internal_model, &constant(sigma), n_o);
-        let (regulator, discrete) = (design.regulator(), design.discretise(&constant(step)));
-        let n = regulator.dimension();
-        // e^([[Phi, Gamma], [0, 0]] dt) = [[Phi_d, Gamma_d], [0, 1]].
-        let mut joined = Array2::zeros((n + 1, n + 1));
-        joined.slice_mut(ndarray::s![..n, ..n]).assign(&regulator.phi());
-        joined.slice_mut(ndarray::s![..n, n]).assign(&Array1::from(regulator.gamma()));
-        let exact = exponential(&(joined * discrete.step));
+        let sigma = constant(sigma);
+        let design = Design::new(&spec.internal_model, &sigma, n_o);
+        let (regulator, discrete) = (design.regulator(), design.discretise(&constant(step)).unwrap());
+        let (n, m) = (regulator.dimension(), Array1::from(regulator.m()));
+        let exact = exponential(&(regulator.phi() * discrete.step));
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{step}: {a} {b}");
         let transition = discrete.transition();
-        for row in 0..n {
-            for column in 0..n {
-                assert!((exact[(row, column)] - transition[(row, column)]).abs() < 1e-12, "{sigma} {row} {column}");
-            }
-            assert!((exact[(row, n)] - discrete.input[row]).abs() < 1e-12, "{sigma} {row}");
+        exact.iter().zip(&transition).for_each(|(a, b)| close(*a, *b));
+        let decay = 1.0 - discrete.step * regulator.sigma;
+        close(decay, discrete.decay);
+        let input = decay * &m - exact.dot(&m);
+        input.iter().zip(&discrete.input).for_each(|(a, b)| close(*a, *b));
+        let weighted = Array1::from(regulator.n_diagonal()) * &m * discrete.gain;
+        let output = weighted.dot(&exact);
+        output.iter().zip(&discrete.output).for_each(|(a, b)| close(*a, *b));
+        close(-regulator.sigma - output.dot(&m), discrete.feedthrough);
+        // The stepper is that linear system, up to the rounding of both.
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * (1.0 + a.abs()), "{step}: {a} {b}");
+        let mut stepper = Stepper::new(regulator.clone(), discrete.clone());
+        let mut z = Array1::<f64>::zeros(n);
+        for k in 0..50 {
+            let e = signal(k);
+            close(stepper.step(e), output.dot(&z) + discrete.feedthrough * e);
+            z = exact.dot(&z) + &input * e;
+            z.iter().zip(stepper.state()).for_each(|(a, b)| close(*a, *b));
         }
     }
 }
@@ -72,58 +82,103 @@ fn the_discretisation_is_the_exponential_of_the_matrices() {
 #[test]
 fn small_sampling_times_lose_no_digits() {
     // 1 - cos(a) with a = 2 pi 1e-9 would be 0 in double precision.
-    let design = Design::new(&example().internal_model, &constant("1e-12"), 1).discretise(&constant("1e-9"));
+    let (model, sigma) = (example().internal_model, constant("1e-12"));
+    let discrete = Design::new(&model, &sigma, 1).discretise(&constant("1e-9")).unwrap();
     let angle = std::f64::consts::TAU * 1e-9;
     let expected = angle * angle / 2.0 - 1e-12 * 1e-9;
-    assert!((design.input[1] / expected - 1.0).abs() < 1e-12, "{}", design.input[1]);
+    assert!((discrete.input[1] / expected - 1.0).abs() < 1e-12, "{}", discrete.input[1]);
 }
 
-fn signal(k: u32) -> f64 {
+pub fn signal(k: u32) -> f64 {
     let k = f64::from(k);
     (0.37 * k).sin() + 0.2 * (1.9 * k + 0.1).cos() - 1e-3 * k.sqrt()
 }
 
-/// Runs the exported C code over the signal and returns the bits of every output.
-fn run_c(folder: &Path, n_o: u32, steps: u32) -> Vec<u64> {
-    let source = folder.join("regulator.c");
-    let n_o_text = n_o.to_string();
-    let arguments = ["specs/paper-example.json", "--sigma", "97/2", "--n-o", &n_o_text, "--discretise", "1/500"];
-    controller(&arguments).args(["--format", "c", "-o"]).arg(&source).assert().success().stdout("").stderr("");
-    let inputs: Vec<String> = (0..steps).map(|k| format!("0x{:016x}ULL", signal(k).to_bits())).collect();
-    let main = format!(
-        "#include \"regulator.h\"\n#include <stdio.h>\n#include <string.h>\n\
-         static const unsigned long long inputs[] = {{ {} }};\n\
-         int main(void) {{ sigmastar_controller c; unsigned i; sigmastar_reset(&c);\n\
-         for (i = 0; i < {steps}; i++) {{ double e, u; unsigned long long bits; memcpy(&e, &inputs[i], 8);\n\
-         u = sigmastar_step(&c, e); memcpy(&bits, &u, 8); printf(\"%llx\\n\", bits); }} return 0; }}\n",
-        inputs.join(", ")
-    );
-    let (main_file, program): (PathBuf, PathBuf) = (folder.join("main.c"), folder.join("main"));
-    std::fs::write(&main_file, main).unwrap();
-    let gcc = Process::new("gcc")
-        .args(["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", "-o"])
-        .args([&program, &source, &main_file])
-        .output()
-        .unwrap();
-    assert!(gcc.status.success(), "{}", String::from_utf8_lossy(&gcc.stderr));
-    let output = Process::new(&program).output().unwrap();
-    let text = utf8(output.stdout);
-    text.lines().map(|line| u64::from_str_radix(line, 16).unwrap()).collect()
+/// The law in elementary operations, in the order of the stepper, and its bits.
+const PYTHON_LAW: &str = "
+import struct
+def law(sigma, K, decay, step, limit, weights, rotations, errors):
+    n, outputs = len(rotations), []
+    z = [0.0]*(2*n + 1)
+    for e in errors:
+        z[0] -= e
+        total = weights[0]*z[0]
+        for l in range(1, n + 1):
+            a, b, (c, s) = z[2*l - 1] - e, z[2*l], rotations[l - 1]
+            z[2*l - 1] = c*a + s*b
+            z[2*l] = c*b - s*a
+            total += weights[l]*z[2*l - 1]
+        wanted = K*total - sigma*e
+        carry, u = decay*e, wanted
+        if limit is not None:
+            u = min(max(u, -limit), limit)
+            carry += step*(u - wanted)
+        z[0] += carry
+        for l in range(1, n + 1):
+            z[2*l - 1] += carry
+        outputs.append(struct.pack('>d', u).hex())
+    return outputs
+import sys
+errors = [struct.unpack('>d', bytes.fromhex(word))[0] for word in sys.stdin.read().split()]
+";
+
+/// Runs a script that reads the file of an export and prints the controls for the signal; compares with the stepper.
+fn python_agrees(format: &str, extension: &str, script: &str) {
+    for (n_o, limit) in [(0_u32, None), (1, None), (7, Some("3")), (50, Some("1/2"))] {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join(format!("regulator.{extension}"));
+        let n_o_text = n_o.to_string();
+        let arguments = ["specs/paper-example.json", "--sigma", "97/2", "--n-o", &n_o_text, "--discretise", "1/500"];
+        let mut call = controller(&arguments);
+        call.args(["--format", format, "-o"]).arg(&file);
+        if let Some(limit) = limit {
+            call.args(["--saturation", limit]);
+        }
+        call.assert().success().stdout("").stderr("");
+        let words: Vec<String> = (0..400).map(|k| format!("{:016x}", signal(k).to_bits())).collect();
+        let output = Command::new("python3")
+            .args(["-c", &format!("{PYTHON_LAW}{script}")])
+            .arg(&file)
+            .write_stdin(words.join(" "))
+            .assert()
+            .success();
+        let outputs = utf8(output.get_output().stdout.clone());
+        let (spec, sigma) = (example(), constant("97/2"));
+        let design = Design::new(&spec.internal_model, &sigma, n_o);
+        let discrete =
+            design.discretise(&constant("1/500")).unwrap().saturated(limit.map(|text| constant(text).to_f64()));
+        let mut stepper = Stepper::new(design.regulator(), discrete);
+        let expected: Vec<String> = (0..400).map(|k| format!("{:016x}", stepper.step(signal(k)).to_bits())).collect();
+        assert_eq!(outputs.split_whitespace().collect::<Vec<_>>(), expected, "{format} n_o = {n_o}");
+    }
 }
 
 #[test]
-fn c_code_agrees_with_the_stepper_bit_for_bit() {
-    if !installed("gcc", &["--version"]) {
-        return;
+fn json_agrees_with_the_stepper_bit_for_bit() {
+    if installed("python3", &["--version"]) {
+        let script = "
+import json
+f = json.load(open(sys.argv[1])); d = f['discrete']
+pairs = [(d['Phi'][2*l - 1][2*l - 1], d['Phi'][2*l - 1][2*l]) for l in range(1, f['n_o'] + 1)]
+print(*law(f['sigma'], d['K'], d['decay'], d['step'], d['saturation'], f['weights'], pairs, errors))
+";
+        python_agrees("json", "json", script);
     }
-    let spec = example();
-    for n_o in [0, 1, 7, 50] {
-        let folder = tempfile::tempdir().unwrap();
-        let outputs = run_c(folder.path(), n_o, 3000);
-        let design = Design::new(&spec.internal_model, &constant("97/2"), n_o);
-        let mut stepper = Stepper::new(design.regulator(), design.discretise(&constant("1/500")));
-        let expected: Vec<u64> = (0..3000).map(|k| stepper.step(signal(k)).to_bits()).collect();
-        assert_eq!(outputs, expected, "n_o = {n_o}");
+}
+
+#[test]
+fn numpy_agrees_with_the_stepper_bit_for_bit() {
+    if installed("python3", &["-c", "import numpy"]) {
+        let script = "
+import numpy as np
+d = np.load(sys.argv[1]); P = d['Phi_d'].tolist()
+pairs = [(P[2*l - 1][2*l - 1], P[2*l - 1][2*l]) for l in range(1, len(d['frequencies']) + 1)]
+one = lambda name: float(d[name])
+limit = one('saturation') if 'saturation' in d else None
+assert b'No claim covers' in d['notice'].tobytes()
+print(*law(one('sigma'), one('K'), one('decay'), one('step'), limit, d['weights'].tolist(), pairs, errors))
+";
+        python_agrees("npz", "npz", script);
     }
 }
 
@@ -142,9 +197,9 @@ fn numpy_and_scipy_read_the_archive() {
         assert n == 7 and d['sigma'] == 5 and d['step'] == 0.1\n\
         assert np.array_equal(d['Gamma'], -(d['Phi'] + d['sigma']*np.eye(n)) @ d['M'])\n\
         assert np.array_equal(np.diag(d['N'])[[0, 1, 3, 5]], d['weights'])\n\
-        A = np.zeros((n + 1, n + 1)); A[:n, :n] = d['Phi']; A[:n, n] = d['Gamma']\n\
-        E = la.expm(A*d['step'])\n\
-        assert abs(E[:n, :n] - d['Phi_d']).max() < 1e-13 and abs(E[:n, n] - d['Gamma_d']).max() < 1e-13\n";
+        R = la.expm(d['Phi']*d['step']); M = d['M']; C = d['K']*M @ d['N'] @ R\n\
+        assert abs(R - d['Phi_d']).max() < 1e-13 and abs(d['decay']*M - R @ M - d['Gamma_d']).max() < 1e-13\n\
+        assert abs(C - d['C_d']).max() < 1e-13 and abs(-d['sigma'] - C @ M - d['D_d']) < 1e-13\n";
     let python = Process::new("python3").args(["-c", script]).arg(&file).output().unwrap();
     assert!(python.status.success(), "{}", String::from_utf8_lossy(&python.stderr));
 }
@@ -157,9 +212,10 @@ fn octave_runs_the_script() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("regulator.m");
     let arguments = ["specs/paper-example.json", "--sigma", "5", "--n-o", "3", "--discretise", "1/10"];
-    controller(&arguments).args(["--format", "matlab", "-o"]).arg(&file).assert().success();
-    let check = "regulator; n = rows(Phi); E = expm([Phi, Gamma; zeros(1, n + 1)]*step); \
-                 assert(norm(E(1:n, 1:n) - Phi_d) < 1e-12); assert(norm(E(1:n, n + 1) - Gamma_d) < 1e-12);";
+    controller(&arguments).args(["--format", "matlab", "--saturation", "2", "-o"]).arg(&file).assert().success();
+    let check = "regulator; R = expm(Phi*step); C = K*M'*N*R; assert(norm(R - Phi_d) < 1e-12); assert(saturation == 2); \
+                 assert(norm(decay*M - R*M - Gamma_d) < 1e-12); assert(norm(C - C_d) < 1e-12); \
+                 assert(abs(-sigma - C*M - D_d) < 1e-12);";
     let octave = Process::new("octave-cli").args(["--eval", check]).current_dir(folder.path()).output().unwrap();
     assert!(octave.status.success(), "{}", String::from_utf8_lossy(&octave.stderr));
 }
@@ -182,39 +238,65 @@ fn the_script_and_the_json_hold_the_same_numbers() {
     assert_eq!(list("weights"), numbers(&report["weights"]));
     assert_eq!(list("frequencies"), numbers(&report["frequencies"]));
     assert_eq!(list("Gamma_d"), numbers(&report["discrete"]["Gamma"]));
+    assert_eq!(list("C_d"), numbers(&report["discrete"]["C"]));
+    for (name, field) in [("step", "step"), ("K", "K"), ("weight_sum", "weight_sum"), ("decay", "decay"), ("D_d", "D")]
+    {
+        let value = script.lines().find_map(|line| line.strip_prefix(&format!("{name} = ")));
+        let value = value.and_then(|value| value.strip_suffix(';')?.parse::<f64>().ok());
+        assert!(value.is_some() && value == report["discrete"][field].as_f64(), "{name}");
+    }
     let row = numbers(&report["discrete"]["Phi"][1]);
     let line = script.lines().find(|line| line.starts_with("Phi_d(2:3, 2:3)")).unwrap();
     assert!(line.contains(&format!("[{:?}, {:?};", row[1], row[2])), "{line}");
     assert_eq!(report["Phi"][6][5].as_f64(), Some(-numbers(&report["frequencies"])[2]));
 }
 
-/// A regulator that the sampling ruins: the law as it is exported, checked against eigenvalues by hand in Rust's tests.
 #[test]
-fn every_export_says_what_the_sampling_does() {
+fn every_export_says_what_the_sampling_does_and_what_is_not_claimed() {
     let folder = tempfile::tempdir().unwrap();
     let spec = "specs/paper-example.json";
-    for (n_o, verdict) in [("1", "stable"), ("3", "unstable")] {
-        let call = [spec, "--sigma", "2", "--n-o", n_o, "--discretise", "1/10"];
+    // Ten samples are too few for five oscillators, not for three: the law that was exported before was unstable there.
+    for (n_o, verdict) in [("1", "stable"), ("3", "stable"), ("5", "unstable")] {
+        let mut call = vec![spec, "--sigma", "2", "--n-o", n_o, "--discretise", "1/10"];
+        call.extend((verdict == "unstable").then_some("--uncertified"));
         let assert = controller(&call).assert().success();
         let output = assert.get_output();
         let report = json(&output.stdout);
         let sampled = &report["discrete"]["sampled_loop"];
         let radius = sampled["spectral_radius"].as_f64().unwrap();
-        assert_eq!((sampled["verdict"].as_str().unwrap(), radius >= 1.0), (verdict, verdict == "unstable"), "{radius}");
+        assert_eq!(
+            (sampled["verdict"].as_str().unwrap(), radius > 0.9999999),
+            (verdict, verdict == "unstable"),
+            "{radius}"
+        );
         let said = String::from_utf8_lossy(&output.stderr).contains("is unstable: spectral radius");
         assert_eq!(said, verdict == "unstable");
         let words = format!("is {verdict}: spectral radius {radius}");
+        let words = words.strip_suffix(".0").unwrap_or(&words);
+        let notice = report["notice"].as_array().unwrap().iter().map(|line| line.as_str().unwrap());
+        let notice: Vec<String> = notice.map(str::to_owned).collect();
+        assert!(notice.iter().any(|line| line.contains("No certificate was given: nothing is claimed")), "{notice:?}");
+        let uncovered = ["rounding", "delay of the computation", "quantisation", "saturation"];
+        assert!(notice.iter().any(|line| uncovered.iter().all(|word| line.contains(word))), "{notice:?}");
+        let flat = |text: &str, mark: &str| {
+            text.lines().map(|line| line.trim().trim_start_matches(mark).trim()).collect::<Vec<_>>().join(" ")
+        };
         let matlab = controller(&call).args(["--format", "matlab"]).assert().success();
-        assert!(String::from_utf8_lossy(&matlab.get_output().stdout).contains(&words), "{words}");
+        let matlab = flat(&String::from_utf8_lossy(&matlab.get_output().stdout), "%");
         let source = folder.path().join("regulator.c");
         controller(&call).args(["--format", "c", "-o"]).arg(&source).assert().success();
-        assert!(std::fs::read_to_string(source.with_extension("h")).unwrap().contains(&words), "{words}");
+        let header = flat(&std::fs::read_to_string(source.with_extension("h")).unwrap(), "*");
+        for text in [matlab, header] {
+            assert!(text.contains(words) && notice.iter().all(|line| text.contains(line.as_str())), "{text}");
+        }
         let archive = folder.path().join("regulator.npz");
         controller(&call).args(["--format", "npz", "-o"]).arg(&archive).assert().success();
         let mut archive = ndarray_npy::NpzReader::new(std::fs::File::open(archive).unwrap()).unwrap();
         let read: ndarray::Array0<f64> = archive.by_name("spectral_radius").unwrap();
         let unstable: ndarray::Array0<bool> = archive.by_name("unstable").unwrap();
         assert_eq!((read.into_scalar(), unstable.into_scalar()), (radius, verdict == "unstable"));
+        let bytes: Array1<u8> = archive.by_name("notice").unwrap();
+        assert_eq!(utf8(bytes.to_vec()), notice.join("\n"));
     }
 }
 
@@ -224,94 +306,22 @@ fn sampling_that_cannot_work_is_refused() {
     for (sigma, n_o, step, message) in [
         ("58", "1", "1/10", "h sigma = 5.8"),
         ("20", "0", "1/10", "h sigma = 2.0"),
+        ("10.01", "0", "1/10", "h sigma = 1.001"),
         ("2", "5", "1/10", "oscillator 5 turns by 0.5"),
         ("2", "9", "1/10", "at most 4 oscillators"),
     ] {
-        let assert = controller(&[spec, "--sigma", sigma, "--n-o", n_o, "--discretise", step]).assert();
-        assert
-            .code(2)
-            .stdout("")
-            .stderr(predicate::str::contains(message).and(predicate::str::contains("sampling time")));
+        let call = [spec, "--sigma", sigma, "--n-o", n_o, "--discretise", step];
+        let told = ["sampling time", "--uncertified"].map(predicate::str::contains);
+        let [time, insist] = told;
+        controller(&call).assert().code(2).stdout("").stderr(predicate::str::contains(message).and(time).and(insist));
+        // Who insists is told.
+        let assert = controller(&call).arg("--uncertified").assert().success();
+        assert.stderr(predicate::str::contains("exported because of --uncertified"));
     }
-    // Between 1 and 2 it is said.
-    let assert = controller(&[spec, "--sigma", "15", "--n-o", "0", "--discretise", "1/10"]).assert();
-    assert.success().stderr(predicate::str::contains("1.500: above 1"));
-    controller(&[spec, "--sigma", "5", "--n-o", "0", "--discretise", "1/10"]).assert().success().stderr("");
-}
-
-#[test]
-fn a_gain_below_the_certificate_is_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("certificate.json");
-    program().args(["certify", "specs/linear.json", "--no-compare", "-q", "-o"]).arg(&file).assert().success();
-    let call = |spec: &str, sigma: &str| {
-        let assert = controller(&[spec, "--sigma", sigma, "--n-o", "1", "--certificate"]).arg(&file).assert().success();
-        utf8(assert.get_output().stderr.clone())
-    };
-    assert!(call("specs/linear.json", "13/10").contains("sigma = 1.3 is below sigma* = 1.32"));
-    assert_eq!(call("specs/linear.json", "3/2"), "");
-    assert!(call("specs/no-x.json", "3/2").contains("another specification"));
-}
-
-#[cfg(unix)]
-#[test]
-fn the_header_stays_where_the_source_cannot_be_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let source = folder.path().join("regulator.c");
-    let call = |n_o: &str| {
-        let mut shell = Process::new("bash");
-        // Files of at most 16 KiB: the header fits, the source of 200 oscillators does not, as on a disk that is full.
-        let script = "trap '' XFSZ; ulimit -f 16; exec \"$@\"";
-        shell.args(["-c", script, "bash"]).arg(process().get_program()).current_dir(ROOT);
-        shell.args([
-            "controller",
-            "specs/paper-example.json",
-            "--sigma",
-            "2",
-            "--discretise",
-            "1/1000",
-            "--format",
-            "c",
-        ]);
-        shell.args(["--n-o", n_o, "-o"]).arg(&source).output().unwrap()
-    };
-    let read = || ["c", "h"].map(|extension| std::fs::read_to_string(source.with_extension(extension)).unwrap());
-    assert!(call("1").status.success());
-    let before = read();
-    let failed = call("200");
-    let told = String::from_utf8_lossy(&failed.stderr).into_owned();
-    assert_eq!(failed.status.code(), Some(2), "{told}");
-    assert!(told.contains("none of the files that belong together was changed"), "{told}");
-    assert_eq!(read(), before);
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
-}
-
-#[test]
-fn a_source_does_not_compile_with_the_header_of_another() {
-    if !installed("gcc", &["--version"]) {
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    let source = folder.path().join("regulator.c");
-    let write = |sigma: &str| {
-        let call =
-            ["specs/linear.json", "--sigma", sigma, "--n-o", "1", "--discretise", "1/100", "--format", "c", "-o"];
-        controller(&call).arg(&source).assert().success();
-    };
-    let compiles = || {
-        let gcc = Process::new("gcc")
-            .args(["-std=c99", "-Wall", "-pedantic", "-Werror", "-fsyntax-only"])
-            .arg(&source)
-            .output();
-        gcc.unwrap().status.success()
-    };
-    write("2");
-    assert!(compiles());
-    let old = std::fs::read(&source).unwrap();
-    write("3");
-    assert!(compiles());
-    std::fs::write(&source, old).unwrap();
-    assert!(!compiles());
+    // Equality is allowed for sigma.
+    controller(&[spec, "--sigma", "10", "--n-o", "4", "--discretise", "1/10"]).assert().success().stderr("");
+    let assert = controller(&[spec, "--sigma", "5", "--n-o", "1", "--discretise", "3/100"]).assert().success();
+    assert.stderr(predicate::str::contains("33.333333 samples, not a whole number"));
 }
 
 #[test]
@@ -342,6 +352,15 @@ fn wrong_calls_are_refused() {
         (&[spec, "--sigma", "2", "--n-o", "1", "--format", "c", "-o", "/tmp/x.c"], "--discretise"),
         (&[spec, "--sigma", "2", "--n-o", "1", "--discretise", "1", "--format", "c"], "ending in `.c`"),
         (&[spec, "--sigma", "2", "--n-o", "1", "--discretise", "-1"], "must be positive"),
+        (&[spec, "--n-o", "1"], "no gain is given"),
+        (&[spec, "--sigma", "2", "--n-o", "1", "--saturation", "1"], "--discretise"),
+        (&[spec, "--sigma", "2", "--n-o", "1", "--discretise", "1/9", "--saturation", "0"], "must be positive"),
+        (
+            &[spec, "--sigma", "2", "--n-o", "1", "--discretise", "1/9", "--saturation", "1e400"],
+            "beyond double precision",
+        ),
+        (&[spec, "--sigma", "2", "--n-o", "1", "--discretise", "1/9", "--prefix", "a"], "--format c"),
+        (&[spec, "--sigma", "2", "--n-o", "1", "--example"], "--format c"),
         (&["specs/nothing.json", "--sigma", "2", "--n-o", "1"], "there is no such file"),
     ] {
         controller(arguments).assert().code(2).stdout("").stderr(predicate::str::contains(message));

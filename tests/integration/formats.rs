@@ -327,7 +327,12 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             ("errata-fragment", vec![other(&["errata"]), other(&["errata", "specs/linear.json"])]),
             ("controller", {
                 let parameters = ["controller", EXAMPLE, "--sigma", "48", "--n-o", "1"];
-                vec![other(&parameters), other(&[&parameters[..], &["--discretise", "1/1000"]].concat())]
+                let certified = ["controller", VALID, "--n-o", "0", "--discretise", "1/1000", "--saturation", "9"];
+                vec![
+                    other(&parameters),
+                    other(&[&parameters[..], &["--discretise", "1/1000"]].concat()),
+                    other(&certified),
+                ]
             }),
             ("simulation-fragment", {
                 let quick = ["simulate", "-q", PLANT, "--sigma", "2", "--periods", "2"];

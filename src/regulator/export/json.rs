@@ -1,15 +1,17 @@
 //! The regulator as JSON.
 
-use super::Export;
+use super::{Export, Provenance, SAMPLED_LAW, notice};
 use ndarray::Array2;
 use serde_json::{Value, json as object};
 
 /// The `format` of the file.
 pub const FORMAT: &str = "sigmastar/controller";
-/// The version that is written.
-pub const VERSION: u64 = 1;
+/// The version that is written. In version 1 `discrete` was another law.
+pub const VERSION: u64 = 2;
+/// The versions that are read: the parameters of the regulator are the same in both.
+pub const VERSIONS: [u64; 2] = [1, VERSION];
 
-/// The regulator as JSON: parameters, matrices row by row, and the discretisation with the
+/// The regulator as JSON: parameters, matrices row by row, what is claimed and what is not, and the law at samples with the
 /// spectral radius of its loop where there is one. Every number is a double in the fewest digits that give it back.
 #[must_use]
 pub fn json(export: &Export<'_>) -> Value {
@@ -17,17 +19,31 @@ pub fn json(export: &Export<'_>) -> Value {
     let discrete = export.discrete.map(|(discrete, sampled)| {
         object!({
             "hold": "zero-order",
+            "law": SAMPLED_LAW,
             "step": discrete.step,
+            "K": discrete.gain,
+            "weight_sum": discrete.weight_sum,
+            "decay": discrete.decay,
+            "saturation": discrete.saturation,
             "Phi": rows(&discrete.transition()),
             "Gamma": discrete.input,
+            "C": discrete.output,
+            "D": discrete.feedthrough,
             "sampled_loop": {
                 "plant": "e' = u", "spectral_radius": sampled.spectral_radius(), "verdict": sampled.verdict(),
             },
         })
     });
+    let certificate = export.certificate.map(|Provenance { sha256, sigma_star, statement, covers_sigma }| {
+        object!({
+            "sha256": sha256, "sigma_star": sigma_star, "statement": statement, "covers_sigma": covers_sigma,
+        })
+    });
     object!({
         "format": FORMAT, "version": VERSION,
         "name": export.name,
+        "notice": notice(export),
+        "certificate": certificate,
         "n_o": regulator.oscillators(),
         "sigma": regulator.sigma,
         "mu": regulator.mu,

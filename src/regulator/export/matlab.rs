@@ -1,14 +1,17 @@
 //! The regulator as a script for MATLAB and Octave.
 
-use super::{Export, decimal};
+use super::notice::comment;
+use super::{Export, SAMPLED_LAW, decimal, notice};
 
 /// A script that sets `sigma`, `mu`, `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N` and, with a discretisation,
-/// `step`, `spectral_radius` (of the sampled loop on e' = u), `Phi_d`, `Gamma_d`. It uses base functions only and runs in MATLAB and in Octave.
+/// `step`, `K`, `weight_sum`, `decay`, `spectral_radius` (of the sampled loop on e' = u), `Phi_d`, `Gamma_d`, `C_d`, `D_d`, and
+/// `saturation` where u is clipped. It uses base functions only and runs in MATLAB and in Octave.
 #[must_use]
 pub fn matlab(export: &Export<'_>) -> String {
     let regulator = export.regulator;
     let row = |values: &[f64]| values.iter().map(|value| decimal(*value)).collect::<Vec<_>>().join(", ");
     let mut script = format!("% Regulator for: {}\n", export.name);
+    script.push_str(&comment(&notice(export), "% "));
     script.push_str("% z' = Phi*z + Gamma*e, u = -sigma*e + mu*M'*N*(z - M*e)\n");
     script.push_str(&format!("sigma = {};\n", decimal(regulator.sigma)));
     script.push_str(&format!("mu = {};\n", decimal(regulator.mu)));
@@ -26,9 +29,19 @@ pub fn matlab(export: &Export<'_>) -> String {
     script.push_str(&format!("N = diag([{}]);\n", row(&regulator.n_diagonal())));
     script.push_str(&format!("Gamma = -(Phi + sigma*eye({dimension}))*M;\n"));
     if let Some((discrete, sampled)) = export.discrete {
-        script.push_str("% With e constant over each sample: z_next = Phi_d*z + Gamma_d*e\n");
+        script.push_str(&format!("% At samples, with Phi for Phi_d: {SAMPLED_LAW},\n"));
+        script.push_str("% which is z_next = Phi_d*z + Gamma_d*e, u = C_d*z + D_d*e (u is held over the sample)\n");
         script.push_str(&format!("% In floating point, {sampled}\n"));
-        script.push_str(&format!("step = {};\n", decimal(discrete.step)));
+        let numbers = [
+            ("step", discrete.step),
+            ("K", discrete.gain),
+            ("weight_sum", discrete.weight_sum),
+            ("decay", discrete.decay),
+            ("D_d", discrete.feedthrough),
+        ];
+        for (name, value) in numbers.into_iter().chain(discrete.saturation.map(|limit| ("saturation", limit))) {
+            script.push_str(&format!("{name} = {};\n", decimal(value)));
+        }
         script.push_str(&format!("spectral_radius = {};\n", decimal(sampled.spectral_radius())));
         script.push_str(&format!("Phi_d = eye({dimension});\n"));
         for (at, [cosine, sine]) in discrete.rotations.iter().enumerate() {
@@ -39,6 +52,7 @@ pub fn matlab(export: &Export<'_>) -> String {
             ));
         }
         script.push_str(&format!("Gamma_d = [{}]';\n", row(&discrete.input)));
+        script.push_str(&format!("C_d = [{}];\n", row(&discrete.output)));
     }
     script
 }

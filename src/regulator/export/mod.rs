@@ -3,11 +3,13 @@
 mod c;
 mod json;
 mod matlab;
+mod notice;
 mod npz;
 
-pub use c::{CSources, c_sources};
-pub use json::{FORMAT, VERSION, json};
+pub use c::{CNames, CSources, Prefix, PrefixError, c_sources};
+pub use json::{FORMAT, VERSION, VERSIONS, json};
 pub use matlab::matlab;
+pub use notice::{Provenance, SAMPLED_LAW, notice};
 pub use npz::npz;
 
 use super::{Discrete, Regulator, SampledLoop};
@@ -21,6 +23,8 @@ pub struct Export<'r> {
     pub regulator: &'r Regulator,
     /// Its discretisation and what that does to the loop, where one was asked for.
     pub discrete: Option<(&'r Discrete, SampledLoop)>,
+    /// The certificate, where one was given for this plant.
+    pub certificate: Option<&'r Provenance>,
 }
 
 /// A double in the fewest digits that give it back.

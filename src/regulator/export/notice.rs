@@ -1,0 +1,94 @@
+//! What is claimed of an exported regulator, and what is not: the words that every export carries.
+
+use super::Export;
+
+/// The law at samples, as exports write it: Phi is R there.
+pub const SAMPLED_LAW: &str = "v = M'N Phi (z - M e), u = -sigma e + K v, z_next = Phi (z - M e) + (1 - h sigma) M e";
+
+/// What no claim of this project covers.
+const NOT_COVERED: &str = "No claim covers the rounding of these numbers and of the arithmetic with them, a delay of the \
+                           computation, quantisation, or saturation.";
+
+/// What a certificate says of a regulator.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Provenance {
+    /// SHA-256, in hexadecimal, of the canonical form of the certificate.
+    pub sha256: String,
+    /// Its sigma*, exactly.
+    pub sigma_star: String,
+    /// Its claim, in its own words.
+    pub statement: String,
+    /// Whether the gain of the regulator is at least sigma*.
+    pub covers_sigma: bool,
+}
+
+/// What stands in every export, one sentence or claim a line.
+#[must_use]
+pub fn notice(export: &Export<'_>) -> Vec<String> {
+    let mut lines = match export.certificate {
+        None => vec!["No certificate was given: nothing is claimed.".to_owned()],
+        Some(Provenance { sha256, sigma_star, statement, covers_sigma }) => {
+            let named = format!("Certificate with SHA-256 {sha256} (of its canonical form)");
+            if *covers_sigma {
+                vec![
+                    format!("{named}; `sigmastar check` decides it. It claims: {}", plain(statement)),
+                    "The certificate is about the continuous-time law: it does not cover sampling.".to_owned(),
+                ]
+            } else {
+                let why = format!("sigma is below its sigma* = {sigma_star}");
+                vec![format!("{named}: it says nothing about this regulator, because {why}.")]
+            }
+        }
+    };
+    lines.push(NOT_COVERED.to_owned());
+    if let Some(limit) = export.discrete.and_then(|(discrete, _)| discrete.saturation) {
+        let limit = super::decimal(limit);
+        lines.push(format!(
+            "u is clipped to |u| <= {limit}. Against windup z is told the control applied: where u is clipped, h M (applied - \
+             wanted) is added to z_next."
+        ));
+    }
+    lines
+}
+
+/// Text of a stranger as it may stand in source code: printable ASCII on one line.
+fn plain(text: &str) -> String {
+    let words: String = text.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' }).collect();
+    words.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Lines of comment of at most about a hundred characters, each with the prefix.
+pub(super) fn comment(lines: &[String], prefix: &str) -> String {
+    const WIDTH: usize = 100;
+    let mut text = String::new();
+    for line in lines {
+        let mut row = String::new();
+        for word in line.split_whitespace() {
+            if !row.is_empty() && row.len() + 1 + word.len() > WIDTH {
+                text.push_str(&format!("{prefix}{row}\n"));
+                row.clear();
+            }
+            if !row.is_empty() {
+                row.push(' ');
+            }
+            row.push_str(word);
+        }
+        text.push_str(&format!("{prefix}{row}\n"));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_are_wrapped_and_hold_every_word() {
+        let text = comment(&["ab ".repeat(60), "c".repeat(120)], "% ");
+        assert_eq!(text.split_whitespace().filter(|word| *word == "ab").count(), 60);
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines.len() == 3 && lines.iter().all(|line| line.starts_with("% ")));
+        assert!(lines[..2].iter().all(|line| line.len() <= 102) && lines[2].len() == 122);
+        assert_eq!(plain("a\nb\u{202e} \tc"), "a b c");
+    }
+}
