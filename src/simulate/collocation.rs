@@ -210,11 +210,11 @@ impl<'l> Collocation<'l> {
             }
             stages.iter_mut().zip(step.iter()).for_each(|(stage, step)| *stage += step);
             let mut change = 0.0_f64;
-            for component in 0..n {
+            for (component, size) in sizes.iter().enumerate().take(n) {
                 let most = |values: &[f64]| {
                     values.iter().skip(component).step_by(n).fold(0.0_f64, |size, value| size.max(value.abs()))
                 };
-                change = change.max(most(step.as_slice()) / (most(&stages) + 1e-3 * sizes[component]));
+                change = change.max(most(step.as_slice()) / (most(&stages) + 1e-3 * size));
             }
             if change <= ROUNDING || (change <= ACCEPTED && change >= 0.5 * previous) {
                 return Some(stages);

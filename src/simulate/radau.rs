@@ -7,7 +7,7 @@ pub(super) const STAGES: usize = 7;
 /// 13, and it damps what is much faster than a step (it is L-stable).
 pub(super) const NODES: [f64; STAGES] = [
     0.029_316_427_159_784_892,
-    0.148_078_599_668_484_29,
+    0.148_078_599_668_484_3,
     0.336_984_690_281_154_3,
     0.558_671_518_771_550_1,
     0.769_233_862_030_054_5,
