@@ -195,6 +195,11 @@ impl Problem<Enclosure> for Data<'_> {
     /// Guarantee: contains the value for all X, E in the enclosures. It bounds the plant's function only where
     /// (X, E) lies in the domain of the specification and the bounding function was proved nondecreasing.
     fn bound(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
+        // Without states nothing acts on x: what is not asked for of such a plant is 0.
+        let stateless = self.spec.plant().is_some_and(|plant| plant.states() == 0);
+        if stateless && matches!(which, Bound::F | Bound::Fxx | Bound::Fex) {
+            return self.zero();
+        }
         let value = |which: Bound| {
             let value = self.spec.bounds.at(which, x, e);
             if self.given(which) && which.is_signed() { value } else { value.max(&self.zero()) }

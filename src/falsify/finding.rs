@@ -25,7 +25,7 @@ impl TrialSettings {
 #[derive(Clone, Debug)]
 pub enum TriedPlant {
     /// Drawn within the families of a claim.
-    Drawn(DrawnPlant),
+    Drawn(Box<DrawnPlant>),
     /// The plant that the claim is about.
     Own(Box<Plant>),
 }

@@ -77,7 +77,7 @@ fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
     let start = boundary(claim, plant.family.states(), &regulator, &mut random);
-    let trial = Trial { number, plant: TriedPlant::Drawn(plant), sigma, n_o, start };
+    let trial = Trial { number, plant: TriedPlant::Drawn(Box::new(plant)), sigma, n_o, start };
     let file = counterexample_plant(claim, &trial, None).and_then(|document| Plant::from_value(&document.root()));
     let file = match file {
         Ok(file) => file,

@@ -110,9 +110,9 @@ fn derivations_that_a_plant_has_no_data_for_are_refused() {
 #[test]
 fn the_witness_of_a_plant_is_decided_again() {
     let folder = TempDir::new().unwrap();
-    let (certificate, _) = certified(folder.path(), "relative-degree-2");
+    let (certificate, _) = certified(folder.path(), "motor-axis");
     let again = |certificate: &Path| {
-        let call = ["certify", "specs/plants/relative-degree-2.json", "--quiet", "--format", "json", "--witness"];
+        let call = ["certify", "specs/plants/motor-axis.json", "--quiet", "--format", "json", "--witness"];
         let output = program().args(call).arg(certificate).output().unwrap();
         (output.status.code(), json(&output.stdout))
     };
@@ -120,11 +120,11 @@ fn the_witness_of_a_plant_is_decided_again() {
     for (pointer, value) in [
         ("/witness/orbit/defect", "1e-40"),
         ("/witness/orbit/radius", "1"),
-        ("/witness/lyapunov/alpha", "2.1"),
+        ("/witness/lyapunov/alpha", "201"),
         ("/witness/forcing/rest", "1e-30"),
-        ("/witness/bounds/1/value", "2.1"),
-        ("/witness/bounds/5/value", "0.5"),
-        ("/claim/sigma_star", "3"),
+        ("/witness/bounds/1/value", "201"),
+        ("/witness/bounds/5/value", "50"),
+        ("/claim/sigma_star", "20"),
     ] {
         let (code, report) = again(&altered(&certificate, pointer, value));
         assert!(code != Some(0), "{pointer}: {report:#}");
