@@ -27,6 +27,7 @@ mod mutated_specifications;
 mod no_plant;
 mod plain;
 mod plants;
+mod plants_random;
 mod positive_part;
 mod rate;
 mod rejected;
