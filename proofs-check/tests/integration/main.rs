@@ -15,6 +15,7 @@ mod mean_squares;
 mod monotone;
 mod mutations;
 mod plant_certificates;
+mod plant_mutations;
 mod plant_paper;
 mod plant_rules;
 mod plant_support;

@@ -72,7 +72,7 @@ fn told(pointer: &str, kind: &str) -> Option<&'static str> {
 }
 
 /// All pointers of a value, parents first.
-fn pointers(value: &Value, at: String, into: &mut Vec<String>) {
+pub fn pointers(value: &Value, at: String, into: &mut Vec<String>) {
     into.push(at.clone());
     let escape = |key: &str| key.replace('~', "~0").replace('/', "~1");
     match value {
@@ -90,7 +90,7 @@ fn exact(text: &str) -> Option<Rational> {
 }
 
 /// What a leaf is replaced by.
-fn replacements(leaf: &Value) -> Vec<(&'static str, Value)> {
+pub fn replacements(leaf: &Value) -> Vec<(&'static str, Value)> {
     let number = |q: Rational| Value::String(q.to_string());
     match leaf {
         Value::String(text) => {

@@ -1,0 +1,109 @@
+//! Every leaf of a certificate of a plant, altered in every way that a forger or an accident might.
+//!
+//! The checker proves whatever the witness says, so another witness, or another plant under its own digest, may pass where all
+//! of it is true. What may never pass: another claim for the same witness, a number that is certainly too good, and anything that
+//! is not read.
+
+use super::common::folder;
+use super::mutations::{pointers, replacements};
+use proofs_check::json::{Json, parse};
+use proofs_check::verdict::Verdict;
+use proofs_check::{check, sha256};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+fn stored() -> Value {
+    let text = std::fs::read_to_string(folder("plants").join("motor-axis.certificate.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+fn rehash(certificate: &mut Value) {
+    let mut canonical = String::new();
+    let plant: Json = parse(certificate["plant"].to_string().as_bytes()).unwrap();
+    plant.canonical(&mut canonical);
+    certificate["plant_sha256"] = sha256::hex_digest(canonical.as_bytes()).into();
+}
+
+/// Numbers of the witness that are too good whatever the rest is: a defect, a rest or a bound that is no more than 0, a rate that
+/// is no damping, a tube without room.
+fn too_good(original: &Value, pointer: &str, kind: &str) -> bool {
+    let sizes = ["/witness/orbit/defect", "/witness/orbit/radius", "/witness/orbit/tube"];
+    let forcing = ["/witness/forcing/rest", "/witness/forcing/rest_t"];
+    let vanishes = ["zero", "negated"].contains(&kind);
+    let value = pointer.strip_suffix("/value").filter(|entry| entry.starts_with("/witness/bounds/"));
+    let is_norm = value.is_some_and(|entry| {
+        let bound = original.pointer(entry).and_then(|entry| entry["bound"].as_str()).unwrap_or_default();
+        !["rate", "q_e_max"].contains(&bound)
+    });
+    let positive = original.pointer(pointer).is_some_and(|value| value != "0");
+    vanishes && positive && (sizes.contains(&pointer) || forcing.contains(&pointer) || is_norm)
+}
+
+/// Why an accepted mutant is true, or `None`: then it is a hole in the checker.
+fn harmless(original: &Value, pointer: &str, kind: &str) -> Option<&'static str> {
+    let below = |prefix: &str| pointer.starts_with(prefix);
+    match pointer {
+        _ if too_good(original, pointer, kind) => None,
+        "/precision_bits" => Some("where the checker starts; it proves the claim at whatever precision it takes"),
+        "/tool/name" | "/tool/version" => Some("free text"),
+        "/claim/mu" if kind.starts_with("appended") => Some("white space after an expression"),
+        _ if below("/constants") || below("/conditions") => Some("figures: no claim rests on them"),
+        _ if below("/witness/lmi") => Some("the multipliers prove C5 a second time"),
+        _ if below("/plant/") && kind.ends_with("re-hashed") => {
+            Some("another plant under its own digest, proved wholly")
+        }
+        _ if below("/witness/") => Some("another witness, with which everything is proved"),
+        // A bound may be larger than what is proved, never smaller.
+        _ if below("/claim/periodic_solution/") && kind.starts_with("up") => Some("a bound larger than it need be"),
+        _ => None,
+    }
+}
+
+#[test]
+fn every_leaf_of_a_certificate_of_a_plant() {
+    let original = stored();
+    assert!(check(original.to_string().as_bytes()).is_flawless());
+    let mut all = Vec::new();
+    pointers(&original, String::new(), &mut all);
+    let (mut made, mut holes) = (0, Vec::new());
+    let mut accepted: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut judge = |pointer: &str, kind: &str, mutant: &Value| {
+        made += 1;
+        if check(mutant.to_string().as_bytes()).verdict != Verdict::Valid {
+            return;
+        }
+        match harmless(&original, pointer, kind) {
+            Some(class) => *accepted.entry(class).or_default() += 1,
+            None => holes.push(format!("{pointer}: {kind}")),
+        }
+    };
+    // Figures are compared by code that is the same for every certificate, and whose tests are with those.
+    let places = all.iter().skip(1).filter(|place| !place.starts_with("/con"));
+    for pointer in places {
+        let value = original.pointer(pointer).unwrap();
+        if value.is_object() || value.is_array() {
+            continue;
+        }
+        for (kind, replacement) in replacements(value).into_iter().filter(|(_, new)| new != value) {
+            let mut mutant = original.clone();
+            *mutant.pointer_mut(pointer).unwrap() = replacement;
+            judge(pointer, kind, &mutant);
+            if pointer.starts_with("/plant/") {
+                rehash(&mut mutant);
+                judge(pointer, &format!("{kind}, re-hashed"), &mutant);
+            }
+        }
+        let (parent, last) = pointer.rsplit_once('/').unwrap();
+        let mut mutant = original.clone();
+        match mutant.pointer_mut(parent).unwrap() {
+            Value::Object(map) => drop(map.remove(last)),
+            Value::Array(list) => drop(list.remove(last.parse().unwrap())),
+            _ => unreachable!("a parent is an object or an array"),
+        }
+        judge(pointer, "deleted", &mutant);
+    }
+    println!("{made} mutants, {} accepted", accepted.values().sum::<usize>());
+    accepted.iter().for_each(|(class, count)| println!("  {count:5}  {class}"));
+    assert!(holes.is_empty(), "accepted and not known to be true:\n{}", holes.join("\n"));
+    assert!(made > 1000);
+}
