@@ -134,7 +134,7 @@ pub enum Command {
 /// The flags of `certify`.
 #[derive(Args, Debug)]
 pub struct CertifyArgs {
-    /// Bounding specification (JSON), or `-` for standard input
+    /// Bounding specification or plant (JSON), or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -203,7 +203,7 @@ impl CertifyArgs {
 /// The flags of `transfer`.
 #[derive(Args, Debug)]
 pub struct TransferArgs {
-    /// Bounding specification (JSON), or `-` for standard input
+    /// Bounding specification or plant (JSON), or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -267,7 +267,7 @@ pub struct ErrataArgs {
 /// The flags of `lyapunov`.
 #[derive(Args, Debug)]
 pub struct LyapunovArgs {
-    /// Bounding specification (JSON) with a Jacobian, or `-` for standard input
+    /// Bounding specification with a Jacobian, or plant (JSON), or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -279,7 +279,7 @@ pub struct LyapunovArgs {
 /// The flags of `rate`.
 #[derive(Args, Debug)]
 pub struct RateArgs {
-    /// Bounding specification (JSON), or `-` for standard input
+    /// Bounding specification or plant (JSON), or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 

@@ -2,11 +2,12 @@
 
 use super::args::LyapunovArgs;
 use super::failure::Failure;
-use super::subject::seeking_triple;
+use super::subject::{Subject, seeking_triple};
 use super::{input, output};
 use sigmastar::certify::{Refusal, resolve};
-use sigmastar::report::LyapunovReport;
-use sigmastar::spec::Specification;
+use sigmastar::plant::Plant;
+use sigmastar::reduction::study;
+use sigmastar::report::{LyapunovReport, OrbitReport};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &LyapunovArgs) -> u8 {
@@ -14,7 +15,10 @@ pub fn run(args: &LyapunovArgs) -> u8 {
 }
 
 fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
-    let spec = Specification::from_value(&input::document(&args.spec)?.root())?;
+    let spec = match Subject::read(&input::document(&args.spec)?)? {
+        Subject::Specification(spec) => spec,
+        Subject::Plant(plant) => return of_plant(&plant, args),
+    };
     let given = || {
         let message = "this specification gives its Lyapunov triple, and there is no Jacobian to find one for";
         Failure::call(message, "write \"lyapunov\": { \"jacobian\": [[...], ...] } in it")
@@ -26,5 +30,12 @@ fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
         resolution.map_err(|failure| Failure::Documents(Refusal::Jacobian(failure.to_string()).errors(&spec)))?;
     let report = LyapunovReport::new(resolution).ok_or_else(given)?;
     let text = output::report(&report, args.format);
+    Ok(output::data(&text).map_or_else(|code| code, |()| 0))
+}
+
+/// The zero dynamics of a plant.
+fn of_plant(plant: &Plant, args: &LyapunovArgs) -> Result<u8, Failure> {
+    let study = study(plant).map_err(|refusal| Failure::Documents(refusal.errors(plant)))?;
+    let text = output::report(&OrbitReport { plant, study: &study }, args.format);
     Ok(output::data(&text).map_or_else(|code| code, |()| 0))
 }

@@ -11,7 +11,9 @@ mod reduce;
 mod refusal;
 mod sampling;
 mod specification;
+mod study;
 
 pub use reduce::{Reduced, decide_again, reduce};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use specification::specification;
+pub use study::{OrbitStudy, study};

@@ -163,6 +163,15 @@ fn other_commands_take_plants() {
     let plant = "specs/plants/motor-axis.json";
     let output = program().args(["rate", plant, "--n-o", "0,1", "--format", "json"]).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = program().args(["lyapunov", plant, "--format", "json"]).output().unwrap();
+    let report = json(&output.stdout);
+    assert_eq!((output.status.code(), report["verdict"].as_str()), (Some(0), Some("certified")));
+    // x' = -200 x + ...: no P has a larger rate.
+    let alpha: f64 = report["alpha"].as_str().and_then(|text| text.parse().ok()).unwrap();
+    assert!(alpha <= 200.0 && alpha > 198.0, "{alpha}");
+    assert_eq!(report["floquet_exponents_not_certified"], serde_json::json!([["-200", "0"]]));
+    let output = program().args(["lyapunov", "specs/plants/invalid/unstable.json"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(3));
     let output = program().args(["controller", plant, "--sigma", "30", "--n-o", "2"]).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(json(&output.stdout)["format"], "sigmastar/controller");
