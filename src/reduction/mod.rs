@@ -1,6 +1,6 @@
 //! From a plant's formulas to a specification whose data are proved (derivation, 11).
 //!
-//! [`reduce`] finds the orbit and coordinates, searches for a gain over sampled bounds, and proves the bounds at the arguments
+//! [`reduce()`] finds the orbit and coordinates, searches for a gain over sampled bounds, and proves the bounds at the arguments
 //! that the conditions will use. What it returns goes through `certify` as any specification does. [`decide_again`] proves
 //! what a certificate says of a plant.
 

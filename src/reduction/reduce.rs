@@ -250,7 +250,7 @@ fn arguments(model: &FloatModel, proposal: &SharpProposal, enlarged: f64) -> Res
 
 /// Proves again what a certificate says of a plant, without any search.
 ///
-/// Guarantee: as for [`reduce`].
+/// Guarantee: as for [`reduce()`].
 ///
 /// # Errors
 /// The first part that is not proved.

@@ -20,7 +20,7 @@ pub struct OrbitStudy {
 /// Finds the orbit of a plant, proposes coordinates, and proves the first of them that can be proved.
 ///
 /// Guarantee: the orbit is proved in these coordinates (derivation, 11.2). Another choice may lead to a smaller gain:
-/// [`reduce`](super::reduce()) looks for that.
+/// [`reduce()`](super::reduce()) looks for that.
 ///
 /// # Errors
 /// What could not be found or proved.
