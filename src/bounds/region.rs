@@ -1,5 +1,6 @@
 //! The tube on which bounds are asked for.
 
+use crate::matrix::inverse;
 use crate::spec::TrigonometricVector;
 use rug::Rational;
 use thiserror::Error;
@@ -78,33 +79,6 @@ impl Region {
     pub fn radius(&self) -> &Rational {
         &self.radius
     }
-}
-
-/// The inverse of a square matrix, exactly, by Gauss and Jordan; `None` where there is none.
-fn inverse(matrix: &[Vec<Rational>]) -> Option<Vec<Vec<Rational>>> {
-    let order = matrix.len();
-    let unit = |i: usize| (0..order).map(move |j| Rational::from(u8::from(i == j)));
-    let mut rows: Vec<Vec<Rational>> =
-        matrix.iter().enumerate().map(|(i, row)| row.iter().cloned().chain(unit(i)).collect()).collect();
-    for column in 0..order {
-        let pivot = (column..order).find(|&row| !rows[row][column].is_zero())?;
-        rows.swap(column, pivot);
-        let inverse = Rational::from(rows[column][column].recip_ref());
-        for entry in &mut rows[column] {
-            *entry *= &inverse;
-        }
-        let pivot = rows[column].clone();
-        for (_, row) in rows.iter_mut().enumerate().filter(|(row, _)| *row != column) {
-            let factor = row[column].clone();
-            if factor.is_zero() {
-                continue;
-            }
-            for (entry, by) in row.iter_mut().zip(&pivot) {
-                *entry -= Rational::from(&factor * by);
-            }
-        }
-    }
-    Some(rows.into_iter().map(|row| row.into_iter().skip(order).collect()).collect())
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::read::{read_lyapunov, read_witness};
 use super::read_plant::read_plant_witness;
 use crate::certify::{GivenWitness, resolve_with};
 use crate::plant::Plant;
-use crate::reduction::specification;
+use crate::reduction::{PlantRefusal, specification};
 use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
 
 /// The statement of a certificate, for whoever holds it against something else.
@@ -35,9 +35,16 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
     };
     if document.at("/plant").is_some() {
         let (plant, of_plant, values) = read_plant_witness(document)?;
-        let Some(spec) = specification(&plant, of_plant, values) else {
-            let place = document.at("/witness/coordinates").unwrap_or(root.clone());
-            return refused(place.error(ErrorKind::Range, "this matrix is singular, or too nearly so"));
+        let spec = match specification(&plant, of_plant, values) {
+            Ok(spec) => spec,
+            Err(refusal) => {
+                let (place, message) = match refusal {
+                    PlantRefusal::Forcing => ("/witness/forcing", "these harmonics are too large or too small"),
+                    _ => ("/witness/coordinates", "this matrix is singular, or too nearly so"),
+                };
+                let place = document.at(place).unwrap_or(root.clone());
+                return refused(place.error(ErrorKind::Range, message));
+            }
         };
         let periodic = stated_periodic(document)?;
         return Ok(StatedClaim { spec, witness, periodic, plant: Some(plant) });

@@ -1,13 +1,19 @@
 //! The ball `|x - x_0| <= R_0` inside an initial set `|L^-1 (x - x_0)| <= X_0` of a plant (derivation, 11.5).
 
 use crate::matrix::is_positive_definite;
-use crate::number::{Direction, round_f64};
-use crate::spec::OfPlant;
+use crate::number::{Direction, round_f64, round_rational};
+use crate::spec::{Constant, OfPlant};
 use nalgebra::DMatrix;
 use rug::Rational;
 
 /// Significant digits of a radius.
 const DIGITS: u32 = 6;
+
+/// Significant digits of an irrational radius that was asked for: fewer than the room that its X_0 leaves.
+const ASKED_DIGITS: u32 = 12;
+
+/// Bits at which it is enclosed.
+const PRECISION: u32 = 128;
 
 /// How far below the estimate the radii that are tried are.
 const SHORT_OF: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-3, 0.1];
@@ -44,12 +50,18 @@ fn excess(rows: &[Vec<Rational>], x: &Rational, radius: &Rational) -> Vec<Vec<Ra
 /// states.
 #[must_use]
 pub fn claimed_ball(plant: &OfPlant, x_0: &Rational) -> Option<Rational> {
-    let asked = plant.ball.as_ref().and_then(|ball| ball.as_rational());
     let largest = largest_ball(&plant.coordinates, x_0)?;
-    Some(match asked {
-        Some(asked) if *asked > largest && covers_ball(&plant.coordinates, x_0, asked) => asked.clone(),
+    let covered = plant.ball.as_ref().and_then(at_least).filter(|asked| covers_ball(&plant.coordinates, x_0, asked));
+    Some(match covered {
+        Some(asked) if asked > largest => asked,
         _ => largest,
     })
+}
+
+/// The radius that was asked for; of an irrational one a few more digits, rounded up.
+fn at_least(ball: &Constant) -> Option<Rational> {
+    let upper = || ball.enclose(PRECISION).upper_rational();
+    ball.as_rational().cloned().or_else(|| Some(round_rational(&upper()?, ASKED_DIGITS, Direction::Up)))
 }
 
 /// The largest R_0 of a few digits that is proved; 0 where none is. `None` without states.

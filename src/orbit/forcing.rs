@@ -6,7 +6,7 @@ use super::defect::{CELLS, CLOSE, ORDER, first_exponent, largest};
 use super::failure::OrbitNotProved;
 use super::field::Field;
 use super::linear::norm;
-use super::prove::{Around, ProvedOrbit};
+use super::prove::{Around, OrbitProof};
 use super::recurrences::combine;
 use super::round::to_grain;
 use super::sampled::doubles;
@@ -16,7 +16,7 @@ use crate::enclosure::Enclosure;
 use crate::expr::{Enclosing, Formula, Formulas, PlantVariable, Walk};
 use crate::number::{Direction, round_f64};
 use crate::plant::Plant;
-use crate::spec::TrigonometricVector;
+use crate::spec::{ProvedForcing, TrigonometricVector};
 use rayon::prelude::*;
 use rug::Rational;
 use std::f64::consts::TAU;
@@ -36,28 +36,6 @@ const LEAST_SLOPE: f64 = 1e-2;
 
 /// The least rest that is looked for, as a share of the size: below it cells are not made smaller for it.
 const NEGLIGIBLE_REST: f64 = 1e-12;
-
-/// `qb(t)`, and what is proved of it: `|q(t,x_0,0) - qb| <= rest`, and its derivative in t at most `rest_t`, for all t.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProvedForcing {
-    /// The mean m_0.
-    pub mean: Rational,
-    /// (a_k, b_k) for k = 1, 2, ...
-    pub harmonics: Vec<[Rational; 2]>,
-    /// r_0.
-    pub rest: Rational,
-    /// r_1, per time.
-    pub rest_t: Rational,
-}
-
-impl ProvedForcing {
-    /// `|c_k|` in doubles: `|m_0|`, and `sqrt(a_k^2 + b_k^2)/2`.
-    #[must_use]
-    pub fn magnitudes(&self) -> Vec<f64> {
-        let pair = |[a, b]: &[Rational; 2]| libm::hypot(a.to_f64(), b.to_f64()) / 2.0;
-        std::iter::once(self.mean.to_f64().abs()).chain(self.harmonics.iter().map(pair)).collect()
-    }
-}
 
 /// qb in doubles, rounded: the harmonics that matter, with short coefficients. `None` where q is not finite.
 fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<[Rational; 2]>)> {
@@ -112,7 +90,7 @@ fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<
 pub fn prove_forcing(
     plant: &Plant,
     coordinates: &Coordinates,
-    proved: &ProvedOrbit,
+    proved: &OrbitProof,
 ) -> Result<ProvedForcing, OrbitNotProved> {
     let around = Around::new(plant, &proved.orbit, coordinates)?;
     let none = OrbitNotProved::Shape("q(t,xb,0) is not finite in floating point");
@@ -133,7 +111,7 @@ pub fn prove_forcing(
 pub fn decide_forcing(
     plant: &Plant,
     coordinates: &Coordinates,
-    proved: &ProvedOrbit,
+    proved: &OrbitProof,
     forcing: &ProvedForcing,
 ) -> Result<(), OrbitNotProved> {
     let around = Around::new(plant, &proved.orbit, coordinates)?;
@@ -179,7 +157,7 @@ fn sampled_rests(plant: &Plant, orbit: &TrigonometricVector, forcing: &ProvedFor
 fn rests(
     around: &Around<'_>,
     forcing: &ProvedForcing,
-    proved: &ProvedOrbit,
+    proved: &OrbitProof,
     enough: [f64; 2],
 ) -> Result<[Enclosure; 2], OrbitNotProved> {
     if forcing.harmonics.len() > MAX_HARMONICS {
@@ -248,7 +226,7 @@ fn rests_on(
     around: &Around<'_>,
     formulas: &Rows,
     forcing: &ProvedForcing,
-    proved: &ProvedOrbit,
+    proved: &OrbitProof,
     exponent: u32,
 ) -> Result<([Enclosure; 2], [Enclosure; 2]), OrbitNotProved> {
     let n = around.plant.states();

@@ -5,13 +5,13 @@ use super::coordinates::Coordinates;
 use super::curve::{Curve, MAX_HARMONICS, PRECISION, wave, waves};
 use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent};
 use super::failure::OrbitNotProved;
-use super::linear::{enclosed, inverse};
+use super::linear::enclosed;
 use super::rate::Contraction;
 use super::sampled::Sampled;
 use crate::enclosure::Enclosure;
 use crate::expr::{Formula, Formulas, PlantVariable, Walk};
 use crate::lyapunov::prove_bounds;
-use crate::matrix::Symmetric;
+use crate::matrix::{Symmetric, inverse};
 use crate::number::{Direction, round_f64, round_rational};
 use crate::plant::Plant;
 use crate::spec::{PeriodicMatrix, TrigonometricVector};
@@ -37,7 +37,7 @@ const LEAST_DEFECT: f64 = 1e-30;
 ///
 /// Without states `defect` and `radius` are 0, the others 1 and without meaning.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ProvedOrbit {
+pub struct OrbitProof {
     /// xb(t).
     pub orbit: TrigonometricVector,
     /// eps.
@@ -205,13 +205,13 @@ pub fn prove_orbit(
     plant: &Plant,
     orbit: &TrigonometricVector,
     coordinates: &Coordinates,
-) -> Result<ProvedOrbit, OrbitNotProved> {
+) -> Result<OrbitProof, OrbitNotProved> {
     let around = Around::new(plant, orbit, coordinates)?;
     if plant.states() == 0 {
         let one = || Rational::from(1);
         let none = Rational::new;
         let orbit = orbit.clone();
-        return Ok(ProvedOrbit {
+        return Ok(OrbitProof {
             orbit,
             defect: none(),
             tube: one(),
@@ -239,7 +239,7 @@ pub fn prove_orbit(
             match around.prove_rate(&alpha, &tube) {
                 Ok(()) => {
                     let orbit = orbit.clone();
-                    return Ok(ProvedOrbit { orbit, defect, tube, radius, alpha, p_low, p_up });
+                    return Ok(OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up });
                 }
                 Err(reason) => failure = Some(reason),
             }
@@ -260,8 +260,8 @@ fn least_radius(defect: &Rational, alpha: &Rational, p_low: &Rational, p_up: &Ra
 ///
 /// # Errors
 /// The first inequality of 11.2 that is not proved; nothing is said about its truth.
-pub fn decide_orbit(plant: &Plant, coordinates: &Coordinates, proved: &ProvedOrbit) -> Result<(), OrbitNotProved> {
-    let ProvedOrbit { orbit, defect, tube, radius, alpha, p_low, p_up } = proved;
+pub fn decide_orbit(plant: &Plant, coordinates: &Coordinates, proved: &OrbitProof) -> Result<(), OrbitNotProved> {
+    let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = proved;
     let around = Around::new(plant, orbit, coordinates)?;
     if plant.states() == 0 {
         return Ok(());

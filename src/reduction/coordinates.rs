@@ -4,6 +4,7 @@
 //! nothing: L varies as `L exp(S)` with symmetric S.
 
 use super::grid::{Grid, Source};
+use crate::number::Portable;
 use crate::search::{Descent, FloatModel, Obstacle, SharpProposal, minimise, search_sharp, search_sharp_near};
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
@@ -136,7 +137,7 @@ impl CoordinateSearch<'_> {
         }
         let cost = |s: &[f64]| {
             let model = self.model(&(l * exponential(n, s)), Density::Coarse);
-            search_sharp_near(&model, start).map(|found| crate::number::Portable::portable_ln(found.sigma))
+            search_sharp_near(&model, start).map(|found| found.sigma.portable_ln())
         };
         let (zero, steps) = (vec![0.0; freedom], vec![STEP; freedom]);
         match minimise(cost, &zero, &steps, if n > 2 { SHORT } else { DESCENT }) {
@@ -162,7 +163,7 @@ fn exponential(n: usize, entries: &[f64]) -> DMatrix<f64> {
         }
     }
     let eigen = SymmetricEigen::new(s);
-    let values = eigen.eigenvalues.map(crate::number::Portable::portable_exp);
+    let values = eigen.eigenvalues.map(Portable::portable_exp);
     &eigen.eigenvectors * DMatrix::from_diagonal(&values) * eigen.eigenvectors.transpose()
 }
 

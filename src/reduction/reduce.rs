@@ -1,20 +1,20 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
 use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler};
-use super::entries::{Needed, needed, prove_all};
+use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix};
 use super::specification::specification;
 use crate::bounds::{Engine, Region};
 use crate::data::Data;
 use crate::orbit::{
-    self, Coordinates, ProvedForcing, ProvedOrbit, decide_forcing, decide_orbit, find_orbit, propose_coordinates,
-    prove_forcing, prove_orbit, round_orbit,
+    self, Coordinates, OrbitProof, decide_forcing, decide_orbit, find_orbit, propose_coordinates, prove_forcing,
+    prove_orbit, round_orbit,
 };
 use crate::plant::Plant;
-use crate::search::{FloatModel, SharpProposal, at_sigma, search_sharp_near};
+use crate::search::{FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
-use crate::spec::{self, OfPlant, ProvedValues, Specification, TrigonometricVector};
+use crate::spec::{OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector};
 use crate::transfer::TradeOff;
 use nalgebra::DMatrix;
 use rug::Rational;
@@ -52,6 +52,7 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
     plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
     let found = find_orbit(plant).map_err(PlantRefusal::NoOrbit)?;
     let curve = round_orbit(plant, &found).ok_or(PlantRefusal::NoOrbit(orbit::OrbitFailure::NotFinite))?;
+    smooth_along(plant, &curve)?;
     let candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
     let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
     let base = along(plant, &curve, first)?;
@@ -149,8 +150,17 @@ fn best_periodic(
 /// The orbit and the harmonics of q, proved in some coordinates.
 struct Along {
     coordinates: Coordinates,
-    orbit: ProvedOrbit,
+    orbit: OrbitProof,
     forcing: ProvedForcing,
+}
+
+/// That f and q are smooth on the curve itself, so that what is not is told at its operation before anything is proved with it.
+fn smooth_along(plant: &Plant, curve: &TrigonometricVector) -> Result<(), PlantRefusal> {
+    let unit = (0..plant.states()).map(|i| (0..plant.states()).map(|j| Rational::from(u8::from(i == j))).collect());
+    let region = Region::new(unit.collect(), curve.clone(), Rational::new());
+    let engine = region.and_then(|region| Engine::new(plant, region, None, None));
+    let zero = Rational::new();
+    Ok(engine.map_err(|_| PlantRefusal::Coordinates)?.smooth(&zero, &zero)?)
 }
 
 fn along(plant: &Plant, curve: &TrigonometricVector, coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
@@ -162,11 +172,10 @@ fn along(plant: &Plant, curve: &TrigonometricVector, coordinates: &Coordinates) 
 impl Along {
     /// The specification with these values.
     fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
-        let ProvedOrbit { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
-        let ProvedForcing { mean, harmonics, rest, rest_t } = &self.forcing;
+        let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
         let of_plant = OfPlant {
             coordinates: self.coordinates.l.clone(),
-            orbit: spec::ProvedOrbit {
+            orbit: ProvedOrbit {
                 approximation: orbit.clone(),
                 defect: defect.clone(),
                 tube: tube.clone(),
@@ -178,16 +187,11 @@ impl Along {
                 alpha: Constant::rational(alpha),
             },
             matrix: self.coordinates.p.clone(),
-            forcing: spec::ProvedForcing {
-                mean: mean.clone(),
-                harmonics: harmonics.clone(),
-                rest: rest.clone(),
-                rest_t: rest_t.clone(),
-            },
+            forcing: self.forcing.clone(),
             domain: plant.domain.clone(),
             ball: plant.ball.clone(),
         };
-        specification(plant, of_plant, values).ok_or(PlantRefusal::Coordinates)
+        specification(plant, of_plant, values)
     }
 
     fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
@@ -210,11 +214,8 @@ fn prove_bounds(
     let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
     for enlarged in ENLARGED {
         let at = arguments(&model, &proposal, enlarged)?;
-        engine.smooth(&at.largest()[0], &at.largest()[1]).map_err(|failure| PlantRefusal::NotSmooth {
-            index: failure.index,
-            span: failure.span.clone(),
-            message: failure.to_string(),
-        })?;
+        let [x, e] = at.largest();
+        engine.smooth(&x, &e)?;
         let proved = prove_all(&engine, &suprema, &at);
         let values = match (proved, &best) {
             (Ok(values), _) => values,
@@ -238,14 +239,14 @@ fn prove_bounds(
         (model, proposal) = (with_values, found);
         best = Some(Reduced { spec, proposal: found });
     }
-    best.ok_or(PlantRefusal::NoGain(crate::search::Obstacle::Bounds))
+    best.ok_or(PlantRefusal::NoGain(Obstacle::Bounds))
 }
 
 /// The arguments of a proposal, enlarged.
 fn arguments(model: &FloatModel, proposal: &SharpProposal, enlarged: f64) -> Result<Needed, PlantRefusal> {
     let (set, at) =
         at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + 1e-9), 1e-9).map_err(PlantRefusal::NoGain)?;
-    needed(&set, &at, enlarged).ok_or(PlantRefusal::NoGain(crate::search::Obstacle::Magnitude))
+    needed(&set, &at, enlarged).ok_or(PlantRefusal::NoGain(Obstacle::Magnitude))
 }
 
 /// Proves again what a certificate says of a plant, without any search.
@@ -261,7 +262,7 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
     plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
     let coordinates = Coordinates { l: of_plant.coordinates.clone(), p: of_plant.matrix.clone(), rate: f64::NAN };
     let rational = |constant: &Constant| constant.as_rational().cloned().unwrap_or_default();
-    let proved = ProvedOrbit {
+    let proved = OrbitProof {
         orbit: of_plant.orbit.approximation.clone(),
         defect: of_plant.orbit.defect.clone(),
         tube: of_plant.orbit.tube.clone(),
@@ -271,18 +272,13 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
         p_up: rational(&of_plant.triple.p_up),
     };
     decide_orbit(plant, &coordinates, &proved).map_err(PlantRefusal::OrbitNotProved)?;
-    let spec::ProvedForcing { mean, harmonics, rest, rest_t } = of_plant.forcing.clone();
-    let forcing = ProvedForcing { mean, harmonics, rest, rest_t };
+    let forcing = of_plant.forcing.clone();
     decide_forcing(plant, &coordinates, &proved, &forcing).map_err(PlantRefusal::OrbitNotProved)?;
     let along = Along { coordinates, orbit: proved, forcing };
     let engine = along.engine(plant)?;
     if let Some([x, e]) = values.reach() {
-        engine.smooth(&x, &e).map_err(|failure| PlantRefusal::NotSmooth {
-            index: failure.index,
-            span: failure.span.clone(),
-            message: failure.to_string(),
-        })?;
+        engine.smooth(&x, &e)?;
     }
-    super::entries::decide_all(&engine, &values)?;
+    decide_all(&engine, &values)?;
     along.specification(plant, values)
 }

@@ -1,5 +1,6 @@
 //! What keeps a plant from being certified, as errors at their places in its file.
 
+use crate::bounds::SmoothnessFailure;
 use crate::orbit::{OrbitFailure, OrbitNotProved};
 use crate::plant::{PeriodicityFailure, Plant};
 use crate::search::Obstacle;
@@ -42,6 +43,15 @@ pub enum PlantRefusal {
     },
     /// A ball or a domain that L cannot be compared with.
     Coordinates,
+    /// Harmonics of q whose size leaves the exponents of the arithmetic.
+    Forcing,
+}
+
+impl From<SmoothnessFailure> for PlantRefusal {
+    fn from(failure: SmoothnessFailure) -> PlantRefusal {
+        let message = failure.to_string();
+        PlantRefusal::NotSmooth { index: failure.index, span: failure.span, message }
+    }
 }
 
 /// The most states of a plant that is to be certified.
@@ -102,6 +112,11 @@ impl PlantRefusal {
                 "",
                 format!("the bound `{bound}` is not proved for |y| <= {x:.6}, |e| <= {e:.6} within the effort"),
                 Some("a smaller initial set, or a smoother plant"),
+            ),
+            PlantRefusal::Forcing => undecided(
+                "/q",
+                "the harmonics of q(t,x_0,0) are too large or too small to be enclosed".to_owned(),
+                Some("write the plant in units in which its numbers are of ordinary size"),
             ),
             PlantRefusal::Coordinates => undecided(
                 "/initial_set",

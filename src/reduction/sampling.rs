@@ -3,11 +3,11 @@
 use super::coordinates::Density;
 use super::entries::kind;
 use super::grid::{KINDS, RATE, Source, Values};
-use crate::bounds::{self, FloatSuprema, Kind};
+use crate::bounds::{FloatOrbit, FloatSuprema, Kind};
 use crate::number::{Direction, round_f64};
 use crate::plant::Plant;
 use crate::search::FloatModel;
-use crate::spec::{PeriodicMatrix, TrigonometricVector};
+use crate::spec::{Bound, PeriodicMatrix, TrigonometricVector};
 use nalgebra::DMatrix;
 use rug::Rational;
 use std::sync::Arc;
@@ -40,7 +40,7 @@ impl<'a> Sampling<'a> {
     pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
         let values = self.source(l, None, Density::Rough)(0.0, 0.0);
         let of = |bound| KINDS.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
-        let (rate, f_e) = (of(crate::spec::Bound::Rate), of(crate::spec::Bound::Fe));
+        let (rate, f_e) = (of(Bound::Rate), of(Bound::Fe));
         let size = f_e / rate * self.unit_e;
         let size = if size.is_finite() { size.max(self.asked[0]) } else { self.asked[0] };
         [if size > 0.0 { size } else { 1.0 }, self.unit_e]
@@ -51,13 +51,8 @@ impl<'a> Sampling<'a> {
         let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
             (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
         };
-        let doubles = |values: &[Rational]| values.iter().map(Rational::to_f64).collect::<Vec<f64>>();
-        let orbit = bounds::FloatOrbit {
-            mean: doubles(&self.curve.mean),
-            harmonics: self.curve.harmonics.iter().map(|pair| pair.each_ref().map(|part| doubles(part))).collect(),
-        };
         let identity = identity(l.nrows());
-        FloatSuprema::new(self.plant, orbit, rows(l), [Some(p.unwrap_or(&identity)), None])
+        FloatSuprema::new(self.plant, FloatOrbit::from(self.curve), rows(l), [Some(p.unwrap_or(&identity)), None])
     }
 
     /// The same as a function of (X, E).

@@ -1,5 +1,6 @@
 //! The specification that a plant's formulas amount to: the data of sections 1 and 10, in the coordinates y of section 11.
 
+use super::refusal::PlantRefusal;
 use crate::certify::{covers_ball, inverse_norm, within_ball};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
@@ -21,17 +22,19 @@ const ROOMS: [f64; 4] = [1e-9, 1e-6, 1e-3, 0.1];
 /// Bits at which the sizes of harmonics are enclosed.
 const PRECISION: u32 = 128;
 
-/// The specification of a plant, with what was proved of it; with other values nothing is proved. `None` where L is so
-/// ill-conditioned that a ball or a domain cannot be turned into its norm.
-#[must_use]
-pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> Option<Specification> {
-    let q_0 = known_forcing(&of_plant.forcing);
+/// The specification of a plant, with what was proved of it; with other values nothing is proved.
+///
+/// # Errors
+/// [`PlantRefusal::Coordinates`] where L is so ill-conditioned that a ball or a domain cannot be turned into its norm,
+/// [`PlantRefusal::Forcing`] where a harmonic of q has no finite enclosure.
+pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
+    let q_0 = known_forcing(&of_plant.forcing).ok_or(PlantRefusal::Forcing)?;
     let domain = match &plant.domain {
-        Some(domain) => Some(in_coordinates(domain, &of_plant.coordinates)?),
+        Some(domain) => Some(in_coordinates(domain, &of_plant.coordinates).ok_or(PlantRefusal::Coordinates)?),
         None => None,
     };
-    let initial_set = initial_set(plant, &of_plant.coordinates)?;
-    Some(Specification {
+    let initial_set = initial_set(plant, &of_plant.coordinates).ok_or(PlantRefusal::Coordinates)?;
+    Ok(Specification {
         name: plant.name.clone(),
         description: plant.description.clone(),
         period: plant.period.clone(),
@@ -49,22 +52,20 @@ pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> 
     })
 }
 
-/// C_0 = |m_0|, C_k = sqrt(a_k^2 + b_k^2)/2 rounded up, r_0 and r_1.
-fn known_forcing(forcing: &ProvedForcing) -> KnownForcing {
-    let mean = Rational::from(forcing.mean.abs_ref());
+/// C_0 = |m_0|, C_k = sqrt(a_k^2 + b_k^2)/2 rounded up, r_0 and r_1; `None` where a C_k leaves the range of exponents.
+fn known_forcing(forcing: &ProvedForcing) -> Option<KnownForcing> {
+    let mean = Some(Rational::from(forcing.mean.abs_ref()));
     let size = |[a, b]: &[Rational; 2]| {
         let squares = Rational::from(a * a) + Rational::from(b * b);
         let size = Enclosure::from_rational(&(squares / 4u32), PRECISION).sqrt();
-        // The square root of a rational is bounded.
-        let upper = size.upper_rational().unwrap_or_default();
-        round_rational(&upper, LONG_DIGITS, Direction::Up)
+        size.upper_rational().map(|upper| round_rational(&upper, LONG_DIGITS, Direction::Up))
     };
     let harmonics = std::iter::once(mean).chain(forcing.harmonics.iter().map(size));
-    KnownForcing {
-        harmonics: harmonics.map(|size| Constant::rational(&size)).collect(),
+    Some(KnownForcing {
+        harmonics: harmonics.map(|size| size.map(|size| Constant::rational(&size))).collect::<Option<_>>()?,
         rest_rms: Constant::rational(&forcing.rest),
         rest_t_rms: Some(Constant::rational(&forcing.rest_t)),
-    }
+    })
 }
 
 /// X with `|L^-1 (x - x_0)| <= X` inside of `|x - x_0| <= d_x`, proved, and E; `None` where rounding prevents it.

@@ -1,7 +1,7 @@
 //! The zero dynamics of a plant by themselves: the orbit, and in which coordinates they contract along it.
 
 use super::refusal::{MAX_STATES, PlantRefusal};
-use crate::orbit::{Coordinates, OrbitFailure, ProvedOrbit, find_orbit, propose_coordinates, prove_orbit, round_orbit};
+use crate::orbit::{Coordinates, OrbitFailure, OrbitProof, find_orbit, propose_coordinates, prove_orbit, round_orbit};
 use crate::plant::Plant;
 
 /// What was found and proved of the zero dynamics `x' = f(t,x,0)`.
@@ -10,7 +10,7 @@ pub struct OrbitStudy {
     /// The coordinates of the proof: those with the largest rate.
     pub coordinates: Coordinates,
     /// The orbit, with the rate along it.
-    pub orbit: ProvedOrbit,
+    pub orbit: OrbitProof,
     /// What was tried, the largest rate first; floating point.
     pub candidates: Vec<Coordinates>,
     /// Floquet exponents along the orbit (real and imaginary part, in 1/time); floating point.

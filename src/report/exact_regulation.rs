@@ -14,10 +14,11 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
         (Some(claim), Some(proof)) => {
             let set = &proof.witness.set;
             format!(
-                "sigma*_oo = {}: with infinitely many oscillators and any sigma >= sigma*_oo, every solution from |x| <= {}, \
+                "sigma*_oo = {}: with infinitely many oscillators and any sigma >= sigma*_oo, every solution from |{}| <= {}, \
                  |e| <= {}, |z|_N <= {} is bounded, and x and e tend to 0. No rate is claimed, and nothing about z. This uses \
                  the bounding functions up to X = {}, E = {}.",
                 write_exact(&claim.witness.sigma),
+                if run.spec.plant().is_some() { "y" } else { "x" },
                 exact(&set.x0, Direction::Down),
                 exact(&set.e0, Direction::Down),
                 exact(&set.z0, Direction::Down),

@@ -12,9 +12,11 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     else {
         return Vec::new();
     };
+    // Of a plant the norm is that of y = L^-1 (x - x_0).
+    let state = if run.spec.plant().is_some() { "|y|" } else { "|x|" };
     let none = || "-".to_owned();
     let down = |value| exact(value, Direction::Down);
-    let mut table = Table::new(&["<", "|x|", "|e|", "|zeta|_N", "|z|_N"]);
+    let mut table = Table::new(&["<", state, "|e|", "|zeta|_N", "|z|_N"]);
     table.push(["initial set (covered)".to_owned(), down(&set.x0), down(&set.e0), none(), down(&set.z0)]);
     let [x, e, zeta, z] = periodic.each_ref().map(upper);
     table.push(["periodic solution, at most".to_owned(), x, e, zeta, z]);

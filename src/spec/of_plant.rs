@@ -16,7 +16,8 @@ pub struct ProvedOrbit {
     pub radius: Rational,
 }
 
-/// q(t,x_0,0) (derivation, 11.4).
+/// `qb(t)`, and what is proved of it: `|q(t,x_0,0) - qb| <= rest`, and its derivative in t at most `rest_t`, for all t
+/// (derivation, 11.4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProvedForcing {
     /// m_0.
@@ -25,7 +26,7 @@ pub struct ProvedForcing {
     pub harmonics: Vec<[Rational; 2]>,
     /// r_0.
     pub rest: Rational,
-    /// r_1.
+    /// r_1, per time.
     pub rest_t: Rational,
 }
 

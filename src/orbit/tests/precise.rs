@@ -109,7 +109,7 @@ fn the_orbit_of_the_paper_lies_in_the_tube() {
     let path = orbit();
     assert!((path[0][0].to_f64() + 0.17869).abs() < 1e-5 && (path[0][1].to_f64() - 0.073256).abs() < 1e-6);
     let (coordinates, proof) = proved(&paper());
-    let inverse = crate::orbit::inverse(&coordinates.l).unwrap();
+    let inverse = crate::matrix::inverse(&coordinates.l).unwrap();
     let turn = Float::with_val(PRECISION, Constant::Pi) * 2_u32;
     let mut largest = number(0.0);
     for (k, x) in path.iter().enumerate() {
