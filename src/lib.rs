@@ -57,6 +57,8 @@ mod api;
 // The layers below the front door; `docs/architecture.md` says what is in each. The
 // program, the tests and the benches of this package use them. They are public for these alone and may change.
 #[doc(hidden)]
+pub mod bounding;
+#[doc(hidden)]
 pub mod bounds;
 #[doc(hidden)]
 pub mod certificate;

@@ -114,6 +114,36 @@ impl Frame {
         Centred { centre: &a.centre * factor, range: &a.range * factor, slopes }
     }
 
+    /// The larger of two values.
+    pub(super) fn greater(&self, a: &Centred, b: &Centred) -> Centred {
+        self.combine(Binary::Max, a, b)
+    }
+
+    /// The absolute value.
+    pub(super) fn magnitude(&self, a: &Centred) -> Centred {
+        self.apply(Unary::Abs, a)
+    }
+
+    /// The Euclidean norm of the sides that are members, of which the low end, the middle and the high end are given.
+    ///
+    /// `|s| - |c| = sum (s_i + c_i)/(|s| + |c|) (s_i - c_i)`, with factors in [-1, 1].
+    pub(super) fn norm(&self, ends: &[[Enclosure; 3]], member: &[bool]) -> Centred {
+        let squares = |of: &dyn Fn(&[Enclosure; 3]) -> Enclosure| {
+            let members = ends.iter().zip(member).filter(|(_, member)| **member);
+            members.fold(Enclosure::zero(self.precision), |sum, (ends, _)| sum + of(ends).sqr()).sqrt()
+        };
+        let centre = squares(&|[_, middle, _]| middle.clone());
+        let range = squares(&|[low, _, high]| low.hull(high));
+        let within = around_zero(&Enclosure::one(self.precision));
+        let both = &centre + &range;
+        let slope = |[low, middle, high]: &[Enclosure; 3]| {
+            let factor = (low.hull(high) + middle) / &both;
+            if factor.is_defined() { factor.intersect(&within) } else { within.clone() }
+        };
+        let slopes = ends.iter().zip(member).map(|(ends, member)| member.then(|| slope(ends))).collect();
+        self.tightened(Centred { centre, range, slopes })
+    }
+
     fn div(&self, a: &Centred, b: &Centred) -> Centred {
         let centre = &a.centre / &b.centre;
         let slopes = a.slopes.iter().zip(&b.slopes).map(|(da, db)| {

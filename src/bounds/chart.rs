@@ -75,6 +75,8 @@ pub(super) struct Chart {
     period: Enclosure,
     /// The number of states of the plant.
     order: usize,
+    /// X + r.
+    radius: Rational,
 }
 
 /// A box in the coordinates.
@@ -136,7 +138,7 @@ impl Chart {
             }
         };
         let moving = matches!(states, States::Tube { .. }) && !steady;
-        Chart { time: active.time || moving, states, error, period, order }
+        Chart { time: active.time || moving, states, error, period, order, radius }
     }
 
     /// Whether every point of the ball is one of the tube: that is so with C = L, not with fewer coordinates.
@@ -229,6 +231,13 @@ impl Chart {
             }
         }
         Placed { frame, t, x, e }
+    }
+
+    /// What `|L^-1 (x - xb)|` is not below: X + r times the distance from the centre of the ball; 0 where states are in no
+    /// ball. With fewer columns than states `L_A y = C s` has a solution with `|s| <= |y|`, so that it is none below either.
+    pub(super) fn distance(&self, frame: &Frame, ball: &Ball) -> Centred {
+        let radius = Enclosure::from_rational(&self.radius, PRECISION);
+        frame.scale(&frame.norm(&ball.ends, &ball.member), &radius)
     }
 
     /// A value that depends on t alone, among the others.

@@ -2,11 +2,12 @@
 
 use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox};
-use super::chart::{Ball, Cell, Chart, MAX_LEVEL, Placed, Side};
+use super::chart::{Active, Ball, Cell, Chart, MAX_LEVEL, Placed, Side};
 use super::definite::{SymmetricValues, Verdict, definite, nonnegative};
 use super::engine::Engine;
 use super::entry::{Entry, Kind};
-use super::quantity::Quantity;
+use super::majorant::Majorant;
+use super::quantity::{Quantity, Right};
 use super::time_cell::TimeCell;
 use crate::enclosure::{Enclosure, Truth};
 use crate::expr::{Memory, VariableSet};
@@ -85,8 +86,43 @@ impl Engine {
         if bound.is_norm() && *value < 0 {
             return Decision { truth: Truth::False, boxes: 0 };
         }
-        let quantity = self.quantity(*bound);
-        let chart = Chart::new(&self.region, self.period(), &quantity.active, [x, e], |index| self.extent(index));
+        let active = &self.quantity(*bound).active;
+        self.below(*bound, active, [x, e], effort, &|frame, _, _, _| frame.rational(value))
+    }
+
+    /// Decides whether a bounding function holds on `|y| <= X`, `|e| <= E`, with so many boxes at most.
+    ///
+    /// Guarantee: `True` only if the quantity of `kind` is at most (a rate: at least) `b(|y|, |e|)` at every t and every such x
+    /// and e, `y = L^-1 (x - x_0)`, for any x_0 within r of xb and every value of x_0'. As b is nondecreasing (that of a rate
+    /// nonincreasing), `b(X', E')` is a bound on `|y| <= X'`, `|e| <= E'` then, for all X' <= X and E' <= E. For the caller to
+    /// prove: what [`Engine::decide`] leaves to him.
+    #[must_use]
+    pub fn decide_majorant(&self, kind: Kind, b: &Majorant, [x, e]: [&Rational; 2], effort: usize) -> Decision {
+        if *x < 0 || *e < 0 || (kind.is_rate() && !self.has_matrix(kind)) || !b.is_monotone(kind) {
+            return Decision { truth: Truth::Undecided, boxes: 0 };
+        }
+        // The distance from the orbit is that of the tube, which is followed in time.
+        let mut active = self.quantity(kind).active.clone();
+        active.time |= !active.states.is_empty();
+        self.below(kind, &active, [x, e], effort, &|frame, chart, ball, e| {
+            // x = x_0 + L y with |x_0 - xb| <= r in the norm of y: |y| is not below the distance from xb less r.
+            let zero = frame.constant(Enclosure::zero(PRECISION));
+            let distance = frame.sub(&chart.distance(frame, ball), &frame.rational(self.region.radius()));
+            b.on_box(frame, &frame.greater(&distance, &zero), &e.map_or(zero, |e| frame.magnitude(e)))
+        })
+    }
+
+    /// Decides that a quantity stays below a value, which may differ from point to point.
+    fn below(
+        &self,
+        kind: Kind,
+        active: &Active,
+        [x, e]: [&Rational; 2],
+        effort: usize,
+        value: &BoundOnBox<'_>,
+    ) -> Decision {
+        let quantity = self.quantity(kind);
+        let chart = Chart::new(&self.region, self.period(), active, [x, e], |index| self.extent(index));
         let mut memory = Memory::default();
         let mut last: Option<Side> = None;
         subdivide(&chart, effort, |cell, ball| {
@@ -98,11 +134,15 @@ impl Engine {
             last = Some(side);
             let Placed { frame, t, x, e } = &placed;
             let outputs = quantity.walk.evaluate_again(&mut OnBox { frame, t, x, e }, &mut memory, changed);
+            let bound = value(frame, &chart, ball, active.error.then_some(e));
             let values = Values { engine: self, chart: &chart, frame, quantity, outputs, time };
-            values.examine(*bound, value, ball)
+            values.examine(kind, &bound, ball)
         })
     }
 }
+
+/// The bound on a box, from the frame, the coordinates, the ball and e (where the quantity depends on it).
+type BoundOnBox<'a> = dyn Fn(&Frame, &Chart, &Ball, Option<&Centred>) -> Centred + 'a;
 
 /// The formulas of a bound on a box.
 struct Values<'a> {
@@ -135,10 +175,21 @@ impl Values<'_> {
         if self.quantity.inverse {
             rows = self.product(self.engine.region.inverse(), &rows, false);
         }
-        if self.quantity.matrix {
-            rows = self.product(self.engine.region.matrix(), &rows, true);
+        match self.quantity.right {
+            Right::One => rows,
+            Right::Matrix => self.product(self.engine.region.matrix(), &rows, true),
+            Right::Pair => rows.iter().map(|row| self.both(row)).collect(),
         }
-        rows
+    }
+
+    /// `L^T H L` for a symmetric H whose rows stand one behind the other.
+    fn both(&self, row: &[Centred]) -> Vec<Centred> {
+        let l = self.engine.region.matrix();
+        let right: Vec<Vec<Centred>> =
+            self.product(l, &row.chunks(l.len().max(1)).map(<[Centred]>::to_vec).collect::<Vec<_>>(), true);
+        let transposed: Vec<Vec<Centred>> =
+            (0..l.len()).map(|j| right.iter().map(|row| row[j].clone()).collect()).collect();
+        self.product(l, &transposed, true).concat()
     }
 
     /// `exact * rows`, or `rows * exact`.
@@ -158,27 +209,26 @@ impl Values<'_> {
         (0..rows.len()).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()
     }
 
-    fn examine(&self, kind: Kind, value: &Rational, ball: &Ball) -> Verdict {
+    fn examine(&self, kind: Kind, bound: &Centred, ball: &Ball) -> Verdict {
         let frame = self.frame;
         let matrix = self.matrix();
         if kind.is_rate() {
-            return match self.decay(kind, &matrix, value) {
+            return match self.decay(kind, &matrix, bound) {
                 Some(values) => definite(frame, &values, ball),
                 None => Verdict::Stuck,
             };
         }
-        if matrix.iter().flatten().all(Centred::is_zero) && *value >= 0 {
+        if matrix.iter().flatten().all(Centred::is_zero) && bound.range.is_nonnegative().is_true() {
             return Verdict::Holds;
         }
-        let bound = frame.rational(value);
         if let [row] = &matrix[..]
             && let [number] = &row[..]
         {
-            let above = nonnegative(frame, &frame.sub(&bound, number), ball, false);
+            let above = nonnegative(frame, &frame.sub(bound, number), ball, false);
             if kind == Kind::QEMax || above != Verdict::Holds {
                 return above;
             }
-            return nonnegative(frame, &frame.add(&bound, number), ball, false);
+            return nonnegative(frame, &frame.add(bound, number), ball, false);
         }
         // |M| < value exactly if [[value I, M], [M^T, value I]] is positive definite.
         let rows = matrix.len();
@@ -194,14 +244,14 @@ impl Values<'_> {
     }
 
     /// `-(P' + P J + J^T P + 2 value P)`.
-    fn decay(&self, kind: Kind, jacobian: &[Vec<Centred>], value: &Rational) -> Option<SymmetricValues> {
+    fn decay(&self, kind: Kind, jacobian: &[Vec<Centred>], value: &Centred) -> Option<SymmetricValues> {
         let frame = self.frame;
         let [p, derivative] = self.time.matrices[usize::from(kind == Kind::RateExistence)].as_ref()?;
         let order = jacobian.len();
-        let rate = Enclosure::from_rational(&Rational::from(value * 2), PRECISION);
+        let rate = frame.scale(value, &Enclosure::from_integer(2, PRECISION));
         let moved = |value: &Centred| self.chart.moving(frame, value);
         let entry = |i: usize, j: usize| {
-            let start = frame.add(&moved(&derivative[i][j]), &frame.scale(&moved(&p[i][j]), &rate));
+            let start = frame.add(&moved(&derivative[i][j]), &frame.mul(&moved(&p[i][j]), &rate));
             let sum = (0..order).fold(start, |sum, k| {
                 let (left, right) = (&p[i][k], &p[k][j]);
                 let sum = if left.is_zero() { sum } else { frame.add(&sum, &frame.mul(&moved(left), &jacobian[k][j])) };

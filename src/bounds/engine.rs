@@ -84,6 +84,12 @@ impl Engine {
         self.region.states()
     }
 
+    /// The radius r of the tube in doubles.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.region.radius().to_f64()
+    }
+
     pub(super) fn quantity(&self, kind: Kind) -> &Quantity {
         // The list has every kind, in the order of the table.
         &self.quantities[Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0)].1

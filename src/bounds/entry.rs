@@ -23,12 +23,33 @@ pub enum Kind {
     Rate,
     /// The same with the P of existence.
     RateExistence,
+    /// `|q| <= value`.
+    Q,
+    /// `|q_t + q_x x_0'| <= value`.
+    QT,
+    /// `|L^-1 f_xx (L ., L .)| <= value`: the norm of the matrix with the second index pair in one, which is not below that
+    /// of the bilinear map.
+    FXX,
+    /// `|L^-1 f_ex L| <= value`.
+    FEX,
 }
 
 impl Kind {
-    /// All of them, in the order of the table.
-    pub const ALL: [Kind; 9] =
+    /// Those that a certificate may list, in the order of the table.
+    pub const TABLE: [Kind; 9] =
         [Kind::FX, Kind::FE, Kind::QX, Kind::QE, Kind::QEMax, Kind::QTX, Kind::QTE, Kind::Rate, Kind::RateExistence];
+
+    /// All of them: those of the table first, then what only a bounding specification has.
+    pub const ALL: [Kind; 13] = {
+        let mut all = [Kind::Q; 13];
+        let mut index = 0;
+        while index < Kind::TABLE.len() {
+            all[index] = Kind::TABLE[index];
+            index += 1;
+        }
+        [all[index], all[index + 1], all[index + 2], all[index + 3]] = [Kind::Q, Kind::QT, Kind::FXX, Kind::FEX];
+        all
+    };
 
     /// The name in files.
     #[must_use]
@@ -43,6 +64,10 @@ impl Kind {
             Kind::QTE => "q_te",
             Kind::Rate => "rate",
             Kind::RateExistence => "rate_existence",
+            Kind::Q => "q",
+            Kind::QT => "q_t",
+            Kind::FXX => "f_xx",
+            Kind::FEX => "f_ex",
         }
     }
 

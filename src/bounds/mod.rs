@@ -3,6 +3,7 @@
 //!
 //! - [`Region`]: the coordinates L, the orbit xb(t), the radius r;
 //! - [`Engine`]: decides an [`Entry`] of a table of bounds, and smoothness, by subdivision;
+//! - [`Engine::decide_majorant`]: the same of a [`Majorant`], a polynomial in X and E;
 //! - [`FloatSuprema`]: the same bounds by sampling, for searches;
 //! - [`Engine::prove_value`]: from a sampled supremum to a decided bound a little above.
 //!
@@ -17,6 +18,7 @@ mod eigen;
 mod engine;
 mod entry;
 mod extent;
+mod majorant;
 mod pointwise;
 mod prove_value;
 mod quantity;
@@ -30,6 +32,7 @@ mod time_cell;
 pub use decide::Decision;
 pub use engine::Engine;
 pub use entry::{Entry, Kind};
+pub use majorant::{Majorant, Term};
 pub use prove_value::ProvedValue;
 pub use region::{Region, RegionError};
 pub use smooth::SmoothnessFailure;

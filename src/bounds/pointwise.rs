@@ -57,14 +57,14 @@ impl Pointwise {
         }
     }
 
-    /// What is to be bounded from above, in the order of [`Kind::ALL`]: norms, q_e, the negatives of the local rates; NaN where
+    /// What is to be bounded from above, in the order of [`Kind::TABLE`]: norms, q_e, the negatives of the local rates; NaN where
     /// there is no P.
     pub(super) fn all(
         &mut self,
         outputs: &[f64],
         velocity: &[f64],
         matrices: &[MatrixAt; 2],
-    ) -> [f64; Kind::ALL.len()] {
+    ) -> [f64; Kind::TABLE.len()] {
         let (n, blocks) = (self.order, self.blocks);
         self.transform(outputs);
         let column = &outputs[blocks.f_e..blocks.f_e + n];

@@ -14,10 +14,21 @@ pub(super) struct Quantity {
     pub(super) along: Vec<Vec<Vec<(usize, usize)>>>,
     /// Whether the inverse of L stands on the left.
     pub(super) inverse: bool,
-    /// Whether L stands on the right.
-    pub(super) matrix: bool,
+    /// What stands on the right.
+    pub(super) right: Right,
     /// The variables that matter.
     pub(super) active: Active,
+}
+
+/// The factor on the right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Right {
+    /// 1.
+    One,
+    /// L.
+    Matrix,
+    /// L for each of the two indices that the columns stand for.
+    Pair,
 }
 
 impl Quantity {
@@ -36,6 +47,20 @@ impl Quantity {
                 (column.into_iter().map(|entry| vec![entry]).collect(), Vec::new())
             }
             Kind::QX => (columns(formulas, &[q]), Vec::new()),
+            Kind::Q => (vec![vec![q]], Vec::new()),
+            Kind::QT => {
+                let gradient = columns(formulas, &[q]).concat();
+                (vec![formulas.derivatives(&[q], PlantVariable::Time)], vec![vec![gradient]])
+            }
+            Kind::FXX => {
+                let jacobian = columns(formulas, f).concat();
+                let rows = columns(formulas, &jacobian);
+                (rows.chunks(order.max(1)).map(<[Vec<Formula>]>::concat).collect(), Vec::new())
+            }
+            Kind::FEX => {
+                let column = formulas.derivatives(f, PlantVariable::Error);
+                (columns(formulas, &column), Vec::new())
+            }
             Kind::QE | Kind::QEMax => (vec![formulas.derivatives(&[q], PlantVariable::Error)], Vec::new()),
             Kind::QTX => {
                 let gradient = columns(formulas, &[q]).concat();
@@ -74,8 +99,12 @@ impl Quantity {
             states: (0..order).filter(|&index| variables.has(PlantVariable::State(index))).collect(),
             error: variables.has(PlantVariable::Error),
         };
-        let inverse = matches!(kind, Kind::FX | Kind::FE | Kind::Rate | Kind::RateExistence);
-        let matrix = matches!(kind, Kind::FX | Kind::QX | Kind::QTX | Kind::Rate | Kind::RateExistence);
-        Quantity { walk, plain, along, inverse, matrix, active }
+        let inverse = matches!(kind, Kind::FX | Kind::FE | Kind::Rate | Kind::RateExistence | Kind::FXX | Kind::FEX);
+        let right = match kind {
+            Kind::FX | Kind::QX | Kind::QTX | Kind::Rate | Kind::RateExistence | Kind::FEX => Right::Matrix,
+            Kind::FXX => Right::Pair,
+            Kind::FE | Kind::QE | Kind::QEMax | Kind::QTE | Kind::Q | Kind::QT => Right::One,
+        };
+        Quantity { walk, plain, along, inverse, right, active }
     }
 }

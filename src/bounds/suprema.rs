@@ -158,11 +158,11 @@ impl FloatSuprema {
         self.search(kind, reach, e, ROUGH, 1).value
     }
 
-    /// The suprema of all bounds, in the order of [`Kind::ALL`], at the points of the grid: every `stride`-th time only, and
+    /// The suprema of all bounds, in the order of [`Kind::TABLE`], at the points of the grid: every `stride`-th time only, and
     /// with a stride above 1 fewer points at each time.
     #[must_use]
-    pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; Kind::ALL.len()] {
-        let mut largest = [f64::NEG_INFINITY; Kind::ALL.len()];
+    pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; Kind::TABLE.len()] {
+        let mut largest = [f64::NEG_INFINITY; Kind::TABLE.len()];
         let errors: &[f64] = match stride {
             _ if e == 0.0 => &[0.0],
             1 => &[-1.0, 0.0, 1.0],
@@ -175,7 +175,7 @@ impl FloatSuprema {
                 *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
             }
         });
-        std::array::from_fn(|index| if Kind::ALL[index].is_rate() { -largest[index] } else { largest[index] })
+        std::array::from_fn(|index| if Kind::TABLE[index].is_rate() { -largest[index] } else { largest[index] })
     }
 
     /// Calls `see` with the place and the values of every point of the grid.
@@ -184,7 +184,7 @@ impl FloatSuprema {
         reach: f64,
         e: f64,
         (strides, errors): ([usize; 2], &[f64]),
-        mut see: impl FnMut([usize; 3], [f64; Kind::ALL.len()]),
+        mut see: impl FnMut([usize; 3], [f64; Kind::TABLE.len()]),
     ) {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut outputs = vec![0.0; self.program.outputs()];
@@ -222,14 +222,14 @@ impl FloatSuprema {
         self.place(&moment.orbit, y, reach, &mut x);
         let mut outputs = vec![0.0; self.program.outputs()];
         evaluator.evaluate(&x, e, &mut outputs);
-        let slot = Kind::ALL.iter().position(|other| *other == kind).unwrap_or_default();
+        let slot = Kind::TABLE.iter().position(|other| *other == kind).unwrap_or_default();
         self.pointwise().all(&outputs, &moment.velocity, &self.matrices_at(time))[slot]
     }
 
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Kind, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
         let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, 0.0, 1.0] };
-        let slot = Kind::ALL.iter().position(|other| *other == kind).unwrap_or_default();
+        let slot = Kind::TABLE.iter().position(|other| *other == kind).unwrap_or_default();
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
         self.at_points(reach, e, ([1, 1], errors), |at, values| {

@@ -36,6 +36,11 @@ const TRANSFER_EXAMPLES: &str = "Examples:
   sigmastar transfer plant.json --k0 1/2 --n-o 0..10,inf
   sigmastar transfer plant.json --minimise 1,2/3 --plot bound.svg";
 
+/// Examples of `bound`.
+const BOUND_EXAMPLES: &str = "Examples:
+  sigmastar bound plant.json
+  sigmastar bound plant.json --domain 0.5,2 -o spec.json";
+
 /// Examples of `controller`.
 const CONTROLLER_EXAMPLES: &str = "Examples:
   sigmastar controller plant.certificate.json --n-o 4 --discretise 1/1000 --format c -o regulator.c --example
@@ -116,6 +121,13 @@ pub enum Command {
     ///
     /// Prints P, the triple that is proved for every t, and the Floquet exponents (floating point) beside.
     Lyapunov(LyapunovArgs),
+    /// Write a bounding specification for a plant: polynomials in X and E, each proved
+    ///
+    /// For reading and editing: the bounds of f, q and their derivatives relative to the periodic solution x_0(t), in the
+    /// coordinates of the certificate, on a domain that is stated. `certify` of it works, with a gain that is a little larger
+    /// than that of the plant itself.
+    #[command(after_help = BOUND_EXAMPLES)]
+    Bound(BoundArgs),
     /// Prove rates of convergence for given numbers of oscillators
     ///
     /// They tend to 0 as n_o grows, while sigma* does not move. Printed next to the spectral abscissa of the oscillators.
@@ -274,6 +286,26 @@ pub struct LyapunovArgs {
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
+}
+
+/// The flags of `bound`.
+#[derive(Args, Debug)]
+pub struct BoundArgs {
+    /// Plant (JSON), or `-` for standard input
+    #[arg(value_name = "PLANT", value_hint = ValueHint::FilePath)]
+    pub plant: PathBuf,
+
+    /// Write the specification to this file; standard output if absent
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+
+    /// The domain: |y| <= X and |e| <= E; if absent, one quarter larger than what the certificate of the plant needs
+    #[arg(long, value_name = "X,E", allow_hyphen_values = true)]
+    pub domain: Option<String>,
+
+    /// Say nothing on standard error but errors
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// The flags of `rate`.

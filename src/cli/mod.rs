@@ -1,6 +1,7 @@
 //! The command line: flags, files, streams and exit codes. Everything else is the library's.
 
 mod args;
+mod bound;
 mod certify;
 mod check;
 mod controller;
@@ -49,6 +50,7 @@ pub fn run() -> ExitCode {
         Command::Falsify(args) => falsify::run(&args),
         Command::Errata(args) => errata::run(&args),
         Command::Lyapunov(args) => lyapunov::run(&args),
+        Command::Bound(args) => bound::run(&args),
         Command::Rate(args) => rate::run(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),

@@ -216,7 +216,8 @@ fn signs(data: &Data<'_>, witness: &SharpWitness) -> Vec<Condition> {
 /// (M) -b_qe <= q_e_max where the one-sided bound is used: otherwise no plant has it.
 pub(super) fn one_sided(data: &Data<'_>, place: &str, [x, e]: [&Enclosure; 2]) -> Option<Condition> {
     data.given(Bound::QeMax).then(|| {
-        let [below, above] = [Bound::Qe, Bound::QeMax].map(|which| data.bound(which, x, e));
+        // As it is given, even where b_qe is smaller and serves in its place.
+        let [below, above] = [Bound::Qe, Bound::QeMax].map(|which| data.spec.bounds.at(which, x, e));
         Condition::at_most("M", format!("-b_qe <= q_e_max at {place}"), below.negate(), above)
     })
 }

@@ -64,7 +64,7 @@ impl Needed {
 
 /// The row of the table of 11.3.
 pub(super) fn kind(bound: Bound) -> Option<Kind> {
-    Kind::ALL.into_iter().find(|kind| kind.name() == bound.field())
+    Kind::TABLE.into_iter().find(|kind| kind.name() == bound.field())
 }
 
 /// Proves a value for each argument; without states the bounds of x are 0, and the rate is any number.

@@ -13,7 +13,7 @@ mod sampling;
 mod specification;
 mod study;
 
-pub use reduce::{Reduced, decide_again, reduce};
+pub use reduce::{Reduced, bounds_around, decide_again, reduce};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};

@@ -5,7 +5,7 @@ use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix};
 use super::specification::specification;
-use crate::bounds::{Engine, Region};
+use crate::bounds::{Engine, FloatOrbit, FloatSuprema, Region};
 use crate::data::Data;
 use crate::orbit::{
     self, Coordinates, OrbitProof, decide_forcing, decide_orbit, find_orbit, propose_coordinates, prove_forcing,
@@ -195,10 +195,31 @@ impl Along {
     }
 
     fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
-        let region = Region::new(self.coordinates.l.clone(), self.orbit.orbit.clone(), self.orbit.radius.clone());
-        let engine = region.and_then(|region| Engine::new(plant, region, Some(self.coordinates.p.clone()), None));
-        engine.map_err(|_| PlantRefusal::Coordinates)
+        engine_around(plant, &self.coordinates, (&self.orbit.orbit, &self.orbit.radius))
     }
+}
+
+fn engine_around(
+    plant: &Plant,
+    Coordinates { l, p, .. }: &Coordinates,
+    (orbit, radius): (&TrigonometricVector, &Rational),
+) -> Result<Engine, PlantRefusal> {
+    let region = Region::new(l.clone(), orbit.clone(), radius.clone());
+    let engine = region.and_then(|region| Engine::new(plant, region, Some(p.clone()), None));
+    engine.map_err(|_| PlantRefusal::Coordinates)
+}
+
+/// What decides bounds of a plant around its proved orbit, and what samples them.
+///
+/// # Errors
+/// Data that are not of this plant.
+pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, FloatSuprema), PlantRefusal> {
+    let OfPlant { coordinates, orbit, matrix, .. } = of_plant;
+    let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone(), rate: f64::NAN };
+    let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius))?;
+    let rows = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+    let samples = FloatSuprema::new(plant, FloatOrbit::from(&orbit.approximation), rows, [Some(matrix), None]);
+    Ok((engine, samples))
 }
 
 /// Proves the bounds at the arguments of a proposal, looks for the best proposal with them, and once more near its arguments.

@@ -66,7 +66,7 @@ impl<'a> Sampling<'a> {
         let stateless = l.nrows() == 0;
         let places: Vec<usize> = KINDS
             .iter()
-            .map(|bound| Kind::ALL.iter().position(|other| Some(*other) == kind(*bound)).unwrap_or_default())
+            .map(|bound| Kind::TABLE.iter().position(|other| Some(*other) == kind(*bound)).unwrap_or_default())
             .collect();
         Arc::new(move |x, e| -> Values {
             let all = suprema.survey(x, e, stride);

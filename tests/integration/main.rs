@@ -1,6 +1,7 @@
 //! The integration tests: one program, so that the library is linked once. `cargo test --release --test integration NAME`
 //! runs the tests of a module, or those whose names contain NAME.
 
+mod bound;
 mod certify_random;
 mod check;
 mod cli_certify;

@@ -1,0 +1,84 @@
+//! `sigmastar bound`: a specification from a plant, and its certificate.
+
+use crate::support::{json, program};
+use tempfile::TempDir;
+
+/// The gain in a report of `certify`.
+fn gain(file: &str) -> (f64, String) {
+    let folder = TempDir::new().unwrap();
+    let certificate = folder.path().join("certificate.json");
+    let output =
+        program().args(["certify", file, "--quiet", "--format", "json", "-o"]).arg(&certificate).output().unwrap();
+    let report = json(&output.stdout);
+    assert_eq!(report["verdict"], "certified", "{file}: {report:#}");
+    let answer = program().args(["check", "--format", "json"]).arg(&certificate).output().unwrap();
+    let answer = json(&answer.stdout);
+    let sigma = report["sigma_star"].as_str().and_then(|text| text.parse().ok());
+    (sigma.unwrap_or_else(|| panic!("{report:#}")), format!("{}; {}", answer["verdict"], answer["figures"]["verdict"]))
+}
+
+/// The specification is certified and checked, with a gain near that of the plant itself; it is the same every time.
+#[test]
+fn the_specification_of_a_plant_is_certified() {
+    let folder = TempDir::new().unwrap();
+    for (name, most) in [
+        ("chain", 1.1),
+        ("motor-axis", 1.05),
+        ("paper-example", 1.35),
+        ("pendulum", 1.15),
+        ("relative-degree-2-domain", 1.05),
+    ] {
+        let plant = format!("specs/plants/{name}.json");
+        let spec = folder.path().join(format!("{name}.json"));
+        let output = program().args(["bound", &plant, "-o"]).arg(&spec).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{name}: {said}");
+        assert!(said.contains("every bound is proved for |y| <= ") && output.stdout.is_empty(), "{said}");
+        let (found, checked) = gain(spec.to_str().unwrap());
+        let (own, _) = gain(&plant);
+        assert!(found <= most * own, "{name}: {found} for {own}");
+        assert_eq!(checked, r#""valid"; "agree""#, "{name}");
+        if name == "motor-axis" {
+            let again = program().args(["bound", &plant, "--quiet"]).output().unwrap();
+            assert_eq!(std::fs::read(&spec).unwrap(), again.stdout);
+            assert!(again.stderr.is_empty());
+        }
+    }
+}
+
+/// The bounds of the motor axis, whose f and q are linear but for sines: known by hand.
+#[test]
+fn bounds_are_those_of_the_formulas() {
+    let call = ["bound", "specs/plants/motor-axis.json", "--quiet", "--domain", "10,5"];
+    let output = program().args(call).output().unwrap();
+    let spec = json(&output.stdout);
+    assert_eq!(spec["domain"], serde_json::json!({ "X": "10", "E": "5" }));
+    // f = -200 x + 150 e, q = 100 x - (60 .. 100) e + ...
+    let near = |field: &str, exact: f64| {
+        let value: f64 = spec["bounds"][field].as_str().and_then(|text| text.parse().ok()).unwrap();
+        assert!(value >= exact && value < 1.01 * exact, "{field}: {value} for {exact}");
+    };
+    near("f_x", 200.0);
+    near("f_e", 150.0);
+    assert_eq!((&spec["bounds"]["f_xx"], &spec["bounds"]["f_ex"]), (&"0".into(), &"0".into()));
+    let rate: f64 = spec["lyapunov"]["rate"].as_str().and_then(|text| text.parse().ok()).unwrap();
+    assert!(rate <= 200.0 && rate > 198.0, "{rate}");
+}
+
+#[test]
+fn calls_that_make_no_sense_are_refused() {
+    for (call, code, words) in [
+        (&["bound", "specs/linear.json"][..], 2, "sigmastar/plant"),
+        (&["bound", "specs/plants/motor-axis.json", "--domain", "1"], 2, "two positive rational numbers"),
+        (&["bound", "specs/plants/motor-axis.json", "--domain", "1,-2"], 2, "positive"),
+        (&["bound", "specs/plants/motor-axis.json", "--domain", "1,pi"], 2, "two positive rational numbers"),
+        (&["bound", "specs/plants/invalid/unstable.json"], 3, "no certificate of this kind"),
+        (&["bound", "specs/plants/motor-axis.json", "-o", "specs/plants/motor-axis.json"], 2, "plant"),
+    ] {
+        let output = program().args(call).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{call:?}: {said}");
+        assert!(said.contains(words), "{call:?}: {said}");
+        assert!(output.stdout.is_empty());
+    }
+}
