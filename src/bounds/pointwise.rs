@@ -2,6 +2,7 @@
 
 use super::eigen::{eigen, largest, largest_of};
 use super::entry::Kind;
+use std::sync::Arc;
 
 /// Where the outputs of the program of derivatives begin: f_x (rows) at 0, then f_e, q_x, q_e, q_tx, q_te, q_xx (rows), q_xe.
 #[derive(Clone, Copy, Debug)]
@@ -24,8 +25,18 @@ impl Blocks {
     }
 }
 
-/// P(t) and its derivative at one time; none stands for the identity.
-pub(super) type MatrixAt = Option<[Vec<Vec<f64>>; 2]>;
+/// P at one time, as it is used.
+#[derive(Clone, Debug)]
+pub(super) enum MatrixAt {
+    /// There is none.
+    Missing,
+    /// The identity.
+    Identity,
+    /// A constant one: its symmetric root and the inverse of that, by rows.
+    Constant(Arc<[Vec<f64>; 2]>),
+    /// P(t) and its derivative.
+    Moving([Vec<Vec<f64>>; 2]),
+}
 
 /// The coordinates, with the memory that an evaluation works in.
 #[derive(Clone, Debug)]
@@ -38,11 +49,10 @@ pub(super) struct Pointwise {
     product: Vec<f64>,
     jacobian: Vec<f64>,
     square: Vec<f64>,
-    has_matrix: [bool; 2],
 }
 
 impl Pointwise {
-    pub(super) fn new(matrix: &[Vec<f64>], inverse: &[Vec<f64>], has_matrix: [bool; 2]) -> Pointwise {
+    pub(super) fn new(matrix: &[Vec<f64>], inverse: &[Vec<f64>]) -> Pointwise {
         let n = matrix.len();
         let room = vec![0.0; n * n];
         Pointwise {
@@ -53,7 +63,6 @@ impl Pointwise {
             product: room.clone(),
             jacobian: room.clone(),
             square: room,
-            has_matrix,
         }
     }
 
@@ -77,7 +86,7 @@ impl Pointwise {
         });
         let q_te = (outputs[blocks.q_te] + dot(&outputs[blocks.q_xe..blocks.q_xe + n], velocity)).abs();
         let f_x = self.spectral_norm();
-        let [rate, existence] = [0, 1].map(|which| self.growth(which, &matrices[which]));
+        let [rate, existence] = [0, 1].map(|which| self.growth(&matrices[which]));
         [f_x, f_e, q_x, q_e.abs(), q_e, q_tx, q_te, rate, existence]
     }
 
@@ -117,15 +126,32 @@ impl Pointwise {
     }
 
     /// The least g with `P' + P J + J^T P <= 2 g P`.
-    fn growth(&mut self, which: usize, matrix: &MatrixAt) -> f64 {
+    fn growth(&mut self, matrix: &MatrixAt) -> f64 {
         let n = self.order;
         match matrix {
-            _ if !self.has_matrix[which] => f64::NAN,
-            Some([p, derivative]) => {
+            MatrixAt::Missing => f64::NAN,
+            MatrixAt::Constant(roots) => {
+                // With P = R R: half of R J R^-1 and of its transpose.
+                let [root, inverse] = &**roots;
+                for i in 0..n {
+                    for j in 0..n {
+                        self.product[i * n + j] = (0..n).map(|k| root[i * n + k] * self.jacobian[k * n + j]).sum();
+                    }
+                }
+                let entry =
+                    |i: usize, j: usize| -> f64 { (0..n).map(|k| self.product[i * n + k] * inverse[k * n + j]).sum() };
+                for i in 0..n {
+                    for j in 0..n {
+                        self.square[i * n + j] = (entry(i, j) + entry(j, i)) / 2.0;
+                    }
+                }
+                largest_of(&mut self.square, n)
+            }
+            MatrixAt::Moving([p, derivative]) => {
                 let rows: Vec<Vec<f64>> = self.jacobian.chunks(n.max(1)).map(<[f64]>::to_vec).collect();
                 growth(p, derivative, &rows)
             }
-            None => {
+            MatrixAt::Identity => {
                 for i in 0..n {
                     for j in 0..n {
                         self.square[i * n + j] = (self.jacobian[i * n + j] + self.jacobian[j * n + i]) / 2.0;
@@ -147,14 +173,21 @@ fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
     a.iter().map(|row| (0..columns).map(|j| entry(row, j)).collect()).collect()
 }
 
+/// The symmetric root of P, and its inverse.
+pub(super) fn roots(p: &[Vec<f64>]) -> [Vec<Vec<f64>>; 2] {
+    let n = p.len();
+    let (values, vectors) = eigen(p.to_vec());
+    [1.0, -1.0].map(|sign| {
+        let weight = |k: usize| if sign > 0.0 { values[k].sqrt() } else { values[k].sqrt().recip() };
+        let entry = |i: usize, j: usize| (0..n).map(|k| vectors[i][k] * vectors[j][k] * weight(k)).sum();
+        (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    })
+}
+
 /// The largest eigenvalue of half of `P' + P J + J^T P` between roots of P.
 fn growth(p: &[Vec<f64>], derivative: &[Vec<f64>], jacobian: &[Vec<f64>]) -> f64 {
     let n = p.len();
-    let (values, vectors) = eigen(p.to_vec());
-    // P^(-1/2).
-    let root: Vec<Vec<f64>> = (0..n)
-        .map(|i| (0..n).map(|j| (0..n).map(|k| vectors[i][k] * vectors[j][k] / values[k].sqrt()).sum()).collect())
-        .collect();
+    let [_, root] = roots(p);
     let moved = product(p, jacobian);
     let form: Vec<Vec<f64>> =
         (0..n).map(|i| (0..n).map(|j| (derivative[i][j] + moved[i][j] + moved[j][i]) / 2.0).collect()).collect();

@@ -1,7 +1,7 @@
 //! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
 
 use super::entry::Kind;
-use super::pointwise::{MatrixAt, Pointwise};
+use super::pointwise::{MatrixAt, Pointwise, roots};
 use crate::expr::{Evaluator, Formulas, PlantVariable, Program};
 use crate::plant::Plant;
 use crate::spec::{PeriodicMatrix, TrigonometricVector};
@@ -82,8 +82,8 @@ pub struct FloatSuprema {
 struct FloatMatrix {
     mean: Vec<Vec<f64>>,
     harmonics: Vec<[Vec<Vec<f64>>; 2]>,
-    /// Whether P is the identity.
-    identity: bool,
+    /// What serves at every time, where P is constant.
+    steady: Option<MatrixAt>,
 }
 
 /// A point of the cube: t/T, y and e/E.
@@ -204,7 +204,7 @@ impl FloatSuprema {
     }
 
     fn pointwise(&self) -> Pointwise {
-        Pointwise::new(&self.matrix, &self.inverse, self.matrices.each_ref().map(Option::is_some))
+        Pointwise::new(&self.matrix, &self.inverse)
     }
 
     /// The supremum of one bound by a longer search.
@@ -269,9 +269,9 @@ impl FloatSuprema {
     }
 
     fn matrices_at(&self, time: f64) -> [MatrixAt; 2] {
-        self.matrices.each_ref().map(|matrix| {
-            let matrix = matrix.as_ref().filter(|matrix| !matrix.identity)?;
-            Some(matrix.at(time, self.period))
+        self.matrices.each_ref().map(|matrix| match matrix {
+            None => MatrixAt::Missing,
+            Some(matrix) => matrix.steady.clone().unwrap_or_else(|| MatrixAt::Moving(matrix.at(time, self.period))),
         })
     }
 }
@@ -296,9 +296,14 @@ impl FloatMatrix {
         };
         let unit =
             |(i, row): (usize, &Vec<Rational>)| row.iter().enumerate().all(|(j, entry)| *entry == i32::from(i == j));
-        let identity = matrix.harmonics.is_empty() && matrix.mean.iter().enumerate().all(unit);
+        let mean = doubles(&matrix.mean);
+        let steady = match matrix.harmonics.is_empty() {
+            false => None,
+            true if matrix.mean.iter().enumerate().all(unit) => Some(MatrixAt::Identity),
+            true => Some(MatrixAt::Constant(Arc::new(roots(&mean).map(|root| root.concat())))),
+        };
         let harmonics = matrix.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
-        FloatMatrix { mean: doubles(&matrix.mean), harmonics, identity }
+        FloatMatrix { mean, harmonics, steady }
     }
 
     /// P and dP/dt.

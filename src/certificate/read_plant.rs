@@ -2,7 +2,7 @@
 
 use super::fields::{exact_rational, rational};
 use super::read::{read_rows, read_triple};
-use super::triple::STABILITY;
+use super::triple::{EXISTENCE, STABILITY};
 use crate::lyapunov::ProvedTriple;
 use crate::plant::Plant;
 use crate::spec::model::{Constant, Lyapunov};
@@ -52,13 +52,18 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
     let triple = witness.required(STABILITY, errors).and_then(|value| read_triple(&value, errors));
     let forcing = witness.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
     let values = witness.required("bounds", errors).and_then(|value| read_values(&value, errors));
-    let ProvedTriple { matrix, p_low, p_up, alpha } = triple?;
-    let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));
+    let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose();
+    let parts = |ProvedTriple { matrix, p_low, p_up, alpha }: ProvedTriple| {
+        let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));
+        (Lyapunov { p_low, p_up, alpha }, matrix)
+    };
+    let (triple, matrix) = parts(triple?);
     let of_plant = OfPlant {
         coordinates: rows,
         orbit: orbit?,
-        triple: Lyapunov { p_low, p_up, alpha },
+        triple,
         matrix,
+        existence: existence?.map(|triple| Box::new(parts(triple))),
         forcing: forcing?,
         domain: plant.domain.clone(),
         ball: plant.ball.clone(),

@@ -35,7 +35,7 @@ pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
 pub fn lyapunov_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     let (triple, matrix, existence) = match &spec.lyapunov {
         LyapunovSource::Proved { triple, matrix, existence, .. } => (triple, matrix, existence.as_deref()),
-        LyapunovSource::Plant(plant) => (&plant.triple, &plant.matrix, None),
+        LyapunovSource::Plant(plant) => (&plant.triple, &plant.matrix, plant.existence.as_deref()),
         LyapunovSource::Given(_) | LyapunovSource::Wanted(_) => return Vec::new(),
     };
     let stability = (STABILITY, part(triple, matrix));

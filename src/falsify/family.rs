@@ -124,7 +124,7 @@ impl Family {
             Bound::QtRms => (None, format!("{} + {drift}", self.forcing_rms(true))),
             Bound::Qtx => (None, format!("{by_state}*{input}")),
             Bound::Qte => (None, format!("{by_error}*{c} + {by_state}*{delta}*{x}")),
-            Bound::Rate => return None,
+            Bound::Rate | Bound::RateExistence => return None,
         };
         Some(FamilyBound { fixed, moving })
     }

@@ -119,6 +119,6 @@ fn shrink(family: &mut Family, condition: Bound, least_damping: Number) {
                 *damping = if less > least_damping { less } else { least_damping };
             }
         }
-        Bound::Rate => {}
+        Bound::Rate | Bound::RateExistence => {}
     }
 }

@@ -34,6 +34,6 @@ pub use curve::MAX_HARMONICS;
 pub use failure::{OrbitFailure, OrbitNotProved};
 pub use find::{FloatOrbit, MAX_STATES, find_orbit};
 pub use forcing::{decide_forcing, prove_forcing};
-pub use prove::{OrbitProof, decide_orbit, prove_orbit};
+pub use prove::{OrbitProof, SecondTriple, decide_orbit, decide_second, prove_orbit, prove_second};
 pub use round::round_orbit;
 pub use series::FloatSeries;

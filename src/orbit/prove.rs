@@ -249,6 +249,60 @@ pub fn prove_orbit(
     Err(failure.unwrap_or(OrbitNotProved::DefectTooLarge { defect: proved, radius: f64::INFINITY }))
 }
 
+/// The triple of a second P, proved beside that of the orbit: `P' + P J + J^T P <= -2 alpha P` in the same tube.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SecondTriple {
+    /// The rate of P in the tube, in 1/time.
+    pub alpha: Rational,
+    /// `p_low I <= P(t)`.
+    pub p_low: Rational,
+    /// `P(t) <= p_up I`.
+    pub p_up: Rational,
+}
+
+/// The triple of another P in the same coordinates, for a proved orbit.
+///
+/// # Errors
+/// [`OrbitNotProved`]; nothing is claimed of this P then.
+pub fn prove_second(
+    plant: &Plant,
+    proof: &OrbitProof,
+    coordinates: &Coordinates,
+) -> Result<SecondTriple, OrbitNotProved> {
+    let around = Around::new(plant, &proof.orbit, coordinates)?;
+    let sampled = Sampled::new(plant, &proof.orbit, coordinates);
+    let sampled = sampled.ok_or(OrbitNotProved::Shape("a number is beyond doubles"))?;
+    let [p_low, p_up] = around.bounds(&sampled)?;
+    let mut failure = OrbitNotProved::Rate { alpha: sampled.rate, tube: 0.0, reason: "there is none".to_owned() };
+    for given_up in GIVEN_UP {
+        let alpha = round_f64(sampled.rate * (1.0 - given_up), DIGITS, Direction::Down).filter(|alpha| *alpha > 0);
+        let Some(alpha) = alpha else { break };
+        match around.prove_rate(&alpha, &proof.tube) {
+            Ok(()) => return Ok(SecondTriple { alpha, p_low, p_up }),
+            Err(reason) => failure = reason,
+        }
+    }
+    Err(failure)
+}
+
+/// Decides the triple of a second P again.
+///
+/// # Errors
+/// The first inequality that is not proved.
+pub fn decide_second(
+    plant: &Plant,
+    proof: &OrbitProof,
+    coordinates: &Coordinates,
+    SecondTriple { alpha, p_low, p_up }: &SecondTriple,
+) -> Result<(), OrbitNotProved> {
+    if [alpha, p_low].iter().any(|number| **number <= 0) || p_up < p_low {
+        return Err(OrbitNotProved::Shape("alpha or p_low of existence is not positive, or p_up is below p_low"));
+    }
+    let around = Around::new(plant, &proof.orbit, coordinates)?;
+    around.prove_bounds(p_low, p_up)?;
+    around.prove_rate(alpha, &proof.tube)
+}
+
 /// A short r with `sqrt(p_up/p_low) eps/alpha <= r`.
 fn least_radius(defect: &Rational, alpha: &Rational, p_low: &Rational, p_up: &Rational) -> Option<Rational> {
     let ratio = Enclosure::from_rational(&Rational::from(p_up / p_low), PRECISION).sqrt();

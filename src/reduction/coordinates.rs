@@ -1,11 +1,13 @@
 //! Which coordinates y, `x = x_0 + L y`, give the smallest gain: a search in floating point over L.
 //!
 //! With a constant P nothing is lost by P = I in the coordinates y (derivation, 11.5), so L stands for P. Rotations of y change
-//! nothing: L varies as `L exp(S)` with symmetric S.
+//! nothing: L varies as `L exp(S)` with symmetric S. The existence of the periodic solution may rest on a P of its own, `exp(S')`.
 
-use super::grid::{Grid, Source};
+use super::grid::{Grid, RATE, RATE_EXISTENCE, Source};
 use crate::number::Portable;
-use crate::search::{Descent, FloatModel, Obstacle, SharpProposal, minimise, search_sharp, search_sharp_near};
+use crate::search::{
+    Descent, FloatModel, Obstacle, SharpProposal, at_sigma, minimise, search_sharp, search_sharp_near,
+};
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -21,8 +23,17 @@ pub enum Density {
     Fine,
 }
 
+/// L, and in its coordinates the P of existence, where it is not that of stability.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape<'a> {
+    /// L.
+    pub l: &'a DMatrix<f64>,
+    /// The other P.
+    pub second: Option<&'a DMatrix<f64>>,
+}
+
 /// Estimates of the bounds for given coordinates.
-pub type Sampler<'a> = dyn Fn(&DMatrix<f64>, Density) -> Arc<Source> + Sync + 'a;
+pub type Sampler<'a> = dyn Fn(Shape<'_>, Density) -> Arc<Source> + Sync + 'a;
 
 /// What depends on the coordinates beside the bounds: the initial set and the domain.
 pub type Frame<'a> = dyn Fn(&DMatrix<f64>, &FloatModel) -> FloatModel + Sync + 'a;
@@ -48,6 +59,12 @@ const DESCENT: Descent = Descent { restarts: 1, iterations: 40, tolerance: 1e-4 
 /// That of three states and more, where a step costs more.
 const SHORT: Descent = Descent { restarts: 0, iterations: 40, tolerance: 1e-3 };
 
+/// How far above a gain the arguments are taken.
+const NEAR: f64 = 1e-9;
+
+/// What a P of existence must take from sigma* to be worth its room in a certificate.
+const WORTH: f64 = 1e-3;
+
 /// Beyond so many states L is taken as it is proposed: the numbers in S are too many.
 const MOST_STATES: usize = 4;
 
@@ -69,6 +86,8 @@ pub struct CoordinateSearch<'a> {
 pub struct Chosen {
     /// L.
     pub l: DMatrix<f64>,
+    /// The P of existence, where it is another one.
+    pub second: Option<DMatrix<f64>>,
     /// The model with finely sampled bounds.
     pub model: FloatModel,
     /// The free numbers.
@@ -78,16 +97,23 @@ pub struct Chosen {
 impl CoordinateSearch<'_> {
     /// The model for a given L.
     #[must_use]
-    pub fn model(&self, l: &DMatrix<f64>, density: Density) -> FloatModel {
+    pub fn model(&self, shape: Shape<'_>, density: Density) -> FloatModel {
+        let Shape { l, second } = shape;
         let ratio = match density {
             Density::Rough => ROUGH,
             Density::Coarse => COARSE,
             Density::Fine => FINE,
         };
-        let source = (self.sampler)(l, density);
-        let alpha = source(0.0, 0.0)[super::grid::RATE];
+        let source = (self.sampler)(shape, density);
+        let at_origin = source(0.0, 0.0);
         let grid = Grid::new(source, (self.units)(l), ratio);
-        (self.frame)(l, &self.base.with_bounds(grid.functions()).with_triple(self.ratio, alpha))
+        let bounds = self.base.with_bounds(grid.functions(second.is_some()));
+        let mut model = bounds.with_triple(self.ratio, at_origin[RATE]);
+        if let Some(second) = second {
+            let values = second.clone().symmetric_eigenvalues();
+            model = model.with_existence_triple(values.max() / values.min(), at_origin[RATE_EXISTENCE]);
+        }
+        (self.frame)(l, &model)
     }
 
     /// The best of the candidates, improved by a local search.
@@ -98,11 +124,11 @@ impl CoordinateSearch<'_> {
         // The first one that has a gain leads to those of the others by local steps.
         let mut closest = Obstacle::NotFinite;
         let first = candidates.iter().find_map(|l| {
-            let found = search_sharp(&self.model(l, Density::Rough));
+            let found = search_sharp(&self.model(alone(l), Density::Rough));
             found.map_err(|obstacle| closest = closest.max(obstacle)).ok()
         });
         let first = first.ok_or(closest)?;
-        let near = |l: &DMatrix<f64>| search_sharp_near(&self.model(l, Density::Coarse), &first);
+        let near = |l: &DMatrix<f64>| search_sharp_near(&self.model(alone(l), Density::Coarse), &first);
         let found: Vec<Option<SharpProposal>> = candidates.par_iter().map(near).collect();
         let mut best: Option<(SharpProposal, &DMatrix<f64>)> = None;
         for (l, found) in candidates.iter().zip(found) {
@@ -113,19 +139,66 @@ impl CoordinateSearch<'_> {
             }
         }
         let (start, l) = best.ok_or(closest)?;
-        let l = if l.nrows() <= MOST_STATES { self.improved(l, &start) } else { l.clone() };
-        self.with(l, Some(&start))
+        if l.nrows() > MOST_STATES || l.nrows() < 2 {
+            return self.with(alone(l), Some(&start));
+        }
+        let l = self.improved(l, &start);
+        let single = self.with(alone(&l), Some(&start))?;
+        let worth = |sigma: f64| sigma < single.proposal.sigma * (1.0 - WORTH);
+        let second = self.second(&single).filter(|(_, sigma)| worth(*sigma));
+        let pair = second.and_then(|(second, _)| self.together(&single, second));
+        Ok(pair.filter(|pair| worth(pair.proposal.sigma)).unwrap_or(single))
     }
 
     /// The proposal for given coordinates.
     ///
     /// # Errors
     /// The obstacle, where no gain is found.
-    pub fn with(&self, l: DMatrix<f64>, near: Option<&SharpProposal>) -> Result<Chosen, Obstacle> {
-        let model = self.model(&l, Density::Fine);
+    pub fn with(&self, shape: Shape<'_>, near: Option<&SharpProposal>) -> Result<Chosen, Obstacle> {
+        let model = self.model(shape, Density::Fine);
         let near = near.and_then(|known| search_sharp_near(&model, known));
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
-        Ok(Chosen { l, model, proposal })
+        Ok(Chosen { l: shape.l.clone(), second: shape.second.cloned(), model, proposal })
+    }
+
+    /// The best P of existence for the L of a choice, as the entries of its logarithm, and the gain with it: its rate is sampled
+    /// at the X_p of the choice alone, and all else stays.
+    fn second(&self, single: &Chosen) -> Option<(Vec<f64>, f64)> {
+        let Chosen { l, model, proposal, .. } = single;
+        let n = l.nrows();
+        let freedom = n * (n + 1) / 2 - 1;
+        let x_p = at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + NEAR), NEAR).ok()?.0.x_p;
+        let cost = |s: &[f64]| {
+            let second = exponential(n, s);
+            let values = second.clone().symmetric_eigenvalues();
+            let rate = (self.sampler)(Shape { l, second: Some(&second) }, Density::Coarse)(x_p, 0.0)[RATE_EXISTENCE];
+            let model = model.with_existence_triple(values.max() / values.min(), rate).with_rate_of_existence(rate);
+            search_sharp_near(&model, proposal).map(|found| found.sigma.portable_ln())
+        };
+        let (best, sigma) = minimise(cost, &vec![0.0; freedom], &vec![STEP; freedom], SHORT)?;
+        Some((best, sigma.portable_exp()))
+    }
+
+    /// L and the P of existence, from a choice with one P and entries of the logarithm of the other; varied together for two
+    /// states.
+    fn together(&self, single: &Chosen, mut second: Vec<f64>) -> Option<Chosen> {
+        let n = single.l.nrows();
+        let mut l = single.l.clone();
+        if n == 2 {
+            let freedom = second.len();
+            let cost = |s: &[f64]| {
+                let second = exponential(n, &s[freedom..]);
+                let shape = Shape { l: &(&single.l * exponential(n, &s[..freedom])), second: Some(&second) };
+                let found = search_sharp_near(&self.model(shape, Density::Coarse), &single.proposal);
+                found.map(|found| found.sigma.portable_ln())
+            };
+            let from: Vec<f64> = std::iter::repeat_n(0.0, freedom).chain(second.iter().copied()).collect();
+            if let Some((best, _)) = minimise(cost, &from, &vec![STEP; 2 * freedom], SHORT) {
+                l = &l * exponential(n, &best[..freedom]);
+                second = best[freedom..].to_vec();
+            }
+        }
+        self.with(Shape { l: &l, second: Some(&exponential(n, &second)) }, Some(&single.proposal)).ok()
     }
 
     fn improved(&self, l: &DMatrix<f64>, start: &SharpProposal) -> DMatrix<f64> {
@@ -136,7 +209,7 @@ impl CoordinateSearch<'_> {
             return l.clone();
         }
         let cost = |s: &[f64]| {
-            let model = self.model(&(l * exponential(n, s)), Density::Coarse);
+            let model = self.model(alone(&(l * exponential(n, s))), Density::Coarse);
             search_sharp_near(&model, start).map(|found| found.sigma.portable_ln())
         };
         let (zero, steps) = (vec![0.0; freedom], vec![STEP; freedom]);
@@ -145,6 +218,11 @@ impl CoordinateSearch<'_> {
             None => l.clone(),
         }
     }
+}
+
+/// The same P for both.
+fn alone(l: &DMatrix<f64>) -> Shape<'_> {
+    Shape { l, second: None }
 }
 
 /// exp(S) for the symmetric S of trace 0 with these entries: the diagonal but for its last, then what is above it.

@@ -27,10 +27,12 @@ pub struct Needed {
     e_per: Rational,
     x_b: Rational,
     e_b: Rational,
+    /// Whether existence has a rate of its own.
+    second: bool,
 }
 
 /// Those of a candidate, enlarged by a share.
-pub(super) fn needed(set: &PeriodicSet, at: &AtSigma, enlarged: f64) -> Option<Needed> {
+pub(super) fn needed(set: &PeriodicSet, at: &AtSigma, enlarged: f64, second: bool) -> Option<Needed> {
     let up = |value: f64| round_f64(value * (1.0 + enlarged), DIGITS, Direction::Up).filter(|value| *value >= 0);
     let d_e = active_level(at.eta, at.dist_e, at.rho).sqrt();
     Some(Needed {
@@ -39,6 +41,7 @@ pub(super) fn needed(set: &PeriodicSet, at: &AtSigma, enlarged: f64) -> Option<N
         e_per: up(set.e_per)?,
         x_b: up(set.x_per + at.d_x)?,
         e_b: up(set.e_per + d_e)?,
+        second,
     })
 }
 
@@ -51,9 +54,10 @@ impl Needed {
 
     /// Which bound is used where (derivation, 11.3).
     fn list(&self) -> Vec<(Bound, Rational, Rational)> {
-        let Needed { x_p, e_p, e_per, x_b, e_b } = self;
+        let Needed { x_p, e_p, e_per, x_b, e_b, second } = self;
+        let of_existence = if *second { Bound::RateExistence } else { Bound::Rate };
         let zero = Rational::new();
-        let mut list = vec![(Bound::Fx, x_p, &zero), (Bound::Rate, x_p, &zero), (Bound::Rate, x_b, e_per)];
+        let mut list = vec![(Bound::Fx, x_p, &zero), (of_existence, x_p, &zero), (Bound::Rate, x_b, e_per)];
         for bound in [Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax] {
             list.extend([(bound, x_p, e_p), (bound, x_b, e_b)]);
         }

@@ -7,12 +7,25 @@ use crate::spec::Bound;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The bounding functions that a plant's formulas give, in the order in which a node has them.
-pub const KINDS: [Bound; 8] =
-    [Bound::Fx, Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax, Bound::Qtx, Bound::Qte, Bound::Rate];
+/// The bounding functions that a plant's formulas give, in the order in which a node has them; the last one is not a number
+/// without a P of existence.
+pub const KINDS: [Bound; 9] = [
+    Bound::Fx,
+    Bound::Fe,
+    Bound::Qx,
+    Bound::Qe,
+    Bound::QeMax,
+    Bound::Qtx,
+    Bound::Qte,
+    Bound::Rate,
+    Bound::RateExistence,
+];
 
 /// The place of the rate in them.
 pub const RATE: usize = 7;
+
+/// The place of the rate of existence.
+pub const RATE_EXISTENCE: usize = 8;
 
 /// Estimates of all of [`KINDS`] at one (X, E).
 pub type Values = [f64; KINDS.len()];
@@ -41,15 +54,16 @@ impl Grid {
         Grid { source, units, ratio, nodes: Mutex::new(HashMap::new()) }
     }
 
-    /// The interpolated functions as a search takes them.
+    /// The interpolated functions as a search takes them; that of existence where there is a P for it.
     #[must_use]
-    pub fn functions(self) -> Vec<(Bound, FloatBound)> {
+    pub fn functions(self, existence: bool) -> Vec<(Bound, FloatBound)> {
         let grid = Arc::new(self);
         let function = |(index, bound): (usize, &Bound)| {
             let grid = grid.clone();
             (*bound, FloatBound::Function(Arc::new(move |x, e| grid.at(x, e)[index])))
         };
-        KINDS.iter().enumerate().map(function).collect()
+        let wanted = |bound: &&Bound| existence || **bound != Bound::RateExistence;
+        KINDS.iter().filter(wanted).enumerate().map(function).collect()
     }
 
     /// Estimates at (X, E).

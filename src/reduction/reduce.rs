@@ -1,20 +1,22 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
-use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler};
+use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler, Shape};
 use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
-use super::sampling::{Sampling, float_matrix, rational_matrix};
+use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::specification::specification;
 use crate::bounds::{Engine, FloatOrbit, FloatSuprema, Region};
 use crate::data::Data;
 use crate::orbit::{
-    self, Coordinates, OrbitProof, decide_forcing, decide_orbit, find_orbit, propose_coordinates, prove_forcing,
-    prove_orbit, round_orbit,
+    self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
+    propose_coordinates, prove_forcing, prove_orbit, prove_second, round_orbit,
 };
 use crate::plant::Plant;
 use crate::search::{FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
-use crate::spec::{OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector};
+use crate::spec::{
+    OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
+};
 use crate::transfer::TradeOff;
 use nalgebra::DMatrix;
 use rug::Rational;
@@ -66,22 +68,50 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
     let model = FloatModel::new(&data, trade_off);
     let sampling = Sampling::new(plant, &curve, &model);
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
-    let (coordinates, chosen) = match constant.is_empty() {
-        false => {
-            let matrices: Vec<DMatrix<f64>> = constant.iter().map(|candidate| float_matrix(&candidate.l)).collect();
-            let sampler = |l: &DMatrix<f64>, density: Density| sampling.source(l, None, density);
-            let search = search(&model, plant, &sampling, &sampler, 1.0);
-            let chosen = search.choose(&matrices).map_err(PlantRefusal::NoGain)?;
-            let l = rational_matrix(&chosen.l).ok_or(PlantRefusal::NoContraction)?;
-            let coordinates = Coordinates { l, p: constant[0].p.clone(), rate: f64::NAN };
-            // The rounded L is the one that counts.
-            let chosen = search.with(float_matrix(&coordinates.l), Some(&chosen.proposal));
-            (coordinates, chosen.map_err(PlantRefusal::NoGain)?)
+    let (base, chosen) = match constant.is_empty() {
+        false => best_constant(plant, &curve, &constant, &model, &sampling)?,
+        true => {
+            let (coordinates, chosen) = best_periodic(plant, &curve, &candidates, &model, &sampling)?;
+            (along(plant, &curve, &coordinates)?, chosen)
         }
-        true => best_periodic(plant, &curve, &candidates, &model, &sampling)?,
     };
-    let base = along(plant, &curve, &coordinates)?;
     prove_bounds(plant, &base, &sampling, &chosen)
+}
+
+/// The best coordinates for a constant P, and a P of existence where one helps; rounded, and proved along the orbit.
+fn best_constant(
+    plant: &Plant,
+    curve: &TrigonometricVector,
+    candidates: &[&Coordinates],
+    model: &FloatModel,
+    sampling: &Sampling<'_>,
+) -> Result<(Along, Chosen), PlantRefusal> {
+    let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
+    let matrices: Vec<DMatrix<f64>> = candidates.iter().map(|candidate| float_matrix(&candidate.l)).collect();
+    let sampler = |Shape { l, second }: Shape<'_>, density: Density| {
+        let second = second.and_then(rational_symmetric);
+        sampling.source(l, [None, second.as_ref()], density)
+    };
+    let search = search(model, plant, sampling, &sampler, 1.0);
+    let chosen = search.choose(&matrices).map_err(PlantRefusal::NoGain)?;
+    let l = rational_matrix(&chosen.l).ok_or(PlantRefusal::NoContraction)?;
+    let coordinates = Coordinates { l, p: first.p.clone(), rate: f64::NAN };
+    let mut base = along(plant, curve, &coordinates)?;
+    // The rounded L, which is L times a rotation, is the one that counts.
+    let rounded = float_matrix(&coordinates.l);
+    let turned = |second: &DMatrix<f64>| {
+        let rotation = chosen.l.clone().try_inverse()? * &rounded;
+        rational_symmetric(&(rotation.transpose() * second * rotation))
+    };
+    if let Some(p) = chosen.second.as_ref().and_then(turned) {
+        let with_second = Coordinates { l: coordinates.l.clone(), p, rate: f64::NAN };
+        // Without a proof the P of stability serves.
+        base.existence = prove_second(plant, &base.orbit, &with_second).ok().map(|triple| (with_second.p, triple));
+    }
+    let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
+    let both = Shape { l: &rounded, second: second.as_ref() };
+    let chosen = search.with(both, Some(&chosen.proposal)).map_err(PlantRefusal::NoGain)?;
+    Ok((base, chosen))
 }
 
 fn search<'a>(
@@ -134,9 +164,10 @@ fn best_periodic(
             }
         };
         let ratio = Rational::from(&proved.p_up / &proved.p_low).to_f64();
-        let sampler = |l: &DMatrix<f64>, density: Density| sampling.source(l, Some(&candidate.p), density);
+        let sampler =
+            |Shape { l, .. }: Shape<'_>, density: Density| sampling.source(l, [Some(&candidate.p), None], density);
         let search = search(model, plant, sampling, &sampler, ratio);
-        match search.with(float_matrix(&candidate.l), None) {
+        match search.with(Shape { l: &float_matrix(&candidate.l), second: None }, None) {
             Ok(chosen) if best.as_ref().is_none_or(|(_, known)| chosen.proposal.sigma < known.proposal.sigma) => {
                 best = Some((candidate.clone(), chosen));
             }
@@ -147,11 +178,12 @@ fn best_periodic(
     best.ok_or(failure)
 }
 
-/// The orbit and the harmonics of q, proved in some coordinates.
+/// The orbit and the harmonics of q, proved in some coordinates; a P of existence, where there is one.
 struct Along {
     coordinates: Coordinates,
     orbit: OrbitProof,
     forcing: ProvedForcing,
+    existence: Option<(PeriodicMatrix, SecondTriple)>,
 }
 
 /// That f and q are smooth on the curve itself, so that what is not is told at its operation before anything is proved with it.
@@ -166,7 +198,7 @@ fn smooth_along(plant: &Plant, curve: &TrigonometricVector) -> Result<(), PlantR
 fn along(plant: &Plant, curve: &TrigonometricVector, coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
     let orbit = prove_orbit(plant, curve, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
     let forcing = prove_forcing(plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
-    Ok(Along { coordinates: coordinates.clone(), orbit, forcing })
+    Ok(Along { coordinates: coordinates.clone(), orbit, forcing, existence: None })
 }
 
 impl Along {
@@ -187,6 +219,10 @@ impl Along {
                 alpha: Constant::rational(alpha),
             },
             matrix: self.coordinates.p.clone(),
+            existence: self.existence.as_ref().map(|(matrix, SecondTriple { alpha, p_low, p_up })| {
+                let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(Constant::rational);
+                Box::new((Lyapunov { p_low, p_up, alpha }, matrix.clone()))
+            }),
             forcing: self.forcing.clone(),
             domain: plant.domain.clone(),
             ball: plant.ball.clone(),
@@ -195,7 +231,8 @@ impl Along {
     }
 
     fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
-        engine_around(plant, &self.coordinates, (&self.orbit.orbit, &self.orbit.radius))
+        let existence = self.existence.as_ref().map(|(matrix, _)| matrix.clone());
+        engine_around(plant, &self.coordinates, (&self.orbit.orbit, &self.orbit.radius), existence)
     }
 }
 
@@ -203,9 +240,10 @@ fn engine_around(
     plant: &Plant,
     Coordinates { l, p, .. }: &Coordinates,
     (orbit, radius): (&TrigonometricVector, &Rational),
+    existence: Option<PeriodicMatrix>,
 ) -> Result<Engine, PlantRefusal> {
     let region = Region::new(l.clone(), orbit.clone(), radius.clone());
-    let engine = region.and_then(|region| Engine::new(plant, region, Some(p.clone()), None));
+    let engine = region.and_then(|region| Engine::new(plant, region, Some(p.clone()), existence));
     engine.map_err(|_| PlantRefusal::Coordinates)
 }
 
@@ -216,7 +254,7 @@ fn engine_around(
 pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, FloatSuprema), PlantRefusal> {
     let OfPlant { coordinates, orbit, matrix, .. } = of_plant;
     let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone(), rate: f64::NAN };
-    let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius))?;
+    let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius), None)?;
     let rows = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
     let samples = FloatSuprema::new(plant, FloatOrbit::from(&orbit.approximation), rows, [Some(matrix), None]);
     Ok((engine, samples))
@@ -230,11 +268,12 @@ fn prove_bounds(
     chosen: &Chosen,
 ) -> Result<Reduced, PlantRefusal> {
     let engine = along.engine(plant)?;
-    let suprema = sampling.suprema(&float_matrix(&along.coordinates.l), Some(&along.coordinates.p));
+    let second = along.existence.as_ref().map(|(matrix, _)| matrix);
+    let suprema = sampling.suprema(&float_matrix(&along.coordinates.l), [Some(&along.coordinates.p), second]);
     let mut best: Option<Reduced> = None;
     let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
     for enlarged in ENLARGED {
-        let at = arguments(&model, &proposal, enlarged)?;
+        let at = arguments(&model, &proposal, enlarged, second.is_some())?;
         let [x, e] = at.largest();
         engine.smooth(&x, &e)?;
         let proved = prove_all(&engine, &suprema, &at);
@@ -264,10 +303,15 @@ fn prove_bounds(
 }
 
 /// The arguments of a proposal, enlarged.
-fn arguments(model: &FloatModel, proposal: &SharpProposal, enlarged: f64) -> Result<Needed, PlantRefusal> {
+fn arguments(
+    model: &FloatModel,
+    proposal: &SharpProposal,
+    enlarged: f64,
+    second: bool,
+) -> Result<Needed, PlantRefusal> {
     let (set, at) =
         at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + 1e-9), 1e-9).map_err(PlantRefusal::NoGain)?;
-    needed(&set, &at, enlarged).ok_or(PlantRefusal::NoGain(Obstacle::Magnitude))
+    needed(&set, &at, enlarged, second).ok_or(PlantRefusal::NoGain(Obstacle::Magnitude))
 }
 
 /// Proves again what a certificate says of a plant, without any search.
@@ -295,7 +339,17 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
     decide_orbit(plant, &coordinates, &proved).map_err(PlantRefusal::OrbitNotProved)?;
     let forcing = of_plant.forcing.clone();
     decide_forcing(plant, &coordinates, &proved, &forcing).map_err(PlantRefusal::OrbitNotProved)?;
-    let along = Along { coordinates, orbit: proved, forcing };
+    let existence = match of_plant.existence.as_deref() {
+        None => None,
+        Some((triple, matrix)) => {
+            let [alpha, p_low, p_up] = [&triple.alpha, &triple.p_low, &triple.p_up].map(rational);
+            let second = SecondTriple { alpha, p_low, p_up };
+            let in_it = Coordinates { l: coordinates.l.clone(), p: matrix.clone(), rate: f64::NAN };
+            decide_second(plant, &proved, &in_it, &second).map_err(PlantRefusal::OrbitNotProved)?;
+            Some((matrix.clone(), second))
+        }
+    };
+    let along = Along { coordinates, orbit: proved, forcing, existence };
     let engine = along.engine(plant)?;
     if let Some([x, e]) = values.reach() {
         engine.smooth(&x, &e)?;

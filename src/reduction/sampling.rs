@@ -38,7 +38,7 @@ impl<'a> Sampling<'a> {
 
     /// Ordinary sizes of |y| and |e|.
     pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
-        let values = self.source(l, None, Density::Rough)(0.0, 0.0);
+        let values = self.source(l, [None; 2], Density::Rough)(0.0, 0.0);
         let of = |bound| KINDS.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
         let (rate, f_e) = (of(Bound::Rate), of(Bound::Fe));
         let size = f_e / rate * self.unit_e;
@@ -46,18 +46,23 @@ impl<'a> Sampling<'a> {
         [if size > 0.0 { size } else { 1.0 }, self.unit_e]
     }
 
-    /// The sampler for these coordinates; P is the identity without one.
-    pub(super) fn suprema(&self, l: &DMatrix<f64>, p: Option<&PeriodicMatrix>) -> FloatSuprema {
+    /// The sampler for these coordinates: with P, which is the identity without one, and that of existence.
+    pub(super) fn suprema(&self, l: &DMatrix<f64>, [p, second]: [Option<&PeriodicMatrix>; 2]) -> FloatSuprema {
         let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
             (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
         };
         let identity = identity(l.nrows());
-        FloatSuprema::new(self.plant, FloatOrbit::from(self.curve), rows(l), [Some(p.unwrap_or(&identity)), None])
+        FloatSuprema::new(self.plant, FloatOrbit::from(self.curve), rows(l), [Some(p.unwrap_or(&identity)), second])
     }
 
     /// The same as a function of (X, E).
-    pub(super) fn source(&self, l: &DMatrix<f64>, p: Option<&PeriodicMatrix>, density: Density) -> Arc<Source> {
-        let suprema = self.suprema(l, p);
+    pub(super) fn source(
+        &self,
+        l: &DMatrix<f64>,
+        matrices: [Option<&PeriodicMatrix>; 2],
+        density: Density,
+    ) -> Arc<Source> {
+        let suprema = self.suprema(l, matrices);
         let stride = match density {
             Density::Rough => 6,
             Density::Coarse => 3,
@@ -84,6 +89,14 @@ impl<'a> Sampling<'a> {
 fn identity(n: usize) -> PeriodicMatrix {
     let row = |i: usize| (0..n).map(|j| Rational::from(u32::from(i == j))).collect();
     PeriodicMatrix { mean: (0..n).map(row).collect(), harmonics: Vec::new() }
+}
+
+/// A constant P with short entries.
+pub(super) fn rational_symmetric(matrix: &DMatrix<f64>) -> Option<PeriodicMatrix> {
+    let n = matrix.nrows();
+    let entry = |i: usize, j: usize| round_f64(matrix[(i.max(j), i.min(j))], DIGITS, Direction::Nearest);
+    let rows: Option<Vec<Vec<Rational>>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+    Some(PeriodicMatrix { mean: rows?, harmonics: Vec::new() })
 }
 
 /// A rational matrix in doubles.

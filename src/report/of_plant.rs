@@ -4,6 +4,7 @@ use super::document::{Block, Table};
 use super::number::exact;
 use crate::certify::{Certification, claimed_ball};
 use crate::number::{Direction, write_exact};
+use crate::spec::model::Lyapunov;
 use crate::spec::{OfPlant, ProvedValue};
 use rug::Rational;
 use serde_json::{Value, json};
@@ -57,6 +58,10 @@ fn facts(run: &Certification<'_>, plant: &OfPlant) -> Vec<(&'static str, String)
                 plant.triple.p_up.text
             ),
         ));
+    }
+    if let Some((triple, _)) = plant.existence.as_deref() {
+        let Lyapunov { p_low, p_up, alpha } = triple;
+        facts.push(("P of existence", format!("alpha = {}, p_low = {}, p_up = {}", alpha.text, p_low.text, p_up.text)));
     }
     facts.push((
         "q(t, x_0, 0)",

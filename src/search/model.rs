@@ -9,6 +9,7 @@ use crate::enclosure::Enclosure;
 use crate::spec::model::InitialSet;
 use crate::transfer::TradeOff;
 use std::ops::Deref;
+use std::sync::Arc;
 
 /// A datum of the specification whose influence on sigma* is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -272,7 +273,9 @@ impl FloatModel {
     /// What is given beyond the data that every specification has.
     #[must_use]
     pub fn optional_data(&self) -> Vec<OptionalDatum> {
-        let bounds = Bound::ALL.into_iter().filter(|bound| !bound.is_required() && self.given(*bound));
+        // The rate of existence belongs to its triple.
+        let optional = |bound: &Bound| !bound.is_required() && *bound != Bound::RateExistence && self.given(*bound);
+        let bounds = Bound::ALL.into_iter().filter(optional);
         let harmonics = self.q_0.is_some().then_some(OptionalDatum::Harmonics);
         bounds.map(OptionalDatum::Bound).chain(harmonics).collect()
     }
@@ -307,6 +310,16 @@ impl FloatModel {
     pub fn with_existence_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
         let mut model = self.clone();
         model.numbers.existence = ExistenceTriple { c: ratio.sqrt(), alpha };
+        model
+    }
+
+    /// The same model with a rate of its own for the existence of the periodic solution.
+    #[must_use]
+    pub fn with_rate_of_existence(&self, rate: f64) -> FloatModel {
+        let mut model = self.clone();
+        let function = Some(FloatBound::Function(Arc::new(move |_, _| rate)));
+        model.bounds[Bound::RateExistence as usize] =
+            ScaledBound { function, change: 0.0, given: true, signed: true, supremum: None };
         model
     }
 

@@ -42,6 +42,8 @@ pub enum Bound {
     /// a, a contraction rate from below: `P' + P J + J'P <= -2 a P` for `J = df/dx` and the P of the triple; optional,
     /// nonincreasing, may be negative.
     Rate,
+    /// The same for the P of existence, where a plant has two (derivation, 11.3); no specification gives it.
+    RateExistence,
 }
 
 /// What a bounding function bounds, and what holds without it.
@@ -57,11 +59,13 @@ enum Role {
     Optional,
     /// A rate from below.
     Rate,
+    /// A rate from below that only a plant's formulas give.
+    ProvedRate,
 }
 
 /// Everything that is the same wherever a bounding function is spoken of, in the order of [`Bound`]: its field in a
 /// specification, and its role.
-const TABLE: [(Bound, &str, Role); 15] = [
+const TABLE: [(Bound, &str, Role); 16] = [
     (Bound::F, "f", Role::Required),
     (Bound::Fe, "f_e", Role::Required),
     (Bound::Fxx, "f_xx", Role::Required),
@@ -77,6 +81,7 @@ const TABLE: [(Bound, &str, Role); 15] = [
     (Bound::Qtx, "q_tx", Role::Optional),
     (Bound::Qte, "q_te", Role::Optional),
     (Bound::Rate, "rate", Role::Rate),
+    (Bound::RateExistence, "rate_existence", Role::ProvedRate),
 ];
 
 impl Bound {
@@ -120,13 +125,14 @@ impl Bound {
             Bound::Qtx => "|d2q/dtdx|",
             Bound::Qte => "|d2q/dtde|",
             Bound::Rate => "contraction of x, from below",
+            Bound::RateExistence => "the same in the P of existence",
         }
     }
 
     /// The field of a specification in which its own field is.
     #[must_use]
     pub fn section(self) -> &'static str {
-        if self.role() == Role::Rate { "lyapunov" } else { "bounds" }
+        if matches!(self.role(), Role::Rate | Role::ProvedRate) { "lyapunov" } else { "bounds" }
     }
 
     /// Whether every specification has it.
@@ -138,13 +144,13 @@ impl Bound {
     /// Whether it may be negative: it does not bound a norm.
     #[must_use]
     pub fn is_signed(self) -> bool {
-        matches!(self.role(), Role::OneSided(_) | Role::Rate)
+        matches!(self.role(), Role::OneSided(_) | Role::Rate | Role::ProvedRate)
     }
 
     /// Whether it must be nonincreasing; the others must be nondecreasing.
     #[must_use]
     pub fn is_nonincreasing(self) -> bool {
-        self.role() == Role::Rate
+        matches!(self.role(), Role::Rate | Role::ProvedRate)
     }
 
     /// What serves where it is left out, and bounds what it bounds where it is not.
@@ -152,7 +158,7 @@ impl Bound {
     pub fn replacement(self) -> Option<Bound> {
         match self.role() {
             Role::Sharper(other) | Role::OneSided(other) => Some(other),
-            Role::Required | Role::Optional | Role::Rate => None,
+            Role::Required | Role::Optional | Role::Rate | Role::ProvedRate => None,
         }
     }
 
@@ -225,7 +231,7 @@ impl Bounds {
     ) -> Result<Bounds, E> {
         let read = |bound: Bound| match bound.role() {
             Role::Required => required(context, bound.field()).map(Some),
-            Role::Rate => Ok(None),
+            Role::Rate | Role::ProvedRate => Ok(None),
             Role::Sharper(_) | Role::OneSided(_) | Role::Optional => optional(context, bound.field()),
         };
         let all: Vec<_> = Bound::ALL.into_iter().map(read).collect();

@@ -156,6 +156,7 @@ impl LyapunovSource {
     pub fn existence_triple(&self) -> Option<&Lyapunov> {
         match self {
             LyapunovSource::Proved { existence: Some(other), .. } => Some(&other.0),
+            LyapunovSource::Plant(plant) => Some(plant.existence.as_ref().map_or(&plant.triple, |other| &other.0)),
             _ => self.triple(),
         }
     }

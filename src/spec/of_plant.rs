@@ -41,6 +41,8 @@ pub struct OfPlant {
     pub triple: Lyapunov,
     /// Its P(t).
     pub matrix: PeriodicMatrix,
+    /// Another triple with its P(t), for the existence of the periodic solution; without, the first one serves.
+    pub existence: Option<Box<(Lyapunov, PeriodicMatrix)>>,
     /// q along the orbit.
     pub forcing: ProvedForcing,
     /// Where the model holds, as it was given: `|x - x_0|` and `|e|`.
