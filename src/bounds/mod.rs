@@ -26,7 +26,7 @@ mod region;
 mod smooth;
 mod suprema;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod time_cell;
 
 pub use decide::Decision;

@@ -213,17 +213,22 @@ impl FloatSuprema {
         self.search(kind, reach, e, FINE, STARTS)
     }
 
-    /// The value at one point: t/T, y in the unit ball, e; of a rate the negative.
+    /// The largest value at these points: t/T, y in the unit ball, e/E; of a rate the negative.
     #[cfg(test)]
-    pub(super) fn sample(&self, kind: Kind, time: f64, y: &[f64], reach: f64, e: f64) -> f64 {
+    pub(crate) fn largest_at(&self, kind: Kind, [reach, e]: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
         let mut evaluator = Evaluator::new(self.program.clone());
-        let moment = self.moment(time, &mut evaluator, &mut Evaluator::new(self.velocity.clone()));
-        let mut x = vec![0.0; self.order];
-        self.place(&moment.orbit, y, reach, &mut x);
-        let mut outputs = vec![0.0; self.program.outputs()];
-        evaluator.evaluate(&x, e, &mut outputs);
+        let mut slow = Evaluator::new(self.velocity.clone());
+        let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
+        let mut pointwise = self.pointwise();
         let slot = Kind::TABLE.iter().position(|other| *other == kind).unwrap_or_default();
-        self.pointwise().all(&outputs, &moment.velocity, &self.matrices_at(time))[slot]
+        let value = |(time, y, part): &(f64, Vec<f64>, f64)| {
+            let moment = self.moment(*time, &mut evaluator, &mut slow);
+            evaluator.load_time_values(&moment.kept);
+            self.place(&moment.orbit, y, reach, &mut x);
+            evaluator.evaluate(&x, part * e, &mut outputs);
+            pointwise.all(&outputs, &moment.velocity, &self.matrices_at(*time))[slot]
+        };
+        points.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The largest value at the points of the grid, and a local search from the best of them.

@@ -204,14 +204,28 @@ fn cases() -> Vec<(&'static str, Case, &'static str, &'static str)> {
     ]
 }
 
-/// 100000 random points lie below each proved bound, and nothing below the sampled supremum is proved.
-#[test]
-fn proved_bounds_hold_at_random_points() {
+/// Points of the cube, t/T, y in the unit ball and e/E, with a bias to the boundary.
+pub(crate) fn random_points(states: usize, count: usize) -> Vec<(f64, Vec<f64>, f64)> {
     let mut state = 1_u64;
     let mut random = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
     };
+    let point = |index: usize| {
+        let mut y: Vec<f64> = (0..states).map(|_| random()).collect();
+        let norm = y.iter().map(|y| y * y).sum::<f64>().sqrt();
+        if norm > 1.0 || index % 2 == 0 {
+            y.iter_mut().for_each(|y| *y /= norm);
+        }
+        let e = random();
+        (random(), y, if index % 3 == 0 { e.signum() } else { e })
+    };
+    (0..count).map(point).collect()
+}
+
+/// 100000 random points lie below each proved bound, and nothing below the sampled supremum is proved.
+#[test]
+fn proved_bounds_hold_at_random_points() {
     for (name, Case { engine, samples }, x, e) in cases() {
         let (x, e) = (rational(x), rational(e));
         let reach = Rational::from(&x + engine.region.radius()).to_f64();
@@ -231,15 +245,7 @@ fn proved_bounds_hold_at_random_points() {
                 proved.boxes
             );
             let bound = if kind.is_rate() { -proved.value.to_f64() } else { proved.value.to_f64() };
-            let mut largest = f64::NEG_INFINITY;
-            for _ in 0..100_000 {
-                let mut y: Vec<f64> = (0..engine.region.states()).map(|_| random()).collect();
-                let norm = y.iter().map(|y| y * y).sum::<f64>().sqrt();
-                if norm > 1.0 {
-                    y.iter_mut().for_each(|y| *y /= norm);
-                }
-                largest = largest.max(samples.sample(kind, random(), &y, reach, random() * e.to_f64()));
-            }
+            let largest = samples.largest_at(kind, [reach, e.to_f64()], &random_points(engine.states(), 100_000));
             assert!(largest <= bound, "{name}: {what}: {largest} above {bound}");
             let sampled = samples.refined(kind, reach, e.to_f64()).value;
             assert!(

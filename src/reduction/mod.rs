@@ -12,6 +12,8 @@ mod refusal;
 mod sampling;
 mod specification;
 mod study;
+#[cfg(test)]
+mod tests;
 
 pub use reduce::{Reduced, bounds_around, decide_again, reduce};
 pub use refusal::{MAX_STATES, PlantRefusal};

@@ -252,11 +252,12 @@ fn engine_around(
 /// # Errors
 /// Data that are not of this plant.
 pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, FloatSuprema), PlantRefusal> {
-    let OfPlant { coordinates, orbit, matrix, .. } = of_plant;
+    let OfPlant { coordinates, orbit, matrix, existence, .. } = of_plant;
+    let second = existence.as_ref().map(|second| &second.1);
     let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone(), rate: f64::NAN };
-    let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius), None)?;
+    let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius), second.cloned())?;
     let rows = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-    let samples = FloatSuprema::new(plant, FloatOrbit::from(&orbit.approximation), rows, [Some(matrix), None]);
+    let samples = FloatSuprema::new(plant, FloatOrbit::from(&orbit.approximation), rows, [Some(matrix), second]);
     Ok((engine, samples))
 }
 
