@@ -10,6 +10,10 @@ use rug::Rational;
 const ATTEMPTS: [(f64, usize); 6] =
     [(0.001, 1500), (0.003, 3000), (0.01, 4000), (0.03, 6000), (0.1, 6000), (0.3, 20_000)];
 
+/// The same from three states on: another program, which may need some ten times as many boxes, is to decide the value again.
+const MODEST_ATTEMPTS: [(f64, usize); 6] =
+    [(0.001, 100), (0.003, 200), (0.01, 400), (0.03, 800), (0.1, 2000), (0.3, 20_000)];
+
 /// Digits of a value, beyond those that its slack takes.
 const DIGITS: u32 = 6;
 
@@ -41,7 +45,7 @@ impl Engine {
             true => sampled.value.abs().max(PART_OF_SPREAD * sampled.spread),
             false => sampled.value.abs(),
         };
-        for (slack, effort) in ATTEMPTS {
+        for (slack, effort) in if self.states() > 2 { MODEST_ATTEMPTS } else { ATTEMPTS } {
             let (moved, direction) = match kind.is_rate() {
                 true => (sampled.value - slack * size, Direction::Down),
                 false => (sampled.value + slack * size, Direction::Up),
