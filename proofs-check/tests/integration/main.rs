@@ -3,6 +3,9 @@
 mod arguments;
 mod claim;
 mod common;
+mod digital_claims;
+mod digital_rules;
+mod digital_support;
 mod forged;
 mod formulas;
 mod fuzz;

@@ -32,10 +32,13 @@ impl<'a> Regulator<'a> {
         }
         let (sigma, gain) = (fields.required("sigma")?, fields.required("gain")?);
         let sampling = fields.required("sampling_period")?;
+        let samples = fields.required("samples")?;
+        let count = samples.whole()?;
+        demand(Some(count >= 2), RULE, &samples.pointer, "there are two samples or more in a period")?;
         Ok(Some(Regulator {
             sigma: sigma.rational()?,
             gain: gain.rational()?,
-            samples: fields.required("samples")?.whole()?,
+            samples: count,
             sampling: Constant::read(&sampling)?,
             pointer: sampling.pointer,
             texts: [sigma.numeral()?, gain.numeral()?],

@@ -20,7 +20,7 @@ const MU_PARTS: i64 = 1_000_000;
 #[derive(Clone, Debug)]
 pub struct Terms {
     pub sigma: Rational,
-    /// N_s.
+    /// N_s >= 2.
     pub samples: u32,
     /// K.
     pub gain: Rational,
@@ -82,7 +82,6 @@ impl<'a> Law<'a> {
     pub fn conditions(&self, pointer: &str) -> Outcome<Vec<Condition>> {
         let d = self.d;
         demand(Some(d.spec.matched), RULE, pointer, "a digital regulator needs `matched` in the specification")?;
-        demand(Some(self.samples >= 2), RULE, pointer, "there are two samples or more in a period")?;
         if self.samples > MAX_SAMPLES {
             let message = format!("more than {MAX_SAMPLES} samples in a period are not looked at");
             return Err(finding(Verdict::Undecided, RULE, pointer, message));
