@@ -4,6 +4,7 @@ mod arguments;
 mod claim;
 mod common;
 mod digital_claims;
+mod digital_formulas;
 mod digital_rules;
 mod digital_support;
 mod forged;

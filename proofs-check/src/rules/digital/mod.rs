@@ -6,11 +6,11 @@
 //! about exact arithmetic, without delay, quantisation or saturation.
 
 pub mod claim;
-mod existence;
-mod gains;
+pub mod existence;
+pub mod gains;
 pub mod law;
-mod stability;
-mod transfer;
+pub mod stability;
+pub mod transfer;
 
 use super::mean_squares::Means;
 use super::set;
