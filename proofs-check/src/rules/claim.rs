@@ -1,6 +1,6 @@
 //! Rule: the claim says what the witness proves, and nothing that it does not.
 
-use super::digital::claim::Regulator;
+use super::digital::claim::{N_O, Regulator};
 use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
@@ -124,7 +124,10 @@ impl<'a> Claim<'a> {
         let spec = d.spec;
         match &self.digital {
             None => reads(RULE, &self.n_o, "every n_o >= 0")?,
-            Some(regulator) => regulator.check(spec, &self.n_o)?,
+            Some(regulator) => {
+                reads(RULE, &self.n_o, N_O)?;
+                regulator.check(spec)?;
+            }
         }
         let mu = Constant::read(&self.mu)?;
         let same =

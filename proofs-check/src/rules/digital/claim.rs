@@ -2,14 +2,13 @@
 
 use super::law::RULE;
 use crate::constant::Constant;
-use crate::json::{Field, Fields};
-use crate::rules::claim::reads;
+use crate::json::Fields;
 use crate::spec::{Specification, samples};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
 /// `n_o` of such a claim.
-const N_O: &str = "every n_o < samples/2";
+pub const N_O: &str = "every n_o < samples/2";
 
 /// The law that is claimed, with the texts of its numbers.
 pub struct Regulator<'a> {
@@ -46,8 +45,7 @@ impl<'a> Regulator<'a> {
     }
 
     /// `T = samples * sampling_period` exactly, and the specification, where it has a sampling period, has this one.
-    pub fn check(&self, spec: &Specification, n_o: &Field<'_>) -> Outcome<()> {
-        reads(RULE, n_o, N_O)?;
+    pub fn check(&self, spec: &Specification) -> Outcome<()> {
         let exactly = samples(&spec.period, &self.sampling, &self.pointer)?;
         demand(Some(exactly == self.samples), RULE, &self.pointer, "period = samples * sampling_period")?;
         let asked = spec.samples.as_ref().is_none_or(|asked| *asked == self.samples);
