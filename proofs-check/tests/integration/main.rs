@@ -5,6 +5,7 @@ mod claim;
 mod common;
 mod digital_claims;
 mod digital_formulas;
+mod digital_plants;
 mod digital_rules;
 mod digital_support;
 mod forged;
