@@ -3,6 +3,7 @@
 mod arguments;
 mod claim;
 mod common;
+mod digital_certificates;
 mod digital_claims;
 mod digital_formulas;
 mod digital_plants;
