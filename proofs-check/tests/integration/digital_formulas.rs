@@ -214,6 +214,37 @@ fn the_pair_bounds_the_transfer_of_every_loop() {
     }
 }
 
+/// The bounds of a block of harmonics hold for each in it, and are not far from the truth.
+#[test]
+fn blocks_of_harmonics() {
+    for samples in [2, 3, 10, 31, 64, 200] {
+        let float = Float::new(1.0, 1.0, samples, 0.5);
+        with_law(&float, |law| {
+            let pair = transfer::Pair::new(law, &Rational::from(1), &Rational::from(1));
+            let last = samples / 2;
+            let sums: Vec<f64> = (1..=last).map(|j| pair.sum(j).hi().to_f64()).collect();
+            for j in 1..=last {
+                let l = i64::from(j);
+                let angle = |l: i64| (i64::from(j) - l) as f64 * float.angle();
+                let sum: f64 = (1 - l..l).map(|l| share(l) * (float.angle() / angle(l).sin()).powi(2)).sum();
+                close("s_j", &pair.sum(j), sum, &float);
+            }
+            for first in 1..=last {
+                for end in first..=last {
+                    let block = &sums[first as usize - 1..end as usize];
+                    let most = block.iter().copied().fold(0.0, f64::max);
+                    let bounds = pair.beyond(first, end).map(|bound| bound.lo().to_f64());
+                    assert!(bounds.iter().all(|bound| *bound >= most), "{first} to {end}: {most}, {bounds:?}");
+                    let least = bounds[0].min(bounds[1]);
+                    assert!(end > 2 * first || least <= 8.0 * most, "{first} to {end}: {most}, {bounds:?}");
+                }
+            }
+            let [widest, _] = pair.beyond(1, last);
+            close("pi^2 Nbar^2/4", &widest, PI * PI * NBAR_SQUARED / 4.0, &float);
+        });
+    }
+}
+
 /// One pair for as many harmonics as there may be, of which each is settled by its block or by itself.
 #[test]
 fn many_harmonics() {

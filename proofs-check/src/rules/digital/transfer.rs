@@ -11,8 +11,8 @@ use crate::interval::Interval;
 use crate::verdict::{Condition, Outcome, Verdict, finding};
 use rug::Rational;
 
-/// The bound that a pair (k0, k1) gives.
-struct Pair<'a> {
+/// A pair (k0, k1), and what it has to bound.
+pub struct Pair<'a> {
     law: &'a Law<'a>,
     k0: Interval,
     k1: Interval,
@@ -26,12 +26,9 @@ struct Pair<'a> {
 
 /// Decides the finite check, and returns the comparison at j = 0.
 pub fn check(law: &Law<'_>, k0: &Rational, k1: &Rational, pointer: &str) -> Outcome<Condition> {
-    let d = law.d;
-    let inverse = (&d.w / &law.mu).sqr();
-    let x = Interval::pi(d.precision) / i64::from(law.samples);
-    let pair = Pair { law, k0: d.number(k0), k1: d.number(k1), inverse, x, total: d.n_bar.sqr() };
+    let pair = Pair::new(law, k0, k1);
     let what = "transfer bound, sampled: 1/(nu^2 n_0) <= k0";
-    let mean = Condition::at_most("T", what, &pair.inverse / &d.n_0, pair.k0.clone());
+    let mean = Condition::at_most("T", what, &pair.inverse / &law.d.n_0, pair.k0.clone());
     mean.demand(RULE, pointer)?;
     // The last one that is pushed is the next to be looked at, so they are looked at in order.
     let mut blocks = vec![(1, law.samples / 2)];
@@ -56,7 +53,20 @@ pub fn check(law: &Law<'_>, k0: &Rational, k1: &Rational, pointer: &str) -> Outc
     Ok(mean)
 }
 
-impl Pair<'_> {
+impl<'a> Pair<'a> {
+    /// Encloses what the bounds are made of.
+    pub fn new(law: &'a Law<'a>, k0: &Rational, k1: &Rational) -> Pair<'a> {
+        let d = law.d;
+        Pair {
+            k0: d.number(k0),
+            k1: d.number(k1),
+            inverse: (&d.w / &law.mu).sqr(),
+            x: Interval::pi(d.precision) / i64::from(law.samples),
+            total: d.n_bar.sqr(),
+            law,
+        }
+    }
+
     /// `k0 + k1 (om_j/w)^2`: it does not decrease up to N_s/2.
     fn at(&self, j: u32) -> Interval {
         let squared = self.law.frequency_squared(&self.law.sine(j)) / self.law.d.w.sqr();
@@ -76,7 +86,7 @@ impl Pair<'_> {
     /// Bounds of s_j for every j from `first` to `last`: `pi^2 Nbar^2/4`, since `|sin| >= 2/pi` times the angle; and, with m =
     /// first/2, `(pi^2/3) n_{m+1}/2` for |l| > m, since `sum_{d=1}^{N_s-1} x^2/sin^2(d x) < pi^2/3`, with `x^2 Nbar^2/sin^2` for the
     /// others, at the least sine from first - m to last + m < N_s, which stands at an end.
-    fn beyond(&self, first: u32, last: u32) -> [Interval; 2] {
+    pub fn beyond(&self, first: u32, last: u32) -> [Interval; 2] {
         let pi_squared = Interval::pi(self.law.d.precision).sqr();
         let m = first / 2;
         let least = self.law.sine(first - m).min(&self.law.sine(last + m));
@@ -85,7 +95,7 @@ impl Pair<'_> {
     }
 
     /// s_j itself, for n_o < j.
-    fn sum(&self, j: u32) -> Interval {
+    pub fn sum(&self, j: u32) -> Interval {
         let term = |distance: u32| (&self.x / self.law.sine(distance)).sqr();
         let pairs = (1..j).map(|l| self.weight(l) / 2 * (term(j - l) + term(j + l)));
         pairs.fold(&self.law.d.n_0 * term(j), |sum, pair| sum + pair)
