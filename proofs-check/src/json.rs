@@ -246,6 +246,11 @@ impl<'a> Fields<'a> {
         Some(Field { json, pointer: join(&self.pointer, key) })
     }
 
+    /// Whether a field is there.
+    pub fn has(&self, name: &str) -> bool {
+        self.members.iter().any(|member| member.0 == name)
+    }
+
     /// Takes a field that must be there.
     pub fn required(&mut self, name: &str) -> Outcome<Field<'a>> {
         self.optional(name).map_or_else(|| bad(&self.pointer, format!("the field `{name}` is missing")), Ok)

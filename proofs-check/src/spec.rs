@@ -1,7 +1,8 @@
 //! Rule: the embedded specification is well-formed (docs/guide.md), and its data lie in their ranges (docs/mathematics.md, section 1).
 //!
 //! Guarantee: no unknown field, every number exact, T, w, mu, alpha, P_low > 0, P_up >= P_low, weights with W1-W3
-//! ([`crate::weights`]), and `matched` only where base_frequency * period = 2 pi exactly.
+//! ([`crate::weights`]), `matched` only where base_frequency * period = 2 pi exactly, and `sampling_period` only with it and
+//! where period / sampling_period is a whole number >= 2 exactly.
 
 use crate::constant::{Constant, Number, PRECISIONS, expression};
 use crate::exact::Exact;
@@ -12,7 +13,7 @@ use crate::json::{Field, Fields, Json};
 use crate::plant::read::Plant;
 use crate::verdict::{Outcome, bad, demand};
 use crate::weights::Weights;
-use rug::Rational;
+use rug::{Integer, Rational};
 
 const RULE: &str = "specification";
 
@@ -107,6 +108,8 @@ pub struct Specification {
     pub mu: Constant,
     pub base_frequency: Constant,
     pub matched: bool,
+    /// N_s = T/h, where a sampling period is given: a claim in continuous time does not use it.
+    pub samples: Option<Integer>,
     pub weights: Weights,
     pub bounds: [Option<Expr>; BOUNDS],
     pub q_0: Option<Forcing>,
@@ -121,7 +124,28 @@ pub struct InternalModel {
     pub mu: Constant,
     pub base_frequency: Constant,
     pub matched: bool,
+    pub samples: Option<Integer>,
     pub weights: Weights,
+}
+
+/// `N_s = period / sampling`, a whole number >= 2 exactly; without exact forms nothing is known.
+pub fn samples(period: &Constant, sampling: &Constant, pointer: &str) -> Outcome<Integer> {
+    let inverse = sampling.exact.as_ref().and_then(Exact::recip);
+    let ratio = period.exact.as_ref().zip(inverse).and_then(|(period, inverse)| period.mul(&inverse));
+    let whole = ratio.as_ref().map(|ratio| ratio.as_rational().filter(|q| *q.denom() == 1 && *q >= 2));
+    demand(whole.as_ref().map(Option::is_some), RULE, pointer, "period / sampling_period is a whole number >= 2")?;
+    whole.flatten().map_or_else(|| bad(pointer, "this is no part of the period"), |q| Ok(q.into_numer_denom().0))
+}
+
+/// Reads `sampling_period`, if it is given.
+fn read_samples(fields: &mut Fields<'_>, period: &Constant, matched: bool) -> Outcome<Option<Integer>> {
+    if !fields.has("sampling_period") {
+        return Ok(None);
+    }
+    let pointer = format!("{}/sampling_period", fields.pointer);
+    let sampling = positive(fields, "sampling_period")?;
+    demand(Some(matched), RULE, &pointer, "a sampling period needs `matched`")?;
+    samples(period, &sampling, &pointer).map(Some)
 }
 
 /// Reads a constant that has to be positive.
@@ -184,7 +208,7 @@ impl Specification {
             fields.finish().map(|()| ends)
         });
 
-        let InternalModel { mu, base_frequency, matched, weights } =
+        let InternalModel { mu, base_frequency, matched, samples, weights } =
             InternalModel::read(&file.required("internal_model")?, &period)?;
 
         let (initial_set, _) = read_set(&file.required("initial_set")?, false)?;
@@ -202,6 +226,7 @@ impl Specification {
             mu,
             base_frequency,
             matched,
+            samples,
             weights,
             bounds,
             q_0,
@@ -238,8 +263,9 @@ impl InternalModel {
             };
             demand(equal, RULE, &format!("{}/matched", model.pointer), "base_frequency * period = 2 pi")?;
         }
+        let samples = read_samples(&mut model, period, matched)?;
         model.finish()?;
-        Ok(InternalModel { mu, base_frequency, matched, weights })
+        Ok(InternalModel { mu, base_frequency, matched, samples, weights })
     }
 }
 

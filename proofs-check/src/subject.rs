@@ -5,6 +5,7 @@ use crate::json::{Field, Json, join};
 use crate::plant::read::Plant;
 use crate::rules::claim::Claim;
 use crate::rules::derivation::Derivation;
+use crate::rules::digital::claim::Regulator;
 use crate::spec::{BOUND_NAMES, Bound, Specification};
 use crate::verdict::{Outcome, invalid};
 use rug::Rational;
@@ -62,16 +63,23 @@ impl Subject {
             also,
             digest: digest.to_owned(),
             about: if spec.plant.is_some() { "plant" } else { "specification" },
-            assumed: match &spec.plant {
-                Some(plant) => assumed_of_plant(spec, plant),
-                None => assumed(spec, arguments),
+            assumed: {
+                let mut list = match &spec.plant {
+                    Some(plant) => assumed_of_plant(plant),
+                    None => assumed(spec, arguments),
+                };
+                match claim.digital {
+                    Some(_) => list.extend(Regulator::assumed()),
+                    None => list.push(regulator(spec)),
+                }
+                list
             },
             free_texts,
         }
     }
 }
 
-/// What the claim takes for granted (docs/trust.md).
+/// What the claim takes for granted (docs/trust.md) of the plant.
 fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
     let given = |bound: Bound| spec.bounds[bound as usize].is_some();
     let names: Vec<&str> = BOUND_NAMES.iter().zip(&spec.bounds).filter(|(_, b)| b.is_some()).map(|(n, _)| *n).collect();
@@ -98,10 +106,10 @@ fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
     if spec.q_0.is_some() {
         list.push("q(t,0,0) is made of the harmonics and the rest that `q_0` bounds".to_owned());
     }
-    list.push(regulator(spec));
     list
 }
 
+/// What it takes for granted of a continuous regulator.
 fn regulator(spec: &Specification) -> String {
     let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
     format!(
@@ -111,17 +119,14 @@ fn regulator(spec: &Specification) -> String {
 }
 
 /// What a claim about formulas takes for granted.
-fn assumed_of_plant(spec: &Specification, plant: &Plant) -> Vec<String> {
+fn assumed_of_plant(plant: &Plant) -> Vec<String> {
     let of_x = if plant.states() > 0 { "|x - x_0| <= " } else { "" };
     let where_ = match &plant.domain {
         None => String::new(),
         Some([_, e]) if of_x.is_empty() => format!(" for |e| <= {}", printable(&e.text)),
         Some([x, e]) => format!(" for {of_x}{}, |e| <= {}", printable(&x.text), printable(&e.text)),
     };
-    vec![
-        format!("the machine is x' = f(t,x,e), e' = q(t,x,e) + u with exactly these formulas{where_}"),
-        regulator(spec),
-    ]
+    vec![format!("the machine is x' = f(t,x,e), e' = q(t,x,e) + u with exactly these formulas{where_}")]
 }
 
 /// A free text on one line: control characters are escaped, and what is long is cut.

@@ -130,6 +130,10 @@ impl Attempt<'_> {
         };
         self.conditions(&proved);
         self.tight(&proved.sizes());
+        // Those that follow are of a continuous regulator.
+        if main.is_digital() {
+            return;
+        }
         self.multipliers(main, &proved);
         let other = self.other(main);
         self.constants(&[Some((main, &proved)), other.as_ref().map(|(other, proved)| (other, proved))]);

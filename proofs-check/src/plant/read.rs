@@ -134,6 +134,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<Specificatio
         mu: model.mu,
         base_frequency: model.base_frequency,
         matched: model.matched,
+        samples: model.samples,
         weights: model.weights,
         bounds: Default::default(),
         q_0: Some(q_0),

@@ -1,5 +1,6 @@
 //! Rule: the claim says what the witness proves, and nothing that it does not.
 
+use super::digital::claim::{N_O, Regulator};
 use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
@@ -16,8 +17,10 @@ const RULE: &str = "claim";
 pub struct Claim<'a> {
     /// `sharp` (true) or `repaired`.
     pub sharp: bool,
-    /// sigma*.
+    /// sigma*, or the one gain of a digital regulator.
     pub sigma: Rational,
+    /// The digital regulator that it is about, if it is.
+    pub digital: Option<Regulator<'a>>,
     /// X_0, E_0, Z_0.
     pub set: [Rational; 3],
     /// Bounds of the periodic solution.
@@ -78,7 +81,17 @@ impl<'a> Claim<'a> {
             "repaired" => false,
             _ => return bad(&derivation.pointer, "only `sharp` and `repaired` can be claimed"),
         };
-        let sigma = fields.required("sigma_star")?;
+        let digital = Regulator::read(&mut fields)?;
+        if digital.is_some() && !sharp {
+            return bad(&derivation.pointer, "only `sharp` can be claimed of a digital regulator");
+        }
+        let (sigma, sigma_text) = match &digital {
+            Some(regulator) => (regulator.sigma.clone(), ""),
+            None => {
+                let sigma = fields.required("sigma_star")?;
+                (sigma.rational()?, sigma.numeral()?)
+            }
+        };
         let mut set = fields.required("initial_set")?.fields()?;
         let kind = set.required("kind")?;
         let (numbers, set_text) = read_set(&mut set)?;
@@ -87,10 +100,11 @@ impl<'a> Claim<'a> {
         set.finish()?;
         let claim = Claim {
             sharp,
-            sigma: sigma.rational()?,
+            sigma,
+            digital,
             set: numbers,
             ball,
-            sigma_text: sigma.numeral()?,
+            sigma_text,
             set_text,
             verdict: fields.required("verdict")?,
             n_o: fields.required("n_o")?,
@@ -107,8 +121,14 @@ impl<'a> Claim<'a> {
     /// that are proved; `exact` are rational bounds of |x| and |e|.
     pub fn check(&self, d: &Data<'_>, sizes: &Sizes, exact: [&Rational; 2]) -> Outcome<()> {
         reads(RULE, &self.verdict, "certified")?;
-        reads(RULE, &self.n_o, "every n_o >= 0")?;
         let spec = d.spec;
+        match &self.digital {
+            None => reads(RULE, &self.n_o, "every n_o >= 0")?,
+            Some(regulator) => {
+                reads(RULE, &self.n_o, N_O)?;
+                regulator.check(spec)?;
+            }
+        }
         let mu = Constant::read(&self.mu)?;
         let same =
             mu.text == spec.mu.text || mu.exact.as_ref().zip(spec.mu.exact.as_ref()).is_some_and(|(a, b)| a.equals(b));
@@ -123,7 +143,12 @@ impl<'a> Claim<'a> {
         reads(RULE, &self.kind, kind)?;
         let mut fields = self.periodic.fields()?;
         for (index, (name, mine)) in sizes.named(d).into_iter().enumerate() {
-            bounds(d, &fields.required(name)?, &mine, exact.get(index).copied())?;
+            // z is a state at the samples alone.
+            let field = match self.digital {
+                Some(_) if name == "z" => fields.optional(name),
+                _ => Some(fields.required(name)?),
+            };
+            field.map_or(Ok(()), |field| bounds(d, &field, &mine, exact.get(index).copied()))?;
         }
         fields.finish()?;
         match &spec.plant {
@@ -146,7 +171,6 @@ impl<'a> Claim<'a> {
 
     /// The claim about a plant in words.
     fn of_plant(&self, spec: &Specification, plant: &Plant) -> Outcome<String> {
-        let reach = if spec.matched { "" } else { " (which need not match the period)" };
         let domain = plant.domain.as_ref().map_or_else(String::new, |[x, e]| {
             format!(" (a model that holds for |x - x_0| <= {}, |e| <= {})", x.text, e.text)
         });
@@ -162,17 +186,29 @@ impl<'a> Claim<'a> {
                 ),
             ),
         };
+        let (regulator, when) = self.regulator(spec);
         Ok(format!(
-            "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
-             frequency {}{reach}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
-             every solution from {states}|e| <= {e0}, sqrt(z'Nz) <= {z0}, at any initial time, converges exponentially{orbit}.",
-            self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
+            "{regulator}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
+             every solution from {states}|e| <= {e0}, sqrt(z'Nz) <= {z0}, at any {when}, converges exponentially{orbit}.",
         ))
+    }
+
+    /// The beginning of the claim in words, and where its solutions start.
+    fn regulator(&self, spec: &Specification) -> (String, &'static str) {
+        if let Some(regulator) = &self.digital {
+            return (regulator.in_words(spec), "sampling instant");
+        }
+        let reach = if spec.matched { "" } else { " (which need not match the period)" };
+        let words = format!(
+            "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+             frequency {}{reach}",
+            self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
+        );
+        (words, "initial time")
     }
 
     /// The claim in words, as the specification and the numbers of the claim make it.
     fn in_words(&self, spec: &Specification) -> String {
-        let reach = if spec.matched { "" } else { " (which need not match the period)" };
         let domain = spec
             .domain
             .as_ref()
@@ -187,12 +223,11 @@ impl<'a> Claim<'a> {
         let harmonics =
             if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
         let [x0, e0, z0] = self.set_text;
+        let (regulator, when) = self.regulator(spec);
         format!(
-            "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
-             frequency {}{reach}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
+            "{regulator}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
              has a T-periodic solution of the closed loop to which every solution from |x| <= {x0}, |e| <= {e0}, sqrt(z'Nz) <= {z0}, at \
-             any initial time, converges exponentially.",
-            self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
+             any {when}, converges exponentially.",
         )
     }
 }

@@ -47,9 +47,13 @@ pub struct Solution {
 }
 
 /// The bounding functions at (X_p, E_p), b_fx at (X_p, 0), and the gains at sigma. What is not given is undefined, and the least
-/// of several bounds leaves it out (docs/mathematics.md, section 11.3).
-struct Bounds<'a> {
+/// of several bounds leaves it out (docs/mathematics.md, section 11.3). Those that do not name sigma serve every regulator.
+pub struct Bounds<'a> {
     d: &'a Data<'a>,
+    x_p: Interval,
+    e_p: Interval,
+    /// a_1.
+    rate: Interval,
     f_x: Interval,
     f_e: Interval,
     q_x: Interval,
@@ -64,6 +68,8 @@ struct Bounds<'a> {
     start: Interval,
     forced: Option<Forced>,
     x_gain: Interval,
+    /// K2(a_1) b_fe: sup|x| over rms(e).
+    from_rms: Interval,
     bt: Interval,
     tau: Interval,
     /// Om, and sg = sqrt(sigma^2 + Om^2).
@@ -136,8 +142,12 @@ impl Forced {
 }
 
 impl<'a> Bounds<'a> {
-    fn new(d: &'a Data<'a>, sigma: &Interval, [x_p, e_p]: [&Interval; 2], a_1: &Interval) -> Bounds<'a> {
+    /// At (X_p, E_p) and sigma.
+    pub fn new(d: &'a Data<'a>, sigma: &Interval, [x_p, e_p]: [&Interval; 2]) -> Bounds<'a> {
         let zero = d.int(0);
+        let [c, alpha] = &d.existence;
+        let bent = alpha - c * d.bound(Bound::Fxx, x_p, &zero) * x_p / 2;
+        let a_1 = d.better_rate(&bent, true, x_p, &zero);
         let at = |which| d.bound(which, x_p, e_p);
         let secant = d.bound(Bound::F, x_p, &zero) / x_p + d.bound(Bound::Fxx, x_p, &zero) * x_p;
         let forced = d.spec.q_0.as_ref().map(|given| Forced::new(d, sigma, given));
@@ -154,7 +164,11 @@ impl<'a> Bounds<'a> {
             bends: bends.map(|(q_tx, q_te)| [q_tx, q_te]),
             start: forced.as_ref().map_or(start.clone(), |forced| forced.rms(d).least(&start)),
             forced,
-            x_gain: &d.existence[0] / a_1 * at(Bound::Fe),
+            x_gain: c / &a_1 * at(Bound::Fe),
+            from_rms: c * beta_s(d, &a_1) * at(Bound::Fe),
+            rate: a_1,
+            x_p: x_p.clone(),
+            e_p: e_p.clone(),
             bt: bt(d, sigma),
             tau: tau(d, sigma),
             sg: (sigma.sqr() + om.sqr()).sqrt(),
@@ -163,8 +177,27 @@ impl<'a> Bounds<'a> {
         }
     }
 
-    /// Section 10.3 at (r_x, r_e, r_d).
-    fn at(&self, [r_x, r_e, r_d]: &[Interval; 3]) -> Follows {
+    /// S1: x+ stays in the set of the proof. The regulator has no part in it.
+    pub fn of_states(&self, [r_x, r_e, _]: &[Interval; 3]) -> Vec<Condition> {
+        let sup = (&self.x_gain * &self.e_p).min(&(&self.from_rms * r_e));
+        let what = "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p";
+        vec![
+            Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone()),
+            Condition::at_most("S1b", what, sup, self.x_p.clone()),
+            Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", &self.x_gain * r_e, r_x.clone()),
+        ]
+    }
+
+    /// x_per, from e_per and rms(e). Where S1 fails X_p stands for what is not defined.
+    pub fn sup_x(&self, e: &Interval, rms_e: &Interval) -> Interval {
+        if !self.rate.is_positive() {
+            return self.x_p.clone();
+        }
+        self.x_p.min(&(&self.x_gain * e)).min(&(&self.from_rms * rms_e))
+    }
+
+    /// R_q and R_1 at (r_x, r_e, r_d), and d_0, d_1: they are of q along the solution, whatever the regulator is.
+    pub fn inputs(&self, [r_x, r_e, r_d]: &[Interval; 3]) -> [[Interval; 2]; 2] {
         let d_0 = &self.q_x * r_x + &self.q_e * r_e;
         let along = &self.q_x * (&self.f_x * r_x + &self.f_e * r_e) + &self.q_e * r_d;
         let generic = &self.rates[1] + &self.q_t_start + &along;
@@ -175,6 +208,13 @@ impl<'a> Bounds<'a> {
         let r_q = self.rates[0].least(&(&self.start + &d_0));
         let r_1 = &self.rates[1] + along;
         let r_1 = self.forced.as_ref().map_or(r_1.clone(), |f| r_1.least(&(&f.rate + &f.rest[1] + &d_1)));
+        [[r_q, r_1], [d_0, d_1]]
+    }
+
+    /// Section 10.3 at (r_x, r_e, r_d).
+    fn at(&self, r: &[Interval; 3]) -> Follows {
+        let [[r_q, r_1], [d_0, d_1]] = self.inputs(r);
+        let [_, r_e, r_d] = r;
         // Of the response to an input with these root mean squares of itself and of its derivative.
         let sup = |q: &Interval, q_t: &Interval| (&self.bt * q).least(&(&self.tau * q_t));
         let rms = |q: &Interval, q_t: &Interval| (q / &self.sg).least(&(q_t / (&self.om * &self.sg)));
@@ -223,14 +263,9 @@ pub fn evaluate(
     pair: [&Interval; 2],
     kappa: &[Interval; 2],
 ) -> Solution {
-    let zero = d.int(0);
-    let [c, alpha] = &d.existence;
-    let bent = alpha - c * d.bound(Bound::Fxx, x_p, &zero) * x_p / 2;
-    let a_1 = d.better_rate(&bent, true, x_p, &zero);
-    let bounds = Bounds::new(d, &d.number(sigma), [x_p, e_p], &a_1);
-    let from_rms = c * beta_s(d, &a_1) * &bounds.f_e;
+    let bounds = Bounds::new(d, &d.number(sigma), [x_p, e_p]);
     let r = w.r.each_ref().map(|value| d.number(value));
-    let [r_x, r_e, r_d] = &r;
+    let [_, r_e, r_d] = &r;
     let most = d.q_e_max(x_p, e_p);
     let upper = most.as_ref().map_or(bounds.q_e.clone(), |most| most.min(&bounds.q_e));
     let kap = d.number(&w.kap);
@@ -238,14 +273,10 @@ pub fn evaluate(
     let with_kap = w.kap > 0;
     let damping = [damped(d, sigma, &w.kap), kap, rho];
 
-    let is_rate = a_1.is_positive();
-    let mut conditions = vec![Condition::less("S1", "0 < a_1", zero, a_1.clone())];
+    let mut conditions = bounds.of_states(&r);
     let mut at_most = |id, what: &str, lhs, rhs: &Interval| {
         conditions.push(Condition::at_most(id, what, lhs, rhs.clone()));
     };
-    let what = "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p";
-    at_most("S1b", what, (&bounds.x_gain * e_p).min(&(&from_rms * r_e)), x_p);
-    at_most("S1c", "(c/a_1) b_fe r_e <= r_x", &bounds.x_gain * r_e, r_x);
     if with_kap {
         let [rms_e, rms_e_t] = bounds.damped(&r, &damping);
         at_most("S2", "sqrt(T r_e r_d) <= E_p", (&d.period * r_e * r_d).sqrt(), e_p);
@@ -274,9 +305,8 @@ pub fn evaluate(
             .extend(names.into_iter().zip(sides).map(|((id, what), (lhs, rhs))| Condition::less(id, what, lhs, rhs)));
     }
     let e = e_p.min(&follows.sup_e);
-    // Where S1 fails X_p stands for what is not defined.
-    let x = if is_rate { x_p.min(&(&bounds.x_gain * &e)).min(&(from_rms * &last[1])) } else { x_p.clone() };
+    let x = bounds.sup_x(&e, &last[1]);
     let z_squared = bounds.z_squared(&follows, pair, kappa);
-    let shown = Some((a_1, last));
+    let shown = Some((bounds.rate, last));
     Solution { x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, shown, conditions }
 }

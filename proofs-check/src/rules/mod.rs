@@ -2,6 +2,7 @@
 pub mod bounding;
 pub mod claim;
 pub mod derivation;
+pub mod digital;
 pub mod existence;
 pub mod gains;
 pub mod lyapunov;

@@ -3,6 +3,12 @@
 mod arguments;
 mod claim;
 mod common;
+mod digital_certificates;
+mod digital_claims;
+mod digital_formulas;
+mod digital_plants;
+mod digital_rules;
+mod digital_support;
 mod forged;
 mod formulas;
 mod fuzz;
