@@ -9,6 +9,7 @@ use rug::Rational;
 
 use super::document::Document;
 use super::of_plant::OfPlant;
+use super::sampling::Sampling;
 use super::weights::Weights;
 
 /// A checked specification: fields present, numbers exact and in range, weights proved to satisfy W1-W3.
@@ -237,6 +238,8 @@ pub struct InternalModel {
     pub matched: bool,
     /// The weights n_0, n_1, ...
     pub weights: Weights,
+    /// The samples of a computer, where the regulator runs on one.
+    pub sampling: Option<Sampling>,
 }
 
 /// The initial conditions |x| <= X0, |e| <= E0, |z|_N <= Z0 that the domain of attraction must cover.
