@@ -180,6 +180,8 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
             add(&smaller(run));
             add("smaller q_x, f_e");
         }
+        Obstacle::Gain => add("a larger gain, or none: without --sigma the smallest one is sought"),
+        Obstacle::Sampling => add("a shorter sampling period, or a smaller mu"),
         Obstacle::Bounds => add("a `domain` on which the bounding functions are valid"),
     }
     if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {

@@ -6,6 +6,7 @@ use super::error::{ErrorKind, Errors, Reported};
 use super::model::{Constant, InternalModel};
 use super::quantity::Quantity;
 use crate::enclosure::{Enclosure, Truth};
+use crate::number::write_exact;
 use rug::{Float, Rational};
 
 /// The most samples in a period that are read: every harmonic of them is looked at one by one.
@@ -137,6 +138,25 @@ fn samples(period: &Constant, step: &Constant) -> Result<u32, Problem> {
 }
 
 impl Sampling {
+    /// The samples h apart in a period, where there is a whole number of them in range.
+    #[must_use]
+    pub fn new(period: &Constant, step: Constant) -> Option<Sampling> {
+        samples(period, &step).ok().map(|samples| Sampling { step, samples })
+    }
+
+    /// Whether two sampling periods are the same number, as far as that is known exactly.
+    #[must_use]
+    pub fn is(&self, step: &Constant) -> bool {
+        let exact = self.step.exact.as_ref().zip(step.exact.as_ref());
+        exact.is_some_and(|(own, other)| own.equals(other).is_true())
+    }
+
+    /// h as a certificate writes it: the rational number, else the text of the file.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.step.as_rational().map_or_else(|| self.step.text.clone(), write_exact)
+    }
+
     /// Whether h sigma <= 1, exactly where h is rational.
     #[must_use]
     pub fn fits(&self, sigma: &Rational) -> Truth {
