@@ -69,6 +69,9 @@ fn certify_wanted<'s>(
     options: Options,
     asked: Wanted<'_>,
 ) -> Result<Certification<'s>, Refusal> {
+    if spec.internal_model.sampling.is_some() {
+        return Err(Refusal::Sampled);
+    }
     let data = Data::new(spec, options.ladder.start.max(53));
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
@@ -123,6 +126,9 @@ pub fn recheck<'s>(
     file: &GivenWitness,
     options: Options,
 ) -> Result<Certification<'s>, Refusal> {
+    if spec.internal_model.sampling.is_some() {
+        return Err(Refusal::Sampled);
+    }
     let data = Data::new(spec, options.ladder.start.max(53));
     let (derivation, sharp, repaired, claimed) = match file {
         GivenWitness::Sharp { witness, exact } => {

@@ -5,6 +5,7 @@
 //! what a certificate says of a plant.
 
 mod coordinates;
+mod digital;
 mod entries;
 mod grid;
 mod reduce;
@@ -13,7 +14,8 @@ mod sampling;
 mod specification;
 mod study;
 
-pub use reduce::{Reduced, decide_again, reduce};
+pub use digital::{DigitalPairs, ReducedDigital};
+pub use reduce::{Reduced, decide_again, reduce, reduce_digital, with_digital_pairs};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};

@@ -1,5 +1,6 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
+use super::digital::{DigitalPairs, ReducedDigital};
 use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler};
 use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
@@ -14,17 +15,17 @@ use crate::orbit::{
 use crate::plant::Plant;
 use crate::search::{FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
-use crate::spec::{OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector};
+use crate::spec::{self, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector};
 use crate::transfer::TradeOff;
 use nalgebra::DMatrix;
 use rug::Rational;
 
 /// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
-const PRECISION: u32 = 64;
+pub(super) const PRECISION: u32 = 64;
 
 /// How far beyond the arguments of a proposal the bounds are proved, in turn: first with room for what the proved values are
 /// larger than the sampled ones, then close to the arguments that are used.
-const ENLARGED: [f64; 2] = [1e-2, 1e-5];
+pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
@@ -46,6 +47,36 @@ pub struct Reduced {
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
+    with_coordinates(plant, prove_bounds)
+}
+
+/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found.
+///
+/// # Errors
+/// What could not be proved or found.
+pub fn reduce_digital(
+    plant: &Plant,
+    sampling: &spec::Sampling,
+    gain: Option<&Rational>,
+) -> Result<ReducedDigital, PlantRefusal> {
+    with_digital_pairs(plant, |pairs| pairs.reduce(sampling, gain))?
+}
+
+/// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
+///
+/// # Errors
+/// What could not be proved or found of those.
+pub fn with_digital_pairs<T>(plant: &Plant, with: impl FnOnce(&DigitalPairs<'_>) -> T) -> Result<T, PlantRefusal> {
+    with_coordinates(plant, |plant, along, sampled, chosen| {
+        DigitalPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
+    })
+}
+
+/// Finds and proves the orbit, chooses the coordinates, and goes on from there.
+fn with_coordinates<T>(
+    plant: &Plant,
+    prove: impl FnOnce(&Plant, &Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
+) -> Result<T, PlantRefusal> {
     if plant.states() > MAX_STATES {
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
     }
@@ -81,7 +112,7 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
         true => best_periodic(plant, &curve, &candidates, &model, &sampling)?,
     };
     let base = along(plant, &curve, &coordinates)?;
-    prove_bounds(plant, &base, &sampling, &chosen)
+    prove(plant, &base, &sampling, &chosen)
 }
 
 fn search<'a>(
@@ -148,8 +179,8 @@ fn best_periodic(
 }
 
 /// The orbit and the harmonics of q, proved in some coordinates.
-struct Along {
-    coordinates: Coordinates,
+pub(super) struct Along {
+    pub(super) coordinates: Coordinates,
     orbit: OrbitProof,
     forcing: ProvedForcing,
 }
@@ -171,7 +202,7 @@ fn along(plant: &Plant, curve: &TrigonometricVector, coordinates: &Coordinates) 
 
 impl Along {
     /// The specification with these values.
-    fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
+    pub(super) fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
         let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
         let of_plant = OfPlant {
             coordinates: self.coordinates.l.clone(),
@@ -194,7 +225,7 @@ impl Along {
         specification(plant, of_plant, values)
     }
 
-    fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
+    pub(super) fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
         let region = Region::new(self.coordinates.l.clone(), self.orbit.orbit.clone(), self.orbit.radius.clone());
         let engine = region.and_then(|region| Engine::new(plant, region, Some(self.coordinates.p.clone()), None));
         engine.map_err(|_| PlantRefusal::Coordinates)

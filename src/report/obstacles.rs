@@ -93,7 +93,7 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     blocks
 }
 
-fn truth(condition: &Condition) -> &'static str {
+pub(super) fn truth(condition: &Condition) -> &'static str {
     match condition.truth() {
         Truth::True => "proved",
         Truth::False => "refuted for this witness",
@@ -101,7 +101,7 @@ fn truth(condition: &Condition) -> &'static str {
     }
 }
 
-fn describe(condition: &Condition) -> String {
+pub(super) fn describe(condition: &Condition) -> String {
     format!(
         "{} ({}): {} {} {} is {}",
         condition.id,

@@ -46,6 +46,14 @@ pub struct DigitalProposal {
     pub radius: f64,
 }
 
+impl DigitalProposal {
+    /// Whether the gain is smaller, or the same with more room.
+    #[must_use]
+    pub fn better_than(&self, other: &DigitalProposal) -> bool {
+        self.sigma < other.sigma || (self.sigma == other.sigma && self.radius < other.radius)
+    }
+}
+
 /// What came of one gain of a scan.
 #[derive(Clone, Copy, Debug)]
 pub struct ScanPoint {

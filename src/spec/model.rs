@@ -82,6 +82,18 @@ impl Constant {
         Constant { text, expr, exact: Some(Monomial::rational(value.clone())) }
     }
 
+    /// This constant over a positive whole number; `None` where that cannot be written.
+    #[must_use]
+    pub fn divided_by(&self, divisor: u32) -> Option<Constant> {
+        if let Some(exact) = self.as_rational() {
+            return (divisor > 0).then(|| Constant::rational(&Rational::from(exact / divisor)));
+        }
+        let text = format!("({})/{divisor}", self.text);
+        let expr = Expr::parse(&text, Variables::None).ok()?;
+        let exact = expr.exact();
+        Some(Constant { text, expr, exact })
+    }
+
     /// The exact rational value, if the constant is known to be rational.
     #[must_use]
     pub fn as_rational(&self) -> Option<&Rational> {
