@@ -41,10 +41,7 @@ pub fn digital_certificate_json(run: &DigitalCertification<'_>) -> Option<Value>
         ),
         ("statement", text(digital_statement(spec, witness))),
     ]);
-    let further = [
-        ("weight_sum", exact(&witness.law.weight_sum)),
-        ("transfer", object([("proof", text(SAMPLED))])),
-    ];
+    let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
     let parts = further.into_iter().chain(lyapunov_parts(spec)).chain(plant_parts(spec));
     let [embedded, digest] = match spec.plant() {
         Some(_) => ["plant", "plant_sha256"],

@@ -7,7 +7,9 @@ use super::options::Ladder;
 use super::produce::undecided_or_error;
 use super::proof::{DigitalProof, Outcome};
 use super::refusal::Refusal;
-use super::round::{LONG_DIGITS, RoundedBox, SHORT_DIGITS, claimed_set, first_proved, room, rounded_box, rounded_sigma};
+use super::round::{
+    LONG_DIGITS, RoundedBox, SHORT_DIGITS, claimed_set, first_proved, room, rounded_box, rounded_sigma,
+};
 use super::verdict::Verdict;
 use crate::data::{Bound, Data, Problem};
 use crate::derivation::condition::{Condition, all};

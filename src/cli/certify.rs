@@ -49,7 +49,8 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         return digital::run(args, subject, witness.as_ref(), gain.as_ref(), output.as_ref());
     }
     if subject.sampling().is_some() {
-        let message = "the witness is of the regulator in continuous time, and `sampling_period` asks for the one at samples";
+        let message =
+            "the witness is of the regulator in continuous time, and `sampling_period` asks for the one at samples";
         return Err(Failure::call(message, "leave the sampling period out, or certify without --witness"));
     }
     if gain.is_some() && args.options().derivation != Derivation::Sharp {

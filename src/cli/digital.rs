@@ -85,7 +85,8 @@ fn refuse(args: &CertifyArgs) -> Result<(), Failure> {
 fn same_samples(spec: &Specification, stated: &Sampling, asked: Option<&Sampling>) -> Result<(), Failure> {
     let step = stated.text();
     if asked.is_some_and(|asked| !asked.is(&stated.step)) {
-        let message = format!("the certificate is about the sampling period {step}, the specification asks for another one");
+        let message =
+            format!("the certificate is about the sampling period {step}, the specification asks for another one");
         return Err(Failure::call(message, "certify without --witness"));
     }
     match Sampling::new(&spec.period, stated.step.clone()) {

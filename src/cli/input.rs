@@ -52,9 +52,10 @@ pub fn target(kind: TargetKind, flag: &str, text: &str) -> Result<Target, Failur
 /// Those of [`positive`], and a constant that is not rational.
 pub fn rational(flag: &str, text: &str) -> Result<Rational, Failure> {
     let constant = positive(flag, text)?;
-    constant.as_rational().cloned().ok_or_else(|| {
-        Failure::call(format!("{flag} is not a rational number"), "write it as a decimal or a fraction")
-    })
+    constant
+        .as_rational()
+        .cloned()
+        .ok_or_else(|| Failure::call(format!("{flag} is not a rational number"), "write it as a decimal or a fraction"))
 }
 
 /// Reads the value of a flag: an exact positive constant, as in a specification.

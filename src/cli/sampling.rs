@@ -36,9 +36,8 @@ fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
     let study = match subject {
         Subject::Plant(plant) => {
             let _working = Working::new("finding the orbit, proving the bounds of every pair", audience);
-            let study = with_digital_pairs(&plant, |pairs| {
-                SamplingStudy::new(&OfPlant { pairs }, &period, steps, gains)
-            });
+            let study =
+                with_digital_pairs(&plant, |pairs| SamplingStudy::new(&OfPlant { pairs }, &period, steps, gains));
             study.map_err(|refusal| Failure::Documents(refusal.errors(&plant)))?
         }
         specification @ Subject::Specification(_) => {

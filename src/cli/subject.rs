@@ -2,9 +2,9 @@
 
 use super::failure::Failure;
 use super::progress::{Audience, Working};
+use rug::Rational;
 use sigmastar::certify::with_triple;
 use sigmastar::plant::{self, Plant};
-use rug::Rational;
 use sigmastar::reduction::{reduce, reduce_digital};
 use sigmastar::search::{DigitalProposal, SharpProposal};
 use sigmastar::spec::{Document, Sampling, Specification};

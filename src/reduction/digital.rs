@@ -51,6 +51,12 @@ impl<'p> DigitalPairs<'p> {
         self.chosen.proposal.sigma
     }
 
+    /// The internal model of the plant.
+    #[must_use]
+    pub fn internal_model(&self) -> &spec::InternalModel {
+        &self.plant.internal_model
+    }
+
     /// The search for a sampling period, over bounds that are sampled and not proved.
     pub fn search<T>(&self, sampling: &spec::Sampling, with: impl FnOnce(&DigitalSearch<'_>) -> T) -> Option<T> {
         let law = self.plant.internal_model.sampled_gain(&sampling.step)?;

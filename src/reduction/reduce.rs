@@ -1,7 +1,7 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
-use super::digital::{DigitalPairs, ReducedDigital};
 use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler};
+use super::digital::{DigitalPairs, ReducedDigital};
 use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix};

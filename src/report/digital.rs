@@ -54,7 +54,11 @@ impl<'r> DigitalReport<'r> {
             },
             Outcome::Proved(_) => match run.unproved_bounds.first() {
                 Some(problem) => {
-                    format!("the bounding function {} could not be proved: {}", problem.which.field(), problem.sentence())
+                    format!(
+                        "the bounding function {} could not be proved: {}",
+                        problem.which.field(),
+                        problem.sentence()
+                    )
                 }
                 None => "the arguments of the bounding functions are not bounded".to_owned(),
             },
@@ -70,22 +74,32 @@ impl<'r> DigitalReport<'r> {
                 if run.given_gain.is_some() {
                     items.push("another gain, or none: without --sigma the smallest one is sought".to_owned());
                 }
-                items.push("a shorter sampling period: `sigmastar sampling` lists which gains go with which".to_owned());
-                items.push("a smaller mu: theta = h mu Nbar^2/2 is what the oscillators lose to the sampling".to_owned());
+                items
+                    .push("a shorter sampling period: `sigmastar sampling` lists which gains go with which".to_owned());
+                items.push(
+                    "a smaller mu: theta = h mu Nbar^2/2 is what the oscillators lose to the sampling".to_owned(),
+                );
             }
             Outcome::NotFound(_) => {
-                items.push("the continuous-time claim first, without a sampling period: its report says more".to_owned());
+                items.push(
+                    "the continuous-time claim first, without a sampling period: its report says more".to_owned(),
+                );
             }
             Outcome::NotProved { failing, .. } => {
                 let undecided = failing.iter().all(|condition| condition.truth() == Truth::Undecided);
                 items.push(match (undecided, self.rechecked) {
                     (true, _) => "raise --precision-limit".to_owned(),
                     (false, true) => "search again (without --witness): another witness may exist".to_owned(),
-                    (false, false) => "other units of time, x and e, in which the data have ordinary magnitudes".to_owned(),
+                    (false, false) => {
+                        "other units of time, x and e, in which the data have ordinary magnitudes".to_owned()
+                    }
                 });
             }
             Outcome::Proved(_) => {
-                items.push("rewrite the bounding function as sums, products and compositions of nondecreasing functions".to_owned());
+                items.push(
+                    "rewrite the bounding function as sums, products and compositions of nondecreasing functions"
+                        .to_owned(),
+                );
             }
             Outcome::Skipped => {}
         }
@@ -186,7 +200,9 @@ impl Readable for DigitalReport<'_> {
         if run.claim().is_some() {
             let norms = match run.spec.plant().is_some() {
                 true => "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with x_0 and L as below.",
-                false => "Here |z|_N = sqrt(z'Nz). The same law serves every plant that the bounding functions describe.",
+                false => {
+                    "Here |z|_N = sqrt(z'Nz). The same law serves every plant that the bounding functions describe."
+                }
             };
             blocks.push(Block::says(norms));
             blocks.push(Block::List(self.basis()));

@@ -7,8 +7,8 @@ use super::remarks::remarks;
 use crate::certify::{Certification, Derivation, Verdict};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
-use crate::spec::{Bound, Specification};
 use crate::spec::model::{Lyapunov, LyapunovSource};
+use crate::spec::{Bound, Specification};
 use crate::transfer::TransferProof;
 
 /// The verdict in one sentence that a control engineer understands.

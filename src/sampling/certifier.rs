@@ -6,7 +6,7 @@ use crate::derivation::digital::SampledLaw;
 use crate::enclosure::Enclosure;
 use crate::reduction::{DigitalPairs, PlantRefusal};
 use crate::search::{DigitalLimit, DigitalSearch, FloatModel, Obstacle, search_sharp};
-use crate::spec::{Sampling, Specification};
+use crate::spec::{InternalModel, Sampling, Specification};
 use crate::transfer::TradeOff;
 use rug::Rational;
 
@@ -66,7 +66,13 @@ pub trait Certifier {
     fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle>;
 
     /// Whether a search in floating point finds a witness.
-    fn is_promising(&self, sampling: &Sampling, gain: f64) -> bool;
+    ///
+    /// # Errors
+    /// What stands in the way.
+    fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle>;
+
+    /// The internal model.
+    fn model(&self) -> &InternalModel;
 }
 
 /// A specification whose data are given or proved.
@@ -86,11 +92,15 @@ impl Certifier for OfSpecification<'_> {
         run.map_err(|_| Obstacle::Bounds).and_then(|run| Pair::new(&run))
     }
 
-    fn is_promising(&self, sampling: &Sampling, gain: f64) -> bool {
-        let Some(law) = self.spec.internal_model.sampled_gain(&sampling.step) else { return false };
+    fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle> {
+        let law = self.spec.internal_model.sampled_gain(&sampling.step).ok_or(Obstacle::Magnitude)?;
         let data = Data::new(self.spec, PRECISION);
         let model = digital_model(&data, sampling, &law);
-        DigitalSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64()).at_gain(gain).is_ok()
+        DigitalSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64()).at_gain(gain).map(drop)
+    }
+
+    fn model(&self) -> &InternalModel {
+        &self.spec.internal_model
     }
 }
 
@@ -114,7 +124,12 @@ impl Certifier for OfPlant<'_> {
         run.map_err(|_| Obstacle::Bounds).and_then(|run| Pair::new(&run))
     }
 
-    fn is_promising(&self, sampling: &Sampling, gain: f64) -> bool {
-        self.pairs.search(sampling, |search| search.at_gain(gain).is_ok()).unwrap_or(false)
+    fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle> {
+        let found = self.pairs.search(sampling, |search| search.at_gain(gain).map(drop));
+        found.unwrap_or(Err(Obstacle::Magnitude))
+    }
+
+    fn model(&self) -> &InternalModel {
+        self.pairs.internal_model()
     }
 }

@@ -18,6 +18,9 @@ const DIGITS: u32 = 4;
 /// How often a little more samples are tried where the pair that was found does not certify.
 const AGAIN: u32 = 4;
 
+/// How far beyond the samples that h sigma <= 1 and theta <= 1 ask for they are doubled.
+const FAR: f64 = 256.0;
+
 /// What a row is about.
 #[derive(Clone, Debug)]
 pub enum Asked {
@@ -106,24 +109,26 @@ fn default_gains(continuous: Option<f64>) -> Vec<Rational> {
 /// The pair of a gain with the fewest samples: doubled until a search finds a witness, then bisected.
 fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Result<Pair, Obstacle> {
     let sigma = gain.to_f64();
-    let promising = |n: u32| samples(period, n).is_some_and(|sampling| certifier.is_promising(&sampling, sigma));
+    let promise =
+        |n: u32| samples(period, n).ok_or(Obstacle::Sampling).and_then(|sampling| certifier.promise(&sampling, sigma));
     // h sigma <= 1.
     let least = (period.to_f64() * sigma * (1.0 - 1e-12)).ceil().max(2.0);
     if least > f64::from(MAX_SAMPLES) {
         return Err(Obstacle::Sampling);
     }
+    let most = most(certifier, period, least);
     let mut high = least as u32;
     let mut low = high - 1;
-    while !promising(high) {
-        if high == MAX_SAMPLES {
-            return Err(Obstacle::Sampling);
+    while let Err(obstacle) = promise(high) {
+        if high >= most {
+            return Err(obstacle);
         }
         low = high;
-        high = high.saturating_mul(2).min(MAX_SAMPLES);
+        high = high.saturating_mul(2).min(most);
     }
     while high - low > 1 {
         let middle = low + (high - low) / 2;
-        if promising(middle) { high = middle } else { low = middle }
+        if promise(middle).is_ok() { high = middle } else { low = middle }
     }
     let mut failure = Obstacle::Sampling;
     for _ in 0..=AGAIN {
@@ -134,4 +139,12 @@ fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Re
         high = (high + 1 + high / 32).min(MAX_SAMPLES);
     }
     Err(failure)
+}
+
+/// The most samples that are tried: far beyond h sigma = 1 and theta = 1, where sampling hardly matters any more.
+fn most(certifier: &impl Certifier, period: &Constant, least: f64) -> u32 {
+    let model = certifier.model();
+    let load = period.to_f64() * model.mu.to_f64() * model.weights.total(64).upper_f64();
+    let most = FAR * if load > least { load } else { least };
+    if most < f64::from(MAX_SAMPLES) { most as u32 } else { MAX_SAMPLES }
 }

@@ -49,7 +49,9 @@ impl Obstacle {
             Obstacle::DomainE => "domain E: the error box around the initial set leaves it",
             Obstacle::Curvature => "C5: a_2 <= 0, the nonlinearity over the error box takes all of the decay rate",
             Obstacle::Coupling => "C5: (h/mu) k_x^2 >= 4 w_x a_2",
-            Obstacle::Gain => "C5: the gain is below the threshold of the quadratic form for every error box that was tried",
+            Obstacle::Gain => {
+                "C5: the gain is below the threshold of the quadratic form for every error box that was tried"
+            }
             Obstacle::Sampling => {
                 "C5h: the decay from sample to sample is not positive for any error box that was tried, or h sigma would \
                  have to exceed 1"

@@ -330,12 +330,15 @@ impl<'m> DigitalSearch<'m> {
             [&forms.start, &forms.end].map(|form| radius(form).unwrap_or(f64::INFINITY))
         };
         let [start, end] = of(None);
-        let parts =
-            [(Part::Theta, DigitalLimit::Theta), (Part::Hold, DigitalLimit::Hold), (Part::Motion, DigitalLimit::Motion)];
+        let parts = [
+            (Part::Theta, DigitalLimit::Theta),
+            (Part::Hold, DigitalLimit::Hold),
+            (Part::Motion, DigitalLimit::Motion),
+        ];
         let without = parts.map(|(part, limit)| (of(Some(part))[1], limit));
-        let (least, limit) = without.into_iter().fold((end, DigitalLimit::Continuous), |best, next| {
-            if next.0 < best.0 { next } else { best }
-        });
+        let (least, limit) = without
+            .into_iter()
+            .fold((end, DigitalLimit::Continuous), |best, next| if next.0 < best.0 { next } else { best });
         // Below what Q_0 has nothing is gained.
         if end - least.max(start) < 0.02 * (1.0 - start).abs() { DigitalLimit::Continuous } else { limit }
     }
@@ -378,7 +381,8 @@ mod tests {
         };
         let mut seen = [0; 2];
         for _ in 0..4000 {
-            let form = Form { xx: next() + 0.1, ee: next() + 0.1, yy: next() + 0.1, xe: next(), xy: next(), ey: next() };
+            let form =
+                Form { xx: next() + 0.1, ee: next() + 0.1, yy: next() + 0.1, xe: next(), xy: next(), ey: next() };
             let definite = form.minors().iter().all(|minor| *minor > 0.0);
             let radius = radius(&form).unwrap();
             if (radius - 1.0).abs() > 1e-9 {

@@ -31,7 +31,7 @@ pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
 pub use sharp::{
-    OptionalDatum, SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near, sensitivities,
-    without_optional_data,
+    OptionalDatum, SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near,
+    sensitivities, without_optional_data,
 };
 pub use smaller_set::{SmallerSet, smaller_set};

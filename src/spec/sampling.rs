@@ -67,7 +67,9 @@ pub(super) fn read(
     if !matched? {
         let message = "the regulator at samples needs a base frequency of 2 pi / period";
         let error = whole(value, ErrorKind::Matched, message).expected("expected `\"matched\": true` beside it");
-        return Err(errors.report(error.help("or leave `sampling_period` out: the continuous-time regulator does without")));
+        return Err(
+            errors.report(error.help("or leave `sampling_period` out: the continuous-time regulator does without"))
+        );
     }
     match samples(period, &step) {
         Ok(samples) => Ok(Sampling { step, samples }),

@@ -109,3 +109,157 @@ where
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{Data, Problem};
+    use crate::spec::Specification;
+    use nalgebra::Complex;
+    use std::f64::consts::{PI, TAU};
+
+    /// The paper's weights and period with so many samples and this mu.
+    fn spec(samples: u32, mu: &str) -> Specification {
+        let mut document: serde_json::Value =
+            serde_json::from_str(include_str!("../../../specs/paper-example.json")).unwrap();
+        document["internal_model"]["mu"] = mu.into();
+        document["internal_model"]["sampling_period"] = format!("1/{samples}").into();
+        Specification::from_json("sampled", &document.to_string()).unwrap()
+    }
+
+    fn law(data: &Data<'_>) -> SampledLaw<f64> {
+        let model = &data.spec.internal_model;
+        let sampling = model.sampling.clone().unwrap();
+        SampledLaw::new(data, &sampling, &model.sampled_gain(&sampling.step).unwrap()).to_f64()
+    }
+
+    /// [sup|e_k|, sup|e|, rms(e), rms(e')] of the periodic answer to q = 2 Re sum_m c_m e^{i m Om t}, T = 1, by its harmonics at
+    /// samples and the law between them; in doubles.
+    fn answer(data: &Data<'_>, law: &SampledLaw<f64>, sigma: f64, n_o: i64, q: &[(i64, Complex<f64>)]) -> [f64; 4] {
+        let weights = &data.spec.internal_model.weights;
+        let (n, h, i) = (i64::from(law.samples), law.step, Complex::i());
+        let turn = |angle: f64| Complex::new(0.0, angle).exp();
+        let both: Vec<(i64, Complex<f64>)> = q.iter().flat_map(|(m, c)| [(*m, *c), (-m, c.conj())]).collect();
+        let mut e = vec![Complex::new(0.0, 0.0); n as usize];
+        let mut means = e.clone();
+        for (m, c) in &both {
+            let angle = TAU * *m as f64 * h;
+            let mean = c * (turn(angle) - 1.0) / (i * angle);
+            for k in 0..n {
+                means[k as usize] += mean * turn(TAU * (*m * k).rem_euclid(n) as f64 / n as f64);
+            }
+        }
+        for j in 1..n {
+            let mean: Complex<f64> = (0..n)
+                .map(|k| means[k as usize] * turn(-TAU * (j * k).rem_euclid(n) as f64 / n as f64))
+                .sum::<Complex<f64>>()
+                / n as f64;
+            let near = j.min(n - j);
+            if near <= n_o {
+                continue;
+            }
+            let phi = TAU * j as f64 / n as f64;
+            let c = |l: i64| weights.weight_f64(l.unsigned_abs()) * if l == 0 { 1.0 } else { 0.5 };
+            let g: Complex<f64> = (-n_o..=n_o).map(|l| c(l) / (turn(phi - TAU * l as f64 / n as f64) - 1.0)).sum();
+            let y = mean / (1.0 + law.gain * h * g);
+            let own = h * y / (turn(phi) - (1.0 - h * sigma));
+            for k in 0..n {
+                e[k as usize] += own * turn(TAU * (j * k).rem_euclid(n) as f64 / n as f64);
+            }
+        }
+        let (mut at_samples, mut sup, mut squares, mut rates) = (0.0_f64, 0.0_f64, 0.0, 0.0);
+        const FINE: u32 = 40;
+        for k in 0..n {
+            let (here, next) = (e[k as usize].re, e[((k + 1) % n) as usize].re);
+            let u = (next - here) / h - means[k as usize].re;
+            at_samples = at_samples.max(here.abs());
+            for step in 0..FINE {
+                let s = h * (f64::from(step) + 0.5) / f64::from(FINE);
+                let start = k as f64 * h;
+                let moved: Complex<f64> = both
+                    .iter()
+                    .map(|(m, c)| {
+                        c * turn(TAU * *m as f64 * start) * (turn(TAU * *m as f64 * s) - 1.0) / (i * TAU * *m as f64)
+                    })
+                    .sum();
+                let value: Complex<f64> = both.iter().map(|(m, c)| c * turn(TAU * *m as f64 * (start + s))).sum();
+                let error = here + s * u + moved.re;
+                sup = sup.max(error.abs());
+                squares += error * error;
+                rates += (value.re + u).powi(2);
+            }
+        }
+        let count = (n * i64::from(FINE)) as f64;
+        [at_samples, sup, (squares / count).sqrt(), (rates / count).sqrt()]
+    }
+
+    #[test]
+    fn answers_of_the_law_stay_within_their_bounds() {
+        let mut state = 5_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / 2f64.powi(23) - 1.0
+        };
+        let mut worst = [0.0_f64; 4];
+        for (samples, mu) in [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")] {
+            let spec = spec(samples, mu);
+            let data = Data::new(&spec, 128);
+            let law = law(&data);
+            for product in [0.02, 0.3, 1.0] {
+                let sigma = product / law.step;
+                let gains = SampledGains::new(&law, &sigma, &1.0);
+                for trial in 0..24 {
+                    let n_o = i64::from(trial % 3) * i64::from((samples - 1) / 2) / 2;
+                    let q: Vec<(i64, Complex<f64>)> = match trial {
+                        // One harmonic alone, the first that the oscillators leave.
+                        0..3 => vec![(n_o + 1, Complex::new(1.0, next()))],
+                        _ => (1..=i64::from(samples) + 5)
+                            .filter(|m| trial % 2 == 0 || *m > n_o)
+                            .map(|m| (m, Complex::new(next(), next()) / (m as f64).powi(trial % 4)))
+                            .collect(),
+                    };
+                    let rms = |rate: bool| {
+                        let factor = |m: i64| if rate { TAU * m as f64 } else { 1.0 };
+                        q.iter().map(|(m, c)| 2.0 * c.norm_sqr() * factor(*m).powi(2)).sum::<f64>().sqrt()
+                    };
+                    let (size, rate) = (rms(false), rms(true));
+                    let least = |by_size: f64, by_rate: f64| (by_size * size).min(by_rate * rate);
+                    let at_samples = least(gains.sup, gains.sup_by_rate);
+                    let bounds = [
+                        at_samples,
+                        at_samples + gains.between * rate,
+                        least(gains.rms, gains.rms_by_rate) + gains.between_rms * rate,
+                        least(gains.rate, gains.rate_by_rate),
+                    ];
+                    let found = answer(&data, &law, sigma, n_o, &q);
+                    for ((found, bound), worst) in found.iter().zip(bounds).zip(&mut worst) {
+                        assert!(found <= &(bound * (1.0 + 1e-3)), "{samples} {mu} {product} {trial}: {found} {bound}");
+                        *worst = worst.max(found / bound);
+                    }
+                }
+            }
+        }
+        // None of the bounds is idle.
+        assert!(worst.iter().all(|ratio| *ratio > 0.6), "{worst:?}");
+    }
+
+    /// The closed forms of the sums where theta plays no part: those of the resolvent at samples.
+    #[test]
+    fn the_sums_have_their_closed_forms() {
+        let spec = spec(40, "1/1000000");
+        let data = Data::new(&spec, 128);
+        let law = law(&data);
+        let (h, t, n) = (law.step, data.numbers().period.midpoint_f64(), 40);
+        for sigma in [0.5, 7.0, 39.0] {
+            let gains = SampledGains::new(&law, &sigma, &t);
+            let a = 1.0 - h * sigma;
+            let power = a.powi(n);
+            let sup = t * (1.0 + power) / (sigma * (2.0 - h * sigma) * (1.0 - power)) - 1.0 / (sigma * sigma);
+            let by_rate = ((t * t - h * h) / 12.0 - a * sup) / (sigma * sigma);
+            assert!((gains.sup.powi(2) / sup - 1.0).abs() < 1e-5, "{sigma}");
+            assert!((gains.sup_by_rate.powi(2) / by_rate - 1.0).abs() < 1e-4, "{sigma}");
+            let first = 2.0 / h * (PI / 40.0).sin();
+            assert!((gains.rms - 1.0 / (sigma * sigma + a * first * first).sqrt()).abs() < 1e-5 * gains.rms, "{sigma}");
+        }
+    }
+}

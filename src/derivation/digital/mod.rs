@@ -105,7 +105,11 @@ impl DigitalEvaluation {
     pub fn new(data: &Data<'_>, witness: &DigitalWitness) -> DigitalEvaluation {
         let number = |value: &Rational| data.rational(value);
         let (sigma, law) = (number(&witness.sigma), SampledLaw::new(data, &witness.sampling, &witness.law));
-        let product = &law.step * &sigma;
+        // Exactly where h is rational: h sigma = 1 is allowed.
+        let product = match witness.sampling.step.as_rational() {
+            Some(step) => number(&Rational::from(step * &witness.sigma)),
+            None => &law.step * &sigma,
+        };
         let origin = AtOrigin::new(data);
         let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
         let gains = SampledGains::new(&law, &sigma, &data.period);
@@ -114,14 +118,13 @@ impl DigitalEvaluation {
         let z = size.z_squared(data, &law, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
         let [d_x, d_e, w_x, eta] = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta].map(number);
         let error_box = ErrorBox::new(data, &size.x_per, &size.e_per, &d_x, &d_e);
-        let forms =
-            DecayForms::new(data, &error_box, &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta });
+        let forms = DecayForms::new(data, &error_box, &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta });
 
         let mut conditions = signs(data, witness);
         conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
         conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
         conditions.push(SampledPair { law: &law, k0: &witness.k0, k1: &witness.k1 }.condition(data));
-        conditions.extend(law_conditions(data, witness, &law, &product));
+        conditions.extend(law_conditions(data, &law, &product));
         conditions.extend(existence_conditions(data, &bounds, &origin, &gains, &squares));
         let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&size.x_per, &size.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
@@ -167,21 +170,11 @@ fn signs(data: &Data<'_>, witness: &DigitalWitness) -> Vec<Condition> {
 }
 
 /// (S0): the law is one of section 12, for the mu of the specification.
-fn law_conditions(
-    data: &Data<'_>,
-    witness: &DigitalWitness,
-    law: &SampledLaw<Enclosure>,
-    product: &Enclosure,
-) -> Vec<Condition> {
+fn law_conditions(data: &Data<'_>, law: &SampledLaw<Enclosure>, product: &Enclosure) -> Vec<Condition> {
     let one = Enclosure::one(data.precision);
     let two = Enclosure::from_integer(2, data.precision);
-    // Exactly where h is rational: h sigma = 1 is allowed.
-    let product = match witness.sampling.step.as_rational() {
-        Some(step) => data.rational(&Rational::from(step * &witness.sigma)),
-        None => product.clone(),
-    };
     vec![
-        Condition::at_most("S0", "h sigma <= 1", product, one),
+        Condition::at_most("S0", "h sigma <= 1", product.clone(), one),
         Condition::at_most("S0b", "Nbar^2 <= weight_sum", data.n_bar_squared.clone(), law.weight_sum.clone()),
         Condition::less("S0c", "K h weight_sum < 2", law.load(), two),
         Condition::at_most(

@@ -30,8 +30,7 @@ impl SampledPair<'_> {
     pub fn condition(&self, data: &Data<'_>) -> Condition {
         let needs = Needs::new(data, self.law);
         let (k0, k1) = (data.rational(self.k0), data.rational(self.k1));
-        let at_zero =
-            TransferStep { what: "1/(nu^2 n_0) <= k0".to_owned(), lhs: needs.at_zero(), rhs: k0.clone() };
+        let at_zero = TransferStep { what: "1/(nu^2 n_0) <= k0".to_owned(), lhs: needs.at_zero(), rhs: k0.clone() };
         let steps = (1..).zip(self.law.sines.iter()).flat_map(|(j, sine)| {
             let rhs = &k0 + &k1 * needs.square(sine);
             let step = |what: String, lhs| TransferStep { what, lhs, rhs: rhs.clone() };

@@ -43,7 +43,6 @@ where
         let Numbers { period, .. } = problem.numbers();
         let (kappa_0, kappa_1) = kappas(problem, k0, k1);
         let swing = period / (R::int(2) * &law.mu);
-        law.enlarged.sqr()
-            * ((swing + kappa_0) * self.forcing.q_rms.sqr() + kappa_1 * self.forcing.q_rate_rms.sqr())
+        law.enlarged.sqr() * ((swing + kappa_0) * self.forcing.q_rms.sqr() + kappa_1 * self.forcing.q_rate_rms.sqr())
     }
 }

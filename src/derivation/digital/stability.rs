@@ -32,8 +32,7 @@ where
         let two = R::int(2);
         let [p, q, r] = [&self.ey / &two, &self.xe / &two, &self.xy / &two];
         let second = &self.xx * &self.ee - q.sqr();
-        let third =
-            &second * &self.yy - &self.xx * p.sqr() - &self.ee * r.sqr() - two * (&p * &q * &r);
+        let third = &second * &self.yy - &self.xx * p.sqr() - &self.ee * r.sqr() - two * (&p * &q * &r);
         [self.xx.clone(), second, third]
     }
 }

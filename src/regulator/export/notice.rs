@@ -71,7 +71,9 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             let named = format!("Certificate with SHA-256 {sha256} (of its canonical form)");
             let claims = format!("{named}; `sigmastar check` decides it. It claims: {}", plain(statement));
             let about = match scope {
-                Scope::Samples => "The law at samples here is the one that is claimed: this gain, this sampling period, this K.",
+                Scope::Samples => {
+                    "The law at samples here is the one that is claimed: this gain, this sampling period, this K."
+                }
                 _ => "The certificate is about the continuous-time law: it does not cover sampling.",
             };
             match scope.obstacle(sigma_star) {
