@@ -105,6 +105,8 @@ pub mod report;
 #[doc(hidden)]
 pub mod reproduce;
 #[doc(hidden)]
+pub mod sampling;
+#[doc(hidden)]
 pub mod search;
 #[doc(hidden)]
 pub mod semidefinite;

@@ -21,8 +21,9 @@ use rug::Rational;
 /// found, not the smallest that works.
 ///
 /// # Errors
-/// - [`Range`](crate::ErrorKind::Range): a bounding function is refuted, the filter of a relative degree is not stable, or
-///   an option is out of range;
+/// - [`Range`](crate::ErrorKind::Range): a bounding function is refuted, the filter of a relative degree is not stable, an
+///   option is out of range, or the specification asks for the regulator at samples (`sampling_period`), which the program
+///   certifies;
 /// - [`Undecided`](crate::ErrorKind::Undecided): no Lyapunov triple was found for the Jacobian, or a bounding function was
 ///   neither proved nor refuted;
 /// - [`NotCertified`](crate::ErrorKind::NotCertified): no gain was found, or a condition was not proved; the conditions are

@@ -3,12 +3,13 @@
 //! A further number of a witness is one line here, beside its field in `derivation`. A part that is nested, or may be
 //! missing, is a list of its own; it is read and written as `exact_regulation` is.
 
+use crate::derivation::digital::DigitalWitness;
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::mean_squares::MeanSquares;
 use crate::derivation::repaired::RepairedWitness;
 use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::number::write_exact;
-use crate::spec::{ErrorKind, Errors, Object, Reported, Value, any_constant};
+use crate::spec::{ErrorKind, Errors, Object, Reported, SampledGain, Sampling, Value, any_constant};
 use crate::transfer::TransferProof;
 use rug::Rational;
 
@@ -80,6 +81,20 @@ numbers!(RefinedSquares { x: "r_x", e: "r_e", e_rate: "r_d" } and ());
 
 numbers!(RepairedWitness { x: "X", e: "E", level: "L", h: "h", p_x: "p_x", p_e: "p_e", k0: "k0", k1: "k1" }
     and (sigma: Rational, set: ClaimedSet, transfer: TransferProof));
+
+numbers!(DigitalWitness {
+    x_p: "X_p",
+    e_p: "E_p",
+    r_x: "r_x",
+    r_e: "r_e",
+    r_d: "r_d",
+    d_x: "D_x",
+    d_e: "D_e",
+    w_x: "w_x",
+    eta: "h",
+    k0: "k0",
+    k1: "k1"
+} and (sigma: Rational, sampling: Sampling, law: SampledGain, set: ClaimedSet));
 
 numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and ());
 

@@ -24,22 +24,14 @@ pub fn read_witness(document: &Document) -> Result<GivenWitness, SpecErrors> {
     errors.conclude(document, outcome)
 }
 
+/// The fields of every certificate that are computed again.
+pub(super) const COMMON: [&str; 7] =
+    ["tool", "precision_bits", "specification", "specification_sha256", "plant", "plant_sha256", "conditions"];
+
 fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported> {
     let mut file = root.object(errors)?;
     file.header(FORMAT, &[VERSION], errors)?;
-    let unused = [
-        "tool",
-        "precision_bits",
-        "specification",
-        "specification_sha256",
-        "plant",
-        "plant_sha256",
-        "no_plant",
-        "comparison",
-        "conditions",
-        "constants",
-    ];
-    for unused in unused {
+    for unused in COMMON.iter().chain(&["no_plant", "comparison", "constants"]) {
         let _ = file.optional(unused);
     }
     let claim = file.required("claim", errors).and_then(|value| claim_part(&value, errors));
@@ -124,6 +116,11 @@ pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> R
 /// What the claim contributes to the witness: whether it is of the repaired derivation, sigma*, and the initial set.
 fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(bool, Rational, ClaimedSet), Reported> {
     let mut claim = value.object(errors)?;
+    if let Some(regulator) = value.member("regulator") {
+        let message = "this certificate is about the regulator at samples, not about the one in continuous time";
+        let error = regulator.error(ErrorKind::UnknownField, message);
+        return Err(errors.report(error.help("`certify --witness`, `controller` and `check` take it")));
+    }
     for unused in ["verdict", "n_o", "mu", "periodic_solution", "statement"] {
         let _ = claim.optional(unused);
     }
@@ -136,15 +133,19 @@ fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(bool, Rational,
         }
     });
     let sigma = rational(&mut claim, "sigma_star", errors);
-    let set = claim.required("initial_set", errors).and_then(|value| {
-        let mut set = value.object(errors)?;
-        let _ = (set.optional("kind"), set.optional("ball"));
-        let sizes = ClaimedSet::read(&mut set, errors, |_, _| Ok(()));
-        set.finish(errors);
-        sizes
-    });
+    let set = read_set(&mut claim, errors);
     claim.finish(errors);
     Ok((repaired?, sigma?, set?))
+}
+
+/// `initial_set` of a claim.
+pub(super) fn read_set(claim: &mut Object<'_>, errors: &mut Errors) -> Result<ClaimedSet, Reported> {
+    let value = claim.required("initial_set", errors)?;
+    let mut set = value.object(errors)?;
+    let _ = (set.optional("kind"), set.optional("ball"));
+    let sizes = ClaimedSet::read(&mut set, errors, |_, _| Ok(()));
+    set.finish(errors);
+    sizes
 }
 
 fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<TransferProof, Reported> {
@@ -170,7 +171,7 @@ fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<Transfe
 }
 
 /// A field that holds a whole number below 2^32.
-fn small_integer(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<u32, Reported> {
+pub(super) fn small_integer(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<u32, Reported> {
     let value = object.required(name, errors)?;
     let number = value.integer(errors)?;
     u32::try_from(number).map_err(|_| {

@@ -1,19 +1,23 @@
 //! What a certificate states: its specification, its witness, and its bounds of the periodic solution.
 
 use super::read::{read_lyapunov, read_witness};
+use super::read_digital::read_digital_witness;
 use super::read_plant::read_plant_witness;
 use crate::certify::{GivenWitness, resolve_with};
+use crate::derivation::digital::DigitalWitness;
 use crate::plant::Plant;
 use crate::reduction::{PlantRefusal, specification};
 use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
 
 /// The statement of a certificate, for whoever holds it against something else.
+///
+/// The witness is a [`GivenWitness`] of the regulator in continuous time, or a [`DigitalWitness`] of the one at samples.
 #[derive(Clone, Debug)]
-pub struct StatedClaim {
+pub struct StatedClaim<W = GivenWitness> {
     /// The specification inside the certificate, with its triple where that is proved by the witness.
     pub spec: Specification,
     /// The free numbers.
-    pub witness: GivenWitness,
+    pub witness: W,
     /// The stated bounds of sup|x|, sup|e|, sup|zeta|_N and sup|z|_N along the periodic solution; infinite where there is none.
     pub periodic: [f64; 4],
     /// The plant, where the certificate is of one.
@@ -26,7 +30,18 @@ pub struct StatedClaim {
 /// # Errors
 /// What cannot be read, in its place, and a triple that is not proved.
 pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
-    let witness = read_witness(document)?;
+    stated(document, read_witness(document)?)
+}
+
+/// The same of a certificate about the regulator at samples ([`is_digital`](super::is_digital)).
+///
+/// # Errors
+/// Those of [`read_claim`].
+pub fn read_digital_claim(document: &Document) -> Result<StatedClaim<DigitalWitness>, SpecErrors> {
+    stated(document, read_digital_witness(document)?)
+}
+
+fn stated<W>(document: &Document, witness: W) -> Result<StatedClaim<W>, SpecErrors> {
     let root = document.root();
     let refused = |error| {
         let mut errors = Errors::new();

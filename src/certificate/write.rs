@@ -25,15 +25,15 @@ pub const VERSION: u64 = 1;
 const CLAIM_DIGITS: u32 = 12;
 
 /// An object from pairs, in their order.
-fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
+pub(super) fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
     Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
-fn text(value: impl Into<String>) -> Value {
+pub(super) fn text(value: impl Into<String>) -> Value {
     Value::String(value.into())
 }
 
-fn exact(value: &Rational) -> Value {
+pub(super) fn exact(value: &Rational) -> Value {
     text(write_exact(value))
 }
 
@@ -42,7 +42,7 @@ fn interval(value: &Enclosure) -> Value {
 }
 
 /// An upper end, rounded up; the text "inf" when there is none.
-fn upper_end(value: &Enclosure) -> Value {
+pub(super) fn upper_end(value: &Enclosure) -> Value {
     match value.upper_rational() {
         Some(upper) => exact(&round_rational(&upper, CLAIM_DIGITS, Direction::Up)),
         None => text("inf"),
@@ -181,11 +181,25 @@ fn checkable(rows: &[Row]) -> Vec<Row> {
 #[must_use]
 pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) -> String {
     let spec = run.spec;
-    if let Some(plant) = spec.plant() {
-        return statement_of_plant(spec, plant, sigma, set);
-    }
     let model = &spec.internal_model;
     let reach = if model.matched { "" } else { " (which need not match the period)" };
+    format!(
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+         frequency {}{reach}, {}",
+        write_exact(sigma),
+        spec.period.text,
+        model.mu.text,
+        model.base_frequency.text,
+        conclusion(spec, set, "at any initial time"),
+    )
+}
+
+/// What converges to what: of all plants of the data, or of the plant whose formulas are in the certificate; `start` says when
+/// a solution may start.
+pub(super) fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) -> String {
+    if let Some(plant) = spec.plant() {
+        return conclusion_of_plant(plant, set, start);
+    }
     let domain = spec
         .domain
         .as_ref()
@@ -203,24 +217,16 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
         if spec.bounds.own(Bound::Rate).is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
     let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
     format!(
-        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
-         frequency {}{reach}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
-         has a T-periodic solution of the closed loop to which every solution from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, at \
-         any initial time, converges exponentially.",
-        write_exact(sigma),
-        spec.period.text,
-        model.mu.text,
-        model.base_frequency.text,
+        "every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution of the \
+         closed loop to which every solution from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, {start}, converges exponentially.",
         write_exact(&set.x0),
         write_exact(&set.e0),
         write_exact(&set.z0),
     )
 }
 
-/// The claim in words about one plant, whose formulas are in the certificate: nothing of it is assumed.
-fn statement_of_plant(spec: &Specification, plant: &OfPlant, sigma: &Rational, set: &ClaimedSet) -> String {
-    let model = &spec.internal_model;
-    let reach = if model.matched { "" } else { " (which need not match the period)" };
+/// The same about one plant: nothing of it is assumed.
+fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String {
     let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
         format!(" (a model that holds for |x - x_0| <= {}, |e| <= {})", domain.x.text, domain.e.text)
     });
@@ -237,17 +243,12 @@ fn statement_of_plant(spec: &Specification, plant: &OfPlant, sigma: &Rational, s
         ),
     };
     format!(
-        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
-         frequency {}{reach}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
-         every solution from {state}|e| <= {e0}, sqrt(z'Nz) <= {z0}, at any initial time, converges exponentially{orbit}.",
-        write_exact(sigma),
-        spec.period.text,
-        model.mu.text,
-        model.base_frequency.text,
+        "the plant of these formulas{domain} has a T-periodic solution of the closed loop to which every solution from \
+         {state}|e| <= {e0}, sqrt(z'Nz) <= {z0}, {start}, converges exponentially{orbit}."
     )
 }
 
-fn set_json(spec: &Specification, set: &ClaimedSet) -> Value {
+pub(super) fn set_json(spec: &Specification, set: &ClaimedSet) -> Value {
     let kind = match spec.initial_set {
         InitialSet::Paper => "paper",
         InitialSet::AtRest { .. } => "at-rest",

@@ -4,8 +4,18 @@ use super::options::{Options, TransferChoice};
 use super::proof::{Outcome, SharpProof};
 use super::round::{TransferKind, round_sharp};
 use crate::data::Data;
-use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
+use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_at, search_sharp_near};
 use crate::transfer::TradeOff;
+use rug::Rational;
+
+/// What is asked of a search.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Wanted<'w> {
+    /// Free numbers that are known to be near.
+    pub(super) start: Option<&'w SharpProposal>,
+    /// The gain, where it is not to be found.
+    pub(super) gain: Option<&'w Rational>,
+}
 
 /// The outcome, with the model and the proposal that it came from.
 pub(super) struct BestSharp {
@@ -15,18 +25,21 @@ pub(super) struct BestSharp {
 }
 
 impl BestSharp {
-    fn new(data: &Data<'_>, options: Options, kind: TransferKind, start: Option<&SharpProposal>) -> BestSharp {
+    fn new(data: &Data<'_>, options: Options, kind: TransferKind, wanted: Wanted<'_>) -> BestSharp {
         let model = model(data, kind);
-        let near = start.and_then(|known| search_sharp_near(&model, known));
-        let proposal = near.map_or_else(|| search_sharp(&model), Ok);
+        let Wanted { start, gain } = wanted;
+        let proposal = match gain {
+            None => start.and_then(|known| search_sharp_near(&model, known)).map_or_else(|| search_sharp(&model), Ok),
+            Some(gain) => search_sharp_at(&model, gain.to_f64(), start),
+        };
         let outcome = match &proposal {
             Err(obstacle) => Outcome::NotFound(*obstacle),
-            Ok(proposal) => round_sharp(data, &model, proposal, kind, options.ladder).into(),
+            Ok(proposal) => round_sharp(data, &model, proposal, (kind, gain), options.ladder).into(),
         };
         BestSharp { model, proposal: proposal.ok(), outcome }
     }
 
-    /// The better one of two: that with a proof, and with the smaller sigma.
+    /// The better one of two: that with a proof, and with the smaller sigma; of two at a given gain the first.
     fn or(self, other: BestSharp) -> BestSharp {
         match (self.outcome.proved(), other.outcome.proved()) {
             (Some(first), Some(second)) if second.witness.sigma < first.witness.sigma => other,
@@ -45,10 +58,10 @@ pub(super) fn model(data: &Data<'_>, kind: TransferKind) -> FloatModel {
     FloatModel::new(data, trade_off)
 }
 
-/// Searches, near `start` where there is one, and decides the sharp derivation; the smaller one of what the closed form and the sharper proof of the transfer
-/// bound lead to is taken.
-pub(super) fn best_sharp(data: &Data<'_>, options: Options, start: Option<&SharpProposal>) -> BestSharp {
-    let with = |kind| BestSharp::new(data, options, kind, start);
+/// Searches, near `start` where there is one, and decides the sharp derivation; the smaller one of what the closed form and
+/// the sharper proof of the transfer bound lead to is taken.
+pub(super) fn best_sharp(data: &Data<'_>, options: Options, wanted: Wanted<'_>) -> BestSharp {
+    let with = |kind| BestSharp::new(data, options, kind, wanted);
     if options.transfer == TransferChoice::Best {
         let sharper = if data.matched { TransferKind::Matched } else { TransferKind::Boxes };
         return with(sharper).or(with(TransferKind::ClosedForm));

@@ -55,6 +55,8 @@ pub struct Certification<'s> {
     pub spec: &'s Specification,
     /// The options of the run.
     pub options: Options,
+    /// The gain that was asked about, where the smallest one was not sought.
+    pub given_gain: Option<Rational>,
     /// The verdict on the chosen derivation.
     pub verdict: Verdict,
     /// The sharp derivation.

@@ -1,7 +1,7 @@
 //! Deciding a claim from its rational witness, at a precision that rises while the answer is undecided.
 
 use super::options::Ladder;
-use super::proof::{Proof, Witness};
+use super::proof::{Decidable, Proof};
 use crate::data::Data;
 use crate::derivation::condition::{self, Condition};
 use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
@@ -24,7 +24,7 @@ impl Ladder {
 
 /// Decides the conditions of the witness's derivation.
 #[must_use]
-pub fn decide<W: Witness>(spec: &Specification, witness: W, ladder: Ladder) -> Proof<W> {
+pub fn decide<W: Decidable>(spec: &Specification, witness: W, ladder: Ladder) -> Proof<W> {
     let (evaluation, precision) =
         ladder.climb(|precision| witness.evaluate(&Data::new(spec, precision)), W::conditions);
     Proof { witness, evaluation, precision }

@@ -1,6 +1,6 @@
 //! The whole run: prove the bounding functions, search, round, decide, in each derivation.
 
-use super::best::{best_sharp, model};
+use super::best::{Wanted, best_sharp, model};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 use super::constants::Columns;
@@ -9,7 +9,6 @@ use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
 use super::options::{Derivation, Options};
 use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
-
 use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
 use super::verdict::Verdict;
@@ -48,6 +47,31 @@ pub fn certify_near<'s>(
     options: Options,
     start: Option<&SharpProposal>,
 ) -> Result<Certification<'s>, Refusal> {
+    certify_wanted(spec, options, Wanted { start, gain: None })
+}
+
+/// The same for a gain that is given: the claim, if it is proved, is about this gain and all larger ones. Of the sharp
+/// derivation.
+///
+/// # Errors
+/// Those of [`certify`].
+pub fn certify_at<'s>(
+    spec: &'s Specification,
+    options: Options,
+    start: Option<&SharpProposal>,
+    gain: &Rational,
+) -> Result<Certification<'s>, Refusal> {
+    certify_wanted(spec, Options { derivation: Derivation::Sharp, ..options }, Wanted { start, gain: Some(gain) })
+}
+
+fn certify_wanted<'s>(
+    spec: &'s Specification,
+    options: Options,
+    asked: Wanted<'_>,
+) -> Result<Certification<'s>, Refusal> {
+    if spec.internal_model.sampling.is_some() {
+        return Err(Refusal::Sampled);
+    }
     let data = Data::new(spec, options.ladder.start.max(53));
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
@@ -66,8 +90,9 @@ pub fn certify_near<'s>(
         Outcome::Skipped
     };
     let (sharp_model, proposal, sharp) = if wanted(Derivation::Sharp) {
-        let best = best_sharp(&data, options, start);
-        (best.model, best.proposal, best.outcome)
+        let best = best_sharp(&data, options, asked);
+        // Figures about the smallest gain say nothing about one that is given.
+        (best.model, best.proposal.filter(|_| asked.gain.is_none()), best.outcome)
     } else {
         (model(&data, TransferKind::ClosedForm), None, Outcome::Skipped)
     };
@@ -85,7 +110,8 @@ pub fn certify_near<'s>(
         _ => None,
     };
     let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
-    assemble(spec, options, &data, parts, &sharp_model)
+    let run = assemble(spec, options, &data, parts, &sharp_model)?;
+    Ok(Certification { given_gain: asked.gain.cloned(), ..run })
 }
 
 /// Decides the witness of a certificate again, without any search.
@@ -100,6 +126,9 @@ pub fn recheck<'s>(
     file: &GivenWitness,
     options: Options,
 ) -> Result<Certification<'s>, Refusal> {
+    if spec.internal_model.sampling.is_some() {
+        return Err(Refusal::Sampled);
+    }
     let data = Data::new(spec, options.ladder.start.max(53));
     let (derivation, sharp, repaired, claimed) = match file {
         GivenWitness::Sharp { witness, exact } => {
@@ -207,6 +236,7 @@ fn assemble<'s>(
         without_optional,
         unproved_bounds: unproved,
         constants: constants.rows,
+        given_gain: None,
     })
 }
 
@@ -223,7 +253,7 @@ fn relative_degree_gains(
 }
 
 /// Splits failures of the bounding functions: refuted ones are errors, undecided ones keep a claim from being made.
-fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Refusal> {
+pub(super) fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Refusal> {
     let problems = result.err().unwrap_or_default();
     let (refuted, undecided): (Vec<_>, Vec<_>) =
         problems.into_iter().partition(|problem| matches!(problem.failure, BoundingFailure::Refuted { .. }));

@@ -4,6 +4,7 @@ use super::options::Derivation;
 use crate::data::Data;
 use crate::derivation::condition::{self, Condition};
 use crate::derivation::consequences::Excitation;
+use crate::derivation::digital::{DigitalEvaluation, DigitalWitness};
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
@@ -12,9 +13,9 @@ use crate::search::Obstacle;
 use crate::transfer::TransferProof;
 use rug::Rational;
 
-/// The free numbers of a derivation that can certify.
-pub trait Witness: Sized {
-    /// Everything that the derivation computes from them.
+/// Free numbers that conditions decide.
+pub trait Decidable: Sized {
+    /// Everything that is computed from them.
     type Evaluation;
 
     /// Evaluates all quantities and conditions at the precision of `data`.
@@ -22,7 +23,10 @@ pub trait Witness: Sized {
 
     /// All conditions in order.
     fn conditions(evaluation: &Self::Evaluation) -> &[Condition];
+}
 
+/// The free numbers of a derivation that can certify the regulator in continuous time.
+pub trait Witness: Decidable {
     /// What both derivations say.
     fn decided(proof: &Proof<Self>) -> Decided<'_>;
 }
@@ -57,7 +61,7 @@ impl GivenWitness {
 
 /// A witness and what was decided about it.
 #[derive(Clone, Debug)]
-pub struct Proof<W: Witness> {
+pub struct Proof<W: Decidable> {
     /// The free numbers.
     pub witness: W,
     /// The evaluation at the precision that decided.
@@ -72,13 +76,30 @@ pub type SharpProof = Proof<SharpWitness>;
 /// Of the repaired derivation.
 pub type RepairedProof = Proof<RepairedWitness>;
 
-impl<W: Witness> Proof<W> {
+/// Of the regulator at samples.
+pub type DigitalProof = Proof<DigitalWitness>;
+
+impl Decidable for DigitalWitness {
+    type Evaluation = DigitalEvaluation;
+
+    fn evaluate(&self, data: &Data<'_>) -> DigitalEvaluation {
+        DigitalEvaluation::new(data, self)
+    }
+
+    fn conditions(evaluation: &DigitalEvaluation) -> &[Condition] {
+        &evaluation.conditions
+    }
+}
+
+impl<W: Decidable> Proof<W> {
     /// The truth of all conditions together.
     #[must_use]
     pub fn truth(&self) -> Truth {
         condition::all(W::conditions(&self.evaluation))
     }
+}
 
+impl<W: Witness> Proof<W> {
     /// The view that does not depend on the derivation.
     #[must_use]
     pub fn decided(&self) -> Decided<'_> {
@@ -125,7 +146,7 @@ impl Decided<'_> {
     }
 }
 
-impl Witness for SharpWitness {
+impl Decidable for SharpWitness {
     type Evaluation = SharpEvaluation;
 
     fn evaluate(&self, data: &Data<'_>) -> SharpEvaluation {
@@ -135,7 +156,9 @@ impl Witness for SharpWitness {
     fn conditions(evaluation: &SharpEvaluation) -> &[Condition] {
         &evaluation.conditions
     }
+}
 
+impl Witness for SharpWitness {
     fn decided(proof: &SharpProof) -> Decided<'_> {
         let Proof { witness, evaluation, precision } = proof;
         let SharpEvaluation { bounds, periodic, error_box, .. } = evaluation;
@@ -156,7 +179,7 @@ impl Witness for SharpWitness {
     }
 }
 
-impl Witness for RepairedWitness {
+impl Decidable for RepairedWitness {
     type Evaluation = RepairedEvaluation;
 
     fn evaluate(&self, data: &Data<'_>) -> RepairedEvaluation {
@@ -166,7 +189,9 @@ impl Witness for RepairedWitness {
     fn conditions(evaluation: &RepairedEvaluation) -> &[Condition] {
         &evaluation.conditions
     }
+}
 
+impl Witness for RepairedWitness {
     fn decided(proof: &RepairedProof) -> Decided<'_> {
         let Proof { witness, evaluation, precision } = proof;
         let RepairedEvaluation { bounds, point, .. } = evaluation;
@@ -226,7 +251,7 @@ impl<P> Outcome<P> {
     }
 }
 
-impl<W: Witness> From<Option<Proof<W>>> for Outcome<Proof<W>> {
+impl<W: Decidable> From<Option<Proof<W>>> for Outcome<Proof<W>> {
     /// Proved, where every condition is; without a witness, no numbers were finite.
     fn from(attempt: Option<Proof<W>>) -> Outcome<Proof<W>> {
         let Some(proof) = attempt.map(Box::new) else { return Outcome::NotFound(Obstacle::NotFinite) };

@@ -12,6 +12,8 @@ pub enum Refusal {
     Bounds(Vec<BoundingProblem>),
     /// The filter of a relative degree is not stable: the plant is not what the specification says.
     Filter(RelativeDegreeError),
+    /// The specification asks for the regulator at samples, and this is about the one in continuous time.
+    Sampled,
     /// No Lyapunov triple of the Jacobian is proved: undecided, for no search proves that there is none.
     Jacobian(String),
 }
@@ -31,6 +33,12 @@ impl Refusal {
                 error.to_string(),
                 "the coefficients a_1, ..., a_(r-1) must make s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 stable; mind their \
                  order",
+            ),
+            Refusal::Sampled => at(
+                "/internal_model/sampling_period",
+                ErrorKind::Range,
+                "the regulator at samples is asked for, and this is about the one in continuous time".to_owned(),
+                "leave `sampling_period` out; `sigmastar certify`, `sampling` and `controller` take it",
             ),
             Refusal::Jacobian(message) => at(
                 "/lyapunov/jacobian",

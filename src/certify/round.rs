@@ -6,7 +6,7 @@
 use super::certification::ExactClaim;
 use super::decide::{decide, decide_exact};
 use super::options::Ladder;
-use super::proof::{Proof, RepairedProof, SharpProof, Witness};
+use super::proof::{Decidable, Proof, RepairedProof, SharpProof};
 use crate::data::Data;
 use crate::derivation::exact_regulation::{ExactWitness, steady_state_norm};
 use crate::derivation::existence::{PeriodicBounds, kappas};
@@ -28,9 +28,9 @@ use rug::Rational;
 /// Significant digits of sigma*.
 const SIGMA_DIGITS: u32 = 6;
 /// Significant digits of the kappas, and of X_p, E_p where they do.
-const SHORT_DIGITS: u32 = 8;
+pub(super) const SHORT_DIGITS: u32 = 8;
 /// Significant digits of numbers in which a condition is active.
-const LONG_DIGITS: u32 = 14;
+pub(super) const LONG_DIGITS: u32 = 14;
 /// Relative slacks of sigma that are tried in turn.
 const SLACKS: [f64; 12] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e3];
 
@@ -42,7 +42,7 @@ fn attempts() -> impl Iterator<Item = (u32, f64)> {
 }
 
 /// Decides one witness after the other: the first attempt that is proved, or the last one.
-fn first_proved<W: Witness>(
+pub(super) fn first_proved<W: Decidable>(
     data: &Data<'_>,
     ladder: Ladder,
     mut witness: impl FnMut((u32, f64)) -> Option<W>,
@@ -60,15 +60,15 @@ fn first_proved<W: Witness>(
     last
 }
 
-fn nearest(value: f64, digits: u32) -> Option<Rational> {
+pub(super) fn nearest(value: f64, digits: u32) -> Option<Rational> {
     round_f64(value, digits, Direction::Nearest)
 }
 
-fn upper(value: &Enclosure, digits: u32) -> Option<Rational> {
+pub(super) fn upper(value: &Enclosure, digits: u32) -> Option<Rational> {
     value.upper_rational().map(|exact| round_rational(&exact, digits, Direction::Up))
 }
 
-fn rounded_sigma(sigma: f64, slack: f64) -> Option<Rational> {
+pub(super) fn rounded_sigma(sigma: f64, slack: f64) -> Option<Rational> {
     round_f64(sigma * (1.0 + slack), SIGMA_DIGITS, Direction::Up)
 }
 
@@ -82,7 +82,7 @@ fn rounded_e(e_p: f64, largest: f64, digits: u32) -> Option<Rational> {
 }
 
 /// The claimed set for X_p, E_p and Z: what the specification requires, rounded up where it is not a short rational.
-fn claimed_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -> Option<ClaimedSet> {
+pub(super) fn claimed_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -> Option<ClaimedSet> {
     let digits = if matches!(data.spec.initial_set, InitialSet::Paper) { SHORT_DIGITS } else { LONG_DIGITS };
     let [x0, e0, z0] = required_set(data, x_p, e_p, z).map(|size| match size {
         Size::Exact(exact) => Some(exact),
@@ -123,31 +123,33 @@ type ProvedPair = (Rational, Rational, TransferProof);
 type KnownPair = ((f64, f64, u32), Option<ProvedPair>);
 
 /// The room between both sides of S1 and S2 that numbers of so many digits need: a hundred times their last digit.
-fn room(digits: u32) -> f64 {
+pub(super) fn room(digits: u32) -> f64 {
     if digits == SHORT_DIGITS { 1e-6 } else { 1e-12 }
 }
 
-/// Rounds a sharp proposal and decides it.
+/// Rounds a sharp proposal and decides it, at the gain that is given where one is.
 pub(super) fn round_sharp(
     data: &Data<'_>,
     model: &FloatModel,
     proposal: &SharpProposal,
-    kind: TransferKind,
+    (kind, given): (TransferKind, Option<&Rational>),
     ladder: Ladder,
 ) -> Option<SharpProof> {
     let mut known = None;
-    first_proved(data, ladder, |attempt| sharp_witness(data, model, proposal, kind, attempt, &mut known))
+    first_proved(data, ladder, |(digits, slack)| {
+        let sigma = given.cloned().or_else(|| rounded_sigma(proposal.sigma, slack))?;
+        sharp_witness(data, model, (proposal, sigma), kind, (digits, slack), &mut known)
+    })
 }
 
 fn sharp_witness(
     data: &Data<'_>,
     model: &FloatModel,
-    proposal: &SharpProposal,
+    (proposal, sigma): (&SharpProposal, Rational),
     kind: TransferKind,
     (digits, slack): (u32, f64),
     known: &mut Option<KnownPair>,
 ) -> Option<SharpWitness> {
-    let sigma = rounded_sigma(proposal.sigma, slack)?;
     let (found, at) = at_sigma(model, &proposal.parameters, sigma.to_f64(), room(digits)).ok()?;
     // The slack does not move the pair, nor the boxes that prove it.
     if known.as_ref().is_none_or(|(pair, _)| *pair != found.pair) {
@@ -181,14 +183,14 @@ fn sharp_witness(
 }
 
 /// D_x, D_e, w_x, h of an error box whose level condition holds with a small slack after rounding.
-struct RoundedBox {
-    d_x: Rational,
-    d_e: Rational,
-    w_x: Rational,
-    h: Rational,
+pub(super) struct RoundedBox {
+    pub(super) d_x: Rational,
+    pub(super) d_e: Rational,
+    pub(super) w_x: Rational,
+    pub(super) h: Rational,
 }
 
-fn rounded_box(
+pub(super) fn rounded_box(
     model: &FloatModel,
     d_x: f64,
     rho: f64,

@@ -28,7 +28,13 @@ pub const CERTIFY_EXAMPLES: &str = "Examples:
   sigmastar certify plant.json -o plant.certificate.json
   sigmastar certify plant.json --target-rms 1e-3
   sigmastar certify plant.json --witness plant.certificate.json
+  sigmastar certify plant.json --sampling-period 1/1000 --sigma 60
   sigmastar certify - --format json < plant.json";
+
+/// Examples of `sampling`.
+const SAMPLING_EXAMPLES: &str = "Examples:
+  sigmastar sampling plant.json
+  sigmastar sampling plant.json --sampling-period 1/200,1/1000 --sigma 50,100 --plot sampling.svg";
 
 /// Examples of `transfer`.
 const TRANSFER_EXAMPLES: &str = "Examples:
@@ -80,6 +86,12 @@ pub enum Command {
     /// proved. The report goes to standard output, remarks and errors to standard error.
     #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
     Certify(Box<CertifyArgs>),
+    /// For how fast a computer: the smallest certified gain for sampling periods, and the longest one for gains
+    ///
+    /// Each pair is certified as `certify --sampling-period H --sigma V` does. A gain is certified for its sampling period alone:
+    /// neither a larger gain nor a shorter period follows from it.
+    #[command(after_help = SAMPLING_EXAMPLES, after_long_help = format!("{SAMPLING_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Sampling(SamplingArgs),
     /// Prove the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
     ///
     /// Finds constants k0, k1 that are proved for every n_o and every frequency, says how much of the bound each n_o uses,
@@ -158,8 +170,17 @@ pub struct CertifyArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = TransferArg::Best)]
     pub transfer: TransferArg,
 
+    /// Certify this gain, a positive rational number, instead of the smallest one that is found
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+
+    /// Certify the regulator at samples this far apart, an exact positive constant; sets or replaces `sampling_period`
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub sampling_period: Option<String>,
+
     /// Decide the witness of this certificate again instead of searching
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["derivation", "transfer"])]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
+          conflicts_with_all = ["derivation", "transfer", "sigma"])]
     pub witness: Option<PathBuf>,
 
     /// Format of the report
@@ -210,6 +231,36 @@ impl CertifyArgs {
             compare: !self.no_compare,
         }
     }
+}
+
+/// The flags of `sampling`.
+#[derive(Args, Debug)]
+pub struct SamplingArgs {
+    /// Bounding specification or plant (JSON) with a matched base frequency, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Sampling periods, separated by commas: exact constants of which the period is a whole multiple [default: some that fit
+    /// the gain of the continuous-time regulator]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub sampling_period: Option<String>,
+
+    /// Gains, positive rational numbers separated by commas [default: 1.1, 1.5, 2, 3 and 5 times the gain of the
+    /// continuous-time regulator]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+
+    /// Draw the certified pairs, as SVG, into this file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub plot: Option<PathBuf>,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// No remarks and no progress on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// The flags of `transfer`.

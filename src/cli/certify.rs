@@ -5,9 +5,10 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::progress::{Audience, Working};
 use super::subject::{Subject, seeking_triple};
-use super::{input, output};
-use sigmastar::certificate::{certificate_json, read_lyapunov, read_plant_witness, read_witness};
-use sigmastar::certify::{Certification, Derivation, Options, certify_near, recheck, with_triple};
+use super::{digital, input, output};
+use serde_json::Value;
+use sigmastar::certificate::{certificate_json, is_digital, read_lyapunov, read_plant_witness, read_witness};
+use sigmastar::certify::{Derivation, Options, Verdict, certify_at, certify_near, recheck, with_triple};
 use sigmastar::derivation::targets::TargetKind;
 use sigmastar::plant::Plant;
 use sigmastar::reduction::decide_again;
@@ -37,21 +38,36 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         let message = "the specification and the witness cannot be the same file";
         return Err(Failure::call(message, "--witness names a certificate written with -o"));
     }
-    let subject = Subject::read(&input::document(&args.spec)?)?;
+    let document = input::document(&args.spec)?;
+    let subject = match &args.sampling_period {
+        Some(text) => digital::with_sampling_period(&document, text)?,
+        None => Subject::read(&document)?,
+    };
     let witness = args.witness.as_deref().map(input::document).transpose()?;
+    let gain = args.sigma.as_deref().map(|text| input::rational("--sigma", text)).transpose()?;
+    if witness.as_ref().is_some_and(is_digital) || (witness.is_none() && subject.sampling().is_some()) {
+        return digital::run(args, subject, witness.as_ref(), gain.as_ref(), output.as_ref());
+    }
+    if subject.sampling().is_some() {
+        let message =
+            "the witness is of the regulator in continuous time, and `sampling_period` asks for the one at samples";
+        return Err(Failure::call(message, "leave the sampling period out, or certify without --witness"));
+    }
+    if gain.is_some() && args.options().derivation != Derivation::Sharp {
+        return Err(Failure::call("--sigma is for the sharp derivation", "leave --derivation or --sigma out"));
+    }
     let (spec, start) = data(subject, witness.as_ref(), &args.options(), args.quiet)?;
 
     let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
     let working = Working::new("searching the free numbers, deciding the conditions", audience);
     let run = match &witness {
-        None => certify_near(&spec, args.options(), start.as_ref()),
+        None => match &gain {
+            None => certify_near(&spec, args.options(), start.as_ref()),
+            Some(gain) => certify_at(&spec, args.options(), start.as_ref(), gain),
+        },
         Some(document) => {
             let witness = read_witness(document)?;
-            let digest = if spec.plant().is_some() { "/plant_sha256" } else { "/specification_sha256" };
-            let made_for = document.at(digest);
-            if made_for.is_some_and(|digest| digest.text() != Some(&spec.sha256)) && !args.quiet {
-                output::remark("the certificate was made for another specification; its witness is tried on this one");
-            }
+            tell_other_specification(&spec, document, args.quiet);
             recheck(&spec, &witness, args.options())
         }
     };
@@ -60,7 +76,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let report = Report::new(&run, &targets).rechecked(args.witness.is_some());
     let text = output::report(&report, args.format);
     if let Some(file) = &output {
-        write_certificate(&run, file, args.quiet)?;
+        write_certificate(certificate_json(&run), run.verdict, file, args.quiet)?;
     }
     if let Err(code) = output::data(&text) {
         return Ok(code);
@@ -73,7 +89,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
 }
 
 /// The specification with proved data: those of the witness, proved again, or those that are found.
-fn data(
+pub fn data(
     subject: Subject,
     witness: Option<&Document>,
     options: &Options,
@@ -99,23 +115,37 @@ fn data(
     }
 }
 
+/// Says where a witness was made for something else.
+pub fn tell_other_specification(spec: &Specification, certificate: &Document, quiet: bool) {
+    let digest = if spec.plant().is_some() { "/plant_sha256" } else { "/specification_sha256" };
+    let made_for = certificate.at(digest);
+    if made_for.is_some_and(|digest| digest.text() != Some(&spec.sha256)) && !quiet {
+        output::remark("the certificate was made for another specification; its witness is tried on this one");
+    }
+}
+
 /// The data that the witness of a certificate says of a plant, proved again.
-fn proved_again(plant: &Plant, document: &Document) -> Result<Specification, Failure> {
+pub fn proved_again(plant: &Plant, document: &Document) -> Result<Specification, Failure> {
     let (_, of_plant, values) = read_plant_witness(document)?;
     decide_again(plant, of_plant, values).map_err(|refusal| Failure::Documents(refusal.errors(plant)))
 }
 
 /// Writes the certificate, or says why there is none.
-fn write_certificate(run: &Certification<'_>, file: &OutputFile, quiet: bool) -> Result<(), Failure> {
+pub fn write_certificate(
+    certificate: Option<Value>,
+    verdict: Verdict,
+    file: &OutputFile,
+    quiet: bool,
+) -> Result<(), Failure> {
     let name = file.name();
-    match certificate_json(run) {
+    match certificate {
         Some(certificate) => {
             file.write(output::json_text(&certificate))?;
             if !quiet {
                 output::remark(&format!("the certificate is in `{name}`"));
             }
         }
-        None => output::remark(&format!("`{name}` was not written: the verdict is {}", run.verdict)),
+        None => output::remark(&format!("`{name}` was not written: the verdict is {verdict}")),
     }
     Ok(())
 }

@@ -1,12 +1,12 @@
 //! `sigmastar controller`.
 
 use super::args::{ControllerArgs, Format, RegulatorForm};
-use super::controller_source::{self, Given};
+use super::controller_source::{self, Asked, Given};
 use super::failure::Failure;
 use super::files::{Input, OutputFile, write_together};
 use super::input;
 use super::output::{self, shown};
-use sigmastar::regulator::export::{self, CNames, CSources, Export, Prefix, Provenance};
+use sigmastar::regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};
 use sigmastar::regulator::{Design, Discrete, SampledLoop};
 use sigmastar::report::document::clean;
 use sigmastar::spec::Constant;
@@ -41,8 +41,10 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
         Failure::call("no gain is given", "give it with --sigma, or name a certificate, whose sigma* is taken then")
     })?;
 
+    let step = step.or_else(|| given.as_ref().and_then(Given::step).cloned());
     let design = Design::new(&source.model, &sigma, args.n_o);
-    let certificate = provenance(given.as_ref(), &source, &sigma);
+    let asked = Asked { model: &source.model, sigma: &sigma, step: step.as_ref(), n_o: args.n_o };
+    let certificate = provenance(given.as_ref(), &source, &asked);
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
     let regulator = design.regulator();
     let beyond = || {
@@ -71,6 +73,9 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
         RegulatorForm::Json => output::json_text(&export::json(&export)),
         RegulatorForm::Matlab => export::matlab(&export),
         RegulatorForm::Npz => return npz(&export, output.as_ref()),
+        RegulatorForm::C if discrete.is_none() => {
+            return Err(Failure::call("C code runs at samples", "give the sampling time with --discretise"));
+        }
         RegulatorForm::C => return c.map_or_else(|| Err(needs_file()), |files| files.write(&export)),
     };
     match output {
@@ -80,13 +85,13 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
 }
 
 /// What the certificate has to do with this regulator; one that is about something else is told and left out.
-fn provenance(given: Option<&Given>, source: &controller_source::Source, sigma: &Constant) -> Option<Provenance> {
+fn provenance(given: Option<&Given>, source: &controller_source::Source, asked: &Asked<'_>) -> Option<Provenance> {
     let given = given?;
     if let Some(what) = given.not_about(source) {
         output::remark(&format!("the certificate was made for another {what}: it says nothing about this regulator"));
         return None;
     }
-    Some(given.provenance(sigma))
+    Some(given.provenance(asked))
 }
 
 /// Refuses what is known to be bad; with `--uncertified` it is told instead.
@@ -100,9 +105,16 @@ fn refuse(
     for error in step.map_or_else(Vec::new, |step| design.sampling_errors(step)) {
         reasons.push((error.to_string(), error.way_out()));
     }
-    if let Some(Provenance { sigma_star, .. }) = certificate.filter(|certificate| !certificate.covers_sigma) {
-        let way_out = "take a gain of at least sigma*, or leave --sigma out where a certificate is exported";
-        reasons.push((format!("sigma is below sigma* = {sigma_star} of the certificate"), way_out.to_owned()));
+    if let Some(Provenance { sigma_star, scope, .. }) = certificate {
+        let way_out = match scope {
+            Scope::OtherSamples => "leave --sigma and --discretise out, and take n_o below half of the samples",
+            _ => "take a gain of at least sigma*, or leave --sigma out where a certificate is exported",
+        };
+        let message = match scope {
+            Scope::BelowSigmaStar => Some(format!("sigma is below sigma* = {sigma_star} of the certificate")),
+            _ => scope.obstacle(sigma_star).map(|why| format!("the certificate is not about this regulator: {why}")),
+        };
+        reasons.extend(message.map(|message| (message, way_out.to_owned())));
     }
     for (message, way_out) in reasons {
         if !args.uncertified {
@@ -150,9 +162,6 @@ struct CFiles {
 
 impl CFiles {
     fn new(args: &ControllerArgs, input: Input<'_>) -> Result<CFiles, Failure> {
-        if args.discretise.is_none() {
-            return Err(Failure::call("C code runs at samples", "give the sampling time with --discretise"));
-        }
         let path = args.output.as_deref();
         let path = path.filter(|path| path.extension().is_some_and(|extension| extension == "c"));
         let path = path.ok_or_else(needs_file)?;

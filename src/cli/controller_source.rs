@@ -1,12 +1,13 @@
 //! Where `controller` takes its regulator from: a specification, a plant, or a certificate of one.
 
 use super::failure::Failure;
-use sigmastar::certificate::{FORMAT as CERTIFICATE, read_witness};
+use sigmastar::certificate::{FORMAT as CERTIFICATE, is_digital, read_digital_witness, read_witness};
+use sigmastar::derivation::digital::DigitalWitness;
 use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar::number::write_exact;
 use sigmastar::plant::{self, Plant};
-use sigmastar::regulator::export::Provenance;
-use sigmastar::spec::{Constant, Document, InternalModel, Specification, Value};
+use sigmastar::regulator::export::{Provenance, Scope};
+use sigmastar::spec::{Constant, Document, InternalModel, SampledGain, Sampling, Specification, Value};
 
 use rug::Rational;
 
@@ -36,6 +37,8 @@ impl Source {
 pub struct Given {
     sha256: String,
     sigma_star: Rational,
+    /// The sampling period, K and Nb2, where it is about the regulator at samples: sigma* then is its only gain.
+    sampled: Option<(Sampling, SampledGain)>,
     statement: String,
     /// The digests that it states, of a specification and of a plant.
     made_for: [Option<String>; 2],
@@ -47,19 +50,42 @@ impl Given {
     /// # Errors
     /// What cannot be read, in its place.
     pub fn read(document: &Document) -> Result<Given, Failure> {
-        let sigma_star = read_witness(document)?.sigma().clone();
+        let (sigma_star, sampled) = if is_digital(document) {
+            let DigitalWitness { sigma, sampling, law, .. } = read_digital_witness(document)?;
+            (sigma, Some((sampling, law)))
+        } else {
+            (read_witness(document)?.sigma().clone(), None)
+        };
         let text = |pointer: &str| document.at(pointer).and_then(|value| value.text().map(str::to_owned));
         let statement = text("/claim/statement").ok_or_else(|| {
             Failure::call("the certificate has no `claim.statement`", "take a certificate that `certify -o` wrote")
         })?;
         let made_for = ["/specification_sha256", "/plant_sha256"].map(text);
-        Ok(Given { sha256: document.root().sha256(), sigma_star, statement, made_for })
+        Ok(Given { sha256: document.root().sha256(), sigma_star, sampled, statement, made_for })
     }
 
-    /// sigma*, rounded up to a double: the gain that is exported is certified too.
+    /// sigma*, rounded up to a double: the gain that is exported is certified too. Of the regulator at samples exactly its gain.
     pub fn gain(&self) -> Option<Constant> {
+        if self.sampled.is_some() {
+            return Some(Constant::rational(&self.sigma_star));
+        }
         let up = Enclosure::from_rational(&self.sigma_star, DEFAULT_PRECISION).upper_f64();
         Rational::from_f64(up).map(|gain| Constant::rational(&gain))
+    }
+
+    /// The sampling period, where it is about the regulator at samples.
+    pub fn step(&self) -> Option<&Constant> {
+        self.sampled.as_ref().map(|(sampling, _)| &sampling.step)
+    }
+
+    /// Whether this regulator is the one at samples that it is about: the same gain, sampling period, K and Nb2, exactly, and few
+    /// enough oscillators. `None` where it is about the regulator in continuous time.
+    fn covers_samples(&self, regulator: &Asked<'_>) -> Option<bool> {
+        let (sampling, law) = self.sampled.as_ref()?;
+        let same_step = regulator.step.is_some_and(|step| sampling.is(step));
+        let same_law = regulator.step.and_then(|step| regulator.model.sampled_gain(step)).as_ref() == Some(law);
+        let same_gain = regulator.sigma.as_rational() == Some(&self.sigma_star);
+        Some(same_step && same_law && same_gain && 2 * u64::from(regulator.n_o) < u64::from(sampling.samples))
     }
 
     /// What it is called where it was made for something else.
@@ -68,9 +94,10 @@ impl Given {
         (!same).then_some(source.kind)
     }
 
-    /// Its part in the export of a regulator with this gain.
-    pub fn provenance(&self, sigma: &Constant) -> Provenance {
-        let covers_sigma = match sigma.as_rational() {
+    /// Its part in the export of a regulator.
+    pub fn provenance(&self, regulator: &Asked<'_>) -> Provenance {
+        let sigma = regulator.sigma;
+        let covers_sigma = || match sigma.as_rational() {
             Some(sigma) => *sigma >= self.sigma_star,
             None => {
                 let sigma_star = Enclosure::from_rational(&self.sigma_star, DEFAULT_PRECISION);
@@ -81,9 +108,26 @@ impl Given {
             sha256: self.sha256.clone(),
             sigma_star: write_exact(&self.sigma_star),
             statement: self.statement.clone(),
-            covers_sigma,
+            scope: match self.covers_samples(regulator) {
+                Some(true) => Scope::Samples,
+                Some(false) => Scope::OtherSamples,
+                None if covers_sigma() => Scope::Continuous,
+                None => Scope::BelowSigmaStar,
+            },
         }
     }
+}
+
+/// The regulator that is asked for.
+pub struct Asked<'a> {
+    /// The internal model.
+    pub model: &'a InternalModel,
+    /// The gain.
+    pub sigma: &'a Constant,
+    /// The sampling period, if any.
+    pub step: Option<&'a Constant>,
+    /// The number of oscillators.
+    pub n_o: u32,
 }
 
 /// Reads what a regulator is asked for; of a certificate, what it was made for, and the certificate.

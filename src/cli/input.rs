@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::output::{reason, shown};
+use rug::Rational;
 use sigmastar::derivation::targets::{Target, TargetKind};
 use sigmastar::spec::model::Constant;
 use sigmastar::spec::{Document, Errors, MAX_BYTES, positive_constant};
@@ -43,6 +44,18 @@ pub fn document(path: &Path) -> Result<Document, Failure> {
 /// Those of [`positive`].
 pub fn target(kind: TargetKind, flag: &str, text: &str) -> Result<Target, Failure> {
     Ok(Target { kind, value: positive(flag, text)? })
+}
+
+/// Reads the value of a flag: a positive rational number.
+///
+/// # Errors
+/// Those of [`positive`], and a constant that is not rational.
+pub fn rational(flag: &str, text: &str) -> Result<Rational, Failure> {
+    let constant = positive(flag, text)?;
+    constant
+        .as_rational()
+        .cloned()
+        .ok_or_else(|| Failure::call(format!("{flag} is not a rational number"), "write it as a decimal or a fraction"))
 }
 
 /// Reads the value of a flag: an exact positive constant, as in a specification.

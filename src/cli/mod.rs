@@ -7,6 +7,7 @@ mod check;
 mod controller;
 mod controller_source;
 mod counts;
+mod digital;
 mod errata;
 mod failure;
 mod falsify;
@@ -18,6 +19,7 @@ mod pages;
 mod progress;
 mod rate;
 mod reproduce;
+mod sampling;
 mod simulate;
 mod subject;
 mod temporary;
@@ -42,6 +44,7 @@ pub fn run() -> ExitCode {
     };
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
+        Command::Sampling(args) => sampling::run(&args),
         Command::Transfer(args) => transfer::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Controller(args) => controller::run(&args),

@@ -18,12 +18,7 @@ pub fn run(args: &RateArgs) -> u8 {
 fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     let n_o = finite_counts(&args.n_o, MAX_OSCILLATORS)?;
     let subject = Subject::read(&input::document(&args.spec)?)?;
-    let sigma = args.sigma.as_ref().map(|text| input::positive("--sigma", text)).transpose()?;
-    let sigma = sigma.map(|sigma| {
-        let help = "write it as a decimal or a fraction";
-        sigma.as_rational().cloned().ok_or_else(|| Failure::call("--sigma is not a rational number", help))
-    });
-    let sigma = sigma.transpose()?;
+    let sigma = args.sigma.as_ref().map(|text| input::rational("--sigma", text)).transpose()?;
     let (spec, start) = subject.into_data(false)?;
     let run = certify_near(&spec, Options { compare: false, ..Options::default() }, start.as_ref())
         .map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;

@@ -60,7 +60,7 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
 }
 
 /// The file of the plot, whose name says what is in it.
-fn svg_file(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
+pub fn svg_file(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
     let file = OutputFile::new(path, Input::Specification(input), "the plot")?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
         return Ok(file);

@@ -5,6 +5,7 @@
 //! what a certificate says of a plant.
 
 mod coordinates;
+mod digital;
 mod entries;
 mod grid;
 mod reduce;
@@ -15,7 +16,8 @@ mod study;
 #[cfg(test)]
 mod tests;
 
-pub use reduce::{Reduced, bounds_around, decide_again, reduce};
+pub use digital::{DigitalPairs, ReducedDigital};
+pub use reduce::{Reduced, bounds_around, decide_again, reduce, reduce_digital, with_digital_pairs};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};

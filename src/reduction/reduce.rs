@@ -1,6 +1,7 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
 use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler, Shape};
+use super::digital::{DigitalPairs, ReducedDigital};
 use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
@@ -15,18 +16,18 @@ use crate::plant::Plant;
 use crate::search::{FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
 use crate::spec::{
-    OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
+    self, OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
 };
 use crate::transfer::TradeOff;
 use nalgebra::DMatrix;
 use rug::Rational;
 
 /// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
-const PRECISION: u32 = 64;
+pub(super) const PRECISION: u32 = 64;
 
 /// How far beyond the arguments of a proposal the bounds are proved, in turn: first with room for what the proved values are
 /// larger than the sampled ones, then close to the arguments that are used.
-const ENLARGED: [f64; 2] = [1e-2, 1e-5];
+pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
@@ -48,6 +49,36 @@ pub struct Reduced {
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
+    with_coordinates(plant, prove_bounds)
+}
+
+/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found.
+///
+/// # Errors
+/// What could not be proved or found.
+pub fn reduce_digital(
+    plant: &Plant,
+    sampling: &spec::Sampling,
+    gain: Option<&Rational>,
+) -> Result<ReducedDigital, PlantRefusal> {
+    with_digital_pairs(plant, |pairs| pairs.reduce(sampling, gain))?
+}
+
+/// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
+///
+/// # Errors
+/// What could not be proved or found of those.
+pub fn with_digital_pairs<T>(plant: &Plant, with: impl FnOnce(&DigitalPairs<'_>) -> T) -> Result<T, PlantRefusal> {
+    with_coordinates(plant, |plant, along, sampled, chosen| {
+        DigitalPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
+    })
+}
+
+/// Finds and proves the orbit, chooses the coordinates, and goes on from there.
+fn with_coordinates<T>(
+    plant: &Plant,
+    prove: impl FnOnce(&Plant, &Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
+) -> Result<T, PlantRefusal> {
     if plant.states() > MAX_STATES {
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
     }
@@ -75,7 +106,7 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
             (along(plant, &curve, &coordinates)?, chosen)
         }
     };
-    prove_bounds(plant, &base, &sampling, &chosen)
+    prove(plant, &base, &sampling, &chosen)
 }
 
 /// The best coordinates for a constant P, and a P of existence where one helps; rounded, and proved along the orbit.
@@ -179,8 +210,8 @@ fn best_periodic(
 }
 
 /// The orbit and the harmonics of q, proved in some coordinates; a P of existence, where there is one.
-struct Along {
-    coordinates: Coordinates,
+pub(super) struct Along {
+    pub(super) coordinates: Coordinates,
     orbit: OrbitProof,
     forcing: ProvedForcing,
     existence: Option<(PeriodicMatrix, SecondTriple)>,
@@ -203,7 +234,7 @@ fn along(plant: &Plant, curve: &TrigonometricVector, coordinates: &Coordinates) 
 
 impl Along {
     /// The specification with these values.
-    fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
+    pub(super) fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
         let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
         let of_plant = OfPlant {
             coordinates: self.coordinates.l.clone(),
@@ -230,9 +261,19 @@ impl Along {
         specification(plant, of_plant, values)
     }
 
-    fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
-        let existence = self.existence.as_ref().map(|(matrix, _)| matrix.clone());
-        engine_around(plant, &self.coordinates, (&self.orbit.orbit, &self.orbit.radius), existence)
+    /// The P of existence, where there is one.
+    pub(super) fn second(&self) -> Option<&PeriodicMatrix> {
+        self.existence.as_ref().map(|(matrix, _)| matrix)
+    }
+
+    /// What samples the bounds.
+    pub(super) fn suprema(&self, sampling: &Sampling<'_>) -> FloatSuprema {
+        sampling.suprema(&float_matrix(&self.coordinates.l), [Some(&self.coordinates.p), self.second()])
+    }
+
+    pub(super) fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
+        let orbit = (&self.orbit.orbit, &self.orbit.radius);
+        engine_around(plant, &self.coordinates, orbit, self.second().cloned())
     }
 }
 
@@ -269,12 +310,11 @@ fn prove_bounds(
     chosen: &Chosen,
 ) -> Result<Reduced, PlantRefusal> {
     let engine = along.engine(plant)?;
-    let second = along.existence.as_ref().map(|(matrix, _)| matrix);
-    let suprema = sampling.suprema(&float_matrix(&along.coordinates.l), [Some(&along.coordinates.p), second]);
+    let suprema = along.suprema(sampling);
     let mut best: Option<Reduced> = None;
     let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
     for enlarged in ENLARGED {
-        let at = arguments(&model, &proposal, enlarged, second.is_some())?;
+        let at = arguments(&model, &proposal, enlarged, along.second().is_some())?;
         let [x, e] = at.largest();
         engine.smooth(&x, &e)?;
         let proved = prove_all(&engine, &suprema, &at);

@@ -2,8 +2,7 @@
 
 use super::{Discrete, Regulator};
 use crate::enclosure::Enclosure;
-use crate::spec::{Constant, InternalModel};
-use rug::Rational;
+use crate::spec::{Constant, InternalModel, SampledGain};
 
 /// The most oscillators that are exported: the matrices are written out in full.
 pub const MAX_EXPORTED_OSCILLATORS: u32 = 1000;
@@ -50,9 +49,9 @@ impl<'m> Design<'m> {
     /// `None` where that is not to be had in double precision: h mu times the sum of the weights is beyond 2^50.
     #[must_use]
     pub fn discretise(&self, step: &Constant) -> Option<Discrete> {
+        let SampledGain { gain, weight_sum } = self.model.sampled_gain(step)?;
         let step = step.enclose(PRECISION);
-        let (gain, weight_sum) = self.gain(&step)?;
-        let exact_gain = exact(gain)?;
+        let exact_gain = Enclosure::from_rational(&gain, PRECISION);
         let sigma = self.sigma.enclose(PRECISION);
         let product = &sigma * &step;
         let weights = self.weights();
@@ -72,8 +71,8 @@ impl<'m> Design<'m> {
         }
         Some(Discrete {
             step: step.midpoint_f64(),
-            gain,
-            weight_sum,
+            gain: gain.to_f64(),
+            weight_sum: weight_sum.to_f64(),
             decay: (Enclosure::one(PRECISION) - product).midpoint_f64(),
             rotations,
             input,
@@ -81,17 +80,6 @@ impl<'m> Design<'m> {
             feedthrough: (-(sigma + exact_gain * direct)).midpoint_f64(),
             saturation: None,
         })
-    }
-
-    /// K near mu/(1 + theta) with theta = h mu Nbar^2/2, and Nb2. The sum is over all weights: one K for every n_o.
-    fn gain(&self, step: &Enclosure) -> Option<(f64, f64)> {
-        let mu = self.model.mu.enclose(PRECISION);
-        let total = self.model.weights.total(PRECISION);
-        let theta = step * &mu * &total / 2;
-        let (gain, weight_sum) = ((mu / (theta + 1)).midpoint_f64(), total.upper_f64());
-        let two = Enclosure::from_integer(2, PRECISION);
-        let proved = (exact(gain)? * step * exact(weight_sum)?).lt(&two).is_true();
-        (proved && gain > 0.0).then_some((gain, weight_sum))
     }
 
     fn weights(&self) -> Vec<Enclosure> {
@@ -102,9 +90,4 @@ impl<'m> Design<'m> {
         let base = self.model.base_frequency.enclose(PRECISION);
         (1..=i64::from(self.n_o)).map(|l| l * &base).collect()
     }
-}
-
-/// A finite double, exactly.
-fn exact(value: f64) -> Option<Enclosure> {
-    Some(Enclosure::from_rational(&Rational::from_f64(value)?, PRECISION))
 }

@@ -47,7 +47,7 @@ impl Readable for Report<'_> {
             blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
         }
         blocks.extend(sets::section(run));
-        blocks.extend(of_plant::section(run));
+        blocks.extend(of_plant::section(run.spec, run.claimed_set()));
         blocks.extend(conditions::section(run));
         blocks.extend(matrix_checks::section(run));
         blocks.extend(constants::section(run));

@@ -3,10 +3,15 @@
 use super::document::{Block, Table};
 use super::number::{estimate, margin, pair};
 use crate::certify::Certification;
+use crate::derivation::condition::Condition;
 
 /// The conditions of the chosen derivation.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let conditions = run.conditions();
+    of(&format!("Conditions of the {} derivation", run.options.derivation.name()), run.conditions())
+}
+
+/// The table of any conditions.
+pub(super) fn of(heading: &str, conditions: &[Condition]) -> Vec<Block> {
     if conditions.is_empty() {
         return Vec::new();
     }
@@ -29,7 +34,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         legend.push((condition.id, condition.what.clone()));
     }
     vec![
-        Block::Heading(format!("Conditions of the {} derivation", run.options.derivation.name())),
+        Block::heading(heading),
         Block::says(
             "Both sides are enclosed, rounded outward; the margin is right minus left, rounded down; the relative margin \
              is an estimate. A margin near 0 is no weakness: at the smallest sigma some conditions are active.",

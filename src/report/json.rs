@@ -29,6 +29,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
     {
         report["sigma_star"] = json!(write_exact(sigma));
+        report["given_gain"] = json!(run.given_gain.is_some());
         report["basis"] = json!(basis(run));
         let [x0, e0, z0] = [&claimed.x0, &claimed.e0, &claimed.z0].map(write_exact);
         report["initial_set"] = json!({ "X0": x0, "E0": e0, "Z0": z0 });
@@ -52,7 +53,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("matrix_inequalities", checks_json(run)),
         ("derivations", derivations(run)),
         ("constants", constants_json(&run.constants)),
-        ("plant", plant_json(run)),
+        ("plant", plant_json(run.spec, run.claimed_set())),
         ("printed", printed(run)),
         ("binding", json!(run.binding.map(Binding::describe))),
         ("binding_advice", json!(run.binding.map(Binding::advice))),
@@ -68,7 +69,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
 }
 
 /// The conditions as in a certificate, with the truth of each.
-fn conditions_with_truth(conditions: &[Condition]) -> Value {
+pub(super) fn conditions_with_truth(conditions: &[Condition]) -> Value {
     let mut list = conditions_json(conditions);
     for (item, condition) in list.as_array_mut().into_iter().flatten().zip(conditions) {
         item["truth"] = json!(condition.truth().to_string());

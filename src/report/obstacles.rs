@@ -93,7 +93,7 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     blocks
 }
 
-fn truth(condition: &Condition) -> &'static str {
+pub(super) fn truth(condition: &Condition) -> &'static str {
     match condition.truth() {
         Truth::True => "proved",
         Truth::False => "refuted for this witness",
@@ -101,7 +101,7 @@ fn truth(condition: &Condition) -> &'static str {
     }
 }
 
-fn describe(condition: &Condition) -> String {
+pub(super) fn describe(condition: &Condition) -> String {
     format!(
         "{} ({}): {} {} {} is {}",
         condition.id,
@@ -180,6 +180,8 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
             add(&smaller(run));
             add("smaller q_x, f_e");
         }
+        Obstacle::Gain => add("a larger gain, or none: without --sigma the smallest one is sought"),
+        Obstacle::Sampling => add("a shorter sampling period, or a smaller mu"),
         Obstacle::Bounds => add("a `domain` on which the bounding functions are valid"),
     }
     if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {

@@ -2,28 +2,29 @@
 
 use super::document::{Block, Table};
 use super::number::exact;
-use crate::certify::{Certification, claimed_ball};
+use crate::certify::claimed_ball;
+use crate::derivation::sharp::ClaimedSet;
 use crate::number::{Direction, write_exact};
 use crate::spec::model::Lyapunov;
-use crate::spec::{OfPlant, ProvedValue};
+use crate::spec::{OfPlant, ProvedValue, Specification};
 use rug::Rational;
 use serde_json::{Value, json};
 
 /// The section; nothing where the data are those of a specification.
-pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let Some(plant) = run.spec.plant() else { return Vec::new() };
+pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Block> {
+    let Some(plant) = spec.plant() else { return Vec::new() };
     let mut blocks = vec![Block::heading("From the plant's formulas")];
     if plant.states() > 0 {
         blocks.push(Block::says(
             "x_0(t) is the T-periodic solution of x' = f(t,x,0), and y = L^-1 (x - x_0) are the coordinates in which all norms are \
              taken. Everything below is proved.",
         ));
-        blocks.push(Block::facts(facts(run, plant)));
+        blocks.push(Block::facts(facts(plant, set)));
         blocks.push(matrix("L", &plant.coordinates));
     }
     blocks.push(Block::says("The bounds that the conditions use, for |y| <= X, |e| <= E and every t:"));
     let mut table = Table::new(&["<bound", "<of", "X", "E", "value"]);
-    for ProvedValue { bound, x, e, value } in run.spec.bounds.proved_values().entries() {
+    for ProvedValue { bound, x, e, value } in spec.bounds.proved_values().entries() {
         let [x, e] = [x, e].map(|end| exact(end, Direction::Down));
         let direction = if bound.is_nonincreasing() { Direction::Down } else { Direction::Up };
         table.push([bound.field().to_owned(), bound.of_what().to_owned(), x, e, exact(value, direction)]);
@@ -32,7 +33,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     blocks
 }
 
-fn facts(run: &Certification<'_>, plant: &OfPlant) -> Vec<(&'static str, String)> {
+fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {
     let up = |value: &Rational| exact(value, Direction::Up);
     let orbit = &plant.orbit;
     let mut facts = vec![
@@ -72,7 +73,7 @@ fn facts(run: &Certification<'_>, plant: &OfPlant) -> Vec<(&'static str, String)
             up(&plant.forcing.rest_t)
         ),
     ));
-    if let Some(ball) = run.claimed_set().and_then(|set| claimed_ball(plant, &set.x0)) {
+    if let Some(ball) = set.and_then(|set| claimed_ball(plant, &set.x0)) {
         facts.push(("the initial set contains", format!("|x - x_0| <= {}", exact(&ball, Direction::Down))));
     }
     facts
@@ -85,14 +86,13 @@ fn matrix(name: &str, rows: &[Vec<Rational>]) -> Block {
 }
 
 /// The same as JSON; null where the data are those of a specification.
-pub(super) fn plant_json(run: &Certification<'_>) -> Value {
-    let Some(plant) = run.spec.plant() else { return Value::Null };
+pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Value {
+    let Some(plant) = spec.plant() else { return Value::Null };
     let rows = |matrix: &[Vec<Rational>]| -> Vec<Vec<String>> {
         matrix.iter().map(|row| row.iter().map(write_exact).collect()).collect()
     };
-    let ball = run.claimed_set().and_then(|set| claimed_ball(plant, &set.x0));
-    let values: Vec<Value> = run
-        .spec
+    let ball = set.and_then(|set| claimed_ball(plant, &set.x0));
+    let values: Vec<Value> = spec
         .bounds
         .proved_values()
         .entries()

@@ -5,9 +5,10 @@ use super::number::{exact, upper};
 use super::obstacles;
 use super::remarks::remarks;
 use crate::certify::{Certification, Derivation, Verdict};
+use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
-use crate::spec::Bound;
 use crate::spec::model::{Lyapunov, LyapunovSource};
+use crate::spec::{Bound, Specification};
 use crate::transfer::TransferProof;
 
 /// The verdict in one sentence that a control engineer understands.
@@ -42,6 +43,12 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
             false => "Here |z|_N = sqrt(z'Nz). The same sigma serves every plant that the bounding functions describe.",
         };
         blocks.push(Block::says(norms));
+        if run.given_gain.is_some() {
+            blocks.push(Block::says(
+                "The gain was given: the claim is about it and all larger ones, and smaller ones may certify too. How far it is \
+                 from the threshold is the relative margin of C5b.",
+            ));
+        }
         blocks.push(Block::List(basis(run)));
     } else {
         blocks.extend(obstacles::section(run, rechecked));
@@ -57,7 +64,21 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         Derivation::Printed => "Derivation: printed (the paper to the letter).",
     };
     let mut items = vec![derivation.to_owned()];
-    if let Some(plant) = run.spec.plant() {
+    let further = run.exact_arguments().filter(|_| run.largest_arguments().is_some());
+    items.extend(of_the_data(run.spec, run.largest_arguments(), further));
+    items.extend(of_the_transfer_bound(run));
+    items
+}
+
+/// What is assumed and what is proved of the data: those of a plant's formulas, or the bounding functions up to the arguments
+/// that are used.
+pub(super) fn of_the_data(
+    spec: &Specification,
+    used: Option<[Enclosure; 2]>,
+    further: Option<[Enclosure; 2]>,
+) -> Vec<String> {
+    let mut items = Vec::new();
+    if let Some(plant) = spec.plant() {
         items.push(
             "Proved from the formulas: that they have the period and are smooth where they are used, the orbit x_0, the rate, \
              the harmonics and every bound (section 11)."
@@ -67,11 +88,10 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
             format!(", for |x - x_0| <= {}, |e| <= {}", clean(&domain.x.text), clean(&domain.e.text))
         });
         items.push(format!("Assumed: that these formulas are the plant{domain}."));
-        items.extend(of_the_transfer_bound(run));
         return items;
     }
-    let used = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper));
-    let of_the_zero_dynamics = match &run.spec.lyapunov {
+    let used = used.map(|arguments| arguments.each_ref().map(upper));
+    let of_the_zero_dynamics = match &spec.lyapunov {
         LyapunovSource::Proved { triple, existence, .. } => {
             let shown = |triple: &Lyapunov| {
                 format!("p_low = {}, p_up = {}, alpha = {}", triple.p_low.text, triple.p_up.text, triple.alpha.text)
@@ -86,12 +106,12 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
             ));
             "that its Jacobian df/dx(t,0,0) is within the one given"
         }
-        _ if run.spec.bounds.own(Bound::Rate).is_some() => "the Lyapunov triple (p_low, p_up, alpha) and the rate",
+        _ if spec.bounds.own(Bound::Rate).is_some() => "the Lyapunov triple (p_low, p_up, alpha) and the rate",
         _ => "the Lyapunov triple (p_low, p_up, alpha)",
     };
     let of_the_disturbance =
-        if run.spec.q_0.is_some() { ", that q_0 bounds the harmonics of q(t,0,0) and the rest" } else { "" };
-    let further = run.exact_arguments().map(|arguments| arguments.each_ref().map(upper)).filter(|_| used.is_some());
+        if spec.q_0.is_some() { ", that q_0 bounds the harmonics of q(t,0,0) and the rest" } else { "" };
+    let further = further.map(|arguments| arguments.each_ref().map(upper));
     items.push(format!(
         "Assumed of the plant: {of_the_zero_dynamics}{of_the_disturbance}, and that the bounding functions bound the plant{}{}.",
         used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments")),
@@ -102,7 +122,6 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
          positive parts are used. Proved of the weights: W1 to W3."
         .to_owned(),
     );
-    items.extend(of_the_transfer_bound(run));
     items
 }
 

@@ -26,6 +26,10 @@ pub enum Obstacle {
     Curvature,
     /// (h/mu) k_x^2 >= 4 w_x a_2.
     Coupling,
+    /// The gain is below the threshold of C5.
+    Gain,
+    /// C5h: the decay from sample to sample is not positive.
+    Sampling,
     /// A proof was found, but the bounding functions are not proved up to its arguments.
     Bounds,
 }
@@ -45,6 +49,13 @@ impl Obstacle {
             Obstacle::DomainE => "domain E: the error box around the initial set leaves it",
             Obstacle::Curvature => "C5: a_2 <= 0, the nonlinearity over the error box takes all of the decay rate",
             Obstacle::Coupling => "C5: (h/mu) k_x^2 >= 4 w_x a_2",
+            Obstacle::Gain => {
+                "C5: the gain is below the threshold of the quadratic form for every error box that was tried"
+            }
+            Obstacle::Sampling => {
+                "C5h: the decay from sample to sample is not positive for any error box that was tried, or h sigma would \
+                 have to exceed 1"
+            }
             Obstacle::Bounds => "the bounding functions are not proved up to the arguments of the proof that was found",
         }
     }
@@ -58,7 +69,7 @@ pub struct AtSigma {
     pub d_x: f64,
     pub dist_e: f64,
     pub dist_z: f64,
-    /// The right side of C5.
+    /// What is made small: the right side of C5, or of the law at samples the radius of its forms, to be below 1.
     pub threshold: f64,
 }
 
@@ -85,6 +96,46 @@ pub fn active_level(eta: f64, dist_e: f64, rho: f64) -> f64 {
     (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho))
 }
 
+/// An error box with the level condition active: D_x = rho c dX, h from eta.
+pub(super) struct Shape {
+    pub(super) d_x: f64,
+    pub(super) w_x: f64,
+    /// h, or eta of the law at samples.
+    pub(super) weight: f64,
+    pub(super) error_box: ErrorBox<f64>,
+}
+
+impl Shape {
+    /// The box, where it lies in the domain and the rate on it is positive.
+    pub(super) fn new(
+        model: &FloatModel,
+        (x_per, e_per): (f64, f64),
+        [dist_x, dist_e, dist_z]: [f64; 3],
+        rho: f64,
+        eta: f64,
+    ) -> Result<Shape, Obstacle> {
+        let d_x = rho * model.c * dist_x;
+        let level = active_level(eta, dist_e, rho);
+        let d_e = level.sqrt();
+        if x_per + d_x > model.domain.0 * (1.0 - 1e-7) {
+            return Err(Obstacle::DomainX);
+        }
+        if e_per + d_e > model.domain.1 * (1.0 - 1e-7) {
+            return Err(Obstacle::DomainE);
+        }
+        let error_box = ErrorBox::new(model, &x_per, &e_per, &d_x, &d_e);
+        let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
+        if ![rate, k_x, k_f, &sector.below, &sector.above].iter().all(|v| v.is_finite()) {
+            return Err(Obstacle::NotFinite);
+        }
+        if *rate <= model.alpha * (1.0 - BELOW_ONE) {
+            return Err(Obstacle::Curvature);
+        }
+        let w_x = level / (model.p_low * d_x * d_x);
+        Ok(Shape { d_x, w_x, weight: weight_h(eta, dist_e, dist_z), error_box })
+    }
+}
+
 /// D_x = rho c dX, h from eta, and the threshold of C5 with the level condition active.
 pub fn error_box(
     model: &FloatModel,
@@ -93,25 +144,8 @@ pub fn error_box(
     rho: f64,
     eta: f64,
 ) -> Result<AtSigma, Obstacle> {
-    let d_x = rho * model.c * dist_x;
-    let level = active_level(eta, dist_e, rho);
-    let d_e = level.sqrt();
-    if x_per + d_x > model.domain.0 * (1.0 - 1e-7) {
-        return Err(Obstacle::DomainX);
-    }
-    if e_per + d_e > model.domain.1 * (1.0 - 1e-7) {
-        return Err(Obstacle::DomainE);
-    }
-    let error_box = ErrorBox::new(model, &x_per, &e_per, &d_x, &d_e);
-    let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
-    if ![rate, k_x, k_f, &sector.below, &sector.above].iter().all(|v| v.is_finite()) {
-        return Err(Obstacle::NotFinite);
-    }
-    if *rate <= model.alpha * (1.0 - BELOW_ONE) {
-        return Err(Obstacle::Curvature);
-    }
-    let w_x = level / (model.p_low * d_x * d_x);
-    let decay = DecayCondition::new(model, &error_box, &w_x, &weight_h(eta, dist_e, dist_z));
+    let Shape { d_x, w_x, weight, error_box } = Shape::new(model, (x_per, e_per), [dist_x, dist_e, dist_z], rho, eta)?;
+    let decay = DecayCondition::new(model, &error_box, &w_x, &weight);
     let margin = decay.curvature - decay.coupling;
     if margin.is_nan() || margin <= (1.0 - BELOW_ONE) * 4.0 * w_x * model.alpha {
         return Err(Obstacle::Coupling);

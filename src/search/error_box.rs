@@ -1,4 +1,5 @@
-//! The error box in floating point: rho and eta that make the threshold of C5 small, for given distances.
+//! The error box in floating point: rho and eta that make the threshold of C5 (or what the law at samples has in its place)
+//! small, for given distances.
 
 use super::candidate::{AtSigma, Obstacle, error_box};
 use super::minimise::minimise;
@@ -23,14 +24,24 @@ const PATIENCE: usize = 3;
 /// # Errors
 /// The obstacle of the candidate that came closest, when none is feasible.
 pub fn best_error_box(model: &FloatModel, periodic: (f64, f64), distances: [f64; 3]) -> Result<AtSigma, Obstacle> {
-    let evaluate = |rho: f64, eta: f64| error_box(model, periodic, distances, rho, eta);
+    best_shape(model, |rho, eta| error_box(model, periodic, distances, rho, eta))
+}
+
+/// The best rho and eta of any boxes.
+///
+/// # Errors
+/// The obstacle of the candidate that came closest, when none is feasible.
+pub fn best_shape(
+    model: &FloatModel,
+    evaluate: impl Fn(f64, f64) -> Result<AtSigma, Obstacle>,
+) -> Result<AtSigma, Obstacle> {
     let step = model.effort().shape_step;
     let rhos: Vec<f64> = RHO_EXPONENTS.step_by(step).map(|k| 1.0 + 2f64.powi(k)).collect();
     let far_rhos = (1..=FAR).map(|k| 1.0 + 2f64.powi(4 + 5 * k as i32));
     let etas: Vec<f64> = ETA_EXPONENTS.step_by(step).map(|k| 10f64.portable_pow(f64::from(k) / 2.0)).collect();
     let far_etas: Vec<f64> = (1..=FAR).map(|k| 10f64.powi(6 + 2 * k as i32)).collect();
     let at_rho = |rho: f64| scan(&etas, far_etas.iter().copied(), |eta| evaluate(rho, eta));
-    refine(model, evaluate, scan(&rhos, far_rhos, at_rho)?)
+    refine(model, &evaluate, scan(&rhos, far_rhos, at_rho)?)
 }
 
 /// The smallest threshold over all of the values and over those of `far` that help, one after the other.
@@ -72,13 +83,21 @@ pub fn error_box_near(
     distances: [f64; 3],
     (rho, eta): (f64, f64),
 ) -> Option<AtSigma> {
-    let evaluate = |rho: f64, eta: f64| error_box(model, periodic, distances, rho, eta);
-    refine(model, evaluate, evaluate(rho, eta).ok()?).ok()
+    shape_near(model, |rho, eta| error_box(model, periodic, distances, rho, eta), (rho, eta))
+}
+
+/// The best shape that local minimisation reaches from a known one; `None` where that is not feasible here.
+pub fn shape_near(
+    model: &FloatModel,
+    evaluate: impl Fn(f64, f64) -> Result<AtSigma, Obstacle>,
+    (rho, eta): (f64, f64),
+) -> Option<AtSigma> {
+    refine(model, &evaluate, evaluate(rho, eta).ok()?).ok()
 }
 
 fn refine(
     model: &FloatModel,
-    evaluate: impl Fn(f64, f64) -> Result<AtSigma, Obstacle>,
+    evaluate: &impl Fn(f64, f64) -> Result<AtSigma, Obstacle>,
     start: AtSigma,
 ) -> Result<AtSigma, Obstacle> {
     // rho too close to 1 would leave no room between the two members of C4.

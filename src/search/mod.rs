@@ -5,6 +5,7 @@
 
 mod binding;
 mod candidate;
+mod digital;
 mod effort;
 mod error_box;
 mod exact;
@@ -21,6 +22,7 @@ mod smaller_set;
 
 pub use binding::Binding;
 pub use candidate::{AtSigma, Obstacle, active_level, weight_h};
+pub use digital::{DigitalLimit, DigitalProposal, DigitalSearch, ScanPoint};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;
 pub use minimise::{Descent, minimise};
@@ -29,7 +31,7 @@ pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
 pub use sharp::{
-    OptionalDatum, SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_near, sensitivities,
-    without_optional_data,
+    OptionalDatum, SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near,
+    sensitivities, without_optional_data,
 };
 pub use smaller_set::{SmallerSet, smaller_set};

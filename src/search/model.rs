@@ -323,6 +323,12 @@ impl FloatModel {
         model
     }
 
+    /// The same model with other pairs (k0, k1).
+    #[must_use]
+    pub fn with_trade_off(&self, trade_off: TradeOff) -> FloatModel {
+        FloatModel { trade_off, ..self.clone() }
+    }
+
     /// The same model with another initial set.
     #[must_use]
     pub fn with_set(&self, set: InitialSet<f64>) -> FloatModel {

@@ -6,6 +6,7 @@
 
 use super::candidate::Obstacle;
 use super::model::FloatModel;
+use crate::derivation::digital::{SampledGains, SampledLaw, SampledResponse, SampledSize};
 use crate::derivation::existence::kappas;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{
@@ -72,12 +73,20 @@ const SMALLEST_SHARE: f64 = 1e-12;
 /// (X_p, E_p, r_x, r_e, r_d).
 type Point = [f64; 5];
 
+/// What the regulator makes of a periodic q.
+#[derive(Clone, Copy)]
+enum Regulated<'a> {
+    /// In continuous time.
+    Continuous { gains: &'a ErrorGains<f64>, form: ExistenceForm },
+    /// At samples.
+    Sampled(&'a SampledGains<f64>),
+}
+
 /// The iteration at one sigma.
 struct Iteration<'a> {
     model: &'a FloatModel,
     origin: &'a AtOrigin<f64>,
-    gains: ErrorGains<f64>,
-    form: ExistenceForm,
+    regulated: Regulated<'a>,
     floors: Floors,
     /// 1 + the room that is left between both sides of every inequality.
     enlarged: f64,
@@ -99,12 +108,20 @@ impl Iteration<'_> {
         let squares = MeanSquares { x, e, e_rate };
         let by_squares = sup_by_mean_squares(self.model, &squares);
         let kap = self.kap(&bounds);
-        let [sup, rms, rate_rms] = if kap > 0.0 {
-            let damped = DampedResponse::new(&bounds, self.origin, [&self.gains.sigma, &kap], &squares);
-            [by_squares, damped.rms, damped.rate_rms]
-        } else {
-            let response = Response::new(&self.gains, self.origin, &Forcing::new(&bounds, self.origin, &squares));
-            [response.sup.min(by_squares), response.rms, response.rate_rms]
+        let forcing = || Forcing::new(&bounds, self.origin, &squares);
+        let [sup, rms, rate_rms] = match self.regulated {
+            Regulated::Continuous { gains, .. } if kap > 0.0 => {
+                let damped = DampedResponse::new(&bounds, self.origin, [&gains.sigma, &kap], &squares);
+                [by_squares, damped.rms, damped.rate_rms]
+            }
+            Regulated::Continuous { gains, .. } => {
+                let response = Response::new(gains, self.origin, &forcing());
+                [response.sup.min(by_squares), response.rms, response.rate_rms]
+            }
+            Regulated::Sampled(gains) => {
+                let response = SampledResponse::new(gains, &forcing());
+                [response.sup.min(by_squares), response.rms, response.rate_rms]
+            }
         };
         let next = [bounds.x_sup(&squares), sup, bounds.x_rms(&squares), rms, rate_rms].map(|v| v * self.enlarged);
         if !next.iter().all(|value| value.is_finite() && *value < 1e140) {
@@ -121,9 +138,11 @@ impl Iteration<'_> {
     }
 
     fn kap(&self, bounds: &SetBounds<f64>) -> f64 {
-        match self.form {
-            ExistenceForm::Plain => 0.0,
-            ExistenceForm::Damped(share) => share * 0.5 * (bounds.q_e - bounds.q_e_max).max(0.0),
+        match self.regulated {
+            Regulated::Continuous { form: ExistenceForm::Damped(share), .. } => {
+                share * 0.5 * (bounds.q_e - bounds.q_e_max).max(0.0)
+            }
+            Regulated::Continuous { form: ExistenceForm::Plain, .. } | Regulated::Sampled(_) => 0.0,
         }
     }
 
@@ -180,12 +199,12 @@ impl Iteration<'_> {
     }
 
     /// The least mean squares with `(1 + room) G(r) = r` at fixed X_p, E_p and kap, from both forms together.
-    fn refined(&self, bounds: &SetBounds<f64>, kap: f64) -> Option<MeanSquares<f64>> {
+    fn refined(&self, gains: &ErrorGains<f64>, bounds: &SetBounds<f64>, kap: f64) -> Option<MeanSquares<f64>> {
         let [x, e, e_rate] = [bounds.x_p, bounds.e_p, bounds.e_p / self.model.period].map(|of| SMALLEST_SHARE * of);
         let least = MeanSquares { x, e, e_rate };
         let mut at = least.clone();
         for _ in 0..STEPS {
-            let next = at_the_solution(bounds, self.origin, &self.gains, Some(&kap), &at);
+            let next = at_the_solution(bounds, self.origin, gains, Some(&kap), &at);
             let next =
                 [(&next.x, x), (&next.e, e), (&next.e_rate, e_rate)].map(|(v, low)| (v * self.enlarged).max(low));
             let done = change(&[at.x, at.e, at.e_rate], &next) <= NEAR;
@@ -196,7 +215,7 @@ impl Iteration<'_> {
             }
         }
         // Where it has not converged, the next to the last digits are missing: the mean squares of existence serve.
-        let image = at_the_solution(bounds, self.origin, &self.gains, Some(&kap), &at);
+        let image = at_the_solution(bounds, self.origin, gains, Some(&kap), &at);
         let below = [(image.x, at.x), (image.e, at.e), (image.e_rate, at.e_rate)];
         below.into_iter().all(|(image, at)| image < at).then_some(at)
     }
@@ -220,21 +239,53 @@ impl PeriodicSet {
         room: f64,
     ) -> Result<PeriodicSet, Obstacle> {
         let gains = ErrorGains::new(model, &sigma);
-        let iteration = Iteration { model, origin, gains, form, floors, enlarged: 1.0 + room };
+        let regulated = Regulated::Continuous { gains: &gains, form };
+        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
         let [x_p, e_p, x, e, e_rate] = iteration.least()?;
         let bounds = SetBounds::new(model, x_p, e_p);
         let squares = MeanSquares { x, e, e_rate };
         let kap = iteration.kap(&bounds);
-        let refined = if kap > 0.0 { iteration.refined(&bounds, kap) } else { None };
-        let size = PeriodicSize::new(model, &bounds, origin, &iteration.gains, refined.as_ref().unwrap_or(&squares));
-        // What a unit of k0 and of k1 adds to Z^2.
-        let (q_rms, q_rate_rms) = (size.forcing.q_rms, size.forcing.q_rate_rms);
-        let (by_size, by_rate) = kappas(model, &(q_rms * q_rms), &(q_rate_rms * q_rate_rms));
-        let pair = model.trade_off.best(by_size, by_rate);
+        let refined = if kap > 0.0 { iteration.refined(&gains, &bounds, kap) } else { None };
+        let size = PeriodicSize::new(model, &bounds, origin, &gains, refined.as_ref().unwrap_or(&squares));
+        let pair = cheapest_pair(model, &size.forcing);
         let z = size.z_squared(model, [&pair.0, &pair.1]).sqrt();
         if !z.is_finite() {
             return Err(Obstacle::NotFinite);
         }
         Ok(PeriodicSet { x_p, e_p, squares, kap, refined, x_per: size.x_per, e_per: size.e_per, z, pair })
     }
+
+    /// The same under the law at samples.
+    ///
+    /// # Errors
+    /// The obstacle where there is none.
+    pub fn least_sampled(
+        model: &FloatModel,
+        origin: &AtOrigin<f64>,
+        (law, sigma): (&SampledLaw<f64>, f64),
+        floors: Floors,
+        room: f64,
+    ) -> Result<PeriodicSet, Obstacle> {
+        let gains = SampledGains::new(law, &sigma, &model.period);
+        let regulated = Regulated::Sampled(&gains);
+        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
+        let [x_p, e_p, x, e, e_rate] = iteration.least()?;
+        let bounds = SetBounds::new(model, x_p, e_p);
+        let squares = MeanSquares { x, e, e_rate };
+        let size = SampledSize::new(&bounds, origin, &gains, &squares);
+        let pair = cheapest_pair(model, &size.forcing);
+        let z = size.z_squared(model, law, [&pair.0, &pair.1]).sqrt();
+        if !z.is_finite() {
+            return Err(Obstacle::NotFinite);
+        }
+        let (x_per, e_per) = (size.x_per, size.e_per);
+        Ok(PeriodicSet { x_p, e_p, squares, kap: 0.0, refined: None, x_per, e_per, z, pair })
+    }
+}
+
+/// The pair that makes Z smallest.
+fn cheapest_pair(model: &FloatModel, forcing: &Forcing<f64>) -> (f64, f64, u32) {
+    // What a unit of k0 and of k1 adds to Z^2.
+    let (by_size, by_rate) = kappas(model, &forcing.q_rms.powi(2), &forcing.q_rate_rms.powi(2));
+    model.trade_off.best(by_size, by_rate)
 }

@@ -38,7 +38,7 @@ pub struct SharpProposal {
 }
 
 /// The room between both sides of S1 and S2 that a search leaves: well below the digits of sigma*.
-const ROOM: f64 = 1e-10;
+pub(super) const ROOM: f64 = 1e-10;
 
 /// Shares of (b_qe - m)/2 that are tried as kap.
 const DAMPED: [f64; 2] = [1.0, 0.3];
@@ -50,10 +50,10 @@ const FLOOR: f64 = 1e-6;
 const NEGLIGIBLE: f64 = 1e-20;
 
 /// The share of an ordinary size below which a set is as good as a point.
-const TINY: f64 = 1e-40;
+pub(super) const TINY: f64 = 1e-40;
 
 /// Shares of the ordinary size that are tried where nothing else gives X_p or E_p a size, the largest first.
-const SHARES: [f64; 10] = [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13, 1e-17, 1e-22, 1e-30];
+pub(super) const SHARES: [f64; 10] = [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13, 1e-17, 1e-22, 1e-30];
 
 /// The largest gain that is tried.
 const LARGEST: f64 = 1e250;
@@ -146,7 +146,7 @@ impl Search<'_> {
 }
 
 /// dX, dE, dZ of the required set from a periodic solution, kept away from 0: a larger distance only strengthens C4.
-fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
+pub(super) fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
     let [x0, e0, z0] = model.required_set(set.x_p, set.e_p, set.z);
     let [x, e, z] = distances(model, [&x0, &e0, &z0], [&set.x_per, &set.e_per, &set.z]);
     let e = e.max(FLOOR * set.e_p);
@@ -181,6 +181,68 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
     let (search, sigma) = with_ordinary_floors(search, ordinary, sigma)?;
     proposal(&search, sigma)
 }
+
+/// The best proposal at a given gain; near a known one where that is given.
+///
+/// # Errors
+/// What stands in the way.
+pub fn search_sharp_at(
+    model: &FloatModel,
+    sigma: f64,
+    known: Option<&SharpProposal>,
+) -> Result<SharpProposal, Obstacle> {
+    if !model.is_in_range() {
+        return Err(Obstacle::Magnitude);
+    }
+    let ordinary = ordinary(model);
+    let tiny = Floors { x_p: TINY * ordinary.x_p, e_p: TINY * ordinary.e_p };
+    let searches = match known {
+        Some(SharpProposal { parameters: SharpParameters { form, floors, rho, eta }, .. }) => {
+            vec![(*form, *floors, Some((*rho, *eta)))]
+        }
+        None => forms(model).into_iter().map(|form| (form, tiny, None)).collect(),
+    };
+    let mut closest = Obstacle::NotFinite;
+    let mut best: Option<(f64, Search<'_>)> = None;
+    for (form, floors, near) in searches {
+        let search = Search { model, origin: AtOrigin::new(model), form, floors, near };
+        match search.excess(sigma) {
+            Ok(excess) if best.as_ref().is_none_or(|(least, _)| excess < *least) => best = Some((excess, search)),
+            Ok(_) => {}
+            Err(obstacle) => closest = closest.max(obstacle),
+        }
+    }
+    let (excess, mut search) = best.ok_or(closest)?;
+    if excess > 0.0 {
+        return Err(Obstacle::Gain);
+    }
+    if known.is_none() {
+        let allowed = (1.0 - COST) * excess;
+        for side in [0, 1] {
+            let (set, _) = search.at(sigma, ROOM)?;
+            let (size, floor) = [(set.x_p, search.floors.x_p), (set.e_p, search.floors.e_p)][side];
+            if size > floor {
+                continue;
+            }
+            for share in SHARES {
+                let before = search.floors;
+                if side == 0 {
+                    search.floors.x_p = share * ordinary.x_p;
+                } else {
+                    search.floors.e_p = share * ordinary.e_p;
+                }
+                match search.excess(sigma) {
+                    Ok(excess) if excess <= allowed => break,
+                    _ => search.floors = before,
+                }
+            }
+        }
+    }
+    proposal(&search, sigma)
+}
+
+/// The share of the room below the threshold that a set of ordinary size may cost, at a given gain.
+const COST: f64 = 0.1;
 
 /// The forms of S2 worth trying: without a one-sided bound of dq/de, kap > 0 does not help.
 fn forms(model: &FloatModel) -> Vec<ExistenceForm> {
@@ -217,7 +279,7 @@ pub fn any_candidate(model: &FloatModel) -> bool {
 }
 
 /// X_p and E_p of ordinary size: those of the initial set or of the domain, where there is one.
-fn ordinary(model: &FloatModel) -> Floors {
+pub(super) fn ordinary(model: &FloatModel) -> Floors {
     let (x0, e0) = match model.set {
         InitialSet::Paper => (None, None),
         InitialSet::AtRest { x0, e0 } => (x0, e0),

@@ -9,6 +9,7 @@ use rug::Rational;
 
 use super::document::Document;
 use super::of_plant::OfPlant;
+use super::sampling::Sampling;
 use super::weights::Weights;
 
 /// A checked specification: fields present, numbers exact and in range, weights proved to satisfy W1-W3.
@@ -79,6 +80,18 @@ impl Constant {
         // A decimal or a fraction of two integers; should it be beyond the limits of expressions, its value stands alone.
         let expr = Expr::parse(&text, Variables::None).unwrap_or_else(|_| Expr::zero());
         Constant { text, expr, exact: Some(Monomial::rational(value.clone())) }
+    }
+
+    /// This constant over a positive whole number; `None` where that cannot be written.
+    #[must_use]
+    pub fn divided_by(&self, divisor: u32) -> Option<Constant> {
+        if let Some(exact) = self.as_rational() {
+            return (divisor > 0).then(|| Constant::rational(&Rational::from(exact / divisor)));
+        }
+        let text = format!("({})/{divisor}", self.text);
+        let expr = Expr::parse(&text, Variables::None).ok()?;
+        let exact = expr.exact();
+        Some(Constant { text, expr, exact })
     }
 
     /// The exact rational value, if the constant is known to be rational.
@@ -238,6 +251,8 @@ pub struct InternalModel {
     pub matched: bool,
     /// The weights n_0, n_1, ...
     pub weights: Weights,
+    /// The samples of a computer, where the regulator runs on one.
+    pub sampling: Option<Sampling>,
 }
 
 /// The initial conditions |x| <= X0, |e| <= E0, |z|_N <= Z0 that the domain of attraction must cover.

@@ -10,7 +10,7 @@ use super::model::{
 };
 use super::object::Object;
 use super::quantity::Quantity;
-use super::weights_read;
+use super::{sampling, weights_read};
 use crate::enclosure::{MAX_PRECISION, Truth};
 use crate::expr::Monomial;
 use crate::expr::{Expr, Variables};
@@ -214,11 +214,16 @@ pub(crate) fn read_internal_model(
         None => Ok(false),
     };
     let weights = object.required("weights", errors).and_then(|value| weights_read::read(&value, errors));
+    let step = object.optional("sampling_period");
     object.finish(errors);
     if let (Ok(true), Some(period), Ok(value), Ok(frequency)) = (matched, period, &frequency_value, &base_frequency) {
         prove_matched(period, frequency, value, errors)?;
     }
-    Ok(InternalModel { mu: mu?, base_frequency: base_frequency?, matched: matched?, weights: weights? })
+    let sampling = match (step, period) {
+        (Some(step), Some(period)) => Some(sampling::read(&step, period, matched, errors)?),
+        _ => None,
+    };
+    Ok(InternalModel { mu: mu?, base_frequency: base_frequency?, matched: matched?, weights: weights?, sampling })
 }
 
 /// Proves base_frequency * period = 2 pi. Close is not enough: the consequences of a matched frequency (vanishing

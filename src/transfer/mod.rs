@@ -96,7 +96,10 @@ pub fn decide(data: &Data<'_>, k0: &Rational, k1: &Rational, proof: &TransferPro
 
 /// Decides a list of comparisons: the truth of their conjunction, with the first one that is not proved or, if all are,
 /// the one with the smallest relative margin (which is only shown).
-fn decide_steps(steps: impl IntoIterator<Item = TransferStep>, otherwise: TransferStep) -> (Truth, TransferStep) {
+pub(crate) fn decide_steps(
+    steps: impl IntoIterator<Item = TransferStep>,
+    otherwise: TransferStep,
+) -> (Truth, TransferStep) {
     let relative_margin = |step: &TransferStep| (&step.rhs - &step.lhs).midpoint_f64() / step.rhs.midpoint_f64().abs();
     let mut tightest = (relative_margin(&otherwise), otherwise);
     for step in steps {

@@ -3,8 +3,8 @@
 
 use assert_cmd::Command;
 use serde_json::{Map, Value, json};
-use sigmastar::certificate::certificate_json;
-use sigmastar::certify::{Derivation, Options, TransferChoice, certify, resolve};
+use sigmastar::certificate::{certificate_json, digital_certificate_json};
+use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice, certify, certify_digital, resolve};
 use sigmastar::plant::Plant;
 use sigmastar::regulator::read_regulator;
 use sigmastar::spec::{Document, SpecErrors, Specification};
@@ -14,13 +14,14 @@ use std::sync::OnceLock;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// How many blocks of each kind there are at least.
-const LEAST: [(&str, usize); 14] = [
+const LEAST: [(&str, usize); 15] = [
     ("bounding-spec", 1),
-    ("bounding-spec-part", 9),
+    ("bounding-spec-part", 10),
     ("plant", 2),
     ("controller", 1),
-    ("certificate-fragment", 11),
+    ("certificate-fragment", 12),
     ("report-fragment", 4),
+    ("sampling-fragment", 1),
     ("transfer-fragment", 2),
     ("check-fragment", 2),
     ("rates-fragment", 1),
@@ -231,6 +232,7 @@ fn run(code: i32, arguments: &[&str]) -> Value {
 
 const EXAMPLE: &str = "specs/paper-example.json";
 const PLANT: &str = "specs/plants/paper-example.json";
+const AT_REST: &str = "specs/paper-example-rms-at-rest.json";
 const VALID: &str = "proofs-check/tests/certificates/paper-example.means.json";
 
 /// No plant with a state has these data.
@@ -266,7 +268,19 @@ fn certificates() -> Vec<Value> {
         assert!(none["no_plant"].is_object(), "{}", none["no_plant"]);
         all.push(none);
     }
+    all.push(digital_certificate());
     all
+}
+
+/// That of the example on the page.
+fn digital_certificate() -> Value {
+    let mut document = parsed(&file("specs/paper-example-rms-at-rest.json"), "the example at rest");
+    document["internal_model"]["sampling_period"] = json!("1/1000");
+    let spec = specification(&document.to_string(), "sampled");
+    let sampling = spec.internal_model.sampling.clone().expect("it is given");
+    let run =
+        certify_digital(&spec, &sampling, Some(&25.into()), None, Ladder::default()).expect("the bounds are proved");
+    digital_certificate_json(&run).expect("it certifies")
 }
 
 /// What the program writes under each format, as it is now: by the kind of the fragments.
@@ -305,7 +319,13 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                     report(2, &["specs/invalid/misspelt-field.json"]),
                     report(2, &["nowhere.json"]),
                     report(3, &[&narrow]),
+                    report(0, &[AT_REST, "--sampling-period", "1/1000", "--sigma", "25"]),
+                    report(3, &[AT_REST, "--sampling-period", "1/100", "--sigma", "99"]),
                 ],
+            ),
+            (
+                "sampling-fragment",
+                vec![other(&["sampling", "-q", AT_REST, "--sampling-period", "1/1000", "--sigma", "1,25"])],
             ),
             (
                 "transfer-fragment",
@@ -328,7 +348,10 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             ("controller", {
                 let parameters = ["controller", EXAMPLE, "--sigma", "48", "--n-o", "1"];
                 let certified = ["controller", VALID, "--n-o", "0", "--discretise", "1/1000", "--saturation", "9"];
+                let sampled = path("sampled.json");
+                std::fs::write(&sampled, digital_certificate().to_string()).expect("written");
                 vec![
+                    other(&["controller", &sampled, "--n-o", "3"]),
                     other(&parameters),
                     other(&[&parameters[..], &["--discretise", "1/1000"]].concat()),
                     other(&certified),

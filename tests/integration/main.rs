@@ -12,6 +12,7 @@ mod cli_words;
 mod controller;
 mod controller_c;
 mod controller_certificate;
+mod digital;
 mod effort;
 mod errata_data;
 mod errata_list;

@@ -34,10 +34,10 @@ pub fn json(export: &Export<'_>) -> Value {
             },
         })
     });
-    let certificate = export.certificate.map(|Provenance { sha256, sigma_star, statement, covers_sigma }| {
-        object!({
-            "sha256": sha256, "sigma_star": sigma_star, "statement": statement, "covers_sigma": covers_sigma,
-        })
+    let certificate = export.certificate.map(|Provenance { sha256, sigma_star, statement, scope }| {
+        let gain = if scope.is_sampled() { "sigma" } else { "sigma_star" };
+        let covers = if scope.is_sampled() { "covers_law" } else { "covers_sigma" };
+        object!({ "sha256": sha256, gain: sigma_star, "statement": statement, covers: scope.covers() })
     });
     object!({
         "format": FORMAT, "version": VERSION,

@@ -9,7 +9,7 @@ mod npz;
 pub use c::{CNames, CSources, Prefix, PrefixError, c_sources};
 pub use json::{FORMAT, VERSION, VERSIONS, json};
 pub use matlab::matlab;
-pub use notice::{Provenance, SAMPLED_LAW, notice};
+pub use notice::{Provenance, SAMPLED_LAW, Scope, notice};
 pub use npz::npz;
 
 use super::{Discrete, Regulator, SampledLoop};

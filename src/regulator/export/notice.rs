@@ -14,12 +14,52 @@ const NOT_COVERED: &str = "No claim covers the rounding of these numbers and of 
 pub struct Provenance {
     /// SHA-256, in hexadecimal, of the canonical form of the certificate.
     pub sha256: String,
-    /// Its sigma*, exactly.
+    /// Its sigma*, exactly; of a claim about the regulator at samples its gain.
     pub sigma_star: String,
     /// Its claim, in its own words.
     pub statement: String,
-    /// Whether the gain of the regulator is at least sigma*.
-    pub covers_sigma: bool,
+    /// What it says about this regulator.
+    pub scope: Scope,
+}
+
+/// What the claim of a certificate is about, and whether the regulator is that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// The regulator in continuous time, with this gain.
+    Continuous,
+    /// The regulator in continuous time, with larger gains than this one.
+    BelowSigmaStar,
+    /// The regulator at samples: exactly this law.
+    Samples,
+    /// The regulator at samples with another gain, sampling period, internal model or too many oscillators.
+    OtherSamples,
+}
+
+impl Scope {
+    /// Whether the claim covers this regulator; of one in continuous time not its sampling.
+    #[must_use]
+    pub fn covers(self) -> bool {
+        matches!(self, Scope::Continuous | Scope::Samples)
+    }
+
+    /// Whether the claim is about the regulator at samples.
+    #[must_use]
+    pub fn is_sampled(self) -> bool {
+        matches!(self, Scope::Samples | Scope::OtherSamples)
+    }
+
+    /// Why it says nothing about this regulator, where it does not.
+    #[must_use]
+    pub fn obstacle(self, sigma_star: &str) -> Option<String> {
+        match self {
+            Scope::Continuous | Scope::Samples => None,
+            Scope::BelowSigmaStar => Some(format!("sigma is below its sigma* = {sigma_star}")),
+            Scope::OtherSamples => Some(format!(
+                "it is about one law at samples, with sigma = {sigma_star} and the sampling period that it states, and this is \
+                 another one"
+            )),
+        }
+    }
 }
 
 /// What stands in every export, one sentence or claim a line.
@@ -27,16 +67,18 @@ pub struct Provenance {
 pub fn notice(export: &Export<'_>) -> Vec<String> {
     let mut lines = match export.certificate {
         None => vec!["No certificate was given: nothing is claimed.".to_owned()],
-        Some(Provenance { sha256, sigma_star, statement, covers_sigma }) => {
+        Some(Provenance { sha256, sigma_star, statement, scope }) => {
             let named = format!("Certificate with SHA-256 {sha256} (of its canonical form)");
-            if *covers_sigma {
-                vec![
-                    format!("{named}; `sigmastar check` decides it. It claims: {}", plain(statement)),
-                    "The certificate is about the continuous-time law: it does not cover sampling.".to_owned(),
-                ]
-            } else {
-                let why = format!("sigma is below its sigma* = {sigma_star}");
-                vec![format!("{named}: it says nothing about this regulator, because {why}.")]
+            let claims = format!("{named}; `sigmastar check` decides it. It claims: {}", plain(statement));
+            let about = match scope {
+                Scope::Samples => {
+                    "The law at samples here is the one that is claimed: this gain, this sampling period, this K."
+                }
+                _ => "The certificate is about the continuous-time law: it does not cover sampling.",
+            };
+            match scope.obstacle(sigma_star) {
+                None => vec![claims, about.to_owned()],
+                Some(why) => vec![format!("{named}: it says nothing about this regulator, because {why}.")],
             }
         }
     };

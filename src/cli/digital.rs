@@ -1,0 +1,119 @@
+//! `sigmastar certify` for the regulator at samples.
+
+use super::args::{CertifyArgs, DerivationArg, Format, TransferArg};
+use super::certify::{data, tell_other_specification, write_certificate};
+use super::failure::Failure;
+use super::files::OutputFile;
+use super::progress::{Audience, Working};
+use super::subject::Subject;
+use super::{input, output};
+use rug::Rational;
+use sigmastar::certificate::{digital_certificate_json, read_digital_witness};
+use sigmastar::certify::{DigitalCertification, certify_digital, recheck_digital};
+use sigmastar::report::DigitalReport;
+use sigmastar::spec::{Document, Sampling, SpecErrors, Specification};
+
+/// Runs it and returns the exit code.
+pub fn run(
+    args: &CertifyArgs,
+    subject: Subject,
+    witness: Option<&Document>,
+    gain: Option<&Rational>,
+    output: Option<&OutputFile>,
+) -> Result<u8, Failure> {
+    refuse(args)?;
+    let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
+    let (spec, start) = match (witness, subject.sampling().cloned()) {
+        (None, Some(sampling)) => subject.into_digital_data(&sampling, gain, args.quiet)?,
+        (given, _) => (data(subject, given, &args.options(), args.quiet)?.0, None),
+    };
+    let working = Working::new("searching the free numbers, deciding the conditions", audience);
+    let ladder = args.options().ladder;
+    let run = match (witness, &spec.internal_model.sampling) {
+        (Some(document), asked) => {
+            let witness = read_digital_witness(document)?;
+            tell_other_specification(&spec, document, args.quiet);
+            same_samples(&spec, &witness.sampling, asked.as_ref())?;
+            recheck_digital(&spec, &witness, ladder)
+        }
+        (None, Some(sampling)) => certify_digital(&spec, sampling, gain, start.as_ref(), ladder),
+        (None, None) => return Err(Failure::call("no sampling period is given", "give it with --sampling-period")),
+    };
+    drop(working);
+    let run = run.map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
+    tell(args, &run, witness.is_some(), output)
+}
+
+fn tell(
+    args: &CertifyArgs,
+    run: &DigitalCertification<'_>,
+    rechecked: bool,
+    file: Option<&OutputFile>,
+) -> Result<u8, Failure> {
+    let text = output::report(&DigitalReport::new(run, rechecked), args.format);
+    if let Some(file) = file {
+        write_certificate(digital_certificate_json(run), run.verdict, file, args.quiet)?;
+    }
+    if let Err(code) = output::data(&text) {
+        return Ok(code);
+    }
+    let unproved: Vec<SpecErrors> = run.unproved_bounds.iter().map(|problem| problem.errors(run.spec)).collect();
+    if !unproved.is_empty() && args.format != Format::Json {
+        output::diagnostics(&unproved);
+    }
+    Ok(run.verdict.exit_code())
+}
+
+/// Flags that make no sense for the regulator at samples.
+fn refuse(args: &CertifyArgs) -> Result<(), Failure> {
+    let wrong = [
+        (!matches!(args.derivation, DerivationArg::Sharp), "--derivation", "only the sharp derivation covers samples"),
+        (!matches!(args.transfer, TransferArg::Best), "--transfer", "its constants are checked harmonic by harmonic"),
+        (args.target_sup.is_some(), "--target-sup", "bounds by the number of oscillators are of continuous time"),
+        (args.target_rms.is_some(), "--target-rms", "bounds by the number of oscillators are of continuous time"),
+    ];
+    match wrong.into_iter().find(|(given, ..)| *given) {
+        Some((_, flag, why)) => {
+            let message = format!("{flag} is not for the regulator at samples: {why}");
+            Err(Failure::call(message, format!("leave {flag} or the sampling period out")))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The samples of a witness have to be those of the specification's period, and of its own sampling period.
+fn same_samples(spec: &Specification, stated: &Sampling, asked: Option<&Sampling>) -> Result<(), Failure> {
+    let step = stated.text();
+    if asked.is_some_and(|asked| !asked.is(&stated.step)) {
+        let message =
+            format!("the certificate is about the sampling period {step}, the specification asks for another one");
+        return Err(Failure::call(message, "certify without --witness"));
+    }
+    match Sampling::new(&spec.period, stated.step.clone()) {
+        Some(real) if real.samples == stated.samples && spec.internal_model.matched => Ok(()),
+        _ => {
+            let samples = stated.samples;
+            let message = format!(
+                "the certificate is about {samples} samples of {step} in a period at a matched base frequency, and that is \
+                 not so here"
+            );
+            Err(Failure::call(message, "certify without --witness"))
+        }
+    }
+}
+
+/// The document with another sampling period.
+///
+/// # Errors
+/// A period that is not an exact positive constant, and what is wrong with the document with it.
+pub fn with_sampling_period(document: &Document, text: &str) -> Result<Subject, Failure> {
+    let step = input::positive("--sampling-period", text)?;
+    let mut value = document.root().to_json();
+    let Some(model) = value.get_mut("internal_model").and_then(serde_json::Value::as_object_mut) else {
+        // What is wrong with it is told as ever.
+        return Subject::read(document);
+    };
+    model.insert("sampling_period".to_owned(), step.text.into());
+    let label = format!("{} with --sampling-period {}", document.label(), text);
+    Subject::read(&Document::parse(&label, &output::json_text(&value))?)
+}

@@ -1,0 +1,90 @@
+//! `sigmastar sampling`.
+
+use super::args::SamplingArgs;
+use super::failure::Failure;
+use super::files::OutputFile;
+use super::progress::{Audience, Working};
+use super::subject::Subject;
+use super::transfer::svg_file;
+use super::{input, output};
+use rug::Rational;
+use sigmastar::certify::Verdict;
+use sigmastar::reduction::with_digital_pairs;
+use sigmastar::report::{SamplingReport, sampling_figure};
+use sigmastar::sampling::{OfPlant, OfSpecification, SamplingStudy};
+use sigmastar::spec::{Constant, MAX_SAMPLES, Sampling};
+
+/// Runs the command and returns the exit code.
+pub fn run(args: &SamplingArgs) -> u8 {
+    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
+}
+
+fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
+    let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec)).transpose()?;
+    let subject = Subject::read(&input::document(&args.spec)?)?;
+    let (name, sha256, period) = match &subject {
+        Subject::Specification(spec) => (spec.name.clone(), spec.sha256.clone(), spec.period.clone()),
+        Subject::Plant(plant) => (plant.name.clone(), plant.sha256.clone(), plant.period.clone()),
+    };
+    if !subject.is_matched() {
+        let message = "the regulator at samples needs a base frequency of 2 pi / period";
+        return Err(Failure::call(message, "set `\"matched\": true` in the internal model, with that base frequency"));
+    }
+    let steps = args.sampling_period.as_deref().map(|list| steps(list, &period)).transpose()?;
+    let gains = args.sigma.as_deref().map(gains).transpose()?;
+    let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };
+    let study = match subject {
+        Subject::Plant(plant) => {
+            let _working = Working::new("finding the orbit, proving the bounds of every pair", audience);
+            let study =
+                with_digital_pairs(&plant, |pairs| SamplingStudy::new(&OfPlant { pairs }, &period, steps, gains));
+            study.map_err(|refusal| Failure::Documents(refusal.errors(&plant)))?
+        }
+        specification @ Subject::Specification(_) => {
+            let spec = specification.into_data(args.quiet)?.0;
+            let _working = Working::new("certifying pairs of a gain and a sampling period", audience);
+            SamplingStudy::new(&OfSpecification { spec: &spec }, &period, steps, gains)
+        }
+    };
+    if let Some(file) = &plot {
+        draw(&study, file, args.quiet)?;
+    }
+    let report = SamplingReport { study: &study, name: &name, sha256: &sha256 };
+    let text = output::report(&report, args.format);
+    let verdict = if study.has_pair() { Verdict::Certified } else { Verdict::Undecided };
+    Ok(output::data(&text).map_or_else(|code| code, |()| verdict.exit_code()))
+}
+
+fn draw(study: &SamplingStudy, file: &OutputFile, quiet: bool) -> Result<(), Failure> {
+    if !study.has_pair() {
+        output::remark(&format!("`{}` was not written: nothing is certified", file.name()));
+        return Ok(());
+    }
+    let svg = sampling_figure(study).svg();
+    file.write(svg.map_err(|error| Failure::call(error.to_string(), "leave --plot out, and report this"))?)?;
+    if !quiet {
+        output::remark(&format!("the plot is in `{}`", file.name()));
+    }
+    Ok(())
+}
+
+/// The sampling periods of a list, each with a whole number of them in the period.
+fn steps(list: &str, period: &Constant) -> Result<Vec<Sampling>, Failure> {
+    list.split(',')
+        .map(|text| {
+            let step = input::positive("--sampling-period", text.trim())?;
+            Sampling::new(period, step).ok_or_else(|| {
+                let message = format!(
+                    "the period {} is no whole multiple, from 2 to {MAX_SAMPLES}, of the sampling period {}",
+                    period.text,
+                    text.trim()
+                );
+                Failure::call(message, format!("write fractions of the period, such as `({})/100`", period.text))
+            })
+        })
+        .collect()
+}
+
+fn gains(list: &str) -> Result<Vec<Rational>, Failure> {
+    list.split(',').map(|text| input::rational("--sigma", text.trim())).collect()
+}

@@ -1,0 +1,135 @@
+//! Certifying one pair of a gain and a sampling period, of a specification or of a plant.
+
+use crate::certify::{DigitalCertification, Ladder, Outcome, certify_digital, digital_model};
+use crate::data::Data;
+use crate::derivation::digital::SampledLaw;
+use crate::enclosure::Enclosure;
+use crate::reduction::{DigitalPairs, PlantRefusal};
+use crate::search::{DigitalLimit, DigitalSearch, FloatModel, Obstacle, search_sharp};
+use crate::spec::{InternalModel, Sampling, Specification};
+use crate::transfer::TradeOff;
+use rug::Rational;
+
+/// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
+const PRECISION: u32 = 64;
+
+/// A certified pair.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// h, with the samples in a period.
+    pub sampling: Sampling,
+    /// sigma.
+    pub sigma: Rational,
+    /// K.
+    pub gain: Rational,
+    /// h sigma.
+    pub product: Enclosure,
+    /// theta.
+    pub theta: Enclosure,
+    /// What limits it, and about how far the forms are from where they fail.
+    pub limit: Option<(DigitalLimit, f64)>,
+}
+
+impl Pair {
+    /// The pair of a run that certified one.
+    fn new(run: &DigitalCertification<'_>) -> Result<Pair, Obstacle> {
+        let Some(proof) = run.claim() else {
+            return Err(match &run.outcome {
+                Outcome::NotFound(obstacle) => *obstacle,
+                _ => Obstacle::Bounds,
+            });
+        };
+        let law = &proof.evaluation.law;
+        Ok(Pair {
+            sampling: run.sampling.clone(),
+            sigma: proof.witness.sigma.clone(),
+            gain: proof.witness.law.gain.clone(),
+            product: proof.evaluation.product.clone(),
+            theta: &law.enlarged - Enclosure::one(proof.precision),
+            limit: run.found.map(|(proposal, limit)| (limit, 1.0 - proposal.radius)),
+        })
+    }
+}
+
+/// What a table asks.
+pub trait Certifier {
+    /// About the smallest gain of the regulator in continuous time, in floating point.
+    ///
+    /// # Errors
+    /// What stands in the way.
+    fn continuous(&self) -> Result<f64, Obstacle>;
+
+    /// The pair of a sampling period and a gain, or the smallest gain that is found.
+    ///
+    /// # Errors
+    /// What stands in the way.
+    fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle>;
+
+    /// Whether a search in floating point finds a witness.
+    ///
+    /// # Errors
+    /// What stands in the way.
+    fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle>;
+
+    /// The internal model.
+    fn model(&self) -> &InternalModel;
+}
+
+/// A specification whose data are given or proved.
+pub struct OfSpecification<'s> {
+    /// The specification.
+    pub spec: &'s Specification,
+}
+
+impl Certifier for OfSpecification<'_> {
+    fn continuous(&self) -> Result<f64, Obstacle> {
+        let data = Data::new(self.spec, PRECISION);
+        search_sharp(&FloatModel::new(&data, TradeOff::matched(&data))).map(|found| found.sigma)
+    }
+
+    fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle> {
+        let run = certify_digital(self.spec, sampling, gain, None, Ladder::default());
+        run.map_err(|_| Obstacle::Bounds).and_then(|run| Pair::new(&run))
+    }
+
+    fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle> {
+        let law = self.spec.internal_model.sampled_gain(&sampling.step).ok_or(Obstacle::Magnitude)?;
+        let data = Data::new(self.spec, PRECISION);
+        let model = digital_model(&data, sampling, &law);
+        DigitalSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64()).at_gain(gain).map(drop)
+    }
+
+    fn model(&self) -> &InternalModel {
+        &self.spec.internal_model
+    }
+}
+
+/// A plant whose orbit is proved and whose coordinates are chosen.
+pub struct OfPlant<'p> {
+    /// The pairs of the plant.
+    pub pairs: &'p DigitalPairs<'p>,
+}
+
+impl Certifier for OfPlant<'_> {
+    fn continuous(&self) -> Result<f64, Obstacle> {
+        Ok(self.pairs.continuous())
+    }
+
+    fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle> {
+        let reduced = self.pairs.reduce(sampling, gain).map_err(|refusal| match refusal {
+            PlantRefusal::NoGain(obstacle) => obstacle,
+            _ => Obstacle::Bounds,
+        })?;
+        let run = certify_digital(&reduced.spec, sampling, gain, Some(&reduced.proposal), Ladder::default());
+        run.map_err(|_| Obstacle::Bounds).and_then(|run| Pair::new(&run))
+    }
+
+    fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle> {
+        let found = self.pairs.search(sampling, |search| search.at_gain(gain).map(drop));
+        found.unwrap_or(Err(Obstacle::Magnitude))
+    }
+
+    fn model(&self) -> &InternalModel {
+        self.pairs.internal_model()
+    }
+}

@@ -1,0 +1,9 @@
+//! Which gains go with which sampling periods: certified pairs of the regulator at samples (derivation, 12).
+//!
+//! Nothing is monotone in either number, so a table lists pairs, each certified by itself, and says nothing between them.
+
+mod certifier;
+mod study;
+
+pub use certifier::{Certifier, OfPlant, OfSpecification, Pair};
+pub use study::{Asked, Row, SamplingStudy};
