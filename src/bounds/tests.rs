@@ -214,11 +214,11 @@ pub(crate) fn random_points(states: usize, count: usize) -> Vec<(f64, Vec<f64>, 
     let point = |index: usize| {
         let mut y: Vec<f64> = (0..states).map(|_| random()).collect();
         let norm = y.iter().map(|y| y * y).sum::<f64>().sqrt();
-        if norm > 1.0 || index % 2 == 0 {
+        if norm > 1.0 || index.is_multiple_of(2) {
             y.iter_mut().for_each(|y| *y /= norm);
         }
         let e = random();
-        (random(), y, if index % 3 == 0 { e.signum() } else { e })
+        (random(), y, if index.is_multiple_of(3) { e.signum() } else { e })
     };
     (0..count).map(point).collect()
 }

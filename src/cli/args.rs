@@ -56,6 +56,7 @@ const CONTROLLER_EXAMPLES: &str = "Examples:
 pub const SIMULATE_EXAMPLES: &str = "Examples:
   sigmastar simulate plant.json --sigma 2 --n-o 4
   sigmastar simulate plant.json --sigma 2 --high-gain --plots figures
+  sigmastar simulate plant.json --sigma 2 --n-o 4 --sampled 1/1000 --delay 1/2000 --saturation 20
   sigmastar simulate plant.json --controller controller.json --noise-power 1e-3 --seed 7";
 
 /// Certified gains for output regulation: from bounding functions of a plant to a gain that provably works for every
@@ -123,7 +124,7 @@ pub enum Command {
     /// Try to break a certificate by simulation
     ///
     /// Draws plants within the bounding functions, starts on the boundary of the initial set and checks every bound of
-    /// the claim a little above sigma*. Finding nothing proves nothing; exit code 1 and a plant file if it finds one.
+    /// the claim a little above sigma*, or of the law at samples with exactly its gain. Finding nothing proves nothing; exit code 1 and a plant file if it finds one.
     Falsify(FalsifyArgs),
     /// List what is wrong in the paper, with evidence
     ///
@@ -451,6 +452,28 @@ pub struct SimulateArgs {
     /// The regulator from a file that `controller` wrote (JSON)
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["sigma", "n_o", "high_gain"])]
     pub controller: Option<PathBuf>,
+
+    /// The regulator at samples H apart, an exact positive constant: the law that `controller --discretise H` exports, with u
+    /// held between samples
+    #[arg(long, value_name = "H", allow_hyphen_values = true,
+          conflicts_with_all = ["high_gain", "fixed", "noise_power", "noise_everywhere"])]
+    pub sampled: Option<String>,
+
+    /// Time that a control takes to be computed: it acts D after its sample, 0 <= D <= H
+    #[arg(long, value_name = "D", requires = "sampled", allow_hyphen_values = true)]
+    pub delay: Option<String>,
+
+    /// Measure e in multiples of QE and, if QU is given, put u out in multiples of QU
+    #[arg(long, value_name = "QE[,QU]", requires = "sampled", value_delimiter = ',', allow_hyphen_values = true)]
+    pub quantise: Vec<String>,
+
+    /// Clip the control to |u| <= U, with the exported law's anti-windup
+    #[arg(long, value_name = "U", requires = "sampled", allow_hyphen_values = true)]
+    pub saturation: Option<String>,
+
+    /// Time of the first sample, where the run starts: the phase of the sampling grid
+    #[arg(long, value_name = "P", requires = "sampled", allow_hyphen_values = true)]
+    pub phase: Option<String>,
 
     /// Length of the run from the initial condition, in periods
     #[arg(long, value_name = "P", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=100_000))]

@@ -8,7 +8,7 @@ use super::{input, output};
 use sigmastar::certify::Verdict;
 use sigmastar::falsify::{
     Claim, Falsification, FalsificationReport, Finding, FrequencyError, TrialSettings, counterexample_plant, falsify,
-    with_base_frequency,
+    flags, with_base_frequency,
 };
 
 /// Runs the command and returns the exit code.
@@ -22,6 +22,10 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
     let mut claims = vec![Claim::from_document(&input::document(&args.certificate)?)?];
+    if claims[0].sampled.is_some() && !others.is_empty() {
+        let message = "the law at samples is certified for the base frequency 2 pi/period alone";
+        return Err(Failure::call(message, "leave --base-frequency out"));
+    }
     for frequency in &others {
         let claim = with_base_frequency(&claims[0], frequency).map_err(|error| match error {
             FrequencyError::Specification(errors) => Failure::from(errors),
@@ -52,11 +56,10 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
         if !args.quiet {
             let what = if violation.is_some() { "counterexample" } else { "plant" };
             output::remark(&format!(
-                "the {what} is in `{}`; see it with: sigmastar simulate {} --sigma {:?} --n-o {}",
+                "the {what} is in `{}`; see it with: sigmastar simulate {} {}",
                 file.name(),
                 file.name(),
-                trial.sigma,
-                trial.n_o
+                flags(claim, trial)
             ));
         }
     }

@@ -5,7 +5,7 @@ use super::output::{reason, shown};
 use rug::Rational;
 use sigmastar::derivation::targets::{Target, TargetKind};
 use sigmastar::spec::model::Constant;
-use sigmastar::spec::{Document, Errors, MAX_BYTES, positive_constant};
+use sigmastar::spec::{Document, Errors, MAX_BYTES, Reported, Value, nonnegative_constant, positive_constant};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -63,9 +63,25 @@ pub fn rational(flag: &str, text: &str) -> Result<Rational, Failure> {
 /// # Errors
 /// What is wrong with the constant, in its place.
 pub fn positive(flag: &str, text: &str) -> Result<Constant, Failure> {
+    constant(flag, text, positive_constant)
+}
+
+/// Reads the value of a flag: an exact constant that is not negative.
+///
+/// # Errors
+/// What is wrong with the constant, in its place.
+pub fn nonnegative(flag: &str, text: &str) -> Result<Constant, Failure> {
+    constant(flag, text, nonnegative_constant)
+}
+
+fn constant(
+    flag: &str,
+    text: &str,
+    read: impl Fn(&Value<'_>, &mut Errors) -> Result<Constant, Reported>,
+) -> Result<Constant, Failure> {
     let document = Document::flag(flag, text);
     let mut errors = Errors::new();
     let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
-    let value = positive_constant(&place, &mut errors);
+    let value = read(&place, &mut errors);
     Ok(errors.conclude(&document, value)?)
 }

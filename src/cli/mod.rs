@@ -21,6 +21,7 @@ mod rate;
 mod reproduce;
 mod sampling;
 mod simulate;
+mod simulate_sampled;
 mod subject;
 mod temporary;
 mod transfer;

@@ -6,6 +6,7 @@ use super::files::{self, Input, OutputFile};
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
+use super::simulate_sampled;
 use sigmastar::certify::Verdict;
 use sigmastar::plant::Plant;
 use sigmastar::regulator::{Design, Regulator, read_regulator};
@@ -15,7 +16,11 @@ use sigmastar::simulate::{
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SimulateArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
+    let outcome = match &args.sampled {
+        None => attempt(args),
+        Some(step) => simulate_sampled::attempt(args, step),
+    };
+    outcome.unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
 }
 
 fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {

@@ -1,10 +1,12 @@
 //! What a certificate claims, as a simulation can check it.
 
 use super::frame::OwnPlant;
-use crate::certificate::{StatedClaim, read_claim};
+use super::sampled_claim::SampledClaim;
+use crate::certificate::{StatedClaim, is_digital, read_claim, read_digital_claim};
 use crate::certify::{Derivation, GivenWitness};
 use crate::data::Data;
 use crate::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds};
+use crate::derivation::digital::DigitalWitness;
 use crate::derivation::existence::PeriodicBounds;
 use crate::derivation::sharp::SharpEvaluation;
 use crate::enclosure::DEFAULT_PRECISION;
@@ -32,14 +34,16 @@ pub struct Claim {
     /// w_x P_low, w_x P_up and h of the Lyapunov function w_x x'P_x x + e^2 + h z'N z in error coordinates, where the
     /// derivation has one of this form.
     pub lyapunov: Option<[f64; 3]>,
-    /// psi_1 and psi_x: sup|e| <= psi_1/sigma and sup|x| <= psi_x/sigma.
-    pub psi: [f64; 2],
+    /// psi_1 and psi_x: sup|e| <= psi_1/sigma and sup|x| <= psi_x/sigma, in continuous time.
+    pub psi: Option<[f64; 2]>,
     /// The arguments up to which plants lie within the bounding functions: the domain, or what the claim rests on.
     pub reach: [Rational; 2],
     /// What drives the periodic error, and E_p.
     drive: Option<(Excitation, Rational)>,
     /// The plant that the claim is about, where it is about one; it is tried in the place of drawn ones.
     pub own: Option<OwnPlant>,
+    /// The law at samples, where the claim is about it: then it is about exactly its gain.
+    pub sampled: Option<SampledClaim>,
 }
 
 impl Claim {
@@ -48,7 +52,44 @@ impl Claim {
     /// # Errors
     /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<Claim, SpecErrors> {
+        if is_digital(document) {
+            return read_digital_claim(document).map(Claim::at_samples);
+        }
         read_claim(document).map(Claim::new)
+    }
+
+    /// The claim about the law at samples.
+    fn at_samples(stated: StatedClaim<DigitalWitness>) -> Claim {
+        let own = stated.plant.as_ref().zip(stated.spec.plant());
+        let own = own.and_then(|(plant, proved)| OwnPlant::new(plant.clone(), proved));
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, z], .. } = stated;
+        let data = Data::new(&spec, DEFAULT_PRECISION);
+        let w_x = witness.w_x.to_f64();
+        let lyapunov = Some([w_x * data.p_low.lower_f64(), w_x * data.p_up.upper_f64(), witness.eta.to_f64()]);
+        let (x_p, e_p) = (&witness.x_p, &witness.e_p);
+        let error_box = [witness.d_x.to_f64(), witness.d_e.to_f64()];
+        let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
+        let set = &witness.set;
+        let (initial, sigma) = ([&set.x0, &set.e0, &set.z0].map(Rational::to_f64), witness.sigma.to_f64());
+        let reach = reach(&spec, periodic, [x_p, e_p], error_box);
+        let sampled = Some(SampledClaim::new(&witness));
+        let (derivation, periodic_z) = (Derivation::Sharp, z);
+        let (psi, drive) = (None, None);
+        Claim {
+            spec,
+            derivation,
+            sigma,
+            initial,
+            periodic,
+            periodic_z,
+            error_box,
+            lyapunov,
+            psi,
+            reach,
+            drive,
+            own,
+            sampled,
+        }
     }
 
     fn new(stated: StatedClaim) -> Claim {
@@ -74,13 +115,7 @@ impl Claim {
         };
         let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
         let initial = [set.x0.to_f64(), set.e0.to_f64(), set.z0.to_f64()];
-        let reach = match &spec.domain {
-            Some(domain) => [&domain.x, &domain.e].map(data_end),
-            // Rounded up: plants within the bounding functions on a larger box are within them on a smaller one.
-            None => [(periodic[0], x_p, error_box[0]), (periodic[1], e_p, error_box[1])].map(|(per, p, radius)| {
-                Rational::from_f64((per + radius).max(p.to_f64()) * 1.001).unwrap_or_else(|| Rational::from(1))
-            }),
-        };
+        let reach = reach(&spec, periodic, [x_p, e_p], error_box);
         let excitation = match &witness {
             GivenWitness::Sharp { witness, .. } => SharpEvaluation::new(&data, witness).excitation,
             GivenWitness::Repaired { .. } => {
@@ -88,9 +123,23 @@ impl Claim {
             }
         };
         let psi = Psi::new(&data, &excitation);
-        let psi = [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()];
+        let psi = Some([psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]);
         let (sigma, drive) = (sigma.to_f64(), Some((excitation, e_p.clone())));
-        Claim { spec, derivation, sigma, initial, periodic, periodic_z: z, error_box, lyapunov, psi, reach, drive, own }
+        Claim {
+            spec,
+            derivation,
+            sigma,
+            initial,
+            periodic,
+            periodic_z: z,
+            error_box,
+            lyapunov,
+            psi,
+            reach,
+            drive,
+            own,
+            sampled: None,
+        }
     }
 
     /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*, for a matched base frequency.
@@ -112,7 +161,7 @@ impl Claim {
         let reach = reach.map(|end| Rational::from_f64(end).unwrap());
         let (drive, own) = (None, None);
         let (initial, periodic, error_box) = ([0.0; 3], [0.0; 3], [0.0; 2]);
-        let (periodic_z, lyapunov, psi) = (0.0, None, [0.0; 2]);
+        let (periodic_z, lyapunov, psi, sampled) = (0.0, None, None, None);
         let derivation = Derivation::Sharp;
         Claim {
             spec,
@@ -127,7 +176,19 @@ impl Claim {
             reach,
             drive,
             own,
+            sampled,
         }
+    }
+}
+
+/// The arguments up to which plants are to lie within the bounding functions.
+fn reach(spec: &Specification, periodic: [f64; 3], [x_p, e_p]: [&Rational; 2], error_box: [f64; 2]) -> [Rational; 2] {
+    match &spec.domain {
+        Some(domain) => [&domain.x, &domain.e].map(data_end),
+        // Rounded up: plants within the bounding functions on a larger box are within them on a smaller one.
+        None => [(periodic[0], x_p, error_box[0]), (periodic[1], e_p, error_box[1])].map(|(per, p, radius)| {
+            Rational::from_f64((per + radius).max(p.to_f64()) * 1.001).unwrap_or_else(|| Rational::from(1))
+        }),
     }
 }
 

@@ -7,6 +7,16 @@ use crate::report::document::clean;
 use crate::spec::{Document, SpecErrors};
 use serde_json::json;
 
+/// The flags with which `simulate` shows a trial.
+#[must_use]
+pub fn flags(claim: &Claim, trial: &Trial) -> String {
+    let plain = format!("--sigma {:?} --n-o {}", trial.sigma, trial.n_o);
+    match claim.sampled.as_ref().zip(trial.phase) {
+        None => plain,
+        Some((sampled, phase)) => format!("{plain} --sampled \"{}\" --phase {phase:?}", sampled.step.text),
+    }
+}
+
 /// The plant of a trial as a plant file with its initial condition, as a document.
 ///
 /// # Errors
@@ -24,7 +34,7 @@ pub fn counterexample_plant(
         let Violation { quantity, bound, found } = violation;
         format!("Counterexample: {quantity} is {found} where at most {bound} is claimed. ")
     });
-    let description = format!("{found}Simulate it with --sigma {:?} --n-o {}.", trial.sigma, trial.n_o);
+    let description = format!("{found}Simulate it with {}.", flags(claim, trial));
     let file = json!({
         "format": plant::FORMAT, "version": 1,
         "name": format!("Trial {} for {}", trial.number, clean(&claim.spec.name)),

@@ -57,12 +57,14 @@ pub struct Trial {
     pub number: u64,
     /// The plant.
     pub plant: TriedPlant,
-    /// sigma, a little above sigma*.
+    /// sigma, a little above sigma*; of the law at samples exactly the claimed one.
     pub sigma: f64,
     /// n_o.
     pub n_o: u32,
-    /// x(0), e(0), z(0) on the boundary of the initial set.
+    /// x, e, z at the start, on the boundary of the initial set.
     pub start: Vec<f64>,
+    /// With the law at samples the time of the first sample, where the trial starts: the phase of the sampling grid.
+    pub phase: Option<f64>,
 }
 
 /// A bound that does not hold.

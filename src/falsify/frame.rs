@@ -41,9 +41,9 @@ impl OwnPlant {
         x
     }
 
-    /// The state with this deviation at t = 0.
-    pub(super) fn state(&self, y: &[f64]) -> Vec<f64> {
-        (self.orbit(0.0) + &self.coordinates * DVector::from_column_slice(y)).as_slice().to_vec()
+    /// The state with this deviation at t = s T.
+    pub(super) fn state(&self, s: f64, y: &[f64]) -> Vec<f64> {
+        (self.orbit(s) + &self.coordinates * DVector::from_column_slice(y)).as_slice().to_vec()
     }
 
     /// |y| of a state at t = s T.

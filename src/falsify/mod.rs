@@ -2,6 +2,7 @@
 //!
 //! That a plant lies within the families is proved; the simulation is floating point and decides nothing: a trial that
 //! finds nothing proves nothing, and what it finds is a plant and an initial condition that anyone can simulate again.
+//! A claim about the law at samples is tried with exactly its gain and sampling time, at different phases of the sampling grid.
 //! The number of oscillators varies. The base frequency and the period are part of the claim and stay; other base
 //! frequencies are claims of their own, which [`with_base_frequency`] makes.
 
@@ -21,11 +22,13 @@ mod linear;
 mod membership;
 mod random;
 mod report;
+mod sampled_claim;
+mod sampled_trial;
 mod shape;
 mod trial;
 
 pub use claim::Claim;
-pub use counterexample::counterexample_plant;
+pub use counterexample::{counterexample_plant, flags};
 pub use draw::{DrawnPlant, draw};
 pub use family::{Family, FamilyBound, Harmonic};
 pub use finding::{Falsification, Finding, Trial, TrialSettings, TriedPlant, Violation};
@@ -36,5 +39,6 @@ pub use linear::linear_member;
 pub use membership::{respects, respects_signed};
 pub use random::Random;
 pub use report::FalsificationReport;
+pub use sampled_claim::SampledClaim;
 pub use shape::{Factor, Number, Shape};
 pub use trial::falsify;

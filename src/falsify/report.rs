@@ -42,9 +42,23 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
         }
     }
     let violated = outcome.findings.len() - held - unfinished.len();
-    let gains = if claim.own.is_some() { "of the plant itself at sigma* and above" } else { "at 1.000001 sigma*" };
+    let gains = match (&claim.sampled, &claim.own) {
+        (Some(sampled), own) => {
+            let of = if own.is_some() { "of the plant itself with" } else { "with" };
+            format!(
+                "{of} the law at samples, exactly h = {} ({} samples a period) and K = {:?}, at different phases of the \
+                 sampling grid,",
+                sampled.step.text,
+                sampled.samples,
+                sampled.law.gain.to_f64()
+            )
+        }
+        (None, Some(_)) => "of the plant itself at sigma* and above,".to_owned(),
+        (None, None) => "at 1.000001 sigma*,".to_owned(),
+    };
+    let name = if claim.sampled.is_some() { "sigma" } else { "sigma*" };
     blocks.push(Block::says(format!(
-        "{} trials {gains}, sigma* = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
+        "{} trials {gains} {name} = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
          does not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
          proof.",
         outcome.findings.len(),
@@ -94,11 +108,15 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     vec![
         Block::heading("The worst plant"),
         Block::says(format!(
-            "Trial {}, sigma = {:?}, n_o = {}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
+            "Trial {}, sigma = {:?}, n_o = {}{}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
              (The multiplier and the Lyapunov function are close to theirs with any plant.) `sigmastar falsify` with \
              `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description; so \
              for any other trial.",
-            trial.number, trial.sigma, trial.n_o, trial.number
+            trial.number,
+            trial.sigma,
+            trial.n_o,
+            trial.phase.map_or_else(String::new, |phase| format!(", first sample at t = {phase:?}")),
+            trial.number
         )),
         Block::facts(facts),
     ]
@@ -107,9 +125,14 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
 /// The worst plant as JSON, with the plant file.
 fn worst_json(claim: &Claim, worst: &Closest<'_>) -> Value {
     let Closest { quantity, share, trial, .. } = worst;
-    let Trial { number, sigma, n_o, .. } = &**trial;
+    let Trial { number, sigma, n_o, phase, .. } = trial;
     let plant = counterexample_plant(claim, trial, None).map_or(Value::Null, |document| document.root().to_json());
-    json!({ "trial": number, "quantity": quantity, "share": share, "sigma": sigma, "n_o": n_o, "plant": plant })
+    let mut worst = json!({ "trial": number, "quantity": quantity, "share": share, "sigma": sigma, "n_o": n_o });
+    if let Some(phase) = phase {
+        worst["phase"] = json!(phase);
+    }
+    worst["plant"] = plant;
+    worst
 }
 
 fn json(claim: &Claim, outcome: &Falsification) -> Value {
@@ -120,12 +143,15 @@ fn json(claim: &Claim, outcome: &Falsification) -> Value {
             Finding::Holds { trial, shares } => {
                 let shares: Vec<Value> =
                     shares.iter().map(|(quantity, share)| json!({ "quantity": quantity, "share": share })).collect();
-                json!({ "finding": "holds", "n_o": trial.n_o, "shares": shares })
+                with_phase(json!({ "finding": "holds", "n_o": trial.n_o, "shares": shares }), trial)
             }
-            Finding::Violated(trial, violation) => json!({
-                "finding": "violated", "n_o": trial.n_o, "quantity": violation.quantity,
-                "found": violation.found, "bound": violation.bound,
-            }),
+            Finding::Violated(trial, violation) => {
+                let finding = json!({
+                    "finding": "violated", "n_o": trial.n_o, "quantity": violation.quantity,
+                    "found": violation.found, "bound": violation.bound,
+                });
+                with_phase(finding, trial)
+            }
             Finding::Unfinished(why) => json!({ "finding": "unfinished", "reason": why }),
         })
         .collect();
@@ -136,10 +162,25 @@ fn json(claim: &Claim, outcome: &Falsification) -> Value {
             json!({ "quantity": quantity, "share": share, "trial": trial.number })
         })
         .collect();
-    json!({
-        "format": "sigmastar/falsification", "version": 1, "name": clean(&claim.spec.name), "sigma_star": claim.sigma,
+    let gain = if claim.sampled.is_some() { "sigma" } else { "sigma_star" };
+    let mut report = json!({
+        "format": "sigmastar/falsification", "version": 1, "name": clean(&claim.spec.name), gain: claim.sigma,
         "base_frequency": claim.spec.internal_model.base_frequency.text,
         "seed": outcome.settings.seed, "trials": trials, "closest": closest,
         "worst": outcome.worst().map(|worst| worst_json(claim, &worst)), "refuted": outcome.counterexample().is_some(),
-    })
+    });
+    if let Some(sampled) = &claim.sampled {
+        report["sampled"] = json!({
+            "sampling_period": sampled.step.text, "samples": sampled.samples, "K": sampled.law.gain.to_f64(),
+        });
+    }
+    report
+}
+
+/// A trial of the law at samples with the time of its first sample.
+fn with_phase(mut finding: Value, trial: &Trial) -> Value {
+    if let Some(phase) = trial.phase {
+        finding["phase"] = json!(phase);
+    }
+    finding
 }

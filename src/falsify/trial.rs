@@ -2,13 +2,14 @@
 
 use super::claim::Claim;
 use super::counterexample::counterexample_plant;
-use super::draw::draw;
+use super::draw::{DrawnPlant, draw};
 use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, TriedPlant, Violation};
 use super::frame::OwnPlant;
 use super::limits::SectorEnd;
 use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
 use super::random::Random;
+use super::sampled_trial;
 use crate::certify::no_plant;
 use crate::data::{Bound, Data};
 use crate::enclosure::DEFAULT_PRECISION;
@@ -29,7 +30,7 @@ pub(super) const ABOVE: f64 = 1.0 + 1e-6;
 /// What a bound may be exceeded by before it counts: integration and rounding.
 const TOLERANCE: f64 = 1e-6;
 /// Periods from the initial condition that are compared with the periodic solution.
-const PERIODS: usize = 12;
+pub(super) const PERIODS: usize = 12;
 /// Samples of a period in that comparison.
 const SAMPLES: usize = 4096;
 
@@ -57,34 +58,48 @@ pub fn falsify(claim: &Claim, settings: TrialSettings, progress: &dyn Progress) 
 
 fn run(claim: &Claim, seed: u64, number: u64) -> Finding {
     let mut random = Random::new(seed, number);
+    if let Some(sampled) = &claim.sampled {
+        return sampled_trial::run(claim, sampled, random, number);
+    }
     if let Some(own) = &claim.own {
         return run_own(claim, own, random, number);
     }
-    // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
-    // and where none does the linear member is left.
-    let linear = |end, random: &mut Random| linear_member(claim, end, random, &mut { MAX_OPERATIONS });
-    let first = if number == 1 { linear(SectorEnd::Upper, &mut random) } else { None };
-    let mut left = MAX_OPERATIONS;
-    let drawn = first.or_else(|| (0..DRAWS).find_map(|_| draw(claim, &mut random, &mut left)));
-    let drawn = drawn.or_else(|| {
-        // With one bound on both sides the adverse end is the upper one.
-        let one_sided = claim.spec.bounds.own(Bound::QeMax).is_some();
-        let end = if one_sided && random.chance(0.5) { SectorEnd::Lower } else { SectorEnd::Upper };
-        linear(end, &mut random)
-    });
-    let Some(plant) = drawn else { return Finding::Unfinished(no_member(claim).to_owned()) };
+    let Some(plant) = drawn_plant(claim, number, &mut random) else {
+        return Finding::Unfinished(no_member(claim).to_owned());
+    };
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
     let start = boundary(claim, plant.family.states(), &regulator, &mut random);
-    let trial = Trial { number, plant: TriedPlant::Drawn(Box::new(plant)), sigma, n_o, start };
-    let file = counterexample_plant(claim, &trial, None).and_then(|document| Plant::from_value(&document.root()));
-    let file = match file {
+    let trial = Trial { number, plant: TriedPlant::Drawn(Box::new(plant)), sigma, n_o, start, phase: None };
+    let file = match file(claim, &trial) {
         Ok(file) => file,
-        Err(errors) => return Finding::Unfinished(errors.to_string()),
+        Err(unfinished) => return unfinished,
     };
     let closed_loop = ClosedLoop::new(&file, regulator);
     check(claim, trial, &closed_loop)
+}
+
+/// The plant of a trial as a plant file has it.
+pub(super) fn file(claim: &Claim, trial: &Trial) -> Result<Plant, Finding> {
+    let file = counterexample_plant(claim, trial, None).and_then(|document| Plant::from_value(&document.root()));
+    file.map_err(|errors| Finding::Unfinished(errors.to_string()))
+}
+
+/// Draws the plant of a trial.
+pub(super) fn drawn_plant(claim: &Claim, number: u64, random: &mut Random) -> Option<DrawnPlant> {
+    // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
+    // and where none does the linear member is left.
+    let linear = |end, random: &mut Random| linear_member(claim, end, random, &mut { MAX_OPERATIONS });
+    let first = if number == 1 { linear(SectorEnd::Upper, random) } else { None };
+    let mut left = MAX_OPERATIONS;
+    let drawn = first.or_else(|| (0..DRAWS).find_map(|_| draw(claim, random, &mut left)));
+    drawn.or_else(|| {
+        // With one bound on both sides the adverse end is the upper one.
+        let one_sided = claim.spec.bounds.own(Bound::QeMax).is_some();
+        let end = if one_sided && random.chance(0.5) { SectorEnd::Lower } else { SectorEnd::Upper };
+        linear(end, random)
+    })
 }
 
 /// A trial of the plant that the claim is about.
@@ -94,15 +109,15 @@ fn run_own(claim: &Claim, own: &OwnPlant, mut random: Random, number: u64) -> Fi
     let regulator = regulator(claim, sigma, n_o);
     let n = own.plant.states();
     let mut start = boundary(claim, n, &regulator, &mut random);
-    let x = own.state(&start[..n]);
+    let x = own.state(0.0, &start[..n]);
     start[..n].copy_from_slice(&x);
     let closed_loop = ClosedLoop::new(&own.plant, regulator);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
-    check(claim, Trial { number, plant, sigma, n_o, start }, &closed_loop)
+    check(claim, Trial { number, plant, sigma, n_o, start, phase: None }, &closed_loop)
 }
 
 /// Why there is no plant to try.
-fn no_member(claim: &Claim) -> &'static str {
+pub(super) fn no_member(claim: &Claim) -> &'static str {
     match claim.spec.bounds.own(Bound::Rate) {
         None => "no plant of the drawn kind is proved to lie within the families",
         Some(_) => {
@@ -120,7 +135,7 @@ fn regulator(claim: &Claim, sigma: f64, n_o: u32) -> Regulator {
 }
 
 /// A point of the boundary, for n states: |x| = X0, |e| = E0, |z|_N = Z0.
-fn boundary(claim: &Claim, n: usize, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
+pub(super) fn boundary(claim: &Claim, n: usize, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
     let [x_0, e_0, z_0] = claim.initial;
     let mut start: Vec<f64> = random.direction(n).iter().map(|part| x_0 * part.value()).collect();
     start.push(if random.chance(0.5) { e_0 } else { -e_0 });
@@ -132,13 +147,14 @@ fn boundary(claim: &Claim, n: usize, regulator: &Regulator, random: &mut Random)
 }
 
 /// Collects shares of bounds, and the first violation.
-struct Checks {
+#[derive(Default)]
+pub(super) struct Checks {
     shares: Vec<(&'static str, f64)>,
     violation: Option<Violation>,
 }
 
 impl Checks {
-    fn at_most(&mut self, quantity: &'static str, found: f64, bound: f64) {
+    pub(super) fn at_most(&mut self, quantity: &'static str, found: f64, bound: f64) {
         self.shares.push((quantity, if bound > 0.0 { found / bound } else { 0.0 }));
         // NaN is no value that a bound allows; and room above a large bound may be infinite, which what is found is not to be.
         let holds = found <= bound || (found.is_finite() && found <= bound * (1.0 + TOLERANCE) + 1e-9);
@@ -146,14 +162,21 @@ impl Checks {
             self.violation = Some(Violation { quantity, bound, found });
         }
     }
+
+    /// What became of the trial.
+    pub(super) fn finding(self, trial: Trial) -> Finding {
+        match self.violation {
+            Some(violation) => Finding::Violated(Box::new(trial), violation),
+            None => Finding::Holds { trial: Box::new(trial), shares: self.shares },
+        }
+    }
 }
 
 fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
-    let escape = |quantity| Violation { quantity, bound: f64::MAX, found: f64::INFINITY };
     let steady = match steady_state(closed_loop, &trial.start, &Silent) {
         Ok(steady) => steady,
         Err(SteadyStateError::Integration(IntegrationFailure::Escaped { .. })) => {
-            return Finding::Violated(Box::new(trial), escape("the solution from the initial set (it escapes)"));
+            return escaped(trial);
         }
         // That an integration does not come to its end says nothing about the solution.
         Err(SteadyStateError::Integration(failure)) => return unfinished(&failure),
@@ -163,19 +186,24 @@ fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
         Ok(orbit) => orbit,
         Err(failure) => return unfinished(&failure),
     };
-    let mut checks = Checks { shares: Vec::new(), violation: None };
+    let mut checks = Checks::default();
     check_orbit(claim, &trial, closed_loop, &steady, &orbit, &mut checks);
     if let Err(failure) = check_approach(claim, &trial, closed_loop, &orbit, &mut checks) {
         return unfinished(&failure);
     }
-    match checks.violation {
-        Some(violation) => Finding::Violated(Box::new(trial), violation),
-        None => Finding::Holds { trial: Box::new(trial), shares: checks.shares },
-    }
+    checks.finding(trial)
+}
+
+/// What is violated where a solution leaves all bounds.
+pub(super) const ESCAPES: &str = "the solution from the initial set (it escapes)";
+
+/// A trial whose solution left all bounds.
+pub(super) fn escaped(trial: Trial) -> Finding {
+    Finding::Violated(Box::new(trial), Violation { quantity: ESCAPES, bound: f64::MAX, found: f64::INFINITY })
 }
 
 /// A trial whose simulation the machine could not finish.
-fn unfinished(failure: &IntegrationFailure) -> Finding {
+pub(super) fn unfinished(failure: &IntegrationFailure) -> Finding {
     // Without the time and the size, so that trials with the same reason are told together.
     Finding::Unfinished(match failure {
         IntegrationFailure::Escaped { .. } => failure.to_string(),
@@ -186,7 +214,7 @@ fn unfinished(failure: &IntegrationFailure) -> Finding {
     })
 }
 
-fn norm(values: &[f64]) -> f64 {
+pub(super) fn norm(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
@@ -221,8 +249,10 @@ fn check_orbit(
     checks.at_most("sup|zeta|_N of the periodic solution", zeta, claim.periodic[2]);
     let z = largest(&|y| closed_loop.regulator.weighted_norm(&y[n + 1..]));
     checks.at_most("sup|z|_N of the periodic solution", z, claim.periodic_z);
-    checks.at_most("sup|e| against psi_1/sigma", e, claim.psi[0] / trial.sigma);
-    checks.at_most("sup|x| against psi_x/sigma", x, claim.psi[1] / trial.sigma);
+    if let Some(psi) = claim.psi {
+        checks.at_most("sup|e| against psi_1/sigma", e, psi[0] / trial.sigma);
+        checks.at_most("sup|x| against psi_x/sigma", x, psi[1] / trial.sigma);
+    }
     if let Some([by_rms, by_sup]) = claim.matched_bounds(trial.sigma, trial.n_o) {
         checks.at_most("rms(e) against its bound for this n_o", rms(&error), by_rms);
         checks.at_most("sup|e| against its bound for this n_o", e, by_sup);
@@ -250,7 +280,7 @@ fn check_approach(
         let samples = match trajectory(closed_loop, t, period, SAMPLES, &y, Tolerance::ORDINARY) {
             Ok(samples) => samples,
             Err(IntegrationFailure::Escaped { .. }) => {
-                checks.at_most("the solution from the initial set (it escapes)", f64::INFINITY, f64::MAX);
+                checks.at_most(ESCAPES, f64::INFINITY, f64::MAX);
                 return Ok(());
             }
             Err(failure) => return Err(failure),
@@ -288,11 +318,11 @@ mod tests {
     #[test]
     fn bounds_are_exceeded_by_more_than_the_tolerance() {
         for (found, holds) in [(0.5, true), (1.0 + 1e-7, true), (1.0 + 2e-6, false), (f64::NAN, false)] {
-            let mut checks = Checks { shares: Vec::new(), violation: None };
+            let mut checks = Checks::default();
             checks.at_most("quantity", found, 1.0);
             assert_eq!(checks.violation.is_none(), holds, "{found}");
         }
-        let mut checks = Checks { shares: Vec::new(), violation: None };
+        let mut checks = Checks::default();
         checks.at_most("a solution that escapes", f64::INFINITY, f64::MAX);
         assert!(checks.violation.is_some());
     }

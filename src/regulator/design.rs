@@ -3,6 +3,7 @@
 use super::{Discrete, Regulator};
 use crate::enclosure::Enclosure;
 use crate::spec::{Constant, InternalModel, SampledGain};
+use rug::Rational;
 
 /// The most oscillators that are exported: the matrices are written out in full.
 pub const MAX_EXPORTED_OSCILLATORS: u32 = 1000;
@@ -49,9 +50,16 @@ impl<'m> Design<'m> {
     /// `None` where that is not to be had in double precision: h mu times the sum of the weights is beyond 2^50.
     #[must_use]
     pub fn discretise(&self, step: &Constant) -> Option<Discrete> {
-        let SampledGain { gain, weight_sum } = self.model.sampled_gain(step)?;
+        self.discretise_with(step, &self.model.sampled_gain(step)?)
+    }
+
+    /// The same law with another K and Nb2, taken as they are: nothing is proved of them here. `None` where they are beyond
+    /// double precision.
+    #[must_use]
+    pub fn discretise_with(&self, step: &Constant, law: &SampledGain) -> Option<Discrete> {
+        let (gain, weight_sum) = (law.gain.to_f64(), law.weight_sum.to_f64());
+        let exact_gain = Enclosure::from_rational(&Rational::from_f64(gain)?, PRECISION);
         let step = step.enclose(PRECISION);
-        let exact_gain = Enclosure::from_rational(&gain, PRECISION);
         let sigma = self.sigma.enclose(PRECISION);
         let product = &sigma * &step;
         let weights = self.weights();
@@ -71,8 +79,8 @@ impl<'m> Design<'m> {
         }
         Some(Discrete {
             step: step.midpoint_f64(),
-            gain: gain.to_f64(),
-            weight_sum: weight_sum.to_f64(),
+            gain,
+            weight_sum,
             decay: (Enclosure::one(PRECISION) - product).midpoint_f64(),
             rotations,
             input,

@@ -98,6 +98,11 @@ impl Stepper {
         &self.z
     }
 
+    /// Clips the control to another limit from now on, or no more.
+    pub fn clip(&mut self, limit: Option<f64>) {
+        self.discrete.saturation = limit;
+    }
+
     /// Takes the measured error e of this sample, returns the control u for it, and moves z to the next sample.
     ///
     /// Where u is clipped, z_next has h M (the control applied - the control wanted) added: (1 - h sigma) e is e + h (u - K v),

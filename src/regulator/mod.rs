@@ -11,6 +11,7 @@ mod discrete;
 pub mod export;
 mod law;
 mod read;
+mod read_discrete;
 mod sampled;
 mod sampling;
 
@@ -18,5 +19,6 @@ pub use design::{Design, MAX_EXPORTED_OSCILLATORS};
 pub use discrete::{Discrete, Stepper};
 pub use law::Regulator;
 pub use read::read_regulator;
+pub use read_discrete::read_discrete;
 pub use sampled::{SampledLoop, spectral_radius};
 pub use sampling::SamplingError;

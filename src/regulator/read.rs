@@ -44,7 +44,7 @@ fn list(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<f64>, Reported> {
     read.into_iter().collect()
 }
 
-fn positive(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
+pub(super) fn positive(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
     let number = any_constant(value, errors)?.to_f64();
     if number > 0.0 && number.is_finite() {
         return Ok(number);

@@ -46,6 +46,8 @@ pub struct ClosedLoop {
     values: Arc<Program>,
     derivatives: Arc<Program>,
     pub(super) effort: Arc<Effort>,
+    /// A constant that is added to the control: what a computer holds between samples. 0 in continuous time.
+    held: f64,
 }
 
 impl ClosedLoop {
@@ -59,7 +61,24 @@ impl ClosedLoop {
             values: Arc::new(plant.program()),
             derivatives: Arc::new(plant.program_with_derivatives()),
             effort: Arc::default(),
+            held: 0.0,
         }
+    }
+
+    /// The plant with a control that is held: x' = f(t, x, e), e' = q(t, x, e) + u, with u = 0 at first.
+    #[must_use]
+    pub fn held(plant: &Plant) -> ClosedLoop {
+        ClosedLoop::new(plant, Regulator::high_gain(0.0))
+    }
+
+    /// Holds another control from now on.
+    pub fn hold(&mut self, u: f64) {
+        self.held = u;
+    }
+
+    /// What is held.
+    pub(super) fn held_control(&self) -> f64 {
+        self.held
     }
 
     /// The number of states of the plant without e; y[states()] is e.
@@ -123,7 +142,7 @@ impl ClosedLoop {
     pub fn control(&self, y: &[f64], noise: Disturbance) -> f64 {
         let e = y[self.states];
         let sum = self.regulator.internal_model_output(&y[self.states + 1..], e + noise.model);
-        self.regulator.mu * sum - self.regulator.sigma * (e + noise.feedback)
+        self.held + self.regulator.mu * sum - self.regulator.sigma * (e + noise.feedback)
     }
 
     /// y' at the time that the evaluator (of [`ClosedLoop::evaluator`]) was set to.
@@ -141,6 +160,7 @@ impl ClosedLoop {
         let Regulator { sigma, mu, frequencies, weights } = &self.regulator;
         let (e, z) = (y[self.states], &y[self.states + 1..]);
         *de -= sigma * (e + noise.feedback);
+        *de += self.held;
         let (Some((n_0, weights)), Some((z_0, z)), Some((dz_0, dz))) =
             (weights.split_first(), z.split_first(), dz.split_first_mut())
         else {

@@ -175,7 +175,7 @@ impl<'l> Collocation<'l> {
         let n = states + 1;
         let (start, z) = y.split_at(n);
         let output = table.rows.iter().map(|row| {
-            let mut sum = [0.0];
+            let mut sum = [closed_loop.held_control()];
             row.add_output(closed_loop, z, 1, &mut sum);
             sum[0]
         });

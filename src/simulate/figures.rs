@@ -24,12 +24,7 @@ pub fn csv(plant: &Plant, closed_loop: &ClosedLoop, run: &LongRun) -> String {
     let mut header = vec!["t".to_owned()];
     header.extend(plant.names.states().iter().cloned());
     header.extend(["e", "u"].map(str::to_owned));
-    for component in 0..closed_loop.regulator.dimension() {
-        header.push(match component {
-            0 => "z0".to_owned(),
-            i => format!("z{}{}", i.div_ceil(2), if i % 2 == 1 { "c" } else { "s" }),
-        });
-    }
+    header.extend(regulator_columns(closed_loop.regulator.dimension()));
     let mut text = header.join(",") + "\n";
     let n = closed_loop.states();
     for (t, y) in run.times.iter().zip(&run.states) {
@@ -39,6 +34,14 @@ pub fn csv(plant: &Plant, closed_loop: &ClosedLoop, run: &LongRun) -> String {
         text.push('\n');
     }
     text
+}
+
+/// The names of the components of z: z0, z1c, z1s, ...
+pub(super) fn regulator_columns(dimension: usize) -> impl Iterator<Item = String> {
+    (0..dimension).map(|component| match component {
+        0 => "z0".to_owned(),
+        i => format!("z{}{}", i.div_ceil(2), if i % 2 == 1 { "c" } else { "s" }),
+    })
 }
 
 /// The figures of a simulation, each with the name of its file: the time response, the states of the plant and the control
@@ -65,7 +68,7 @@ pub fn figures(plant: &Plant, closed_loop: &ClosedLoop, simulation: &Simulation)
 fn response(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let points = run.times.iter().zip(&run.states).map(|(t, y)| (*t, y[closed_loop.states()])).collect();
     let curves = vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }];
-    over_time(closed_loop, "Regulated error", "e [unit of e]", curves)
+    over_time(closed_loop.period, "Regulated error", "e [unit of e]", curves)
 }
 
 fn states(plant: &Plant, closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
@@ -74,7 +77,7 @@ fn states(plant: &Plant, closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
         Curve { label: name.clone(), points, style: Style::Line }
     };
     let curves = plant.names.states().iter().enumerate().map(curve).collect();
-    over_time(closed_loop, "States of the plant", "x [units of the states]", curves)
+    over_time(closed_loop.period, "States of the plant", "x [units of the states]", curves)
 }
 
 /// The last period alone: at the start u is as large as the gain, and nothing else would be seen.
@@ -83,13 +86,13 @@ fn control(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let last = run.times.iter().zip(&run.states).skip(run.times.len() - 1 - samples);
     let points = last.map(|(t, y)| (*t, closed_loop.control(y, Disturbance::default()))).collect();
     let curves = vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }];
-    over_time(closed_loop, "Control over the last period", "u [unit of e per unit of time]", curves)
+    over_time(closed_loop.period, "Control over the last period", "u [unit of e per unit of time]", curves)
 }
 
-fn over_time(closed_loop: &ClosedLoop, title: &str, y: &str, curves: Vec<Curve>) -> Figure {
+pub(super) fn over_time(period: f64, title: &str, y: &str, curves: Vec<Curve>) -> Figure {
     Figure {
         title: title.to_owned(),
-        x: format!("time t [unit of time of the plant file; period {}]", number_short(closed_loop.period)),
+        x: format!("time t [unit of time of the plant file; period {}]", number_short(period)),
         y: y.to_owned(),
         scale: Scale::Linear,
         floor: 0.0,

@@ -7,6 +7,7 @@ mod adaptive;
 mod bode;
 mod closed_loop;
 mod collocation;
+mod digital;
 mod effort;
 mod figures;
 mod fixed;
@@ -23,6 +24,11 @@ mod stiffness;
 pub use adaptive::{IntegrationFailure, Tolerance, flow, trajectory};
 pub use bode::{frequencies, magnitude};
 pub use closed_loop::{ClosedLoop, Disturbance, Noise};
+pub use digital::{
+    Converters, DigitalLongRun, DigitalLoop, DigitalReport, DigitalRun, DigitalSettings, DigitalSimulation,
+    DigitalSteady, DigitalSteadyError, PeriodSums, Piece, digital_csv, digital_figures, digital_periodic_solution,
+    digital_steady_state, period_derivative, simulate_digital,
+};
 pub use effort::{MAX_NUMBERS, MAX_OPERATIONS};
 pub use figures::{bode, csv, figures, spectrum, spectrum_curve};
 pub use fixed::FixedStep;

@@ -96,7 +96,8 @@ impl Readable for SimulationReport<'_> {
     }
 }
 
-fn number(value: f64) -> String {
+/// Six digits.
+pub(super) fn number(value: f64) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
         let digits = (5 - libm::log10(value.abs().max(1e-300)).floor() as i32).clamp(0, 12) as usize;
         return format!("{value:.digits$}");
@@ -139,7 +140,7 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
 }
 
 /// The control and the states over a period.
-fn period_words(plant: &Plant, figures: &PeriodFigures) -> String {
+pub(super) fn period_words(plant: &Plant, figures: &PeriodFigures) -> String {
     let mut words = format!("largest |u| = {}, integral of u^2 = {}", number(figures.sup_u), number(figures.energy));
     for (name, sup) in plant.names.states().iter().zip(&figures.sup_x) {
         words.push_str(&format!(", largest |{name}| = {}", number(*sup)));

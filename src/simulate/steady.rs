@@ -194,24 +194,24 @@ fn start_difference(closed_loop: &ClosedLoop, a: &[f64], b: &[f64], size_of_e: f
 }
 
 /// The largest difference of two derivatives, relative to their largest entry.
-fn distance(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
+pub(super) fn distance(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
     (a - b).amax() / b.amax().max(f64::MIN_POSITIVE)
 }
 
 /// The moduli of the eigenvalues, largest first.
-fn multipliers(monodromy: &DMatrix<f64>) -> Vec<f64> {
+pub(super) fn multipliers(monodromy: &DMatrix<f64>) -> Vec<f64> {
     let mut multipliers: Vec<f64> = monodromy.complex_eigenvalues().iter().map(|value| value.norm()).collect();
     multipliers.sort_by(|a, b| b.total_cmp(a));
     multipliers
 }
 
 /// Approaches by simulation and then shoots, again from further along where that fails.
-fn search(
+pub(super) fn search<S>(
     start: &[f64],
     mut approach: impl FnMut(u32, &[f64]) -> Result<Vec<f64>, IntegrationFailure>,
-    shoot: impl Fn(&[f64]) -> Result<SteadyState, SteadyStateError>,
+    shoot: impl Fn(&[f64]) -> Result<S, SteadyStateError>,
     progress: &dyn Progress,
-) -> Result<SteadyState, SteadyStateError> {
+) -> Result<S, SteadyStateError> {
     let mut y = start.to_vec();
     let mut periods = 0;
     let mut outcome = Err(SteadyStateError::NoConvergence { residual: f64::INFINITY });
@@ -233,7 +233,7 @@ fn search(
 ///
 /// The derivative costs as much as all flows together, so a step uses the last one again while that helps
 /// ([`ENOUGH`]); the one at the solution gives the multipliers.
-fn shoot(
+pub(super) fn shoot(
     guess: &[f64],
     mut end: impl FnMut(&[f64]) -> Result<Vec<f64>, IntegrationFailure>,
     mut derivative: impl FnMut(&[f64]) -> Result<DMatrix<f64>, IntegrationFailure>,
@@ -289,10 +289,10 @@ fn shoot(
 }
 
 /// What Newton's method arrived at.
-struct Shot {
-    start: Vec<f64>,
-    residual: f64,
-    monodromy: DMatrix<f64>,
+pub(super) struct Shot {
+    pub(super) start: Vec<f64>,
+    pub(super) residual: f64,
+    pub(super) monodromy: DMatrix<f64>,
 }
 
 /// A derivative that was computed, and where.

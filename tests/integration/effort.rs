@@ -204,3 +204,19 @@ fn a_simulation_beyond_the_limit_is_undecided() {
         .code(3)
         .stdout(predicates::str::contains("33554432 numbers to keep"));
 }
+
+/// A sampling time that would take a million million samples, or numbers that would not fit.
+#[test]
+fn too_many_samples_are_undecided() {
+    let plant =
+        ["simulate", "specs/plants/paper-example.json", "--sigma", "2", "--n-o", "2", "--quiet", "--format", "json"];
+    for (step, more) in [("1e-12", &[][..]), ("1/1000", &["--periods", "100000"])] {
+        let output =
+            program().args(plant).args(["--sampled", step]).args(more).assert().code(3).get_output().stdout.clone();
+        let report: Value = serde_json::from_slice(&output).unwrap();
+        let told = report["long_run"]["error"].as_str().unwrap();
+        assert!(told.contains("33554432 numbers to keep"), "{told}");
+        let steady = &report["steady_state"];
+        assert_eq!(steady["error"].is_string(), more.is_empty(), "{steady}");
+    }
+}

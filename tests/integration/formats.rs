@@ -360,14 +360,27 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             ("simulation-fragment", {
                 let quick = ["simulate", "-q", PLANT, "--sigma", "2", "--periods", "2"];
                 let noise = ["--noise-power", "1e-3", "--noise-steps", "1000", "--fixed", "1000"];
+                let at_samples = ["--sampled", "1/100", "--delay", "1/200", "--saturation", "50"];
                 let stiff = ["simulate", "-q", PLANT, "--sigma", "100000", "--n-o", "2", "--fixed", "20000"];
                 vec![
                     other(&[&quick[..], &["--n-o", "1"]].concat()),
                     other(&[&quick[..], &["--high-gain"], &noise].concat()),
                     run(3, &[&stiff[..], &json].concat()),
+                    other(&[&quick[..], &["--n-o", "1"], &at_samples].concat()),
+                    run(
+                        3,
+                        &[&quick[..], &["--n-o", "1", "--sampled", "1/50", "--quantise", "0.1,0.1"], &json].concat(),
+                    ),
                 ]
             }),
-            ("falsification-fragment", vec![other(&[&falsify[..], &["--base-frequency", "3*pi"]].concat())]),
+            ("falsification-fragment", {
+                let at_samples = path("samples.json");
+                std::fs::write(&at_samples, crate::digital_falsify::CERTIFICATE.to_string()).expect("written");
+                vec![
+                    other(&[&falsify[..], &["--base-frequency", "3*pi"]].concat()),
+                    other(&["falsify", "-q", "--trials", "2", &at_samples]),
+                ]
+            }),
             ("reproduction-fragment", vec![reproduced("table1", "table1"), reproduced("noise", "noise")]),
         ])
     })

@@ -87,7 +87,7 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
         let limit = super::decimal(limit);
         lines.push(format!(
             "u is clipped to |u| <= {limit}. Against windup z is told the control applied: where u is clipped, h M (applied - \
-             wanted) is added to z_next."
+             wanted) is added to z_next. No claim covers a run in which that happens."
         ));
     }
     lines

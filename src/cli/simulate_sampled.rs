@@ -1,0 +1,141 @@
+//! `sigmastar simulate --sampled`.
+
+use super::args::SimulateArgs;
+use super::failure::Failure;
+use super::files::{self, Input, OutputFile};
+use super::input;
+use super::output::{self, shown};
+use super::progress::Bar;
+use sigmastar::certify::Verdict;
+use sigmastar::plant::{Initial, Plant};
+use sigmastar::regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
+use sigmastar::simulate::{
+    Converters, DigitalLoop, DigitalReport, DigitalSettings, digital_csv, digital_figures, simulate_digital,
+};
+use sigmastar::spec::Constant;
+
+/// Runs the command with this sampling time and returns the exit code.
+///
+/// # Errors
+/// What is wrong with the call or its files.
+pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
+    let csv_file = OutputFile::asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
+    let step = input::positive("--sampled", step)?;
+    let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
+    let converters = converters(args, &step)?;
+    let limit = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
+    let phase = args.phase.as_deref().map(|text| input::nonnegative("--phase", text)).transpose()?;
+    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
+    let (regulator, discrete) = match (&args.controller, &sigma, args.n_o) {
+        (Some(_), ..) => from_file(args, &step)?,
+        (None, Some(sigma), Some(n_o)) => {
+            let design = Design::new(&plant.internal_model, sigma, n_o);
+            if !args.quiet {
+                for error in design.sampling_errors(&step) {
+                    output::remark(&format!("{error}; it is simulated as it is"));
+                }
+            }
+            (design.regulator(), design.discretise(&step).ok_or_else(beyond)?)
+        }
+        _ => return Err(Failure::call("no regulator is given", "give --sigma and --n-o, or --controller")),
+    };
+    let discrete = match &limit {
+        None => discrete,
+        Some(limit) => discrete.saturated(Some(limit.to_f64())),
+    };
+    let mut digital = DigitalLoop::new(&plant, regulator, discrete);
+    (digital.converters, digital.phase) = (converters, phase.map_or(0.0, |phase| phase.to_f64()));
+    let ordinary = digital.regulator.is_representable() && digital.discrete.is_representable();
+    if !ordinary || !digital.period().is_normal() || !digital.phase.is_finite() {
+        return Err(beyond());
+    }
+    if let Some(folder) = &args.plots {
+        files::folder(folder)?;
+    }
+    let start = start(&digital, &plant.initial)?;
+    let settings = DigitalSettings {
+        periods: args.periods as usize,
+        samples: args.samples as usize,
+        harmonics: args.harmonics as usize,
+    };
+    let bar = Bar::new(u64::from(args.periods), args.quiet);
+    let simulation = simulate_digital(&digital, &start, &settings, &bar);
+    bar.finish();
+
+    let report = DigitalReport { plant: &plant, digital: &digital, simulation: &simulation };
+    let text = output::report(&report, args.format);
+    if let (Some(file), Ok(run)) = (&csv_file, &simulation.long) {
+        file.write(digital_csv(&plant, &digital, run))?;
+    }
+    if let Some(folder) = &args.plots {
+        let drawn = digital_figures(&plant, &digital, &simulation);
+        files::figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
+    }
+    if let Err(code) = output::data(&text) {
+        return Ok(code);
+    }
+    let complete = simulation.steady.is_ok() && simulation.long.is_ok() && !simulation.is_unstable();
+    if !complete && !args.quiet {
+        output::remark("undecided: a part of the simulation has no figures; the report says why and what to try");
+    }
+    Ok(if complete { 0 } else { Verdict::Undecided.exit_code() })
+}
+
+fn beyond() -> Failure {
+    let help = "use units of time in which the gains, frequencies, times and limits have ordinary magnitudes";
+    Failure::call("a number of this simulation is beyond double precision", help)
+}
+
+fn converters(args: &SimulateArgs, step: &Constant) -> Result<Converters, Failure> {
+    let delay = args.delay.as_deref().map(|text| input::nonnegative("--delay", text)).transpose()?;
+    let quanta = args.quantise.iter().map(|text| input::positive("--quantise", text)).collect::<Result<Vec<_>, _>>()?;
+    let quanta: Vec<f64> = quanta.iter().map(Constant::to_f64).collect();
+    if quanta.len() > 2 {
+        return Err(Failure::call("--quantise has more than two values", "give QE for e, or QE,QU for e and u"));
+    }
+    let delay = delay.map_or(0.0, |delay| delay.to_f64());
+    // Both are rounded once, so equal constants stay equal.
+    if delay > step.to_f64() {
+        let message = format!("the delay {delay} is longer than the sampling time {}", step.to_f64());
+        return Err(Failure::call(message, "a control that takes longer needs a longer sampling time: 0 <= D <= H"));
+    }
+    if quanta.iter().any(|quantum| !quantum.is_normal()) {
+        return Err(beyond());
+    }
+    Ok(Converters { delay, measured: quanta.first().copied(), put_out: quanta.get(1).copied() })
+}
+
+/// The regulator and its law from a file of `controller`.
+fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discrete), Failure> {
+    let Some(path) = &args.controller else { return Err(beyond()) };
+    let document = input::document(path)?;
+    let regulator = read_regulator(&document)?;
+    let name = shown(path);
+    let Some(discrete) = read_discrete(&document)? else {
+        let message = format!("`{name}` has no law at samples");
+        return Err(Failure::call(message, "write it with `controller --discretise`, or give --sigma and --n-o"));
+    };
+    if discrete.step != step.to_f64() {
+        let message = format!("the law in `{name}` is for the sampling time {}, not {}", discrete.step, step.to_f64());
+        return Err(Failure::call(message, "give that one to --sampled, or export the regulator for the other"));
+    }
+    if discrete.input.len() != regulator.dimension() {
+        let message = format!("the law in `{name}` is not of the dimension of its regulator");
+        return Err(Failure::call(message, "export the regulator again"));
+    }
+    Ok((regulator, discrete))
+}
+
+/// The initial condition of the plant file.
+fn start(digital: &DigitalLoop, initial: &Initial) -> Result<Vec<f64>, Failure> {
+    let (given, needed) = (initial.z.len(), digital.regulator.dimension());
+    if given != 0 && given != needed {
+        let message = format!("the initial z of the plant file has {given} components, this regulator has {needed}");
+        let help = "give the number of oscillators that it is for, or remove z for a start at rest";
+        return Err(Failure::call(message, help));
+    }
+    let mut start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(initial.z.iter().copied()).collect();
+    // At rest, and with a delay no control acts yet.
+    start.resize(digital.dimension(), 0.0);
+    Ok(start)
+}

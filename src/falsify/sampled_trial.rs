@@ -1,0 +1,180 @@
+//! A trial of a claim about the law at samples: exactly its gain, its sampling time and its K, at some phase of the grid.
+
+use super::claim::Claim;
+use super::finding::{Finding, LYAPUNOV, MULTIPLIER, Trial, TriedPlant};
+use super::random::Random;
+use super::sampled_claim::SampledClaim;
+use super::trial::{Checks, ESCAPES, PERIODS, boundary, drawn_plant, escaped, file, no_member, norm, unfinished};
+use crate::progress::Silent;
+use crate::simulate::{
+    DigitalLoop, DigitalRun, DigitalSteady, DigitalSteadyError, IntegrationFailure, Piece, SteadyStateError, Tolerance,
+    digital_periodic_solution,
+};
+
+/// States of a period that are looked at, at least, and in a sampling interval.
+const STATES: usize = 1024;
+const BETWEEN: usize = 2;
+
+/// Runs a trial.
+pub(super) fn run(claim: &Claim, sampled: &SampledClaim, mut random: Random, number: u64) -> Finding {
+    let tried = sampled.tried_n_o();
+    // From the first trial on, so that the ends are tried whatever the number of trials is.
+    let n_o = tried.get((number.saturating_sub(1) % tried.len().max(1) as u64) as usize).copied().unwrap_or(0);
+    let Some((regulator, discrete)) = sampled.regulator(&claim.spec.internal_model, n_o) else {
+        return Finding::Unfinished("a number of the law at samples is beyond double precision".to_owned());
+    };
+    // On the grid itself, then anywhere: a claim is about every phase.
+    let phase = if number == 1 { 0.0 } else { random.uniform() * claim.spec.period.to_f64() };
+    let (plant, mut start) = match &claim.own {
+        Some(own) => {
+            let n = own.plant.states();
+            let mut start = boundary(claim, n, &regulator, &mut random);
+            let x = own.state(phase / claim.spec.period.to_f64(), &start[..n]);
+            start[..n].copy_from_slice(&x);
+            (TriedPlant::Own(Box::new(own.plant.clone())), start)
+        }
+        None => {
+            let Some(plant) = drawn_plant(claim, number, &mut random) else {
+                return Finding::Unfinished(no_member(claim).to_owned());
+            };
+            let start = boundary(claim, plant.family.states(), &regulator, &mut random);
+            (TriedPlant::Drawn(Box::new(plant)), start)
+        }
+    };
+    start.shrink_to_fit();
+    let trial = Trial { number, plant, sigma: sampled.sigma.to_f64(), n_o, start, phase: Some(phase) };
+    let mut digital = match &claim.own {
+        Some(own) => DigitalLoop::new(&own.plant, regulator, discrete),
+        None => match file(claim, &trial) {
+            Ok(file) => DigitalLoop::new(&file, regulator, discrete),
+            Err(unfinished) => return unfinished,
+        },
+    };
+    digital.phase = phase;
+    if digital.samples() != Some(sampled.samples as usize) {
+        // A certificate that was tampered with: its samples are not those of its period.
+        return Finding::Unfinished(format!("{} samples of the claimed length are not a period", sampled.samples));
+    }
+    check(claim, trial, &digital)
+}
+
+/// A period of the loop: for each sampling interval zeta and z at its start, and the plant on it.
+struct Interval {
+    zeta: Vec<f64>,
+    z: Vec<f64>,
+    pieces: Vec<Piece>,
+}
+
+fn period(
+    digital: &DigitalLoop,
+    run: &mut DigitalRun<'_>,
+    tolerance: Tolerance,
+) -> Result<Vec<Interval>, IntegrationFailure> {
+    let samples = digital.samples_rounded_up();
+    let each = STATES.div_ceil(samples).max(BETWEEN);
+    let m = digital.regulator.m();
+    let mut intervals = Vec::with_capacity(samples);
+    for _ in 0..samples {
+        let e = run.plant_state().last().copied().unwrap_or_default();
+        let z = run.regulator_state().to_vec();
+        let zeta = z.iter().zip(&m).map(|(z, m)| z - m * e).collect();
+        intervals.push(Interval { zeta, z, pieces: run.advance(each, tolerance)? });
+    }
+    Ok(intervals)
+}
+
+fn check(claim: &Claim, trial: Trial, digital: &DigitalLoop) -> Finding {
+    let steady = match digital_periodic_solution(digital, &trial.start, &Silent) {
+        Ok(steady) => steady,
+        Err(error) if error.is_escape() => return escaped(trial),
+        // That an integration does not come to its end says nothing about the solution.
+        Err(DigitalSteadyError::Search(SteadyStateError::Integration(failure))) => return unfinished(&failure),
+        Err(error) => return Finding::Unfinished(error.to_string()),
+    };
+    let orbit = DigitalRun::new(digital, 0, &steady.start).map(|mut run| period(digital, &mut run, Tolerance::TIGHT));
+    let orbit = match orbit {
+        Some(Ok(orbit)) => orbit,
+        Some(Err(failure)) => return unfinished(&failure),
+        None => return Finding::Unfinished("the periodic solution has another dimension".to_owned()),
+    };
+    let mut checks = Checks::default();
+    check_orbit(claim, digital, &steady, &orbit, &mut checks);
+    match check_approach(claim, &trial, digital, &orbit, &mut checks) {
+        Ok(()) => checks.finding(trial),
+        Err(failure) => unfinished(&failure),
+    }
+}
+
+fn check_orbit(claim: &Claim, digital: &DigitalLoop, steady: &DigitalSteady, orbit: &[Interval], checks: &mut Checks) {
+    let n = digital.states();
+    let (mut x, mut e, mut zeta, mut z) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+    for interval in orbit {
+        zeta = zeta.max(digital.regulator.weighted_norm(&interval.zeta));
+        z = z.max(digital.regulator.weighted_norm(&interval.z));
+        for piece in &interval.pieces {
+            for (at, state) in piece.states.iter().enumerate() {
+                let s = (piece.t + piece.unit * at as f64) / digital.period();
+                x = x.max(claim.own.as_ref().map_or_else(|| norm(&state[..n]), |own| own.distance(s, &state[..n])));
+                e = e.max(state[n].abs());
+            }
+        }
+    }
+    checks.at_most(MULTIPLIER, steady.largest_multiplier().unwrap_or(0.0), 1.0);
+    checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
+    checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
+    checks.at_most("sup|zeta|_N of the periodic solution, at samples", zeta, claim.periodic[2]);
+    checks.at_most("sup|z|_N of the periodic solution, at samples", z, claim.periodic_z);
+}
+
+/// The first periods from the initial condition: within the error box around the periodic solution all the time, and the
+/// Lyapunov function never above its start; between samples what it has of x and e. P_x is not known here, so at the start its
+/// upper bound counts, later the lower.
+///
+/// # Errors
+/// An integration that did not come to its end, the solution still within bounds.
+fn check_approach(
+    claim: &Claim,
+    trial: &Trial,
+    digital: &DigitalLoop,
+    orbit: &[Interval],
+    checks: &mut Checks,
+) -> Result<(), IntegrationFailure> {
+    let n = digital.states();
+    let Some(mut run) = DigitalRun::new(digital, 0, &trial.start) else { return Ok(()) };
+    let (mut away, mut level) = ([0.0_f64; 2], [0.0_f64; 2]);
+    let [low, up, eta] = claim.lyapunov.unwrap_or_default();
+    for index in 0..PERIODS {
+        let intervals = match period(digital, &mut run, Tolerance::ORDINARY) {
+            Ok(intervals) => intervals,
+            Err(IntegrationFailure::Escaped { .. }) => {
+                checks.at_most(ESCAPES, f64::INFINITY, f64::MAX);
+                return Ok(());
+            }
+            Err(failure) => return Err(failure),
+        };
+        for (sample, (interval, of_orbit)) in intervals.iter().zip(orbit).enumerate() {
+            let difference: Vec<f64> = interval.zeta.iter().zip(&of_orbit.zeta).map(|(a, b)| a - b).collect();
+            let zeta = eta * digital.regulator.weighted_norm(&difference).powi(2);
+            for (piece, point) in interval.pieces.iter().zip(&of_orbit.pieces) {
+                for (at, (state, point)) in piece.states.iter().zip(&point.states).enumerate() {
+                    let difference: Vec<f64> = state.iter().zip(point).map(|(a, b)| a - b).collect();
+                    let own = claim.own.as_ref();
+                    let x = own.map_or_else(|| norm(&difference[..n]), |own| own.norm(&difference[..n]));
+                    let e = difference[n];
+                    away = [away[0].max(x), away[1].max(e.abs())];
+                    // Between samples z is not that of this moment, and its part of the function is at least 0.
+                    let rest = e * e + if at == 0 { zeta } else { 0.0 };
+                    if index + sample + at == 0 {
+                        level[0] = up * x * x + rest;
+                    }
+                    level[1] = level[1].max(low * x * x + rest);
+                }
+            }
+        }
+    }
+    let [d_x, d_e] = claim.error_box;
+    checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
+    checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    checks.at_most(LYAPUNOV, level[1], level[0]);
+    Ok(())
+}
