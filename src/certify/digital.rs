@@ -214,7 +214,7 @@ fn round(
         let bounds = SetBounds::new(data, data.rational(&x_p), data.rational(&e_p));
         let squares = MeanSquares { x: &r_x, e: &r_e, e_rate: &r_d }.map(|value| data.rational(value));
         let gains = SampledGains::new(&enclosed, &data.rational(&sigma), &data.period);
-        let size = SampledSize::new(&bounds, &origin, &gains, &squares);
+        let size = SampledSize::new(data, &bounds, &origin, &gains, &squares);
         let z = size.z_squared(data, &enclosed, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
         let set = claimed_set(data, &x_p, &e_p, &z)?;
         // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.

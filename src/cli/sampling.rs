@@ -79,7 +79,8 @@ fn steps(list: &str, period: &Constant) -> Result<Vec<Sampling>, Failure> {
                     period.text,
                     text.trim()
                 );
-                Failure::call(message, format!("write fractions of the period, such as `({})/100`", period.text))
+                let share = period.divided_by(100).map_or_else(String::new, |share| share.text);
+                Failure::call(message, format!("write fractions of the period, such as `{share}`"))
             })
         })
         .collect()

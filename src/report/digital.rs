@@ -46,6 +46,9 @@ impl<'r> DigitalReport<'r> {
 
     fn obstacle(&self) -> String {
         let run = self.run;
+        if run.given_gain.as_ref().is_some_and(|gain| run.sampling.fits(gain).is_false()) {
+            return "h sigma exceeds 1: the law would overshoot from sample to sample".to_owned();
+        }
         match &run.outcome {
             Outcome::NotFound(obstacle) => format!("no candidate was found. {}", obstacle.describe()),
             Outcome::NotProved { failing, .. } => match failing.first() {

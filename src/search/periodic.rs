@@ -272,7 +272,7 @@ impl PeriodicSet {
         let [x_p, e_p, x, e, e_rate] = iteration.least()?;
         let bounds = SetBounds::new(model, x_p, e_p);
         let squares = MeanSquares { x, e, e_rate };
-        let size = SampledSize::new(&bounds, origin, &gains, &squares);
+        let size = SampledSize::new(model, &bounds, origin, &gains, &squares);
         let pair = cheapest_pair(model, &size.forcing);
         let z = size.z_squared(model, law, [&pair.0, &pair.1]).sqrt();
         if !z.is_finite() {

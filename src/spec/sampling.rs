@@ -102,10 +102,11 @@ impl Problem {
     }
 
     fn way_out(&self, period: &Constant) -> String {
+        let share = |count: u32| period.divided_by(count).map_or_else(String::new, |share| share.text);
         match self {
-            Problem::NotWhole(_, Some(near)) => format!("such as `({})/{near}`", period.text),
+            Problem::NotWhole(_, Some(near)) => format!("such as `{}`", share(*near)),
             Problem::NotWhole(_, None) | Problem::Range(_) => "take another sampling period".to_owned(),
-            Problem::Undecided => format!("write it as a fraction of the period, as `({})/100`", period.text),
+            Problem::Undecided => format!("write it as a fraction of the period, as `{}`", share(100)),
         }
     }
 }

@@ -320,7 +320,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                     report(2, &["nowhere.json"]),
                     report(3, &[&narrow]),
                     report(0, &[AT_REST, "--sampling-period", "1/1000", "--sigma", "25"]),
-                    report(3, &[AT_REST, "--sampling-period", "1/100", "--sigma", "99"]),
+                    report(3, &[AT_REST, "--sampling-period", "1/100", "--sigma", "1"]),
                 ],
             ),
             (

@@ -4,6 +4,9 @@ use super::law::SampledLaw;
 use crate::derivation::mean_squares::Forcing;
 use crate::real::{Operand, Real};
 
+/// With more samples than these 1 + theta, which is then nearly 1, stands for every Sb_j.
+pub const SHARP_SAMPLES: u32 = 8192;
+
 /// The gains at one sigma, between bounds R_q of rms(q), R_1 of rms(q') and those of e.
 #[derive(Clone, Debug)]
 pub struct SampledGains<R> {
@@ -44,7 +47,11 @@ where
         let (mut sup, mut sup_by_rate) = (nothing.clone(), nothing);
         for (j, sine) in (1_u32..).zip(law.sines.iter()) {
             let cosine = &one - sine;
-            let gain = if cosine.is_certainly_positive() { largest.min(&(&one / cosine)) } else { largest.clone() };
+            let gain = if law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
+                largest.min(&(&one / cosine))
+            } else {
+                largest.clone()
+            };
             let times = if 2 * j == law.samples { one.clone() } else { R::int(2) };
             let term = times * gain / share(sine);
             sup_by_rate = sup_by_rate + &term / law.frequency_squared(sine);
@@ -75,10 +82,14 @@ where
     let one = R::int(1);
     let first = sigma.sqr() + decay * law.first_frequency_squared();
     let squared = law.enlarged.sqr();
+    let plain = &first / &squared;
+    if law.samples > SHARP_SAMPLES {
+        return plain.sqrt();
+    }
     let turn = &one - &one / &squared;
     let cosine = law.sines.first().map_or_else(R::unknown, |sine| &one - sine);
     let at_turn = (sigma.sqr() + decay * law.frequency_squared(&turn)) / &squared;
-    (&first / &squared).max(&(cosine * &first).min(&at_turn)).sqrt()
+    plain.max(&(cosine * &first).min(&at_turn)).sqrt()
 }
 
 /// The right sides of (S2) for the law at samples.

@@ -114,7 +114,7 @@ impl DigitalEvaluation {
         let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
         let gains = SampledGains::new(&law, &sigma, &data.period);
         let squares = witness.squares().map(|value| number(value));
-        let size = SampledSize::new(&bounds, &origin, &gains, &squares);
+        let size = SampledSize::new(data, &bounds, &origin, &gains, &squares);
         let z = size.z_squared(data, &law, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
         let [d_x, d_e, w_x, eta] = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta].map(number);
         let error_box = ErrorBox::new(data, &size.x_per, &size.e_per, &d_x, &d_e);

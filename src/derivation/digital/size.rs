@@ -5,7 +5,7 @@ use super::law::SampledLaw;
 use crate::data::{Numbers, Problem};
 use crate::derivation::existence::kappas;
 use crate::derivation::harmonics::AtOrigin;
-use crate::derivation::mean_squares::{Forcing, MeanSquares, SetBounds};
+use crate::derivation::mean_squares::{Forcing, MeanSquares, SetBounds, sup_by_mean_squares};
 use crate::real::{Operand, Real};
 
 /// Bounds of the periodic solution, from mean squares that bound it.
@@ -23,16 +23,18 @@ impl<R: Real> SampledSize<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    /// `e_per = min{E_p, the left side of S2}`, `x_per = min{X_p, (c/a_1) b_fe e_per, K2(a_1) b_fe r_e}`.
+    /// `e_per = min{E_p, the left side of S2, sqrt(T r_e r_d)}`, `x_per = min{X_p, (c/a_1) b_fe e_per, K2(a_1) b_fe r_e}`.
     #[must_use]
     pub fn new(
+        problem: &impl Problem<R>,
         bounds: &SetBounds<R>,
         origin: &AtOrigin<R>,
         gains: &SampledGains<R>,
         squares: &MeanSquares<R>,
     ) -> SampledSize<R> {
         let forcing = Forcing::new(bounds, origin, squares);
-        let e_per = bounds.e_p.min(&SampledResponse::new(gains, &forcing).sup);
+        let by_squares = sup_by_mean_squares(problem, squares);
+        let e_per = bounds.e_p.min(&SampledResponse::new(gains, &forcing).sup).min(&by_squares);
         let x_per = bounds.x_p.min(&(&bounds.x_gain * &e_per)).min(&(&bounds.x_gain_by_rms * &squares.e));
         SampledSize { forcing, e_per, x_per }
     }
