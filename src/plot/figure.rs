@@ -32,6 +32,8 @@ pub enum Style {
     Line,
     /// With marks at its points, for values at separate places.
     Marked,
+    /// Marks alone, where nothing holds between them.
+    Points,
     /// As a black line: what bounds the others.
     Bound,
 }
@@ -150,7 +152,7 @@ impl Figure {
         let mut colours = COLOURS.iter().cycle();
         let mut colour = |curve: &Curve| match curve.style {
             Style::Bound => BLACK,
-            Style::Line | Style::Marked => colours.next().copied().unwrap_or(BLACK),
+            Style::Line | Style::Marked | Style::Points => colours.next().copied().unwrap_or(BLACK),
         };
         let entries: Vec<(String, RGBColor)> =
             curves.iter().map(|curve| (curve.label.clone(), colour(curve))).collect();
@@ -168,8 +170,8 @@ impl Figure {
             .configure_mesh()
             .x_desc(&self.x)
             .y_desc(&self.y)
-            // Between separate places there is nothing to name.
-            .x_label_formatter(&|value| match marked && (value - value.round()).abs() > 1e-9 {
+            // Between separate places of a linear axis there is nothing to name.
+            .x_label_formatter(&|value| match marked && x_span > 0.0 && (value - value.round()).abs() > 1e-9 {
                 true => String::new(),
                 false => tick(*value, x_span),
             })
@@ -183,9 +185,11 @@ impl Figure {
             .draw()
             .map_err(|error| words(&error))?;
         for (curve, (_, colour)) in curves.iter().zip(&entries) {
-            let line = LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2 * DETAIL));
-            chart.draw_series(line).map_err(|error| words(&error))?;
-            if curve.style == Style::Marked {
+            if curve.style != Style::Points {
+                let line = LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2 * DETAIL));
+                chart.draw_series(line).map_err(|error| words(&error))?;
+            }
+            if matches!(curve.style, Style::Marked | Style::Points) {
                 let markers = curve.points.iter().map(|&point| Circle::new(point, 4 * DETAIL, colour.filled()));
                 chart.draw_series(markers).map_err(|error| words(&error))?;
             }
@@ -345,6 +349,9 @@ mod tests {
         // A flat spectrum has figures at its axis.
         let svg = figure(Scale::LogY, &[(0.0, 0.5), (1.0, 0.5)]).svg().unwrap();
         assert!([">\n0.01\n<", ">\n0.1\n<", ">\n1\n<"].iter().all(|tick| svg.contains(tick)), "{svg}");
+        // Marks leave the names of both logarithmic axes as they are.
+        let svg = figure(Scale::LogLog, &[(0.002, 50.0), (0.05, 60.0)]).svg().unwrap();
+        assert!([">\n0.01\n<", ">\n0.1\n<", ">\n10\n<"].iter().all(|tick| svg.contains(tick)), "{svg}");
     }
 
     #[test]

@@ -158,8 +158,8 @@ pub fn sampling_figure(study: &SamplingStudy) -> Figure {
     let curve = |label: &str, points, style| Curve { label: label.to_owned(), points, style };
     let curves = [
         curve("h sigma = 1", limit, Style::Bound),
-        curve("smallest gain for h", by_step, Style::Marked),
-        curve("longest h for a gain", by_gain, Style::Marked),
+        curve("smallest gain for h", by_step, Style::Points),
+        curve("longest h for a gain", by_gain, Style::Points),
     ];
     Figure {
         title: "Certified gains and sampling periods".to_owned(),

@@ -83,6 +83,13 @@ fn a_thousand_samples_with_few_and_with_all_oscillators() {
         }
         let (radius, n_o) = largest(mu, "10", 1000, [249, 499]);
         println!("mu {mu}, sigma 10, 1000 samples: largest radius 1 - {:.3e} at n_o = {n_o}", 1.0 - radius);
+        // Of all others, and of these, it is proved: 0 < h sigma < 2, K h Nb2 < 2 and no two modes that turn alike.
+        let (model, sigma) = (model(mu), constant("47"));
+        for n_o in 0..500 {
+            let design = Design::new(&model, &sigma, n_o);
+            assert!(design.converges(&step(1000)) && design.discretise(&step(1000)).is_some(), "mu {mu}, n_o {n_o}");
+        }
+        assert!(!Design::new(&model, &sigma, 500).converges(&step(1000)));
     }
 }
 
