@@ -1,14 +1,14 @@
 //! The regulator at samples, end to end: reading, certifying, the certificate and what reads it, the table, the export.
 
-use crate::support::{json, program, utf8};
+use crate::support::{files, json, program, stem, utf8};
 use rug::Rational;
 use serde_json::{Value, json as object};
 use sigmastar::certificate::{digital_certificate_json, is_digital, read_claim, read_digital_claim};
 use sigmastar::certify::{
-    DigitalCertification, Ladder, Options, Verdict, certify, certify_at, certify_digital, recheck_digital,
+    DigitalCertification, Ladder, Options, Verdict, certify, certify_at, certify_digital, recheck_digital, with_triple,
 };
 use sigmastar::derivation::digital::DigitalWitness;
-use sigmastar::number::parse_decimal;
+use sigmastar::number::{Direction, parse_decimal, round_rational, write_exact};
 use sigmastar::spec::{Document, ErrorKind, Sampling, Specification};
 
 const AT_REST: &str = "specs/paper-example-rms-at-rest.json";
@@ -296,4 +296,35 @@ fn the_table_lists_pairs_that_certify() {
     }
     program().args(["sampling", AT_REST, "--sampling-period", "3/1000"]).assert().code(2);
     program().args(["sampling", AT_REST, "--sigma", "1", "-q"]).assert().code(3);
+}
+
+/// The longest certified sampling period at 1.5 times the gain of continuous time, for every shipped specification with a matched
+/// base frequency: by h sigma. Where no pair is found it counts as 0.
+#[test]
+fn shipped_specifications_are_certified_at_long_samples() {
+    let mut products = Vec::new();
+    for path in files("specs") {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let document: Value = serde_json::from_str(&text).unwrap();
+        if document["internal_model"]["matched"] != true {
+            continue;
+        }
+        let spec = Specification::from_json("shipped", &text).unwrap();
+        let Ok(spec) = with_triple(&spec, None) else { continue };
+        let run = certify(&spec, Options { compare: false, ..Options::default() }).unwrap();
+        let Some(sigma) = run.sigma_star() else { continue };
+        let gain = round_rational(&(sigma.clone() * Rational::from((3, 2))), 6, Direction::Up);
+        let call = ["sampling", path.to_str().unwrap(), "--sigma", &write_exact(&gain), "--format", "json", "-q"];
+        let table = json(&program().args(call).output().unwrap().stdout);
+        let row = &table["by_sigma"][0];
+        let product = match row["outcome"].as_str() {
+            Some("certified") => row["h_sigma"].as_str().and_then(|text| text.parse().ok()).unwrap(),
+            _ => 0.0,
+        };
+        println!("{}: h sigma = {product}", stem(&path));
+        products.push(product);
+    }
+    products.sort_by(f64::total_cmp);
+    assert!(products.len() > 15, "{products:?}");
+    assert!(products[products.len() / 2] >= 0.2, "{products:?}");
 }
