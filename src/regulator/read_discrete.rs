@@ -9,7 +9,7 @@ use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Val
 /// which had another law.
 ///
 /// # Errors
-/// As [`read_regulator`].
+/// A field that is missing, unknown, or no finite number, in its place.
 pub fn read_discrete(document: &Document) -> Result<Option<Discrete>, SpecErrors> {
     let mut errors = Errors::new();
     let outcome = discrete(&document.root(), &mut errors);
