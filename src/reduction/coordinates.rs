@@ -53,11 +53,8 @@ const FINE: f64 = 1.12;
 /// The first step of S.
 const STEP: f64 = 0.15;
 
-/// The descent over S; a relative change of sigma* by the tolerance is none.
-const DESCENT: Descent = Descent { restarts: 1, iterations: 40, tolerance: 1e-4 };
-
-/// That of three states and more, where a step costs more.
-const SHORT: Descent = Descent { restarts: 0, iterations: 40, tolerance: 1e-3 };
+/// A descent over S or S'; a relative change of sigma* by the tolerance is none.
+const DESCENT: Descent = Descent { restarts: 0, iterations: 40, tolerance: 1e-3 };
 
 /// How far above a gain the arguments are taken.
 const NEAR: f64 = 1e-9;
@@ -175,7 +172,7 @@ impl CoordinateSearch<'_> {
             let model = model.with_existence_triple(values.max() / values.min(), rate).with_rate_of_existence(rate);
             search_sharp_near(&model, proposal).map(|found| found.sigma.portable_ln())
         };
-        let (best, sigma) = minimise(cost, &vec![0.0; freedom], &vec![STEP; freedom], SHORT)?;
+        let (best, sigma) = minimise(cost, &vec![0.0; freedom], &vec![STEP; freedom], DESCENT)?;
         Some((best, sigma.portable_exp()))
     }
 
@@ -193,7 +190,7 @@ impl CoordinateSearch<'_> {
                 found.map(|found| found.sigma.portable_ln())
             };
             let from: Vec<f64> = std::iter::repeat_n(0.0, freedom).chain(second.iter().copied()).collect();
-            if let Some((best, _)) = minimise(cost, &from, &vec![STEP; 2 * freedom], SHORT) {
+            if let Some((best, _)) = minimise(cost, &from, &vec![STEP; 2 * freedom], DESCENT) {
                 l = &l * exponential(n, &best[..freedom]);
                 second = best[freedom..].to_vec();
             }
@@ -213,7 +210,7 @@ impl CoordinateSearch<'_> {
             search_sharp_near(&model, start).map(|found| found.sigma.portable_ln())
         };
         let (zero, steps) = (vec![0.0; freedom], vec![STEP; freedom]);
-        match minimise(cost, &zero, &steps, if n > 2 { SHORT } else { DESCENT }) {
+        match minimise(cost, &zero, &steps, DESCENT) {
             Some((best, _)) => l * exponential(n, &best),
             None => l.clone(),
         }
