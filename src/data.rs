@@ -53,19 +53,21 @@ pub struct ExistenceTriple<R> {
     pub c: R,
     /// alpha.
     pub alpha: R,
+    /// Whether the P is another one than that of stability. A rate is one in a certain P: that of stability then is none here.
+    pub separate: bool,
 }
 
 impl ExistenceTriple<Enclosure> {
     /// Those of a triple; undefined without one.
-    fn new(triple: Option<&Lyapunov>, precision: u32) -> ExistenceTriple<Enclosure> {
+    fn new(triple: Option<&Lyapunov>, separate: bool, precision: u32) -> ExistenceTriple<Enclosure> {
         let Some(Lyapunov { p_low, p_up, alpha }) = triple else {
             let undefined = Enclosure::undefined(precision);
-            return ExistenceTriple { c: undefined.clone(), alpha: undefined };
+            return ExistenceTriple { c: undefined.clone(), alpha: undefined, separate };
         };
         // p_low <= p_up was proved when the triple was read or found, so the ratio is at least 1.
         let at_least_one = Enclosure::entire(precision).max(&Enclosure::one(precision));
         let ratio = p_up.enclose(precision) / p_low.enclose(precision);
-        ExistenceTriple { c: ratio.sqrt().intersect(&at_least_one), alpha: alpha.enclose(precision) }
+        ExistenceTriple { c: ratio.sqrt().intersect(&at_least_one), alpha: alpha.enclose(precision), separate }
     }
 }
 
@@ -135,13 +137,16 @@ impl<'s> Data<'s> {
         let number = |part: fn(&Lyapunov) -> &Constant| {
             triple.map_or_else(|| Enclosure::undefined(precision), |triple| part(triple).enclose(precision))
         };
-        let ExistenceTriple { c, .. } = ExistenceTriple::new(triple, precision);
+        let ExistenceTriple { c, .. } = ExistenceTriple::new(triple, false, precision);
         let p_low = number(|triple| &triple.p_low);
         let p_up = number(|triple| &triple.p_up);
         let mu = model.mu.enclose(precision);
         let base_frequency = model.base_frequency.enclose(precision);
         let n_bar_squared = model.weights.total(precision);
-        let existence = ExistenceTriple::new(spec.lyapunov.existence_triple(), precision);
+        let existence = {
+            let separate = spec.lyapunov.has_second_triple();
+            ExistenceTriple::new(spec.lyapunov.existence_triple(), separate, precision)
+        };
         let period = spec.period.enclose(precision);
         let alpha = number(|triple| &triple.alpha);
         let known = spec.q_0.as_ref().map(|known| KnownForcing {

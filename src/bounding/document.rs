@@ -16,6 +16,9 @@ const MARGIN: (u32, u32) = (5, 4);
 /// Significant digits of the domain.
 const DOMAIN_DIGITS: u32 = 3;
 
+/// Those of an end of a plant's own domain that is irrational.
+const LONG_DIGITS: u32 = 12;
+
 /// Bits at which the domain of a plant and the sizes of harmonics are enclosed.
 const PRECISION: u32 = 128;
 
@@ -49,10 +52,15 @@ pub fn bounding_specification(
         reach.map(|end| round_rational(&(end * Rational::from(MARGIN)), DOMAIN_DIGITS, Direction::Up))
     };
     let wanted = asked.unwrap_or_else(needed);
-    let own = spec
-        .domain
-        .as_ref()
-        .map(|domain| [&domain.x, &domain.e].map(|end| end.enclose(PRECISION).lower_rational().unwrap_or_default()));
+    let own = spec.domain.as_ref().map(|domain| {
+        [&domain.x, &domain.e].map(|end| match end.as_rational() {
+            Some(exact) => exact.clone(),
+            None => {
+                let lower = end.enclose(PRECISION).lower_rational().unwrap_or_default();
+                round_rational(&lower, LONG_DIGITS, Direction::Down)
+            }
+        })
+    });
     let limited = own.as_ref().is_some_and(|own| own.iter().zip(&wanted).any(|(own, wanted)| own < wanted));
     let domain = match own {
         Some([x, e]) => {

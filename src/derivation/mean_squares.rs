@@ -119,9 +119,8 @@ where
         let on_axis = |which| problem.bound(which, &x_p, &zero);
         let f_xx = on_axis(Bound::Fxx);
         let by_curvature = &existence.alpha - &existence.c * &f_xx * &x_p / R::int(2);
-        // A rate is one in a certain P: that of existence, where it has its own.
-        let second = problem.given(Bound::RateExistence);
-        let given = on_axis(if second { Bound::RateExistence } else { Bound::Rate });
+        // A rate is one in a certain P: that of existence, where it has its own. Of the other P it says nothing then.
+        let given = on_axis(if existence.separate { Bound::RateExistence } else { Bound::Rate });
         // Of what is not given nothing is known.
         let rate = by_curvature.max_known(&given);
         let by_taylor = (on_axis(Bound::F) + f_xx * x_p.sqr()) / &x_p;

@@ -141,8 +141,10 @@ impl FloatModel {
             &data.fundamental,
         ]
         .map(Enclosure::midpoint_f64);
-        let existence =
-            ExistenceTriple { c: data.existence.c.midpoint_f64(), alpha: data.existence.alpha.midpoint_f64() };
+        let existence = {
+            let ExistenceTriple { c, alpha, separate } = &data.existence;
+            ExistenceTriple { c: c.midpoint_f64(), alpha: alpha.midpoint_f64(), separate: *separate }
+        };
         let q_0 = data.q_0.as_ref().map(|known| KnownForcing {
             harmonics: known.harmonics.iter().map(Enclosure::midpoint_f64).collect(),
             weights: known.weights.iter().map(Enclosure::midpoint_f64).collect(),
@@ -300,7 +302,7 @@ impl FloatModel {
     pub fn with_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
         let mut model = self.clone();
         let c = ratio.sqrt();
-        let existence = ExistenceTriple { c, alpha };
+        let existence = ExistenceTriple { c, alpha, separate: false };
         model.numbers = Numbers { p_low: 1.0, p_up: ratio, c, alpha, existence, ..model.numbers };
         model
     }
@@ -309,7 +311,7 @@ impl FloatModel {
     #[must_use]
     pub fn with_existence_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
         let mut model = self.clone();
-        model.numbers.existence = ExistenceTriple { c: ratio.sqrt(), alpha };
+        model.numbers.existence = ExistenceTriple { c: ratio.sqrt(), alpha, separate: true };
         model
     }
 

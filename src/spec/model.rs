@@ -164,6 +164,16 @@ impl LyapunovSource {
         }
     }
 
+    /// Whether the existence of the periodic solution has a triple of its own.
+    #[must_use]
+    pub fn has_second_triple(&self) -> bool {
+        match self {
+            LyapunovSource::Proved { existence, .. } => existence.is_some(),
+            LyapunovSource::Plant(plant) => plant.existence.is_some(),
+            LyapunovSource::Given(_) | LyapunovSource::Wanted(_) => false,
+        }
+    }
+
     /// The triple for the existence of the periodic solution.
     #[must_use]
     pub fn existence_triple(&self) -> Option<&Lyapunov> {

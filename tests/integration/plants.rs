@@ -224,6 +224,31 @@ fn too_many_states_are_refused_with_their_number() {
     assert!(said.contains("7 states; a plant of at most 6 is certified"), "{said}");
 }
 
+/// The rate of one P says nothing about another: without `rate_existence` the P of existence proves nothing, whatever c it has.
+#[test]
+fn the_rate_of_stability_is_none_in_the_p_of_existence() {
+    let folder = TempDir::new().unwrap();
+    let (certificate, _) = certified(folder.path(), "pendulum");
+    let mut document: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
+    let bounds = document["witness"]["bounds"].as_array_mut().unwrap();
+    let rate = bounds.iter().find(|entry| entry["bound"] == "rate_existence").unwrap().clone();
+    bounds.retain(|entry| entry["bound"] != "rate_existence");
+    // That of stability reaches as far, and is there to be mistaken.
+    bounds.push(serde_json::json!({ "bound": "rate", "X": rate["X"], "E": rate["E"], "value": "1/10" }));
+    let mixed = folder.path().join("mixed.json");
+    std::fs::write(&mixed, document.to_string()).unwrap();
+    let call = ["certify", "specs/plants/pendulum.json", "--quiet", "--format", "json", "--witness"];
+    let output = program().args(call).arg(&mixed).output().unwrap();
+    let report = json(&output.stdout);
+    assert_eq!(output.status.code(), Some(3), "{report:#}");
+    let truth = |id: &str| {
+        let conditions = report["conditions"].as_array().unwrap();
+        conditions.iter().find(|condition| condition["id"] == id).map(|condition| condition["status"].clone())
+    };
+    assert_eq!(truth("S1"), Some("undecided".into()), "{report:#}");
+    assert_eq!(checked(&mixed)["verdict"], "undecided");
+}
+
 /// The P of existence: every number of it is decided, by the program and by the checker.
 #[test]
 fn a_false_matrix_of_existence_is_refused() {

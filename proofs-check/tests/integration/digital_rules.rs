@@ -29,6 +29,7 @@ fn the_law() {
     assert!(report.finding.unwrap().message.contains("S0, h sigma <= 1"));
     // The sum of all weights is 4.612375348685...
     holds(made(), &[("/witness/weight_sum", json!("4.6123753487"))]);
+    refuses(made(), &[("/witness/weight_sum", json!("4.61239"))], Invalid, LAW, "/claim");
     refuses(made(), &[("/witness/weight_sum", json!("4.6123753486"))], Invalid, LAW, "/claim");
     refuses(made(), &[("/witness/weight_sum", json!("2.98"))], Invalid, LAW, "/claim");
     // A K for another mu; mu may be off by 1e-6.

@@ -125,6 +125,7 @@ impl DigitalEvaluation {
         conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
         conditions.push(SampledPair { law: &law, k0: &witness.k0, k1: &witness.k1 }.condition(data));
         conditions.extend(law_conditions(data, &law, &product));
+        conditions.extend(too_large_a_sum(data, &law));
         conditions.extend(existence_conditions(data, &bounds, &origin, &gains, &squares));
         let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&size.x_per, &size.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
@@ -184,6 +185,15 @@ fn law_conditions(data: &Data<'_>, law: &SampledLaw<Enclosure>, product: &Enclos
             &data.mu / Enclosure::from_integer(i64::from(SAME_MU), data.precision),
         ),
     ]
+}
+
+/// Nb2 <= Nbar^2 (1 + 1/10^6), told where it is not proved: a larger sum would let a smaller K pass for the mu that is asked for.
+fn too_large_a_sum(data: &Data<'_>, law: &SampledLaw<Enclosure>) -> Option<Condition> {
+    let one = Enclosure::one(data.precision);
+    let room = &one + &one / Enclosure::from_integer(i64::from(SAME_MU), data.precision);
+    let what = "weight_sum <= Nbar^2 (1 + 1/10^6)";
+    let condition = Condition::at_most("S0b", what, law.weight_sum.clone(), &data.n_bar_squared * room);
+    (!condition.truth().is_true()).then_some(condition)
 }
 
 /// (S1) of 10.3, and (S2) of 12.2.

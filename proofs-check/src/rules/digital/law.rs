@@ -94,6 +94,10 @@ impl<'a> Law<'a> {
             Condition::at_most("S0d", "|K (1 + theta) - mu| <= mu/10^6", apart, &d.mu / MU_PARTS),
         ];
         conditions.iter().try_for_each(|condition| condition.demand(RULE, pointer))?;
+        // A larger sum would let a smaller K pass for the mu that is asked for.
+        let largest = d.n_bar.sqr() * (d.int(1) + d.int(1) / MU_PARTS);
+        let what = "weight_sum <= Nbar^2 (1 + 1/10^6)";
+        Condition::at_most("S0b", what, self.weight_sum.clone(), largest).demand(RULE, pointer)?;
         Ok(conditions)
     }
 
