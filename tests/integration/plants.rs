@@ -224,29 +224,61 @@ fn too_many_states_are_refused_with_their_number() {
     assert!(said.contains("7 states; a plant of at most 6 is certified"), "{said}");
 }
 
-/// The rate of one P says nothing about another: without `rate_existence` the P of existence proves nothing, whatever c it has.
+/// The rate of one P says nothing about another: without `rate_existence` a P of existence proves nothing, whatever c it has. Here
+/// P = diag(1/100, 1) contracts at 0.904 and has c = 10; the identity has c = 1 and contracts at 0.05. With the rate of the one and
+/// the c of the other every condition would hold, and sup|x| of the periodic solution (4.09) would be claimed to be 2.6.
 #[test]
 fn the_rate_of_stability_is_none_in_the_p_of_existence() {
     let folder = TempDir::new().unwrap();
-    let (certificate, _) = certified(folder.path(), "pendulum");
-    let mut document: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
-    let bounds = document["witness"]["bounds"].as_array_mut().unwrap();
-    let rate = bounds.iter().find(|entry| entry["bound"] == "rate_existence").unwrap().clone();
-    bounds.retain(|entry| entry["bound"] != "rate_existence");
-    // That of stability reaches as far, and is there to be mistaken.
-    bounds.push(serde_json::json!({ "bound": "rate", "X": rate["X"], "E": rate["E"], "value": "1/10" }));
-    let mixed = folder.path().join("mixed.json");
-    std::fs::write(&mixed, document.to_string()).unwrap();
-    let call = ["certify", "specs/plants/pendulum.json", "--quiet", "--format", "json", "--witness"];
-    let output = program().args(call).arg(&mixed).output().unwrap();
-    let report = json(&output.stdout);
-    assert_eq!(output.status.code(), Some(3), "{report:#}");
-    let truth = |id: &str| {
-        let conditions = report["conditions"].as_array().unwrap();
-        conditions.iter().find(|condition| condition["id"] == id).map(|condition| condition["status"].clone())
+    let plant = folder.path().join("plant.json");
+    let text = r#"{"format": "sigmastar/plant", "version": 1, "name": "shear", "period": "40", "states": ["x", "v"],
+        "f": ["-x + 19*v/10", "-v + e"], "q": "x/100 + cos(2*pi*t/40)",
+        "internal_model": {"mu": "1/100", "base_frequency": "2*pi/40", "matched": true,
+            "weights": {"family": "power", "n0": "2", "epsilon": "1/2"}}}"#;
+    std::fs::write(&plant, text).unwrap();
+    let everywhere = |bound: &str, value: &str| {
+        let e = if bound == "f_x" { "0" } else { "1000" };
+        serde_json::json!({ "bound": bound, "X": "100000", "E": e, "value": value })
     };
-    assert_eq!(truth("S1"), Some("undecided".into()), "{report:#}");
-    assert_eq!(checked(&mixed)["verdict"], "undecided");
+    let bounds: Vec<Value> = [
+        ("f_x", "2.5"),
+        ("rate", "0.904"),
+        ("f_e", "1.0001"),
+        ("q_x", "0.010001"),
+        ("q_e", "0"),
+        ("q_e_max", "0"),
+        ("q_tx", "0"),
+        ("q_te", "0"),
+    ]
+    .map(|(bound, value)| everywhere(bound, value))
+    .to_vec();
+    let witness = serde_json::json!({
+        "X_p": "2.6", "E_p": "2.3", "r_x": "1.75", "r_e": "1.55", "r_d": "0.5", "kap": "0", "D_x": "5800", "D_e": "80",
+        "w_x": "0.15", "h": "0.24", "k0": "192.71602", "k1": "300.76421", "transfer": { "proof": "matched", "K": 3 },
+        "lyapunov": { "P": [["0.01", "0"], ["0", "1"]], "p_low": "0.00999", "p_up": "1.0001", "alpha": "0.904" },
+        "coordinates": [["1", "0"], ["0", "1"]],
+        "orbit": { "mean": ["0", "0"], "defect": "1.00001e-30", "tube": "0.0002", "radius": "1.2e-29" },
+        "forcing": { "mean": "0", "harmonics": [{ "cos": "1", "sin": "0" }], "rest": "9.18758e-15",
+            "rest_t": "7.35007e-14" },
+        "bounds": bounds,
+        "lyapunov_existence": { "P": [["1", "0"], ["0", "1"]], "p_low": "1", "p_up": "1", "alpha": "0.049" },
+    });
+    let document: Value = serde_json::from_str(text).unwrap();
+    let certificate = serde_json::json!({
+        "format": "sigmastar/certificate", "version": 1, "plant": document, "witness": witness,
+        "claim": { "derivation": "sharp", "sigma_star": "0.5", "initial_set": { "X0": "5.2", "E0": "4.6", "Z0": "0" } },
+    });
+    let decided = |certificate: &Value| {
+        let file = folder.path().join("witness.json");
+        std::fs::write(&file, certificate.to_string()).unwrap();
+        let output = program().arg("certify").arg(&plant).args(["--quiet", "--witness"]).arg(&file).output().unwrap();
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    assert_eq!(decided(&certificate).0, Some(3), "{}", decided(&certificate).1);
+    // With the P of stability for both everything is read and decided as well: c = 10 is too much for this X_p.
+    let mut single = certificate.clone();
+    single["witness"].as_object_mut().unwrap().remove("lyapunov_existence");
+    assert_eq!(decided(&single).0, Some(1), "{}", decided(&single).1);
 }
 
 /// The P of existence: every number of it is decided, by the program and by the checker.
