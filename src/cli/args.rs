@@ -646,6 +646,8 @@ pub enum Format {
     Text,
     /// GitHub-flavoured Markdown
     Markdown,
+    /// One HTML page with figures, which needs no other file
+    Html,
     /// JSON, also for failures
     Json,
 }

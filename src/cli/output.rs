@@ -29,6 +29,7 @@ pub fn report(report: &impl Readable, format: Format) -> String {
     match format {
         Format::Text => report.text(),
         Format::Markdown => report.markdown(),
+        Format::Html => report.html(),
         Format::Json => json_text(&report.json()),
     }
 }

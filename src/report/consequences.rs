@@ -2,8 +2,10 @@
 
 use super::document::{Block, Table, clean};
 use super::number::upper;
-use crate::derivation::consequences::{MAX_OSCILLATORS, Psi};
+use crate::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi};
 use crate::derivation::targets::{Consequences, Target, TargetOutcome};
+use crate::enclosure::Enclosure;
+use crate::plot::{Curve, Figure, Scale, Style};
 
 /// The section of the report.
 pub(super) fn section(consequences: &Consequences) -> Vec<Block> {
@@ -18,6 +20,7 @@ pub(super) fn section(consequences: &Consequences) -> Vec<Block> {
              oscillators. They follow from the claim, are computed with enclosures, and have no independent check:",
         ));
         blocks.push(Block::Table(table));
+        blocks.push(Block::Drawing(figure(consequences)));
     } else {
         blocks.push(Block::says(
             "The base frequency is not asserted to be 2 pi / period (`\"matched\": true`), so nothing is certified \
@@ -29,6 +32,24 @@ pub(super) fn section(consequences: &Consequences) -> Vec<Block> {
             .push(Block::List(consequences.targets.iter().map(|(target, outcome)| answer(target, *outcome)).collect()));
     }
     blocks
+}
+
+/// The bounds over n_o + 1, which is positive, so that both axes are logarithmic. It is drawn from doubles and claims nothing.
+fn figure(consequences: &Consequences) -> Figure {
+    let curve = |label: &str, of: fn(&ErrorBounds) -> &Enclosure| {
+        let points = consequences.by_n_o.iter().map(|(n_o, bounds)| (*n_o as f64 + 1.0, of(bounds).upper_f64()));
+        // A bound of 0 has no place on the axis.
+        let points = points.filter(|(_, bound)| *bound > 0.0).collect();
+        Curve { label: label.to_owned(), points, style: Style::Marked }
+    };
+    Figure {
+        title: "Bounds of the regulated error, at sigma* and above".to_owned(),
+        x: "n_o + 1 [pure number]".to_owned(),
+        y: "e [unit of e]".to_owned(),
+        scale: Scale::LogLog,
+        floor: 0.0,
+        curves: vec![curve("sup|e|", |bounds| &bounds.sup), curve("rms(e)", |bounds| &bounds.rms)],
+    }
 }
 
 fn psi_items(consequences: &Consequences) -> Vec<String> {

@@ -13,7 +13,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         return Vec::new();
     }
     let mut blocks = vec![
-        Block::heading("Constants in the three derivations"),
+        Block::Aside("Constants in the three derivations".to_owned()),
         Block::says(
             "Rounded to the nearest digits shown; [lower, upper] where the enclosure is wider than these. The full \
              enclosures are in the certificate and in the JSON report. (!) marks a printed value that is not sound, \

@@ -1,4 +1,4 @@
-//! What a person, or a script, reads about a run: text, Markdown and JSON with the same content.
+//! What a person, or a script, reads about a run: text, Markdown, HTML and JSON with the same content.
 //!
 //! A report implements [`Readable`](document::Readable): it makes the blocks of a [`document`], which the renderers share,
 //! and writes JSON from the same figures. No bound is computed here. Numbers that are claims are rounded outward; what is

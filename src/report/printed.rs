@@ -38,5 +38,5 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
                 .to_owned(),
         );
     }
-    vec![Block::heading("What the printed formulas say"), Block::List(items)]
+    vec![Block::Aside("What the printed formulas say".to_owned()), Block::List(items)]
 }

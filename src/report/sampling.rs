@@ -39,6 +39,9 @@ impl Readable for SamplingReport<'_> {
                 estimate(*sigma)
             )));
         }
+        if self.study.has_pair() {
+            blocks.push(Block::Drawing(sampling_figure(self.study)));
+        }
         for (heading, rows) in [
             ("The smallest gain found for a sampling period", by_step),
             ("The longest sampling period found for a gain", by_gain),

@@ -1,6 +1,6 @@
 //! What a person, or a script, reads about a simulation.
 
-use super::figures::regulator_words;
+use super::figures::{figures, regulator_words};
 use super::run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SteadyFigures};
 use super::{ClosedLoop, IntegrationFailure, SteadyState};
 use crate::plant::Plant;
@@ -40,6 +40,8 @@ impl Readable for SimulationReport<'_> {
             Ok(run) => blocks.push(Block::says(long_words(plant, run))),
             Err(error) => blocks.push(ended_early(error, "--fixed")),
         }
+        let drawn = figures(plant, closed_loop, simulation);
+        blocks.extend(drawn.into_iter().map(|(_, figure)| Block::Drawing(figure)));
         if let Some(noisy) = &simulation.noisy {
             blocks.push(Block::heading("With measurement noise"));
             match noisy {

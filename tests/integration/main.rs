@@ -24,6 +24,7 @@ mod expr_properties;
 mod expr_prove;
 mod formats;
 mod front_door;
+mod html;
 mod lmi_decay;
 mod lmi_specs;
 mod lyapunov;

@@ -1,5 +1,7 @@
 //! The parts of a document, without any format.
 
+use crate::plot::Figure;
+
 /// How the cells of a column are placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
@@ -56,6 +58,8 @@ pub enum Block {
     Title(String),
     /// The title of a section.
     Heading(String),
+    /// The title of a section on the history of the matter, which no claim needs: where a format can fold, it is folded.
+    Aside(String),
     /// The title of a part of a section.
     Subheading(String),
     /// What is proved, refuted or undecided, in one sentence.
@@ -68,6 +72,8 @@ pub enum Block {
     Facts(Vec<(String, String)>),
     /// A table.
     Table(Table),
+    /// A figure, in formats that can hold one; it says nothing that the text does not.
+    Drawing(Figure),
     /// The names of the files with the figures of the report.
     Figures(Vec<String>),
     /// Lines that are shown as they are.

@@ -7,16 +7,19 @@ use super::block::{Align, Block, Table};
 pub fn render(blocks: &[Block]) -> String {
     let parts: Vec<String> = blocks
         .iter()
-        .map(|block| match block {
-            Block::Title(title) => format!("# {}\n", escape(title)),
-            Block::Heading(title) => format!("## {}\n", escape(title)),
-            Block::Subheading(title) => format!("### {}\n", escape(title)),
-            Block::Verdict(text) | Block::Paragraph(text) => format!("{}\n", escape_line(text)),
-            Block::List(_) | Block::Facts(_) | Block::Figures(_) => {
-                block.items().iter().map(|item| format!("- {}\n", escape_line(item))).collect()
-            }
-            Block::Table(table) => render_table(table),
-            Block::Code(lines) => fenced(lines),
+        .filter_map(|block| {
+            Some(match block {
+                Block::Title(title) => format!("# {}\n", escape(title)),
+                Block::Heading(title) | Block::Aside(title) => format!("## {}\n", escape(title)),
+                Block::Subheading(title) => format!("### {}\n", escape(title)),
+                Block::Verdict(text) | Block::Paragraph(text) => format!("{}\n", escape_line(text)),
+                Block::List(_) | Block::Facts(_) | Block::Figures(_) => {
+                    block.items().iter().map(|item| format!("- {}\n", escape_line(item))).collect()
+                }
+                Block::Table(table) => render_table(table),
+                Block::Drawing(_) => return None,
+                Block::Code(lines) => fenced(lines),
+            })
         })
         .collect();
     parts.join("\n")

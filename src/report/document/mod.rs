@@ -4,6 +4,7 @@
 //! report writes it from the same figures, because its fields are a contract that headings and sentences are not.
 
 mod block;
+mod html;
 mod markdown;
 mod text;
 
@@ -11,7 +12,7 @@ pub use block::{Align, Block, Column, Table, clean};
 
 /// A report that can be written in every format, with the same content in each.
 pub trait Readable {
-    /// The document that the renderers of text and Markdown share.
+    /// The document that the renderers of text, Markdown and HTML share.
     fn blocks(&self) -> Vec<Block>;
 
     /// As JSON: claims are strings, enclosures `["lo", "hi"]`; floating point that claims nothing may be a number.
@@ -25,5 +26,10 @@ pub trait Readable {
     /// As GitHub-flavoured Markdown.
     fn markdown(&self) -> String {
         markdown::render(&self.blocks())
+    }
+
+    /// As one HTML page that needs no other file.
+    fn html(&self) -> String {
+        html::render(&self.blocks())
     }
 }

@@ -9,19 +9,20 @@ const WIDTH: usize = 100;
 #[must_use]
 pub fn render(blocks: &[Block]) -> String {
     let mut output = String::new();
-    for block in blocks {
+    for block in blocks.iter().filter(|block| !matches!(block, Block::Drawing(_))) {
         if !output.is_empty() && !matches!(block, Block::Table(_) if output.ends_with("-\n")) {
             output.push('\n');
         }
         match block {
             Block::Title(title) => underlined(&mut output, title, "="),
-            Block::Heading(title) => underlined(&mut output, title, "-"),
+            Block::Heading(title) | Block::Aside(title) => underlined(&mut output, title, "-"),
             Block::Subheading(title) => wrap(&mut output, &format!("{title}:"), "", ""),
             Block::Verdict(text) | Block::Paragraph(text) => wrap(&mut output, text, "", ""),
             Block::List(_) | Block::Facts(_) | Block::Figures(_) => {
                 block.items().iter().for_each(|item| wrap(&mut output, item, "  - ", "    "));
             }
             Block::Table(table) => render_table(&mut output, table),
+            Block::Drawing(_) => {}
             Block::Code(lines) => output.push_str(lines),
         }
     }
@@ -54,9 +55,11 @@ fn wrap(output: &mut String, text: &str, first: &str, rest: &str) {
     output.push('\n');
 }
 
+/// What stands between two sides that belong on one line.
+pub(super) const RELATIONS: [&str; 4] = ["<=", ">=", "<", "="];
+
 /// The words of a text, with a relation and its two sides as one word.
 fn glued(text: &str) -> Vec<String> {
-    const RELATIONS: [&str; 4] = ["<=", ">=", "<", "="];
     let mut words: Vec<String> = Vec::new();
     let mut open = false;
     for word in text.split_whitespace() {

@@ -60,7 +60,7 @@ pub(super) fn section(printed: &PrintedChecks, data: &Data<'_>, pair: &Certified
         checks.push([check.what.to_owned(), compact(&check.printed), compact(&check.needed), verdict.to_owned()]);
     }
     vec![
-        Block::heading("Printed, repaired and proved constants"),
+        Block::Aside("Printed, repaired and proved constants".to_owned()),
         Block::says(
             "In the units of omega. The printed proof reads mu for nu = mu/w and drops the powers of w (E6); for \
              m = 0, which it needs, its lambda is not defined (E7).",

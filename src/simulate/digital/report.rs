@@ -1,6 +1,7 @@
 //! What a person, or a script, reads about a simulation at samples.
 
 use super::digital_loop::DigitalLoop;
+use super::figures::digital_figures;
 use super::run::{DigitalLongRun, DigitalSimulation, PeriodSums};
 use super::steady::{DigitalSteady, run_way_out};
 use super::words::{converter_words, loop_words};
@@ -52,6 +53,8 @@ impl Readable for DigitalReport<'_> {
             Ok(run) => long_words(plant, digital, run),
             Err(error) => format!("It has no figures: {error}; {}.", run_way_out(error)),
         }));
+        let drawn = digital_figures(plant, digital, simulation);
+        blocks.extend(drawn.into_iter().map(|(_, figure)| Block::Drawing(figure)));
         blocks
     }
 
