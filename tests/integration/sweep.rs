@@ -344,11 +344,11 @@ fn the_shipped_study_has_a_table_and_a_plot() {
     let read = Results::read("r", &fs::read(&results).unwrap()).unwrap();
     assert_eq!(read.rows.len(), 15);
     let table = fs::read_to_string(table).unwrap();
-    assert!(table.starts_with("index,alpha,mu,verdict,sigma_star,X0,E0,Z0,x,e,zeta,z,no_plant,sha256,message\r\n"));
-    assert!(table.lines().nth(1).unwrap().starts_with("0,0.5,0.5,certified,"), "{table}");
+    assert!(table.starts_with("index,alpha,p_up,verdict,sigma_star,X0,E0,Z0,x,e,zeta,z,no_plant,sha256,message\r\n"));
+    assert!(table.lines().nth(1).unwrap().starts_with("0,0.5,1.1,certified,"), "{table}");
     assert!(table.lines().skip(1).all(|line| line.split(',').count() == 15));
     let svg = fs::read_to_string(plot).unwrap();
-    for label in ["mu = 1/2", "mu = 1", "mu = 2", "alpha", "sigma_star"] {
+    for label in ["p_up = 11/10", "p_up = 1.5512", "p_up = 2.5", "alpha", "sigma_star"] {
         assert!(svg.contains(label), "{label}");
     }
     // Inside the study or beside it: the same study.
