@@ -47,6 +47,8 @@ fn attempt(args: &SweepArgs) -> Result<u8, Failure> {
     let known = results.rows.len();
     let missing: Vec<u64> =
         (0..sweep.count()).filter(|index| results.header.has(*index) && !results.rows.contains_key(index)).collect();
+    // A case that is too large to be read is said before any work is done.
+    missing.iter().try_for_each(|index| sweep.case(*index).map(drop))?;
     let appended = match &files.results {
         // A line that was cut off is no longer there when the first one is appended.
         Some((path, file)) => {

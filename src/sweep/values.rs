@@ -86,7 +86,7 @@ impl Values {
         let numbers: Vec<Rational> = match self {
             Values::List(values) => {
                 let at = |share: Rational| {
-                    let place = Rational::from(share * values.len() as u64).floor().into_numer_denom().0;
+                    let place = (share * values.len() as u64).floor().into_numer_denom().0;
                     values.get(place.to_usize()?).cloned()
                 };
                 return shares.map(at).collect();

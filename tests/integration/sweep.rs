@@ -161,7 +161,7 @@ fn rows_are_what_certify_says() {
     assert_eq!(rows[2]["errors"][0]["code"], "out-of-range");
     assert_eq!(rows[8]["errors"][0]["code"], "expression");
     assert!(rows[2].get("sigma_star").is_none());
-    for index in 0..2 {
+    for (index, row) in rows.iter().take(2).enumerate() {
         let case = program().args(["sweep", "--case", &index.to_string()]).arg(run.path("study.json")).assert().code(0);
         let certified = program()
             .args(["certify", "-", "--no-compare", "--format", "json"])
@@ -170,9 +170,9 @@ fn rows_are_what_certify_says() {
             .code(0);
         let report: Value = serde_json::from_slice(&certified.get_output().stdout).unwrap();
         for field in ["sigma_star", "initial_set", "periodic_solution"] {
-            assert_eq!(rows[index][field], report[field], "{field}");
+            assert_eq!(row[field], report[field], "{field}");
         }
-        assert_eq!(rows[index]["sha256"], report["specification"]["sha256"]);
+        assert_eq!(row["sha256"], report["specification"]["sha256"]);
     }
     let mut single = program();
     single.env("RAYON_NUM_THREADS", "1").args(["sweep", "-q"]).arg(run.path("study.json"));
