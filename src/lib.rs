@@ -115,6 +115,8 @@ pub mod simulate;
 #[doc(hidden)]
 pub mod spec;
 #[doc(hidden)]
+pub mod sweep;
+#[doc(hidden)]
 pub mod transfer;
 
 pub use api::{

@@ -36,6 +36,13 @@ const SAMPLING_EXAMPLES: &str = "Examples:
   sigmastar sampling plant.json
   sigmastar sampling plant.json --sampling-period 1/200,1/1000 --sigma 50,100 --plot sampling.svg";
 
+/// Examples of `sweep`.
+const SWEEP_EXAMPLES: &str = "Examples:
+  sigmastar sweep specs/studies/linear.json -o results.jsonl --minimise sigma_star --plot gains.svg
+  sigmastar sweep study.json -o part3.jsonl --shard 3/8
+  sigmastar merge part*.jsonl -o results.jsonl
+  sigmastar sweep study.json --case 17 | sigmastar certify - -o case17.certificate.json";
+
 /// Examples of `transfer`.
 const TRANSFER_EXAMPLES: &str = "Examples:
   sigmastar transfer plant.json
@@ -93,6 +100,16 @@ pub enum Command {
     /// neither a larger gain nor a shorter period follows from it.
     #[command(after_help = SAMPLING_EXAMPLES, after_long_help = format!("{SAMPLING_EXAMPLES}\n\n{EXIT_CODES}"))]
     Sampling(SamplingArgs),
+    /// Certify a specification or plant with many values put in: a grid or a Latin hypercube
+    ///
+    /// Each case is certified by itself, as `certify` does it; nothing is claimed between the cases, and no certificates are
+    /// written. A sweep that was interrupted goes on where it stopped: run the same command again.
+    #[command(after_help = SWEEP_EXAMPLES)]
+    Sweep(SweepArgs),
+    /// Join the results of the shards of a sweep
+    ///
+    /// The shards must be of one study, and no case may be missing. The bytes are those of a sweep without shards.
+    Merge(MergeArgs),
     /// Prove the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
     ///
     /// Finds constants k0, k1 that are proved for every n_o and every frequency, says how much of the bound each n_o uses,
@@ -262,6 +279,66 @@ pub struct SamplingArgs {
     /// No remarks and no progress on standard error; errors are still shown
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// The flags of `sweep`.
+#[derive(Args, Debug)]
+pub struct SweepArgs {
+    /// Study (JSON), or `-` for standard input
+    #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
+    pub study: PathBuf,
+
+    /// Write the results to this file (JSON Lines); what is in it already is not computed again
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, required_unless_present = "case")]
+    pub output: Option<PathBuf>,
+
+    /// Also write a table (CSV)
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub csv: Option<PathBuf>,
+
+    /// Draw sigma* over the one parameter of a grid, or over the first of two, as SVG, into this file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub plot: Option<PathBuf>,
+
+    /// Say which case is the best
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub minimise: Option<Minimised>,
+
+    /// Only every N-th case, from the I-th on: part I of N
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<String>,
+
+    /// Write the specification or plant of this case to standard output and do nothing else
+    #[arg(long, value_name = "INDEX", conflicts_with_all = ["output", "csv", "plot", "minimise", "shard"])]
+    pub case: Option<u64>,
+
+    /// No progress and no remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// What the best case has the least of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Minimised {
+    /// The certified gain
+    #[value(name = "sigma_star")]
+    SigmaStar,
+}
+
+/// The flags of `merge`.
+#[derive(Args, Debug)]
+pub struct MergeArgs {
+    /// Files of results of one study
+    #[arg(value_name = "FILES", required = true, value_hint = ValueHint::FilePath)]
+    pub files: Vec<PathBuf>,
+
+    /// Write the joined results to this file
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: PathBuf,
+
+    /// Join them although cases are missing; `sweep -o` with this file computes the rest
+    #[arg(long)]
+    pub incomplete: bool,
 }
 
 /// The flags of `transfer`.

@@ -18,6 +18,10 @@ pub enum Input<'p> {
     Certificate(&'p Path),
     /// A plant file.
     Plant(&'p Path),
+    /// A study.
+    Study(&'p Path),
+    /// A file of results.
+    Results(&'p Path),
 }
 
 impl Input<'_> {
@@ -28,6 +32,8 @@ impl Input<'_> {
             Input::Specification(path) => Some(("specification", path)),
             Input::Certificate(path) => Some(("certificate", path)),
             Input::Plant(path) => Some(("plant file", path)),
+            Input::Study(path) => Some(("study", path)),
+            Input::Results(path) => Some(("input", path)),
         }
     }
 }

@@ -14,6 +14,7 @@ mod falsify;
 mod files;
 mod input;
 mod lyapunov;
+mod merge;
 mod output;
 mod pages;
 mod progress;
@@ -23,6 +24,7 @@ mod sampling;
 mod simulate;
 mod simulate_sampled;
 mod subject;
+mod sweep;
 mod temporary;
 mod transfer;
 
@@ -46,6 +48,8 @@ pub fn run() -> ExitCode {
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
         Command::Sampling(args) => sampling::run(&args),
+        Command::Sweep(args) => sweep::run(&args),
+        Command::Merge(args) => merge::run(&args),
         Command::Transfer(args) => transfer::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Controller(args) => controller::run(&args),

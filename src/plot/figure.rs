@@ -19,10 +19,22 @@ const DETAIL: u32 = 4;
 pub enum Scale {
     /// None.
     Linear,
+    /// The horizontal one.
+    LogX,
     /// The vertical one.
     LogY,
     /// Both.
     LogLog,
+}
+
+impl Scale {
+    fn is_log_x(self) -> bool {
+        matches!(self, Scale::LogX | Scale::LogLog)
+    }
+
+    fn is_log_y(self) -> bool {
+        matches!(self, Scale::LogY | Scale::LogLog)
+    }
 }
 
 /// How a curve is drawn.
@@ -98,7 +110,7 @@ impl Figure {
         }
         let marked = curves.iter().any(|curve| curve.style == Style::Marked);
         let x = match self.scale {
-            Scale::LogLog => decades(all().map(|point| point.0)),
+            Scale::LogX | Scale::LogLog => decades(all().map(|point| point.0)),
             // Marks keep off the frame.
             _ if marked => {
                 let (first, last) = ends(all().map(|point| point.0));
@@ -107,15 +119,16 @@ impl Figure {
             _ => range(all().map(|point| point.0), 0.0),
         };
         let y = match self.scale {
-            Scale::Linear => range(all().map(|point| point.1), 0.06),
+            Scale::Linear | Scale::LogX => range(all().map(|point| point.1), 0.06),
             Scale::LogY | Scale::LogLog => decades(all().map(|point| point.1)),
         };
         // A tick near 0 of a linear axis is 0; a logarithmic axis has none.
         let span = |range: &Range<f64>, linear: bool| if linear { range.end - range.start } else { 0.0 };
-        let spans = [span(&x, self.scale != Scale::LogLog), span(&y, self.scale == Scale::Linear)];
+        let spans = [span(&x, !self.scale.is_log_x()), span(&y, !self.scale.is_log_y())];
         let mut text = String::new();
         let drawn = match self.scale {
             Scale::Linear => self.draw(&mut text, x, y, spans, &curves),
+            Scale::LogX => self.draw(&mut text, x.log_scale(), y, spans, &curves),
             Scale::LogY => self.draw(&mut text, x, y.log_scale(), spans, &curves),
             Scale::LogLog => self.draw(&mut text, x.log_scale(), y.log_scale(), spans, &curves),
         };
@@ -127,8 +140,8 @@ impl Figure {
         let points = curve
             .points
             .iter()
-            .filter(|(x, y)| x.is_finite() && y.is_finite() && (self.scale != Scale::LogLog || *x > 0.0))
-            .map(|&(x, y)| (x, if self.scale == Scale::Linear { y } else { y.max(self.floor) }))
+            .filter(|(x, y)| x.is_finite() && y.is_finite() && (!self.scale.is_log_x() || *x > 0.0))
+            .map(|&(x, y)| (x, if self.scale.is_log_y() { y.max(self.floor) } else { y }))
             .collect();
         Curve { points, ..curve.clone() }
     }
@@ -298,7 +311,7 @@ mod tests {
 
     #[test]
     fn every_scale_is_drawn() {
-        for scale in [Scale::Linear, Scale::LogY, Scale::LogLog] {
+        for scale in [Scale::Linear, Scale::LogX, Scale::LogY, Scale::LogLog] {
             let figure = figure(scale, &[(0.5, 1.0), (1.0, 0.0), (2.0, 1e-3), (f64::NAN, 1.0)]);
             let svg = figure.svg().unwrap();
             // Three markers, and the figure is the same each time.

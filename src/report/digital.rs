@@ -30,7 +30,9 @@ impl<'r> DigitalReport<'r> {
         DigitalReport { run, rechecked }
     }
 
-    fn sentence(&self) -> String {
+    /// The verdict in one sentence.
+    #[must_use]
+    pub fn sentence(&self) -> String {
         let run = self.run;
         let step = clean(&run.sampling.text());
         match run.claim() {

@@ -39,6 +39,7 @@ pub use model::{
     Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
     RelativeDegree, Specification, TrigonometricVector,
 };
+pub(crate) use object::choose;
 pub use object::{MAX_UNKNOWN, Object};
 pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit};
 pub use power_tail::power_tail;

@@ -129,7 +129,7 @@ impl<'d> Object<'d> {
 ///
 /// # Errors
 /// Reports any other name with the nearest that is known.
-pub(super) fn choose(
+pub(crate) fn choose(
     value: &Value<'_>,
     what: &str,
     known: &[&'static str],

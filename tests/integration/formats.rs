@@ -8,13 +8,14 @@ use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice, certify, c
 use sigmastar::plant::Plant;
 use sigmastar::regulator::read_regulator;
 use sigmastar::spec::{Document, SpecErrors, Specification};
+use sigmastar::sweep::Study;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// How many blocks of each kind there are at least.
-const LEAST: [(&str, usize); 15] = [
+const LEAST: [(&str, usize); 18] = [
     ("bounding-spec", 1),
     ("bounding-spec-part", 10),
     ("plant", 2),
@@ -22,6 +23,9 @@ const LEAST: [(&str, usize); 15] = [
     ("certificate-fragment", 12),
     ("report-fragment", 4),
     ("sampling-fragment", 1),
+    ("study", 1),
+    ("sweep-fragment", 1),
+    ("sweep-case-fragment", 1),
     ("transfer-fragment", 2),
     ("check-fragment", 2),
     ("rates-fragment", 1),
@@ -283,6 +287,24 @@ fn digital_certificate() -> Value {
     digital_certificate_json(&run).expect("it certifies")
 }
 
+/// The lines of a sweep at samples with a case that is certified, one that is not and one that is refused.
+fn swept() -> Vec<Value> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [study, results] = ["study.json", "results.jsonl"].map(|name| folder.path().join(name).display().to_string());
+    let document = json!({
+        "format": "sigmastar/study", "version": 1, "name": "study", "subject": parsed(&file(AT_REST), AT_REST),
+        "sampling_period": "1/100", "design": "grid",
+        "parameters": [{ "pointer": "/internal_model/mu", "values": ["1", "1000", "-1"] }],
+    });
+    std::fs::write(&study, document.to_string()).expect("written");
+    let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
+    command.args(["sweep", "-q", &study, "-o", &results]).assert().code(0);
+    let text = std::fs::read_to_string(&results).expect("written");
+    let lines: Vec<Value> = text.lines().map(|line| parsed(line, "a line")).collect();
+    assert!(lines.iter().any(|line| line["reason"].is_string()) && lines.iter().any(|line| line["errors"].is_array()));
+    lines
+}
+
 /// What the program writes under each format, as it is now: by the kind of the fragments.
 fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
     static WRITTEN: OnceLock<BTreeMap<&'static str, Vec<Value>>> = OnceLock::new();
@@ -342,6 +364,8 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                     run(1, &["check", "proofs-check/tests/forged/sharp-C4.json", "--format", "json"]),
                 ],
             ),
+            ("sweep-fragment", swept().into_iter().take(1).collect()),
+            ("sweep-case-fragment", swept().into_iter().skip(1).collect()),
             ("rates-fragment", vec![other(&["rate", EXAMPLE, "--n-o", "0,1"])]),
             ("lyapunov-fragment", vec![other(&["lyapunov", "specs/paper-example-jacobian.json"])]),
             ("errata-fragment", vec![other(&["errata"]), other(&["errata", "specs/linear.json"])]),
@@ -409,7 +433,7 @@ fn every_example_is_right() {
         let mut found = Vec::new();
         if let Some(source) = block.source() {
             differences(&value, &source, "", &mut found);
-            let whole = matches!(kind, "bounding-spec" | "plant");
+            let whole = matches!(kind, "bounding-spec" | "plant" | "study");
             assert!(!whole || value == source, "{place}: not the whole file");
         }
         match kind {
@@ -418,6 +442,10 @@ fn every_example_is_right() {
             "plant" => {
                 let plant = Plant::from_json(&place, &block.text);
                 plant.map(drop).unwrap_or_else(|errors| panic!("{place}\n{}", errors.render(false)));
+            }
+            "study" => {
+                let document = Document::parse(&place, &block.text).expect("JSON");
+                Study::read(&document).map(drop).unwrap_or_else(|errors| panic!("{place}\n{}", errors.render(false)));
             }
             kind => {
                 let documents = written().get(kind);
@@ -533,6 +561,14 @@ fn every_field_that_is_read_is_named() {
     for pointer in ["", "/initial", "/internal_model"] {
         all.push(("plant", pointer, known(plant, &document, pointer)));
     }
+    let study = |text: &str| Study::read(&Document::parse("x", text).expect("JSON")).err();
+    let mut document = parsed(&file("specs/studies/linear.json"), "the study");
+    for pointer in ["", "/parameters/0", "/parameters/0/linear"] {
+        all.push(("study", pointer, known(study, &document, pointer)));
+    }
+    document["design"] = json!("latin");
+    (document["count"], document["seed"]) = (json!(2), json!(1));
+    all.push(("study", "", known(study, &document, "")));
     let fields: BTreeSet<&String> = all.iter().flat_map(|(.., names)| names).collect();
     assert!(fields.len() > 40 && fields.iter().any(|name| *name == "q_t_rms"), "{fields:?}");
     let missing: Vec<_> = all

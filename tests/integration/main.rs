@@ -48,6 +48,7 @@ mod spec_examples;
 mod spec_read;
 mod steady_states;
 mod support;
+mod sweep;
 mod transfer;
 mod transfer_sums;
 mod transfer_table;
