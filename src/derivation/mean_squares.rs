@@ -151,6 +151,12 @@ where
         (&self.x_gain * &self.e_p).min(&(&self.x_gain_by_rms * &squares.e))
     }
 
+    /// x_per = min{X_p, (c/a_1) b_fe e_per, K2(a_1) b_fe r_e}, a bound of sup|x| where sup|e| <= e_per.
+    #[must_use]
+    pub fn x_per(&self, e_per: &R, squares: &MeanSquares<R>) -> R {
+        self.x_p.min(&(&self.x_gain * e_per)).min(&(&self.x_gain_by_rms * &squares.e))
+    }
+
     /// The left side of (S1c): `(c/a_1) b_fe r_e <= r_x`.
     #[must_use]
     pub fn x_rms(&self, squares: &MeanSquares<R>) -> R {
@@ -330,7 +336,7 @@ where
         let forcing = Forcing::new(bounds, origin, squares);
         let response = Response::new(gains, origin, &forcing);
         let e_per = bounds.e_p.min(&response.sup).min(&sup_by_mean_squares(problem, squares));
-        let x_per = bounds.x_p.min(&(&bounds.x_gain * &e_per)).min(&(&bounds.x_gain_by_rms * &squares.e));
+        let x_per = bounds.x_per(&e_per, squares);
         PeriodicSize { forcing, e_per, x_per }
     }
 

@@ -5,10 +5,11 @@
 
 use super::candidate::{AtSigma, Obstacle, Shape};
 use super::error_box::{best_shape, shape_near};
+use super::floors::{ordinary, raised, tiny};
 use super::model::FloatModel;
 use super::periodic::{Floors, PeriodicSet};
 use super::scan;
-use super::sharp::{ROOM, SHARES, TINY, ordinary, search_sharp, start_distances};
+use super::sharp::{ROOM, search_sharp, start_distances};
 use crate::derivation::digital::{DecayForms, DecayNumbers, Form, Part, SampledLaw};
 use crate::derivation::harmonics::AtOrigin;
 use crate::number::Portable;
@@ -40,7 +41,7 @@ pub struct DigitalProposal {
     pub floors: Floors,
     /// rho > 1 with D_x = rho c dX.
     pub rho: f64,
-    /// h dZ^2 = h's share of the level over dE^2.
+    /// eta > 0: the weight of zeta is so many times dE^2/dZ^2.
     pub eta: f64,
     /// The larger radius of the two forms, below 1; the margin is what is left.
     pub radius: f64,
@@ -179,11 +180,6 @@ impl<'m> DigitalSearch<'m> {
         Ok(DigitalProposal { sigma, floors, rho: at.rho, eta: at.eta, radius: at.threshold })
     }
 
-    fn tiny(&self) -> Floors {
-        let Floors { x_p, e_p } = ordinary(self.model);
-        Floors { x_p: TINY * x_p, e_p: TINY * e_p }
-    }
-
     /// The best witness at sigma.
     ///
     /// # Errors
@@ -192,7 +188,7 @@ impl<'m> DigitalSearch<'m> {
         if !self.model.is_in_range() {
             return Err(Obstacle::Magnitude);
         }
-        let found = self.proposal(sigma, self.tiny(), None)?;
+        let found = self.proposal(sigma, tiny(self.model), None)?;
         if found.radius > LARGEST {
             return Err(Obstacle::Sampling);
         }
@@ -237,7 +233,7 @@ impl<'m> DigitalSearch<'m> {
         let Some(index) = points.iter().position(feasible) else {
             return self.between_points(&points);
         };
-        let mut best = self.proposal(points[index].sigma, self.tiny(), None)?;
+        let mut best = self.proposal(points[index].sigma, tiny(self.model), None)?;
         if index > 0 {
             best = self.bisect(points[index - 1].sigma, best);
         }
@@ -253,7 +249,7 @@ impl<'m> DigitalSearch<'m> {
         let gains: Vec<f64> = (0..POINTS).map(at).collect();
         scan::evaluate_all(&gains, |&sigma| ScanPoint {
             sigma,
-            outcome: self.proposal(sigma, self.tiny(), None).map(|found| found.radius),
+            outcome: self.proposal(sigma, tiny(self.model), None).map(|found| found.radius),
         })
     }
 
@@ -263,7 +259,7 @@ impl<'m> DigitalSearch<'m> {
         for _ in 0..STEPS {
             let middle = (low * best.sigma).sqrt();
             let near = Some((best.rho, best.eta));
-            match self.proposal(middle, self.tiny(), near) {
+            match self.proposal(middle, tiny(self.model), near) {
                 Ok(found) if found.radius <= LARGEST => best = found,
                 _ => low = middle,
             }
@@ -284,36 +280,20 @@ impl<'m> DigitalSearch<'m> {
         let fine = self.scan(low, high);
         let feasible = |point: &&ScanPoint| point.outcome.is_ok_and(|radius| radius <= LARGEST);
         let found = fine.iter().find(feasible).ok_or(Obstacle::Sampling)?;
-        Ok(self.with_ordinary_floors(self.bisect(low, self.proposal(found.sigma, self.tiny(), None)?)))
+        Ok(self.with_ordinary_floors(self.bisect(low, self.proposal(found.sigma, tiny(self.model), None)?)))
     }
 
-    /// Where nothing in the data asks for an X_p or E_p above the smallest one, the largest of a few that cost little: an
-    /// initial set that follows from it is then worth something.
+    /// With X_p and E_p of an ordinary size where nothing asks for one, as far as that costs little.
     fn with_ordinary_floors(&self, found: DigitalProposal) -> DigitalProposal {
-        let ordinary = ordinary(self.model);
-        let mut best = found;
         let allowed = (1.0 - (1.0 - COST) * (1.0 - found.radius)).min(LARGEST);
-        for side in [0, 1] {
-            let Ok((set, _)) = self.at(best.sigma, best.floors, Some((best.rho, best.eta)), ROOM) else { return best };
-            let (size, floor) = [(set.x_p, best.floors.x_p), (set.e_p, best.floors.e_p)][side];
-            if size > floor {
-                continue;
-            }
-            for share in SHARES {
-                let floors = match side {
-                    0 => Floors { x_p: share * ordinary.x_p, ..best.floors },
-                    _ => Floors { e_p: share * ordinary.e_p, ..best.floors },
-                };
-                match self.proposal(best.sigma, floors, None) {
-                    Ok(larger) if larger.radius <= allowed => {
-                        best = larger;
-                        break;
-                    }
-                    _ => {}
-                }
-            }
-        }
-        best
+        let size = |floors: Floors, best: &DigitalProposal| {
+            self.at(best.sigma, floors, Some((best.rho, best.eta)), ROOM).map(|(set, _)| [set.x_p, set.e_p])
+        };
+        let again = |floors: Floors, best: &DigitalProposal| {
+            self.proposal(best.sigma, floors, None).ok().filter(|larger| larger.radius <= allowed)
+        };
+        // Without a size at all it is taken as it is.
+        raised((found.floors, found), ordinary(self.model), size, again).map_or(found, |(_, best)| best)
     }
 
     /// What limits a witness: which of the parts of the forms it would gain most without.

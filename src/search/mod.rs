@@ -10,6 +10,7 @@ mod effort;
 mod error_box;
 mod exact;
 mod float_bound;
+mod floors;
 mod minimise;
 mod model;
 mod periodic;

@@ -3,6 +3,7 @@
 use super::binding::Binding;
 use super::candidate::{AtSigma, Obstacle};
 use super::error_box::{best_error_box, error_box_near};
+use super::floors::{ordinary, raised, tiny};
 use super::model::{Datum, FloatModel};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
 use super::root::crossing;
@@ -11,7 +12,6 @@ use crate::data::Bound;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::initial_set::distances;
 use crate::number::Portable;
-use crate::spec::model::InitialSet;
 
 /// How existence is proved, and the shape of the error box: from these and sigma every other free number follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,12 +49,6 @@ const FLOOR: f64 = 1e-6;
 /// The share of the smallest rate in the data below which a gain is as good as none.
 const NEGLIGIBLE: f64 = 1e-20;
 
-/// The share of an ordinary size below which a set is as good as a point.
-pub(super) const TINY: f64 = 1e-40;
-
-/// Shares of the ordinary size that are tried where nothing else gives X_p or E_p a size, the largest first.
-pub(super) const SHARES: [f64; 10] = [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13, 1e-17, 1e-22, 1e-30];
-
 /// The largest gain that is tried.
 const LARGEST: f64 = 1e250;
 
@@ -62,6 +56,7 @@ const LARGEST: f64 = 1e250;
 const TOLERANCE: f64 = 1e-12;
 
 /// One way to prove existence, for every sigma.
+#[derive(Clone)]
 struct Search<'a> {
     model: &'a FloatModel,
     origin: AtOrigin<f64>,
@@ -83,6 +78,20 @@ impl Search<'_> {
             None => best_error_box(self.model, periodic, distances)?,
         };
         Ok((set, at))
+    }
+
+    /// The proposal at sigma with X_p and E_p of an ordinary size where nothing asks for one, as far as `worth` takes it: it gives
+    /// the gain with the floors of a search, or none.
+    fn with_ordinary_floors(
+        &self,
+        sigma: f64,
+        worth: impl Fn(&Search<'_>, f64) -> Option<f64>,
+    ) -> Result<SharpProposal, Obstacle> {
+        let with = |floors: Floors| Search { floors, ..self.clone() };
+        let size = |floors: Floors, sigma: &f64| with(floors).at(*sigma, ROOM).map(|(set, _)| [set.x_p, set.e_p]);
+        let again = |floors: Floors, sigma: &f64| worth(&with(floors), *sigma);
+        let (floors, sigma) = raised((self.floors, sigma), ordinary(self.model), size, again)?;
+        proposal(&with(floors), sigma)
     }
 
     /// ln(threshold/sigma), to be at most 0.
@@ -161,8 +170,7 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
     if !model.is_in_range() {
         return Err(Obstacle::Magnitude);
     }
-    let ordinary = ordinary(model);
-    let tiny = Floors { x_p: TINY * ordinary.x_p, e_p: TINY * ordinary.e_p };
+    let tiny = tiny(model);
     let found = scan::evaluate_all(&forms(model), |form| {
         let search = Search { model, origin: AtOrigin::new(model), form: *form, floors: tiny, near: None };
         search.smallest(first_guess(model)).map(|sigma| (sigma, *form))
@@ -178,8 +186,10 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
     }
     let (sigma, form) = best.ok_or(closest)?;
     let search = Search { model, origin: AtOrigin::new(model), form, floors: tiny, near: None };
-    let (search, sigma) = with_ordinary_floors(search, ordinary, sigma)?;
-    proposal(&search, sigma)
+    search.with_ordinary_floors(sigma, |search, sigma| {
+        // One that costs nothing.
+        search.smallest(sigma).ok().filter(|found| *found <= sigma * (1.0 + 1e-7))
+    })
 }
 
 /// The best proposal at a given gain; near a known one where that is given.
@@ -194,13 +204,11 @@ pub fn search_sharp_at(
     if !model.is_in_range() {
         return Err(Obstacle::Magnitude);
     }
-    let ordinary = ordinary(model);
-    let tiny = Floors { x_p: TINY * ordinary.x_p, e_p: TINY * ordinary.e_p };
     let searches = match known {
         Some(SharpProposal { parameters: SharpParameters { form, floors, rho, eta }, .. }) => {
             vec![(*form, *floors, Some((*rho, *eta)))]
         }
-        None => forms(model).into_iter().map(|form| (form, tiny, None)).collect(),
+        None => forms(model).into_iter().map(|form| (form, tiny(model), None)).collect(),
     };
     let mut closest = Obstacle::NotFinite;
     let mut best: Option<(f64, Search<'_>)> = None;
@@ -212,33 +220,17 @@ pub fn search_sharp_at(
             Err(obstacle) => closest = closest.max(obstacle),
         }
     }
-    let (excess, mut search) = best.ok_or(closest)?;
+    let (excess, search) = best.ok_or(closest)?;
     if excess > 0.0 {
         return Err(Obstacle::Gain);
     }
-    if known.is_none() {
-        let allowed = (1.0 - COST) * excess;
-        for side in [0, 1] {
-            let (set, _) = search.at(sigma, ROOM)?;
-            let (size, floor) = [(set.x_p, search.floors.x_p), (set.e_p, search.floors.e_p)][side];
-            if size > floor {
-                continue;
-            }
-            for share in SHARES {
-                let before = search.floors;
-                if side == 0 {
-                    search.floors.x_p = share * ordinary.x_p;
-                } else {
-                    search.floors.e_p = share * ordinary.e_p;
-                }
-                match search.excess(sigma) {
-                    Ok(excess) if excess <= allowed => break,
-                    _ => search.floors = before,
-                }
-            }
-        }
+    if known.is_some() {
+        return proposal(&search, sigma);
     }
-    proposal(&search, sigma)
+    let allowed = (1.0 - COST) * excess;
+    search.with_ordinary_floors(sigma, |search, sigma| {
+        search.excess(sigma).is_ok_and(|excess| excess <= allowed).then_some(sigma)
+    })
 }
 
 /// The share of the room below the threshold that a set of ordinary size may cost, at a given gain.
@@ -271,54 +263,10 @@ pub fn search_sharp_near(model: &FloatModel, known: &SharpProposal) -> Option<Sh
 /// Whether there is a candidate with some gain.
 #[must_use]
 pub fn any_candidate(model: &FloatModel) -> bool {
-    let ordinary = ordinary(model);
-    let floors = Floors { x_p: TINY * ordinary.x_p, e_p: TINY * ordinary.e_p };
+    let floors = tiny(model);
     // The sets only shrink with sigma, and kap > 0 gains nothing where that is large.
     let search = Search { model, origin: AtOrigin::new(model), form: ExistenceForm::Plain, floors, near: None };
     model.is_in_range() && search.at(LARGEST.sqrt(), ROOM).is_ok()
-}
-
-/// X_p and E_p of ordinary size: those of the initial set or of the domain, where there is one.
-pub(super) fn ordinary(model: &FloatModel) -> Floors {
-    let (x0, e0) = match model.set {
-        InitialSet::Paper => (None, None),
-        InitialSet::AtRest { x0, e0 } => (x0, e0),
-        InitialSet::Box { x0, e0, .. } => (Some(x0), Some(e0)),
-    };
-    let size = |start: Option<f64>, domain: f64| {
-        let size = start.filter(|size| *size > 0.0).unwrap_or(1.0);
-        size.min(0.1 * domain)
-    };
-    Floors { x_p: size(x0, model.domain.0), e_p: size(e0, model.domain.1) }
-}
-
-/// Where nothing in the data asks for an X_p or E_p above the smallest one, the largest of a few that cost nothing: an
-/// initial set that follows from it is then worth something.
-fn with_ordinary_floors(mut search: Search<'_>, ordinary: Floors, sigma: f64) -> Result<(Search<'_>, f64), Obstacle> {
-    let mut sigma = sigma;
-    for side in [0, 1] {
-        let (set, _) = search.at(sigma, ROOM)?;
-        let (size, floor) = [(set.x_p, search.floors.x_p), (set.e_p, search.floors.e_p)][side];
-        if size > floor {
-            continue;
-        }
-        for share in SHARES {
-            let before = search.floors;
-            if side == 0 {
-                search.floors.x_p = share * ordinary.x_p;
-            } else {
-                search.floors.e_p = share * ordinary.e_p;
-            }
-            match search.smallest(sigma) {
-                Ok(found) if found <= sigma * (1.0 + 1e-7) => {
-                    sigma = found;
-                    break;
-                }
-                _ => search.floors = before,
-            }
-        }
-    }
-    Ok((search, sigma))
 }
 
 fn proposal(search: &Search<'_>, sigma: f64) -> Result<SharpProposal, Obstacle> {

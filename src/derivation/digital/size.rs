@@ -35,7 +35,7 @@ where
         let forcing = Forcing::new(bounds, origin, squares);
         let by_squares = sup_by_mean_squares(problem, squares);
         let e_per = bounds.e_p.min(&SampledResponse::new(gains, &forcing).sup).min(&by_squares);
-        let x_per = bounds.x_p.min(&(&bounds.x_gain * &e_per)).min(&(&bounds.x_gain_by_rms * &squares.e));
+        let x_per = bounds.x_per(&e_per, squares);
         SampledSize { forcing, e_per, x_per }
     }
 

@@ -1,0 +1,253 @@
+//! Flags of the commands that prove something, or say what was proved.
+
+use super::Format;
+use clap::{Args, ValueEnum, ValueHint};
+use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice};
+use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use std::path::PathBuf;
+
+/// The flags of `certify`.
+#[derive(Args, Debug)]
+pub struct CertifyArgs {
+    /// Bounding specification or plant (JSON), or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Derivation that the verdict is about
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = DerivationArg::Sharp)]
+    pub derivation: DerivationArg,
+
+    /// Transfer constants of the sharp derivation
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = TransferArg::Best)]
+    pub transfer: TransferArg,
+
+    /// Certify this gain, a positive rational number, instead of the smallest one that is found
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+
+    /// Certify the regulator at samples this far apart, an exact positive constant; sets or replaces `sampling_period`
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub sampling_period: Option<String>,
+
+    /// Decide the witness of this certificate again instead of searching
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
+          conflicts_with_all = ["derivation", "transfer", "sigma"])]
+    pub witness: Option<PathBuf>,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// Write the certificate (JSON) to this file, if certified
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+
+    /// Find the smallest n_o that certifies sup|e| <= V, an exact constant such as `1e-3` or `1/1000`
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub target_sup: Option<String>,
+
+    /// Find the smallest n_o that certifies rms(e) <= V, an exact constant such as `1e-3` or `1/1000`
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub target_rms: Option<String>,
+
+    /// Highest working precision in bits, 128 to 4096
+    #[arg(long, value_name = "BITS", default_value_t = MAX_PRECISION,
+          value_parser = clap::value_parser!(u32).range(i64::from(DEFAULT_PRECISION)..=4096))]
+    pub precision_limit: u32,
+
+    /// Do not work out the other derivations for comparison
+    #[arg(long)]
+    pub no_compare: bool,
+
+    /// No remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl CertifyArgs {
+    /// The options of the run.
+    pub fn options(&self) -> Options {
+        Options {
+            derivation: match self.derivation {
+                DerivationArg::Sharp => Derivation::Sharp,
+                DerivationArg::Repaired => Derivation::Repaired,
+                DerivationArg::Printed => Derivation::Printed,
+            },
+            transfer: match self.transfer {
+                TransferArg::Best => TransferChoice::Best,
+                TransferArg::Boxes => TransferChoice::Boxes,
+                TransferArg::ClosedForm => TransferChoice::ClosedForm,
+            },
+            ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
+            compare: !self.no_compare,
+        }
+    }
+}
+
+/// The flags of `sampling`.
+#[derive(Args, Debug)]
+pub struct SamplingArgs {
+    /// Bounding specification or plant (JSON) with a matched base frequency, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Sampling periods, separated by commas: exact constants of which the period is a whole multiple [default: some that fit
+    /// the gain of the continuous-time regulator]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub sampling_period: Option<String>,
+
+    /// Gains, positive rational numbers separated by commas [default: 1.1, 1.5, 2, 3 and 5 times the gain of the
+    /// continuous-time regulator]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+
+    /// Draw the certified pairs, as SVG, into this file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub plot: Option<PathBuf>,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// No remarks and no progress on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// The flags of `transfer`.
+#[derive(Args, Debug)]
+pub struct TransferArgs {
+    /// Bounding specification or plant (JSON), or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Find the smallest k1 for this k0, an exact constant such as `7` or `2*pi^2`
+    #[arg(long, value_name = "V", allow_hyphen_values = true, conflicts_with = "minimise")]
+    pub k0: Option<String>,
+
+    /// Find the pair with the smallest A k0 + B k1 [default: the weights of the specification's data at X = E = 0]
+    #[arg(long, value_name = "A,B", allow_hyphen_values = true)]
+    pub minimise: Option<String>,
+
+    /// Numbers of oscillators to look at: a list of numbers and ranges; `inf` is allowed
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true, default_value = "0,1,2,3,5,10,20,50,1000000000,inf")]
+    pub n_o: String,
+
+    /// Draw T for these n_o under the bound, as SVG, into this file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub plot: Option<PathBuf>,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// No remarks and no progress on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// The flags of `check`.
+#[derive(Args, Debug)]
+pub struct CheckArgs {
+    /// Certificate (JSON), or `-` for standard input
+    #[arg(value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
+    pub certificate: PathBuf,
+
+    /// Specification that the certificate has to be about: other data make it invalid
+    #[arg(long, value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: Option<PathBuf>,
+
+    /// Show the argument, line by line
+    #[arg(short, long)]
+    pub verbose: bool,
+
+    /// Format of the answer
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// The flags of `errata`.
+#[derive(Args, Debug)]
+pub struct ErrataArgs {
+    /// Bounding specification (JSON) to look at each item from, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: Option<PathBuf>,
+
+    /// Format of the list
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// The flags of `lyapunov`.
+#[derive(Args, Debug)]
+pub struct LyapunovArgs {
+    /// Bounding specification with a Jacobian, or plant (JSON), or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// The flags of `bound`.
+#[derive(Args, Debug)]
+pub struct BoundArgs {
+    /// Plant (JSON), or `-` for standard input
+    #[arg(value_name = "PLANT", value_hint = ValueHint::FilePath)]
+    pub plant: PathBuf,
+
+    /// Write the specification to this file; standard output if absent
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+
+    /// The domain: |y| <= X and |e| <= E; if absent, one quarter larger than what the certificate of the plant needs
+    #[arg(long, value_name = "X,E", allow_hyphen_values = true)]
+    pub domain: Option<String>,
+
+    /// Say nothing on standard error but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// The flags of `rate`.
+#[derive(Args, Debug)]
+pub struct RateArgs {
+    /// Bounding specification or plant (JSON), or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Numbers of oscillators, each at most 200: a list of numbers and ranges, such as `0,1,5..10`
+    #[arg(long, value_name = "LIST", default_value = "0,1,2,4,8,16", allow_hyphen_values = true)]
+    pub n_o: String,
+
+    /// The gain, an exact constant of at least sigma*; sigma* itself if absent
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// A derivation.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum DerivationArg {
+    /// The tightest bounds
+    Sharp,
+    /// The paper's architecture, each formula repaired
+    Repaired,
+    /// The paper to the letter; never certifies
+    Printed,
+}
+
+/// A choice of transfer constants.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum TransferArg {
+    /// Those of a matched base frequency where the specification asserts it, else boxes
+    Best,
+    /// Proved by boxes, valid for every base frequency
+    Boxes,
+    /// The closed form, valid for every base frequency, larger
+    ClosedForm,
+}

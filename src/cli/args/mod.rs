@@ -1,0 +1,222 @@
+//! The one table of commands and flags: help, completions and the manual page are made from it. The commands are here, their
+//! flags in `claims`, `studies` and `regulator`.
+
+mod claims;
+mod regulator;
+mod studies;
+
+pub use claims::{
+    BoundArgs, CertifyArgs, CheckArgs, DerivationArg, ErrataArgs, LyapunovArgs, RateArgs, SamplingArgs, TransferArg,
+    TransferArgs,
+};
+pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
+pub use studies::{MergeArgs, SweepArgs};
+
+use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+/// The exit codes, as help and manual page tell them.
+pub const EXIT_CODES: &str = "Exit codes:
+  0  certified  the claim is proved
+  1  refuted    it is proved not to hold
+  2  bad-input  the input or the call is wrong; nothing was written
+  3  undecided  nothing is claimed either way, and why is said";
+
+/// The exit codes of `transfer`, whose results go into no certificate.
+const TRANSFER_EXIT_CODES: &str = "Exit codes:
+  0  proved     the bound is proved, computed with enclosures; no independent program checks it
+  1  refuted    it is proved not to hold for this k0
+  2  bad-input  the input or the call is wrong; nothing was written
+  3  undecided  nothing is claimed either way, and why is said";
+
+/// Examples of the main command.
+pub const CERTIFY_EXAMPLES: &str = "Examples:
+  sigmastar certify plant.json
+  sigmastar certify plant.json -o plant.certificate.json
+  sigmastar certify plant.json --target-rms 1e-3
+  sigmastar certify plant.json --witness plant.certificate.json
+  sigmastar certify plant.json --sampling-period 1/1000 --sigma 60
+  sigmastar certify - --format json < plant.json";
+
+/// Examples of `sampling`.
+const SAMPLING_EXAMPLES: &str = "Examples:
+  sigmastar sampling plant.json
+  sigmastar sampling plant.json --sampling-period 1/200,1/1000 --sigma 50,100 --plot sampling.svg";
+
+/// Examples of `sweep`.
+const SWEEP_EXAMPLES: &str = "Examples:
+  sigmastar sweep specs/studies/linear.json -o results.jsonl --minimise sigma_star --plot gains.svg
+  sigmastar sweep study.json -o part3.jsonl --shard 3/8
+  sigmastar merge part*.jsonl -o results.jsonl
+  sigmastar sweep study.json --case 17 | sigmastar certify - -o case17.certificate.json";
+
+/// Examples of `transfer`.
+const TRANSFER_EXAMPLES: &str = "Examples:
+  sigmastar transfer plant.json
+  sigmastar transfer plant.json --k0 1/2 --n-o 0..10,inf
+  sigmastar transfer plant.json --minimise 1,2/3 --plot bound.svg";
+
+/// Examples of `bound`.
+const BOUND_EXAMPLES: &str = "Examples:
+  sigmastar bound plant.json
+  sigmastar bound plant.json --domain 0.5,2 -o spec.json";
+
+/// Examples of `controller`.
+const CONTROLLER_EXAMPLES: &str = "Examples:
+  sigmastar controller plant.certificate.json --n-o 4 --discretise 1/1000 --format c -o regulator.c --example
+  sigmastar controller plant.json --sigma 48 --n-o 4 --format matlab -o regulator.m";
+
+/// Examples of simulations.
+pub const SIMULATE_EXAMPLES: &str = "Examples:
+  sigmastar simulate plant.json --sigma 2 --n-o 4
+  sigmastar simulate plant.json --sigma 2 --high-gain --plots figures
+  sigmastar simulate plant.json --sigma 2 --n-o 4 --sampled 1/1000 --delay 1/2000 --saturation 20
+  sigmastar simulate plant.json --controller controller.json --noise-power 1e-3 --seed 7";
+
+/// Certified gains for output regulation: from a plant's formulas, or bounding functions of it, to a gain that provably works
+/// for every number of oscillators.
+#[derive(Debug, Parser)]
+#[command(name = "sigmastar", version, after_long_help = EXIT_CODES, max_term_width = 100)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The command line of [`Cli`], on which a negative number after a flag is its value: `--n-o -1` is a number that is
+/// refused, not an unknown flag.
+pub fn command() -> clap::Command {
+    let number = |arg: clap::Arg| {
+        let has_value = arg.get_long().is_some() && arg.get_action().takes_values();
+        if has_value { arg.allow_negative_numbers(true) } else { arg }
+    };
+    Cli::command().mut_subcommands(|command| command.mut_args(number))
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Certify a gain for a plant or a bounding specification
+    ///
+    /// Searches for the smallest gain sigma*, decides every condition in rigorous arithmetic, and reports what is
+    /// proved. The report goes to standard output, remarks and errors to standard error.
+    #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Certify(Box<CertifyArgs>),
+    /// For how fast a computer: the smallest certified gain for sampling periods, and the longest one for gains
+    ///
+    /// Each pair is certified as `certify --sampling-period H --sigma V` does. A gain is certified for its sampling period alone:
+    /// neither a larger gain nor a shorter period follows from it.
+    #[command(after_help = SAMPLING_EXAMPLES, after_long_help = format!("{SAMPLING_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Sampling(SamplingArgs),
+    /// Certify a specification or plant with many values put in: a grid or a Latin hypercube
+    ///
+    /// Each case is certified by itself, as `certify` does it; nothing is claimed between the cases, and no certificates are
+    /// written. A sweep that was interrupted goes on where it stopped: run the same command again.
+    #[command(after_help = SWEEP_EXAMPLES)]
+    Sweep(SweepArgs),
+    /// Join the results of the shards of a sweep
+    ///
+    /// The shards must be of one study, and no case may be missing. The bytes are those of a sweep without shards.
+    Merge(MergeArgs),
+    /// Prove the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
+    ///
+    /// Finds constants k0, k1 that are proved for every n_o and every frequency, says how much of the bound each n_o uses,
+    /// and holds the paper's constants against them. Computed with enclosures; there is no file for the independent checker.
+    #[command(after_help = TRANSFER_EXAMPLES, after_long_help = format!("{TRANSFER_EXAMPLES}\n\n{TRANSFER_EXIT_CODES}"))]
+    Transfer(TransferArgs),
+    /// Check a certificate with the independent checker
+    ///
+    /// Decides the claim again from the certificate alone, with none of the code that made it: the same as the program
+    /// `proofs-check`. Says what is proved, of which specification, and what is assumed; figures on which no claim rests
+    /// have an answer of their own. Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
+    Check(CheckArgs),
+    /// Write the regulator of a specification, plant or certificate: matrices, the law for a computer, C code
+    ///
+    /// Every number is the exact one rounded once to double precision. Of a certificate the gain is its sigma* unless --sigma
+    /// says otherwise. What is known to be bad is refused: sampling that cannot tell the oscillators apart, DT sigma > 1, a gain
+    /// below sigma* of the certificate. Only a certificate with a sampling period covers the sampling.
+    #[command(after_help = CONTROLLER_EXAMPLES)]
+    Controller(ControllerArgs),
+    /// Simulate a plant with a regulator: steady state, long run, measurement noise
+    ///
+    /// Floating point, no claim. The report goes to standard output; --csv and --plots write files.
+    #[command(after_help = SIMULATE_EXAMPLES)]
+    Simulate(SimulateArgs),
+    /// Reproduce the tables and figures of the paper
+    ///
+    /// Floating point, no claim. Writes report.md, report.json and the figures into a folder.
+    Reproduce(ReproduceArgs),
+    /// Try to break a certificate by simulation
+    ///
+    /// Draws plants within the bounding functions, or takes the plant of the certificate, starts on the boundary of the initial
+    /// set and checks every bound of the claim a little above sigma*, or of the law at samples with exactly its gain. Finding
+    /// nothing proves nothing; exit code 1 and a plant file if it finds one.
+    Falsify(FalsifyArgs),
+    /// List what is wrong in the paper, with evidence
+    ///
+    /// With a specification, also says what each item means for it.
+    Errata(ErrataArgs),
+    /// Find and prove the Lyapunov triple of a Jacobian, or the orbit of a plant
+    ///
+    /// Prints P, the triple that is proved for every t, and the Floquet exponents (floating point) beside. Of a plant: the
+    /// periodic solution of its zero dynamics, proved, and the rate along it.
+    Lyapunov(LyapunovArgs),
+    /// Write a bounding specification for a plant: polynomials in X and E, each proved
+    ///
+    /// For reading and editing: the bounds of f, q and their derivatives relative to the periodic solution x_0(t), in the
+    /// coordinates of the certificate, on a domain that is stated. `certify` of it works, with a gain that is a little larger
+    /// than that of the plant itself.
+    #[command(after_help = BOUND_EXAMPLES)]
+    Bound(BoundArgs),
+    /// Prove rates of convergence for given numbers of oscillators
+    ///
+    /// They tend to 0 as n_o grows, while sigma* does not move. Printed next to the spectral abscissa of the oscillators.
+    /// Computed with enclosures; there is no file for the independent checker.
+    Rate(RateArgs),
+    /// Write a completion script for a shell to standard output
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL")]
+        shell: Shell,
+    },
+    /// Write the manual page (roff) to standard output
+    Man,
+}
+
+/// A format of a report, the same for every command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Plain text for a terminal
+    Text,
+    /// GitHub-flavoured Markdown
+    Markdown,
+    /// One HTML page with figures, which needs no other file
+    Html,
+    /// JSON, also for failures
+    Json,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_of_flags_is_consistent() {
+        command().debug_assert();
+    }
+
+    /// No flag with a number takes the minus sign in front of it for another flag.
+    #[test]
+    fn a_negative_number_is_a_value() {
+        for line in [
+            "rate s --n-o -1",
+            "transfer s --n-o -1..2",
+            "controller s --sigma 1 --n-o -1",
+            "certify s --precision-limit -1",
+        ] {
+            match command().try_get_matches_from(["sigmastar"].into_iter().chain(line.split(' '))) {
+                Ok(_) => {}
+                Err(error) => assert_eq!(error.kind(), clap::error::ErrorKind::ValueValidation, "{line}: {error}"),
+            }
+        }
+    }
+}
