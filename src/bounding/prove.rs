@@ -27,11 +27,22 @@ const HALVINGS: u32 = 10;
 /// Boxes that a trial of one value may take.
 const EFFORT: usize = 2000;
 
-/// The bounding functions of a plant on `|y| <= X`, `|e| <= E`, relative to its orbit; each is proved there for every t.
+/// The bounding functions of a plant on `|y| <= X`, `|e| <= E`, relative to its orbit; each is proved there for every t by
+/// itself: of the norms that the names say, q and q_t on the orbit alone.
 #[derive(Clone, Debug)]
 pub struct PlantBounds {
-    /// Those that were decided by themselves.
-    decided: Vec<(Kind, Majorant)>,
+    q: Majorant,
+    q_t: Majorant,
+    f_x: Majorant,
+    f_e: Majorant,
+    f_xx: Majorant,
+    f_ex: Majorant,
+    q_x: Majorant,
+    q_e: Majorant,
+    q_e_max: Majorant,
+    q_tx: Majorant,
+    q_te: Majorant,
+    rate: Majorant,
 }
 
 /// The kinds that are fitted by a polynomial.
@@ -58,11 +69,25 @@ impl PlantBounds {
         let single = [(Kind::Q, &origin), (Kind::QT, &origin), (Kind::FXX, &corner), (Kind::FEX, &corner)];
         let single = single.into_par_iter().map(|(kind, at)| (kind, least(engine, kind, at).map(Majorant::constant)));
         let all: Vec<(Kind, Option<Majorant>)> = fitted.chain(single).collect();
-        let at = domain.map(Rational::to_f64);
-        let decided = all.into_iter().map(|(kind, found)| {
-            found.map(|found| (kind, found)).ok_or(PlantRefusal::NotProved { bound: kind.name(), at })
-        });
-        Ok(PlantBounds { decided: decided.collect::<Result<_, _>>()? })
+        // What was not asked for is not proved either.
+        let proved = |kind: Kind| {
+            let found = all.iter().find(|(other, _)| *other == kind).and_then(|(_, found)| found.clone());
+            found.ok_or_else(|| PlantRefusal::NotProved { bound: kind.name(), at: domain.map(Rational::to_f64) })
+        };
+        Ok(PlantBounds {
+            f_x: proved(Kind::FX)?,
+            f_e: proved(Kind::FE)?,
+            q_x: proved(Kind::QX)?,
+            q_e: proved(Kind::QE)?,
+            q_e_max: proved(Kind::QEMax)?,
+            q_tx: proved(Kind::QTX)?,
+            q_te: proved(Kind::QTE)?,
+            rate: proved(Kind::Rate)?,
+            q: proved(Kind::Q)?,
+            q_t: proved(Kind::QT)?,
+            f_xx: proved(Kind::FXX)?,
+            f_ex: proved(Kind::FEX)?,
+        })
     }
 
     /// The bounding functions as fields of a specification, with coefficients of a few digits, and the rate.
@@ -70,25 +95,29 @@ impl PlantBounds {
     /// f, q and q_t follow from their derivatives along the segment from the orbit: `|f(t,x,e) - f(t,x_0,0)|` is at most
     /// `int_0^1 f_x(sX,sE) X + f_e(sX,sE) E ds`, and so on.
     #[must_use]
-    pub fn fields(&self) -> (Vec<(&'static str, Majorant)>, Majorant) {
-        let of = |kind: Kind| {
-            let found = self.decided.iter().find(|(other, _)| *other == kind);
-            found.map(|(_, majorant)| majorant.clone()).unwrap_or_default()
-        };
-        let added = |start: Majorant, x: Kind, e: Kind| {
-            let sum = start.plus(&of(x).along_segment([1, 0])).plus(&of(e).along_segment([0, 1]));
+    pub fn fields(self) -> (Vec<(&'static str, Majorant)>, Majorant) {
+        let added = |start: &Majorant, x: &Majorant, e: &Majorant| {
+            let sum = start.plus(&x.along_segment([1, 0])).plus(&e.along_segment([0, 1]));
             sum.map(|coefficient| round_rational(coefficient, DIGITS, Direction::Up))
         };
-        let mut fields = vec![
-            ("f", added(Majorant::default(), Kind::FX, Kind::FE)),
-            ("q", added(of(Kind::Q), Kind::QX, Kind::QE)),
-            ("q_t", added(of(Kind::QT), Kind::QTX, Kind::QTE)),
+        let on_the_orbit = [
+            ("f", added(&Majorant::default(), &self.f_x, &self.f_e)),
+            ("q", added(&self.q, &self.q_x, &self.q_e)),
+            ("q_t", added(&self.q_t, &self.q_tx, &self.q_te)),
         ];
-        let own = [Kind::FX, Kind::FE, Kind::FXX, Kind::FEX, Kind::QX, Kind::QE, Kind::QEMax, Kind::QTX, Kind::QTE];
-        fields.extend(own.map(|kind| (kind.name(), of(kind))));
         // From above and from below it is the same: then one of the two is enough.
-        fields.retain(|(name, majorant)| *name != Kind::QEMax.name() || !majorant.is_above(&of(Kind::QE)));
-        (fields, of(Kind::Rate))
+        let one_sided = (!self.q_e_max.is_above(&self.q_e)).then_some((Kind::QEMax, self.q_e_max));
+        let first = [
+            (Kind::FX, self.f_x),
+            (Kind::FE, self.f_e),
+            (Kind::FXX, self.f_xx),
+            (Kind::FEX, self.f_ex),
+            (Kind::QX, self.q_x),
+            (Kind::QE, self.q_e),
+        ];
+        let last = [(Kind::QTX, self.q_tx), (Kind::QTE, self.q_te)];
+        let own = first.into_iter().chain(one_sided).chain(last).map(|(kind, majorant)| (kind.name(), majorant));
+        (on_the_orbit.into_iter().chain(own).collect(), self.rate)
     }
 }
 

@@ -27,7 +27,7 @@ const REMEMBERED: usize = 1 << 14;
 pub struct Engine {
     pub(super) region: Region,
     pub(super) period: Constant,
-    quantities: Vec<(Kind, Quantity)>,
+    quantities: [Quantity; Kind::ALL.len()],
     pub(super) requirements: Vec<Requirement>,
     /// f.
     velocity: Walk,
@@ -68,9 +68,9 @@ impl Engine {
         let quantity = |kind: Kind, formulas: &mut Formulas| {
             let moves = matrices[usize::from(kind == Kind::RateExistence)].as_ref();
             let moves = moves.is_some_and(|matrix| !matrix.harmonics.is_empty());
-            (kind, Quantity::new(formulas, f, q[0], kind, moves))
+            Quantity::new(formulas, f, q[0], kind, moves)
         };
-        let quantities = Kind::ALL.into_iter().map(|kind| quantity(kind, &mut formulas)).collect();
+        let quantities = Kind::ALL.map(|kind| quantity(kind, &mut formulas));
         let velocity = formulas.walk(f);
         let extents = (0..order).map(|_| OnceLock::new()).collect();
         let period = plant.period.clone();
@@ -91,8 +91,7 @@ impl Engine {
     }
 
     pub(super) fn quantity(&self, kind: Kind) -> &Quantity {
-        // The list has every kind, in the order of the table.
-        &self.quantities[Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0)].1
+        &self.quantities[kind.index()]
     }
 
     /// Whether there is a P for a rate.

@@ -48,8 +48,26 @@ impl Kind {
             index += 1;
         }
         [all[index], all[index + 1], all[index + 2], all[index + 3]] = [Kind::Q, Kind::QT, Kind::FXX, Kind::FEX];
+        // The compiler refuses a list in which a kind is not at its own index.
+        let mut index = 0;
+        while index < all.len() {
+            assert!(all[index] as usize == index);
+            index += 1;
+        }
         all
     };
+
+    /// Its index in [`Kind::ALL`], and in [`Kind::TABLE`] where it is of the table.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Its value among those of [`Kind::TABLE`]; not a number where it is not of the table.
+    #[must_use]
+    pub(super) fn of(self, table: &[f64; Kind::TABLE.len()]) -> f64 {
+        table.get(self.index()).copied().unwrap_or(f64::NAN)
+    }
 
     /// The name in files.
     #[must_use]

@@ -220,13 +220,12 @@ impl FloatSuprema {
         let mut slow = Evaluator::new(self.velocity.clone());
         let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
         let mut pointwise = self.pointwise();
-        let slot = Kind::TABLE.iter().position(|other| *other == kind).unwrap_or_default();
         let value = |(time, y, part): &(f64, Vec<f64>, f64)| {
             let moment = self.moment(*time, &mut evaluator, &mut slow);
             evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, y, reach, &mut x);
             evaluator.evaluate(&x, part * e, &mut outputs);
-            pointwise.all(&outputs, &moment.velocity, &self.matrices_at(*time))[slot]
+            kind.of(&pointwise.all(&outputs, &moment.velocity, &self.matrices_at(*time)))
         };
         points.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -234,12 +233,12 @@ impl FloatSuprema {
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Kind, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
         let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, 0.0, 1.0] };
-        let slot = Kind::TABLE.iter().position(|other| *other == kind).unwrap_or_default();
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
         self.at_points(reach, e, ([1, 1], errors), |at, values| {
-            least = least.min(values[slot]);
-            keep(&mut best, starts, values[slot], at);
+            let value = kind.of(&values);
+            least = least.min(value);
+            keep(&mut best, starts, value, at);
         });
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut slow = Evaluator::new(self.velocity.clone());
@@ -255,7 +254,7 @@ impl FloatSuprema {
             evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, &point.y, reach, &mut x);
             evaluator.evaluate(&x, point.e * e, &mut outputs);
-            pointwise.all(&outputs, &moment.velocity, &self.matrices_at(moment.time))[slot]
+            kind.of(&pointwise.all(&outputs, &moment.velocity, &self.matrices_at(moment.time)))
         };
         // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
         let mut largest = f64::NAN;

@@ -3,7 +3,7 @@
 use super::coordinates::Density;
 use super::entries::kind;
 use super::grid::{KINDS, RATE, Source, Values};
-use crate::bounds::{FloatOrbit, FloatSuprema, Kind};
+use crate::bounds::{FloatOrbit, FloatSuprema};
 use crate::number::{Direction, round_f64};
 use crate::plant::Plant;
 use crate::search::FloatModel;
@@ -69,13 +69,10 @@ impl<'a> Sampling<'a> {
             Density::Fine => 1,
         };
         let stateless = l.nrows() == 0;
-        let places: Vec<usize> = KINDS
-            .iter()
-            .map(|bound| Kind::TABLE.iter().position(|other| Some(*other) == kind(*bound)).unwrap_or_default())
-            .collect();
+        let kinds = KINDS.map(kind);
         Arc::new(move |x, e| -> Values {
             let all = suprema.survey(x, e, stride);
-            let mut values: Values = std::array::from_fn(|k| all[places[k]]);
+            let mut values: Values = kinds.map(|kind| kind.map_or(f64::NAN, |kind| all[kind.index()]));
             if stateless {
                 // Without states every rate is as good as any other.
                 values[RATE] = 1.0;

@@ -104,3 +104,27 @@ fn initial_set(plant: &Plant, coordinates: &[Vec<Rational>]) -> Option<InitialSe
 fn matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {
     DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j].to_f64())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_are_rounded_up_and_none_is_left_out() {
+        let forcing = |a: Rational| ProvedForcing {
+            mean: Rational::from(-3),
+            harmonics: vec![[Rational::from((3, 5)), Rational::from((-4, 5))], [a, Rational::new()]],
+            rest: Rational::from((1, 8)),
+            rest_t: Rational::from(2),
+        };
+        let known = known_forcing(&forcing(Rational::from((1, 3)))).unwrap();
+        let sizes: Vec<&Rational> = known.harmonics.iter().map(|size| size.as_rational().unwrap()).collect();
+        assert_eq!(sizes[..2], [&Rational::from(3), &Rational::from((1, 2))]);
+        assert!(*sizes[2] > Rational::from((1, 6)) && *sizes[2] < Rational::from((1_000_001, 6_000_000)));
+        assert_eq!(known.rest_rms.as_rational(), Some(&Rational::from((1, 8))));
+        assert_eq!(known.rest_t_rms.unwrap().as_rational(), Some(&Rational::from(2)));
+        // The square leaves the exponents: the harmonic has no bound, and the whole of q_0 none.
+        let huge = Rational::from(rug::Integer::from(1) << 550_000_000);
+        assert!(known_forcing(&forcing(huge)).is_none());
+    }
+}

@@ -7,6 +7,7 @@ use sigmastar::certificate::{digital_certificate_json, is_digital, read_claim, r
 use sigmastar::certify::{
     DigitalCertification, Ladder, Options, Verdict, certify, certify_at, certify_digital, recheck_digital, with_triple,
 };
+use sigmastar::derivation::Condition;
 use sigmastar::derivation::digital::DigitalWitness;
 use sigmastar::number::{Direction, parse_decimal, round_rational, write_exact};
 use sigmastar::spec::{Document, ErrorKind, Sampling, Specification};
@@ -134,6 +135,27 @@ fn a_witness_is_decided_again_and_every_altered_one_is_refused() {
         change(&mut altered);
         assert_eq!(verdict(&altered), Verdict::Refuted, "{name}");
     }
+}
+
+/// A larger sum makes theta larger, and so K smaller for the same mu: another law than the one that is asked for.
+#[test]
+fn a_sum_of_the_weights_that_is_too_large_is_refused_with_the_gain_that_fits_it() {
+    let spec = sampled("1/100");
+    let proved = run(&spec, Some("22"));
+    let mut witness = proved.claim().unwrap().witness.clone();
+    let sum = witness.law.weight_sum.clone();
+    let mut refused = |factor: (u32, u32)| {
+        witness.law.weight_sum = &sum * Rational::from(factor);
+        // mu = 1 and h = 1/100: K = mu/(1 + mu h Nb2/2).
+        witness.law.gain = Rational::from(200) / (&witness.law.weight_sum + Rational::from(200));
+        let run = recheck_digital(&spec, &witness, Ladder::default()).unwrap();
+        let of_the_law = |condition: &&Condition| condition.id.starts_with("S0") && !condition.truth().is_true();
+        run.conditions().iter().filter(of_the_law).map(|condition| condition.what.clone()).collect::<Vec<_>>()
+    };
+    assert!(refused((10_000_009, 10_000_000)).is_empty());
+    let too_large = ["weight_sum <= Nbar^2 (1 + 1/10^6)"];
+    assert_eq!(refused((10_000_011, 10_000_000)), too_large);
+    assert_eq!(refused((101, 100)), too_large);
 }
 
 #[test]

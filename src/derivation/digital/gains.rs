@@ -125,24 +125,9 @@ where
 mod tests {
     use super::*;
     use crate::data::{Data, Problem};
-    use crate::spec::Specification;
+    use crate::derivation::digital::examples::{example, law};
     use nalgebra::Complex;
     use std::f64::consts::{PI, TAU};
-
-    /// The paper's weights and period with so many samples and this mu.
-    fn spec(samples: u32, mu: &str) -> Specification {
-        let mut document: serde_json::Value =
-            serde_json::from_str(include_str!("../../../specs/paper-example.json")).unwrap();
-        document["internal_model"]["mu"] = mu.into();
-        document["internal_model"]["sampling_period"] = format!("1/{samples}").into();
-        Specification::from_json("sampled", &document.to_string()).unwrap()
-    }
-
-    fn law(data: &Data<'_>) -> SampledLaw<f64> {
-        let model = &data.spec.internal_model;
-        let sampling = model.sampling.clone().unwrap();
-        SampledLaw::new(data, &sampling, &model.sampled_gain(&sampling.step).unwrap()).to_f64()
-    }
 
     /// [sup|e_k|, sup|e|, rms(e), rms(e')] of the periodic answer to q = 2 Re sum_m c_m e^{i m Om t}, T = 1, by its harmonics at
     /// samples and the law between them; in doubles.
@@ -213,9 +198,9 @@ mod tests {
         };
         let mut worst = [0.0_f64; 4];
         for (samples, mu) in [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")] {
-            let spec = spec(samples, mu);
+            let spec = example(samples, mu, |_| ());
             let data = Data::new(&spec, 128);
-            let law = law(&data);
+            let law = law(&data).to_f64();
             for product in [0.02, 0.3, 1.0] {
                 let sigma = product / law.step;
                 let gains = SampledGains::new(&law, &sigma, &1.0);
@@ -257,9 +242,9 @@ mod tests {
     /// The closed forms of the sums where theta plays no part: those of the resolvent at samples.
     #[test]
     fn the_sums_have_their_closed_forms() {
-        let spec = spec(40, "1/1000000");
+        let spec = example(40, "1/1000000", |_| ());
         let data = Data::new(&spec, 128);
-        let law = law(&data);
+        let law = law(&data).to_f64();
         let (h, t, n) = (law.step, data.numbers().period.midpoint_f64(), 40);
         for sigma in [0.5, 7.0, 39.0] {
             let gains = SampledGains::new(&law, &sigma, &t);

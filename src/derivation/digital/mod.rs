@@ -2,6 +2,8 @@
 //!
 //! A claim is about exactly one sigma and one sampling period: nothing here is monotone in either.
 
+#[cfg(test)]
+mod examples;
 mod gains;
 mod law;
 mod pair;

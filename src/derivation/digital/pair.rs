@@ -145,23 +145,7 @@ pub fn sampled_trade_off(data: &Data<'_>, law: &SampledLaw<Enclosure>) -> TradeO
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spec::Specification;
-
-    /// The paper's weights with so many samples and this mu.
-    fn spec(samples: u32, mu: &str) -> Specification {
-        let mut document: serde_json::Value =
-            serde_json::from_str(include_str!("../../../specs/paper-example.json")).unwrap();
-        document["internal_model"]["mu"] = mu.into();
-        document["internal_model"]["sampling_period"] = format!("1/{samples}").into();
-        Specification::from_json("sampled", &document.to_string()).unwrap()
-    }
-
-    fn law(data: &Data<'_>) -> SampledLaw<Enclosure> {
-        let model = &data.spec.internal_model;
-        let sampling = model.sampling.clone().unwrap();
-        let gain = model.sampled_gain(&sampling.step).unwrap();
-        SampledLaw::new(data, &sampling, &gain)
-    }
+    use crate::derivation::digital::examples::{example, law};
 
     /// T_d(j) of 12.2 for n_o oscillators, by its definition, in doubles and in units of 1/w^2.
     fn mean_gain(law: &SampledLaw<f64>, data: &Data<'_>, n_o: i64, j: i64) -> f64 {
@@ -183,7 +167,7 @@ mod tests {
     #[test]
     fn every_pair_of_the_trade_off_is_proved_and_bounds_every_harmonic() {
         for (samples, mu) in [(2, "1"), (7, "1"), (40, "1"), (41, "60"), (200, "1/5"), (300, "40")] {
-            let spec = spec(samples, mu);
+            let spec = example(samples, mu, |_| ());
             let data = Data::new(&spec, 128);
             let law = law(&data);
             let float = law.to_f64();
@@ -212,7 +196,7 @@ mod tests {
 
     #[test]
     fn smaller_pairs_are_refused() {
-        let spec = spec(60, "1");
+        let spec = example(60, "1", |_| ());
         let data = Data::new(&spec, 128);
         let law = law(&data);
         let refused = |k0: f64, k1: f64| {
@@ -231,7 +215,7 @@ mod tests {
 
     #[test]
     fn what_is_left_of_a_harmonic_is_bounded() {
-        let spec = spec(400, "40");
+        let spec = example(400, "40", |_| ());
         let data = Data::new(&spec, 128);
         let law = law(&data);
         let needs = Needs::new(&data, &law);

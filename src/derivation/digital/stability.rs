@@ -138,6 +138,7 @@ where
 mod tests {
     use super::*;
     use crate::data::Data;
+    use crate::derivation::digital::examples::{example, law};
     use crate::derivation::stability::{DecayTerms, Sector};
     use crate::search::FloatModel;
     use crate::spec::Specification;
@@ -145,19 +146,11 @@ mod tests {
 
     /// P = 1, so that xi = |x|, and 40 samples in a period of 1.
     fn spec(mu: &str) -> Specification {
-        let mut document: serde_json::Value =
-            serde_json::from_str(include_str!("../../../specs/paper-example.json")).unwrap();
-        document["lyapunov"]["p_up"] = "1".into();
-        document["internal_model"]["mu"] = mu.into();
-        document["internal_model"]["sampling_period"] = "1/40".into();
-        Specification::from_json("sampled", &document.to_string()).unwrap()
+        example(40, mu, |document| document["lyapunov"]["p_up"] = "1".into())
     }
 
     fn parts(data: &Data<'_>) -> (FloatModel, SampledLaw<f64>) {
-        let model = &data.spec.internal_model;
-        let sampling = model.sampling.clone().unwrap();
-        let law = SampledLaw::new(data, &sampling, &model.sampled_gain(&sampling.step).unwrap());
-        (FloatModel::new(data, TradeOff::matched(data)), law.to_f64())
+        (FloatModel::new(data, TradeOff::matched(data)), law(data).to_f64())
     }
 
     fn random(seed: u64) -> impl FnMut() -> f64 {
