@@ -6,6 +6,8 @@
 mod document;
 mod fit;
 mod prove;
+#[cfg(test)]
+mod tests;
 
 pub use document::{BoundedPlant, bounding_specification};
 pub use prove::PlantBounds;

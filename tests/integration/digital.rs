@@ -7,7 +7,7 @@ use sigmastar::certificate::{digital_certificate_json, is_digital, read_claim, r
 use sigmastar::certify::{
     DigitalCertification, Ladder, Options, Verdict, certify, certify_at, certify_digital, recheck_digital, with_triple,
 };
-use sigmastar::derivation::Condition;
+use sigmastar::derivation::condition::Condition;
 use sigmastar::derivation::digital::DigitalWitness;
 use sigmastar::number::{Direction, parse_decimal, round_rational, write_exact};
 use sigmastar::spec::{Document, ErrorKind, Sampling, Specification};
