@@ -3,6 +3,7 @@
 use super::args::{CertifyArgs, Format};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
+use super::output::Shortened;
 use super::progress::{Audience, Working};
 use super::subject::{Subject, seeking_triple};
 use super::{digital, input, output};
@@ -74,11 +75,11 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     drop(working);
     let run = run.map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
     let report = Report::new(&run, &targets).rechecked(args.witness.is_some());
-    let text = output::report(&report, args.format);
+    let shown = Shortened::new(&report, args.format, args.full);
     if let Some(file) = &output {
         write_certificate(certificate_json(&run), run.verdict, file, args.quiet)?;
     }
-    if let Err(code) = output::data(&text) {
+    if let Err(code) = shown.show(args.quiet) {
         return Ok(code);
     }
     let unproved: Vec<SpecErrors> = run.unproved_bounds.iter().map(|problem| problem.errors(&spec)).collect();

@@ -4,6 +4,7 @@ use super::args::{CertifyArgs, DerivationArg, Format, TransferArg};
 use super::certify::{data, tell_other_specification, write_certificate};
 use super::failure::Failure;
 use super::files::OutputFile;
+use super::output::Shortened;
 use super::progress::{Audience, Working};
 use super::subject::Subject;
 use super::{input, output};
@@ -50,11 +51,11 @@ fn tell(
     rechecked: bool,
     file: Option<&OutputFile>,
 ) -> Result<u8, Failure> {
-    let text = output::report(&DigitalReport::new(run, rechecked), args.format);
+    let shown = Shortened::new(&DigitalReport::new(run, rechecked), args.format, args.full);
     if let Some(file) = file {
         write_certificate(digital_certificate_json(run), run.verdict, file, args.quiet)?;
     }
-    if let Err(code) = output::data(&text) {
+    if let Err(code) = shown.show(args.quiet) {
         return Ok(code);
     }
     let unproved: Vec<SpecErrors> = run.unproved_bounds.iter().map(|problem| problem.errors(run.spec)).collect();

@@ -3,6 +3,7 @@
 use super::args::FalsifyArgs;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
+use super::output::Shortened;
 use super::progress::Bar;
 use super::{input, output};
 use sigmastar::certify::Verdict;
@@ -63,8 +64,8 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
             ));
         }
     }
-    let report = output::report(&FalsificationReport { tried: &outcomes }, args.format);
-    if let Err(code) = output::data(&report) {
+    let report = FalsificationReport { tried: &outcomes };
+    if let Err(code) = Shortened::new(&report, args.format, args.full).show(args.quiet) {
         return Ok(code);
     }
     let held = |(_, outcome): &(Claim, Falsification)| {

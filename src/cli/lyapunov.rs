@@ -2,8 +2,9 @@
 
 use super::args::LyapunovArgs;
 use super::failure::Failure;
+use super::input;
+use super::output::Shortened;
 use super::subject::{Subject, seeking_triple};
-use super::{input, output};
 use sigmastar::certify::{Refusal, resolve};
 use sigmastar::plant::Plant;
 use sigmastar::reduction::study;
@@ -29,13 +30,12 @@ fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
     let resolution =
         resolution.map_err(|failure| Failure::Documents(Refusal::Jacobian(failure.to_string()).errors(&spec)))?;
     let report = LyapunovReport::new(resolution).ok_or_else(given)?;
-    let text = output::report(&report, args.format);
-    Ok(output::data(&text).map_or_else(|code| code, |()| 0))
+    Ok(Shortened::new(&report, args.format, args.full).show(false).map_or_else(|code| code, |()| 0))
 }
 
 /// The zero dynamics of a plant.
 fn of_plant(plant: &Plant, args: &LyapunovArgs) -> Result<u8, Failure> {
     let study = study(plant).map_err(|refusal| Failure::Documents(refusal.errors(plant)))?;
-    let text = output::report(&OrbitReport { plant, study: &study }, args.format);
-    Ok(output::data(&text).map_or_else(|code| code, |()| 0))
+    let report = OrbitReport { plant, study: &study };
+    Ok(Shortened::new(&report, args.format, args.full).show(false).map_or_else(|code| code, |()| 0))
 }

@@ -2,7 +2,7 @@
 
 use super::args::Format;
 use sigmastar::certify::Verdict;
-use sigmastar::report::document::Readable;
+use sigmastar::report::document::{Extent, Readable};
 use sigmastar::spec::SpecErrors;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -26,11 +26,39 @@ pub fn data(text: &str) -> Result<(), u8> {
 
 /// A report in the format that was asked for.
 pub fn report(report: &impl Readable, format: Format) -> String {
+    written(report, format, Extent::Full)
+}
+
+fn written(report: &impl Readable, format: Format, extent: Extent) -> String {
     match format {
-        Format::Text => report.text(),
-        Format::Markdown => report.markdown(),
+        Format::Text => report.text(extent),
+        Format::Markdown => report.markdown(extent),
         Format::Html => report.html(),
         Format::Json => json_text(&report.json()),
+    }
+}
+
+/// A report in the format that was asked for, short unless it is asked for whole.
+pub struct Shortened {
+    text: String,
+    more: bool,
+}
+
+impl Shortened {
+    /// The report as it is written. HTML and JSON are whole in any case.
+    pub fn new(report: &impl Readable, format: Format, full: bool) -> Shortened {
+        let short = !full && matches!(format, Format::Text | Format::Markdown);
+        let extent = if short { Extent::Short } else { Extent::Full };
+        Shortened { text: written(report, format, extent), more: short && report.has_detail() }
+    }
+
+    /// Writes it to standard output, as [`data`] does; a remark says how to see the rest.
+    pub fn show(&self, quiet: bool) -> Result<(), u8> {
+        data(&self.text)?;
+        if self.more && !quiet {
+            remark("this is the short form; `--full` shows the whole report");
+        }
+        Ok(())
     }
 }
 

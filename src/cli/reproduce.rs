@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::files::{self, Input, OutputFile};
 use super::output;
 use super::progress::Bar;
-use sigmastar::report::document::Readable;
+use sigmastar::report::document::{Extent, Readable};
 use sigmastar::reproduce::{Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
 use std::path::Path;
 
@@ -29,10 +29,10 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
     bar.finish();
     let figures = if parts.figures { figures()? } else { Vec::new() };
     files::figures(&args.output, &figures, Input::None, "leave the figures out with --only")?;
-    let figures = figures.iter().map(|(name, _)| (*name).to_owned()).collect();
-    let report = ReproductionReport { reproduction: &reproduction, figures };
-    let markdown = report.markdown();
+    let report = ReproductionReport { reproduction: &reproduction, figures: &figures };
+    let markdown = report.markdown(Extent::Full);
     write(&args.output, "report.json", &output::json_text(&report.json()))?;
+    write(&args.output, "report.html", &report.html())?;
     write(&args.output, "report.md", &markdown)?;
     Ok(output::data(&markdown).map_or_else(|code| code, |()| 0))
 }

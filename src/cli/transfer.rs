@@ -4,6 +4,7 @@ use super::args::{Format, TransferArgs};
 use super::counts::counts;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
+use super::output::Shortened;
 use super::progress::Bar;
 use super::subject::Subject;
 use super::{input, output};
@@ -55,8 +56,9 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
             output::remark(&format!("the plot is in `{}`", file.name()));
         }
     }
-    let text = output::report(&study, args.format);
-    Ok(output::data(&text).map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
+    Ok(Shortened::new(&study, args.format, args.full)
+        .show(args.quiet)
+        .map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
 }
 
 /// The file of the plot, whose name says what is in it.

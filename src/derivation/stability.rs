@@ -114,7 +114,13 @@ where
     /// `D^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x D/2)^2 / (4A - ht k_x^2)`.
     #[must_use]
     pub fn threshold(&self, margin: R) -> R {
-        self.worst.sqr() / (R::int(4) * &self.h_over_mu) + self.cross.sqr() / margin
+        self.by_slope() + self.cross.sqr() / margin
+    }
+
+    /// The first term of the threshold, `D^2/(4 ht)`: what dq/de and the start of the internal model ask for.
+    #[must_use]
+    pub fn by_slope(&self) -> R {
+        self.worst.sqr() / (R::int(4) * &self.h_over_mu)
     }
 }
 
@@ -128,6 +134,8 @@ pub struct DecayCondition<R> {
     pub curvature: R,
     /// The threshold that sigma must exceed; meaningful when `coupling < curvature` is proved.
     pub sigma_threshold: R,
+    /// Its first term; the other one is the loop through x.
+    pub by_slope: R,
 }
 
 impl<R: Real> DecayCondition<R>
@@ -146,7 +154,8 @@ where
         let margin = &terms.curvature - &terms.coupling;
         // Where the margin is not proved positive the threshold has no meaning; unknown keeps it from being used.
         let sigma_threshold = terms.threshold(if margin.is_certainly_positive() { margin } else { R::unknown() });
-        DecayCondition { coupling: terms.coupling, curvature: terms.curvature, sigma_threshold }
+        let by_slope = terms.by_slope();
+        DecayCondition { coupling: terms.coupling, curvature: terms.curvature, sigma_threshold, by_slope }
     }
 }
 

@@ -4,6 +4,7 @@ use super::claim::Claim;
 use super::counterexample::counterexample_plant;
 use super::finding::{Closest, Falsification, Finding, Trial};
 use crate::number::{Direction, round_f64, write_exact};
+use crate::plot::Bars;
 use crate::report::document::{Block, Readable, Table, clean};
 use serde_json::{Value, json};
 
@@ -84,7 +85,7 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
             table.push([quantity.to_owned(), format!("{share:.3}"), trial.number.to_string(), of_worst]);
         }
         blocks.push(Block::Table(table));
-        blocks.extend(plant_blocks(&worst, outcome.settings.seed));
+        blocks.push(Block::Bars(used(outcome)));
     }
     unfinished.sort_unstable();
     unfinished.dedup();
@@ -92,7 +93,19 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
         blocks.push(Block::heading("Not finished"));
         blocks.push(Block::List(unfinished.into_iter().map(str::to_owned).collect()));
     }
+    if let Some(worst) = outcome.worst() {
+        blocks.extend(plant_blocks(&worst, outcome.settings.seed));
+    }
     blocks
+}
+
+/// How much of each bound was used.
+fn used(outcome: &Falsification) -> Bars {
+    let entry = |closest: Closest<'_>| (closest.quantity.to_owned(), closest.share, format!("{:.3}", closest.share));
+    Bars {
+        title: "Found, as a share of the bound".to_owned(),
+        entries: outcome.closest().into_iter().map(entry).collect(),
+    }
 }
 
 /// The worst plant, and how to simulate it and the others again.
@@ -118,6 +131,7 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
             trial.phase.map_or_else(String::new, |phase| format!(", first sample at t = {phase:?}")),
             trial.number
         )),
+        Block::Detail,
         Block::facts(facts),
     ]
 }

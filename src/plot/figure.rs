@@ -1,7 +1,8 @@
 //! Figures as SVG.
 
-use super::palette::COLOURS;
-use plotters::coord::Shift;
+use super::canvas::{DETAIL, at_size, canvas};
+use super::legend::{Entry, heading};
+use super::palette::look;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use std::ops::Range;
@@ -9,10 +10,6 @@ use thiserror::Error;
 
 /// The size of a figure in pixels.
 const SIZE: (u32, u32) = (820, 500);
-
-/// The library puts points on whole pixels, which makes steps of smooth curves: figures are drawn this much larger and
-/// shown at their size.
-const DETAIL: u32 = 4;
 
 /// Which axes are logarithmic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,13 +37,13 @@ impl Scale {
 /// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// As a line in a colour of its own.
+    /// As a line with a colour and dashes of its own.
     Line,
     /// With marks at its points, for values at separate places.
     Marked,
     /// Marks alone, where nothing holds between them.
     Points,
-    /// As a black line: what bounds the others.
+    /// As a thick black line: what bounds the others.
     Bound,
 }
 
@@ -162,13 +159,8 @@ impl Figure {
     {
         let words = |error: &dyn std::fmt::Display| error.to_string();
         let area = canvas(text, SIZE).map_err(|error| words(&error))?;
-        let mut colours = COLOURS.iter().cycle();
-        let mut colour = |curve: &Curve| match curve.style {
-            Style::Bound => BLACK,
-            Style::Line | Style::Marked | Style::Points => colours.next().copied().unwrap_or(BLACK),
-        };
-        let entries: Vec<(String, RGBColor)> =
-            curves.iter().map(|curve| (curve.label.clone(), colour(curve))).collect();
+        let mut looks = (0..).map(look);
+        let entries: Vec<Entry> = curves.iter().map(|curve| Entry::new(curve, &mut looks)).collect();
         let marked = curves.iter().any(|curve| curve.style == Style::Marked);
         let area = heading(&area, &self.title, &entries).map_err(|error| words(&error))?;
         let mut chart = ChartBuilder::on(&area)
@@ -197,58 +189,11 @@ impl Figure {
             .bold_line_style(RGBColor(220, 220, 220).stroke_width(DETAIL))
             .draw()
             .map_err(|error| words(&error))?;
-        for (curve, (_, colour)) in curves.iter().zip(&entries) {
-            if curve.style != Style::Points {
-                let line = LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2 * DETAIL));
-                chart.draw_series(line).map_err(|error| words(&error))?;
-            }
-            if matches!(curve.style, Style::Marked | Style::Points) {
-                let markers = curve.points.iter().map(|&point| Circle::new(point, 4 * DETAIL, colour.filled()));
-                chart.draw_series(markers).map_err(|error| words(&error))?;
-            }
+        for (curve, entry) in curves.iter().zip(&entries) {
+            entry.draw(chart.plotting_area(), &curve.points).map_err(|error| words(&error))?;
         }
         area.present().map_err(|error| words(&error))
     }
-}
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type AreaError = DrawingAreaErrorKind<std::io::Error>;
-
-/// An empty figure of a size in pixels, drawn [`DETAIL`] times larger.
-fn canvas(text: &mut String, (width, height): (u32, u32)) -> Result<Area<'_>, AreaError> {
-    let area = SVGBackend::with_string(text, (width * DETAIL, height * DETAIL)).into_drawing_area();
-    area.fill(&WHITE)?;
-    Ok(area)
-}
-
-/// The figure of [`canvas`] shown at its size.
-fn at_size(text: String, (width, height): (u32, u32)) -> String {
-    let drawn = format!("width=\"{}\" height=\"{}\"", width * DETAIL, height * DETAIL);
-    text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1)
-}
-
-/// Draws the title and, below it, what each colour is; returns the area that is left, so that no legend lies on a curve.
-fn heading<'a>(area: &Area<'a>, title: &str, entries: &[(String, RGBColor)]) -> Result<Area<'a>, AreaError> {
-    let unit = DETAIL as i32;
-    let (width, _) = area.dim_in_pixel();
-    let style = |size: u32| ("sans-serif", size * DETAIL).into_font().color(&BLACK);
-    let (title_width, _) = area.estimate_text_size(title, &style(18))?;
-    area.draw(&Text::new(title.to_owned(), ((width as i32 - title_width as i32) / 2, 14 * unit), style(18)))?;
-    // Rows of entries: a line, a gap, the text, a gap.
-    let left = 82 * unit + 12 * unit;
-    let (mut x, mut y) = (left, 44 * unit);
-    for (label, colour) in entries {
-        let (label_width, _) = area.estimate_text_size(label, &style(13))?;
-        let entry = 30 * unit + label_width as i32 + 22 * unit;
-        if x > left && x + entry > width as i32 {
-            (x, y) = (left, y + 20 * unit);
-        }
-        let line = vec![(x, y + 7 * unit), (x + 24 * unit, y + 7 * unit)];
-        area.draw(&PathElement::new(line, colour.stroke_width(3 * DETAIL)))?;
-        area.draw(&Text::new(label.clone(), (x + 30 * unit, y), style(13)))?;
-        x += entry;
-    }
-    Ok(area.split_vertically(y + 22 * unit).1)
 }
 
 /// The range of some values, with a margin; never empty.
@@ -314,8 +259,8 @@ mod tests {
         for scale in [Scale::Linear, Scale::LogX, Scale::LogY, Scale::LogLog] {
             let figure = figure(scale, &[(0.5, 1.0), (1.0, 0.0), (2.0, 1e-3), (f64::NAN, 1.0)]);
             let svg = figure.svg().unwrap();
-            // Three markers, and the figure is the same each time.
-            assert_eq!(svg.matches("<circle").count(), 3, "{scale:?}");
+            // Three markers and one in the legend, and the figure is the same each time.
+            assert_eq!(svg.matches("<circle").count(), 4, "{scale:?}");
             assert!(svg.contains("Title") && svg.contains("curve") && svg.ends_with("</svg>\n"), "{svg}");
             assert_eq!(svg, figure.svg().unwrap());
         }
@@ -374,9 +319,11 @@ mod tests {
         let label = lines.iter().position(|line| *line == "curve").unwrap();
         let height =
             |line: &str| -> f64 { line.split_once(" y=\"").unwrap().1.split('"').next().unwrap().parse().unwrap() };
+        // The first mark is that of the legend.
         let highest = lines
             .iter()
             .filter(|line| line.starts_with("<circle"))
+            .skip(1)
             .map(|line| line.split_once("cy=\"").unwrap().1.split('"').next().unwrap().parse::<f64>().unwrap());
         assert!(height(lines[label - 1]) + 13.0 * f64::from(DETAIL) < highest.fold(f64::INFINITY, f64::min));
     }

@@ -2,8 +2,8 @@
 
 use super::document::{Block, Readable, clean};
 use super::{
-    conditions, consequences, constants, exact_regulation, json, matrix_checks, of_plant, printed, relative_degree,
-    sensitivity, sets, verdict,
+    brief, conditions, consequences, constants, exact_regulation, json, matrix_checks, of_plant, printed,
+    relative_degree, sensitivity, sets, verdict,
 };
 use crate::certify::Certification;
 use crate::derivation::targets::{Consequences, Target};
@@ -46,6 +46,10 @@ impl Readable for Report<'_> {
         if self.unanswered {
             blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
         }
+        blocks.extend(self.consequences.iter().flat_map(consequences::answers));
+        blocks.extend(brief::of_run(run, self.consequences.as_ref(), self.rechecked));
+        blocks.push(Block::Detail);
+        blocks.extend(verdict::detail(run));
         blocks.extend(sets::section(run));
         blocks.extend(of_plant::section(run.spec, run.claimed_set()));
         blocks.extend(conditions::section(run));

@@ -27,11 +27,13 @@ pub(super) fn section(consequences: &Consequences) -> Vec<Block> {
              about how the error decreases with the number of oscillators.",
         ));
     }
-    if !consequences.targets.is_empty() {
-        blocks
-            .push(Block::List(consequences.targets.iter().map(|(target, outcome)| answer(target, *outcome)).collect()));
-    }
     blocks
+}
+
+/// The answers to the targets, if there are any.
+pub(super) fn answers(consequences: &Consequences) -> Option<Block> {
+    let answers: Vec<String> = consequences.targets.iter().map(|(target, outcome)| answer(target, *outcome)).collect();
+    (!answers.is_empty()).then(|| Block::List(answers))
 }
 
 /// The bounds over n_o + 1, which is positive, so that both axes are logarithmic. It is drawn from doubles and claims nothing.

@@ -4,17 +4,19 @@ use super::document::{Block, Readable, Table, clean};
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::json::conditions_with_truth;
 use super::number::{estimate, exact, full, upper};
-use super::obstacles::describe;
+use super::obstacles::{describe, first_of, rest_of};
 use super::of_plant::plant_json;
 use super::remarks::digital_remarks;
+use super::sets::Boxes;
 use super::verdict::of_the_data;
-use super::{conditions, of_plant};
+use super::{brief, conditions, of_plant};
 use crate::certificate::no_plant_json;
 use crate::certify::{DigitalCertification, DigitalProof, Outcome, Verdict};
 use crate::derivation::sharp::ClaimedSet;
 use crate::enclosure::{Enclosure, Truth};
 use crate::number::{Direction, write_exact};
 use crate::search::Obstacle;
+use rug::Rational;
 use serde_json::{Value, json};
 
 /// Everything that the report is made from.
@@ -174,6 +176,14 @@ fn sets(run: &DigitalCertification<'_>) -> Vec<Block> {
         table.push(["bounding functions used up to".to_owned(), x, e, none(), none()]);
     }
     let law = &evaluation.law;
+    let boxes = Boxes {
+        state,
+        initial: [&set.x0, &set.e0].map(Rational::to_f64),
+        periodic: [&periodic[0], &periodic[1]].map(Enclosure::upper_f64),
+        error: [&witness.d_x, &witness.d_e].map(Rational::to_f64),
+        used: run.largest_arguments().map(|arguments| arguments.each_ref().map(Enclosure::upper_f64)),
+        ellipse: false,
+    };
     vec![
         Block::Heading(format!("sigma = {} at h = {}", write_exact(&witness.sigma), clean(&witness.sampling.text()))),
         Block::facts([
@@ -183,6 +193,7 @@ fn sets(run: &DigitalCertification<'_>) -> Vec<Block> {
             ("theta = h mu Nbar^2/2", upper(&theta(law))),
         ]),
         Block::Table(table),
+        Block::Drawing(boxes.figure()),
         Block::says(
             "Solutions from the initial set stay in the error box around the periodic solution, between samples too; zeta and z \
              are those at samples. The rate of convergence depends on n_o and is not part of the claim.",
@@ -203,25 +214,20 @@ impl Readable for DigitalReport<'_> {
         let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict)), Block::Verdict(self.sentence())];
         blocks.extend(digital_remarks(run).into_iter().map(Block::says));
         if run.claim().is_some() {
-            let norms = match run.spec.plant().is_some() {
-                true => "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with x_0 and L as below.",
-                false => {
-                    "Here |z|_N = sqrt(z'Nz). The same law serves every plant that the bounding functions describe."
-                }
-            };
-            blocks.push(Block::says(norms));
+            blocks.extend(brief::of_samples(run, self.rechecked));
+            blocks.push(Block::Detail);
+            blocks.push(Block::heading("What the claim rests on"));
             blocks.push(Block::List(self.basis()));
         } else {
-            let failing = match &run.outcome {
+            let failing: Vec<String> = match &run.outcome {
                 Outcome::NotProved { failing, .. } => failing.iter().map(describe).collect(),
                 _ => Vec::new(),
             };
-            if !failing.is_empty() {
-                blocks.push(Block::says("Conditions that are not proved:"));
-                blocks.push(Block::List(failing));
-            }
+            blocks.extend(first_of("Conditions that are not proved:", failing.clone()));
             blocks.push(Block::says("What to try:"));
             blocks.push(Block::List(self.advice()));
+            blocks.push(Block::Detail);
+            blocks.extend(rest_of("Further conditions that are not proved", failing));
         }
         blocks.extend(sets(run));
         if let Some(limit) = self.limit() {

@@ -49,6 +49,7 @@ impl Readable for LyapunovReport {
             blocks.push(Block::says(format!("P, {title}, by rows:")));
             blocks.push(Block::List(rows.iter().map(|row| row_text(row)).collect()));
         }
+        blocks.push(Block::Detail);
         blocks.push(Block::heading("Candidates"));
         blocks.push(Block::says(
             "Floating point: what was tried, by its rate. The one with the smallest sigma* that could be proved is the one above.",

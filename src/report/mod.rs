@@ -4,6 +4,7 @@
 //! and writes JSON from the same figures. No bound is computed here. Numbers that are claims are rounded outward; what is
 //! only an estimate says so.
 
+mod brief;
 mod certification;
 mod conditions;
 mod consequences;

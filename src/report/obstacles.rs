@@ -2,12 +2,15 @@
 
 use super::document::{Block, clean};
 use super::number::{pair, upper};
-use crate::certify::{Certification, Derivation, Outcome, Verdict};
+use crate::certify::{BoundingProblem, Certification, Derivation, Outcome, Verdict};
 use crate::derivation::condition::Condition;
 use crate::enclosure::Truth;
 use crate::expr::BoundingFailure;
 use crate::number::write_exact;
 use crate::search::{Obstacle, SmallerSet};
+
+/// So many items of a list are in the short form.
+const FEW: usize = 3;
 
 /// What came of one derivation, without the type of its proof.
 enum Attempt<'r> {
@@ -72,25 +75,52 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
 /// The figures of what failed, and what to try.
 pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     let mut blocks = Vec::new();
-    let unproved: Vec<String> = run
-        .unproved_bounds
-        .iter()
-        .map(|problem| format!("{}: {}", problem.which.field(), problem.sentence()))
-        .collect();
-    if !unproved.is_empty() {
-        blocks.push(Block::says("Bounding functions that were neither proved nor refuted:"));
-        blocks.push(Block::List(unproved));
-    }
-    if let Attempt::Failing(conditions) = chosen(run) {
-        blocks.push(Block::says("Conditions that are not proved:"));
-        blocks.push(Block::List(conditions.iter().map(describe).collect()));
-    }
+    blocks.extend(first_of("Bounding functions that were neither proved nor refuted:", unproved(run)));
+    blocks.extend(first_of("Conditions that are not proved:", failing(run)));
     let advice = advice(run, rechecked);
     if !advice.is_empty() {
         blocks.push(Block::says("What to try:"));
         blocks.push(Block::List(advice));
     }
     blocks
+}
+
+/// The same that [`section`] had no room for.
+pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
+    let mut blocks = rest_of("Further bounding functions that were neither proved nor refuted", unproved(run));
+    blocks.extend(rest_of("Further conditions that are not proved", failing(run)));
+    blocks
+}
+
+fn unproved(run: &Certification<'_>) -> Vec<String> {
+    let sentence = |problem: &BoundingProblem| format!("{}: {}", problem.which.field(), problem.sentence());
+    run.unproved_bounds.iter().map(sentence).collect()
+}
+
+fn failing(run: &Certification<'_>) -> Vec<String> {
+    match chosen(run) {
+        Attempt::Failing(conditions) => conditions.iter().map(describe).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// A list with its title as far as the short form has room for it; nothing where it is empty.
+pub(super) fn first_of(title: &str, mut items: Vec<String>) -> Vec<Block> {
+    if items.is_empty() {
+        return Vec::new();
+    }
+    let more = items.len().saturating_sub(FEW);
+    if more > 0 {
+        items.truncate(FEW);
+        items.push(format!("and {more} more"));
+    }
+    vec![Block::says(title), Block::List(items)]
+}
+
+/// What [`first_of`] leaves out, under a heading.
+pub(super) fn rest_of(heading: &str, items: Vec<String>) -> Vec<Block> {
+    let rest: Vec<String> = items.into_iter().skip(FEW).collect();
+    if rest.is_empty() { Vec::new() } else { vec![Block::heading(heading), Block::List(rest)] }
 }
 
 pub(super) fn truth(condition: &Condition) -> &'static str {

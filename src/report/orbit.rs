@@ -38,6 +38,7 @@ impl Readable for OrbitReport<'_> {
         ];
         let p = if coordinates.p.harmonics.is_empty() { "P is the identity." } else { "P varies with t." };
         blocks.push(Block::says(p));
+        blocks.push(Block::Detail);
         blocks.push(Block::heading("Candidates (floating point)"));
         let mut table = Table::new(&["rate", "degree of P", "<L"]);
         for candidate in candidates {

@@ -3,7 +3,9 @@
 use super::document::{Block, Readable, Table, clean};
 use super::number::{estimate, exact, margin};
 use crate::certify::Certification;
+use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
+use crate::plot::{Curve, Figure, Scale, Style};
 use crate::rate::{Method, Rates};
 use rug::Rational;
 use serde_json::{Value, json};
@@ -25,6 +27,33 @@ impl RateReport {
         let sigma_star = run.sigma_star()?.clone();
         let filtered = run.spec.relative_degree.is_some();
         Some(RateReport { name: clean(&run.spec.name), sigma: sigma.clone(), sigma_star, filtered, rates })
+    }
+}
+
+impl RateReport {
+    /// The rates over n_o + 1, which is positive, so that both axes are logarithmic. It is drawn from doubles and claims nothing.
+    fn figure(&self) -> Figure {
+        let curve = |label: &str, of: &dyn Fn(&Rates) -> Option<f64>| {
+            let points = self.rates.iter().filter_map(|rates| Some((f64::from(rates.n_o) + 1.0, of(rates)?)));
+            // A rate of 0 has no place on the axis.
+            let mut points: Vec<(f64, f64)> = points.filter(|(_, rate)| *rate > 0.0).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            Curve { label: label.to_owned(), points, style: Style::Marked }
+        };
+        let curves = [
+            curve("closed loop", &|rates| rates.closed_loop.as_ref().map(|(rate, _)| rate.to_f64())),
+            curve("oscillators alone", &|rates| rates.oscillators.as_ref().map(Rational::to_f64)),
+            curve("by Lemma 1", &|rates| rates.lemma.as_ref().map(|(_, rate)| rate.to_f64())),
+            curve("by c and kappa", &|rates| rates.by_kappa.as_ref().map(Enclosure::lower_f64)),
+        ];
+        Figure {
+            title: format!("Proved rates at sigma = {}", exact(&self.sigma, Direction::Nearest)),
+            x: "n_o + 1 [pure number]".to_owned(),
+            y: "rate [1/time]".to_owned(),
+            scale: Scale::LogLog,
+            floor: 0.0,
+            curves: curves.into_iter().filter(|curve| !curve.points.is_empty()).collect(),
+        }
     }
 }
 
@@ -81,6 +110,7 @@ impl Readable for RateReport {
                 exact(&self.sigma_star, Direction::Up)
             )),
             Block::Table(table),
+            Block::Drawing(self.figure()),
             Block::says(
                 "Lemma 1: P_zeta with P_zeta (Phi - mu M M'N) + (.)' <= -N is proved, and p bounds N^(-1/2) P_zeta N^(-1/2). Every \
                  kappa > 0 is admissible, and the rate of N + kappa P_zeta tends to 1/(2p) as kappa grows.",

@@ -3,6 +3,8 @@
 use super::document::{Block, Table};
 use super::number::estimate;
 use crate::certify::{Certification, Derivation, Verdict};
+use crate::enclosure::Enclosure;
+use crate::plot::Bars;
 
 /// The binding condition and the sensitivities of the sharp derivation.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
@@ -14,6 +16,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         Block::heading("What sets sigma* (estimates)"),
         Block::says(format!("sigma* is set by {}. {}", binding.describe(), binding.advice())),
     ];
+    blocks.extend(ingredients(run).map(Block::Bars));
     if !run.without_optional.is_empty() {
         blocks.push(Block::says("What the optional data bring: sigma* without each."));
         let mut table = Table::new(&["<without", "sigma*"]);
@@ -31,10 +34,29 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             estimate(100.0 * gain)
         )));
         let mut table = Table::new(&["<1 % better", "lowers sigma* by"]);
+        let mut bars = Bars { title: "By how much one per cent better lowers sigma*".to_owned(), entries: Vec::new() };
         for (datum, gain) in shown {
-            table.push([datum.name().to_owned(), format!("{} %", estimate(100.0 * gain))]);
+            let lowers = format!("{} %", estimate(100.0 * gain));
+            bars.entries.push((datum.name().to_owned(), *gain, lowers.clone()));
+            table.push([datum.name().to_owned(), lowers]);
         }
         blocks.push(Block::Table(table));
+        blocks.push(Block::Bars(bars));
     }
     blocks
+}
+
+/// The two terms of the threshold of C5 beside sigma*. They are drawn from doubles and claim nothing.
+fn ingredients(run: &Certification<'_>) -> Option<Bars> {
+    let proof = run.sharp.proved()?;
+    let decay = &proof.evaluation.decay;
+    let [slope, all] = [&decay.by_slope, &decay.sigma_threshold].map(Enclosure::midpoint_f64);
+    let mut entries = vec![
+        ("C5: dq/de and the internal model's start", slope),
+        ("C5: the loop through x", all - slope),
+        ("sigma*", proof.witness.sigma.to_f64()),
+    ];
+    entries.extend(run.exact.as_ref().map(|claim| ("sigma*_oo (n_o infinite)", claim.witness.sigma.to_f64())));
+    let entries = entries.into_iter().map(|(name, value)| (name.to_owned(), value, estimate(value))).collect();
+    Some(Bars { title: "sigma* and the two terms of C5 that it exceeds, in 1/time".to_owned(), entries })
 }

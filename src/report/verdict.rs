@@ -33,16 +33,21 @@ pub fn sentence(run: &Certification<'_>) -> String {
     }
 }
 
-/// The sentence, the derivation and the assumptions; without a certificate, what failed and what to try.
+/// The sentence; without a certificate, what failed and what to try.
 pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     let mut blocks = vec![Block::Verdict(sentence(run))];
     blocks.extend(remarks(run).into_iter().map(Block::says));
+    if run.verdict != Verdict::Certified {
+        blocks.extend(obstacles::section(run, rechecked));
+    }
+    blocks
+}
+
+/// What the claim rests on; without one, the conditions that `section` had no room for.
+pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
+    let mut blocks = Vec::new();
     if run.verdict == Verdict::Certified {
-        let norms = match run.spec.plant().is_some() {
-            true => "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with x_0 and L as below.",
-            false => "Here |z|_N = sqrt(z'Nz). The same sigma serves every plant that the bounding functions describe.",
-        };
-        blocks.push(Block::says(norms));
+        blocks.push(Block::heading("What the claim rests on"));
         if run.given_gain.is_some() {
             blocks.push(Block::says(
                 "The gain was given: the claim is about it and all larger ones, and smaller ones may certify too. How far it is \
@@ -51,7 +56,7 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
         }
         blocks.push(Block::List(basis(run)));
     } else {
-        blocks.extend(obstacles::section(run, rechecked));
+        blocks.extend(obstacles::detail(run));
     }
     blocks
 }
@@ -78,20 +83,16 @@ pub(super) fn of_the_data(
     further: Option<[Enclosure; 2]>,
 ) -> Vec<String> {
     let mut items = Vec::new();
-    if let Some(plant) = spec.plant() {
+    if spec.plant().is_some() {
         items.push(
             "Proved from the formulas: that they have the period and are smooth where they are used, the orbit x_0, the rate, \
              the harmonics and every bound (section 11)."
                 .to_owned(),
         );
-        let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
-            format!(", for |x - x_0| <= {}, |e| <= {}", clean(&domain.x.text), clean(&domain.e.text))
-        });
-        items.push(format!("Assumed: that these formulas are the plant{domain}."));
+        items.push(format!("Assumed: {}.", assumed(spec, used, further)));
         return items;
     }
-    let used = used.map(|arguments| arguments.each_ref().map(upper));
-    let of_the_zero_dynamics = match &spec.lyapunov {
+    match &spec.lyapunov {
         LyapunovSource::Proved { triple, existence, .. } => {
             let shown = |triple: &Lyapunov| {
                 format!("p_low = {}, p_up = {}, alpha = {}", triple.p_low.text, triple.p_up.text, triple.alpha.text)
@@ -104,25 +105,40 @@ pub(super) fn of_the_data(
                 shown(triple),
                 other.unwrap_or_default()
             ));
-            "that its Jacobian df/dx(t,0,0) is within the one given"
         }
-        _ if spec.bounds.own(Bound::Rate).is_some() => "the Lyapunov triple (p_low, p_up, alpha) and the rate",
-        _ => "the Lyapunov triple (p_low, p_up, alpha)",
-    };
-    let of_the_disturbance =
-        if spec.q_0.is_some() { ", that q_0 bounds the harmonics of q(t,0,0) and the rest" } else { "" };
-    let further = further.map(|arguments| arguments.each_ref().map(upper));
-    items.push(format!(
-        "Assumed of the plant: {of_the_zero_dynamics}{of_the_disturbance}, and that the bounding functions bound the plant{}{}.",
-        used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments")),
-        further.map_or_else(String::new, |[x, e]| format!("; exact regulation needs them for |x| <= {x}, |e| <= {e}")),
-    ));
+        LyapunovSource::Given(_) | LyapunovSource::Wanted(_) | LyapunovSource::Plant(_) => {}
+    }
+    items.push(format!("Assumed of the plant: {}.", assumed(spec, used, further)));
     items.push(
         "Proved of the bounding functions: finite and nondecreasing there (a rate nonincreasing); of bounds of norms the \
          positive parts are used. Proved of the weights: W1 to W3."
         .to_owned(),
     );
     items
+}
+
+/// What nobody proves: that the formulas are the plant, or that the data of a specification bound it up to the arguments that
+/// are used.
+pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, further: Option<[Enclosure; 2]>) -> String {
+    if let Some(plant) = spec.plant() {
+        let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
+            format!(", for |x - x_0| <= {}, |e| <= {}", clean(&domain.x.text), clean(&domain.e.text))
+        });
+        return format!("that these formulas are the plant{domain}");
+    }
+    let [used, further] = [used, further].map(|some| some.map(|arguments| arguments.each_ref().map(upper)));
+    let of_the_zero_dynamics = match &spec.lyapunov {
+        LyapunovSource::Proved { .. } => "that its Jacobian df/dx(t,0,0) is within the one given",
+        _ if spec.bounds.own(Bound::Rate).is_some() => "the Lyapunov triple (p_low, p_up, alpha) and the rate",
+        _ => "the Lyapunov triple (p_low, p_up, alpha)",
+    };
+    let of_the_disturbance =
+        if spec.q_0.is_some() { ", that q_0 bounds the harmonics of q(t,0,0) and the rest" } else { "" };
+    format!(
+        "{of_the_zero_dynamics}{of_the_disturbance}, and that the bounding functions bound the plant{}{}",
+        used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments")),
+        further.map_or_else(String::new, |[x, e]| format!("; exact regulation needs them for |x| <= {x}, |e| <= {e}")),
+    )
 }
 
 /// Whether the claim uses that the base frequency fits the period.

@@ -2,6 +2,7 @@
 
 use super::printed::PrintedTable;
 use super::run::{ComputedRow, NoiseRange, Reproduction, units};
+use crate::plot::Figure;
 use crate::report::document::{Block, Readable, Table};
 use crate::simulate::Noise;
 use serde_json::{Value, json};
@@ -10,8 +11,8 @@ use serde_json::{Value, json};
 pub struct ReproductionReport<'r> {
     /// What was computed.
     pub reproduction: &'r Reproduction,
-    /// The names of the files of its figures.
-    pub figures: Vec<String>,
+    /// Its figures, each with the name of its file.
+    pub figures: &'r [(&'static str, Figure)],
 }
 
 impl Readable for ReproductionReport<'_> {
@@ -47,7 +48,8 @@ impl Readable for ReproductionReport<'_> {
         }
         if !figures.is_empty() {
             blocks.push(Block::heading("Figures"));
-            blocks.push(Block::Figures(figures.clone()));
+            blocks.push(Block::Figures(names(figures)));
+            blocks.extend(figures.iter().map(|(_, figure)| Block::Drawing(figure.clone())));
         }
         blocks
     }
@@ -59,9 +61,13 @@ impl Readable for ReproductionReport<'_> {
         json!({
             "format": "sigmastar/reproduction", "version": 1,
             "seeds": reproduction.settings.seeds, "noise_steps": reproduction.settings.noise_steps,
-            "rows": rows, "largest_noise": reproduction.largest_noise, "figures": figures,
+            "rows": rows, "largest_noise": reproduction.largest_noise, "figures": names(figures),
         })
     }
+}
+
+fn names(figures: &[(&'static str, Figure)]) -> Vec<String> {
+    figures.iter().map(|(name, _)| (*name).to_owned()).collect()
 }
 
 /// A computed value with a digit more than is printed.

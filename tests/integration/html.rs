@@ -119,7 +119,10 @@ fn sound(page: &str) -> Vec<Element> {
     for title in found.iter().filter(|element| ["h1", "h2", "h3"].contains(&element.name.as_str())) {
         assert_eq!(title.attribute("id").is_none(), title.parent == "summary", "{}", title.name);
     }
-    assert!(!page.contains("http") && !page.contains("url(") && !page.contains("@import"));
+    let policy =
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline';";
+    assert!(page.contains(policy));
+    assert!(!page.contains("://") && !page.contains("url(") && !page.contains("@import"));
     found
 }
 

@@ -38,6 +38,10 @@ pub struct CertifyArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
 
+    /// Show the whole report, not its short form (HTML and JSON are always whole)
+    #[arg(long)]
+    pub full: bool,
+
     /// Write the certificate (JSON) to this file, if certified
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
@@ -141,6 +145,10 @@ pub struct TransferArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
 
+    /// Show the whole report, not its short form (HTML and JSON are always whole)
+    #[arg(long)]
+    pub full: bool,
+
     /// No remarks and no progress on standard error; errors are still shown
     #[arg(short, long)]
     pub quiet: bool,
@@ -188,6 +196,10 @@ pub struct LyapunovArgs {
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
+
+    /// Show the whole report, not its short form (HTML and JSON are always whole)
+    #[arg(long)]
+    pub full: bool,
 }
 
 /// The flags of `bound`.

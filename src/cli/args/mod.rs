@@ -143,7 +143,7 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Reproduce the tables and figures of the paper
     ///
-    /// Floating point, no claim. Writes report.md, report.json and the figures into a folder.
+    /// Floating point, no claim. Writes report.md, report.html, report.json and the figures into a folder.
     Reproduce(ReproduceArgs),
     /// Try to break a certificate by simulation
     ///

@@ -208,6 +208,10 @@ pub struct FalsifyArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
 
+    /// Show the whole report, not its short form (HTML and JSON are always whole)
+    #[arg(long)]
+    pub full: bool,
+
     /// Write the first counterexample to this plant file, or with `--trial` the plant of the trial
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,

@@ -1,6 +1,6 @@
 //! The parts of a document, without any format.
 
-use crate::plot::Figure;
+use crate::plot::{Bars, Figure};
 
 /// How the cells of a column are placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +62,8 @@ pub enum Block {
     Aside(String),
     /// The title of a part of a section.
     Subheading(String),
+    /// The end of the short form: what follows, as far as the next title of a report, is left out of it.
+    Detail,
     /// What is proved, refuted or undecided, in one sentence.
     Verdict(String),
     /// One or more sentences.
@@ -74,6 +76,8 @@ pub enum Block {
     Table(Table),
     /// A figure, in formats that can hold one; it says nothing that the text does not.
     Drawing(Figure),
+    /// The same for a few numbers side by side.
+    Bars(Bars),
     /// The names of the files with the figures of the report.
     Figures(Vec<String>),
     /// Lines that are shown as they are.
@@ -110,6 +114,31 @@ impl Block {
     }
 }
 
+/// How much of a document is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// Of each report as far as [`Block::Detail`].
+    Short,
+    /// Everything.
+    Full,
+}
+
+impl Extent {
+    /// The blocks that are written.
+    pub(super) fn of(self, blocks: Vec<Block>) -> Vec<Block> {
+        let mut detail = false;
+        let wanted = |block: &Block| {
+            detail = match block {
+                Block::Title(_) => false,
+                Block::Detail => true,
+                _ => detail,
+            };
+            self == Extent::Full || !detail
+        };
+        blocks.into_iter().filter(wanted).collect()
+    }
+}
+
 /// Text of a stranger as it may stand in a report: on one line, without control characters or changes of the writing
 /// direction or backticks, and of bounded length.
 #[must_use]
@@ -143,6 +172,21 @@ mod tests {
         assert_eq!(clean("x\u{202e}y`"), "x y'");
         assert_eq!(clean(&"long ".repeat(100)).chars().count(), 80);
         assert_eq!(clean(""), "");
+    }
+
+    #[test]
+    fn a_short_form_ends_at_the_detail_of_each_report() {
+        let text = |text: &str| Block::says(text);
+        let title = || Block::Title("T".to_owned());
+        let blocks = vec![title(), text("1"), Block::Detail, text("2"), Block::heading("H"), title(), text("3")];
+        let shown = |extent: Extent| {
+            let said = |block: &Block| match block {
+                Block::Paragraph(text) => Some(text.clone()),
+                _ => None,
+            };
+            extent.of(blocks.clone()).iter().filter_map(said).collect::<String>()
+        };
+        assert_eq!((shown(Extent::Short), shown(Extent::Full)), ("13".to_owned(), "123".to_owned()));
     }
 
     #[test]

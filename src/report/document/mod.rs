@@ -8,7 +8,7 @@ mod html;
 mod markdown;
 mod text;
 
-pub use block::{Align, Block, Column, Table, clean};
+pub use block::{Align, Block, Column, Extent, Table, clean};
 
 /// A report that can be written in every format, with the same content in each.
 pub trait Readable {
@@ -18,17 +18,22 @@ pub trait Readable {
     /// As JSON: claims are strings, enclosures `["lo", "hi"]`; floating point that claims nothing may be a number.
     fn json(&self) -> serde_json::Value;
 
+    /// Whether its short form leaves something out.
+    fn has_detail(&self) -> bool {
+        self.blocks().iter().any(|block| matches!(block, Block::Detail))
+    }
+
     /// As plain text, readable without colour at 100 columns.
-    fn text(&self) -> String {
-        text::render(&self.blocks())
+    fn text(&self, extent: Extent) -> String {
+        text::render(&extent.of(self.blocks()))
     }
 
     /// As GitHub-flavoured Markdown.
-    fn markdown(&self) -> String {
-        markdown::render(&self.blocks())
+    fn markdown(&self, extent: Extent) -> String {
+        markdown::render(&extent.of(self.blocks()))
     }
 
-    /// As one HTML page that needs no other file.
+    /// As one HTML page that needs no other file: always whole, for what is long is folded there.
     fn html(&self) -> String {
         html::render(&self.blocks())
     }

@@ -20,6 +20,7 @@ impl Readable for TransferStudy<'_> {
         blocks.extend(sections::pair(data, pair));
         blocks.extend(sections::uniformity(uniformity));
         blocks.push(Block::Drawing(transfer_figure(self)));
+        blocks.push(Block::Detail);
         blocks.extend(sections::trade_off(data, trade_off));
         blocks.extend(matched.iter().flat_map(|matched| sections::matched(data, matched)));
         blocks.extend(printed::section(printed, data, pair));

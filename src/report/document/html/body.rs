@@ -1,7 +1,7 @@
 //! Blocks as HTML. Whatever is text is escaped by the template library; only figures are markup already.
 
 use super::parts::Anchors;
-use crate::plot::Figure;
+use crate::plot::PlotError;
 use crate::report::document::block::{Align, Block, Column, Table};
 use crate::report::document::text::RELATIONS;
 use maud::{Markup, PreEscaped, Render, html};
@@ -29,7 +29,9 @@ fn one(block: &Block, anchors: &mut Anchors) -> Markup {
             dl { @for (name, said) in facts { (LINE) dt { (Inline(name)) } dd { (Inline(said)) } } }
         },
         Block::Table(table) => grid(table),
-        Block::Drawing(figure) => drawing(figure),
+        Block::Drawing(figure) => drawing(&figure.title, figure.svg()),
+        Block::Bars(bars) => drawing(&bars.title, bars.svg()),
+        Block::Detail => html! {},
         Block::Code(lines) => html! { pre tabindex="0" { (lines.trim_end()) } },
     }
 }
@@ -63,9 +65,9 @@ fn grid(table: &Table) -> Markup {
 }
 
 /// A figure within the page, or why there is none.
-fn drawing(figure: &Figure) -> Markup {
-    match figure.svg() {
-        Ok(svg) => html! { figure tabindex="0" role="img" aria-label=(figure.title) { (PreEscaped(inline(&svg))) } },
+fn drawing(title: &str, svg: Result<String, PlotError>) -> Markup {
+    match svg {
+        Ok(svg) => html! { figure tabindex="0" role="img" aria-label=(title) { (PreEscaped(inline(&svg))) } },
         Err(error) => html! { p { "No figure: " (error.to_string()) "." } },
     }
 }
@@ -90,11 +92,11 @@ impl Render for Inline<'_> {
     }
 }
 
-/// A text whose relations are not parted from their right sides at the end of a line.
+/// A text whose relations are not parted from their sides at the end of a line.
 fn kept(text: &str) -> String {
-    RELATIONS
-        .iter()
-        .fold(text.to_owned(), |text, relation| text.replace(&format!(" {relation} "), &format!(" {relation}\u{a0}")))
+    RELATIONS.iter().fold(text.to_owned(), |text, relation| {
+        text.replace(&format!(" {relation} "), &format!("\u{a0}{relation}\u{a0}"))
+    })
 }
 
 /// The text before the first code, that code, and the text after it.
@@ -107,7 +109,7 @@ fn next_code(text: &str) -> Option<(&str, &str, &str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::{Curve, Scale, Style};
+    use crate::plot::{Curve, Figure, Scale, Style};
 
     fn written(blocks: &[Block]) -> String {
         body(blocks, &mut Anchors::default()).into_string()
@@ -144,9 +146,9 @@ mod tests {
     }
 
     #[test]
-    fn relations_stay_with_their_right_sides() {
+    fn relations_stay_with_their_sides() {
         let text = written(&[Block::says("from |x| <= 1, a = b `c = d`")]);
-        assert_eq!(text, "<p>from |x| &lt;=\u{a0}1, a =\u{a0}b <code>c = d</code></p>\n");
+        assert_eq!(text, "<p>from |x|\u{a0}&lt;=\u{a0}1, a\u{a0}=\u{a0}b <code>c = d</code></p>\n");
     }
 
     #[test]

@@ -11,6 +11,9 @@ use parts::{Anchors, Part, Start, parts};
 /// How the page looks: light and dark, narrow, wide and on paper.
 const STYLE: &str = include_str!("style.css");
 
+/// What the page may load: nothing. Its style stands in it.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+
 /// So many sections are listed before the first of them.
 const LISTED: usize = 3;
 
@@ -25,6 +28,7 @@ pub fn render(blocks: &[Block]) -> String {
         html lang="en" {
             head { (LINE)
                 meta charset="utf-8"; (LINE)
+                meta http-equiv="Content-Security-Policy" content=(POLICY); (LINE)
                 meta name="viewport" content="width=device-width, initial-scale=1"; (LINE)
                 meta name="generator" content="sigmastar"; (LINE)
                 title { (title.unwrap_or("sigmastar")) } (LINE)

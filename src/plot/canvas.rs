@@ -1,0 +1,32 @@
+//! The white ground of a figure, and its title.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// The library puts points on whole pixels, which makes steps of smooth curves: figures are drawn this much larger and
+/// shown at their size.
+pub(super) const DETAIL: u32 = 4;
+
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(super) type AreaError = DrawingAreaErrorKind<std::io::Error>;
+
+/// An empty figure of a size in pixels, drawn [`DETAIL`] times larger.
+pub(super) fn canvas(text: &mut String, (width, height): (u32, u32)) -> Result<Area<'_>, AreaError> {
+    let area = SVGBackend::with_string(text, (width * DETAIL, height * DETAIL)).into_drawing_area();
+    area.fill(&WHITE)?;
+    Ok(area)
+}
+
+/// The figure of [`canvas`] shown at its size.
+pub(super) fn at_size(text: String, (width, height): (u32, u32)) -> String {
+    let drawn = format!("width=\"{}\" height=\"{}\"", width * DETAIL, height * DETAIL);
+    text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1)
+}
+
+/// Draws the title in the middle.
+pub(super) fn title(area: &Area<'_>, title: &str) -> Result<(), AreaError> {
+    let unit = DETAIL as i32;
+    let style = ("sans-serif", 18 * DETAIL).into_font().color(&BLACK);
+    let [width, title_width] = [area.dim_in_pixel().0, area.estimate_text_size(title, &style)?.0].map(|w| w as i32);
+    area.draw(&Text::new(title.to_owned(), ((width - title_width) / 2, 14 * unit), style))
+}
