@@ -2,12 +2,11 @@
 
 use super::args::{Format, PartArg, ReproduceArgs};
 use super::failure::Failure;
-use super::files::{self, Input, OutputFile};
+use super::files::Input;
 use super::output;
 use super::progress::Bar;
 use sigmastar::report::document::Readable;
-use sigmastar::reproduce::{Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
-use std::path::Path;
+use sigmastar::reproduce::{FIGURE_FILES, Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &ReproduceArgs) -> u8 {
@@ -23,20 +22,19 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
         figures: has(PartArg::Figures),
     };
     let settings = ReproductionSettings { parts, seeds: u64::from(args.seeds), noise_steps: args.noise_steps as usize };
-    files::folder(&args.output)?;
+    let mut files = vec!["report.json", "report.md"];
+    files.extend(FIGURE_FILES.iter().filter(|_| parts.figures));
+    args.replace.folder(&args.output, &files)?;
     let bar = Bar::new(settings.work(), args.quiet);
     let reproduction = reproduce(settings, &bar)?;
     bar.finish();
     let figures = if parts.figures { figures()? } else { Vec::new() };
-    files::figures(&args.output, &figures, Input::None, "leave the figures out with --only")?;
+    args.replace.figures(&args.output, &figures, Input::None, "leave the figures out with --only")?;
     let figures = figures.iter().map(|(name, _)| (*name).to_owned()).collect();
     let report = ReproductionReport { reproduction: &reproduction, figures };
     let markdown = report.markdown();
-    write(&args.output, "report.json", &output::json_text(&report.json()))?;
-    write(&args.output, "report.md", &markdown)?;
+    for (name, text) in [("report.json", output::json_text(&report.json())), ("report.md", markdown.clone())] {
+        args.replace.file(&args.output.join(name), Input::None, "the report")?.write(text)?;
+    }
     Ok(output::data(&markdown).map_or_else(|code| code, |()| 0))
-}
-
-fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
-    OutputFile::new(&folder.join(name), Input::None, "the report")?.write(text)
 }
