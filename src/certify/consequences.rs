@@ -1,13 +1,11 @@
 //! What follows from a run beyond its claim: the error for given numbers of oscillators, the arguments that were used, the
-//! error box, the regulated output behind a filter, and which smaller initial set may do.
+//! error box, the regulated output behind a filter.
 
 use super::certification::{Certification, RelativeDegreeGains};
-use super::options::{Derivation, TransferChoice};
+use super::options::Derivation;
 use crate::data::{Bound, Data, Problem};
 use crate::derivation::targets::{Consequences, Target};
 use crate::enclosure::Enclosure;
-use crate::search::{FloatModel, SmallerSet, smaller_set};
-use crate::transfer::TradeOff;
 
 impl Certification<'_> {
     /// Certified bounds of the periodic error, with answers to the targets; `None` without a certified claim.
@@ -53,16 +51,5 @@ impl Certification<'_> {
     pub fn has_force_at_origin(&self) -> bool {
         let data = Data::new(self.spec, self.precision);
         data.bound(Bound::F, &data.zero(), &data.zero()).is_positive().is_true()
-    }
-
-    /// Which smaller initial set would do, in floating point: a proposal, no proof.
-    #[must_use]
-    pub fn smaller_set(&self) -> SmallerSet {
-        // The working precision of what only proposes.
-        let data = Data::new(self.spec, 64);
-        let matched = self.options.transfer == TransferChoice::Best && self.spec.internal_model.matched;
-        let repaired = self.options.derivation == Derivation::Repaired;
-        let trade_off = if matched && !repaired { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
-        smaller_set(&FloatModel::new(&data, trade_off), repaired)
     }
 }

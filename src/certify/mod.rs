@@ -19,6 +19,7 @@ mod produce;
 mod proof;
 mod refusal;
 mod round;
+mod smaller;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
@@ -33,4 +34,5 @@ pub use options::{Derivation, Ladder, Options, TransferChoice};
 pub use produce::{certify, certify_at, certify_near, recheck};
 pub use proof::{Decidable, Decided, DigitalProof, GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness};
 pub use refusal::Refusal;
+pub use smaller::SmallerChoice;
 pub use verdict::Verdict;

@@ -3,7 +3,6 @@
 use super::args::BoundArgs;
 use super::failure::Failure;
 use super::files::Input;
-use super::files::OutputFile;
 use super::progress::{Audience, Working};
 use super::{input, output};
 use rug::Rational;
@@ -18,7 +17,7 @@ pub fn run(args: &BoundArgs) -> u8 {
 }
 
 fn attempt(args: &BoundArgs) -> Result<u8, Failure> {
-    let file = OutputFile::asked(args.output.as_deref(), Input::Plant(&args.plant), "the specification")?;
+    let file = args.replace.asked(args.output.as_deref(), Input::Plant(&args.plant), "the specification")?;
     let asked = args.domain.as_deref().map(domain).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
     let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };

@@ -24,11 +24,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
 
 fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     // What is wrong with the call is said before any work is done.
-    let output = args
-        .output
-        .as_deref()
-        .map(|path| OutputFile::new(path, Input::Specification(&args.spec), "the certificate"))
-        .transpose()?;
+    let output = args.replace.asked(args.output.as_deref(), Input::Specification(&args.spec), "the certificate")?;
     let flags =
         [(TargetKind::Sup, "--target-sup", &args.target_sup), (TargetKind::Rms, "--target-rms", &args.target_rms)];
     let targets = flags
@@ -41,7 +37,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     }
     let document = input::document(&args.spec)?;
     let subject = match &args.sampling_period {
-        Some(text) => digital::with_sampling_period(&document, text)?,
+        Some(text) => Subject::read(&digital::with_sampling_period(&document, text)?)?,
         None => Subject::read(&document)?,
     };
     let witness = args.witness.as_deref().map(input::document).transpose()?;

@@ -1,11 +1,14 @@
 //! `sigmastar check`.
 
 use super::args::CheckArgs;
+use super::digital::with_sampling_period;
 use super::failure::Failure;
+use super::input;
 use super::output::{self, reason, shown};
-use sigmastar::report::document::{Block, Readable};
+use sigmastar::report::document::{Block, Readable, clean};
+use sigmastar::spec::Document;
 use std::fs::File;
-use std::io::Read;
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 /// The checker's report, whose words are its own.
@@ -37,14 +40,44 @@ pub fn run(args: &CheckArgs) -> u8 {
 
 fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
     let mut certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
-    let mut specification =
-        args.spec.as_deref().map(|path| open(path, "name the specification that you have")).transpose()?;
-    proofs_check::check_reader(&mut certificate, specification.as_mut().map(|file| file as &mut dyn Read)).map_err(
-        |error| {
-            let message = format!("cannot read `{}`: {}", shown(&args.certificate), reason(&error));
-            Failure::call(message, "name files, not folders")
-        },
-    )
+    let mut specification = args.spec.as_deref().map(|path| specification(path, args)).transpose()?;
+    let specification = specification.as_mut().map(|file| file as &mut dyn Read);
+    let report = proofs_check::check_reader(&mut certificate, specification).map_err(|error| {
+        let message = format!("cannot read `{}`: {}", shown(&args.certificate), reason(&error));
+        Failure::call(message, "name files, not folders")
+    })?;
+    if report.verdict == proofs_check::verdict::Verdict::Invalid {
+        tell_sampling_period(args);
+    }
+    Ok(report)
+}
+
+/// The specification to compare with: the file as it is, or what `certify` made of it with `--sampling-period`.
+fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure> {
+    let Some(text) = &args.sampling_period else { return open(path, "name the specification that you have") };
+    let document = with_sampling_period(&input::document(path)?, text)?;
+    Ok(Box::new(Cursor::new(document.text().to_owned())))
+}
+
+/// Says where a certificate and the specification that it was compared with differ in the sampling period. Where one of them
+/// cannot be read again there is nothing to say.
+fn tell_sampling_period(args: &CheckArgs) {
+    let Some(path) = &args.spec else { return };
+    let again = |path: &Path| (path != Path::new("-")).then(|| input::document(path).ok()).flatten();
+    let (Some(certificate), Some(specification)) = (again(&args.certificate), again(path)) else { return };
+    let period = |document: &Document, place: &str| {
+        let value = document.at(&format!("{place}/internal_model/sampling_period"))?;
+        value.text().or_else(|| value.numeral()).map(str::to_owned)
+    };
+    let embedded = period(&certificate, "/specification").or_else(|| period(&certificate, "/plant"));
+    let asked = args.sampling_period.clone().or_else(|| period(&specification, ""));
+    if let Some(embedded) = embedded.filter(|embedded| Some(embedded) != asked.as_ref()) {
+        let embedded = clean(&embedded);
+        output::remark(&format!(
+            "the certificate is about the sampling period {embedded}, and so is the specification in it; where that came \
+             from `certify --sampling-period {embedded}`, compare with the same flag"
+        ));
+    }
 }
 
 fn open(path: &Path, help: &'static str) -> Result<Box<dyn Read>, Failure> {

@@ -19,7 +19,7 @@ pub fn run(args: &ControllerArgs) -> u8 {
 
 fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let (input, what) = (Input::Specification(&args.spec), "the regulator");
-    let output = OutputFile::asked(args.output.as_deref(), input, what)?;
+    let output = args.replace.asked(args.output.as_deref(), input, what)?;
     let c = match args.format {
         RegulatorForm::C => Some(CFiles::new(args, input)?),
         _ if args.prefix.is_some() || args.example => {
@@ -181,9 +181,9 @@ impl CFiles {
         let example: Option<PathBuf> = args.example.then(|| path.with_file_name(format!("{stem}_example.c")));
         let what = "the regulator";
         Ok(CFiles {
-            source: OutputFile::new(path, input, what)?,
-            header: OutputFile::new(&header, input, what)?,
-            example: OutputFile::asked(example.as_deref(), input, "the example")?,
+            source: args.replace.file(path, input, what)?,
+            header: args.replace.file(&header, input, what)?,
+            example: args.replace.asked(example.as_deref(), input, "the example")?,
             names: CNames { header: name, prefix },
         })
     }

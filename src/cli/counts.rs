@@ -1,4 +1,4 @@
-//! Lists of numbers of oscillators: `0,1,5..10,inf`.
+//! Numbers of oscillators on the command line: `0,1,5..10,20..100/10,inf`, the same in every `--n-o`.
 
 use super::failure::Failure;
 use sigmastar::transfer::OscillatorCount;
@@ -6,15 +6,17 @@ use sigmastar::transfer::OscillatorCount;
 /// The most numbers of oscillators that one call looks at.
 const MOST: usize = 10_000;
 
-/// Reads a list of numbers and ranges (both ends included), in the order in which they are written.
+/// Reads a list of numbers and ranges (both ends included, `first..last/step` in steps), in the order in which they are
+/// written.
 ///
 /// # Errors
-/// A part that is neither, an empty range, and more than 10000 numbers.
+/// A part that is neither, an empty range, a step of 0, and more than 10000 numbers.
 pub fn counts(text: &str) -> Result<Vec<OscillatorCount>, Failure> {
     let wrong = |part: &str| {
         Failure::call(
             format!("`{part}` in --n-o is no number of oscillators and no range of them"),
-            "write whole numbers from 0 on and ranges from the smaller to the larger one, such as `0,1,2,10..20`",
+            "write whole numbers from 0 on and ranges from the smaller to the larger one, such as `0,1,2,10..20`, or \
+             `0..100/10` in steps of 10",
         )
     };
     let mut all = Vec::new();
@@ -23,11 +25,13 @@ pub fn counts(text: &str) -> Result<Vec<OscillatorCount>, Failure> {
         if part == "inf" {
             all.push(OscillatorCount::Infinite);
         } else if let Some((first, last)) = part.split_once("..") {
-            let (first, last) = (number(first)?, number(last.trim_start_matches('='))?);
-            if first > last {
+            let (last, step) = last.split_once('/').unwrap_or((last, "1"));
+            let (first, last, step) = (number(first)?, number(last.trim_start_matches('='))?, number(step)?);
+            if first > last || step == 0 {
                 return Err(wrong(part));
             }
-            all.extend((first..=last).take(MOST + 1).map(OscillatorCount::Finite));
+            let next = |n: &u64| n.checked_add(step).filter(|n| *n <= last);
+            all.extend(std::iter::successors(Some(first), next).take(MOST + 1).map(OscillatorCount::Finite));
         } else {
             all.push(OscillatorCount::Finite(number(part)?));
         }
@@ -54,6 +58,26 @@ pub fn finite_counts(text: &str, limit: u32) -> Result<Vec<u32>, Failure> {
     counts(text)?.into_iter().map(finite).collect()
 }
 
+/// Reads the number of oscillators of one regulator, for clap.
+///
+/// # Errors
+/// What is wrong, in words: a list or a range among it, which other commands take.
+pub fn one_count(limit: u32) -> impl Fn(&str) -> Result<u32, String> + Clone {
+    move |text| {
+        let text = text.trim();
+        match text.parse::<i64>() {
+            Ok(n) => match u32::try_from(n) {
+                Ok(small) if small <= limit => Ok(small),
+                _ => Err(format!("{n} is not in 0..={limit}")),
+            },
+            Err(_) if counts(text).is_ok() => {
+                Err("this is about one regulator, with one number of oscillators: call it for each of them".to_owned())
+            }
+            Err(_) => Err(format!("expected a whole number from 0 to {limit}")),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,8 +90,26 @@ mod tests {
         assert_eq!(counts("5..=6").unwrap(), finite(&[5, 6]));
         assert_eq!(counts("5 .. 6").unwrap(), finite(&[5, 6]));
         assert_eq!(counts("1,inf").unwrap()[1], OscillatorCount::Infinite);
+        assert_eq!(counts("0..100/25,7").unwrap(), finite(&[0, 25, 50, 75, 100, 7]));
+        assert_eq!(counts("3..=10 / 4").unwrap(), finite(&[3, 7]));
+        assert_eq!(counts("0..18446744073709551615/18446744073709551615").unwrap(), finite(&[0, u64::MAX]));
+        for wrong in ["1..9/0", "9/2", "1..9/", "1..9/-1", "1..9/inf", "1..9/2/2", "0..99999/9"] {
+            assert!(counts(wrong).is_err(), "{wrong}");
+        }
         for wrong in ["", "1,,2", "-1", "2..1", "a", "1..", "0..18446744073709551615", "1.5"] {
             assert!(counts(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn one_regulator_has_one_number() {
+        let read = one_count(200);
+        assert_eq!((read("0"), read(" 200 ")), (Ok(0), Ok(200)));
+        for (wrong, said) in
+            [("201", "0..=200"), ("-1", "0..=200"), ("0..4", "for each"), ("1,2", "for each"), ("x", "whole")]
+        {
+            let error = read(wrong).unwrap_err();
+            assert!(error.contains(said), "{error}");
         }
     }
 

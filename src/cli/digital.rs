@@ -103,18 +103,17 @@ fn same_samples(spec: &Specification, stated: &Sampling, asked: Option<&Sampling
     }
 }
 
-/// The document with another sampling period.
+/// The document with another sampling period, or itself where it has no internal model: what is wrong with it is told as ever.
 ///
 /// # Errors
-/// A period that is not an exact positive constant, and what is wrong with the document with it.
-pub fn with_sampling_period(document: &Document, text: &str) -> Result<Subject, Failure> {
+/// A period that is not an exact positive constant, and a document that is too large with it.
+pub fn with_sampling_period(document: &Document, text: &str) -> Result<Document, Failure> {
     let step = input::positive("--sampling-period", text)?;
     let mut value = document.root().to_json();
     let Some(model) = value.get_mut("internal_model").and_then(serde_json::Value::as_object_mut) else {
-        // What is wrong with it is told as ever.
-        return Subject::read(document);
+        return Ok(document.clone());
     };
     model.insert("sampling_period".to_owned(), step.text.into());
     let label = format!("{} with --sampling-period {}", document.label(), text);
-    Subject::read(&Document::parse(&label, &output::json_text(&value))?)
+    Ok(Document::parse(&label, &output::json_text(&value))?)
 }

@@ -2,7 +2,7 @@
 
 use super::args::FalsifyArgs;
 use super::failure::Failure;
-use super::files::{Input, OutputFile};
+use super::files::Input;
 use super::output::Shortened;
 use super::progress::Bar;
 use super::{input, output};
@@ -19,7 +19,7 @@ pub fn run(args: &FalsifyArgs) -> u8 {
 
 fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let input = Input::Certificate(&args.certificate);
-    let output = OutputFile::asked(args.output.as_deref(), input, "the counterexample")?;
+    let output = args.replace.asked(args.output.as_deref(), input, "the counterexample")?;
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
     let mut claims = vec![Claim::from_document(&input::document(&args.certificate)?)?];

@@ -1,5 +1,6 @@
 //! Files that appear whole or not at all.
 
+use super::args::Replace;
 use super::failure::Failure;
 use super::output::{reason, shown};
 use super::temporary::{Temporary, place};
@@ -47,12 +48,25 @@ pub struct OutputFile {
 }
 
 impl OutputFile {
-    /// Checks that the file can be meant: its folder exists, it is no folder or device itself, and it is not `input`.
-    /// `what` is what will be written, for messages.
+    /// Checks that the file can be meant: it does not exist, its folder does, and it is no folder or device itself. `what`
+    /// is what will be written, for messages.
     ///
     /// # Errors
     /// The call is wrong; nothing was touched.
     pub fn new(path: &Path, input: Input<'_>, what: &str) -> Result<OutputFile, Failure> {
+        let file = OutputFile::replacing(path, input, what)?;
+        if file.target.exists() {
+            let help = "name another file, or add --force to replace it";
+            return Err(Failure::call(format!("`{}` exists already", file.name()), help));
+        }
+        Ok(file)
+    }
+
+    /// The same of a file that may exist, unless it is `input`.
+    ///
+    /// # Errors
+    /// The call is wrong; nothing was touched.
+    pub fn replacing(path: &Path, input: Input<'_>, what: &str) -> Result<OutputFile, Failure> {
         let name = shown(path);
         if path == Path::new("-") {
             let help = "name a file; for the report as JSON on standard output, use --format json";
@@ -83,14 +97,6 @@ impl OutputFile {
         Ok(OutputFile { typed: path.to_path_buf(), target, folder })
     }
 
-    /// The same, of a flag that may be absent.
-    ///
-    /// # Errors
-    /// Those of [`OutputFile::new`].
-    pub fn asked(path: Option<&Path>, input: Input<'_>, what: &str) -> Result<Option<OutputFile>, Failure> {
-        path.map(|path| OutputFile::new(path, input, what)).transpose()
-    }
-
     /// The path as it was typed.
     pub fn name(&self) -> String {
         shown(&self.typed)
@@ -107,6 +113,61 @@ impl OutputFile {
     fn failure(&self, error: &io::Error, more: &str) -> Failure {
         let message = format!("cannot write `{}`: {}{more}", self.name(), reason(error));
         Failure::call(message, "check the permissions of the folder and the space left there")
+    }
+}
+
+impl Replace {
+    /// A file that is to be written: with `--force` one that exists is replaced.
+    ///
+    /// # Errors
+    /// Those of [`OutputFile::new`].
+    pub fn file(self, path: &Path, input: Input<'_>, what: &str) -> Result<OutputFile, Failure> {
+        if self.force { OutputFile::replacing(path, input, what) } else { OutputFile::new(path, input, what) }
+    }
+
+    /// The same, of a flag that may be absent.
+    ///
+    /// # Errors
+    /// Those of [`OutputFile::new`].
+    pub fn asked(self, path: Option<&Path>, input: Input<'_>, what: &str) -> Result<Option<OutputFile>, Failure> {
+        path.map(|path| self.file(path, input, what)).transpose()
+    }
+
+    /// A folder for files that are made, created where it does not exist. Other files in it are left alone.
+    ///
+    /// # Errors
+    /// It cannot be created, it is something else, or one of the files is in it already and may not be replaced.
+    pub fn folder(self, path: &Path, files: &[&str]) -> Result<(), Failure> {
+        if path.metadata().is_ok_and(|metadata| !metadata.is_dir()) {
+            let message = format!("cannot write into `{}`: it is a file, not a folder", shown(path));
+            return Err(Failure::call(message, "name a folder; it is created where it does not exist"));
+        }
+        if let Some(file) = files.iter().map(|name| path.join(name)).find(|file| !self.force && file.exists()) {
+            let help = "name another folder, or add --force to replace the files in it";
+            return Err(Failure::call(format!("`{}` exists already", shown(&file)), help));
+        }
+        std::fs::create_dir_all(path).map_err(|error| {
+            let message = format!("cannot create the folder `{}`: {}", shown(path), reason(&error));
+            Failure::call(message, "name a folder that exists or can be created")
+        })
+    }
+
+    /// Writes figures into a folder, each under its name; `help` is what to do where one cannot be drawn.
+    ///
+    /// # Errors
+    /// A figure that cannot be drawn, and the file system's reason.
+    pub fn figures(
+        self,
+        folder: &Path,
+        figures: &[(&str, Figure)],
+        input: Input<'_>,
+        help: &str,
+    ) -> Result<(), Failure> {
+        for (name, figure) in figures {
+            let svg = figure.svg().map_err(|error| Failure::call(error.to_string(), help))?;
+            self.file(&folder.join(name), input, "a figure")?.write(svg)?;
+        }
+        Ok(())
     }
 }
 
@@ -129,31 +190,4 @@ pub fn write_together(files: &[(&OutputFile, &[u8])]) -> Result<(), Failure> {
         };
         files[failure.index].0.failure(&failure.error, &more)
     })
-}
-
-/// A folder for files that are made, created where it does not exist.
-///
-/// # Errors
-/// It cannot be created, or it is something else.
-pub fn folder(path: &Path) -> Result<(), Failure> {
-    if path.metadata().is_ok_and(|metadata| !metadata.is_dir()) {
-        let message = format!("cannot write into `{}`: it is a file, not a folder", shown(path));
-        return Err(Failure::call(message, "name a folder; it is created where it does not exist"));
-    }
-    std::fs::create_dir_all(path).map_err(|error| {
-        let message = format!("cannot create the folder `{}`: {}", shown(path), reason(&error));
-        Failure::call(message, "name a folder that exists or can be created")
-    })
-}
-
-/// Writes figures into a folder, each under its name; `help` is what to do where one cannot be drawn.
-///
-/// # Errors
-/// A figure that cannot be drawn, and the file system's reason.
-pub fn figures(folder: &Path, figures: &[(&str, Figure)], input: Input<'_>, help: &str) -> Result<(), Failure> {
-    for (name, figure) in figures {
-        let svg = figure.svg().map_err(|error| Failure::call(error.to_string(), help))?;
-        OutputFile::new(&folder.join(name), input, "a figure")?.write(svg)?;
-    }
-    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::args::{Format, MergeArgs};
 use super::failure::Failure;
-use super::files::{Input, OutputFile};
+use super::files::Input;
 use super::output::{self, shown};
 use super::sweep::{existing, unreadable};
 use sigmastar::certify::Verdict;
@@ -18,7 +18,7 @@ fn attempt(args: &MergeArgs) -> Result<u8, Failure> {
     let mut file = None;
     let mut merge: Option<Merge> = None;
     for path in &args.files {
-        file = Some(OutputFile::new(&args.output, Input::Results(path), "the results")?);
+        file = Some(args.replace.file(&args.output, Input::Results(path), "the results")?);
         let (name, results) = (shown(path), read(path)?);
         if results.torn {
             output::remark(&format!("the last line of `{name}` was cut off and is left out"));

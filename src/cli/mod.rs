@@ -4,6 +4,7 @@ mod args;
 mod bound;
 mod certify;
 mod check;
+mod colour;
 mod controller;
 mod controller_source;
 mod counts;
@@ -36,15 +37,18 @@ use std::process::ExitCode;
 /// Runs the command of the process's arguments and returns its exit code.
 pub fn run() -> ExitCode {
     let parsed = command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
-    let cli = match parsed.map_err(|error| error.format(&mut command())) {
+    let cli = match parsed {
         Ok(cli) => cli,
         Err(error) => {
+            let choice = colour::in_arguments(std::env::args_os().skip(1));
+            let error = error.format(&mut command().color(choice));
             // A closed stream is no reason to fail differently.
             let _ = error.print();
             let asked = !error.use_stderr();
             return ExitCode::from(if asked { 0 } else { Verdict::BadInput.exit_code() });
         }
     };
+    colour::choose(cli.color);
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
         Command::Sampling(args) => sampling::run(&args),

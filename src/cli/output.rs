@@ -1,10 +1,11 @@
 //! Data on standard output, remarks on standard error.
 
 use super::args::Format;
+use super::colour;
 use sigmastar::certify::Verdict;
 use sigmastar::report::document::{Extent, Readable};
 use sigmastar::spec::SpecErrors;
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
 /// Writes a report to standard output. A reader that has seen enough (`| head`) is no failure; any other error is
@@ -81,20 +82,14 @@ pub fn remark(text: &str) {
 /// An error without a place in a document.
 pub fn error(message: &str, help: &str) {
     let [red, cyan, bold, plain] =
-        if colour() { ["\u{1b}[1;31m", "\u{1b}[1;36m", "\u{1b}[1m", "\u{1b}[0m"] } else { [""; 4] };
+        if colour::on_stderr() { ["\u{1b}[1;31m", "\u{1b}[1;36m", "\u{1b}[1m", "\u{1b}[0m"] } else { [""; 4] };
     tell(&format!("{red}error{plain}{bold}: {message}{plain}\n  {cyan}={plain} {bold}help{plain}: {help}\n"));
 }
 
 /// Errors in their source.
 pub fn diagnostics(all: &[SpecErrors]) {
-    let rendered: Vec<String> = all.iter().map(|errors| errors.render(colour())).collect();
+    let rendered: Vec<String> = all.iter().map(|errors| errors.render(colour::on_stderr())).collect();
     tell(&rendered.join("\n"));
-}
-
-/// Whether standard error wants colour: a terminal that can show it, and `NO_COLOR` is unset or empty.
-fn colour() -> bool {
-    let set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
-    io::stderr().is_terminal() && set("NO_COLOR").is_none() && set("TERM").is_none_or(|term| term != "dumb")
 }
 
 /// Why a file operation failed, in words.

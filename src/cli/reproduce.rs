@@ -2,12 +2,11 @@
 
 use super::args::{Format, PartArg, ReproduceArgs};
 use super::failure::Failure;
-use super::files::{self, Input, OutputFile};
+use super::files::Input;
 use super::output;
 use super::progress::Bar;
 use sigmastar::report::document::{Extent, Readable};
-use sigmastar::reproduce::{Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
-use std::path::Path;
+use sigmastar::reproduce::{FIGURE_FILES, Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &ReproduceArgs) -> u8 {
@@ -23,20 +22,23 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
         figures: has(PartArg::Figures),
     };
     let settings = ReproductionSettings { parts, seeds: u64::from(args.seeds), noise_steps: args.noise_steps as usize };
-    files::folder(&args.output)?;
+    let mut files = vec!["report.json", "report.html", "report.md"];
+    files.extend(FIGURE_FILES.iter().filter(|_| parts.figures));
+    args.replace.folder(&args.output, &files)?;
     let bar = Bar::new(settings.work(), args.quiet);
     let reproduction = reproduce(settings, &bar)?;
     bar.finish();
     let figures = if parts.figures { figures()? } else { Vec::new() };
-    files::figures(&args.output, &figures, Input::None, "leave the figures out with --only")?;
+    args.replace.figures(&args.output, &figures, Input::None, "leave the figures out with --only")?;
     let report = ReproductionReport { reproduction: &reproduction, figures: &figures };
     let markdown = report.markdown(Extent::Full);
-    write(&args.output, "report.json", &output::json_text(&report.json()))?;
-    write(&args.output, "report.html", &report.html())?;
-    write(&args.output, "report.md", &markdown)?;
+    let files = [
+        ("report.json", output::json_text(&report.json())),
+        ("report.html", report.html()),
+        ("report.md", markdown.clone()),
+    ];
+    for (name, text) in files {
+        args.replace.file(&args.output.join(name), Input::None, "the report")?.write(text)?;
+    }
     Ok(output::data(&markdown).map_or_else(|code| code, |()| 0))
-}
-
-fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
-    OutputFile::new(&folder.join(name), Input::None, "the report")?.write(text)
 }

@@ -20,7 +20,7 @@ pub fn run(args: &SamplingArgs) -> u8 {
 }
 
 fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
-    let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec)).transpose()?;
+    let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec, args.replace)).transpose()?;
     let subject = Subject::read(&input::document(&args.spec)?)?;
     let (name, sha256, period) = match &subject {
         Subject::Specification(spec) => (spec.name.clone(), spec.sha256.clone(), spec.period.clone()),

@@ -2,7 +2,7 @@
 
 use super::args::SimulateArgs;
 use super::failure::Failure;
-use super::files::{self, Input, OutputFile};
+use super::files::Input;
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
@@ -11,7 +11,8 @@ use sigmastar::certify::Verdict;
 use sigmastar::plant::Plant;
 use sigmastar::regulator::{Design, Regulator, read_regulator};
 use sigmastar::simulate::{
-    ClosedLoop, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures, simulate,
+    ClosedLoop, FIGURE_FILES, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures,
+    simulate,
 };
 
 /// Runs the command and returns the exit code.
@@ -24,7 +25,7 @@ pub fn run(args: &SimulateArgs) -> u8 {
 }
 
 fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
-    let csv_file = OutputFile::asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
+    let csv_file = args.replace.asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
@@ -44,7 +45,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         return Err(Failure::call("a number of this simulation is beyond double precision", help));
     }
     if let Some(folder) = &args.plots {
-        files::folder(folder)?;
+        args.replace.folder(folder, &FIGURE_FILES)?;
     }
     let entry = if args.noise_everywhere { Noise::Everywhere } else { Noise::Printed };
     let settings = SimulationSettings {
@@ -76,7 +77,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     }
     if let Some(folder) = &args.plots {
         let drawn = figures(&plant, &closed_loop, &simulation);
-        files::figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
+        args.replace.figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
     }
     if let Err(code) = output::data(&text) {
         return Ok(code);

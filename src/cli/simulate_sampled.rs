@@ -2,7 +2,7 @@
 
 use super::args::SimulateArgs;
 use super::failure::Failure;
-use super::files::{self, Input, OutputFile};
+use super::files::Input;
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
@@ -10,7 +10,8 @@ use sigmastar::certify::Verdict;
 use sigmastar::plant::{Initial, Plant};
 use sigmastar::regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
 use sigmastar::simulate::{
-    Converters, DigitalLoop, DigitalReport, DigitalSettings, digital_csv, digital_figures, simulate_digital,
+    Converters, DigitalLoop, DigitalReport, DigitalSettings, FIGURE_FILES, digital_csv, digital_figures,
+    simulate_digital,
 };
 use sigmastar::spec::Constant;
 
@@ -19,7 +20,7 @@ use sigmastar::spec::Constant;
 /// # Errors
 /// What is wrong with the call or its files.
 pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
-    let csv_file = OutputFile::asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
+    let csv_file = args.replace.asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
     let step = input::positive("--sampled", step)?;
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let converters = converters(args, &step)?;
@@ -50,7 +51,7 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
         return Err(beyond());
     }
     if let Some(folder) = &args.plots {
-        files::folder(folder)?;
+        args.replace.folder(folder, &FIGURE_FILES)?;
     }
     let start = start(&digital, &plant.initial)?;
     let settings = DigitalSettings {
@@ -69,7 +70,7 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     }
     if let Some(folder) = &args.plots {
         let drawn = digital_figures(&plant, &digital, &simulation);
-        files::figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
+        args.replace.figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
     }
     if let Err(code) = output::data(&text) {
         return Ok(code);

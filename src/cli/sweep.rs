@@ -1,6 +1,6 @@
 //! `sigmastar sweep`.
 
-use super::args::{Format, SweepArgs};
+use super::args::{Format, Replace, SweepArgs};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::output::{reason, shown};
@@ -113,12 +113,14 @@ struct Files {
 impl Files {
     /// Checks them before any work: none is read or written twice.
     fn new(args: &SweepArgs, subject: Option<&Path>) -> Result<Files, Failure> {
-        let named = |path: &Option<PathBuf>, what: &str| {
+        // The results are gone on with, not replaced; a table and a plot are made anew.
+        let going_on = Replace { force: true };
+        let named = |path: &Option<PathBuf>, what: &str, replace: Replace| {
             let path = path.as_deref();
             if let (Some(path), Some(subject)) = (path, subject) {
-                OutputFile::new(path, Input::Specification(subject), what)?;
+                replace.file(path, Input::Specification(subject), what)?;
             }
-            OutputFile::asked(path, Input::Study(&args.study), what)
+            replace.asked(path, Input::Study(&args.study), what)
         };
         let all: Vec<&PathBuf> = [&args.output, &args.csv, &args.plot].into_iter().flatten().collect();
         let same =
@@ -129,10 +131,12 @@ impl Files {
                 return Err(Failure::call(message, "give each file a name of its own"));
             }
         }
-        let results = named(&args.output, "the results")?;
-        let plot = args.plot.as_deref().map(|path| super::transfer::svg_file(path, &args.study)).transpose()?;
-        named(&args.plot, "the plot")?;
-        Ok(Files { results: args.output.clone().zip(results), table: named(&args.csv, "the table")?, plot })
+        let results = named(&args.output, "the results", going_on)?;
+        let plot = |path: &PathBuf| super::transfer::svg_file(path, &args.study, args.replace);
+        let plot = args.plot.as_ref().map(plot).transpose()?;
+        named(&args.plot, "the plot", args.replace)?;
+        let table = named(&args.csv, "the table", args.replace)?;
+        Ok(Files { results: args.output.clone().zip(results), table, plot })
     }
 }
 

@@ -1,6 +1,6 @@
 //! `sigmastar transfer`.
 
-use super::args::{Format, TransferArgs};
+use super::args::{Format, Replace, TransferArgs};
 use super::counts::counts;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
@@ -21,7 +21,7 @@ pub fn run(args: &TransferArgs) -> u8 {
 }
 
 fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
-    let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec)).transpose()?;
+    let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec, args.replace)).transpose()?;
     let pair = match (&args.k0, &args.minimise) {
         (Some(text), _) => PairChoice::SmallestK1(input::positive("--k0", text)?),
         (None, Some(text)) => {
@@ -62,8 +62,8 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
 }
 
 /// The file of the plot, whose name says what is in it.
-pub fn svg_file(path: &Path, input: &Path) -> Result<OutputFile, Failure> {
-    let file = OutputFile::new(path, Input::Specification(input), "the plot")?;
+pub fn svg_file(path: &Path, input: &Path, replace: Replace) -> Result<OutputFile, Failure> {
+    let file = replace.file(path, Input::Specification(input), "the plot")?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
         return Ok(file);
     }

@@ -95,7 +95,10 @@ impl Scope for Variables {
     fn instead_of(&self, name: &str) -> Option<&'static str> {
         let time = matches!(name, "t" | "time");
         match self {
-            Variables::XAndE if time => Some("a bounding function holds for every t: take the supremum over t"),
+            Variables::XAndE if time => Some(
+                "a bounding function holds for every t: take the supremum over t, or give the plant itself \
+                 (`sigmastar/plant`), whose formulas may have t",
+            ),
             Variables::None if time => Some("a constant holds for every t: take its largest value over t"),
             _ => None,
         }
@@ -181,7 +184,8 @@ mod tests {
         ] {
             assert_eq!(suggest(name).as_deref(), Some(meant), "{name}");
         }
-        assert_eq!(suggest("t").as_deref(), Some("a bounding function holds for every t: take the supremum over t"));
+        let advice = suggest("t").unwrap();
+        assert!(advice.contains("take the supremum over t, or give the plant itself (`sigmastar/plant`)"), "{advice}");
         assert_eq!(super::suggest("t", &Variables::Time).as_deref(), Some("write t"));
         assert_eq!(suggest("q"), None);
         assert_eq!(suggest("velocity"), None);

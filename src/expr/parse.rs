@@ -420,7 +420,8 @@ mod tests {
         let unexpected = |found: &str| Kind::Unexpected { found: found.into() };
         let unknown = |name: &str| Kind::UnknownName { name: name.into() };
         const UNIT: &str = "numbers have no units: write 2 alone, in the same units of time, x and e as all other data";
-        const SUPREMUM: &str = "a bounding function holds for every t: take the supremum over t";
+        const SUPREMUM: &str = "a bounding function holds for every t: take the supremum over t, or give the plant itself \
+                                (`sigmastar/plant`), whose formulas may have t";
         for (text, kind, span, help) in [
             ("2X", missing("2", "X"), 1..2, Some("write 2*X")),
             ("2E", missing("2", "E"), 1..2, Some("write 2*E")),

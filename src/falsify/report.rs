@@ -3,7 +3,7 @@
 use super::claim::Claim;
 use super::counterexample::counterexample_plant;
 use super::finding::{Closest, Falsification, Finding, Trial};
-use crate::number::{Direction, round_f64, write_exact};
+use crate::number::{Direction, round_f64, told_apart, write_exact};
 use crate::plot::Bars;
 use crate::report::document::{Block, Readable, Table, clean};
 use serde_json::{Value, json};
@@ -70,9 +70,10 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
     )));
     if let Some((trial, violation)) = outcome.counterexample() {
         blocks.push(Block::heading("Counterexample"));
+        let [found, bound] = told_apart([violation.found, violation.bound]);
         blocks.push(Block::says(format!(
-            "Trial {}, n_o = {}: {} is {:.6e}, the claim says at most {:.6e}.",
-            trial.number, trial.n_o, violation.quantity, violation.found, violation.bound
+            "Trial {}, n_o = {}: {} is about {found}, and the claim allows about {bound}.",
+            trial.number, trial.n_o, violation.quantity
         )));
     }
     if let Some(worst) = outcome.worst() {

@@ -4,11 +4,13 @@
 //! never the nearest double), writes rationals as terminating decimals or fractions, and rounds floating-point
 //! proposals of a search to short rationals in a chosen direction.
 
+mod apart;
 mod bernoulli;
 mod decimal;
 mod portable;
 mod short;
 
+pub use apart::told_apart;
 pub use bernoulli::bernoulli_over_factorial;
 pub(crate) use decimal::positional;
 pub use decimal::{DecimalError, MAX_EXPONENT, MAX_LENGTH, parse_decimal, write_exact};

@@ -2,6 +2,7 @@
 
 use super::Plant;
 use crate::expr::{Evaluator, NotPeriodic, PeriodicityReason};
+use crate::number::told_apart;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -24,8 +25,8 @@ pub(super) struct Counterexample {
 
 impl fmt::Display for Counterexample {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [now, later] = self.values;
-        write!(f, "at some x and e it is {now:.6e} at t = {:.6} and {later:.6e} a period later", self.t)
+        let [now, later] = told_apart(self.values);
+        write!(f, "at some x and e it is about {now} near t = {:.6e} and {later} a period later", self.t)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::document::{Block, clean};
 use super::number::{pair, upper};
-use crate::certify::{BoundingProblem, Certification, Derivation, Outcome, Verdict};
+use crate::certify::{BoundingProblem, Certification, Derivation, Outcome, SmallerChoice, Verdict};
 use crate::derivation::condition::Condition;
 use crate::enclosure::Truth;
 use crate::expr::BoundingFailure;
@@ -219,23 +219,42 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
     }
 }
 
-/// Which smaller initial set would do, in floating point.
+/// Which smaller initial set would do: one that is certified, or what the floating-point search proposes.
 fn smaller(run: &Certification<'_>) -> String {
+    const ESTIMATE: &str = "the floating-point search (an estimate, no proof)";
     match run.smaller_set() {
-        SmallerSet::AtRest => "a smaller initial set: the floating-point search (an estimate, no proof) succeeds with \
-                               `\"initial_set\": { \"kind\": \"at-rest\" }`"
-            .to_owned(),
-        SmallerSet::Box(sizes) => {
-            let [x0, e0, z0] = sizes.each_ref().map(write_exact);
+        SmallerChoice::Certified { set, sigma, share, as_proposed } => {
+            let share =
+                share.map_or_else(String::new, |share| format!("; it is {} of the one asked for", write_exact(&share)));
+            let edge = match (&set, as_proposed) {
+                (SmallerSet::Box(_), true) => format!("; {ESTIMATE} fails for a set that is 3 % larger"),
+                _ => String::new(),
+            };
             format!(
-                "a smaller initial set: the floating-point search (an estimate, no proof) succeeds up to about \
-                 `\"initial_set\": {{ \"kind\": \"box\", \"X0\": \"{x0}\", \"E0\": \"{e0}\", \"Z0\": \"{z0}\" }}`"
+                "a smaller initial set: {} is certified, with sigma* = {}{share}{edge}",
+                field(&set).unwrap_or_default(),
+                write_exact(&sigma)
             )
         }
-        SmallerSet::None => {
-            "no smaller initial set alone: the floating-point search (an estimate, no proof) fails for every \
-                             size that was tried, a single point among them"
-                .to_owned()
+        SmallerChoice::Proposed(set) => match field(&set) {
+            Some(field) => format!("a smaller initial set: {ESTIMATE} succeeds up to about {field}"),
+            None => format!(
+                "no smaller initial set alone: {ESTIMATE} fails for every size that was tried, a single point among them"
+            ),
+        },
+    }
+}
+
+/// The set as a specification has it.
+fn field(set: &SmallerSet) -> Option<String> {
+    match set {
+        SmallerSet::AtRest => Some("`\"initial_set\": { \"kind\": \"at-rest\" }`".to_owned()),
+        SmallerSet::Box(sizes) => {
+            let [x0, e0, z0] = sizes.each_ref().map(write_exact);
+            Some(format!(
+                "`\"initial_set\": {{ \"kind\": \"box\", \"X0\": \"{x0}\", \"E0\": \"{e0}\", \"Z0\": \"{z0}\" }}`"
+            ))
         }
+        SmallerSet::None => None,
     }
 }

@@ -10,6 +10,15 @@ use crate::spec::SpecErrors;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
+/// The names of the files of the figures.
+pub const FIGURE_FILES: [&str; 5] = [
+    "figure-1-bode.svg",
+    "figure-2-high-gain.svg",
+    "figure-3-nominal.svg",
+    "figure-4-1-percent.svg",
+    "figure-5-5-percent.svg",
+];
+
 /// sigma of the paper's figures.
 const SIGMA: f64 = 2.0;
 /// n_0 as the text says.
@@ -35,16 +44,10 @@ pub fn figures() -> Result<Vec<(&'static str, Figure)>, SpecErrors> {
     let high_gain: Vec<Curve> = curve("high gain".to_owned(), Regulator::high_gain(SIGMA)).into_iter().collect();
     let title = |what: &str| format!("Fourier coefficients of e_p, sigma = 2, {what}");
     Ok(vec![
-        ("figure-1-bode.svg", bode(&internal_model(SIGMA, N_0, 10, TAU))),
-        ("figure-2-high-gain.svg", spectrum(&title("high-gain feedback"), high_gain)),
-        ("figure-3-nominal.svg", spectrum(&title("base frequency 2 pi/T"), with_oscillators(1.0, &[0, 1, 2, 3, 4]))),
-        (
-            "figure-4-1-percent.svg",
-            spectrum(&title("base frequency 0.99 * 2 pi/T"), with_oscillators(0.99, &[0, 1, 2, 3])),
-        ),
-        (
-            "figure-5-5-percent.svg",
-            spectrum(&title("base frequency 0.95 * 2 pi/T"), with_oscillators(0.95, &[0, 1, 2, 3])),
-        ),
+        (FIGURE_FILES[0], bode(&internal_model(SIGMA, N_0, 10, TAU))),
+        (FIGURE_FILES[1], spectrum(&title("high-gain feedback"), high_gain)),
+        (FIGURE_FILES[2], spectrum(&title("base frequency 2 pi/T"), with_oscillators(1.0, &[0, 1, 2, 3, 4]))),
+        (FIGURE_FILES[3], spectrum(&title("base frequency 0.99 * 2 pi/T"), with_oscillators(0.99, &[0, 1, 2, 3]))),
+        (FIGURE_FILES[4], spectrum(&title("base frequency 0.95 * 2 pi/T"), with_oscillators(0.95, &[0, 1, 2, 3]))),
     ])
 }

@@ -14,7 +14,7 @@ const LEAST_EXPONENT: f64 = -60.0;
 const STEPS: u32 = 12;
 
 /// Digits of the sizes.
-const DIGITS: u32 = 2;
+const DIGITS: u32 = 3;
 
 /// Initial sets for which a search succeeds where it fails for the set that is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -44,6 +44,9 @@ pub(super) fn regulator_columns(dimension: usize) -> impl Iterator<Item = String
     })
 }
 
+/// The names of the files of a simulation's figures.
+pub const FIGURE_FILES: [&str; 5] = ["response.svg", "states.svg", "control.svg", "spectrum.svg", "bode.svg"];
+
 /// The figures of a simulation, each with the name of its file: the time response, the states of the plant and the control
 /// beside it, the spectrum of the steady state and, of the linear example e' = u + q with this regulator and without its internal model, the Bode magnitude.
 #[must_use]

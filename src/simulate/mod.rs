@@ -30,7 +30,7 @@ pub use digital::{
     digital_steady_state, period_derivative, simulate_digital,
 };
 pub use effort::{MAX_NUMBERS, MAX_OPERATIONS};
-pub use figures::{bode, csv, figures, spectrum, spectrum_curve};
+pub use figures::{FIGURE_FILES, bode, csv, figures, spectrum, spectrum_curve};
 pub use fixed::FixedStep;
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};

@@ -60,3 +60,28 @@ fn the_command() {
     program().args(["check", "-"]).write_stdin("{").assert().code(2).stdout(contains("not JSON"));
     program().args(["check", "nowhere.json"]).assert().code(2).stdout(is_empty()).stderr(contains("nowhere.json"));
 }
+
+/// A sampling period that came from a flag of `certify` is given to `check` in the same way.
+#[test]
+fn the_sampling_period_of_a_flag_is_compared() {
+    const SPEC: &str = "specs/paper-example-rms-at-rest.json";
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("certificate.json");
+    let certify = ["certify", "-q", SPEC, "--sampling-period", "1/1000", "--sigma", "25", "-o"];
+    program().args(certify).arg(&file).assert().success();
+    let check = |more: &[&str]| {
+        let mut command = program();
+        command.arg("check").arg(&file).args(more).assert()
+    };
+    check(&["--spec", SPEC, "--sampling-period", "1/1000"]).code(0);
+    // The same number in other words is another text, and no flag is no sampling period.
+    let hint = || contains("about the sampling period 1/1000").and(contains("certify --sampling-period 1/1000"));
+    for other in [&["--spec", SPEC][..], &["--spec", SPEC, "--sampling-period", "1/500"]] {
+        check(other).code(1).stderr(hint());
+    }
+    // Where the specification itself is another one, nothing is said of samples.
+    let other = ["--spec", "specs/linear.json", "--sampling-period", "1/1000"];
+    check(&other).code(1).stderr(contains("sampling period").not());
+    check(&["--spec", SPEC, "--sampling-period", "-1"]).code(2).stderr(contains("must be positive"));
+    check(&["--sampling-period", "1/1000"]).code(2).stderr(contains("--spec"));
+}

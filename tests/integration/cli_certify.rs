@@ -160,7 +160,7 @@ fn the_certificate_is_written_and_its_witness_decided_again() {
     assert!(!text.contains(name) && !text.contains(EXAMPLE), "no paths");
     assert_eq!(fs::read_dir(folder.path()).expect("readable").count(), 1, "no temporary file stays");
 
-    certify(&[EXAMPLE, "-o", name, "--quiet"]).assert().code(0).stderr(is_empty());
+    certify(&[EXAMPLE, "-o", name, "--quiet", "--force"]).assert().code(0).stderr(is_empty());
     assert_eq!(fs::read_to_string(&path).expect("written"), text, "the same bytes");
 
     let again = certify(&[EXAMPLE, "--witness", name, "--format", "json"]).assert().code(0);

@@ -43,6 +43,9 @@ fn a_negative_number_is_a_wrong_value_and_no_flag() {
         (&["controller", EXAMPLE, "--sigma", "1", "--n-o", "-1"][..], "-1 is not in 0..=1000"),
         (&["simulate", PLANT, "--sigma", "1", "--n-o", "-1"], "-1 is not in 0..=200"),
         (&["certify", EXAMPLE, "--precision-limit", "-1"], "-1 is not in 128..=4096"),
+        (&["controller", EXAMPLE, "--sigma", "1", "--n-o", "0..9"], "call it for each of them"),
+        (&["simulate", PLANT, "--sigma", "1", "--n-o", "0,1"], "call it for each of them"),
+        (&["rate", EXAMPLE, "--n-o", "0..9/0"], "`0..100/10` in steps of 10"),
         (&["rate", EXAMPLE, "--n-o", "-1"], "`-1` in --n-o is no number of oscillators"),
         (&["transfer", EXAMPLE, "--n-o", "-1..2"], "`-1..2` in --n-o is no number of oscillators"),
     ] {
@@ -54,7 +57,7 @@ fn a_negative_number_is_a_wrong_value_and_no_flag() {
 fn time_and_units_in_an_expression_are_explained() {
     let q = "\"4.822 + X + atan(E*(X + 0.189))\"";
     for (change, help) in [
-        ((q, "\"3*cos(2*pi*t) + X\""), "a bounding function holds for every t: take the supremum over t"),
+        ((q, "\"3*cos(2*pi*t) + X\""), "take the supremum over t, or give the plant itself (`sigmastar/plant`)"),
         ((q, "\"3 m/s\""), "numbers have no units: write 3 alone"),
         (("\"period\": \"1\"", "\"period\": \"1 s\""), "numbers have no units: write 1 alone"),
     ] {
@@ -140,9 +143,25 @@ fn a_smaller_initial_set_has_a_size() {
     let advice = report["advice"].as_array().expect("advice");
     let said =
         advice.iter().filter_map(Value::as_str).find(|text| text.contains("a smaller initial set")).expect("a size");
-    assert!(said.contains("an estimate, no proof"), "{said}");
-    let suggested = said.split_once("\"initial_set\": ").expect("as in a specification").1.trim_end_matches('`');
-    assert_eq!(run(set(suggested)).0, Some(0), "{suggested}");
+    let (suggested, more) =
+        said.split_once("\"initial_set\": ").and_then(|(_, rest)| rest.split_once('`')).expect("a field");
+    let (code, certified) = run(set(suggested));
+    assert_eq!(code, Some(0), "{suggested}");
+    // The gain is that of the file with this set, and the share that of what was asked for, rounded down.
+    let sigma = certified["sigma_star"].as_str().expect("a gain");
+    assert!(more.starts_with(&format!(" is certified, with sigma* = {sigma}; it is 0.")), "{said}");
+    let number = |name: &str| {
+        let set: Value = serde_json::from_str(suggested).expect("JSON");
+        set[name].as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number")
+    };
+    let share = more.split_once("; it is ").and_then(|(_, rest)| rest.split_once(" of the one")).expect("a share").0;
+    let share: f64 = share.parse().expect("a number");
+    let least = number("X0").min(number("E0") / 4.0);
+    assert!(share <= least && share > 0.99 * least, "{share} {least}");
+    // A set that is 3 % larger is not certified.
+    let [x0, e0] = [1.03 * number("X0"), 1.03 * number("E0")];
+    let larger = format!(r#"{{ "kind": "box", "X0": "{x0}", "E0": "{e0}", "Z0": "0" }}"#);
+    assert_eq!(run(set(&larger)).0, Some(3), "{larger}");
 }
 
 /// What a Jacobian costs is said where it takes long, never on standard output, and not with `--quiet`.

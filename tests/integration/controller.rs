@@ -284,13 +284,13 @@ fn every_export_says_what_the_sampling_does_and_what_is_not_claimed() {
         let matlab = controller(&call).args(["--format", "matlab"]).assert().success();
         let matlab = flat(&String::from_utf8_lossy(&matlab.get_output().stdout), "%");
         let source = folder.path().join("regulator.c");
-        controller(&call).args(["--format", "c", "-o"]).arg(&source).assert().success();
+        controller(&call).args(["--format", "c", "--force", "-o"]).arg(&source).assert().success();
         let header = flat(&std::fs::read_to_string(source.with_extension("h")).unwrap(), "*");
         for text in [matlab, header] {
             assert!(text.contains(words) && notice.iter().all(|line| text.contains(line.as_str())), "{text}");
         }
         let archive = folder.path().join("regulator.npz");
-        controller(&call).args(["--format", "npz", "-o"]).arg(&archive).assert().success();
+        controller(&call).args(["--format", "npz", "--force", "-o"]).arg(&archive).assert().success();
         let mut archive = ndarray_npy::NpzReader::new(std::fs::File::open(archive).unwrap()).unwrap();
         let read: ndarray::Array0<f64> = archive.by_name("spectral_radius").unwrap();
         let unstable: ndarray::Array0<bool> = archive.by_name("unstable").unwrap();

@@ -135,7 +135,7 @@ fn the_header_stays_where_the_source_cannot_be_written() {
             "--format",
             "c",
         ]);
-        shell.args(["--n-o", n_o, "-o"]).arg(&source).output().unwrap()
+        shell.args(["--n-o", n_o, "--force", "-o"]).arg(&source).output().unwrap()
     };
     let read = || ["c", "h"].map(|extension| std::fs::read_to_string(source.with_extension(extension)).unwrap());
     assert!(call("1").status.success());
@@ -158,7 +158,7 @@ fn a_source_does_not_compile_with_the_header_of_another() {
     let write = |sigma: &str| {
         let call =
             ["specs/linear.json", "--sigma", sigma, "--n-o", "1", "--discretise", "1/100", "--format", "c", "-o"];
-        controller(&call).arg(&source).assert().success();
+        controller(&call).arg(&source).arg("--force").assert().success();
     };
     let compiles = || {
         let gcc = Process::new("gcc")

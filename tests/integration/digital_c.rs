@@ -127,7 +127,8 @@ fn norm(values: &[f64]) -> f64 {
 fn export(folder: &Path, certificate: &Path, sigma: &Constant, n_o: u32) -> std::path::PathBuf {
     let (source, main, binary) = (folder.join("law.c"), folder.join("main.c"), folder.join("law"));
     let (n_o, step) = (n_o.to_string(), format!("1/{SAMPLES}"));
-    let arguments = ["--sigma", &sigma.text, "--n-o", &n_o, "--discretise", &step, "--format", "c", "--example", "-o"];
+    let arguments =
+        ["--sigma", &sigma.text, "--n-o", &n_o, "--discretise", &step, "--format", "c", "--example", "--force", "-o"];
     program().arg("controller").arg(certificate).args(arguments).arg(&source).assert().success();
     let header = std::fs::read_to_string(source.with_extension("h")).unwrap();
     let header = header.split_whitespace().filter(|word| *word != "*").collect::<Vec<_>>().join(" ");

@@ -121,7 +121,8 @@ fn the_command_reports_and_writes_the_plant() {
     call().args(["--base-frequency", "3*pi"]).assert().code(2);
     // A forged one: exit code 1 and a counterexample.
     std::fs::write(&file, forged("/claim/initial_set/E0", 40.0).to_string()).unwrap();
-    let report = json(&call().args(["--trials", "2", "-o"]).arg(&plant).assert().code(1).get_output().stdout);
+    let report =
+        json(&call().args(["--trials", "2", "--force", "-o"]).arg(&plant).assert().code(1).get_output().stdout);
     assert_eq!(report["refuted"], true);
     assert!(std::fs::read_to_string(&plant).unwrap().contains("Counterexample: |e - e_p|"));
 }

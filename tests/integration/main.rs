@@ -5,6 +5,7 @@ mod bound;
 mod certify_random;
 mod check;
 mod cli_certify;
+mod cli_force;
 mod cli_reports;
 mod cli_specs;
 mod cli_transfer;

@@ -201,7 +201,7 @@ fn a_regulator_of_another_base_frequency_is_told() {
     std::fs::write(&spec, detuned).unwrap();
     let other = folder.path().join("other.json");
     let call = |spec: &str| {
-        sigmastar(&["controller", spec, "--sigma", "2", "--n-o", "1", "-o"]).arg(&other).assert().success();
+        sigmastar(&["controller", spec, "--sigma", "2", "--n-o", "1", "--force", "-o"]).arg(&other).assert().success();
         let run = sigmastar(&["simulate", PLANT, "--periods", "1", "--controller"]).arg(&other).assert().success();
         utf8(run.get_output().stderr.clone())
     };

@@ -1,6 +1,6 @@
 //! Flags of the commands that prove something, or say what was proved.
 
-use super::Format;
+use super::{Format, Replace};
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
@@ -45,6 +45,9 @@ pub struct CertifyArgs {
     /// Write the certificate (JSON) to this file, if certified
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub replace: Replace,
 
     /// Find the smallest n_o that certifies sup|e| <= V, an exact constant such as `1e-3` or `1/1000`
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
@@ -109,6 +112,9 @@ pub struct SamplingArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    pub replace: Replace,
+
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
@@ -133,13 +139,16 @@ pub struct TransferArgs {
     #[arg(long, value_name = "A,B", allow_hyphen_values = true)]
     pub minimise: Option<String>,
 
-    /// Numbers of oscillators to look at: a list of numbers and ranges; `inf` is allowed
+    /// Numbers of oscillators to look at: a list of numbers and ranges, such as `0..10,20..100/10`; `inf` is allowed
     #[arg(long, value_name = "LIST", allow_hyphen_values = true, default_value = "0,1,2,3,5,10,20,50,1000000000,inf")]
     pub n_o: String,
 
     /// Draw T for these n_o under the bound, as SVG, into this file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub replace: Replace,
 
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
@@ -164,6 +173,10 @@ pub struct CheckArgs {
     /// Specification that the certificate has to be about: other data make it invalid
     #[arg(long, value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: Option<PathBuf>,
+
+    /// Sampling period with which `certify` was called: it goes into SPEC before the two are compared
+    #[arg(long, value_name = "H", requires = "spec", allow_hyphen_values = true)]
+    pub sampling_period: Option<String>,
 
     /// Show the argument, line by line
     #[arg(short, long)]
@@ -213,6 +226,9 @@ pub struct BoundArgs {
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
 
+    #[command(flatten)]
+    pub replace: Replace,
+
     /// The domain: |y| <= X and |e| <= E; if absent, one quarter larger than what the certificate of the plant needs
     #[arg(long, value_name = "X,E", allow_hyphen_values = true)]
     pub domain: Option<String>,
@@ -229,7 +245,7 @@ pub struct RateArgs {
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
-    /// Numbers of oscillators, each at most 200: a list of numbers and ranges, such as `0,1,5..10`
+    /// Numbers of oscillators, each at most 200: a list of numbers and ranges, such as `0,1,5..10` or `0..200/20`
     #[arg(long, value_name = "LIST", default_value = "0,1,2,4,8,16", allow_hyphen_values = true)]
     pub n_o: String,
 

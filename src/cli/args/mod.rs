@@ -12,7 +12,7 @@ pub use claims::{
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
 pub use studies::{MergeArgs, SweepArgs};
 
-use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
+use clap::{Args, ColorChoice, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 /// The exit codes, as help and manual page tell them.
@@ -80,6 +80,10 @@ pub const SIMULATE_EXAMPLES: &str = "Examples:
 pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
+
+    /// Colours of diagnostics and help; `auto`: on a terminal, unless NO_COLOR is set
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
+    pub color: ColorChoice,
 }
 
 /// The command line of [`Cli`], on which a negative number after a flag is its value: `--n-o -1` is a number that is
@@ -180,6 +184,14 @@ pub enum Command {
     },
     /// Write the manual page (roff) to standard output
     Man,
+}
+
+/// The flag of every command that writes files.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct Replace {
+    /// Replace files that exist already
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// A format of a report, the same for every command.

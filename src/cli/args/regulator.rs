@@ -1,10 +1,14 @@
 //! Flags of the commands that export the regulator and set it to work.
 
-use super::Format;
+use super::{Format, Replace};
+use crate::cli::counts::one_count;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
 use sigmastar::simulate::MAX_FIXED_STEPS;
 use std::path::PathBuf;
+
+/// The most oscillators of a simulation.
+const MAX_SIMULATED_OSCILLATORS: u32 = 200;
 
 /// The flags of `controller`.
 #[derive(Args, Debug)]
@@ -18,8 +22,7 @@ pub struct ControllerArgs {
     pub sigma: Option<String>,
 
     /// The number of oscillators n_o (the high-gain feedback u = -sigma e needs no file: see `simulate --high-gain`)
-    #[arg(long, value_name = "N",
-          value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_EXPORTED_OSCILLATORS)))]
+    #[arg(long, value_name = "N", value_parser = one_count(MAX_EXPORTED_OSCILLATORS))]
     pub n_o: u32,
 
     /// Also the law for a computer with this sampling time, an exact positive constant; the control is held over each sample
@@ -53,6 +56,9 @@ pub struct ControllerArgs {
     /// Write to this file; the C source takes its header beside it
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 /// The flags of `simulate`.
@@ -68,7 +74,7 @@ pub struct SimulateArgs {
 
     /// The number of oscillators n_o, with the internal model of the plant file
     #[arg(long, value_name = "N", required_unless_present_any = ["controller", "high_gain"],
-          value_parser = clap::value_parser!(u32).range(0..=200))]
+          value_parser = one_count(MAX_SIMULATED_OSCILLATORS))]
     pub n_o: Option<u32>,
 
     /// The high-gain feedback u = -sigma e without an internal model
@@ -147,6 +153,9 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub plots: Option<PathBuf>,
 
+    #[command(flatten)]
+    pub replace: Replace,
+
     /// No progress and no remarks on standard error; errors are still shown
     #[arg(short, long)]
     pub quiet: bool,
@@ -158,6 +167,9 @@ pub struct ReproduceArgs {
     /// Folder for the report and the figures; created where it does not exist
     #[arg(short, long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub output: PathBuf,
+
+    #[command(flatten)]
+    pub replace: Replace,
 
     /// Only these parts (several can be given, separated by commas)
     #[arg(long, value_enum, value_name = "PART", value_delimiter = ',')]
@@ -215,6 +227,9 @@ pub struct FalsifyArgs {
     /// Write the first counterexample to this plant file, or with `--trial` the plant of the trial
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub replace: Replace,
 
     /// No progress and no remarks on standard error; errors are still shown
     #[arg(short, long)]

@@ -1,5 +1,6 @@
 //! Flags of the commands for many cases.
 
+use super::Replace;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -22,6 +23,9 @@ pub struct SweepArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    pub replace: Replace,
+
     /// Say which case is the best
     #[arg(long, value_enum, value_name = "NAME")]
     pub minimise: Option<Minimised>,
@@ -31,7 +35,7 @@ pub struct SweepArgs {
     pub shard: Option<String>,
 
     /// Write the specification or plant of this case to standard output and do nothing else
-    #[arg(long, value_name = "INDEX", conflicts_with_all = ["output", "csv", "plot", "minimise", "shard"])]
+    #[arg(long, value_name = "INDEX", conflicts_with_all = ["output", "csv", "plot", "minimise", "shard", "force"])]
     pub case: Option<u64>,
 
     /// No progress and no remarks on standard error; errors are still shown
@@ -57,6 +61,9 @@ pub struct MergeArgs {
     /// Write the joined results to this file
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: PathBuf,
+
+    #[command(flatten)]
+    pub replace: Replace,
 
     /// Join them although cases are missing; `sweep -o` with this file computes the rest
     #[arg(long)]
