@@ -158,6 +158,39 @@ fn a_sum_of_the_weights_that_is_too_large_is_refused_with_the_gain_that_fits_it(
     assert_eq!(refused((101, 100)), too_large);
 }
 
+/// The smallest gain is that of the form at the end of a sample; the one at its start, which continuous time has too, has room.
+#[test]
+fn the_form_at_the_end_of_a_sample_is_decided_by_itself() {
+    let spec = sampled("1/100");
+    let mut witness = run(&spec, None).claim().unwrap().witness.clone();
+    witness.sigma *= Rational::from((999, 1000));
+    let run = recheck_digital(&spec, &witness, Ladder::default()).unwrap();
+    let failing = |form: &str| {
+        let of_the_form = run.conditions().iter().filter(|condition| condition.what.ends_with(form));
+        of_the_form.map(|condition| condition.truth()).collect::<Vec<_>>()
+    };
+    assert!(failing("of Q_0").iter().all(|truth| truth.is_true()) && failing("of Q_0").len() == 3);
+    assert!(failing("of Q_h").iter().any(|truth| truth.is_false()) && failing("of Q_h").len() == 3);
+}
+
+/// Beyond h k_e = pi the square of h k_e/(1 - h k_e/pi) falls again: the forms alone would not see it.
+#[test]
+fn damping_that_is_too_fast_for_the_samples_is_refused() {
+    let witness = run(&sampled("1/100"), Some("22")).claim().unwrap().witness.clone();
+    let of_the_motion = |q_e: &str| {
+        let mut document: Value = serde_json::from_str(&document("sampling_period", "1/100".into())).unwrap();
+        document["bounds"]["q_e"] = q_e.into();
+        document["bounds"]["q_e_max"] = "0".into();
+        let spec = Specification::from_json("damped", &document.to_string()).unwrap();
+        let run = recheck_digital(&spec, &witness, Ladder::default()).unwrap();
+        let found: Vec<Condition> =
+            run.conditions().iter().filter(|condition| condition.what == "0 < 1 - h k_e/pi").cloned().collect();
+        assert_eq!(found.len(), 1, "{q_e}");
+        found[0].truth()
+    };
+    assert!(of_the_motion("314").is_true() && of_the_motion("315").is_false() && of_the_motion("5000").is_false());
+}
+
 #[test]
 fn a_certificate_is_read_back_as_it_was_written() {
     let spec = sampled("1/200");
