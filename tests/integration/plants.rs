@@ -1,6 +1,7 @@
 //! Plants by their formulas: every file of `specs/plants` with its verdict, its certificate before the checker, and what
 //! other commands make of it.
 
+use crate::gallery;
 use crate::support::{files, json, program, stem};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,14 +34,20 @@ const REFUSED: [(&str, i32, &str); 6] = [
     ("unstable", 3, "no certificate of this kind"),
 ];
 
-/// The certificate of a plant, written into a folder, and its gain.
-fn certified(folder: &Path, name: &str) -> (PathBuf, f64) {
+/// The certificate of a plant, written into a folder, and its report.
+fn reported(folder: &Path, name: &str) -> (PathBuf, Value) {
     let file = folder.join(format!("{name}.certificate.json"));
     let plant = format!("specs/plants/{name}.json");
     let output = program().args(["certify", &plant, "--quiet", "--format", "json", "-o"]).arg(&file).output().unwrap();
     let report = json(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{name}: {report:#}");
     assert_eq!(report["verdict"], "certified", "{name}");
+    (file, report)
+}
+
+/// The certificate of a plant, written into a folder, and its gain.
+fn certified(folder: &Path, name: &str) -> (PathBuf, f64) {
+    let (file, report) = reported(folder, name);
     let sigma = report["sigma_star"].as_str().and_then(|text| text.parse().ok());
     (file, sigma.unwrap_or_else(|| panic!("{name}: {}", report["sigma_star"])))
 }
@@ -66,14 +73,17 @@ fn every_plant_is_listed() {
     assert_eq!(names("specs/plants/invalid"), BTreeSet::from(REFUSED.map(|(name, ..)| name.to_owned())));
 }
 
-/// Each certificate is decided by the checker, which has no line in common with what made it, and every figure agrees.
+/// Each certificate is decided by the checker, which has no line in common with what made it, and every figure agrees;
+/// the documents say of each plant what its report says.
 #[test]
 fn the_shipped_plants_are_certified_and_checked() {
     let folder = TempDir::new().unwrap();
     let mut gains = BTreeMap::new();
     for (name, most) in CERTIFIED {
-        let (certificate, sigma) = certified(folder.path(), name);
+        let (certificate, report) = reported(folder.path(), name);
+        let sigma: f64 = report["sigma_star"].as_str().and_then(|text| text.parse().ok()).expect("a gain");
         assert!(sigma <= most, "{name}: {sigma}");
+        gallery::compare(name, &report);
         let answer = checked(&certificate);
         assert_eq!(answer["verdict"], "valid", "{name}: {answer:#}");
         assert_eq!(answer["figures"]["verdict"], "agree", "{name}: {answer:#}");

@@ -1,0 +1,196 @@
+//! The documents: every link and every anchor resolves, in the book as on a code host, and formulas are written so that
+//! both typeset them.
+
+use crate::support::ROOT;
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Documents outside of the book.
+const OUTSIDE: [&str; 3] = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"];
+
+/// The texts of documents by their paths from the root.
+type Texts = BTreeMap<String, String>;
+
+fn shipped() -> Texts {
+    let folder = std::fs::read_dir(Path::new(ROOT).join("docs")).expect("the folder is part of the repository");
+    let chapters = folder
+        .map(|entry| format!("docs/{}", entry.expect("an entry").file_name().to_str().expect("plain names")))
+        .filter(|path| path.ends_with(".md"));
+    let text = |path: String| {
+        let text =
+            std::fs::read_to_string(Path::new(ROOT).join(&path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+        (path, text)
+    };
+    OUTSIDE.map(str::to_owned).into_iter().chain(chapters).map(text).collect()
+}
+
+fn parser(text: &str) -> Parser<'_> {
+    Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_STRIKETHROUGH)
+}
+
+/// The targets of links and images.
+fn links(text: &str) -> Vec<String> {
+    let target = |event| match event {
+        Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => Some(dest_url.into_string()),
+        _ => None,
+    };
+    parser(text).filter_map(target).collect()
+}
+
+/// The anchors of the headings, by the rule that mdBook and code hosts share: small letters, digits, `-` and `_` stay, a
+/// space becomes `-`, anything else goes; a second one of a name gets `-1`.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let mut anchors = BTreeSet::new();
+    let mut heading: Option<String> = None;
+    for event in parser(text) {
+        match event {
+            Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+            Event::Text(text) | Event::Code(text) => {
+                if let Some(heading) = &mut heading {
+                    heading.push_str(&text);
+                }
+            }
+            Event::End(TagEnd::Heading(_)) => {
+                let name: String = heading
+                    .take()
+                    .unwrap_or_default()
+                    .trim()
+                    .to_lowercase()
+                    .chars()
+                    .filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | ' '))
+                    .map(|c| if c == ' ' { '-' } else { c })
+                    .collect();
+                let mut unique = name.clone();
+                let mut count = 0;
+                while !anchors.insert(unique.clone()) {
+                    count += 1;
+                    unique = format!("{name}-{count}");
+                }
+            }
+            _ => {}
+        }
+    }
+    anchors
+}
+
+/// A path relative to the folder of a document, from the root; none where it leaves the root.
+fn from_root(document: &str, path: &str) -> Option<String> {
+    let mut parts: Vec<&str> = document.split('/').collect();
+    parts.pop();
+    for part in path.split('/') {
+        match part {
+            "." => {}
+            ".." => drop(parts.pop()?),
+            _ => parts.push(part),
+        }
+    }
+    Some(parts.join("/"))
+}
+
+/// The links that do not resolve.
+fn broken(texts: &Texts, exists: &dyn Fn(&str) -> bool) -> Vec<String> {
+    let anchors: BTreeMap<&str, _> = texts.iter().map(|(path, text)| (path.as_str(), anchors(text))).collect();
+    let mut broken = Vec::new();
+    for (document, text) in texts {
+        for link in links(text).iter().filter(|link| !link.contains("://")) {
+            let mut says = |what: &str| broken.push(format!("{document}: {link}: {what}"));
+            let (path, anchor) =
+                link.split_once('#').map_or((link.as_str(), None), |(path, anchor)| (path, Some(anchor)));
+            let target = if path.is_empty() { Some(document.clone()) } else { from_root(document, path) };
+            match target.filter(|target| exists(target)) {
+                None => says("no such file"),
+                Some(target) => {
+                    if document.starts_with("docs/") && !target.starts_with("docs/") {
+                        says("the book has no such page");
+                    }
+                    let known = |anchor| anchors.get(target.as_str()).is_some_and(|names| names.contains(anchor));
+                    if anchor.is_some_and(|anchor| !known(anchor)) {
+                        says("no such heading");
+                    }
+                }
+            }
+        }
+    }
+    broken
+}
+
+/// Formulas that one of the two would not typeset: `$` on one side only, or a bar in a table, where Markdown wants `\|`
+/// and TeX reads it as the double bar of a norm.
+fn bad_formulas(text: &str) -> Vec<String> {
+    let events: Vec<Event> = parser(text).collect();
+    let mut bad = Vec::new();
+    let mut in_table = false;
+    for (index, event) in events.iter().enumerate() {
+        match event {
+            Event::Start(Tag::Table(_)) => in_table = true,
+            Event::End(TagEnd::Table) => in_table = false,
+            Event::Code(code) => {
+                let text = |index: Option<usize>| match index.and_then(|index| events.get(index)) {
+                    Some(Event::Text(text)) => text.to_string(),
+                    _ => String::new(),
+                };
+                let opens = text(index.checked_sub(1)).ends_with('$');
+                let closes = text(Some(index + 1)).starts_with('$');
+                if opens != closes || (opens && in_table && code.contains('|')) {
+                    bad.push(code.to_string());
+                }
+            }
+            _ => {}
+        }
+    }
+    bad
+}
+
+#[test]
+fn every_link_of_the_documents_resolves() {
+    let broken = broken(&shipped(), &|path| Path::new(ROOT).join(path).exists());
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn links_that_do_not_resolve_are_found() {
+    let texts = |guide: &str| {
+        let readme = "# Read me\n\n## The same\n\n## The same\n\n[guide](docs/guide.md#use-it-now)".to_owned();
+        let guide = format!("# Guide\n\n## Use *it*, `now`!\n\n{guide}");
+        Texts::from([("README.md".to_owned(), readme), ("docs/guide.md".to_owned(), guide)])
+    };
+    let exists = |path: &str| matches!(path, "README.md" | "docs/guide.md" | "docs/figures/one.svg");
+    let right = "[a](#guide) [b](guide.md#use-it-now) ![c](figures/one.svg) [d](./guide.md) [e](https://example.org/x)";
+    assert_eq!(broken(&texts(right), &exists), Vec::<String>::new());
+    for (wrong, says) in [
+        ("[a](#gide)", "docs/guide.md: #gide: no such heading"),
+        ("[a](guide.md#the-same)", "docs/guide.md: guide.md#the-same: no such heading"),
+        ("[a](errata.md)", "docs/guide.md: errata.md: no such file"),
+        ("![a](figures/two.svg)", "docs/guide.md: figures/two.svg: no such file"),
+        ("[a](../README.md)", "docs/guide.md: ../README.md: the book has no such page"),
+        ("[a](../../README.md)", "docs/guide.md: ../../README.md: no such file"),
+    ] {
+        assert_eq!(broken(&texts(wrong), &exists), [says]);
+    }
+    let twice = anchors("## The same\n\n## The same");
+    assert_eq!(twice, BTreeSet::from(["the-same".to_owned(), "the-same-1".to_owned()]));
+}
+
+/// What is in docs is a chapter, and what the book lists is there.
+#[test]
+fn every_document_is_a_chapter_of_the_book() {
+    let texts = shipped();
+    let listed: BTreeSet<String> =
+        links(&texts["docs/SUMMARY.md"]).iter().filter_map(|link| from_root("docs/SUMMARY.md", link)).collect();
+    let there: BTreeSet<String> =
+        texts.into_keys().filter(|path| path.starts_with("docs/") && path != "docs/SUMMARY.md").collect();
+    assert_eq!(listed, there);
+}
+
+#[test]
+fn formulas_are_typeset_everywhere() {
+    for (document, text) in shipped() {
+        assert_eq!(bad_formulas(&text), Vec::<String>::new(), "{document}");
+    }
+    assert_eq!(bad_formulas("Then $`a < b`$ and `c`."), Vec::<String>::new());
+    assert_eq!(bad_formulas("Then $`a < b` and `c`."), ["a < b"]);
+    assert_eq!(bad_formulas("Then `a < b`$."), ["a < b"]);
+    assert_eq!(bad_formulas("| a |\n|---|\n| $`\\vert x \\vert`$ |"), Vec::<String>::new());
+    assert_eq!(bad_formulas("| a |\n|---|\n| $`\\|x\\|`$ |"), ["|x|"]);
+}
