@@ -1,7 +1,7 @@
 //! The pages of `--format html` in a real browser: nothing is loaded, nothing is complained of, the first screen answers what a
 //! reader asks, and what is folded is printed. Where Chromium is not installed this is said, and nothing fails.
 
-use crate::support::{EXAMPLE, PLANT, program, utf8};
+use crate::support::{EXAMPLE, PLANT, program};
 use serde_json::Value;
 use std::fs;
 use std::io::Write as _;
@@ -67,7 +67,8 @@ fn browse(browser: &Path, page: &Path, arguments: &[&str]) -> (String, Vec<Strin
 /// The pages of a page printed to PDF.
 fn printed(browser: &Path, page: &Path) -> (usize, Vec<String>) {
     let file = page.with_extension("pdf");
-    let (_, console) = browse(browser, page, &["--no-pdf-header-footer", &format!("--print-to-pdf={}", file.display())]);
+    let (_, console) =
+        browse(browser, page, &["--no-pdf-header-footer", &format!("--print-to-pdf={}", file.display())]);
     let pdf = fs::read(file).expect("printed");
     let object = b"/Type /Page\n";
     (pdf.windows(object.len()).filter(|window| window == object).count(), console)
@@ -147,13 +148,14 @@ fn a_bad_page_is_seen() {
 /// Where the answers on a page end, in its own pixels, and how wide it is.
 const MEASURE: &str = r"<script>
 addEventListener('load', () => {
-  const first = document.querySelector('h1').parentElement;
+  const first = document.querySelector('section');
   const facts = [...first.querySelectorAll('dt')].filter(dt => ['gain', 'from', 'next'].includes(dt.textContent));
   const lists = [...first.querySelectorAll('ul')];
   const advice = lists.length ? [lists[lists.length - 1].querySelector('li')] : [];
-  const answers = [first.querySelector('.verdict'), ...(facts.length ? facts.map(dt => dt.nextElementSibling) : advice)];
+  const verdict = [...first.querySelectorAll('.verdict')];
+  const answers = [...verdict, ...(facts.length ? facts.map(dt => dt.nextElementSibling) : advice)];
   parent.postMessage({
-    answers: answers.length, bottom: Math.max(...answers.map(a => a.getBoundingClientRect().bottom)),
+    answers: answers.length, bottom: Math.max(0, ...answers.map(a => a.getBoundingClientRect().bottom)),
     width: document.documentElement.scrollWidth, inner: innerWidth,
   }, '*');
 });
@@ -213,22 +215,7 @@ fn no_page_is_wider_than_its_window() {
     let Some(browser) = chromium("no_page_is_wider_than_its_window") else { return };
     let folder = TempDir::new().unwrap();
     for page in every_page(folder.path()) {
-        let text = fs::read_to_string(&page).unwrap();
-        // The script looks for a verdict, which not every report has.
-        let title = "<h1 id=\"measured\">a</h1><p class=\"verdict\">b</p></section>";
-        fs::write(&page, text.replacen("<section>", &format!("<section>{title}<section>"), 1)).unwrap();
         let (_, _, overflow) = measured(&browser, &page, 400, 800);
         assert!(overflow <= 0.0, "{}: {overflow} pixels too wide", page.display());
-    }
-}
-
-/// The answer of the program is a page in any case.
-#[test]
-fn every_report_is_a_page() {
-    let folder = TempDir::new().unwrap();
-    let pages = every_page(folder.path());
-    assert_eq!(pages.len(), 12);
-    for page in pages {
-        assert!(utf8(fs::read(page).unwrap()).starts_with("<!DOCTYPE html>"));
     }
 }

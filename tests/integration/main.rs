@@ -4,6 +4,7 @@
 mod bound;
 mod certify_random;
 mod check;
+mod chromium;
 mod cli_certify;
 mod cli_reports;
 mod cli_specs;
@@ -42,6 +43,7 @@ mod sampled_law;
 mod sdp_bounds;
 mod sdpa;
 mod search_scale;
+mod short_reports;
 mod simulate;
 mod spec_document;
 mod spec_examples;
