@@ -38,7 +38,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let mut facts = vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next.to_owned())];
     facts.extend(set_by(run).map(|said| ("set by", said)));
     // Where targets were given, their answers are above.
-    facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("error", said)));
+    facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper))));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
