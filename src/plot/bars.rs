@@ -4,6 +4,7 @@ use super::canvas::{Area, AreaError, DETAIL, at_size, canvas, title};
 use super::figure::PlotError;
 use super::palette::COLOURS;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// The width of the figure in pixels.
 const WIDTH: u32 = 820;
@@ -14,7 +15,7 @@ const EDGES: [u32; 2] = [48, 14];
 /// The room for a number behind its bar.
 const NUMBER: i32 = 100;
 /// The longest name, in characters.
-const LONGEST: usize = 44;
+const LONGEST: usize = 46;
 
 /// Named numbers, drawn as horizontal bars with the number behind each.
 #[derive(Clone, Debug)]
@@ -61,13 +62,15 @@ impl Bars {
         let longest = entries.iter().map(|entry| entry.1).fold(0.0, f64::max);
         for (row, (name, length, number)) in (0..).zip(entries) {
             let top = (EDGES[0] as i32 + ROW as i32 * row) * unit;
-            let (width, _) = area.estimate_text_size(name, &style)?;
-            let text = |text: &str, x: i32| Text::new(text.to_owned(), (x, top + 6 * unit), style.clone());
-            area.draw(&text(name, left - 10 * unit - width as i32))?;
+            let text = |text: &str, x: i32, side: HPos| {
+                let style = style.pos(Pos::new(side, VPos::Center));
+                Text::new(text.to_owned(), (x, top + (ROW as i32 / 2) * unit), style)
+            };
+            area.draw(&text(name, left - 10 * unit, HPos::Right))?;
             let right = left + (room * length / longest) as i32;
             let corners = [(left, top + 4 * unit), (right, top + (ROW as i32 - 5) * unit)];
             area.draw(&Rectangle::new(corners, COLOURS[0].filled()))?;
-            area.draw(&text(number, right + 8 * unit))?;
+            area.draw(&text(number, right + 8 * unit, HPos::Left))?;
         }
         // Where the bars start.
         let [top, bottom] = [EDGES[0] as i32 * unit, (size.1 - EDGES[1]) as i32 * unit];

@@ -2,6 +2,7 @@
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// The library puts points on whole pixels, which makes steps of smooth curves: figures are drawn this much larger and
 /// shown at their size.
@@ -25,8 +26,7 @@ pub(super) fn at_size(text: String, (width, height): (u32, u32)) -> String {
 
 /// Draws the title in the middle.
 pub(super) fn title(area: &Area<'_>, title: &str) -> Result<(), AreaError> {
-    let unit = DETAIL as i32;
-    let style = ("sans-serif", 18 * DETAIL).into_font().color(&BLACK);
-    let [width, title_width] = [area.dim_in_pixel().0, area.estimate_text_size(title, &style)?.0].map(|w| w as i32);
-    area.draw(&Text::new(title.to_owned(), ((width - title_width) / 2, 14 * unit), style))
+    let style = ("sans-serif", 18 * DETAIL).into_font().color(&BLACK).pos(Pos::new(HPos::Center, VPos::Top));
+    let middle = area.dim_in_pixel().0 as i32 / 2;
+    area.draw(&Text::new(title.to_owned(), (middle, 14 * DETAIL as i32), style))
 }

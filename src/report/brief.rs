@@ -37,7 +37,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     };
     let mut facts = vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next.to_owned())];
     facts.extend(set_by(run).map(|said| ("set by", said)));
-    facts.extend(consequences.and_then(error).map(|said| ("error", said)));
+    // Where targets were given, their answers are above.
+    facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper))));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
@@ -73,10 +74,7 @@ pub(super) fn of_samples(run: &DigitalCertification<'_>, rechecked: bool) -> Vec
 /// What the norms are of, and whom a gain or a law serves.
 fn norms(spec: &Specification, what: &str) -> String {
     match spec.plant().is_some() {
-        true => {
-            "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with the orbit x_0 and the matrix L that were found."
-                .to_owned()
-        }
+        true => "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with the orbit x_0 and a matrix L.".to_owned(),
         false => {
             format!("Here |z|_N = sqrt(z'Nz). The same {what} serves every plant that the bounding functions describe.")
         }

@@ -4,7 +4,9 @@ use super::document::{Block, Table};
 use super::number::estimate;
 use crate::certify::{Certification, Derivation, Verdict};
 use crate::enclosure::Enclosure;
+use crate::number::write_exact;
 use crate::plot::Bars;
+use rug::Rational;
 
 /// The binding condition and the sensitivities of the sharp derivation.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
@@ -51,12 +53,13 @@ fn ingredients(run: &Certification<'_>) -> Option<Bars> {
     let proof = run.sharp.proved()?;
     let decay = &proof.evaluation.decay;
     let [slope, all] = [&decay.by_slope, &decay.sigma_threshold].map(Enclosure::midpoint_f64);
+    let term = |name: &str, value: f64| (name.to_owned(), value, estimate(value));
+    let gain = |name: &str, sigma: &Rational| (name.to_owned(), sigma.to_f64(), write_exact(sigma));
     let mut entries = vec![
-        ("C5: dq/de and the internal model's start", slope),
-        ("C5: the loop through x", all - slope),
-        ("sigma*", proof.witness.sigma.to_f64()),
+        term("C5: dq/de and the internal model's start", slope),
+        term("C5: the loop through x", all - slope),
+        gain("sigma*", &proof.witness.sigma),
     ];
-    entries.extend(run.exact.as_ref().map(|claim| ("sigma*_oo (n_o infinite)", claim.witness.sigma.to_f64())));
-    let entries = entries.into_iter().map(|(name, value)| (name.to_owned(), value, estimate(value))).collect();
+    entries.extend(run.exact.as_ref().map(|claim| gain("sigma*_oo (n_o infinite)", &claim.witness.sigma)));
     Some(Bars { title: "sigma* and the two terms of C5 that it exceeds, in 1/time".to_owned(), entries })
 }

@@ -1,7 +1,7 @@
 //! The pages of `--format html` in a real browser: nothing is loaded, nothing is complained of, the first screen answers what a
 //! reader asks, and what is folded is printed. Where Chromium is not installed this is said, and nothing fails.
 
-use crate::support::{EXAMPLE, PLANT, program, utf8};
+use crate::support::{EXAMPLE, PLANT, program};
 use serde_json::Value;
 use std::fs;
 use std::io::Write as _;
@@ -67,7 +67,8 @@ fn browse(browser: &Path, page: &Path, arguments: &[&str]) -> (String, Vec<Strin
 /// The pages of a page printed to PDF.
 fn printed(browser: &Path, page: &Path) -> (usize, Vec<String>) {
     let file = page.with_extension("pdf");
-    let (_, console) = browse(browser, page, &["--no-pdf-header-footer", &format!("--print-to-pdf={}", file.display())]);
+    let (_, console) =
+        browse(browser, page, &["--no-pdf-header-footer", &format!("--print-to-pdf={}", file.display())]);
     let pdf = fs::read(file).expect("printed");
     let object = b"/Type /Page\n";
     (pdf.windows(object.len()).filter(|window| window == object).count(), console)
@@ -129,15 +130,15 @@ fn a_bad_page_is_seen() {
     let policy = "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'\">";
     let image = "<img src=\"http://192.0.2.1/x.png\" alt=\"\">";
     let folded = format!("<details><summary>a</summary>{}</details>", "<p>b</p>".repeat(200));
-    for (body, complaints, pages) in [
-        (format!("{policy}<p>a</p>"), 0, 1),
-        (format!("{policy}{image}"), 1, 1),
-        ("<script>console.warn('careful')</script>".to_owned(), 1, 1),
-        (folded.clone(), 0, 1),
-        (folded.replace("<details>", "<details open>"), 0, 10),
+    for (head, body, complaints, pages) in [
+        (policy, "<p>a</p>".to_owned(), 0, 1),
+        (policy, image.to_owned(), 1, 1),
+        ("", "<script>console.warn('careful')</script>".to_owned(), 1, 1),
+        ("", folded.clone(), 0, 1),
+        ("", folded.replace("<details>", "<details open>"), 0, 5),
     ] {
         let page = folder.path().join("page.html");
-        fs::write(&page, format!("<!DOCTYPE html><html><head></head><body>{body}</body></html>")).unwrap();
+        fs::write(&page, format!("<!DOCTYPE html><html><head>{head}</head><body>{body}</body></html>")).unwrap();
         let (printed, console) = printed(&browser, &page);
         assert_eq!(console.len(), complaints, "{body}: {console:?}");
         assert!(if pages == 1 { printed == 1 } else { printed >= pages }, "{printed}: {body}");
@@ -147,13 +148,14 @@ fn a_bad_page_is_seen() {
 /// Where the answers on a page end, in its own pixels, and how wide it is.
 const MEASURE: &str = r"<script>
 addEventListener('load', () => {
-  const first = document.querySelector('h1').parentElement;
+  const first = document.querySelector('section');
   const facts = [...first.querySelectorAll('dt')].filter(dt => ['gain', 'from', 'next'].includes(dt.textContent));
   const lists = [...first.querySelectorAll('ul')];
   const advice = lists.length ? [lists[lists.length - 1].querySelector('li')] : [];
-  const answers = [first.querySelector('.verdict'), ...(facts.length ? facts.map(dt => dt.nextElementSibling) : advice)];
+  const verdict = [...first.querySelectorAll('.verdict')];
+  const answers = [...verdict, ...(facts.length ? facts.map(dt => dt.nextElementSibling) : advice)];
   parent.postMessage({
-    answers: answers.length, bottom: Math.max(...answers.map(a => a.getBoundingClientRect().bottom)),
+    answers: answers.length, bottom: Math.max(0, ...answers.map(a => a.getBoundingClientRect().bottom)),
     width: document.documentElement.scrollWidth, inner: innerWidth,
   }, '*');
 });
@@ -213,22 +215,7 @@ fn no_page_is_wider_than_its_window() {
     let Some(browser) = chromium("no_page_is_wider_than_its_window") else { return };
     let folder = TempDir::new().unwrap();
     for page in every_page(folder.path()) {
-        let text = fs::read_to_string(&page).unwrap();
-        // The script looks for a verdict, which not every report has.
-        let title = "<h1 id=\"measured\">a</h1><p class=\"verdict\">b</p></section>";
-        fs::write(&page, text.replacen("<section>", &format!("<section>{title}<section>"), 1)).unwrap();
         let (_, _, overflow) = measured(&browser, &page, 400, 800);
         assert!(overflow <= 0.0, "{}: {overflow} pixels too wide", page.display());
-    }
-}
-
-/// The answer of the program is a page in any case.
-#[test]
-fn every_report_is_a_page() {
-    let folder = TempDir::new().unwrap();
-    let pages = every_page(folder.path());
-    assert_eq!(pages.len(), 12);
-    for page in pages {
-        assert!(utf8(fs::read(page).unwrap()).starts_with("<!DOCTYPE html>"));
     }
 }

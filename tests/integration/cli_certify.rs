@@ -32,7 +32,8 @@ fn certified_is_0_with_data_on_standard_output_only() {
         .code(0)
         .stdout(starts_with("Example of the paper: certified\n").and(contains("Certified: with sigma = ")))
         .stdout(contains('\u{1b}').not())
-        .stderr(is_empty());
+        .stderr("sigmastar: this is the short form; `--full` shows the whole report\n");
+    certify(&[EXAMPLE, "--full"]).assert().code(0).stdout(contains("Exact regulation")).stderr(is_empty());
 }
 
 #[test]
@@ -140,7 +141,7 @@ fn targets_are_exact_constants() {
 #[test]
 fn unmatched_frequencies_are_told_honestly() {
     let input = EXAMPLE_TEXT.replace("\"matched\": true", "\"matched\": false");
-    certify(&["-", "--target-sup", "1e-3"])
+    certify(&["-", "--target-sup", "1e-3", "--full"])
         .write_stdin(input)
         .assert()
         .code(0)
@@ -227,7 +228,8 @@ fn a_closed_pipe_is_no_failure() {
     drop(child.stdout.take());
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(output.status.code(), Some(0));
-    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    let remark = "sigmastar: this is the short form; `--full` shows the whole report\n";
+    assert_eq!(String::from_utf8_lossy(&output.stderr), remark);
 }
 
 #[cfg(target_os = "linux")]

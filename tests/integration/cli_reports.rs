@@ -22,7 +22,7 @@ fn output(shown: &str, code: i32) -> &str {
     output.and_then(|rest| rest.strip_suffix("--- standard error\n")).unwrap_or_else(|| panic!("{shown}"))
 }
 
-const TARGETS: [&str; 5] = ["specs/paper-example.json", "--target-sup", "1e-3", "--target-rms", "1/1000"];
+const TARGETS: [&str; 6] = ["specs/paper-example.json", "--target-sup", "1e-3", "--target-rms", "1/1000", "--full"];
 
 /// The report that is held as a whole.
 static EXAMPLE: LazyLock<String> = LazyLock::new(|| shown(&TARGETS));
@@ -109,7 +109,7 @@ fn paper_example() {
 #[test]
 fn other_derivations() {
     let whole = output(&EXAMPLE, 0);
-    let printed = shown(&["specs/paper-example.json", "--derivation", "printed"]);
+    let printed = shown(&["specs/paper-example.json", "--derivation", "printed", "--full"]);
     fits(&printed);
     let printed = output(&printed, 1);
     assert_snapshot!(
@@ -123,7 +123,7 @@ fn other_derivations() {
     assert_eq!((shared.len(), shared[0], shared[6]), (7, "Constants in the three derivations", PRINTED));
     assert_eq!(sections(printed, &shared), sections(whole, &shared));
 
-    let repaired = shown(&["specs/paper-example-at-rest.json", "--derivation", "repaired", "--no-compare"]);
+    let repaired = shown(&["specs/paper-example-at-rest.json", "--derivation", "repaired", "--no-compare", "--full"]);
     fits(&repaired);
     let repaired = output(&repaired, 0);
     let special = ["Example of the paper", "sigma* = ", "Conditions", BEST, PRINTED, "Exact regulation"];
@@ -141,7 +141,7 @@ fn other_plants() {
         ("linear", &["Linear", "Conditions", WITHOUT, SETS_SIGMA]),
         ("ill-conditioned", &[CERTIFICATE, WITHOUT, PRINTED]),
     ] {
-        let report = shown(&[&format!("specs/{name}.json")]);
+        let report = shown(&[&format!("specs/{name}.json"), "--full"]);
         fits(&report);
         let report = output(&report, 0);
         assert_eq!(outline(report), titles, "{name}");

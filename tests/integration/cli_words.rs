@@ -167,6 +167,6 @@ fn a_smaller_initial_set_has_a_size() {
 /// What a Jacobian costs is said where it takes long, never on standard output, and not with `--quiet`.
 #[test]
 fn quiet_is_quiet_with_a_jacobian() {
-    let arguments = ["certify", "specs/paper-example-jacobian.json", "--no-compare", "--quiet"];
+    let arguments = ["certify", "specs/paper-example-jacobian.json", "--no-compare", "--quiet", "--full"];
     sigmastar(&arguments).assert().code(0).stderr(is_empty()).stdout(contains("finding and proving").not());
 }

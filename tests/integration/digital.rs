@@ -269,8 +269,11 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
     assert!(report.get("sigma_star").is_none());
     // The witness is of a specification with this sampling period; another one is refused.
     let again = |arguments: &[&str], code: i32| {
-        let output =
-            program().args(["certify", AT_REST, "-q", "--witness", &certificate]).args(arguments).assert().code(code);
+        let output = program()
+            .args(["certify", AT_REST, "-q", "--full", "--witness", &certificate])
+            .args(arguments)
+            .assert()
+            .code(code);
         utf8(output.get_output().stdout.clone())
     };
     assert!(again(&[], 0).contains("sigma = 25 at h = 0.001"));

@@ -4,6 +4,7 @@
 mod bound;
 mod certify_random;
 mod check;
+mod chromium;
 mod cli_certify;
 mod cli_force;
 mod cli_reports;
@@ -45,6 +46,7 @@ mod sampled_law;
 mod sdp_bounds;
 mod sdpa;
 mod search_scale;
+mod short_reports;
 mod simulate;
 mod spec_document;
 mod spec_examples;

@@ -20,7 +20,9 @@ pub trait Readable {
 
     /// Whether its short form leaves something out.
     fn has_detail(&self) -> bool {
-        self.blocks().iter().any(|block| matches!(block, Block::Detail))
+        let blocks = self.blocks();
+        let whole = blocks.iter().filter(|block| !matches!(block, Block::Detail)).count();
+        Extent::Short.of(blocks).len() < whole
     }
 
     /// As plain text, readable without colour at 100 columns.

@@ -58,7 +58,7 @@ fn wrap(output: &mut String, text: &str, first: &str, rest: &str) {
 /// What stands between two sides that belong on one line.
 pub(super) const RELATIONS: [&str; 4] = ["<=", ">=", "<", "="];
 
-/// The words of a text, with a relation and its two sides as one word.
+/// The words of a text, with a relation and its two sides as one word, and what stands between two bars too.
 fn glued(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut open = false;
@@ -72,7 +72,8 @@ fn glued(text: &str) -> Vec<String> {
             }
             _ => words.push(word.to_owned()),
         }
-        open = relation;
+        let bars = words.last().map_or(0, |word| word.matches('|').count());
+        open = relation || bars % 2 == 1;
     }
     words
 }
@@ -120,6 +121,7 @@ mod tests {
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(&lines[3..7], ["  name  value", "  ----  -----", "  a         1", "  long  -22.5"]);
         assert!(lines[8..10].iter().all(|line| line.chars().count() <= WIDTH));
+        assert_eq!(glued("from |x - x_0| <= 1, or |y|"), ["from", "|x - x_0| <= 1,", "or", "|y|"]);
         assert_eq!(lines[10].trim_start_matches([' ', '-']), "x".repeat(120));
     }
 }

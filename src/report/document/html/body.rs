@@ -95,6 +95,8 @@ impl Render for Inline<'_> {
 /// A text whose relations are not parted from their sides at the end of a line.
 fn kept(text: &str) -> String {
     RELATIONS.iter().fold(text.to_owned(), |text, relation| {
+        // A line may end behind a bar even before such a space.
+        let text = text.replace(&format!("| {relation} "), &format!("|\u{2060} {relation} "));
         text.replace(&format!(" {relation} "), &format!("\u{a0}{relation}\u{a0}"))
     })
 }
@@ -148,7 +150,7 @@ mod tests {
     #[test]
     fn relations_stay_with_their_sides() {
         let text = written(&[Block::says("from |x| <= 1, a = b `c = d`")]);
-        assert_eq!(text, "<p>from |x|\u{a0}&lt;=\u{a0}1, a\u{a0}=\u{a0}b <code>c = d</code></p>\n");
+        assert_eq!(text, "<p>from |x|\u{2060}\u{a0}&lt;=\u{a0}1, a\u{a0}=\u{a0}b <code>c = d</code></p>\n");
     }
 
     #[test]
