@@ -5,6 +5,24 @@
 //! [`regulator_matrices`] and [`sampled_regulator`] give the regulator. What goes wrong is an [`Error`] with a
 //! [`kind`](Error::kind).
 //!
+//! From the text of a file to a claim that others can check:
+//!
+//! ```
+//! use sigmastar::{CertifyOptions, Specification, certify, check_against};
+//!
+//! # fn main() -> Result<(), sigmastar::Error> {
+//! let text = include_str!("../specs/linear.json");
+//! let specification = Specification::from_json(text)?;
+//! let certificate = certify(&specification, &CertifyOptions::new())?;
+//! println!("{}", certificate.claim().statement());
+//! println!("sigma* = {}", certificate.claim().sigma_star());
+//! assert!(check_against(certificate.to_json(), &specification).is_valid());
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The same without a file, and on to the regulator:
+//!
 //! ```
 //! use sigmastar::{BoundingFunction as Bound, CertifyOptions, ErrorKind, Specification, certify, check_against};
 //!
@@ -118,6 +136,8 @@ pub mod spec;
 pub mod sweep;
 #[doc(hidden)]
 pub mod transfer;
+#[doc(hidden)]
+pub mod tune;
 
 pub use api::{
     BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition, Derivation, Error,

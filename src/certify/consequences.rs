@@ -4,6 +4,7 @@
 use super::certification::{Certification, RelativeDegreeGains};
 use super::options::Derivation;
 use crate::data::{Bound, Data, Problem};
+use crate::derivation::consequences::{ErrorBounds, error_bounds};
 use crate::derivation::targets::{Consequences, Target};
 use crate::enclosure::Enclosure;
 
@@ -17,6 +18,27 @@ impl Certification<'_> {
         let data = Data::new(self.spec, claim.precision);
         let [_, e_per, _] = claim.periodic;
         Some(Consequences::new(&data, claim.excitation, &data.rational(claim.sigma), e_per, targets))
+    }
+
+    /// Certified bounds of the periodic error with so many oscillators; `None` without a certified claim, or where the base
+    /// frequency is not matched.
+    ///
+    /// Guarantee: as for [`Certification::consequences`].
+    #[must_use]
+    pub fn error_with(&self, n_o: u64) -> Option<ErrorBounds> {
+        let claim = self.claim().filter(|_| self.spec.internal_model.matched)?;
+        let data = Data::new(self.spec, claim.precision);
+        let [_, e_per, _] = claim.periodic;
+        Some(error_bounds(&data, claim.excitation, &data.rational(claim.sigma), e_per, n_o))
+    }
+
+    /// An upper bound of sigma* + mu Nbar^2, if certified: u = -(sigma + mu (n_0 + ... + n_{n_o})) e + mu M'N z, so this is
+    /// what the law multiplies e by at sigma*, at most, for every n_o.
+    #[must_use]
+    pub fn feedback(&self) -> Option<Enclosure> {
+        let claim = self.claim()?;
+        let data = Data::new(self.spec, claim.precision);
+        Some((data.rational(claim.sigma) + &data.mu * &data.n_bar_squared).ceiling())
     }
 
     /// Radii of the error box in x and e of the chosen derivation, if certified.

@@ -28,6 +28,7 @@ mod subject;
 mod sweep;
 mod temporary;
 mod transfer;
+mod tune;
 
 use args::{Cli, Command, command};
 use clap::FromArgMatches;
@@ -54,6 +55,7 @@ pub fn run() -> ExitCode {
         Command::Sampling(args) => sampling::run(&args),
         Command::Sweep(args) => sweep::run(&args),
         Command::Merge(args) => merge::run(&args),
+        Command::Tune(args) => tune::run(&args),
         Command::Transfer(args) => transfer::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Controller(args) => controller::run(&args),

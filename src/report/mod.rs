@@ -17,7 +17,7 @@ mod failures;
 mod json;
 mod lyapunov;
 mod matrix_checks;
-mod number;
+pub mod number;
 mod obstacles;
 mod of_plant;
 mod orbit;

@@ -274,7 +274,7 @@ pub(super) fn shown(text: &str) -> String {
 }
 
 /// The known name nearest to what was written, if one is near enough to be what was meant.
-pub(super) fn nearest<'n>(written: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+pub(crate) fn nearest<'n>(written: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     // Beyond this length nothing is near, and the distance would be costly.
     if written.len() > 64 {
         return None;

@@ -31,6 +31,7 @@ mod weights_read;
 pub use bounding::{Bound, Bounds};
 pub use constant::{any_constant, nonnegative_constant, positive_constant};
 pub use document::{Document, Value};
+pub(crate) use error::nearest;
 pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
 pub(crate) use initial_set::read_with_ball;
 pub use jacobian::MAX_STATES;

@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// How many blocks of each kind there are at least.
-const LEAST: [(&str, usize); 18] = [
+const LEAST: [(&str, usize); 19] = [
     ("bounding-spec", 1),
     ("bounding-spec-part", 10),
     ("plant", 2),
@@ -26,6 +26,7 @@ const LEAST: [(&str, usize); 18] = [
     ("study", 1),
     ("sweep-fragment", 1),
     ("sweep-case-fragment", 1),
+    ("tune-fragment", 1),
     ("transfer-fragment", 2),
     ("check-fragment", 2),
     ("rates-fragment", 1),
@@ -366,6 +367,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             ),
             ("sweep-fragment", swept().into_iter().take(1).collect()),
             ("sweep-case-fragment", swept().into_iter().skip(1).collect()),
+            ("tune-fragment", vec![other(&["tune", "-q", EXAMPLE, "--over", "mu", "--tries", "8"])]),
             ("rates-fragment", vec![other(&["rate", EXAMPLE, "--n-o", "0,1"])]),
             ("lyapunov-fragment", vec![other(&["lyapunov", "specs/paper-example-jacobian.json"])]),
             ("errata-fragment", vec![other(&["errata"]), other(&["errata", "specs/linear.json"])]),

@@ -57,4 +57,5 @@ mod sweep;
 mod transfer;
 mod transfer_sums;
 mod transfer_table;
+mod tune;
 mod witness;

@@ -10,7 +10,7 @@ pub use claims::{
     TransferArgs,
 };
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
-pub use studies::{MergeArgs, SweepArgs};
+pub use studies::{MergeArgs, SweepArgs, TuneArgs, TuneGoal};
 
 use clap::{Args, ColorChoice, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -49,6 +49,12 @@ const SWEEP_EXAMPLES: &str = "Examples:
   sigmastar sweep study.json -o part3.jsonl --shard 3/8
   sigmastar merge part*.jsonl -o results.jsonl
   sigmastar sweep study.json --case 17 | sigmastar certify - -o case17.certificate.json";
+
+/// Examples of `tune`.
+const TUNE_EXAMPLES: &str = "Examples:
+  sigmastar tune plant.json
+  sigmastar tune plant.json --over mu=1/10..10,n0,epsilon --minimise feedback -o tuned.json
+  sigmastar tune plant.json --over mu --error-at 10";
 
 /// Examples of `transfer`.
 const TRANSFER_EXAMPLES: &str = "Examples:
@@ -121,6 +127,12 @@ pub enum Command {
     ///
     /// The shards must be of one study, and no case may be missing. The bytes are those of a sweep without shards.
     Merge(MergeArgs),
+    /// Look for values of mu, the weights and other free numbers with a smaller certified gain
+    ///
+    /// Each proposal is certified by itself, as `certify` does it. Within their ranges the numbers are sought in logarithms, from
+    /// several starts. Says what the better values cost: a smaller sigma* may be paid for by mu Nbar^2.
+    #[command(after_help = TUNE_EXAMPLES, after_long_help = format!("{TUNE_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Tune(TuneArgs),
     /// Prove the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
     ///
     /// Finds constants k0, k1 that are proved for every n_o and every frequency, says how much of the bound each n_o uses,

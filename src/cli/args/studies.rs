@@ -1,7 +1,10 @@
 //! Flags of the commands for many cases.
 
-use super::Replace;
+use super::{Format, Replace};
+use crate::cli::counts::one_count;
 use clap::{Args, ValueEnum, ValueHint};
+use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
+use sigmastar::tune::MAX_TRIES;
 use std::path::PathBuf;
 
 /// The flags of `sweep`.
@@ -68,4 +71,54 @@ pub struct MergeArgs {
     /// Join them although cases are missing; `sweep -o` with this file computes the rest
     #[arg(long)]
     pub incomplete: bool,
+}
+
+/// The flags of `tune`.
+#[derive(Args, Debug)]
+pub struct TuneArgs {
+    /// Bounding specification or plant (JSON), or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// The free numbers, separated by commas: mu, n0, epsilon; of listed weights n0, n1, ..., coefficient, exponent;
+    /// base_frequency where it is not matched; each may have a range, `mu=1/10..10`
+    #[arg(long, value_name = "LIST", default_value = "mu,n0", allow_hyphen_values = true)]
+    pub over: String,
+
+    /// What is to be as small as possible
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = TuneGoal::SigmaStar)]
+    pub minimise: TuneGoal,
+
+    /// Make the certified bound of sup|e| with N oscillators, at sigma*, as small as possible instead
+    #[arg(long, value_name = "N", conflicts_with = "minimise", value_parser = one_count(MAX_EXPORTED_OSCILLATORS))]
+    pub error_at: Option<u32>,
+
+    /// Certify at most so many proposals, the values of the file among them
+    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_TRIES)))]
+    pub tries: u32,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// Write the specification or plant with the tuned numbers to this file, where they are better
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub replace: Replace,
+
+    /// No progress and no remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// What a tuning makes small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TuneGoal {
+    /// The certified gain
+    #[value(name = "sigma_star")]
+    SigmaStar,
+    /// sigma* + mu Nbar^2, what the law multiplies e by at most
+    Feedback,
 }

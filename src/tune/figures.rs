@@ -1,0 +1,104 @@
+//! What one proposal comes to: its certified figures, and the one that is to be small.
+
+use crate::certify::{Certification, Derivation, Verdict};
+use crate::enclosure::Enclosure;
+use crate::spec::{Document, SpecErrors};
+use crate::sweep::{Run, with_run};
+use rug::Rational;
+
+/// What is to be as small as possible.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Goal {
+    /// The certified gain.
+    Sigma,
+    /// sigma* + mu Nbar^2: what the law multiplies e by, at most, for every n_o.
+    Feedback,
+    /// The certified bound of sup|e| with so many oscillators, at the certified gain.
+    Error(u64),
+}
+
+impl Goal {
+    /// The name in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Goal::Sigma => "sigma_star",
+            Goal::Feedback => "feedback",
+            Goal::Error(_) => "error",
+        }
+    }
+}
+
+/// The certified figures of a document.
+#[derive(Clone, Debug)]
+pub struct Figures {
+    /// The certified gain.
+    pub sigma: Rational,
+    /// An upper bound of sigma + mu Nbar^2; not of the regulator at samples.
+    pub feedback: Option<Enclosure>,
+    /// X0, E0, Z0 of the claim.
+    pub initial_set: [Rational; 3],
+    /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution.
+    pub periodic: [Enclosure; 4],
+    /// Upper bounds of rms(e) and sup|e| with the oscillators that were asked about; only where the base frequency is matched,
+    /// and not of the regulator at samples.
+    pub error: Option<[Enclosure; 2]>,
+    /// Whether it is proved that no plant with a state has these data.
+    pub no_plant: bool,
+}
+
+impl Figures {
+    /// Certifies a document.
+    ///
+    /// # Errors
+    /// The verdict, where nothing is certified.
+    pub(super) fn of(document: &Document, n_o: u64) -> Result<Figures, Verdict> {
+        let refused = |errors: Vec<SpecErrors>| match errors.iter().all(SpecErrors::is_undecided) {
+            true => Verdict::Undecided,
+            false => Verdict::BadInput,
+        };
+        with_run(document, Derivation::Sharp, |run| figures(run, n_o)).map_err(refused)?
+    }
+
+    /// An upper bound of what is to be small.
+    pub(super) fn value(&self, goal: Goal) -> Option<Rational> {
+        match goal {
+            Goal::Sigma => Some(self.sigma.clone()),
+            Goal::Feedback => self.feedback.as_ref()?.upper_rational(),
+            Goal::Error(_) => self.error.as_ref().and_then(|[_, sup]| sup.upper_rational()),
+        }
+    }
+}
+
+fn figures(run: Run<'_>, n_o: u64) -> Result<Figures, Verdict> {
+    // A verdict without a claim is none.
+    let verdict = |verdict| if verdict == Verdict::Certified { Verdict::Undecided } else { verdict };
+    match run {
+        Run::Continuous(run) => continuous(run, n_o).ok_or_else(|| verdict(run.verdict)),
+        Run::AtSamples(run) => {
+            let claim = run.claim().zip(run.periodic_solution()).ok_or_else(|| verdict(run.verdict))?;
+            let (proof, periodic) = claim;
+            let set = &proof.witness.set;
+            Ok(Figures {
+                sigma: proof.witness.sigma.clone(),
+                feedback: None,
+                initial_set: [&set.x0, &set.e0, &set.z0].map(Rational::clone),
+                periodic,
+                error: None,
+                no_plant: run.no_plant.is_some(),
+            })
+        }
+    }
+}
+
+fn continuous(run: &Certification<'_>, n_o: u64) -> Option<Figures> {
+    let set = run.claimed_set()?;
+    Some(Figures {
+        sigma: run.sigma_star()?.clone(),
+        feedback: run.feedback(),
+        initial_set: [&set.x0, &set.e0, &set.z0].map(Rational::clone),
+        periodic: run.periodic_solution()?,
+        error: run.error_with(n_o).map(|bounds| [bounds.rms, bounds.sup]),
+        no_plant: run.no_plant.is_some(),
+    })
+}
