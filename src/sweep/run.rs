@@ -2,16 +2,11 @@
 
 use super::cases::{Case, Sweep};
 use super::row::{Claim, Row, RowError};
-use crate::certify::{
-    Certification, Derivation, DigitalCertification, Ladder, Options, Verdict, certify_digital, certify_near,
-    with_triple,
-};
-use crate::plant::{self, Plant};
+use crate::certify::{Certification, Derivation, DigitalCertification, Options, Verdict};
 use crate::progress::Progress;
-use crate::reduction::{reduce, reduce_digital};
+use crate::reduction::{Prepared, Run, Subject};
 use crate::report::{DigitalReport, sentence};
-use crate::search::{DigitalProposal, SharpProposal};
-use crate::spec::{Sampling, SpecErrors, Specification};
+use crate::spec::SpecErrors;
 use rayon::prelude::*;
 
 /// Certifies the cases of some indices on all cores and hands over each row as it is done.
@@ -48,46 +43,21 @@ pub fn solve(case: &Case, derivation: Derivation) -> Row {
 
 fn attempt(case: &Case, derivation: Derivation) -> Result<Row, Vec<SpecErrors>> {
     let options = Options { derivation, compare: false, ..Options::default() };
-    let root = case.document.root();
-    if case.document.at("/format").is_some_and(|format| format.text() == Some(plant::FORMAT)) {
-        let plant = Plant::from_value(&root).map_err(|errors| vec![errors])?;
-        if let Some(sampling) = &plant.internal_model.sampling {
-            let reduced = reduce_digital(&plant, sampling, None).map_err(|refusal| refusal.errors(&plant))?;
-            return at_samples(&reduced.spec, sampling, Some(&reduced.proposal));
+    let subject = Subject::read(&case.document).map_err(|errors| vec![errors])?;
+    let prepared = Prepared::new(subject, None)?;
+    let run = prepared.certify(options)?;
+    let unproved = run.unproved();
+    Ok(match &run {
+        Run::Continuous(run) => told(run.verdict, continuous_claim(run), || sentence(run), &unproved),
+        Run::Sampled(run) => {
+            told(run.verdict, digital_claim(run), || DigitalReport::new(run, false).sentence(), &unproved)
         }
-        let reduced = reduce(&plant).map_err(|refusal| refusal.errors(&plant))?;
-        return continuous(&reduced.spec, Some(&reduced.proposal), options);
-    }
-    let spec = Specification::from_value(&root).map_err(|errors| vec![errors])?;
-    let spec = with_triple(&spec, None).map_err(|refusal| refusal.errors(&spec))?;
-    match &spec.internal_model.sampling {
-        Some(sampling) => at_samples(&spec, sampling, None),
-        None => continuous(&spec, None, options),
-    }
-}
-
-fn continuous(spec: &Specification, start: Option<&SharpProposal>, options: Options) -> Result<Row, Vec<SpecErrors>> {
-    let run = certify_near(spec, options, start).map_err(|refusal| refusal.errors(spec))?;
-    let unproved: Vec<_> = run.unproved_bounds.iter().map(|problem| problem.errors(spec)).collect();
-    let reason = || sentence(&run);
-    Ok(told(run.verdict, continuous_claim(&run), reason, &unproved))
+    })
 }
 
 fn continuous_claim(run: &Certification<'_>) -> Option<Claim> {
     let (sigma, set, periodic) = (run.sigma_star()?, run.claimed_set()?, run.periodic_solution()?);
     Some(Claim::new(sigma, set, &periodic, run.no_plant.is_some()))
-}
-
-fn at_samples(
-    spec: &Specification,
-    sampling: &Sampling,
-    start: Option<&DigitalProposal>,
-) -> Result<Row, Vec<SpecErrors>> {
-    let run =
-        certify_digital(spec, sampling, None, start, Ladder::default()).map_err(|refusal| refusal.errors(spec))?;
-    let unproved: Vec<_> = run.unproved_bounds.iter().map(|problem| problem.errors(spec)).collect();
-    let reason = || DigitalReport::new(&run, false).sentence();
-    Ok(told(run.verdict, digital_claim(&run), reason, &unproved))
 }
 
 fn digital_claim(run: &DigitalCertification<'_>) -> Option<Claim> {
