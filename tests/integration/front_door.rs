@@ -39,7 +39,7 @@ fn example() -> Specification {
 #[test]
 fn optional_data_lower_the_gain() {
     let sigma = |builder: SpecificationBuilder| {
-        let certificate = certify(&builder.build().expect("it is read"), &quick()).expect("it certifies");
+        let certificate = certify(builder.build().expect("it is read"), &quick()).expect("it certifies");
         assert!(check(certificate.to_json()).is_flawless());
         certificate.claim().sigma_star_f64()
     };
@@ -100,7 +100,7 @@ fn the_example_built_in_rust_is_certified_and_checked() {
 
 #[test]
 fn a_forged_certificate_is_refused() {
-    let certificate = certify(&example(), &quick()).unwrap();
+    let certificate = certify(example(), &quick()).unwrap();
     let forged = certificate.to_json().replace("\"sigma_star\": \"41.4618\"", "\"sigma_star\": \"41\"");
     assert_ne!(forged, certificate.to_json());
     let report = check(&forged);
@@ -144,13 +144,13 @@ fn a_specification_with_a_jacobian_is_certified() {
 
 #[test]
 fn options_choose_the_derivation_and_the_transfer_proof() {
-    let sigma = |options: CertifyOptions| certify(&example(), &options).unwrap().claim().sigma_star_f64();
+    let sigma = |options: CertifyOptions| certify(example(), &options).unwrap().claim().sigma_star_f64();
     let sharp = sigma(quick());
     assert!(sigma(quick().derivation(Derivation::Repaired)) > sharp);
     assert!(sigma(quick().transfer(TransferChoice::ClosedForm)) > sharp);
     assert!((sigma(quick().precision_limit(CertifyOptions::LEAST_PRECISION_LIMIT)) - sharp).abs() < 1.0);
     for bits in [0, 127, 1025, u32::MAX] {
-        assert_eq!(kind(certify(&example(), &quick().precision_limit(bits))), ErrorKind::Range);
+        assert_eq!(kind(certify(example(), &quick().precision_limit(bits))), ErrorKind::Range);
     }
 }
 
@@ -304,7 +304,7 @@ fn a_plant_is_certified_and_checked() {
     assert!(certificate.claim().statement().contains("the plant of these formulas"));
     assert!(certificate.claim().initial_set().ball().is_some() && certificate.claim().samples().is_none());
     assert!(check_against(certificate.to_json(), &plant).is_valid());
-    assert_eq!(check_against(certificate.to_json(), &example()).verdict(), CheckVerdict::Invalid);
+    assert_eq!(check_against(certificate.to_json(), example()).verdict(), CheckVerdict::Invalid);
     assert_eq!(certificate.subject().to_json(), plant.to_json());
     assert_eq!(regulator_matrices(&plant, certificate.claim().sigma_star(), 1).unwrap().phi.len(), 3);
 
@@ -324,7 +324,7 @@ fn a_plant_is_certified_and_checked() {
 #[test]
 fn the_regulator_at_samples_is_certified() {
     let options = quick().sampling_period("1/500");
-    let certificate = certify(&example(), &options).unwrap();
+    let certificate = certify(example(), &options).unwrap();
     let report = json(&told(&[EXAMPLE, "--sampling-period", "1/500", "--format", "json"]));
     let claim = certificate.claim();
     let samples = claim.samples().unwrap();
@@ -344,32 +344,32 @@ fn the_regulator_at_samples_is_certified() {
     assert_eq!(again.to_json(), certificate.to_json());
 
     for options in [options.clone().derivation(Derivation::Repaired), options.clone().transfer(TransferChoice::Boxes)] {
-        assert_eq!(kind(certify(&example(), &options)), ErrorKind::Options);
+        assert_eq!(kind(certify(example(), &options)), ErrorKind::Options);
     }
-    assert_eq!(kind(certify(&example(), &quick().sampling_period("1/3.5"))), ErrorKind::Range);
-    assert_eq!(kind(certify(&example(), &quick().sampling_period("0"))), ErrorKind::Range);
-    let error = certify(&example(), &options.sigma("600")).unwrap_err();
+    assert_eq!(kind(certify(example(), &quick().sampling_period("1/3.5"))), ErrorKind::Range);
+    assert_eq!(kind(certify(example(), &quick().sampling_period("0"))), ErrorKind::Range);
+    let error = certify(example(), &options.sigma("600")).unwrap_err();
     assert_eq!((error.kind(), error.verdict()), (ErrorKind::NotCertified, Verdict::Undecided));
     assert!(error.to_string().contains("h sigma exceeds 1"), "{error}");
 }
 
 #[test]
 fn a_given_gain_is_certified_or_not() {
-    let certificate = certify(&example(), &quick().sigma("85/2")).unwrap();
+    let certificate = certify(example(), &quick().sigma("85/2")).unwrap();
     assert_eq!(certificate.claim().sigma_star(), "42.5");
-    let error = certify(&example(), &quick().sigma("41")).unwrap_err();
+    let error = certify(example(), &quick().sigma("41")).unwrap_err();
     assert_eq!((error.kind(), error.verdict()), (ErrorKind::NotCertified, Verdict::Undecided));
     assert!(error.diagnostics().is_empty());
     let report = error.report().expect("a run was made").to_string();
     assert!(report.contains("What to try:") && report.contains("certifies no sigma"), "{report}");
-    assert_eq!(kind(certify(&example(), &quick().sigma("pi"))), ErrorKind::Range);
-    assert_eq!(kind(certify(&example(), &quick().sigma("-1"))), ErrorKind::Range);
-    assert_eq!(kind(certify(&example(), &quick().sigma("42").derivation(Derivation::Repaired))), ErrorKind::Options);
+    assert_eq!(kind(certify(example(), &quick().sigma("pi"))), ErrorKind::Range);
+    assert_eq!(kind(certify(example(), &quick().sigma("-1"))), ErrorKind::Range);
+    assert_eq!(kind(certify(example(), &quick().sigma("42").derivation(Derivation::Repaired))), ErrorKind::Options);
 }
 
 #[test]
 fn the_report_is_that_of_the_program() {
-    let certificate = certify(&example(), &CertifyOptions::new()).unwrap();
+    let certificate = certify(example(), &CertifyOptions::new()).unwrap();
     let formats = [ReportFormat::Text, ReportFormat::Markdown, ReportFormat::Html, ReportFormat::Json];
     // The builder leaves the description out, which no report shows; the digest is another one.
     let file = Subject::from_json(EXAMPLE_TEXT).unwrap();
@@ -411,7 +411,7 @@ fn errors_say_the_verdict_of_the_program() {
 
 #[test]
 fn rates_are_those_of_the_program() {
-    let found = rates(&example(), Some("50"), &[0, 2]).unwrap();
+    let found = rates(example(), Some("50"), &[0, 2]).unwrap();
     let output =
         program().args(["rate", EXAMPLE, "--n-o", "0,2", "--sigma", "50", "--format", "json"]).output().unwrap();
     assert_eq!(found.report().render(ReportFormat::Json).as_bytes(), output.stdout);
@@ -423,8 +423,8 @@ fn rates_are_those_of_the_program() {
     assert_eq!(second.method(), Some(RateMethod::Riccati));
     assert!(first.oscillators_f64() > second.oscillators_f64() && second.oscillators_f64() > Some(0.0));
 
-    assert_eq!(kind(rates(&example(), Some("41"), &[0])), ErrorKind::Range);
-    assert_eq!(kind(rates(&example(), None, &[201])), ErrorKind::Range);
+    assert_eq!(kind(rates(example(), Some("41"), &[0])), ErrorKind::Range);
+    assert_eq!(kind(rates(example(), None, &[201])), ErrorKind::Range);
     let large = builder().domain("1", "1").initial_set_box("1", "4", "0").build().unwrap();
     assert_eq!(kind(rates(&large, None, &[0])), ErrorKind::NotCertified);
     let sampled = EXAMPLE_TEXT.replace("\"matched\": true", "\"matched\": true, \"sampling_period\": \"1/500\"");
@@ -433,17 +433,17 @@ fn rates_are_those_of_the_program() {
 
 #[test]
 fn the_transfer_study() {
-    let study = transfer_study(&example(), &TransferOptions::new().k0("20").n_o([Some(1), None])).unwrap();
-    assert_eq!(study.bound(), &transfer_bound(&example(), "20").unwrap());
+    let study = transfer_study(example(), &TransferOptions::new().k0("20").n_o([Some(1), None])).unwrap();
+    assert_eq!(study.bound(), &transfer_bound(example(), "20").unwrap());
     let [one, all] = study.shares() else { panic!("{study:?}") };
     assert_eq!((one.n_o, all.n_o), (Some(1), None));
     assert!(one.ratio[0] <= one.ratio[1] && one.ratio[1] <= all.ratio[1] && all.ratio[1] <= 1.0, "{study:?}");
-    let cheapest = transfer_study(&example(), &TransferOptions::new().cheapest("1", "2/3").n_o([])).unwrap();
+    let cheapest = transfer_study(example(), &TransferOptions::new().cheapest("1", "2/3").n_o([])).unwrap();
     assert!(cheapest.bound().k0_f64() > 19.7);
-    assert_eq!(kind(transfer_study(&example(), &TransferOptions::new().k0("19.7"))), ErrorKind::Refuted);
-    assert_eq!(kind(transfer_study(&example(), &TransferOptions::new().cheapest("0", "1"))), ErrorKind::Range);
+    assert_eq!(kind(transfer_study(example(), &TransferOptions::new().k0("19.7"))), ErrorKind::Refuted);
+    assert_eq!(kind(transfer_study(example(), &TransferOptions::new().cheapest("0", "1"))), ErrorKind::Range);
     let many = TransferOptions::new().n_o(vec![None; TransferOptions::MOST + 1]);
-    assert_eq!(kind(transfer_study(&example(), &many)), ErrorKind::Range);
+    assert_eq!(kind(transfer_study(example(), &many)), ErrorKind::Range);
 }
 
 #[test]
