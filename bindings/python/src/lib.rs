@@ -70,11 +70,19 @@ fn certify(py: Python<'_>, file: File, options: Options) -> PyResult<Told<ToldCe
     })
 }
 
+/// The text of a certificate. Bytes that are none end in a character that no certificate has there, so that the checker refuses
+/// them at their place.
+fn as_text(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).unwrap_or_else(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        String::from_utf8_lossy(valid).into_owned() + "\u{fffd}"
+    })
+}
+
 #[pyfunction]
 fn check(py: Python<'_>, certificate: Vec<u8>, against: Option<File>) -> PyResult<Told<ToldCheck>> {
     outside(py, move || {
-        // Bytes that are no text are no certificate; the checker says so.
-        let text = String::from_utf8_lossy(&certificate);
+        let text = as_text(certificate);
         let report = match against {
             None => Ok(sigmastar::check(&text)),
             Some(file) => subject(&file).map(|subject| sigmastar::check_against(&text, subject)),

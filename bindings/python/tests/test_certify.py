@@ -192,8 +192,10 @@ def test_the_checker(example, document, tmp_path):
     path.write_text(example.to_json().replace('"sigma_star": "41.4618"', '"sigma_star": "41"'))
     forged = sigmastar.check(path)
     assert forged.verdict == "invalid" and not forged and "rule:" in str(forged)
-    path.write_bytes(b"\xff")
-    assert sigmastar.check(path).verdict == "bad-input" and not sigmastar.check(path)
+    whole = example.to_json().encode()
+    for bytes in (b"\xff", whole + b"\xff", whole.replace(b"Example of", b"Example\xffof"), whole[:-3], b""):
+        path.write_bytes(bytes)
+        assert sigmastar.check(path).verdict == "bad-input" and not sigmastar.check(path)
     assert sigmastar.check(json.loads(example.to_json())).is_valid
 
 

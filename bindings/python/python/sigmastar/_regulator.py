@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from control import StateSpace
+    from control import StateSpace  # type: ignore[import-untyped]
 
 Matrix = NDArray[np.float64]
 
@@ -102,8 +102,8 @@ class SampledRegulator(_System):
 
 def regulator(told: Dict[str, Any]) -> Regulator:
     """The regulator in continuous time from the library's answer."""
-    arrays = {name: np.array(told[key]) for name, key in [("Phi", "phi"), ("Gamma", "gamma"), ("M", "m"), ("N", "n")]}
-    return Regulator(sigma=told["sigma"], mu=told["mu"], **arrays)
+    phi, gamma, m, n = (np.array(told[name]) for name in ("phi", "gamma", "m", "n"))
+    return Regulator(sigma=told["sigma"], mu=told["mu"], Phi=phi, Gamma=gamma, M=m, N=n)
 
 
 def sampled(told: Dict[str, Any]) -> SampledRegulator:

@@ -189,11 +189,12 @@ def exact(told: Optional[Tuple[float, str]]) -> Any:
 
 def certificate(told: Dict[str, Any]) -> Certificate:
     """A certificate from the library's answer."""
+    x0, e0, z0 = map(exact, told["initial_set"])
     return Certificate(
         sigma_star=exact(told["sigma_star"]),
         samples=None if told["samples"] is None else Samples(*told["samples"]),
         statement=told["statement"],
-        initial_set=InitialSet(*map(exact, told["initial_set"]), ball=told["ball"]),
+        initial_set=InitialSet(x0, e0, z0, told["ball"]),
         periodic_solution=PeriodicSolution(*told["periodic_solution"]),
         conditions=conditions(told["conditions"]),
         remarks=told["remarks"],
@@ -231,6 +232,7 @@ def transfer(told: Dict[str, Any]) -> TransferBound:
 
 def rates(told: Dict[str, Any]) -> Rates:
     """Rates."""
+
     def one(rate: Dict[str, Any]) -> Rate:
         return Rate(**{**rate, "closed_loop": exact(rate["closed_loop"]), "oscillators": exact(rate["oscillators"])})
 
