@@ -1,9 +1,10 @@
 //! `sigmastar`: from bounding functions of a plant to a gain that provably works for every number of oscillators.
 //!
-//! A [`Specification`] says what is known of a plant; [`certify`] finds a small gain and proves that it works, and
-//! [`check`] decides the [`Certificate`] again with code of its own. [`transfer_bound`] proves the transfer bound by itself,
-//! [`regulator_matrices`] and [`sampled_regulator`] give the regulator. What goes wrong is an [`Error`] with a
-//! [`kind`](Error::kind).
+//! A [`Specification`] says what is known of a plant, and a [`Subject`] is one or a plant by its formulas; [`certify`] finds a
+//! small gain and proves that it works, and [`check`] decides the [`Certificate`] again with code of its own.
+//! [`transfer_bound`] proves the transfer bound by itself, [`rates`] what rate of convergence is proved,
+//! [`regulator_matrices`] and [`sampled_regulator`] give the regulator, a [`Study`] is many cases. What goes wrong is an
+//! [`Error`] with a [`kind`](Error::kind).
 //!
 //! From the text of a file to a claim that others can check:
 //!
@@ -140,8 +141,9 @@ pub mod transfer;
 pub mod tune;
 
 pub use api::{
-    BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition, Derivation, Error,
-    ErrorKind, InitialSet, JacobianEntry, PeriodicSolution, RegulatorMatrices, SampledRegulator, Specification,
-    SpecificationBuilder, TransferBound, TransferChoice, certify, check, check_against, regulator_matrices,
-    sampled_regulator, transfer_bound,
+    BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition, Derivation, Diagnostic,
+    Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, Rate, RateMethod, Rates,
+    RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, Specification, SpecificationBuilder, Study,
+    StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy, VERSION, Verdict, certify,
+    check, check_against, rates, regulator_matrices, sampled_regulator, transfer_bound, transfer_study,
 };

@@ -1,46 +1,19 @@
-//! Certifying, and what a certificate says.
+//! What a certificate says.
 
-use super::error::Error;
-use super::options::CertifyOptions;
-use super::specification::Specification;
-use super::{json_text, rounded_down, rounded_up};
-use crate::certificate::{certificate_json, statement};
-use crate::certify::{self, Certification, Refusal, with_triple};
-use crate::derivation::condition;
+use super::certify::{conditions, full_report};
+use super::condition::Condition;
+use super::report::Report;
+use super::subject::Subject;
+use super::{json_text, nearest, rounded_down, rounded_up};
+use crate::certificate::{certificate_json, digital_certificate_json, digital_statement, statement};
+use crate::certify::{Certification, DigitalCertification, claimed_ball};
 use crate::derivation::sharp::ClaimedSet;
-use crate::enclosure::{Enclosure, Truth};
+use crate::enclosure::Enclosure;
 use crate::number::write_exact;
-use crate::report::{remarks, sentence};
+use crate::reduction::Run;
+use crate::report::{digital_remarks, remarks};
+use crate::spec::Specification;
 use rug::Rational;
-
-/// Certifies a specification: a Lyapunov triple for its Jacobian where it has one, the search for a small gain, and the
-/// rigorous decision of every condition.
-///
-/// Guarantee: there is a [`Certificate`] only where the bounding functions are proved on every argument that is used and
-/// every condition is proved. The same specification and options give the same bytes. The gain is the smallest that was
-/// found, not the smallest that works.
-///
-/// # Errors
-/// - [`Range`](crate::ErrorKind::Range): a bounding function is refuted, the filter of a relative degree is not stable, an
-///   option is out of range, or the specification asks for the regulator at samples (`sampling_period`), which the program
-///   certifies;
-/// - [`Undecided`](crate::ErrorKind::Undecided): no Lyapunov triple was found for the Jacobian, or a bounding function was
-///   neither proved nor refuted;
-/// - [`NotCertified`](crate::ErrorKind::NotCertified): no gain was found, or a condition was not proved; the conditions are
-///   those of [`Error::conditions`].
-pub fn certify(specification: &Specification, options: &CertifyOptions) -> Result<Certificate, Error> {
-    let options = options.checked()?;
-    let refused = |refusal: Refusal| Error::documents(&refusal.errors(&specification.read));
-    let spec = with_triple(&specification.read, None).map_err(refused)?;
-    let run = certify::certify(&spec, options).map_err(refused)?;
-    if let Some(certificate) = Certificate::new(&run) {
-        return Ok(certificate);
-    }
-    if !run.unproved_bounds.is_empty() {
-        return Err(refused(Refusal::Bounds(run.unproved_bounds)));
-    }
-    Err(Error::not_certified(sentence(&run), conditions(&run)))
-}
 
 /// A certified claim, the conditions that prove it, and the file from which both can be checked again.
 #[derive(Clone, Debug)]
@@ -50,14 +23,19 @@ pub struct Certificate {
     conditions: Vec<Condition>,
     remarks: Vec<String>,
     json: String,
+    report: Report,
+    subject: Subject,
 }
 
 impl Certificate {
     /// `None` where nothing was certified.
-    fn new(run: &Certification<'_>) -> Option<Certificate> {
-        let json = json_text(&certificate_json(run)?);
-        let remarks = remarks(run);
-        Some(Certificate { claim: Claim::new(run)?, conditions: conditions(run), remarks, json })
+    pub(super) fn new(run: &Run<'_>, subject: &Subject) -> Option<Certificate> {
+        let (claim, json, remarks) = match run {
+            Run::Continuous(run) => (Claim::new(run)?, certificate_json(run)?, remarks(run)),
+            Run::Sampled(run) => (Claim::at_samples(run)?, digital_certificate_json(run)?, digital_remarks(run)),
+        };
+        let (json, subject) = (json_text(&json), subject.clone());
+        Some(Certificate { claim, conditions: conditions(run), remarks, json, report: full_report(run), subject })
     }
 
     /// What is claimed.
@@ -85,15 +63,32 @@ impl Certificate {
     pub fn to_json(&self) -> &str {
         &self.json
     }
+
+    /// The report of `sigmastar certify`: the claim, what it rests on, the conditions, and what follows from it.
+    #[must_use]
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    /// The specification or plant that the claim is about, with the sampling period where the options gave one.
+    #[must_use]
+    pub fn subject(&self) -> &Subject {
+        &self.subject
+    }
 }
 
 /// A claim: with this gain, or any larger one, and for every number of oscillators, every plant that the specification
-/// describes has a periodic solution to which every solution from the initial set converges exponentially.
+/// describes (the plant, where its formulas are given) has a periodic solution to which every solution from the initial set
+/// converges exponentially.
+///
+/// About the regulator at samples ([`Claim::samples`]) the claim is one of exactly this gain, and of every number of
+/// oscillators below half of the samples of a period.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Claim {
     sigma_star: String,
-    sigma_star_up: f64,
+    sigma_star_f64: f64,
+    samples: Option<Samples>,
     statement: String,
     initial_set: InitialSet,
     periodic_solution: PeriodicSolution,
@@ -103,27 +98,52 @@ pub struct Claim {
 impl Claim {
     fn new(run: &Certification<'_>) -> Option<Claim> {
         let (sigma, set) = (run.sigma_star()?, run.claimed_set()?);
-        let [x, e, zeta, z] = run.periodic_solution()?.map(|bound| bound.upper_f64());
         Some(Claim {
             sigma_star: write_exact(sigma),
-            sigma_star_up: rounded_up(sigma),
+            sigma_star_f64: rounded_up(sigma),
+            samples: None,
             statement: statement(run, sigma, set),
-            initial_set: InitialSet::new(set),
-            periodic_solution: PeriodicSolution { x, e, zeta, z },
+            initial_set: InitialSet::new(run.spec, set),
+            periodic_solution: PeriodicSolution::new(&run.periodic_solution()?),
             sha256: run.spec.sha256.clone(),
         })
     }
 
-    /// The gain sigma*, exactly: a decimal or a fraction.
+    /// That of the regulator at samples.
+    fn at_samples(run: &DigitalCertification<'_>) -> Option<Claim> {
+        let witness = &run.claim()?.witness;
+        Some(Claim {
+            sigma_star: write_exact(&witness.sigma),
+            sigma_star_f64: nearest(&witness.sigma),
+            samples: Some(Samples {
+                period: witness.sampling.text(),
+                count: witness.sampling.samples,
+                gain: write_exact(&witness.law.gain),
+            }),
+            statement: digital_statement(run.spec, witness),
+            initial_set: InitialSet::new(run.spec, &witness.set),
+            periodic_solution: PeriodicSolution::new(&run.periodic_solution()?),
+            sha256: run.spec.sha256.clone(),
+        })
+    }
+
+    /// The gain sigma*, exactly: a decimal or a fraction. At samples the one gain that the claim is about.
     #[must_use]
     pub fn sigma_star(&self) -> &str {
         &self.sigma_star
     }
 
-    /// The smallest double that is not below sigma*: the claim holds for it too.
+    /// The smallest double that is not below sigma*: the claim holds for it too. At samples, where it holds for no other gain,
+    /// the double nearest to it.
     #[must_use]
     pub fn sigma_star_f64(&self) -> f64 {
-        self.sigma_star_up
+        self.sigma_star_f64
+    }
+
+    /// The samples of the regulator that the claim is about; `None` where it is about the one in continuous time.
+    #[must_use]
+    pub fn samples(&self) -> Option<&Samples> {
+        self.samples.as_ref()
     }
 
     /// The claim in words, with what it speaks of and what is given and not proved.
@@ -144,25 +164,51 @@ impl Claim {
         &self.periodic_solution
     }
 
-    /// SHA-256, in hexadecimal, of the specification that the claim is about ([`Specification::sha256`]).
+    /// SHA-256, in hexadecimal, of the specification or plant that the claim is about
+    /// ([`Specification::sha256`](crate::Specification::sha256), [`Subject::sha256`]).
     #[must_use]
     pub fn specification_sha256(&self) -> &str {
         &self.sha256
     }
 }
 
-/// The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`.
+/// The samples of a regulator that a computer runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Samples {
+    /// The sampling period, exactly.
+    pub period: String,
+    /// How many of them are in a period of the disturbance.
+    pub count: u32,
+    /// K of the law `u = -sigma e + K v`, a double, exactly.
+    pub gain: String,
+}
+
+/// The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`; of a plant by its formulas `|L^-1 (x - x_0(t))| <= x0` in the place of
+/// `|x| <= x0`, with the orbit x_0 and the coordinates L of its certificate.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct InitialSet {
     exact: [String; 3],
     down: [f64; 3],
+    ball: Option<String>,
 }
 
 impl InitialSet {
-    fn new(set: &ClaimedSet) -> InitialSet {
+    fn new(spec: &Specification, set: &ClaimedSet) -> InitialSet {
         let sizes: [&Rational; 3] = [&set.x0, &set.e0, &set.z0];
-        InitialSet { exact: sizes.map(write_exact), down: sizes.map(rounded_down) }
+        let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
+        InitialSet {
+            exact: sizes.map(write_exact),
+            down: sizes.map(rounded_down),
+            ball: ball.as_ref().map(write_exact),
+        }
+    }
+
+    /// Of a plant: a radius such that the set contains all x with `|x - x_0(t)|` up to it, exactly.
+    #[must_use]
+    pub fn ball(&self) -> Option<&str> {
+        self.ball.as_deref()
     }
 
     /// x0, e0 and z0, exactly.
@@ -204,75 +250,9 @@ pub struct PeriodicSolution {
     pub z: f64,
 }
 
-/// A condition: a comparison of two real numbers, each known between two doubles.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Condition {
-    id: &'static str,
-    text: String,
-    lhs: [f64; 2],
-    rhs: [f64; 2],
-    relation: &'static str,
-    holds: Option<bool>,
-}
-
-impl Condition {
-    fn new(condition: &condition::Condition) -> Condition {
-        let ends = |side: &Enclosure| [side.lower_f64(), side.upper_f64()];
-        Condition {
-            id: condition.id,
-            text: condition.what.clone(),
-            lhs: ends(&condition.lhs),
-            rhs: ends(&condition.rhs),
-            relation: match condition.relation {
-                condition::Relation::Less => "<",
-                condition::Relation::LessOrEqual => "<=",
-            },
-            holds: match condition.truth() {
-                Truth::True => Some(true),
-                Truth::False => Some(false),
-                Truth::Undecided => None,
-            },
-        }
+impl PeriodicSolution {
+    fn new(bounds: &[Enclosure; 4]) -> PeriodicSolution {
+        let [x, e, zeta, z] = bounds.each_ref().map(Enclosure::upper_f64);
+        PeriodicSolution { x, e, zeta, z }
     }
-
-    /// Its name: `C1`, `C2`, ... (`docs/mathematics.md`).
-    #[must_use]
-    pub fn id(&self) -> &'static str {
-        self.id
-    }
-
-    /// What it says, in a few words.
-    #[must_use]
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// The left side lies between these doubles, rounded outward; NaN where it is not known to be defined.
-    #[must_use]
-    pub fn lhs(&self) -> [f64; 2] {
-        self.lhs
-    }
-
-    /// The right side, in the same way.
-    #[must_use]
-    pub fn rhs(&self) -> [f64; 2] {
-        self.rhs
-    }
-
-    /// `<` or `<=`.
-    #[must_use]
-    pub fn relation(&self) -> &'static str {
-        self.relation
-    }
-
-    /// Whether it holds, decided at a higher precision than the doubles; `None` where that is not known.
-    #[must_use]
-    pub fn holds(&self) -> Option<bool> {
-        self.holds
-    }
-}
-
-fn conditions(run: &Certification<'_>) -> Vec<Condition> {
-    run.conditions().iter().map(Condition::new).collect()
 }

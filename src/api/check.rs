@@ -1,6 +1,8 @@
 //! The independent checker.
 
-use super::specification::Specification;
+use super::report::Report as Rendered;
+use super::subject::Subject;
+use crate::report::document::{Block, Made};
 use proofs_check::Report;
 use proofs_check::verdict::Verdict;
 
@@ -28,6 +30,7 @@ pub struct CheckReport {
     sha256: Option<String>,
     assumed: Vec<String>,
     text: String,
+    report: Rendered,
 }
 
 /// Decides the claim of a certificate again, with none of the code that wrote it: no search, no floating point.
@@ -39,10 +42,10 @@ pub fn check(certificate: &str) -> CheckReport {
     CheckReport::new(&proofs_check::check(certificate.as_bytes()))
 }
 
-/// The same; and a certificate about other data than those of `specification` is invalid.
+/// The same; and a certificate about other data than those of the specification or plant is invalid.
 #[must_use]
-pub fn check_against(certificate: &str, specification: &Specification) -> CheckReport {
-    let asked = specification.to_json();
+pub fn check_against(certificate: &str, subject: impl Into<Subject>) -> CheckReport {
+    let asked = subject.into().to_json();
     CheckReport::new(&proofs_check::check_against(certificate.as_bytes(), Some(asked.as_bytes())))
 }
 
@@ -61,6 +64,7 @@ impl CheckReport {
             sha256: subject.map(|subject| subject.digest.clone()),
             assumed: subject.map_or_else(Vec::new, |subject| subject.assumed.clone()),
             text: report.text(false),
+            report: Rendered::new(Made::new(vec![Block::Code(report.text(false))], report.json())),
         }
     }
 
@@ -98,6 +102,12 @@ impl CheckReport {
     #[must_use]
     pub fn assumed(&self) -> &[String] {
         &self.assumed
+    }
+
+    /// The report of `sigmastar check`, in every form.
+    #[must_use]
+    pub fn report(&self) -> &Rendered {
+        &self.report
     }
 
     /// The report for people, as `sigmastar check` prints it: the rule and the field where something is wrong.

@@ -1,6 +1,8 @@
 //! The one error of the front door.
 
-use super::certificate::Condition;
+use super::condition::Condition;
+use super::report::Report;
+use crate::certify::{Misfit, Verdict};
 use crate::spec::{self, SpecError, SpecErrors};
 use std::fmt;
 
@@ -19,6 +21,10 @@ pub enum ErrorKind {
     /// A number outside its range, or a condition on numbers that fails: weights, a matched base frequency, a sampling
     /// time, a bounding function that is proved not to be one.
     Range,
+    /// Options that do not go together, or not with what is asked about.
+    Options,
+    /// Lines of results that are not of this study, or not all of them.
+    Results,
     /// What was asked for is proved not to hold.
     Refuted,
     /// Nothing was found to be wrong, and something could not be decided: nothing is claimed either way.
@@ -50,8 +56,31 @@ impl ErrorKind {
 #[derive(Clone, Debug)]
 pub struct Error {
     kind: ErrorKind,
+    verdict: Verdict,
     text: String,
+    diagnostics: Vec<Diagnostic>,
     conditions: Vec<Condition>,
+    report: Option<Report>,
+}
+
+/// One thing that is wrong, or that could not be decided, with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Diagnostic {
+    /// The word of its kind, as in the JSON of the program (`docs/formats.md`).
+    pub code: &'static str,
+    /// The document or argument, as it is called.
+    pub file: String,
+    /// Its place as a JSON pointer; empty for the document as a whole and for arguments.
+    pub pointer: String,
+    /// Line and column, in characters from 1 on; `None` where there is no document.
+    pub place: Option<(usize, usize)>,
+    /// What is wrong, in a sentence.
+    pub message: String,
+    /// What was expected.
+    pub expected: Option<String>,
+    /// What to do about it.
+    pub help: Option<String>,
 }
 
 impl Error {
@@ -59,6 +88,26 @@ impl Error {
     #[must_use]
     pub fn kind(&self) -> ErrorKind {
         self.kind
+    }
+
+    /// The verdict of the program: [`Refuted`](Verdict::Refuted) where the claim is proved not to hold as it was asked,
+    /// [`Undecided`](Verdict::Undecided) where nothing is claimed either way, otherwise
+    /// [`BadInput`](Verdict::BadInput). Never [`Certified`](Verdict::Certified).
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        self.verdict
+    }
+
+    /// Everything that was found, in order, with its place. Where only a claim as a whole is not certified there is none.
+    #[must_use]
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+
+    /// The report of a run that certified nothing: what failed and what to try.
+    #[must_use]
+    pub fn report(&self) -> Option<&Report> {
+        self.report.as_ref()
     }
 
     /// The conditions of the attempt that came nearest, where one was evaluated (kind [`ErrorKind::NotCertified`]);
@@ -70,48 +119,105 @@ impl Error {
 
     /// An error without a place.
     pub(super) fn new(kind: ErrorKind, message: impl Into<String>, help: &str) -> Error {
-        let text = format!("{}\n  help: {help}", message.into());
-        Error { kind, text, conditions: Vec::new() }
+        let message = message.into();
+        let verdict = match kind {
+            ErrorKind::Refuted => Verdict::Refuted,
+            ErrorKind::Undecided | ErrorKind::NotCertified => Verdict::Undecided,
+            _ => Verdict::BadInput,
+        };
+        let text = format!("{message}\n  help: {help}");
+        let diagnostic = Diagnostic {
+            code: "call",
+            file: String::new(),
+            pointer: String::new(),
+            place: None,
+            message,
+            expected: None,
+            help: Some(help.to_owned()),
+        };
+        Error { kind, verdict, text, diagnostics: vec![diagnostic], conditions: Vec::new(), report: None }
     }
 
-    /// No claim, with the conditions of the attempt.
-    pub(super) fn not_certified(text: String, conditions: Vec<Condition>) -> Error {
-        Error { kind: ErrorKind::NotCertified, text, conditions }
+    /// Options that do not fit.
+    pub(super) fn misfit(misfit: Misfit) -> Error {
+        let name = |option: &str| format!("`{option}`");
+        Error::new(ErrorKind::Options, misfit.message(name), &misfit.help(name))
+    }
+
+    /// No claim: because of bounding functions that are not proved, or as the sentence says.
+    pub(super) fn not_certified(
+        verdict: Verdict,
+        sentence: String,
+        unproved: &[SpecErrors],
+        conditions: Vec<Condition>,
+        report: Report,
+    ) -> Error {
+        let mut error = match unproved {
+            [] => Error { diagnostics: Vec::new(), ..Error::new(ErrorKind::NotCertified, "", "") },
+            some => Error::documents(some),
+        };
+        if unproved.is_empty() {
+            error.text = sentence;
+        }
+        Error { verdict, conditions, report: Some(report), ..error }
     }
 
     /// Errors in documents; at least one.
     pub(super) fn documents(all: &[SpecErrors]) -> Error {
         let each = || all.iter().flat_map(|errors| errors.errors().iter().map(move |error| (errors, error)));
-        let placed = |(errors, error): (&SpecErrors, &SpecError)| {
-            let (line, column) = errors.place(error);
-            let mut text = format!("{}:{line}:{column}: {}", errors.label(), errors.in_full(error));
-            if !error.pointer.is_empty() {
-                text += &format!("\n  at: {}", error.pointer);
-            }
-            text + &advice(error)
-        };
-        let mut lines: Vec<String> = each().map(placed).collect();
+        let diagnostics: Vec<Diagnostic> =
+            each().map(|(errors, error)| Diagnostic::new(errors.label(), true, errors, error)).collect();
+        let mut lines: Vec<String> = diagnostics.iter().map(Diagnostic::line).collect();
         lines.extend(all.iter().filter(|errors| errors.omitted() > 0).map(omitted));
-        Error { kind: kind(each().map(|(_, error)| error)), text: lines.join("\n"), conditions: Vec::new() }
+        let verdict = if all.iter().all(SpecErrors::is_undecided) { Verdict::Undecided } else { Verdict::BadInput };
+        let kind = kind(each().map(|(_, error)| error));
+        Error { kind, verdict, text: lines.join("\n"), diagnostics, conditions: Vec::new(), report: None }
     }
 
     /// Errors in an argument, which is shown by its name.
     pub(super) fn argument(name: &str, errors: &SpecErrors) -> Error {
-        let named = |error: &SpecError| format!("{name}: {}{}", errors.in_full(error), advice(error));
-        let lines: Vec<String> = errors.errors().iter().map(named).collect();
-        Error { kind: kind(errors.errors().iter()), text: lines.join("\n"), conditions: Vec::new() }
+        let named = |error: &SpecError| Diagnostic::new(name, false, errors, error);
+        let diagnostics: Vec<Diagnostic> = errors.errors().iter().map(named).collect();
+        let lines: Vec<String> = diagnostics.iter().map(Diagnostic::line).collect();
+        let mut error = Error::documents(std::slice::from_ref(errors));
+        error.text = lines.join("\n");
+        Error { diagnostics, ..error }
+    }
+}
+
+impl Diagnostic {
+    /// With its place, where the document is one that the user has.
+    fn new(file: &str, placed: bool, errors: &SpecErrors, error: &SpecError) -> Diagnostic {
+        Diagnostic {
+            code: error.kind.code(),
+            file: file.to_owned(),
+            pointer: if placed { error.pointer.clone() } else { String::new() },
+            place: placed.then(|| errors.place(error)),
+            message: errors.in_full(error).to_owned(),
+            expected: error.expected.clone(),
+            help: error.help.clone(),
+        }
+    }
+
+    /// As errors show it.
+    fn line(&self) -> String {
+        let Diagnostic { file, message, .. } = self;
+        let mut text = match self.place {
+            Some((line, column)) => format!("{file}:{line}:{column}: {message}"),
+            None => format!("{file}: {message}"),
+        };
+        if !self.pointer.is_empty() {
+            text += &format!("\n  at: {}", self.pointer);
+        }
+        let expected = self.expected.as_ref().map(|expected| format!("\n  {expected}"));
+        let help = self.help.as_ref().map(|help| format!("\n  help: {help}"));
+        text + &expected.unwrap_or_default() + &help.unwrap_or_default()
     }
 }
 
 fn kind<'e>(errors: impl Iterator<Item = &'e SpecError>) -> ErrorKind {
     let mut kinds = errors.map(|error| ErrorKind::of(error.kind));
     kinds.find(|kind| *kind != ErrorKind::Undecided).unwrap_or(ErrorKind::Undecided)
-}
-
-fn advice(error: &SpecError) -> String {
-    let expected = error.expected.as_ref().map(|expected| format!("\n  {expected}"));
-    let help = error.help.as_ref().map(|help| format!("\n  help: {help}"));
-    expected.unwrap_or_default() + &help.unwrap_or_default()
 }
 
 fn omitted(errors: &SpecErrors) -> String {

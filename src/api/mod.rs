@@ -4,24 +4,39 @@
 //! rounded to the safe side, which is stated with each.
 
 mod certificate;
+mod certify;
 mod check;
+mod condition;
 mod error;
 mod options;
+mod rate;
 mod regulator;
+mod report;
 mod specification;
+mod study;
+mod subject;
 mod transfer;
 
-pub use crate::certify::TransferChoice;
+pub use crate::certify::{TransferChoice, Verdict};
 pub use crate::spec::Bound as BoundingFunction;
-pub use certificate::{Certificate, Claim, Condition, InitialSet, PeriodicSolution, certify};
+pub use certificate::{Certificate, Claim, InitialSet, PeriodicSolution, Samples};
+pub use certify::certify;
 pub use check::{CheckReport, CheckVerdict, check, check_against};
-pub use error::{Error, ErrorKind};
+pub use condition::Condition;
+pub use error::{Diagnostic, Error, ErrorKind};
 pub use options::{CertifyOptions, Derivation};
+pub use rate::{Rate, RateMethod, Rates, rates};
 pub use regulator::{RegulatorMatrices, SampledRegulator, regulator_matrices, sampled_regulator};
+pub use report::{Report, ReportFormat};
 pub use specification::{JacobianEntry, Specification, SpecificationBuilder};
-pub use transfer::{TransferBound, transfer_bound};
+pub use study::{Study, StudyCase};
+pub use subject::Subject;
+pub use transfer::{OscillatorShare, TransferBound, TransferOptions, TransferStudy, transfer_bound, transfer_study};
 
-use crate::enclosure::Enclosure;
+/// The version of this library, which certificates and results name.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
 use crate::spec::{Constant, Document, Errors, positive_constant};
 use rug::Rational;
 
@@ -33,6 +48,19 @@ fn rounded_up(value: &Rational) -> f64 {
 /// The largest double that is not above an exact number.
 fn rounded_down(value: &Rational) -> f64 {
     Enclosure::from_rational(value, 53).lower_f64()
+}
+
+/// The double nearest to an exact number.
+fn nearest(value: &Rational) -> f64 {
+    Enclosure::from_rational(value, DEFAULT_PRECISION).midpoint_f64()
+}
+
+/// An argument that is a positive rational number; `name` is what errors call it.
+fn rational(name: &str, text: &str) -> Result<Rational, Error> {
+    let constant = positive(name, text)?;
+    let help = "write it as a decimal or a fraction";
+    let refused = || Error::new(ErrorKind::Range, format!("{name} is not a rational number"), help);
+    constant.as_rational().cloned().ok_or_else(refused)
 }
 
 /// An argument that is an exact positive constant, as in a specification; `name` is what errors call it.

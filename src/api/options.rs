@@ -1,8 +1,11 @@
 //! What a run of [`certify`](super::certify) does.
 
 use super::error::{Error, ErrorKind};
+use super::{positive, rational};
 use crate::certify::{self, Ladder, Options, TransferChoice};
 use crate::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use crate::spec::Constant;
+use rug::Rational;
 
 /// The derivation on which a claim rests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -21,13 +24,22 @@ pub enum Derivation {
 /// use sigmastar::{CertifyOptions, Derivation};
 /// let options = CertifyOptions::new().derivation(Derivation::Repaired).compare(false);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CertifyOptions {
     derivation: Derivation,
     transfer: TransferChoice,
     precision_limit: u32,
     compare: bool,
+    sigma: Option<String>,
+    sampling_period: Option<String>,
+}
+
+/// Options that are in range.
+pub(super) struct Asked {
+    pub(super) options: Options,
+    pub(super) gain: Option<Rational>,
+    pub(super) step: Option<Constant>,
 }
 
 impl Default for CertifyOptions {
@@ -37,6 +49,8 @@ impl Default for CertifyOptions {
             transfer: TransferChoice::default(),
             precision_limit: MAX_PRECISION,
             compare: true,
+            sigma: None,
+            sampling_period: None,
         }
     }
 }
@@ -85,18 +99,38 @@ impl CertifyOptions {
         self
     }
 
+    /// Certify this gain, a positive rational number, and not the smallest one that is found.
+    #[must_use]
+    pub fn sigma(mut self, sigma: impl Into<String>) -> CertifyOptions {
+        self.sigma = Some(sigma.into());
+        self
+    }
+
+    /// Certify the regulator at samples this far apart, an exact positive constant of which the period is a whole multiple. It
+    /// takes the place of `sampling_period` in the document.
+    ///
+    /// ```
+    /// use sigmastar::CertifyOptions;
+    /// let options = CertifyOptions::new().sampling_period("1/500").sigma("50");
+    /// ```
+    #[must_use]
+    pub fn sampling_period(mut self, period: impl Into<String>) -> CertifyOptions {
+        self.sampling_period = Some(period.into());
+        self
+    }
+
     /// The options of the layers below.
     ///
     /// # Errors
-    /// A limit of the precision out of range.
-    pub(super) fn checked(self) -> Result<Options, Error> {
+    /// A limit of the precision out of range, and texts that are no such constants.
+    pub(super) fn checked(&self) -> Result<Asked, Error> {
         let range = CertifyOptions::LEAST_PRECISION_LIMIT..=CertifyOptions::LARGEST_PRECISION_LIMIT;
         if !range.contains(&self.precision_limit) {
             let message = format!("precision_limit: {} bits are out of range", self.precision_limit);
             let help = format!("choose {} to {} bits", range.start(), range.end());
             return Err(Error::new(ErrorKind::Range, message, &help));
         }
-        Ok(Options {
+        let options = Options {
             derivation: match self.derivation {
                 Derivation::Sharp => certify::Derivation::Sharp,
                 Derivation::Repaired => certify::Derivation::Repaired,
@@ -104,6 +138,9 @@ impl CertifyOptions {
             transfer: self.transfer,
             ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
             compare: self.compare,
-        })
+        };
+        let gain = self.sigma.as_ref().map(|text| rational("sigma", text)).transpose()?;
+        let step = self.sampling_period.as_ref().map(|text| positive("sampling_period", text)).transpose()?;
+        Ok(Asked { options, gain, step })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::error::{Error, ErrorKind};
 use super::positive;
-use super::specification::Specification;
+use super::subject::Subject;
 use crate::regulator::{Design, Discrete, MAX_EXPORTED_OSCILLATORS, Regulator, SampledLoop};
 use crate::spec::Constant;
 
@@ -47,7 +47,8 @@ impl RegulatorMatrices {
 ///
 /// This is `v = M'N R (z - M e)`, `u = -sigma e + K v`, `z(k+1) = R (z - M e) + (1 - step sigma) M e` with `R = e^(Phi step)` and
 /// `K = mu/(1 + step mu Nbar^2/2)`, Nbar^2 the sum of all weights. On the plant `e' = u` it converges for every number of
-/// oscillators that is not refused. A certificate is about continuous time: it says nothing about a sampled regulator.
+/// oscillators that is not refused. A claim covers it only where it is about the
+/// regulator at samples, with the same gain and sampling time ([`Claim::samples`](crate::Claim::samples)).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SampledRegulator {
@@ -78,16 +79,16 @@ impl SampledRegulator {
     }
 }
 
-/// The matrices of the regulator of a specification with the gain sigma, an exact positive constant, and n_o oscillators.
+/// The matrices of the regulator of a specification or plant with the gain sigma, an exact positive constant, and n_o oscillators.
 ///
 /// The gain is taken as it is given; whether it is certified is for a [`Certificate`](crate::Certificate) to say.
 ///
 /// # Errors
 /// What is wrong with sigma; [`Range`](ErrorKind::Range) beyond [`RegulatorMatrices::MAX_OSCILLATORS`];
 /// [`Overflow`](ErrorKind::Overflow) where a number is beyond double precision.
-pub fn regulator_matrices(specification: &Specification, sigma: &str, n_o: u32) -> Result<RegulatorMatrices, Error> {
-    let sigma = positive("sigma", sigma)?;
-    let regulator = representable(&design(specification, &sigma, n_o)?)?;
+pub fn regulator_matrices(subject: impl Into<Subject>, sigma: &str, n_o: u32) -> Result<RegulatorMatrices, Error> {
+    let (subject, sigma) = (subject.into(), positive("sigma", sigma)?);
+    let regulator = representable(&design(&subject, &sigma, n_o)?)?;
     Ok(RegulatorMatrices {
         sigma: regulator.sigma,
         mu: regulator.mu,
@@ -104,13 +105,13 @@ pub fn regulator_matrices(specification: &Specification, sigma: &str, n_o: u32) 
 /// Those of [`regulator_matrices`]; what is wrong with the sampling time; [`Range`](ErrorKind::Range) for one that works
 /// badly or not at all: `sigma step > 1`, or the fastest oscillator turns by half a turn or more in a sample.
 pub fn sampled_regulator(
-    specification: &Specification,
+    subject: impl Into<Subject>,
     sigma: &str,
     n_o: u32,
     step: &str,
 ) -> Result<SampledRegulator, Error> {
-    let sigma = positive("sigma", sigma)?;
-    let design = design(specification, &sigma, n_o)?;
+    let (subject, sigma) = (subject.into(), positive("sigma", sigma)?);
+    let design = design(&subject, &sigma, n_o)?;
     let regulator = representable(&design)?;
     let step = positive("step", step)?;
     if let Some(error) = design.sampling_errors(&step).first() {
@@ -129,12 +130,12 @@ pub fn sampled_regulator(
     })
 }
 
-fn design<'s>(specification: &'s Specification, sigma: &'s Constant, n_o: u32) -> Result<Design<'s>, Error> {
+fn design<'s>(subject: &'s Subject, sigma: &'s Constant, n_o: u32) -> Result<Design<'s>, Error> {
     if n_o > MAX_EXPORTED_OSCILLATORS {
         let help = format!("choose at most {MAX_EXPORTED_OSCILLATORS}");
         return Err(Error::new(ErrorKind::Range, format!("n_o: {n_o} oscillators are too many"), &help));
     }
-    Ok(Design::new(&specification.read.internal_model, sigma, n_o))
+    Ok(Design::new(subject.read.internal_model(), sigma, n_o))
 }
 
 fn representable(design: &Design<'_>) -> Result<Regulator, Error> {

@@ -1,12 +1,15 @@
 //! The transfer bound by itself.
 
 use super::error::{Error, ErrorKind};
-use super::specification::Specification;
+use super::report::Report;
+use super::subject::Subject;
 use super::{positive, rounded_up};
 use crate::data::Data;
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::number::write_exact;
-use crate::transfer::{rational_k0, smallest_k1};
+use crate::reduction::Subject as Read;
+use crate::spec::Specification;
+use crate::transfer::{self, CertifiedPair, OscillatorCount, PairChoice, PairError, rational_k0, smallest_k1};
 
 /// A proved bound `T_N(x) <= k0 + k1 x^2` of the internal model, for every number of oscillators N >= 0 and every
 /// `x = omega/w >= 0`.
@@ -52,12 +55,21 @@ impl TransferBound {
     }
 }
 
-/// Proves the transfer bound of the internal model of a specification with nearly the smallest k1 for a given k0, an exact
-/// positive constant. A k0 that is not rational is rounded up.
+impl TransferBound {
+    fn new(data: &Data<'_>, pair: &CertifiedPair) -> TransferBound {
+        let excess = pair.excess(data).map(|excess| excess.upper_f64());
+        let up = [rounded_up(&pair.k0), rounded_up(&pair.k1)];
+        TransferBound { k0: write_exact(&pair.k0), k1: write_exact(&pair.k1), up, excess }
+    }
+}
+
+/// Proves the transfer bound of the internal model of a specification or plant with nearly the smallest k1 for a given k0, an
+/// exact positive constant. A k0 that is not rational is rounded up.
 ///
 /// # Errors
 /// What is wrong with k0; [`Refuted`](ErrorKind::Refuted) where k0 lies below T_N(0), which the message names;
-/// [`Undecided`](ErrorKind::Undecided) where no proof was found within the effort.
+/// [`Undecided`](ErrorKind::Undecided) where no proof was found within the effort; what keeps the data of a plant from being
+/// proved.
 ///
 /// ```no_run
 /// # fn run(specification: &sigmastar::Specification) -> Result<(), sigmastar::Error> {
@@ -66,16 +78,164 @@ impl TransferBound {
 /// # Ok(())
 /// # }
 /// ```
-pub fn transfer_bound(specification: &Specification, k0: &str) -> Result<TransferBound, Error> {
+pub fn transfer_bound(subject: impl Into<Subject>, k0: &str) -> Result<TransferBound, Error> {
     let k0 = positive("k0", k0)?;
     let exact = rational_k0(&k0, DEFAULT_PRECISION);
     let exact = exact.ok_or_else(|| Error::new(ErrorKind::Overflow, "k0 is too large", "choose a smaller k0"))?;
-    let data = Data::new(&specification.read, DEFAULT_PRECISION);
-    let pair = smallest_k1(&data, &exact).map_err(|error| {
-        let kind = if error.is_refuted() { ErrorKind::Refuted } else { ErrorKind::Undecided };
-        Error::new(kind, error.to_string(), error.way_out())
-    })?;
-    let excess = pair.excess(&data).map(|excess| excess.upper_f64());
-    let up = [rounded_up(&pair.k0), rounded_up(&pair.k1)];
-    Ok(TransferBound { k0: write_exact(&pair.k0), k1: write_exact(&pair.k1), up, excess })
+    let spec = specification(subject.into())?;
+    let data = Data::new(&spec, DEFAULT_PRECISION);
+    let pair = smallest_k1(&data, &exact).map_err(no_pair)?;
+    Ok(TransferBound::new(&data, &pair))
+}
+
+/// Which pair (k0, k1) is wanted, and which numbers of oscillators are looked at. The defaults are those of the command
+/// `sigmastar transfer`.
+///
+/// ```
+/// use sigmastar::TransferOptions;
+/// let options = TransferOptions::new().k0("20").n_o([Some(0), Some(10), None]);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TransferOptions {
+    pair: Wanted,
+    n_o: Vec<Option<u64>>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Wanted {
+    ForData,
+    SmallestK1(String),
+    Cheapest(String, String),
+}
+
+impl Default for TransferOptions {
+    fn default() -> TransferOptions {
+        let finite = [0, 1, 2, 3, 5, 10, 20, 50, 1_000_000_000].map(Some);
+        TransferOptions { pair: Wanted::ForData, n_o: finite.into_iter().chain([None]).collect() }
+    }
+}
+
+impl TransferOptions {
+    /// The most numbers of oscillators of one call.
+    pub const MOST: usize = 10_000;
+
+    /// The defaults.
+    #[must_use]
+    pub fn new() -> TransferOptions {
+        TransferOptions::default()
+    }
+
+    /// The smallest k1 for this k0, an exact positive constant. It takes the place of weights.
+    #[must_use]
+    pub fn k0(mut self, k0: impl Into<String>) -> TransferOptions {
+        self.pair = Wanted::SmallestK1(k0.into());
+        self
+    }
+
+    /// The pair with the smallest `a k0 + b k1`, exact positive constants; those of the data at X = E = 0 where neither this nor
+    /// a k0 is given. It takes the place of a k0.
+    #[must_use]
+    pub fn cheapest(mut self, a: impl Into<String>, b: impl Into<String>) -> TransferOptions {
+        self.pair = Wanted::Cheapest(a.into(), b.into());
+        self
+    }
+
+    /// The numbers of oscillators, `None` for infinitely many.
+    #[must_use]
+    pub fn n_o(mut self, n_o: impl IntoIterator<Item = Option<u64>>) -> TransferOptions {
+        self.n_o = n_o.into_iter().collect();
+        self
+    }
+
+    fn checked(&self) -> Result<(PairChoice, Vec<OscillatorCount>), Error> {
+        if self.n_o.len() > TransferOptions::MOST {
+            let message = format!("n_o has {} numbers of oscillators", self.n_o.len());
+            let help =
+                format!("ask for at most {}: what holds for every n_o is said without them", TransferOptions::MOST);
+            return Err(Error::new(ErrorKind::Range, message, &help));
+        }
+        let pair = match &self.pair {
+            Wanted::ForData => PairChoice::ForData,
+            Wanted::SmallestK1(k0) => PairChoice::SmallestK1(positive("k0", k0)?),
+            Wanted::Cheapest(a, b) => PairChoice::Cheapest { a: positive("a", a)?, b: positive("b", b)? },
+        };
+        let count = |n_o: &Option<u64>| n_o.map_or(OscillatorCount::Infinite, OscillatorCount::Finite);
+        Ok((pair, self.n_o.iter().map(count).collect()))
+    }
+}
+
+/// A proved transfer bound, and how much of it some numbers of oscillators use.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct TransferStudy {
+    bound: TransferBound,
+    shares: Vec<OscillatorShare>,
+    report: Report,
+}
+
+/// How much of the bound a number of oscillators uses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct OscillatorShare {
+    /// The number; `None` for infinitely many.
+    pub n_o: Option<u64>,
+    /// The largest `T_N(x)/(k0 + k1 x^2)` lies between these doubles, rounded outward.
+    pub ratio: [f64; 2],
+}
+
+impl TransferStudy {
+    /// The bound, for every number of oscillators.
+    #[must_use]
+    pub fn bound(&self) -> &TransferBound {
+        &self.bound
+    }
+
+    /// One for each number of oscillators that was asked for, in that order.
+    #[must_use]
+    pub fn shares(&self) -> &[OscillatorShare] {
+        &self.shares
+    }
+
+    /// The report of `sigmastar transfer`.
+    #[must_use]
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+}
+
+/// Proves the transfer bound of the internal model of a specification or plant, and what belongs to it. No certificate carries
+/// it.
+///
+/// # Errors
+/// Those of [`transfer_bound`], and what is wrong with the options.
+pub fn transfer_study(subject: impl Into<Subject>, options: &TransferOptions) -> Result<TransferStudy, Error> {
+    let (pair, n_o) = options.checked()?;
+    let spec = specification(subject.into())?;
+    let study = transfer::TransferStudy::new(&spec, DEFAULT_PRECISION, &pair, &n_o, || {}).map_err(no_pair)?;
+    let share = |of: &transfer::Uniformity| OscillatorShare {
+        n_o: match of.sup.n_o {
+            OscillatorCount::Finite(n) => Some(n),
+            OscillatorCount::Infinite => None,
+        },
+        ratio: [of.sup.ratio.lower_f64(), of.sup.ratio.upper_f64()],
+    };
+    Ok(TransferStudy {
+        bound: TransferBound::new(&study.data, &study.pair),
+        shares: study.uniformity.iter().map(share).collect(),
+        report: Report::of(&study),
+    })
+}
+
+/// The data of the subject, proved where it is a plant. The internal model needs no Lyapunov triple.
+fn specification(subject: Subject) -> Result<Specification, Error> {
+    match subject.read {
+        Read::Specification(spec) => Ok(*spec),
+        plant @ Read::Plant(_) => Ok(plant.proved().map_err(|all| Error::documents(&all))?.0),
+    }
+}
+
+fn no_pair(error: PairError) -> Error {
+    let kind = if error.is_refuted() { ErrorKind::Refuted } else { ErrorKind::Undecided };
+    Error::new(kind, error.to_string(), error.way_out())
 }

@@ -5,11 +5,11 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::output::Shortened;
 use super::progress::{Audience, Working};
-use super::subject::{Subject, seeking_triple};
+use super::subject::{IntoData, Subject, seeking_triple};
 use super::{digital, input, output};
 use serde_json::Value;
 use sigmastar::certificate::{certificate_json, is_digital, read_lyapunov, read_plant_witness, read_witness};
-use sigmastar::certify::{Derivation, Options, Verdict, certify_at, certify_near, recheck, with_triple};
+use sigmastar::certify::{Verdict, certify_at, certify_near, recheck, with_triple};
 use sigmastar::derivation::targets::TargetKind;
 use sigmastar::plant::Plant;
 use sigmastar::reduction::decide_again;
@@ -50,10 +50,11 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
             "the witness is of the regulator in continuous time, and `sampling_period` asks for the one at samples";
         return Err(Failure::call(message, "leave the sampling period out, or certify without --witness"));
     }
-    if gain.is_some() && args.options().derivation != Derivation::Sharp {
-        return Err(Failure::call("--sigma is for the sharp derivation", "leave --derivation or --sigma out"));
+    let of_plant = matches!(subject, Subject::Plant(_));
+    if let Some(misfit) = args.options().misfit(of_plant, false, gain.is_some()) {
+        return Err(Failure::misfit(misfit));
     }
-    let (spec, start) = data(subject, witness.as_ref(), &args.options(), args.quiet)?;
+    let (spec, start) = data(subject, witness.as_ref(), args.quiet)?;
 
     let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
     let working = Working::new("searching the free numbers, deciding the conditions", audience);
@@ -89,17 +90,9 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
 pub fn data(
     subject: Subject,
     witness: Option<&Document>,
-    options: &Options,
     quiet: bool,
 ) -> Result<(Specification, Option<SharpProposal>), Failure> {
     match (subject, witness) {
-        (Subject::Plant(_), _) if options.derivation != Derivation::Sharp => Err(Failure::call(
-            format!(
-                "the derivation `{}` needs bounding functions that a plant does not give",
-                options.derivation.name()
-            ),
-            "leave --derivation out, or give a bounding specification",
-        )),
         (Subject::Plant(plant), Some(document)) => Ok((proved_again(&plant, document)?, None)),
         (Subject::Specification(spec), Some(document)) => {
             let wanted = spec.lyapunov.triple().is_none();

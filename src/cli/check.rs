@@ -5,33 +5,19 @@ use super::digital::with_sampling_period;
 use super::failure::Failure;
 use super::input;
 use super::output::{self, reason, shown};
-use sigmastar::report::document::{Block, Readable, clean};
+use sigmastar::report::document::{Block, Made, clean};
 use sigmastar::spec::Document;
 use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-/// The checker's report, whose words are its own.
-struct Answer<'r> {
-    report: &'r proofs_check::Report,
-    verbose: bool,
-}
-
-impl Readable for Answer<'_> {
-    fn blocks(&self) -> Vec<Block> {
-        vec![Block::Code(self.report.text(self.verbose))]
-    }
-
-    fn json(&self) -> serde_json::Value {
-        self.report.json()
-    }
-}
-
 /// Runs the command and returns the exit code: that of the independent checker.
 pub fn run(args: &CheckArgs) -> u8 {
     match answer(args) {
         Ok(report) => {
-            let text = output::report(&Answer { report: &report, verbose: args.verbose }, args.format);
+            // The words of the checker's report are its own.
+            let answer = Made::new(vec![Block::Code(report.text(args.verbose))], report.json());
+            let text = output::report(&answer, args.format);
             output::data(&text).map_or_else(|code| code, |()| report.verdict.exit_code())
         }
         Err(failure) => failure.tell(args.format, false),

@@ -1,16 +1,17 @@
 //! `sigmastar certify` for the regulator at samples.
 
-use super::args::{CertifyArgs, DerivationArg, Format, TransferArg};
+use super::args::{CertifyArgs, Format};
 use super::certify::{data, tell_other_specification, write_certificate};
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::output::Shortened;
 use super::progress::{Audience, Working};
-use super::subject::Subject;
+use super::subject::{IntoData, Subject};
 use super::{input, output};
 use rug::Rational;
 use sigmastar::certificate::{digital_certificate_json, read_digital_witness};
 use sigmastar::certify::{DigitalCertification, certify_digital, recheck_digital};
+use sigmastar::reduction::at_samples;
 use sigmastar::report::DigitalReport;
 use sigmastar::spec::{Document, Sampling, SpecErrors, Specification};
 
@@ -26,7 +27,7 @@ pub fn run(
     let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
     let (spec, start) = match (witness, subject.sampling().cloned()) {
         (None, Some(sampling)) => subject.into_digital_data(&sampling, gain, args.quiet)?,
-        (given, _) => (data(subject, given, &args.options(), args.quiet)?.0, None),
+        (given, _) => (data(subject, given, args.quiet)?.0, None),
     };
     let working = Working::new("searching the free numbers, deciding the conditions", audience);
     let ladder = args.options().ladder;
@@ -67,9 +68,10 @@ fn tell(
 
 /// Flags that make no sense for the regulator at samples.
 fn refuse(args: &CertifyArgs) -> Result<(), Failure> {
+    if let Some(misfit) = args.options().misfit(false, true, false) {
+        return Err(Failure::misfit(misfit));
+    }
     let wrong = [
-        (!matches!(args.derivation, DerivationArg::Sharp), "--derivation", "only the sharp derivation covers samples"),
-        (!matches!(args.transfer, TransferArg::Best), "--transfer", "its constants are checked harmonic by harmonic"),
         (args.target_sup.is_some(), "--target-sup", "bounds by the number of oscillators are of continuous time"),
         (args.target_rms.is_some(), "--target-rms", "bounds by the number of oscillators are of continuous time"),
     ];
@@ -109,11 +111,5 @@ fn same_samples(spec: &Specification, stated: &Sampling, asked: Option<&Sampling
 /// A period that is not an exact positive constant, and a document that is too large with it.
 pub fn with_sampling_period(document: &Document, text: &str) -> Result<Document, Failure> {
     let step = input::positive("--sampling-period", text)?;
-    let mut value = document.root().to_json();
-    let Some(model) = value.get_mut("internal_model").and_then(serde_json::Value::as_object_mut) else {
-        return Ok(document.clone());
-    };
-    model.insert("sampling_period".to_owned(), step.text.into());
-    let label = format!("{} with --sampling-period {}", document.label(), text);
-    Ok(Document::parse(&label, &output::json_text(&value))?)
+    Ok(at_samples(document, &step, "--sampling-period")?)
 }

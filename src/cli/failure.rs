@@ -2,7 +2,7 @@
 
 use super::args::Format;
 use super::output;
-use sigmastar::certify::Verdict;
+use sigmastar::certify::{Misfit, Verdict};
 use sigmastar::report::{call_failure_json, failure_json};
 use sigmastar::spec::SpecErrors;
 
@@ -30,6 +30,12 @@ impl Failure {
     /// A wrong call.
     pub fn call(message: impl Into<String>, help: impl Into<String>) -> Failure {
         Failure::Call { message: message.into(), help: help.into() }
+    }
+
+    /// Options that do not fit.
+    pub fn misfit(misfit: Misfit) -> Failure {
+        let flag = |option: &str| format!("--{option}");
+        Failure::call(misfit.message(flag), misfit.help(flag))
     }
 
     /// `bad-input`, or `undecided` where nothing was found to be wrong.

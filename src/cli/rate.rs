@@ -3,7 +3,7 @@
 use super::args::RateArgs;
 use super::counts::finite_counts;
 use super::failure::Failure;
-use super::subject::Subject;
+use super::subject::{IntoData, Subject};
 use super::{input, output};
 use sigmastar::certify::{Options, Verdict, certify_near};
 use sigmastar::number::write_exact;

@@ -4,7 +4,7 @@ use super::args::SamplingArgs;
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::progress::{Audience, Working};
-use super::subject::Subject;
+use super::subject::{IntoData, Subject};
 use super::transfer::svg_file;
 use super::{input, output};
 use rug::Rational;

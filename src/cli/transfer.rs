@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::output::Shortened;
 use super::progress::Bar;
-use super::subject::Subject;
+use super::subject::{IntoData, Subject};
 use super::{input, output};
 use sigmastar::certify::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;

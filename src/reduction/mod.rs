@@ -2,7 +2,7 @@
 //!
 //! [`reduce()`] finds the orbit and coordinates, searches for a gain over sampled bounds, and proves the bounds at the arguments
 //! that the conditions will use. What it returns goes through `certify` as any specification does. [`decide_again`] proves
-//! what a certificate says of a plant.
+//! what a certificate says of a plant. A [`Subject`] is either of both, and [`Prepared`] goes the whole way with it.
 
 mod coordinates;
 mod digital;
@@ -10,14 +10,18 @@ mod entries;
 mod grid;
 mod reduce;
 mod refusal;
+mod run;
 mod sampling;
 mod specification;
 mod study;
+mod subject;
 #[cfg(test)]
 mod tests;
 
 pub use digital::{DigitalPairs, ReducedDigital};
 pub use reduce::{Reduced, bounds_around, decide_again, reduce, reduce_digital, with_digital_pairs};
 pub use refusal::{MAX_STATES, PlantRefusal};
+pub use run::{Prepared, Run};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
+pub use subject::{Subject, at_samples};

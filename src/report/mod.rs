@@ -38,7 +38,7 @@ pub use failures::{call_failure_json, failure_json};
 pub use lyapunov::LyapunovReport;
 pub use orbit::OrbitReport;
 pub use rate::RateReport;
-pub(crate) use remarks::remarks;
+pub(crate) use remarks::{digital_remarks, remarks};
 pub use sampling::{SamplingReport, sampling_figure};
 pub use transfer::{pair_failure_json, transfer_figure};
 pub use verdict::sentence;

@@ -8,7 +8,7 @@ pub(crate) fn remarks(run: &Certification<'_>) -> Vec<String> {
 }
 
 /// The same of a run about the regulator at samples.
-pub(super) fn digital_remarks(run: &DigitalCertification<'_>) -> Vec<String> {
+pub(crate) fn digital_remarks(run: &DigitalCertification<'_>) -> Vec<String> {
     of(run.no_plant.as_ref(), run.has_force_at_origin())
 }
 

@@ -1,5 +1,6 @@
 //! The cases: the subject of a study with the values of each case put in.
 
+use super::row::Row;
 use super::study::{Study, SubjectSource};
 use crate::certify::Derivation;
 use crate::plant;
@@ -27,6 +28,14 @@ pub struct Case {
     pub document: Document,
     /// SHA-256 of the document: what `certify` of it gives as the digest of the specification or plant.
     pub sha256: String,
+}
+
+impl Case {
+    /// Whether a row is of this document and these values.
+    #[must_use]
+    pub fn has(&self, row: &Row) -> bool {
+        self.sha256 == row.sha256 && self.values == row.values
+    }
 }
 
 impl Sweep {

@@ -22,7 +22,7 @@ pub use header::{Header, Shard};
 pub use parameter::Parameter;
 pub use results::{Merge, Results, ResultsError};
 pub use row::{Claim, Row, RowError};
-pub use run::{Run, run, solve, with_run};
+pub use run::{run, solve};
 pub use study::{FORMAT, Study, SubjectSource, VERSIONS};
 pub use table::{best, csv, summary};
 pub use values::{Range, Scalar, Values};

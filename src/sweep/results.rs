@@ -1,5 +1,6 @@
 //! A file of results: a first line, then one line for each case.
 
+use super::Sweep;
 use super::header::Header;
 use super::row::Row;
 use std::collections::BTreeMap;
@@ -46,6 +47,14 @@ pub enum ResultsError {
         /// The case.
         index: u64,
     },
+    /// A line that was made from another document.
+    #[error("a line of `{file}` is not of case {index} of this study as it is now")]
+    OtherCase {
+        /// Where the line is.
+        file: String,
+        /// The case that it names.
+        index: u64,
+    },
     /// Files of different studies.
     #[error("`{file}` is of another study than `{first}`")]
     OtherStudy {
@@ -74,6 +83,9 @@ impl ResultsError {
             ResultsError::Header { .. } => "name a file that `sigmastar sweep -o` wrote, or a new one",
             ResultsError::Line { .. } | ResultsError::Contradiction { .. } => {
                 "remove this line: `sigmastar sweep` works its case out again"
+            }
+            ResultsError::OtherCase { .. } => {
+                "a study or subject that is changed is another study: run its cases again"
             }
             ResultsError::OtherStudy { .. } => {
                 "shards are of one study, one subject and one version of this program; name the files of one study"
@@ -121,6 +133,42 @@ impl Results {
             }
         }
         Ok(results)
+    }
+
+    /// The rows of a sweep from their lines, in any order; `name` is what errors call them.
+    ///
+    /// # Errors
+    /// A line that is not as it is written, of a case that the sweep does not have, or of another document than that case; two
+    /// lines that contradict each other.
+    pub fn of_lines<'l>(
+        sweep: &Sweep,
+        name: &str,
+        lines: impl IntoIterator<Item = &'l str>,
+    ) -> Result<Results, ResultsError> {
+        let mut results = Results::new(Header::new(sweep, None));
+        for (line, text) in lines.into_iter().enumerate() {
+            let wrong = |reason| ResultsError::Line { file: name.to_owned(), line: line + 1, reason };
+            let row = row(text).map_err(wrong)?;
+            let index = row.index;
+            if results.header.has(index) && !sweep.case(index).is_ok_and(|case| case.has(&row)) {
+                return Err(ResultsError::OtherCase { file: name.to_owned(), index });
+            }
+            results.add(row, name, line + 1)?;
+        }
+        Ok(results)
+    }
+
+    /// Whether every case has its row.
+    ///
+    /// # Errors
+    /// Cases without a row.
+    pub fn complete(&self) -> Result<(), ResultsError> {
+        let cases = self.header.cases;
+        let missing = cases.saturating_sub(self.rows.len() as u64);
+        match (0..cases).find(|index| !self.rows.contains_key(index)) {
+            Some(first) => Err(ResultsError::Missing { missing, cases, first }),
+            None => Ok(()),
+        }
     }
 
     /// Adds a row that is read.
@@ -192,11 +240,9 @@ impl Merge {
     /// # Errors
     /// Cases without a line.
     pub fn finish(self, incomplete: bool) -> Result<Results, ResultsError> {
-        let cases = self.results.header.cases;
-        let missing = cases.saturating_sub(self.results.rows.len() as u64);
-        match (0..cases).find(|index| !self.results.rows.contains_key(index)) {
-            Some(first) if !incomplete => Err(ResultsError::Missing { missing, cases, first }),
-            _ => Ok(self.results),
+        if !incomplete {
+            self.results.complete()?;
         }
+        Ok(self.results)
     }
 }

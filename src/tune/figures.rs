@@ -1,9 +1,9 @@
 //! What one proposal comes to: its certified figures, and the one that is to be small.
 
-use crate::certify::{Certification, Derivation, Verdict};
+use crate::certify::{Certification, Options, Verdict};
 use crate::enclosure::Enclosure;
+use crate::reduction::{Prepared, Run, Subject};
 use crate::spec::{Document, SpecErrors};
-use crate::sweep::{Run, with_run};
 use rug::Rational;
 
 /// What is to be as small as possible.
@@ -57,7 +57,10 @@ impl Figures {
             true => Verdict::Undecided,
             false => Verdict::BadInput,
         };
-        with_run(document, Derivation::Sharp, |run| figures(run, n_o)).map_err(refused)?
+        let subject = Subject::read(document).map_err(|errors| refused(vec![errors]))?;
+        let prepared = Prepared::new(subject, None).map_err(refused)?;
+        let run = prepared.certify(Options { compare: false, ..Options::default() }).map_err(refused)?;
+        figures(&run, n_o)
     }
 
     /// An upper bound of what is to be small.
@@ -70,12 +73,12 @@ impl Figures {
     }
 }
 
-fn figures(run: Run<'_>, n_o: u64) -> Result<Figures, Verdict> {
+fn figures(run: &Run<'_>, n_o: u64) -> Result<Figures, Verdict> {
     // A verdict without a claim is none.
     let verdict = |verdict| if verdict == Verdict::Certified { Verdict::Undecided } else { verdict };
     match run {
         Run::Continuous(run) => continuous(run, n_o).ok_or_else(|| verdict(run.verdict)),
-        Run::AtSamples(run) => {
+        Run::Sampled(run) => {
             let claim = run.claim().zip(run.periodic_solution()).ok_or_else(|| verdict(run.verdict))?;
             let (proof, periodic) = claim;
             let set = &proof.witness.set;

@@ -1,10 +1,11 @@
 //! The library as a program outside of this package uses it: the crate root alone.
 
-use crate::support::{EXAMPLE, EXAMPLE_TEXT, ROOT, program};
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, ROOT, json, program};
 use sigmastar::{
     BoundingFunction as Bound, Certificate, CertifyOptions, CheckReport, CheckVerdict, Derivation, Error, ErrorKind,
-    JacobianEntry, RegulatorMatrices, Specification, SpecificationBuilder, TransferChoice, certify, check,
-    check_against, regulator_matrices, sampled_regulator, transfer_bound,
+    JacobianEntry, RateMethod, RegulatorMatrices, Report, ReportFormat, Specification, SpecificationBuilder, Study,
+    Subject, TransferChoice, TransferOptions, Verdict, certify, check, check_against, rates, regulator_matrices,
+    sampled_regulator, transfer_bound, transfer_study,
 };
 
 /// The paper's example without its Lyapunov data.
@@ -38,7 +39,7 @@ fn example() -> Specification {
 #[test]
 fn optional_data_lower_the_gain() {
     let sigma = |builder: SpecificationBuilder| {
-        let certificate = certify(&builder.build().expect("it is read"), &quick()).expect("it certifies");
+        let certificate = certify(builder.build().expect("it is read"), &quick()).expect("it certifies");
         assert!(check(certificate.to_json()).is_flawless());
         certificate.claim().sigma_star_f64()
     };
@@ -99,7 +100,7 @@ fn the_example_built_in_rust_is_certified_and_checked() {
 
 #[test]
 fn a_forged_certificate_is_refused() {
-    let certificate = certify(&example(), &quick()).unwrap();
+    let certificate = certify(example(), &quick()).unwrap();
     let forged = certificate.to_json().replace("\"sigma_star\": \"41.4618\"", "\"sigma_star\": \"41\"");
     assert_ne!(forged, certificate.to_json());
     let report = check(&forged);
@@ -143,13 +144,13 @@ fn a_specification_with_a_jacobian_is_certified() {
 
 #[test]
 fn options_choose_the_derivation_and_the_transfer_proof() {
-    let sigma = |options: CertifyOptions| certify(&example(), &options).unwrap().claim().sigma_star_f64();
+    let sigma = |options: CertifyOptions| certify(example(), &options).unwrap().claim().sigma_star_f64();
     let sharp = sigma(quick());
     assert!(sigma(quick().derivation(Derivation::Repaired)) > sharp);
     assert!(sigma(quick().transfer(TransferChoice::ClosedForm)) > sharp);
     assert!((sigma(quick().precision_limit(CertifyOptions::LEAST_PRECISION_LIMIT)) - sharp).abs() < 1.0);
     for bits in [0, 127, 1025, u32::MAX] {
-        assert_eq!(kind(certify(&example(), &quick().precision_limit(bits))), ErrorKind::Range);
+        assert_eq!(kind(certify(example(), &quick().precision_limit(bits))), ErrorKind::Range);
     }
 }
 
@@ -273,4 +274,235 @@ fn its_types_cross_threads() {
     crosses::<Certificate>();
     crosses::<CheckReport>();
     crosses::<Error>();
+    crosses::<Subject>();
+    crosses::<Study>();
+    crosses::<Report>();
+}
+
+const PLANT_PATH: &str = "specs/plants/relative-degree-2.json";
+const PLANT: &str = include_str!("../../specs/plants/relative-degree-2.json");
+const STUDY: &str = "specs/studies/linear.json";
+
+fn plant() -> Subject {
+    Subject::from_json(PLANT).expect("shipped")
+}
+
+/// What the program writes for `certify`.
+fn told(args: &[&str]) -> Vec<u8> {
+    program().arg("certify").args(args).args(["--no-compare", "--quiet"]).output().expect("the program runs").stdout
+}
+
+#[test]
+fn a_plant_is_certified_and_checked() {
+    let plant = plant();
+    assert!(plant.is_plant());
+    let certificate = certify(&plant, &CertifyOptions::new().compare(false)).unwrap();
+    let report = told(&[PLANT_PATH, "--format", "json"]);
+    assert_eq!(certificate.report().render(ReportFormat::Json).as_bytes(), report);
+    assert_eq!(certificate.claim().sigma_star(), json(&report)["sigma_star"]);
+    assert_eq!(certificate.claim().specification_sha256(), plant.sha256());
+    assert!(certificate.claim().statement().contains("the plant of these formulas"));
+    assert!(certificate.claim().initial_set().ball().is_some() && certificate.claim().samples().is_none());
+    assert!(check_against(certificate.to_json(), &plant).is_valid());
+    assert_eq!(check_against(certificate.to_json(), example()).verdict(), CheckVerdict::Invalid);
+    assert_eq!(certificate.subject().to_json(), plant.to_json());
+    assert_eq!(regulator_matrices(&plant, certificate.claim().sigma_star(), 1).unwrap().phi.len(), 3);
+
+    let repaired = CertifyOptions::new().derivation(Derivation::Repaired);
+    let error = certify(&plant, &repaired).unwrap_err();
+    assert_eq!((error.kind(), error.verdict()), (ErrorKind::Options, Verdict::BadInput));
+    assert!(error.to_string().contains("a plant does not give"), "{error}");
+
+    let unstable = include_str!("../../specs/plants/invalid/unstable.json");
+    let error = certify(Subject::from_bytes("unstable.json", unstable.as_bytes()).unwrap(), &quick()).unwrap_err();
+    assert_eq!((error.kind(), error.verdict()), (ErrorKind::Undecided, Verdict::Undecided), "{error}");
+    let first = &error.diagnostics()[0];
+    assert_eq!((first.file.as_str(), first.pointer.as_str()), ("unstable.json", "/f"));
+    assert!(first.place.is_some_and(|(line, _)| line > 1) && error.to_string().contains(&first.message));
+}
+
+#[test]
+fn the_regulator_at_samples_is_certified() {
+    let options = quick().sampling_period("1/500");
+    let certificate = certify(example(), &options).unwrap();
+    let report = json(&told(&[EXAMPLE, "--sampling-period", "1/500", "--format", "json"]));
+    let claim = certificate.claim();
+    let samples = claim.samples().unwrap();
+    assert_eq!(
+        (claim.sigma_star(), samples.period.as_str(), samples.count),
+        (report["sigma"].as_str().unwrap(), "0.002", 500)
+    );
+    assert_eq!(samples.gain, report["gain"].as_str().unwrap());
+    assert!(claim.statement().contains("n_o < 500/2"));
+    assert!(check(certificate.to_json()).is_flawless());
+    // The subject has the sampling period, as the certificate says.
+    assert_eq!(certificate.subject().sha256(), claim.specification_sha256());
+    assert_ne!(claim.specification_sha256(), example().sha256());
+
+    // A document with a sampling period is about the regulator at samples by itself.
+    let again = certify(certificate.subject(), &quick()).unwrap();
+    assert_eq!(again.to_json(), certificate.to_json());
+
+    for options in [options.clone().derivation(Derivation::Repaired), options.clone().transfer(TransferChoice::Boxes)] {
+        assert_eq!(kind(certify(example(), &options)), ErrorKind::Options);
+    }
+    assert_eq!(kind(certify(example(), &quick().sampling_period("1/3.5"))), ErrorKind::Range);
+    assert_eq!(kind(certify(example(), &quick().sampling_period("0"))), ErrorKind::Range);
+    let error = certify(example(), &options.sigma("600")).unwrap_err();
+    assert_eq!((error.kind(), error.verdict()), (ErrorKind::NotCertified, Verdict::Undecided));
+    assert!(error.to_string().contains("h sigma exceeds 1"), "{error}");
+}
+
+#[test]
+fn a_given_gain_is_certified_or_not() {
+    let certificate = certify(example(), &quick().sigma("85/2")).unwrap();
+    assert_eq!(certificate.claim().sigma_star(), "42.5");
+    let error = certify(example(), &quick().sigma("41")).unwrap_err();
+    assert_eq!((error.kind(), error.verdict()), (ErrorKind::NotCertified, Verdict::Undecided));
+    assert!(error.diagnostics().is_empty());
+    let report = error.report().expect("a run was made").to_string();
+    let report = error.report().expect("a run was made").to_string();
+    assert!(report.contains("What to try:") && report.contains("certifies no sigma"), "{report}");
+    assert!(report.contains("What to try:") && report.contains("certifies no sigma"), "{report}");
+    assert_eq!(kind(certify(example(), &quick().sigma("pi"))), ErrorKind::Range);
+    assert_eq!(kind(certify(example(), &quick().sigma("pi"))), ErrorKind::Range);
+    assert_eq!(kind(certify(example(), &quick().sigma("-1"))), ErrorKind::Range);
+    assert_eq!(kind(certify(example(), &quick().sigma("-1"))), ErrorKind::Range);
+    assert_eq!(kind(certify(example(), &quick().sigma("42").derivation(Derivation::Repaired))), ErrorKind::Options);
+    assert_eq!(kind(certify(example(), &quick().sigma("42").derivation(Derivation::Repaired))), ErrorKind::Options);
+}
+}
+
+
+#[test]
+#[test]
+fn the_report_is_that_of_the_program() {
+fn the_report_is_that_of_the_program() {
+    let certificate = certify(example(), &CertifyOptions::new()).unwrap();
+    let certificate = certify(example(), &CertifyOptions::new()).unwrap();
+    let formats = [ReportFormat::Text, ReportFormat::Markdown, ReportFormat::Html, ReportFormat::Json];
+    let formats = [ReportFormat::Text, ReportFormat::Markdown, ReportFormat::Html, ReportFormat::Json];
+    // The builder leaves the description out, which no report shows; the digest is another one.
+    // The builder leaves the description out, which no report shows; the digest is another one.
+    let file = Subject::from_json(EXAMPLE_TEXT).unwrap();
+    let file = Subject::from_json(EXAMPLE_TEXT).unwrap();
+    let of_file = certify(&file, &CertifyOptions::new()).unwrap();
+    let of_file = certify(&file, &CertifyOptions::new()).unwrap();
+    for (format, word) in formats.into_iter().zip(["text", "markdown", "html", "json"]) {
+    for (format, word) in formats.into_iter().zip(["text", "markdown", "html", "json"]) {
+        let output = program().args(["certify", EXAMPLE, "--format", word, "--quiet", "--full"]).output().unwrap();
+        let output = program().args(["certify", EXAMPLE, "--format", word, "--quiet", "--full"]).output().unwrap();
+        assert_eq!(of_file.report().render(format).as_bytes(), output.stdout, "{word}");
+        assert_eq!(of_file.report().render(format).as_bytes(), output.stdout, "{word}");
+    }
+    }
+    assert_eq!(certificate.report().to_string(), of_file.report().to_string());
+    assert_eq!(certificate.report().to_string(), of_file.report().to_string());
+    let answer = check(certificate.to_json());
+    assert_eq!(answer.report().to_string(), answer.text());
+    assert!(answer.report().render(ReportFormat::Html).contains("<pre"));
+}
+
+#[test]
+fn errors_say_the_verdict_of_the_program() {
+    for name in
+        ["undecided-sign", "matched-undecided", "decreasing-bound", "many-errors", "not-json", "weights-undecided"]
+    {
+        let path = format!("specs/invalid/{name}.json");
+        let report = json(&told(&[&path, "--format", "json"]));
+        let bytes = std::fs::read(format!("{ROOT}/{path}")).unwrap();
+        let error = Subject::from_bytes(&path, &bytes).and_then(|subject| certify(subject, &quick())).unwrap_err();
+        assert_eq!(error.verdict().to_string(), report["verdict"], "{name}");
+        let listed: Vec<_> =
+            report["errors"].as_array().unwrap().iter().filter(|error| error.get("code").is_some()).collect();
+        assert_eq!(error.diagnostics().len(), listed.len(), "{name}");
+        for (diagnostic, told) in error.diagnostics().iter().zip(listed) {
+            assert_eq!(
+                (diagnostic.code, diagnostic.message.as_str()),
+                (told["code"].as_str().unwrap(), told["message"].as_str().unwrap())
+            );
+            assert_eq!((diagnostic.pointer.as_str(), &diagnostic.file), (told["pointer"].as_str().unwrap(), &path));
+            let place = diagnostic.place.map(|(line, column)| (line as u64, column as u64));
+            assert_eq!(place, told["line"].as_u64().zip(told["column"].as_u64()), "{name}");
+        }
+    }
+}
+
+#[test]
+fn rates_are_those_of_the_program() {
+    let found = rates(example(), Some("50"), &[0, 2]).unwrap();
+    let output =
+        program().args(["rate", EXAMPLE, "--n-o", "0,2", "--sigma", "50", "--format", "json"]).output().unwrap();
+    assert_eq!(found.report().render(ReportFormat::Json).as_bytes(), output.stdout);
+    assert_eq!((found.sigma(), found.sigma_star()), ("50", "41.4618"));
+    let [first, second] = found.rates() else { panic!("{found:?}") };
+    assert_eq!((first.n_o(), second.n_o()), (0, 2));
+    let exact: f64 = second.closed_loop().unwrap().parse().unwrap();
+    assert!(second.closed_loop_f64().is_some_and(|down| down <= exact && down > exact * (1.0 - 1e-14)));
+    assert_eq!(second.method(), Some(RateMethod::Riccati));
+    assert!(first.oscillators_f64() > second.oscillators_f64() && second.oscillators_f64() > Some(0.0));
+
+    assert_eq!(kind(rates(example(), Some("41"), &[0])), ErrorKind::Range);
+    assert_eq!(kind(rates(example(), None, &[201])), ErrorKind::Range);
+    let large = builder().domain("1", "1").initial_set_box("1", "4", "0").build().unwrap();
+    assert_eq!(kind(rates(&large, None, &[0])), ErrorKind::NotCertified);
+    let sampled = EXAMPLE_TEXT.replace("\"matched\": true", "\"matched\": true, \"sampling_period\": \"1/500\"");
+    assert_eq!(kind(Subject::from_json(&sampled).and_then(|subject| rates(subject, None, &[0]))), ErrorKind::Range);
+}
+
+#[test]
+fn the_transfer_study() {
+    let study = transfer_study(example(), &TransferOptions::new().k0("20").n_o([Some(1), None])).unwrap();
+    assert_eq!(study.bound(), &transfer_bound(example(), "20").unwrap());
+    let [one, all] = study.shares() else { panic!("{study:?}") };
+    assert_eq!((one.n_o, all.n_o), (Some(1), None));
+    assert!(one.ratio[0] <= one.ratio[1] && one.ratio[1] <= all.ratio[1] && all.ratio[1] <= 1.0, "{study:?}");
+    let cheapest = transfer_study(example(), &TransferOptions::new().cheapest("1", "2/3").n_o([])).unwrap();
+    assert!(cheapest.bound().k0_f64() > 19.7);
+    assert_eq!(kind(transfer_study(example(), &TransferOptions::new().k0("19.7"))), ErrorKind::Refuted);
+    assert_eq!(kind(transfer_study(example(), &TransferOptions::new().cheapest("0", "1"))), ErrorKind::Range);
+    let many = TransferOptions::new().n_o(vec![None; TransferOptions::MOST + 1]);
+    assert_eq!(kind(transfer_study(example(), &many)), ErrorKind::Range);
+}
+
+#[test]
+fn a_study_is_run_case_by_case_to_the_bytes_of_sweep() {
+    let text = std::fs::read(format!("{ROOT}/{STUDY}")).unwrap();
+    let subject = |path: &str| {
+        assert_eq!(path, "../linear.json");
+        std::fs::read(format!("{ROOT}/specs/studies/{path}")).map_err(|error| error.to_string())
+    };
+    let study = Study::from_bytes(STUDY, &text, subject).unwrap();
+    let lines: Vec<String> = (0..study.cases()).map(|index| study.run_case(index).unwrap()).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("results.jsonl");
+    program().args(["sweep", STUDY, "--quiet", "-o"]).arg(&file).assert().success();
+    let results = study.results(lines.iter().rev().map(String::as_str)).unwrap();
+    assert_eq!(results, std::fs::read_to_string(file).unwrap());
+
+    let case = study.case(12).unwrap();
+    assert_eq!(
+        case.values,
+        [("alpha", "1.5"), ("p_up", "11/10")].map(|(name, value)| (name.to_owned(), value.to_owned()))
+    );
+    assert_eq!(Subject::from_json(&case.json).unwrap().sha256(), case.sha256);
+    assert_eq!(kind(study.case(15)), ErrorKind::Range);
+    assert_eq!(kind(study.run_case(u64::MAX)), ErrorKind::Range);
+
+    // Lines that are missing, of another case, changed, or none.
+    let all = || lines.iter().map(String::as_str);
+    let moved = lines[0].replacen("\"index\":0", "\"index\":1", 1);
+    let changed = lines[0].replacen("\"certified\"", "\"undecided\"", 1);
+    for (wrong, words) in [
+        (all().skip(1).collect::<Vec<_>>(), "1 of 15 cases are missing"),
+        (all().chain([moved.as_str()]).collect(), "is not of case 1"),
+        (all().chain([changed.as_str()]).collect(), "line 16"),
+        (all().chain(["{}"]).collect(), "is no result"),
+    ] {
+        let error = study.results(wrong).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Results);
+        assert!(error.to_string().contains(words), "{words}: {error}");
+    }
+    let missing = Study::from_bytes(STUDY, &text, |_| Err("it is gone".to_owned())).unwrap_err();
+    assert!(missing.to_string().contains("it is gone") && missing.diagnostics()[0].pointer == "/subject", "{missing}");
 }

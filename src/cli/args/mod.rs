@@ -5,10 +5,7 @@ mod claims;
 mod regulator;
 mod studies;
 
-pub use claims::{
-    BoundArgs, CertifyArgs, CheckArgs, DerivationArg, ErrataArgs, LyapunovArgs, RateArgs, SamplingArgs, TransferArg,
-    TransferArgs,
-};
+pub use claims::{BoundArgs, CertifyArgs, CheckArgs, ErrataArgs, LyapunovArgs, RateArgs, SamplingArgs, TransferArgs};
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
 pub use studies::{MergeArgs, SweepArgs, TuneArgs, TuneGoal};
 

@@ -8,7 +8,10 @@ mod html;
 mod markdown;
 mod text;
 
+mod made;
+
 pub use block::{Align, Block, Column, Extent, Table, clean};
+pub use made::Made;
 
 /// A report that can be written in every format, with the same content in each.
 pub trait Readable {

@@ -1,0 +1,70 @@
+"""Documents: from files, and from dictionaries."""
+
+from __future__ import annotations
+
+import json
+import os
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Integral
+from typing import Any, Mapping, Tuple, Union
+
+from . import _native
+from ._exact import text
+
+Document = Union[Mapping[str, Any], str, "os.PathLike[str]"]
+"""A document: the path of its file, or its content as a dictionary."""
+
+File = Tuple[str, bytes]
+
+
+def file(document: Document, name: str) -> File:
+    """What errors call a document, and its bytes; `name` is for a dictionary.
+
+    Raises OSError for a file that cannot be read, TypeError and ValueError for what JSON cannot hold exactly.
+    """
+    if isinstance(document, Mapping):
+        return (name, written(document).encode("utf-8"))
+    if isinstance(document, (str, os.PathLike)):
+        return read(os.fspath(document))
+    raise TypeError(f"a {type(document).__name__} is no document: give a path or a dictionary")
+
+
+def read(path: str) -> File:
+    """A file, of which no more is read than a document may have and one byte."""
+    with open(path, "rb") as stream:
+        return (os.fsdecode(path), stream.read(_native.MAX_BYTES + 1))
+
+
+def written(document: Mapping[str, Any]) -> str:
+    """A dictionary as JSON: floats as Python writes them, a Fraction or Decimal as an exact constant.
+
+    Raises TypeError for what JSON cannot hold exactly, ValueError for a float that is not finite.
+    """
+    return json.dumps(plain(document), allow_nan=False, ensure_ascii=False, indent=2)
+
+
+def plain(value: Any) -> Any:
+    """The same value of types that JSON has."""
+    if isinstance(value, Mapping):
+        for key in value:
+            if not isinstance(key, str):
+                raise TypeError(f"{key!r} is no name of a field: names are texts")
+        return {key: plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(one) for one in value]
+    if value is None or isinstance(value, (str, bool)):
+        return value
+    if isinstance(value, (Fraction, Decimal)):
+        return text(value)
+    if isinstance(value, Integral):
+        return int(value)
+    if isinstance(value, float):
+        exact = getattr(value, "exact", None)
+        return exact if isinstance(exact, str) else float(value)
+    if hasattr(value, "tolist") and hasattr(value, "dtype"):
+        # An array of doubles or integers is exact; one of another precision would change its numbers.
+        if value.dtype.kind in "iu" or value.dtype == "float64":
+            return plain(value.tolist())
+        raise TypeError(f"numbers of the type {value.dtype} are not taken: convert them to float or Fraction yourself")
+    raise TypeError(f"a {type(value).__name__} is nothing that a document has: give texts, numbers, lists and dictionaries")

@@ -1,0 +1,256 @@
+"""What certifying, checking and the other proofs find."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+from ._condition import Condition, conditions
+from ._exact import Exact
+from ._report import Reported
+
+
+@dataclass(frozen=True)
+class InitialSet:
+    """The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`, each number rounded down: the smaller set is covered too.
+
+    Of a plant by its formulas it is `|L^-1 (x - x_0(t))| <= x0` in the place of `|x| <= x0`, with the orbit x_0 and the
+    coordinates L of its certificate.
+    """
+
+    x0: Exact
+    e0: Exact
+    z0: Exact
+    ball: Optional[str]
+    """Of a plant: a radius such that the set contains all x with `|x - x_0(t)|` up to it, exactly."""
+
+
+@dataclass(frozen=True)
+class PeriodicSolution:
+    """Upper bounds of the periodic solution, rounded up: of |x|, |e|, |zeta|_N and |z|_N."""
+
+    x: float
+    e: float
+    zeta: float
+    z: float
+
+
+@dataclass(frozen=True)
+class Samples:
+    """The samples of a regulator that a computer runs."""
+
+    period: str
+    """The sampling period, exactly."""
+    count: int
+    """How many of them are in a period of the disturbance."""
+    gain: str
+    """K of the law u = -sigma e + K v, a double, exactly."""
+
+
+@dataclass(frozen=True)
+class Certificate(Reported):
+    """A certified claim, the conditions that prove it, and the file from which both can be checked again.
+
+    There is one only where every condition is proved. It can be sent to other processes.
+    """
+
+    sigma_star: Exact
+    """The gain. The claim holds for it and every larger one; the double is rounded up, so that it holds for the double too.
+    Where `samples` is given the claim is about exactly `sigma_star.exact`, and the double is the nearest one."""
+    samples: Optional[Samples]
+    """The samples of the regulator that the claim is about; None where it is about the one in continuous time."""
+    statement: str
+    """The claim in words, with what it speaks of and what is given and not proved."""
+    initial_set: InitialSet
+    """The initial conditions from which convergence is proved."""
+    periodic_solution: PeriodicSolution
+    """Upper bounds of the periodic solution."""
+    conditions: List[Condition]
+    """The conditions, all of which are proved."""
+    remarks: List[str]
+    """What the data are to be looked at for. The claim holds all the same."""
+    name: str
+    """The name of the specification or plant."""
+    is_plant: bool
+    """Whether the claim is about one plant by its formulas, and not about all plants of bounding functions."""
+    sha256: str
+    """SHA-256 of the specification or plant."""
+    _json: str = field(repr=False)
+    _subject: str = field(repr=False)
+    _reports: Dict[str, str] = field(repr=False)
+
+    @property
+    def verdict(self) -> str:
+        """`certified`: what is not certified is an exception and no certificate."""
+        return "certified"
+
+    @property
+    def sigma_star_exact(self) -> str:
+        """The gain exactly: a decimal or a fraction."""
+        return self.sigma_star.exact
+
+    def to_json(self) -> str:
+        """The certificate file, self-contained; the bytes are those of `sigmastar certify -o`."""
+        return self._json
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the certificate file; it appears whole or not at all."""
+        write(path, self._json)
+
+
+@dataclass(frozen=True)
+class Check(Reported):
+    """The answer of the independent checker. It is true only where the claim is proved again."""
+
+    verdict: str
+    """`valid`, `invalid`, `bad-input` or `undecided`."""
+    is_flawless: bool
+    """Whether the claim is proved and every figure beside it, on which no claim rests, agrees too."""
+    statement: Optional[str]
+    """The claim that is proved; None where none is."""
+    sha256: Optional[str]
+    """SHA-256 of what the proved claim is about."""
+    assumed: List[str]
+    """What the proved claim assumes of the plant, in sentences."""
+    _reports: Dict[str, str] = field(repr=False)
+
+    @property
+    def is_valid(self) -> bool:
+        """Whether the claim is proved."""
+        return self.verdict == "valid"
+
+    def __bool__(self) -> bool:
+        return self.is_valid
+
+    def __str__(self) -> str:
+        return self._reports["text"]
+
+
+@dataclass(frozen=True)
+class Share:
+    """How much of the transfer bound a number of oscillators uses."""
+
+    n_o: Optional[int]
+    """The number; None for infinitely many."""
+    ratio: Tuple[float, float]
+    """The largest T_N(x)/(k0 + k1 x^2) lies between these, rounded outward."""
+
+
+@dataclass(frozen=True)
+class TransferBound(Reported):
+    """A proved bound T_N(x) <= k0 + k1 x^2, for every number of oscillators and every x >= 0. No certificate carries it."""
+
+    k0: Exact
+    """k0, rounded up: with it the bound holds too."""
+    k1: Exact
+    """k1, rounded up."""
+    excess: Optional[float]
+    """By how much, relatively, k1 exceeds a proved lower bound of every k1 that would do with this k0; rounded up."""
+    shares: List[Share]
+    """How much of the bound some numbers of oscillators use."""
+    _reports: Dict[str, str] = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Rate:
+    """What is proved for one number of oscillators, in 1/time. None says that nothing was proved, not that there is none."""
+
+    n_o: int
+    """The number of oscillators."""
+    closed_loop: Optional[Exact]
+    """A rate at which every solution from the certified initial set approaches the periodic solution, rounded down."""
+    method: Optional[str]
+    """How that was proved: `riccati` or `kappa`."""
+    oscillators: Optional[Exact]
+    """A decay rate of the oscillators by themselves, rounded down."""
+    spectral_estimate: Optional[float]
+    """Minus the spectral abscissa of the oscillators: floating point, no claim."""
+
+
+@dataclass(frozen=True)
+class Rates(Reported):
+    """Rates of convergence at one gain. No certificate carries them, and no independent program checks them."""
+
+    sigma: str
+    """The gain, exactly."""
+    sigma_star: str
+    """The certified gain, exactly."""
+    rates: List[Rate]
+    """One for each number of oscillators that was asked for."""
+    _reports: Dict[str, str] = field(repr=False)
+
+
+def exact(told: Optional[Tuple[float, str]]) -> Any:
+    """A number with its text."""
+    return None if told is None else Exact(told[0], told[1])
+
+
+def certificate(told: Dict[str, Any]) -> Certificate:
+    """A certificate from the library's answer."""
+    x0, e0, z0 = map(exact, told["initial_set"])
+    return Certificate(
+        sigma_star=exact(told["sigma_star"]),
+        samples=None if told["samples"] is None else Samples(*told["samples"]),
+        statement=told["statement"],
+        initial_set=InitialSet(x0, e0, z0, told["ball"]),
+        periodic_solution=PeriodicSolution(*told["periodic_solution"]),
+        conditions=conditions(told["conditions"]),
+        remarks=told["remarks"],
+        name=told["name"],
+        is_plant=told["is_plant"],
+        sha256=told["sha256"],
+        _json=told["json"],
+        _subject=told["subject"],
+        _reports=told["reports"],
+    )
+
+
+def check(told: Dict[str, Any]) -> Check:
+    """The checker's answer."""
+    return Check(
+        verdict=told["verdict"],
+        is_flawless=told["flawless"],
+        statement=told["statement"],
+        sha256=told["sha256"],
+        assumed=told["assumed"],
+        _reports=told["reports"],
+    )
+
+
+def transfer(told: Dict[str, Any]) -> TransferBound:
+    """A transfer bound."""
+    return TransferBound(
+        k0=exact(told["k0"]),
+        k1=exact(told["k1"]),
+        excess=told["excess"],
+        shares=[Share(n_o, (low, high)) for n_o, low, high in told["shares"]],
+        _reports=told["reports"],
+    )
+
+
+def rates(told: Dict[str, Any]) -> Rates:
+    """Rates."""
+
+    def one(rate: Dict[str, Any]) -> Rate:
+        return Rate(**{**rate, "closed_loop": exact(rate["closed_loop"]), "oscillators": exact(rate["oscillators"])})
+
+    return Rates(told["sigma"], told["sigma_star"], [one(rate) for rate in told["rates"]], told["reports"])
+
+
+def write(path: Union[str, "os.PathLike[str]"], content: str) -> None:
+    """Writes a file through a temporary one in the same folder: it appears whole or not at all."""
+    target = os.path.realpath(os.fspath(path))
+    handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target))
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content.encode("utf-8"))
+        # A temporary file is the owner's alone; a file that is written has the usual permissions, or those it had.
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(temporary, os.stat(target).st_mode & 0o7777 if os.path.exists(target) else 0o666 & ~mask)
+        os.replace(temporary, target)
+    except BaseException:
+        os.unlink(temporary)
+        raise

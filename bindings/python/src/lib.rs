@@ -1,0 +1,180 @@
+//! The native part of the Python package `sigmastar`: the front door of the library, call by call.
+//!
+//! Nothing is decided here. Each function takes the bytes of documents and texts of numbers, and returns a dictionary with what
+//! was found, or with the error; `python/sigmastar` makes objects and exceptions of them.
+
+mod told;
+mod work;
+
+use pyo3::prelude::*;
+use sigmastar::{Certificate, CertifyOptions, Derivation, Error, Study, Subject, TransferChoice, TransferOptions};
+use std::cell::RefCell;
+use told::{Told, ToldCase, ToldCertificate, ToldCheck, ToldRates, ToldRegulator, ToldSampled, ToldTransfer};
+use work::outside;
+
+/// A document: what errors call it, and its bytes.
+type File = (String, Vec<u8>);
+
+/// A study, and its subject where that stands in a file of its own.
+type StudyFiles = (File, Option<Vec<u8>>);
+
+fn subject((name, bytes): &File) -> Result<Subject, Error> {
+    Subject::from_bytes(name, bytes)
+}
+
+fn study(((name, bytes), subject): &StudyFiles) -> Result<Study, Error> {
+    Study::from_bytes(name, bytes, |_| subject.clone().ok_or_else(|| "it is in no file".to_owned()))
+}
+
+/// The options of `certify`, as they are chosen by name; what is no choice is told by the package.
+#[derive(FromPyObject)]
+struct Options {
+    derivation: String,
+    transfer: String,
+    precision_limit: u32,
+    compare: bool,
+    sigma: Option<String>,
+    sampling_period: Option<String>,
+}
+
+impl Options {
+    fn read(self) -> Result<CertifyOptions, PyErr> {
+        let wrong = |what: &str, word: &str, known: &str| {
+            Err(pyo3::exceptions::PyValueError::new_err(format!("{what}: `{word}` is none of {known}")))
+        };
+        let derivation = match self.derivation.as_str() {
+            "sharp" => Derivation::Sharp,
+            "repaired" => Derivation::Repaired,
+            other => return wrong("derivation", other, "`sharp`, `repaired`"),
+        };
+        let transfer = match self.transfer.as_str() {
+            "best" => TransferChoice::Best,
+            "boxes" => TransferChoice::Boxes,
+            "closed-form" => TransferChoice::ClosedForm,
+            other => return wrong("transfer", other, "`best`, `boxes`, `closed-form`"),
+        };
+        let options = CertifyOptions::new().derivation(derivation).transfer(transfer).compare(self.compare);
+        let options = options.precision_limit(self.precision_limit);
+        let options = self.sigma.into_iter().fold(options, CertifyOptions::sigma);
+        Ok(self.sampling_period.into_iter().fold(options, CertifyOptions::sampling_period))
+    }
+}
+
+#[pyfunction]
+fn certify(py: Python<'_>, file: File, options: Options) -> PyResult<Told<ToldCertificate>> {
+    let options = options.read()?;
+    outside(py, move || {
+        let certificate: Result<Certificate, Error> =
+            subject(&file).and_then(|subject| sigmastar::certify(subject, &options));
+        certificate.map(|certificate| ToldCertificate::from(&certificate)).into()
+    })
+}
+
+/// The text of a certificate. Bytes that are none end in a character that no certificate has there, so that the checker refuses
+/// them at their place.
+fn as_text(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).unwrap_or_else(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        String::from_utf8_lossy(valid).into_owned() + "\u{fffd}"
+    })
+}
+
+#[pyfunction]
+fn check(py: Python<'_>, certificate: Vec<u8>, against: Option<File>) -> PyResult<Told<ToldCheck>> {
+    outside(py, move || {
+        let text = as_text(certificate);
+        let report = match against {
+            None => Ok(sigmastar::check(&text)),
+            Some(file) => subject(&file).map(|subject| sigmastar::check_against(&text, subject)),
+        };
+        report.map(|report| ToldCheck::from(&report)).into()
+    })
+}
+
+#[pyfunction]
+fn rates(py: Python<'_>, file: File, sigma: Option<String>, n_o: Vec<u32>) -> PyResult<Told<ToldRates>> {
+    outside(py, move || {
+        let rates = subject(&file).and_then(|subject| sigmastar::rates(subject, sigma.as_deref(), &n_o));
+        rates.map(|rates| ToldRates::from(&rates)).into()
+    })
+}
+
+#[pyfunction]
+fn transfer(
+    py: Python<'_>,
+    file: File,
+    k0: Option<String>,
+    minimise: Option<(String, String)>,
+    n_o: Option<Vec<Option<u64>>>,
+) -> PyResult<Told<ToldTransfer>> {
+    let options = k0.into_iter().fold(TransferOptions::new(), TransferOptions::k0);
+    let options = minimise.into_iter().fold(options, |options, (a, b)| options.cheapest(a, b));
+    let options = n_o.into_iter().fold(options, TransferOptions::n_o);
+    outside(py, move || {
+        let study = subject(&file).and_then(|subject| sigmastar::transfer_study(subject, &options));
+        study.map(|study| ToldTransfer::from(&study)).into()
+    })
+}
+
+#[pyfunction]
+fn regulator(file: File, sigma: &str, n_o: u32) -> Told<ToldRegulator> {
+    let regulator = subject(&file).and_then(|subject| sigmastar::regulator_matrices(subject, sigma, n_o));
+    regulator.map(ToldRegulator::from).into()
+}
+
+#[pyfunction]
+fn sampled_regulator(file: File, sigma: &str, n_o: u32, step: &str) -> Told<ToldSampled> {
+    let regulator = subject(&file).and_then(|subject| sigmastar::sampled_regulator(subject, sigma, n_o, step));
+    regulator.map(ToldSampled::from).into()
+}
+
+/// The path of the subject of a study, where the study does not have it in it.
+#[pyfunction]
+fn study_subject(file: File) -> Option<String> {
+    let path = RefCell::new(None);
+    // What is wrong with the study is told when it is read as a whole.
+    let _ = Study::from_bytes(&file.0, &file.1, |named| {
+        path.replace(Some(named.to_owned()));
+        Err(String::new())
+    });
+    path.into_inner()
+}
+
+#[pyfunction]
+fn study_count(files: StudyFiles) -> Told<(String, u64)> {
+    study(&files).map(|study| (study.name().to_owned(), study.cases())).into()
+}
+
+#[pyfunction]
+fn study_case(files: StudyFiles, index: u64) -> Told<ToldCase> {
+    study(&files).and_then(|study| study.case(index)).map(ToldCase::from).into()
+}
+
+#[pyfunction]
+fn run_case(py: Python<'_>, files: StudyFiles, index: u64) -> PyResult<Told<String>> {
+    outside(py, move || study(&files).and_then(|study| study.run_case(index)).into())
+}
+
+#[pyfunction]
+fn study_results(py: Python<'_>, files: StudyFiles, lines: Vec<String>) -> PyResult<Told<String>> {
+    outside(py, move || study(&files).and_then(|study| study.results(lines.iter().map(String::as_str))).into())
+}
+
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("VERSION", sigmastar::VERSION)?;
+    module.add("MAX_BYTES", Subject::MAX_BYTES)?;
+    module.add("LARGEST_PRECISION_LIMIT", CertifyOptions::LARGEST_PRECISION_LIMIT)?;
+    module.add_function(wrap_pyfunction!(certify, module)?)?;
+    module.add_function(wrap_pyfunction!(check, module)?)?;
+    module.add_function(wrap_pyfunction!(rates, module)?)?;
+    module.add_function(wrap_pyfunction!(transfer, module)?)?;
+    module.add_function(wrap_pyfunction!(regulator, module)?)?;
+    module.add_function(wrap_pyfunction!(sampled_regulator, module)?)?;
+    module.add_function(wrap_pyfunction!(study_subject, module)?)?;
+    module.add_function(wrap_pyfunction!(study_count, module)?)?;
+    module.add_function(wrap_pyfunction!(study_case, module)?)?;
+    module.add_function(wrap_pyfunction!(run_case, module)?)?;
+    module.add_function(wrap_pyfunction!(study_results, module)?)?;
+    Ok(())
+}

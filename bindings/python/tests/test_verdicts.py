@@ -1,0 +1,52 @@
+"""The verdict on every shipped file is that of the program."""
+
+import json
+
+import pytest
+import sigmastar
+from conftest import ROOT, paths
+
+FILES = [path for folder in ("specs", "specs/invalid", "specs/plants", "specs/plants/invalid") for path in paths(folder)]
+
+
+
+def verdict(path):
+    """The verdict, and the certificate where there is one."""
+    try:
+        certificate = sigmastar.certify(path, compare=False)
+    except sigmastar.SigmastarError as error:
+        return error.verdict, error
+    return certificate.verdict, certificate
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_the_verdict_is_that_of_the_program(path, program):
+    code, output = program("certify", path, "--no-compare", "--quiet", "--format", "json")
+    report = json.loads(output)
+    said, found = verdict(path)
+    assert said == report["verdict"]
+    assert {"certified": 0, "refuted": 1, "bad-input": 2, "undecided": 3}[said] == code
+    if said == "certified":
+        assert found.sigma_star_exact == report["sigma_star"]
+        assert found.sigma_star >= found.sigma_star.fraction
+        assert found.sha256 == report["specification"]["sha256"]
+        assert all(condition.holds for condition in found.conditions)
+        # Every form of the report is that of the program, to the byte.
+        assert found.report("json").encode() == output
+    else:
+        known = report.get("errors", [])
+        assert [one.message for one in found.diagnostics] == [error["message"] for error in known if "code" in error]
+        assert [one.pointer for one in found.diagnostics] == [error["pointer"] for error in known if "code" in error]
+
+
+def test_there_are_files_of_every_verdict():
+    names = {path.parent.name for path in FILES}
+    assert names == {"specs", "invalid", "plants"} and len(FILES) > 70
+
+
+def test_only_the_certified_ones_have_a_certificate():
+    for name, kind in [("undecided-sign", sigmastar.UndecidedError), ("decreasing-bound", sigmastar.InputError)]:
+        with pytest.raises(kind) as caught:
+            sigmastar.certify(ROOT / "specs" / "invalid" / f"{name}.json")
+        assert isinstance(caught.value, sigmastar.SigmastarError)
+        assert caught.value.diagnostics[0].line is not None

@@ -1,0 +1,80 @@
+//! Certifying: the whole way from a document to a certificate, or to the reason why there is none.
+
+use super::certificate::Certificate;
+use super::condition::Condition;
+use super::error::Error;
+use super::options::{Asked, CertifyOptions};
+use super::report::Report;
+use super::subject::Subject;
+use crate::certify::Verdict;
+use crate::reduction::{Prepared, Run, Subject as Read, at_samples};
+use crate::report::{self, DigitalReport};
+
+/// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
+/// small gain, and the rigorous decision of every condition.
+///
+/// The claim is about the regulator in continuous time, or, where the document or the options have a sampling period, about the
+/// one that a computer runs at samples so far apart.
+///
+/// Guarantee: there is a [`Certificate`] only where the bounding functions are proved on every argument that is used and
+/// every condition is proved. The same document and options give the same bytes. The gain is the smallest that was
+/// found, not the smallest that works.
+///
+/// # Errors
+/// - [`Range`](crate::ErrorKind::Range): a bounding function is refuted, the filter of a relative degree is not stable, the
+///   right sides of a plant are not periodic, or an option is out of range;
+/// - [`Options`](crate::ErrorKind::Options): options that do not go together, or not with this document;
+/// - [`Undecided`](crate::ErrorKind::Undecided): no Lyapunov triple was found for the Jacobian, the data of a plant could not be
+///   proved, or a bounding function was neither proved nor refuted;
+/// - [`NotCertified`](crate::ErrorKind::NotCertified): no gain was found, or a condition was not proved; the conditions are
+///   those of [`Error::conditions`].
+///
+/// [`Error::verdict`] is the verdict of the program.
+pub fn certify(subject: impl Into<Subject>, options: &CertifyOptions) -> Result<Certificate, Error> {
+    run(&subject.into(), options)
+}
+
+fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error> {
+    let Asked { options, gain, step } = options.checked()?;
+    let asked = match &step {
+        None => subject.clone(),
+        Some(step) => {
+            let read = Read::read(&at_samples(&subject.source, step, "sampling_period")?)?;
+            Subject { read, source: subject.source.clone() }
+        }
+    };
+    let sampled = asked.read.sampling().is_some();
+    if let Some(misfit) = options.misfit(subject.is_plant(), sampled, gain.is_some()) {
+        return Err(Error::misfit(misfit));
+    }
+    let prepared = Prepared::new(asked.read.clone(), gain).map_err(|all| Error::documents(&all))?;
+    let run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
+    Certificate::new(&run, &asked).ok_or_else(|| not_certified(&run))
+}
+
+/// Why a run has no certificate: the bounding functions that are not proved, or what the report says in one sentence.
+pub(super) fn not_certified(run: &Run<'_>) -> Error {
+    let (verdict, sentence) = match run {
+        Run::Continuous(run) => (run.verdict, report::sentence(run)),
+        Run::Sampled(run) => (run.verdict, DigitalReport::new(run, false).sentence()),
+    };
+    // A run without a certificate is not certified, whatever it says.
+    let verdict = if verdict == Verdict::Certified { Verdict::Undecided } else { verdict };
+    Error::not_certified(verdict, sentence, &run.unproved(), conditions(run), full_report(run))
+}
+
+/// The report of `sigmastar certify`.
+pub(super) fn full_report(run: &Run<'_>) -> Report {
+    match run {
+        Run::Continuous(run) => Report::of(&report::Report::new(run, &[])),
+        Run::Sampled(run) => Report::of(&DigitalReport::new(run, false)),
+    }
+}
+
+pub(super) fn conditions(run: &Run<'_>) -> Vec<Condition> {
+    let conditions = match run {
+        Run::Continuous(run) => run.conditions(),
+        Run::Sampled(run) => run.conditions(),
+    };
+    conditions.iter().map(Condition::new).collect()
+}

@@ -1,0 +1,100 @@
+//! What is certified: a bounding specification, or a plant by its formulas.
+
+use super::error::Error;
+use super::json_text;
+use super::specification::Specification;
+use crate::reduction::Subject as Read;
+use crate::spec::{Document, MAX_BYTES};
+
+/// What errors call a document without a name of its own.
+const LABEL: &str = "document";
+
+/// A bounding specification or a plant, as it was read. Which of both a document is says its `format`.
+///
+/// Of a plant nothing is left to the user: [`certify`](crate::certify) finds and proves its orbit and every bound that the
+/// claim needs.
+///
+/// ```no_run
+/// use sigmastar::{CertifyOptions, Subject, certify};
+/// # fn main() -> Result<(), sigmastar::Error> {
+/// # let text = "";
+/// let plant = Subject::from_json(text)?;
+/// let certificate = certify(&plant, &CertifyOptions::new())?;
+/// assert!(plant.is_plant() && certificate.claim().specification_sha256() == plant.sha256());
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Subject {
+    pub(super) read: Read,
+    /// The document with its places.
+    pub(super) source: Document,
+}
+
+impl Subject {
+    /// The most bytes of a document that are read.
+    pub const MAX_BYTES: usize = MAX_BYTES;
+
+    /// Reads a document from its text (`docs/formats.md`). Never panics, whatever the text.
+    ///
+    /// # Errors
+    /// Those of [`Specification::from_json`].
+    pub fn from_json(text: &str) -> Result<Subject, Error> {
+        Subject::new(Document::parse(LABEL, text)?)
+    }
+
+    /// The same from the bytes of a file; `name` is what errors call it, usually its path.
+    ///
+    /// # Errors
+    /// Those of [`Subject::from_json`], and bytes that are not UTF-8.
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Subject, Error> {
+        Subject::new(Document::from_bytes(name, bytes)?)
+    }
+
+    pub(super) fn new(source: Document) -> Result<Subject, Error> {
+        Ok(Subject { read: Read::read(&source)?, source })
+    }
+
+    /// Whether it is a plant by its formulas.
+    #[must_use]
+    pub fn is_plant(&self) -> bool {
+        matches!(self.read, Read::Plant(_))
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.read.name()
+    }
+
+    /// The document as it was read, indented, with every number as it was written.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        json_text(self.read.document())
+    }
+
+    /// SHA-256, in hexadecimal, of the canonical form of the document: what a certificate names.
+    #[must_use]
+    pub fn sha256(&self) -> &str {
+        self.read.sha256()
+    }
+}
+
+impl From<Specification> for Subject {
+    fn from(specification: Specification) -> Subject {
+        let source = specification.read.source.clone();
+        Subject { read: Read::Specification(Box::new(specification.read)), source }
+    }
+}
+
+impl From<&Specification> for Subject {
+    fn from(specification: &Specification) -> Subject {
+        specification.clone().into()
+    }
+}
+
+impl From<&Subject> for Subject {
+    fn from(subject: &Subject) -> Subject {
+        subject.clone()
+    }
+}

@@ -1,0 +1,130 @@
+//! What is certified: a bounding specification, or a plant by its formulas.
+
+use super::{reduce, reduce_digital};
+use crate::certify::with_triple;
+use crate::plant::{self, Plant};
+use crate::search::{DigitalProposal, SharpProposal};
+use crate::spec::{Constant, Document, InternalModel, Sampling, SpecErrors, Specification};
+use rug::Rational;
+
+/// The document with another sampling period, which is called `name` in the label of the errors; itself where it has no internal
+/// model, for what is wrong with it is told as ever.
+///
+/// # Errors
+/// A document that is too large with it.
+pub fn at_samples(document: &Document, step: &Constant, name: &str) -> Result<Document, SpecErrors> {
+    let mut value = document.root().to_json();
+    let Some(model) = value.get_mut("internal_model").and_then(serde_json::Value::as_object_mut) else {
+        return Ok(document.clone());
+    };
+    model.insert("sampling_period".to_owned(), step.text.clone().into());
+    let label = format!("{} with {name} {}", document.label(), step.text);
+    Document::parse(&label, &format!("{value:#}\n"))
+}
+
+/// A document of either kind.
+#[derive(Clone, Debug)]
+pub enum Subject {
+    /// A bounding specification.
+    Specification(Box<Specification>),
+    /// A plant.
+    Plant(Box<Plant>),
+}
+
+impl Subject {
+    /// Reads it, by its `format`; what is neither is told as a specification.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(document: &Document) -> Result<Subject, SpecErrors> {
+        let root = document.root();
+        if document.at("/format").is_some_and(|format| format.text() == Some(plant::FORMAT)) {
+            return Ok(Subject::Plant(Box::new(Plant::from_value(&root)?)));
+        }
+        Ok(Subject::Specification(Box::new(Specification::from_value(&root)?)))
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Subject::Specification(spec) => &spec.name,
+            Subject::Plant(plant) => &plant.name,
+        }
+    }
+
+    /// The document as it was read.
+    #[must_use]
+    pub fn document(&self) -> &serde_json::Value {
+        match self {
+            Subject::Specification(spec) => &spec.document,
+            Subject::Plant(plant) => &plant.document,
+        }
+    }
+
+    /// SHA-256, in hexadecimal, of the canonical form of the document.
+    #[must_use]
+    pub fn sha256(&self) -> &str {
+        match self {
+            Subject::Specification(spec) => &spec.sha256,
+            Subject::Plant(plant) => &plant.sha256,
+        }
+    }
+
+    /// The internal model of the regulator.
+    #[must_use]
+    pub fn internal_model(&self) -> &InternalModel {
+        match self {
+            Subject::Specification(spec) => &spec.internal_model,
+            Subject::Plant(plant) => &plant.internal_model,
+        }
+    }
+
+    /// The samples that the regulator is asked for at, if any.
+    #[must_use]
+    pub fn sampling(&self) -> Option<&Sampling> {
+        self.internal_model().sampling.as_ref()
+    }
+
+    /// Whether the base frequency is that of the period.
+    #[must_use]
+    pub fn is_matched(&self) -> bool {
+        self.internal_model().matched
+    }
+
+    /// The specification with proved data, and where the search for a gain may start: the triple of a Jacobian is sought, the
+    /// data of a plant are proved.
+    ///
+    /// # Errors
+    /// What keeps the data from being proved, at its place; not empty.
+    pub fn proved(self) -> Result<(Specification, Option<SharpProposal>), Vec<SpecErrors>> {
+        match self {
+            Subject::Specification(spec) => {
+                let proved = with_triple(&spec, None).map_err(|refusal| refusal.errors(&spec))?;
+                Ok((proved.into_owned(), None))
+            }
+            Subject::Plant(plant) => {
+                let reduced = reduce(&plant).map_err(|refusal| refusal.errors(&plant))?;
+                Ok((reduced.spec, Some(reduced.proposal)))
+            }
+        }
+    }
+
+    /// The same for a claim about the regulator at samples, at the gain that is given or at the smallest one.
+    ///
+    /// # Errors
+    /// Those of [`Subject::proved`].
+    pub fn proved_at_samples(
+        self,
+        sampling: &Sampling,
+        gain: Option<&Rational>,
+    ) -> Result<(Specification, Option<DigitalProposal>), Vec<SpecErrors>> {
+        match self {
+            Subject::Plant(plant) => {
+                let reduced = reduce_digital(&plant, sampling, gain).map_err(|refusal| refusal.errors(&plant))?;
+                Ok((reduced.spec, Some(reduced.proposal)))
+            }
+            specification @ Subject::Specification(_) => Ok((specification.proved()?.0, None)),
+        }
+    }
+}

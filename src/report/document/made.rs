@@ -1,0 +1,35 @@
+//! A report that outlives what it was made from.
+
+use super::{Block, Readable};
+use serde_json::Value;
+
+/// The blocks and the JSON of a report, made once.
+#[derive(Clone, Debug)]
+pub struct Made {
+    blocks: Vec<Block>,
+    json: Value,
+}
+
+impl Made {
+    /// A report of these.
+    #[must_use]
+    pub fn new(blocks: Vec<Block>, json: Value) -> Made {
+        Made { blocks, json }
+    }
+
+    /// That of a report, with the same content in every format.
+    #[must_use]
+    pub fn of(report: &impl Readable) -> Made {
+        Made { blocks: report.blocks(), json: report.json() }
+    }
+}
+
+impl Readable for Made {
+    fn blocks(&self) -> Vec<Block> {
+        self.blocks.clone()
+    }
+
+    fn json(&self) -> Value {
+        self.json.clone()
+    }
+}
