@@ -41,7 +41,7 @@ def test_certificate_and_reports_are_those_of_the_program(example, program, tmp_
     assert saved.read_bytes() == written.read_bytes() == example.to_json().encode()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["program.json", "python.json"]
     for form in ("text", "markdown", "html", "json"):
-        assert program("certify", EXAMPLE, "--format", form)[1] == example.report(form).encode()
+        assert program("certify", EXAMPLE, "--format", form, "--full")[1] == example.report(form).encode()
     with pytest.raises(ValueError):
         example.report("pdf")
 
