@@ -128,13 +128,10 @@ fn the_picture_is_written_whole() {
     for label in ["N = 0", "N = 1", "N = infinity", "k0 + k1 x^2, every N", "x = omega / base frequency", "T_N(x)"] {
         assert!(svg.contains(label), "{label}");
     }
-    for colour in ["#0072B2", "#D55E00", "#009E73"] {
-        assert_eq!(
-            svg.matches(&format!("stroke=\"{colour}\"")).count(),
-            2,
-            "{colour}: a curve and its mark in the legend"
-        );
-    }
+    // A curve and its line in the legend; those after the first are dashed, and so in pieces.
+    let pieces = |colour: &str| svg.matches(&format!("stroke=\"{colour}\"")).count();
+    assert_eq!(pieces("#0072B2"), 2);
+    assert!(pieces("#D55E00") > 20 && pieces("#009E73") > 20, "{} {}", pieces("#D55E00"), pieces("#009E73"));
 }
 
 #[test]
