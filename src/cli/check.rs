@@ -4,6 +4,7 @@ use super::args::CheckArgs;
 use super::failure::Failure;
 use super::output::{self, reason, shown};
 use sigmastar::report::document::{Block, Readable};
+use sigmastar::spec::Notation;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -36,6 +37,13 @@ pub fn run(args: &CheckArgs) -> u8 {
 }
 
 fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
+    if let Some(path) = args.spec.as_deref().filter(|path| Notation::of(path) != Notation::Json) {
+        let name = shown(path);
+        let message = format!("the independent checker reads JSON alone, and `{name}` is not JSON");
+        let help =
+            format!("`sigmastar convert {name} -o FILE.json` writes it as JSON; look at that file, and name it here");
+        return Err(Failure::call(message, help));
+    }
     let mut certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
     let mut specification =
         args.spec.as_deref().map(|path| open(path, "name the specification that you have")).transpose()?;
