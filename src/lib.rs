@@ -126,6 +126,8 @@ pub mod reproduce;
 #[doc(hidden)]
 pub mod sampling;
 #[doc(hidden)]
+pub mod schema;
+#[doc(hidden)]
 pub mod search;
 #[doc(hidden)]
 pub mod semidefinite;

@@ -146,7 +146,7 @@ fn printable_whole(text: &str) -> String {
 /// # Errors
 /// `invalid`, with the first place where they differ and what each says there.
 pub fn same_data(about: &str, embedded: &Json, asked: &Json) -> Outcome<()> {
-    let free = if about == "plant" { &FREE[..] } else { &FREE[..2] };
+    let free = if about == "plant" { &FREE[..] } else { &FREE[..3] };
     match difference(embedded, asked, "", free) {
         None => Ok(()),
         Some((place, ours, theirs)) => {
@@ -156,8 +156,9 @@ pub fn same_data(about: &str, embedded: &Json, asked: &Json) -> Outcome<()> {
     }
 }
 
-/// Fields of a specification that hold no data; the last one, of a plant alone: where simulations start.
-const FREE: [&str; 3] = ["/name", "/description", "/initial"];
+/// Fields of a specification that hold no data: texts, and the schema for editors, which a file may have and a certificate
+/// not. The last one, of a plant alone: where simulations start.
+const FREE: [&str; 4] = ["/name", "/description", "/$schema", "/initial"];
 
 fn difference(a: &Json, b: &Json, place: &str, free: &[&str]) -> Option<(String, String, String)> {
     let differ = || Some((place.to_owned(), shown(Some(a)), shown(Some(b))));

@@ -39,7 +39,9 @@ impl ErrorKind {
     fn of(kind: spec::ErrorKind) -> ErrorKind {
         use spec::ErrorKind as Kind;
         match kind {
-            Kind::Unreadable | Kind::Limit | Kind::Encoding | Kind::Syntax | Kind::DuplicateKey => ErrorKind::Document,
+            Kind::Unreadable | Kind::Limit | Kind::Encoding | Kind::Syntax | Kind::TomlSyntax | Kind::DuplicateKey => {
+                ErrorKind::Document
+            }
             Kind::Format | Kind::Version => ErrorKind::Format,
             Kind::Type | Kind::UnknownField | Kind::MissingField | Kind::UnknownName => ErrorKind::Field,
             Kind::Expression => ErrorKind::Expression,

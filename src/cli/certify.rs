@@ -40,7 +40,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         Some(text) => Subject::read(&digital::with_sampling_period(&document, text)?)?,
         None => Subject::read(&document)?,
     };
-    let witness = args.witness.as_deref().map(input::document).transpose()?;
+    let witness = args.witness.as_deref().map(input::written).transpose()?;
     let gain = args.sigma.as_deref().map(|text| input::rational("--sigma", text)).transpose()?;
     if witness.as_ref().is_some_and(is_digital) || (witness.is_none() && subject.sampling().is_some()) {
         return digital::run(args, subject, witness.as_ref(), gain.as_ref(), output.as_ref());

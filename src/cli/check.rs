@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::input;
 use super::output::{self, reason, shown};
 use sigmastar::report::document::{Block, Made, clean};
-use sigmastar::spec::Document;
+use sigmastar::spec::{Document, Notation};
 use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
@@ -25,6 +25,13 @@ pub fn run(args: &CheckArgs) -> u8 {
 }
 
 fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
+    if let Some(path) = args.spec.as_deref().filter(|path| Notation::of(path) != Notation::Json) {
+        let name = shown(path);
+        let message = format!("the independent checker reads JSON alone, and `{name}` is not JSON");
+        let help =
+            format!("`sigmastar convert {name} -o FILE.json` writes it as JSON; look at that file, and name it here");
+        return Err(Failure::call(message, help));
+    }
     let mut certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
     let mut specification = args.spec.as_deref().map(|path| specification(path, args)).transpose()?;
     let specification = specification.as_mut().map(|file| file as &mut dyn Read);

@@ -30,7 +30,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
     let saturation = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
-    let other = args.certificate.as_deref().map(|path| Given::read(&input::document(path)?)).transpose()?;
+    let other = args.certificate.as_deref().map(|path| Given::read(&input::written(path)?)).transpose()?;
     let (source, own) = controller_source::read(&input::document(&args.spec)?)?;
     if own.is_some() && other.is_some() {
         return Err(Failure::call("two certificates are given", "leave --certificate out"));

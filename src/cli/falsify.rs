@@ -22,7 +22,7 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let output = args.replace.asked(args.output.as_deref(), input, "the counterexample")?;
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
-    let mut claims = vec![Claim::from_document(&input::document(&args.certificate)?)?];
+    let mut claims = vec![Claim::from_document(&input::written(&args.certificate)?)?];
     if claims[0].sampled.is_some() && !others.is_empty() {
         let message = "the law at samples is certified for the base frequency 2 pi/period alone";
         return Err(Failure::call(message, "leave --base-frequency out"));

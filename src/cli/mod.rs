@@ -29,6 +29,7 @@ mod sweep;
 mod temporary;
 mod transfer;
 mod tune;
+mod write_files;
 
 use args::{Cli, Command, command};
 use clap::FromArgMatches;
@@ -66,6 +67,9 @@ pub fn run() -> ExitCode {
         Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Bound(args) => bound::run(&args),
         Command::Rate(args) => rate::run(&args),
+        Command::New(args) => write_files::new(&args),
+        Command::Convert(args) => write_files::convert(&args),
+        Command::Schema(args) => write_files::schema(&args),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man => pages::man(),
     };

@@ -30,7 +30,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
     let regulator = match (&args.controller, &sigma, args.n_o) {
-        (Some(path), ..) => read_regulator(&input::document(path)?)?,
+        (Some(path), ..) => read_regulator(&input::written(path)?)?,
         (None, Some(sigma), Some(n_o)) => Design::new(&plant.internal_model, sigma, n_o).regulator(),
         (None, Some(sigma), None) => Regulator::high_gain(sigma.to_f64()),
         (None, None, _) => return Err(Failure::call("no regulator is given", "give --sigma or --controller")),

@@ -109,7 +109,7 @@ fn converters(args: &SimulateArgs, step: &Constant) -> Result<Converters, Failur
 /// The regulator and its law from a file of `controller`.
 fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discrete), Failure> {
     let Some(path) = &args.controller else { return Err(beyond()) };
-    let document = input::document(path)?;
+    let document = input::written(path)?;
     let regulator = read_regulator(&document)?;
     let name = shown(path);
     let Some(discrete) = read_discrete(&document)? else {

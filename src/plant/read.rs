@@ -46,6 +46,7 @@ impl Plant {
 fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let mut object = value.object(errors)?;
     object.header(FORMAT, &VERSIONS, errors)?;
+    let schema = object.schema_reference(errors);
     let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
     let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
     let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
@@ -74,6 +75,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     };
     let ((f_values, f), (q_value, q)) = (f?, q?);
     let (initial_set, ball) = initial_set?.unwrap_or((InitialSet::AtRest { x0: None, e0: None }, None));
+    schema?;
+    let (document, sha256) = value.embedded();
     let plant = Plant {
         name: name?,
         description: description?,
@@ -86,8 +89,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         ball,
         domain: domain?,
         internal_model: internal_model?,
-        document: value.to_json(),
-        sha256: value.sha256(),
+        document,
+        sha256,
         source: value.document().clone(),
         pointer: value.pointer().to_owned(),
     };

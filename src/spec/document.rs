@@ -3,6 +3,7 @@
 use super::error::{ErrorKind, Errors, Reported, SpecError, SpecErrors};
 use super::json::{self, Content, Member, Node};
 use super::limits::{self, MAX_BYTES};
+use super::notation::Notation;
 use super::object::Object;
 use crate::expr::ExprError;
 use sha2::{Digest, Sha256};
@@ -15,11 +16,15 @@ use std::sync::Arc;
 /// The name of the document that a flag of the command line is.
 pub(super) const COMMAND_LINE: &str = "<command line>";
 
-/// The text of a document and the name under which errors show it.
+/// The field with which a document names its schema for editors.
+const SCHEMA: &str = "$schema";
+
+/// The text of a document, its notation, and the name under which errors show it.
 #[derive(Debug)]
 pub(super) struct Source {
     pub(super) label: String,
     pub(super) text: String,
+    notation: Notation,
 }
 
 impl Source {
@@ -32,9 +37,9 @@ impl Source {
     }
 }
 
-/// A JSON document that was read strictly: RFC 8259, no duplicate keys, within the limits of this module
-/// ([`MAX_BYTES`], [`MAX_NESTING`](super::MAX_NESTING), [`MAX_VALUES`](super::MAX_VALUES)), with numbers kept as
-/// written. Specifications, certificates and witness files are all read through it. Cheap to clone.
+/// A document that was read strictly: RFC 8259, or another [`Notation`] of the same values, no duplicate keys, within the
+/// limits of this module ([`MAX_BYTES`], [`MAX_NESTING`](super::MAX_NESTING), [`MAX_VALUES`](super::MAX_VALUES)), with
+/// numbers kept as written. Specifications, certificates and witness files are all read through it. Cheap to clone.
 #[derive(Clone, Debug)]
 pub struct Document {
     source: Arc<Source>,
@@ -42,18 +47,26 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads a document from its text; `label` is what errors call it, usually its path. A byte order mark in front is
-    /// no part of the text (RFC 8259, section 8.1): places are counted, and digests formed, without it.
+    /// Reads a document from its text in JSON; `label` is what errors call it, usually its path. A byte order mark in front
+    /// is no part of the text (RFC 8259, section 8.1): places are counted, and digests formed, without it.
     ///
     /// # Errors
     /// What is wrong with the text as JSON: a limit exceeded, a syntax error, a duplicate key.
     pub fn parse(label: &str, text: &str) -> Result<Document, SpecErrors> {
+        Document::parse_as(label, text, Notation::Json)
+    }
+
+    /// The same in another notation.
+    ///
+    /// # Errors
+    /// What is wrong with the text in this notation.
+    pub fn parse_as(label: &str, text: &str, notation: Notation) -> Result<Document, SpecErrors> {
         if text.len() > MAX_BYTES {
-            return Err(SpecErrors::single(source(label, ""), limits::too_large()));
+            return Err(SpecErrors::single(source(label, "", notation), limits::too_large()));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let source = source(label, text);
-        match json::parse(text) {
+        let source = source(label, text, notation);
+        match notation.parse(text) {
             Ok(root) => Ok(Document { source, root: Arc::new(root) }),
             Err(error) => Err(SpecErrors::single(source, error)),
         }
@@ -68,19 +81,27 @@ impl Document {
         let number = Node { span: text.len() - value.len()..text.len(), content: Content::Number(value.to_owned()) };
         let member = json::Member { key: flag.to_owned(), key_span: 0..flag.len(), value: number };
         let root = Node { span: 0..text.len(), content: Content::Object(vec![member]) };
-        Document { source: source(COMMAND_LINE, &text), root: Arc::new(root) }
+        Document { source: source(COMMAND_LINE, &text, Notation::Json), root: Arc::new(root) }
+    }
+
+    /// Reads a document in JSON from bytes.
+    ///
+    /// # Errors
+    /// Those of [`Document::from_bytes_as`].
+    pub fn from_bytes(label: &str, bytes: &[u8]) -> Result<Document, SpecErrors> {
+        Document::from_bytes_as(label, bytes, Notation::Json)
     }
 
     /// Reads a document from bytes.
     ///
     /// # Errors
-    /// Bytes that are not UTF-8, and those of [`Document::parse`].
-    pub fn from_bytes(label: &str, bytes: &[u8]) -> Result<Document, SpecErrors> {
+    /// Bytes that are not UTF-8, and those of [`Document::parse_as`].
+    pub fn from_bytes_as(label: &str, bytes: &[u8], notation: Notation) -> Result<Document, SpecErrors> {
         if bytes.len() > MAX_BYTES {
-            return Err(SpecErrors::single(source(label, ""), limits::too_large()));
+            return Err(SpecErrors::single(source(label, "", notation), limits::too_large()));
         }
         match std::str::from_utf8(bytes) {
-            Ok(text) => Document::parse(label, text),
+            Ok(text) => Document::parse_as(label, text, notation),
             Err(error) => {
                 let at = error.valid_up_to();
                 // The valid part serves to show where the trouble starts.
@@ -95,24 +116,25 @@ impl Document {
                     (format!("byte {at} (0x{:02x}) is not UTF-8", bytes[at]), "save the file as UTF-8")
                 };
                 let error = SpecError::new(ErrorKind::Encoding, "", at..at, message).help(help);
-                Err(SpecErrors::single(source(label, &valid), error))
+                Err(SpecErrors::single(source(label, &valid, notation), error))
             }
         }
     }
 
-    /// Reads a document from a file, of which never more than [`MAX_BYTES`] and one bytes are read.
+    /// Reads a document from a file, in the notation of its name, of which never more than [`MAX_BYTES`] and one bytes are
+    /// read.
     ///
     /// # Errors
-    /// A file that cannot be read, and those of [`Document::from_bytes`].
+    /// A file that cannot be read, and those of [`Document::from_bytes_as`].
     pub fn load(path: &Path) -> Result<Document, SpecErrors> {
-        let label = path.display().to_string();
+        let (label, notation) = (path.display().to_string(), Notation::of(path));
         let mut bytes = Vec::new();
         let read = std::fs::File::open(path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes));
         match read {
-            Ok(_) => Document::from_bytes(&label, &bytes),
+            Ok(_) => Document::from_bytes_as(&label, &bytes, notation),
             Err(error) => {
                 let error = SpecError::new(ErrorKind::Unreadable, "", 0..0, format!("cannot be read: {error}"));
-                Err(SpecErrors::single(source(&label, ""), error))
+                Err(SpecErrors::single(source(&label, "", notation), error))
             }
         }
     }
@@ -174,8 +196,8 @@ impl Document {
     }
 }
 
-fn source(label: &str, text: &str) -> Arc<Source> {
-    Arc::new(Source { label: label.to_owned(), text: text.to_owned() })
+fn source(label: &str, text: &str, notation: Notation) -> Arc<Source> {
+    Arc::new(Source { label: label.to_owned(), text: text.to_owned(), notation })
 }
 
 /// A value in a document: it knows its JSON pointer and its place.
@@ -235,7 +257,10 @@ impl<'d> Value<'d> {
     #[must_use]
     pub fn error_in(&self, kind: ErrorKind, part: &Range<usize>, message: impl Into<String>) -> SpecError {
         let span = match &self.node.content {
-            Content::Text(_) => json::locate(&self.document.source.text, &self.node.span, part),
+            Content::Text(_) => {
+                let Source { text, notation, .. } = &*self.document.source;
+                notation.locate(text, &self.node.span, part)
+            }
             Content::Number(_) => {
                 let within = |offset: usize| self.node.span.start.saturating_add(offset).min(self.node.span.end);
                 within(part.start)..within(part.end.max(part.start))
@@ -356,6 +381,20 @@ impl<'d> Value<'d> {
         self.node.to_json()
     }
 
+    /// The value as a certificate embeds it, and the digest of that: without the `$schema` that a whole document may have,
+    /// which is for editors and holds no data.
+    #[must_use]
+    pub fn embedded(&self) -> (serde_json::Value, String) {
+        let data = match &self.node.content {
+            Content::Object(members) if self.pointer.is_empty() => {
+                let members = members.iter().filter(|member| member.key != SCHEMA).cloned().collect();
+                Node { span: self.node.span.clone(), content: Content::Object(members) }
+            }
+            _ => self.node.clone(),
+        };
+        (data.to_json(), Value { node: &data, ..self.clone() }.sha256())
+    }
+
     /// The member of an object, if the value is one and has it.
     pub(crate) fn member(&self, name: &str) -> Option<Value<'d>> {
         self.raw_members().iter().find(|member| member.key == name).map(|member| self.of_member(member))
@@ -419,7 +458,10 @@ impl<'d> Value<'d> {
 
     fn anchor(&self) -> Range<usize> {
         match self.node.content {
-            Content::Array(_) | Content::Object(_) => self.node.span.start..self.node.span.start + 1,
+            // A document in TOML has no bracket, and may have no byte.
+            Content::Array(_) | Content::Object(_) => {
+                self.node.span.start..self.node.span.end.min(self.node.span.start + 1)
+            }
             _ => self.node.span.clone(),
         }
     }

@@ -20,6 +20,8 @@ pub enum ErrorKind {
     Encoding,
     /// The document is not JSON.
     Syntax,
+    /// The document is not TOML.
+    TomlSyntax,
     /// A key occurs twice in one object.
     DuplicateKey,
     /// A value has the wrong JSON type.
@@ -55,6 +57,7 @@ impl ErrorKind {
             ErrorKind::Limit => "limit",
             ErrorKind::Encoding => "encoding",
             ErrorKind::Syntax => "not-json",
+            ErrorKind::TomlSyntax => "not-toml",
             ErrorKind::DuplicateKey => "duplicate-key",
             ErrorKind::Type => "wrong-type",
             ErrorKind::UnknownField => "unknown-field",

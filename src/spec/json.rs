@@ -89,7 +89,7 @@ fn syntax_error(text: &str, error: &serde_json::Error) -> SpecError {
     let message = full.strip_suffix(&suffix).unwrap_or(&full);
     let located = SpecError::new(ErrorKind::Syntax, "", at..end, format!("not valid JSON: {message}"));
     match &text[at..end] {
-        "/" | "#" => located.help("JSON has no comments; put remarks in `description`"),
+        "/" | "#" => located.help("JSON has no comments; name the file `.jsonc`, or put remarks in `description`"),
         "'" => located.help("strings stand in double quotes"),
         "}" | "]" if text[..at].trim_end().ends_with(',') => located.help("remove the comma in front of it"),
         _ => located,

@@ -83,7 +83,10 @@ pub(super) fn check(text: &str) -> Result<(), SpecError> {
 }
 
 /// Refuses numerals that `number::parse_decimal` would refuse for their size, without computing their value.
-fn numeral(text: &str, start: usize) -> Result<(), SpecError> {
+///
+/// # Errors
+/// A numeral that is too long, or has too large an exponent.
+pub(super) fn numeral(text: &str, start: usize) -> Result<(), SpecError> {
     let error = |message: String| Err(SpecError::new(ErrorKind::Limit, "", start..start + text.len(), message));
     if text.len() > MAX_LENGTH {
         return error(format!("a number of {} characters; at most {MAX_LENGTH} are read", text.len()));

@@ -1,13 +1,14 @@
 //! Bounding specifications: reading them strictly, and the numbers in them.
 //!
 //! A document comes from a stranger, and a claim rests on every number in it. So nothing is guessed and nothing is
-//! rounded: [`Document`] reads JSON strictly and keeps numbers as written, [`Object`] refuses unknown fields,
+//! rounded: [`Document`] reads JSON (or TOML) strictly and keeps numbers as written, [`Object`] refuses unknown fields,
 //! constants become exact numbers or enclosures, ranges and the conditions on the [`Weights`] are proved, and every
 //! error names its place ([`SpecError`]). What cannot be decided at the highest precision is an error of its own kind
 //! and no answer. [`Specification::from_json`] does all of it; the reader of documents serves certificates and
 //! witness files as well.
 
 mod bounding;
+mod comments;
 mod constant;
 mod document;
 mod error;
@@ -16,6 +17,7 @@ mod jacobian;
 mod json;
 mod limits;
 pub mod model;
+mod notation;
 mod object;
 mod of_plant;
 mod power_tail;
@@ -24,6 +26,8 @@ mod quantity;
 mod read;
 mod render;
 mod sampling;
+mod toml;
+mod visible;
 pub mod weights;
 mod weights_proof;
 mod weights_read;
@@ -40,13 +44,14 @@ pub use model::{
     Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
     RelativeDegree, Specification, TrigonometricVector,
 };
+pub use notation::Notation;
 pub(crate) use object::choose;
 pub use object::{MAX_UNKNOWN, Object};
 pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit};
 pub use power_tail::power_tail;
 pub use proved_values::{ProvedValue, ProvedValues};
 pub(crate) use read::read_internal_model;
-pub use read::{FORMAT, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
+pub use read::{FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
 pub use sampling::{MAX_SAMPLES, SampledGain, Sampling};
 pub use weights::Weights;
 pub use weights_read::MAX_WEIGHTS;

@@ -38,7 +38,7 @@ pub struct Specification {
     pub initial_set: InitialSet,
     /// The relative-degree filter, when e is a combination of xi_1, ..., xi_r.
     pub relative_degree: Option<RelativeDegree>,
-    /// The document as it was read: key order and the text of numbers as written.
+    /// The document as it was read, without `$schema`: key order and the text of numbers as written.
     ///
     /// Move it where it is needed. Converting it once more (`serde_json::to_value`, `json!`) rewrites exponents, after
     /// which the digest below need not fit.

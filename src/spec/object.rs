@@ -67,6 +67,18 @@ impl<'d> Object<'d> {
         })
     }
 
+    /// Reads `$schema`, by which the editor of a whole document knows its fields: a text that is ignored.
+    ///
+    /// # Errors
+    /// Reports a value that is no text.
+    pub fn schema_reference(&mut self, errors: &mut Errors) -> Result<(), Reported> {
+        // Inside of another document it is unknown: nobody would look at it there.
+        if !self.value.pointer().is_empty() {
+            return Ok(());
+        }
+        self.optional("$schema").map_or(Ok(()), |value| value.string(errors).map(drop))
+    }
+
     /// Reads `format` and `version`, which open every file of the tool.
     ///
     /// # Errors

@@ -82,6 +82,7 @@ impl Specification {
 fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reported> {
     let mut object = value.object(errors)?;
     object.header(FORMAT, &VERSIONS, errors)?;
+    let schema = object.schema_reference(errors);
     let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
     let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
     let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
@@ -97,7 +98,9 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let relative_degree =
         object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
     object.finish(errors);
+    schema?;
     let (lyapunov, rate) = lyapunov?;
+    let (document, sha256) = value.embedded();
     Ok(Specification {
         name: name?,
         description: description?,
@@ -109,8 +112,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
         internal_model: internal_model?,
         initial_set: initial_set?,
         relative_degree: relative_degree?,
-        document: value.to_json(),
-        sha256: value.sha256(),
+        document,
+        sha256,
         source: value.document().clone(),
         pointer: value.pointer().to_owned(),
     })

@@ -47,8 +47,10 @@ impl Sweep {
     /// options that are not for this subject.
     pub fn new(study: Study, subject: Option<&Document>) -> Result<Sweep, SpecErrors> {
         let mut base = match (&study.subject, subject) {
-            (SubjectSource::Embedded(value), _) => value.clone(),
-            (SubjectSource::Path(_), Some(document)) => document.root().to_json(),
+            (SubjectSource::Embedded(value), _) => {
+                Document::parse("the subject", &value.to_string())?.root().embedded().0
+            }
+            (SubjectSource::Path(_), Some(document)) => document.root().embedded().0,
             (SubjectSource::Path(path), None) => {
                 let message = format!("the subject `{path}` was not read");
                 return Err(study.source.errors_at("/subject", &(0..0), ErrorKind::Unreadable, message, None));
@@ -56,7 +58,7 @@ impl Sweep {
         };
         let subject_sha256 = Document::parse("the subject", &base.to_string())?.root().sha256();
         // The same study, whether the subject stands in it or beside it.
-        let mut whole = study.source.root().to_json();
+        let mut whole = study.source.root().embedded().0;
         if let Some(place) = whole.get_mut("subject") {
             *place = base.clone();
         }

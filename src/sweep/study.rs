@@ -57,6 +57,7 @@ impl Study {
 
 fn read(mut object: Object<'_>, document: &Document, errors: &mut Errors) -> Result<Study, Reported> {
     object.header(FORMAT, &VERSIONS, errors)?;
+    let schema = object.schema_reference(errors);
     let name = object.required("name", errors).and_then(|value| value.string(errors));
     let description = object.optional("description").map(|value| value.string(errors)).transpose();
     let subject = object.required("subject", errors).and_then(|value| subject(&value, errors));
@@ -84,6 +85,7 @@ fn read(mut object: Object<'_>, document: &Document, errors: &mut Errors) -> Res
         errors.report(too_near(&place.unwrap_or_else(|| document.root())))
     })?;
     description?;
+    schema?;
     Ok(Study {
         name: name?.to_owned(),
         subject: subject?,

@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// A specification with p_low = p_up = 1 and q that needs little.
-fn write(folder: &Path, lyapunov: &str, f: &str, f_xx: &str) -> String {
+pub fn write(folder: &Path, lyapunov: &str, f: &str, f_xx: &str) -> String {
     let text = format!(
         r#"{{ "format": "sigmastar/bounding-spec", "version": 1, "name": "none", "period": "1", "lyapunov": {lyapunov},
         "bounds": {{ "f": "{f}", "f_e": "0", "f_xx": "{f_xx}", "f_ex": "0", "q": "1 + X/10", "q_e": "0.1",
@@ -26,7 +26,7 @@ fn run(args: &[&str]) -> (Option<i32>, String, String) {
 
 const TRIPLE: &str = r#"{ "p_low": "1", "p_up": "1", "alpha": "50" }"#;
 const RATE: &str = r#"{ "p_low": "1", "p_up": "1", "alpha": "1/100", "rate": "50 - X/1e6" }"#;
-const JACOBIAN: &str = r#"{ "jacobian": [["-2", "1"], ["-1", "-2"]] }"#;
+pub const JACOBIAN: &str = r#"{ "jacobian": [["-2", "1"], ["-1", "-2"]] }"#;
 
 #[test]
 fn reports_and_certificates_say_so() {

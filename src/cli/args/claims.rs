@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// The flags of `certify`.
 #[derive(Args, Debug)]
 pub struct CertifyArgs {
-    /// Bounding specification or plant (JSON), or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml), or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -94,7 +94,7 @@ impl CertifyArgs {
 /// The flags of `sampling`.
 #[derive(Args, Debug)]
 pub struct SamplingArgs {
-    /// Bounding specification or plant (JSON) with a matched base frequency, or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml) with a matched base frequency, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -127,7 +127,7 @@ pub struct SamplingArgs {
 /// The flags of `transfer`.
 #[derive(Args, Debug)]
 pub struct TransferArgs {
-    /// Bounding specification or plant (JSON), or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml), or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -190,7 +190,7 @@ pub struct CheckArgs {
 /// The flags of `errata`.
 #[derive(Args, Debug)]
 pub struct ErrataArgs {
-    /// Bounding specification (JSON) to look at each item from, or `-` for standard input
+    /// Bounding specification (.json, .jsonc, .toml) to look at each item from, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: Option<PathBuf>,
 
@@ -202,7 +202,7 @@ pub struct ErrataArgs {
 /// The flags of `lyapunov`.
 #[derive(Args, Debug)]
 pub struct LyapunovArgs {
-    /// Bounding specification with a Jacobian, or plant (JSON), or `-` for standard input
+    /// Bounding specification with a Jacobian, or plant (.json, .jsonc, .toml), or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -218,7 +218,7 @@ pub struct LyapunovArgs {
 /// The flags of `bound`.
 #[derive(Args, Debug)]
 pub struct BoundArgs {
-    /// Plant (JSON), or `-` for standard input
+    /// Plant (.json, .jsonc, .toml), or `-` for standard input
     #[arg(value_name = "PLANT", value_hint = ValueHint::FilePath)]
     pub plant: PathBuf,
 
@@ -241,7 +241,7 @@ pub struct BoundArgs {
 /// The flags of `rate`.
 #[derive(Args, Debug)]
 pub struct RateArgs {
-    /// Bounding specification or plant (JSON), or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml), or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 

@@ -1,11 +1,13 @@
 //! The one table of commands and flags: help, completions and the manual page are made from it. The commands are here, their
-//! flags in `claims`, `studies` and `regulator`.
+//! flags in `claims`, `studies`, `regulator` and `files`.
 
 mod claims;
+mod files;
 mod regulator;
 mod studies;
 
 pub use claims::{BoundArgs, CertifyArgs, CheckArgs, ErrataArgs, LyapunovArgs, RateArgs, SamplingArgs, TransferArgs};
+pub use files::{ConvertArgs, NewArg, NewArgs, SchemaArgs};
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
 pub use studies::{MergeArgs, SweepArgs, TuneArgs, TuneGoal};
 
@@ -68,6 +70,16 @@ const BOUND_EXAMPLES: &str = "Examples:
 const CONTROLLER_EXAMPLES: &str = "Examples:
   sigmastar controller plant.certificate.json --n-o 4 --discretise 1/1000 --format c -o regulator.c --example
   sigmastar controller plant.json --sigma 48 --n-o 4 --format matlab -o regulator.m";
+
+/// Examples of `new`.
+const NEW_EXAMPLES: &str = "Examples:
+  sigmastar new plant -o plant.jsonc
+  sigmastar certify plant.jsonc";
+
+/// Examples of `convert`.
+const CONVERT_EXAMPLES: &str = "Examples:
+  sigmastar convert spec.toml -o spec.json
+  sigmastar convert spec.toml | sigmastar check spec.certificate.json --spec -";
 
 /// Examples of simulations.
 pub const SIMULATE_EXAMPLES: &str = "Examples:
@@ -185,6 +197,20 @@ pub enum Command {
     /// They tend to 0 as n_o grows, while sigma* does not move. Printed next to the spectral abscissa of the oscillators.
     /// Computed with enclosures; there is no file for the independent checker.
     Rate(RateArgs),
+    /// Write a commented template that certifies as it stands
+    ///
+    /// A specification or a plant in JSON with comments (.jsonc), each field explained: change the values.
+    #[command(after_help = NEW_EXAMPLES)]
+    New(NewArgs),
+    /// Write a specification, plant or study as JSON, whatever its notation
+    ///
+    /// Numbers keep their text. The independent checker reads JSON alone; this is how it gets to see a .toml or .jsonc file.
+    #[command(after_help = CONVERT_EXAMPLES)]
+    Convert(ConvertArgs),
+    /// Write the JSON Schema of a file to standard output
+    ///
+    /// For editors and validators (draft 2020-12). It knows fields and types; what it accepts, `certify` may still refuse.
+    Schema(SchemaArgs),
     /// Write a completion script for a shell to standard output
     Completions {
         /// The shell

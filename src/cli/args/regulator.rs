@@ -13,7 +13,7 @@ const MAX_SIMULATED_OSCILLATORS: u32 = 200;
 /// The flags of `controller`.
 #[derive(Args, Debug)]
 pub struct ControllerArgs {
-    /// Bounding specification or plant (JSON) with the internal model, or a certificate of one, or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml) with the internal model, or a certificate of one, or `-` for standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -64,7 +64,7 @@ pub struct ControllerArgs {
 /// The flags of `simulate`.
 #[derive(Args, Debug)]
 pub struct SimulateArgs {
-    /// Plant (JSON), or `-` for standard input
+    /// Plant (.json, .jsonc, .toml), or `-` for standard input
     #[arg(value_name = "PLANT", value_hint = ValueHint::FilePath)]
     pub plant: PathBuf,
 

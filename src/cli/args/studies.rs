@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// The flags of `sweep`.
 #[derive(Args, Debug)]
 pub struct SweepArgs {
-    /// Study (JSON), or `-` for standard input
+    /// Study (.json, .jsonc, .toml), or `-` for standard input
     #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
     pub study: PathBuf,
 

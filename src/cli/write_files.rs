@@ -1,0 +1,51 @@
+//! `sigmastar schema`, `new` and `convert`: for the people who write files.
+
+use super::args::{ConvertArgs, Format, NewArg, NewArgs, SchemaArgs};
+use super::failure::Failure;
+use super::files::{Input, OutputFile};
+use super::{input, output};
+use sigmastar::spec::Notation;
+use std::path::Path;
+
+/// Writes a JSON Schema to standard output; returns the exit code.
+pub fn schema(args: &SchemaArgs) -> u8 {
+    let text = output::json_text(&args.name.schema().json());
+    output::data(&text).map_or_else(|code| code, |()| 0)
+}
+
+/// Writes a template; returns the exit code.
+pub fn new(args: &NewArgs) -> u8 {
+    let text = match args.kind {
+        NewArg::Spec => include_str!("templates/spec.jsonc"),
+        NewArg::Plant => include_str!("templates/plant.jsonc"),
+    };
+    template(text, args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
+}
+
+fn template(text: &str, args: &NewArgs) -> Result<u8, Failure> {
+    let path = args.output.as_deref();
+    if path.is_some_and(|path| path != Path::new("-") && Notation::of(path) != Notation::JsonWithComments) {
+        let message = "a template has comments, which are read in a file whose name ends in `.jsonc`";
+        return Err(Failure::call(message, "name the file so, such as `plant.jsonc`"));
+    }
+    write(text, args.replace.asked(path, Input::None, "the template")?)
+}
+
+/// Writes a document as JSON; returns the exit code.
+pub fn convert(args: &ConvertArgs) -> u8 {
+    converted(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
+}
+
+fn converted(args: &ConvertArgs) -> Result<u8, Failure> {
+    let file = args.replace.asked(args.output.as_deref(), Input::Specification(&args.file), "the JSON")?;
+    let document = input::document(&args.file)?;
+    write(&output::json_text(&document.root().to_json()), file)
+}
+
+/// To the file, or to standard output where none is asked for.
+fn write(text: &str, file: Option<OutputFile>) -> Result<u8, Failure> {
+    match file {
+        Some(file) => file.write(text).map(|()| 0),
+        None => Ok(output::data(text).map_or_else(|code| code, |()| 0)),
+    }
+}
