@@ -33,7 +33,7 @@ pub(super) fn section(consequences: &Consequences) -> Vec<Block> {
 /// The answers to the targets, if there are any.
 pub(super) fn answers(consequences: &Consequences) -> Option<Block> {
     let answers: Vec<String> = consequences.targets.iter().map(|(target, outcome)| answer(target, *outcome)).collect();
-    (!answers.is_empty()).then(|| Block::List(answers))
+    (!answers.is_empty()).then_some(Block::List(answers))
 }
 
 /// The bounds over n_o + 1, which is positive, so that both axes are logarithmic. It is drawn from doubles and claims nothing.
