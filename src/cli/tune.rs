@@ -3,10 +3,12 @@
 use super::args::{TuneArgs, TuneGoal};
 use super::failure::Failure;
 use super::files::Input;
+use super::output::shown;
 use super::progress::Bar;
 use super::subject::Subject;
 use super::{input, output};
 use sigmastar::certify::Verdict;
+use sigmastar::spec::Notation;
 use sigmastar::tune::{Goal, Settings, TuneError, TuningReport, parameters, tune};
 
 /// The number of oscillators for which the error is told where the call names none.
@@ -21,6 +23,11 @@ fn attempt(args: &TuneArgs) -> Result<u8, Failure> {
     let file =
         args.replace.asked(args.output.as_deref(), Input::Specification(&args.spec), "the tuned specification")?;
     let document = input::document(&args.spec)?;
+    if let Some(path) = args.output.as_deref().filter(|path| !document.notation().is_part_of(Notation::of(path))) {
+        let message =
+            format!("`{}` would be read in another notation than `{}` is written in", shown(path), document.label());
+        return Err(Failure::call(message, "give it a name with the same ending: all but the numbers stays as it is"));
+    }
     let subject = Subject::read(&document)?;
     let (name, sha256, model) = match &subject {
         Subject::Specification(spec) => (&spec.name, &spec.sha256, &spec.internal_model),

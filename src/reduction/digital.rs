@@ -21,6 +21,10 @@ pub struct ReducedDigital {
     pub proposal: DigitalProposal,
 }
 
+/// How much further the bounds are proved where these arguments were too small for a gain that is given: it cannot become larger
+/// to make up for what proved values are above sampled ones.
+const WIDER: [f64; 2] = [0.05, 0.2];
+
 /// The room in S1 and S2 of the arguments.
 const ROOM: f64 = 1e-9;
 
@@ -85,7 +89,11 @@ impl<'p> DigitalPairs<'p> {
         let suprema = self.along.suprema(self.sampled);
         let mut best: Option<ReducedDigital> = None;
         let mut refusal = PlantRefusal::NoGain(Obstacle::Bounds);
-        for enlarged in ENLARGED {
+        let wider = WIDER.into_iter().filter(|_| given.is_some()).map(|enlarged| (enlarged, true));
+        for (enlarged, only_without) in ENLARGED.map(|enlarged| (enlarged, false)).into_iter().chain(wider) {
+            if only_without && best.is_some() {
+                break;
+            }
             let at = needed(&set, &at, enlarged, self.along.second().is_some())
                 .ok_or(PlantRefusal::NoGain(Obstacle::Magnitude))?;
             let [x, e] = at.largest();

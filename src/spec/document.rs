@@ -151,6 +151,12 @@ impl Document {
         &self.source.text
     }
 
+    /// How the text is written.
+    #[must_use]
+    pub fn notation(&self) -> Notation {
+        self.source.notation
+    }
+
     /// The value that is the whole document.
     #[must_use]
     pub fn root(&self) -> Value<'_> {

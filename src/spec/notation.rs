@@ -28,6 +28,12 @@ impl Notation {
         }
     }
 
+    /// Whether every document of this notation is one of the other.
+    #[must_use]
+    pub fn is_part_of(self, other: Notation) -> bool {
+        self == other || (self == Notation::Json && other == Notation::JsonWithComments)
+    }
+
     /// Reads a document to its tree.
     ///
     /// # Errors

@@ -181,9 +181,10 @@ impl Subject<'_> {
         let mut text = self.document.text().to_owned();
         // From the end, so that what comes before stays where it is.
         for (span, value) in places.into_iter().rev() {
+            // A string in every notation.
             text.replace_range(span, &format!("\"{value}\""));
         }
-        Document::parse(self.document.label(), &text)
+        Document::parse_as(self.document.label(), &text, self.document.notation())
     }
 
     fn certify(&self, values: &[String]) -> Tried {

@@ -166,7 +166,8 @@ fn the_figures_of_the_gallery_are_what_the_program_draws() {
     let text = page("gallery.md");
     for (name, cells) in plants() {
         let plant = format!("specs/plants/{name}.json");
-        let call = ["simulate", &plant, "--sigma", &cells[2], "--n-o", "3", "--periods", "6", "--samples", "50"];
+        let call =
+            ["simulate", &plant, "--sigma", &cells[2], "--n-o", "3", "--periods", "6", "--samples", "50", "--force"];
         let output = program().args(call).arg("--plots").arg(folder.path()).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{name}: {}", utf8(output.stderr));
         let drawn = std::fs::read_to_string(folder.path().join("response.svg")).unwrap();

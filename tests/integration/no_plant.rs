@@ -42,7 +42,7 @@ fn reports_and_certificates_say_so() {
         (TRIPLE, r#"60*X", "f_x": "0.01"#, "alpha"),
     ] {
         let path = write(folder.path(), lyapunov, f, "0");
-        let (code, text, _) = run(&["certify", &path, "-o", certificate]);
+        let (code, text, _) = run(&["certify", &path, "-o", certificate, "--force"]);
         assert_eq!(code, Some(0), "{text}");
         let words: Vec<&str> = text.split_whitespace().collect();
         assert!(words.join(" ").contains("no plant with a state x satisfies these data"), "{text}");

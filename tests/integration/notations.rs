@@ -517,6 +517,41 @@ fn a_study_in_toml_finds_its_subject() {
     assert_eq!(stem(&plain), "converted");
 }
 
+/// The same values are found in every notation, and what is written is in that of the file.
+#[test]
+fn files_are_tuned_in_their_own_notation() {
+    let folder = TempDir::new().expect("a folder");
+    let text = fs::read_to_string(Path::new(ROOT).join("specs/paper-example-at-rest.json")).expect("shipped");
+    let value: Value = serde_json::from_str(&text).expect("JSON");
+    let tuned = |name: &str, text: &str, output: &str| {
+        let (file, output) = (folder.path().join(name), folder.path().join(output));
+        fs::write(&file, text).expect("written");
+        let mut call = program();
+        call.args(["tune", "--over", "mu", "--tries", "12", "--format", "json", "-q"]).arg(&file).arg("-o").arg(output);
+        call.assert()
+    };
+    let better = |name: &str, text: &str, output: &str| {
+        let report = json(&tuned(name, text, output).code(0).get_output().stdout);
+        let mut again = program();
+        again.args(["certify", "-q", "--no-compare", "--format", "json"]).arg(folder.path().join(output));
+        let certified = json(&again.assert().code(0).get_output().stdout);
+        assert_eq!(certified["sigma_star"], report["after"]["sigma_star"], "{name}");
+        assert_ne!(report["after"]["sigma_star"], report["before"]["sigma_star"], "{name}");
+        (report["after"].clone(), fs::read_to_string(folder.path().join(output)).expect("written"))
+    };
+    let (plain, _) = better("a.json", &text, "a-tuned.jsonc");
+    let (with_comments, written) = better("b.jsonc", &commented(&text), "b-tuned.jsonc");
+    assert!(written.contains("/*") && written.contains("//"), "{written}");
+    let (of_toml, written) = better("c.toml", &format!("# kept\n{}", toml(tables, &value)), "c-tuned.toml");
+    assert!(written.starts_with("# kept\n"), "{written}");
+    assert_eq!((&with_comments, &of_toml), (&plain, &plain));
+    // What is written would not be read again as it is meant.
+    for (name, text, output) in [("b.jsonc", commented(&text), "b.json"), ("c.toml", toml(tables, &value), "c.json")] {
+        tuned(name, &text, output).code(2).stdout(contains("another notation"));
+        assert!(!folder.path().join(output).exists());
+    }
+}
+
 /// A decimal numeral of TOML and of JSON, near the corners: signs, exponents, digits apart.
 fn numeral() -> impl Strategy<Value = (String, String)> {
     let digits = prop_oneof!["0", "1", "9{1,30}", "[1-9][0-9]{0,25}", "10{0,20}"];
