@@ -219,7 +219,9 @@ def test_an_interrupt_is_heard(tmp_path):
     import sys
 
     code = (
-        "import sigmastar, sys\n"
+        "import signal, sigmastar, sys\n"
+        # A shell that runs tests in the background hands down a SIGINT that is ignored.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "print('started', flush=True)\n"
         "try:\n"
         f"    sigmastar.certify({str(ROOT / 'specs' / 'plants' / 'converter.json')!r})\n"
