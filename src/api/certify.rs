@@ -6,7 +6,6 @@ use super::error::Error;
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
-use crate::certify::Verdict;
 use crate::reduction::{Prepared, Run, Subject as Read, at_samples};
 use crate::report::{self, DigitalReport};
 
@@ -58,9 +57,7 @@ pub(super) fn not_certified(run: &Run<'_>) -> Error {
         Run::Continuous(run) => (run.verdict, report::sentence(run)),
         Run::Sampled(run) => (run.verdict, DigitalReport::new(run, false).sentence()),
     };
-    // A run without a certificate is not certified, whatever it says.
-    let verdict = if verdict == Verdict::Certified { Verdict::Undecided } else { verdict };
-    Error::not_certified(verdict, sentence, &run.unproved(), conditions(run), full_report(run))
+    Error::not_certified(verdict.without_claim(), sentence, &run.unproved(), conditions(run), full_report(run))
 }
 
 /// The report of `sigmastar certify`.

@@ -2,7 +2,7 @@
 
 use super::condition::Condition;
 use super::report::Report;
-use crate::certify::{Misfit, Verdict};
+use crate::certify::{Misfit, Verdict, verdict_of_errors};
 use crate::spec::{self, SpecError, SpecErrors};
 use std::fmt;
 
@@ -171,8 +171,8 @@ impl Error {
             each().map(|(errors, error)| Diagnostic::new(errors.label(), true, errors, error)).collect();
         let mut lines: Vec<String> = diagnostics.iter().map(Diagnostic::line).collect();
         lines.extend(all.iter().filter(|errors| errors.omitted() > 0).map(omitted));
-        let verdict = if all.iter().all(SpecErrors::is_undecided) { Verdict::Undecided } else { Verdict::BadInput };
         let kind = kind(each().map(|(_, error)| error));
+        let verdict = verdict_of_errors(all);
         Error { kind, verdict, text: lines.join("\n"), diagnostics, conditions: Vec::new(), report: None }
     }
 

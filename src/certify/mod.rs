@@ -37,4 +37,4 @@ pub use produce::{certify, certify_at, certify_near, recheck};
 pub use proof::{Decidable, Decided, DigitalProof, GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness};
 pub use refusal::Refusal;
 pub use smaller::SmallerChoice;
-pub use verdict::Verdict;
+pub use verdict::{Verdict, verdict_of_errors};

@@ -1,5 +1,6 @@
 //! Verdicts and exit codes, the same in every command.
 
+use crate::spec::SpecErrors;
 use std::fmt;
 
 /// What a run concludes.
@@ -26,6 +27,18 @@ impl Verdict {
             Verdict::Undecided => 3,
         }
     }
+
+    /// The verdict where there is no claim to show, which is never [`Verdict::Certified`]: a claim is not to rest on one word.
+    #[must_use]
+    pub fn without_claim(self) -> Verdict {
+        if self == Verdict::Certified { Verdict::Undecided } else { self }
+    }
+}
+
+/// The verdict of what came to no run: undecided where nothing was found to be wrong, else bad input.
+#[must_use]
+pub fn verdict_of_errors(all: &[SpecErrors]) -> Verdict {
+    if all.iter().all(SpecErrors::is_undecided) { Verdict::Undecided } else { Verdict::BadInput }
 }
 
 impl fmt::Display for Verdict {

@@ -2,7 +2,7 @@
 
 use super::args::Format;
 use super::output;
-use sigmastar::certify::{Misfit, Verdict};
+use sigmastar::certify::{Misfit, Verdict, verdict_of_errors};
 use sigmastar::report::{call_failure_json, failure_json};
 use sigmastar::spec::SpecErrors;
 
@@ -41,8 +41,8 @@ impl Failure {
     /// `bad-input`, or `undecided` where nothing was found to be wrong.
     pub fn verdict(&self) -> Verdict {
         match self {
-            Failure::Documents(all) if all.iter().all(SpecErrors::is_undecided) => Verdict::Undecided,
-            _ => Verdict::BadInput,
+            Failure::Documents(all) => verdict_of_errors(all),
+            Failure::Call { .. } => Verdict::BadInput,
         }
     }
 

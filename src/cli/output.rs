@@ -3,7 +3,7 @@
 use super::args::Format;
 use super::colour;
 use sigmastar::certify::Verdict;
-use sigmastar::report::document::{Extent, Readable};
+use sigmastar::report::document::{Extent, Made, Readable};
 use sigmastar::spec::SpecErrors;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
@@ -48,9 +48,12 @@ pub struct Shortened {
 impl Shortened {
     /// The report as it is written. HTML and JSON are whole in any case.
     pub fn new(report: &impl Readable, format: Format, full: bool) -> Shortened {
-        let short = !full && matches!(format, Format::Text | Format::Markdown);
-        let extent = if short { Extent::Short } else { Extent::Full };
-        Shortened { text: written(report, format, extent), more: short && report.has_detail() }
+        if full || !matches!(format, Format::Text | Format::Markdown) {
+            return Shortened { text: written(report, format, Extent::Full), more: false };
+        }
+        // The blocks are made once: some of what they say is worked out as they are made.
+        let made = Made::new(report.blocks(), serde_json::Value::Null);
+        Shortened { text: written(&made, format, Extent::Short), more: made.has_detail() }
     }
 
     /// Writes it to standard output, as [`data`] does; a remark says how to see the rest.

@@ -145,6 +145,7 @@ impl Shape {
             _ => Map::new(),
         }
     }
+
     /// The shapes with names, wherever they stand.
     pub(super) fn definitions(&self, found: &mut Map<String, Value>) {
         match self {

@@ -2,7 +2,7 @@
 
 use super::cases::{Case, Sweep};
 use super::row::{Claim, Row, RowError};
-use crate::certify::{Certification, Derivation, DigitalCertification, Options, Verdict};
+use crate::certify::{Certification, Derivation, DigitalCertification, Options, Verdict, verdict_of_errors};
 use crate::progress::Progress;
 use crate::reduction::{Prepared, Run, Subject};
 use crate::report::{DigitalReport, sentence};
@@ -68,8 +68,7 @@ fn digital_claim(run: &DigitalCertification<'_>) -> Option<Claim> {
 
 /// The row of a run: its claim, or why there is none.
 fn told(verdict: Verdict, claim: Option<Claim>, reason: impl Fn() -> String, unproved: &[SpecErrors]) -> Row {
-    // A claim is not to rest on one field.
-    let verdict = if verdict == Verdict::Certified && claim.is_none() { Verdict::Undecided } else { verdict };
+    let verdict = if claim.is_none() { verdict.without_claim() } else { verdict };
     let claim = claim.filter(|_| verdict == Verdict::Certified);
     let reason = claim.is_none().then(reason);
     Row { verdict, claim, reason, ..empty(errors(unproved)) }
@@ -77,8 +76,7 @@ fn told(verdict: Verdict, claim: Option<Claim>, reason: impl Fn() -> String, unp
 
 /// The row of a case that came to no run.
 fn refused(all: Vec<SpecErrors>) -> Row {
-    let undecided = all.iter().all(SpecErrors::is_undecided);
-    Row { verdict: if undecided { Verdict::Undecided } else { Verdict::BadInput }, ..empty(errors(&all)) }
+    Row { verdict: verdict_of_errors(&all), ..empty(errors(&all)) }
 }
 
 fn empty(errors: Vec<RowError>) -> Row {

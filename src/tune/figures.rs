@@ -1,6 +1,6 @@
 //! What one proposal comes to: its certified figures, and the one that is to be small.
 
-use crate::certify::{Certification, Options, Verdict};
+use crate::certify::{Certification, Options, Verdict, verdict_of_errors};
 use crate::enclosure::Enclosure;
 use crate::reduction::{Prepared, Run, Subject};
 use crate::spec::{Document, SpecErrors};
@@ -34,6 +34,8 @@ impl Goal {
 pub struct Figures {
     /// The certified gain.
     pub sigma: Rational,
+    /// The sampling period that the gain is for, of the regulator at samples: then it is no threshold.
+    pub sampling_period: Option<String>,
     /// An upper bound of sigma + mu Nbar^2; not of the regulator at samples.
     pub feedback: Option<Enclosure>,
     /// X0, E0, Z0 of the claim.
@@ -53,10 +55,7 @@ impl Figures {
     /// # Errors
     /// The verdict, where nothing is certified.
     pub(super) fn of(document: &Document, n_o: u64) -> Result<Figures, Verdict> {
-        let refused = |errors: Vec<SpecErrors>| match errors.iter().all(SpecErrors::is_undecided) {
-            true => Verdict::Undecided,
-            false => Verdict::BadInput,
-        };
+        let refused = |errors: Vec<SpecErrors>| verdict_of_errors(&errors);
         let subject = Subject::read(document).map_err(|errors| refused(vec![errors]))?;
         let prepared = Prepared::new(subject, None).map_err(refused)?;
         let run = prepared.certify(Options { compare: false, ..Options::default() }).map_err(refused)?;
@@ -74,16 +73,15 @@ impl Figures {
 }
 
 fn figures(run: &Run<'_>, n_o: u64) -> Result<Figures, Verdict> {
-    // A verdict without a claim is none.
-    let verdict = |verdict| if verdict == Verdict::Certified { Verdict::Undecided } else { verdict };
     match run {
-        Run::Continuous(run) => continuous(run, n_o).ok_or_else(|| verdict(run.verdict)),
+        Run::Continuous(run) => continuous(run, n_o).ok_or_else(|| run.verdict.without_claim()),
         Run::Sampled(run) => {
-            let claim = run.claim().zip(run.periodic_solution()).ok_or_else(|| verdict(run.verdict))?;
-            let (proof, periodic) = claim;
+            let claim = run.claim().zip(run.periodic_solution());
+            let (proof, periodic) = claim.ok_or_else(|| run.verdict.without_claim())?;
             let set = &proof.witness.set;
             Ok(Figures {
                 sigma: proof.witness.sigma.clone(),
+                sampling_period: Some(run.sampling.text()),
                 feedback: None,
                 initial_set: [&set.x0, &set.e0, &set.z0].map(Rational::clone),
                 periodic,
@@ -98,6 +96,7 @@ fn continuous(run: &Certification<'_>, n_o: u64) -> Option<Figures> {
     let set = run.claimed_set()?;
     Some(Figures {
         sigma: run.sigma_star()?.clone(),
+        sampling_period: None,
         feedback: run.feedback(),
         initial_set: [&set.x0, &set.e0, &set.z0].map(Rational::clone),
         periodic: run.periodic_solution()?,

@@ -79,7 +79,7 @@ impl TuningReport<'_> {
     fn sentence(&self) -> String {
         let tuning = self.tuning;
         let what = match tuning.settings.goal {
-            Goal::Sigma => "sigma*".to_owned(),
+            Goal::Sigma => self.gain(),
             Goal::Feedback => "sigma* + mu Nbar^2".to_owned(),
             Goal::Error(n_o) => format!("the bound of sup|e| with {n_o} oscillators"),
         };
@@ -116,6 +116,15 @@ impl TuningReport<'_> {
                  was tried. `sigmastar certify` says why."
             ),
         }
+    }
+
+    /// What the certified gain is called: at samples it is no threshold.
+    fn gain(&self) -> String {
+        let tuning = self.tuning;
+        let tried = [Some(&tuning.before), tuning.after.as_ref().map(|(after, _)| after)];
+        let figures = tried.into_iter().flatten().filter_map(|tried| tried.outcome.as_ref().ok());
+        let period = figures.filter_map(|figures| figures.sampling_period.as_ref()).next();
+        period.map_or_else(|| "sigma*".to_owned(), |step| format!("the gain for samples {step} apart"))
     }
 
     /// What was to be small.
@@ -156,7 +165,7 @@ impl TuningReport<'_> {
                 table.push([name.to_owned(), before, after]);
             }
         };
-        row("sigma*", &|figures| Some(write_exact(&figures.sigma)));
+        row(&self.gain(), &|figures| Some(write_exact(&figures.sigma)));
         row("sigma* + mu Nbar^2, at most", &|figures| figures.feedback.as_ref().map(upper));
         for (index, name) in ["rms(e)", "sup|e|"].into_iter().enumerate() {
             let name = format!("{name} at sigma*, n_o = {}, at most", tuning.settings.n_o);
@@ -239,7 +248,7 @@ impl TuningReport<'_> {
                 let [x, e, zeta, z] = figures.periodic.each_ref().map(full);
                 let mut value = json!({
                     "verdict": "certified", "sigma_star": write_exact(&figures.sigma),
-                    "feedback": figures.feedback.as_ref().map(full),
+                    "sampling_period": figures.sampling_period, "feedback": figures.feedback.as_ref().map(full),
                     "initial_set": { "X0": x0, "E0": e0, "Z0": z0 },
                     "periodic_solution": { "x": x, "e": e, "zeta": zeta, "z": z },
                     "no_plant": figures.no_plant,

@@ -5,10 +5,9 @@
 
 mod block;
 mod html;
+mod made;
 mod markdown;
 mod text;
-
-mod made;
 
 pub use block::{Align, Block, Column, Extent, Table, clean};
 pub use made::Made;
