@@ -100,6 +100,15 @@ pub(super) struct Ball {
     pub(super) ends: Vec<[Enclosure; 3]>,
 }
 
+impl Ball {
+    /// Whether the middle of the box certainly lies in the ball.
+    pub(super) fn has_its_middle(&self) -> bool {
+        let squares = self.ends.iter().zip(&self.member).filter(|(_, member)| **member);
+        let square = squares.fold(Enclosure::zero(PRECISION), |sum, ([_, middle, _], _)| sum + middle.sqr());
+        square.le(&Enclosure::one(PRECISION)).is_true()
+    }
+}
+
 /// Which variables formulas depend on.
 #[derive(Clone, Debug)]
 pub(super) struct Active {

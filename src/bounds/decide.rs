@@ -4,9 +4,11 @@ use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox};
 use super::chart::{Active, Ball, Cell, Chart, MAX_LEVEL, Placed, Side};
 use super::definite::{SymmetricValues, Verdict, definite, nonnegative};
+use super::eigen::largest;
 use super::engine::Engine;
 use super::entry::{Entry, Kind};
 use super::majorant::Majorant;
+use super::pointwise::{product, roots};
 use super::quantity::{Quantity, Right};
 use super::time_cell::TimeCell;
 use crate::enclosure::{Enclosure, Truth};
@@ -36,9 +38,7 @@ pub(super) fn subdivide(chart: &Chart, effort: usize, mut examine: impl FnMut(&C
         match examine(&cell, &ball) {
             Verdict::Holds => {}
             Verdict::Fails => {
-                let squares = ball.ends.iter().zip(&ball.member).filter(|(_, member)| **member);
-                let square = squares.fold(Enclosure::zero(PRECISION), |sum, ([_, middle, _], _)| sum + middle.sqr());
-                let inside = square.le(&Enclosure::one(PRECISION)).is_true();
+                let inside = ball.has_its_middle();
                 if inside && chart.is_exact() {
                     return Decision { truth: Truth::False, boxes };
                 }
@@ -121,23 +121,43 @@ impl Engine {
         effort: usize,
         value: &BoundOnBox<'_>,
     ) -> Decision {
-        let quantity = self.quantity(kind);
         let chart = Chart::new(&self.region, self.period(), active, [x, e], |index| self.extent(index));
-        let mut memory = Memory::default();
-        let mut last: Option<Side> = None;
+        let mut boxes = OnBoxes::new(self, kind, &chart);
         subdivide(&chart, effort, |cell, ball| {
-            let side = if chart.time { cell[0] } else { Side::WHOLE };
-            let time = self.time_cell(side);
-            let placed = chart.place(cell, ball, Some(&time));
-            // Formulas of t alone keep their values while its interval does; the slopes are per side, and sides stay.
-            let changed = if last == Some(side) { VariableSet::ALL_BUT_TIME } else { VariableSet::ALL };
-            last = Some(side);
-            let Placed { frame, t, x, e } = &placed;
-            let outputs = quantity.walk.evaluate_again(&mut OnBox { frame, t, x, e }, &mut memory, changed);
-            let bound = value(frame, &chart, ball, active.error.then_some(e));
-            let values = Values { engine: self, chart: &chart, frame, quantity, outputs, time };
-            values.examine(kind, &bound, ball)
+            boxes.with(cell, ball, |values, frame| {
+                let bound = value(frame, &chart, ball, active.error.then_some(values.error));
+                values.examine(kind, &bound, ball)
+            })
         })
+    }
+}
+
+/// The formulas of one bound, evaluated on one box after the other.
+pub(super) struct OnBoxes<'a> {
+    engine: &'a Engine,
+    quantity: &'a Quantity,
+    chart: &'a Chart,
+    memory: Memory<Centred>,
+    last: Option<Side>,
+}
+
+impl<'a> OnBoxes<'a> {
+    pub(super) fn new(engine: &'a Engine, kind: Kind, chart: &'a Chart) -> OnBoxes<'a> {
+        OnBoxes { engine, quantity: engine.quantity(kind), chart, memory: Memory::default(), last: None }
+    }
+
+    /// What `use_it` makes of the values on a box.
+    pub(super) fn with<R>(&mut self, cell: &Cell, ball: &Ball, use_it: impl FnOnce(&Values<'_>, &Frame) -> R) -> R {
+        let OnBoxes { engine, quantity, chart, memory, last } = self;
+        let side = if chart.time { cell[0] } else { Side::WHOLE };
+        let time = engine.time_cell(side);
+        let placed = chart.place(cell, ball, Some(&time));
+        // Formulas of t alone keep their values while its interval does; the slopes are per side, and sides stay.
+        let changed = if *last == Some(side) { VariableSet::ALL_BUT_TIME } else { VariableSet::ALL };
+        *last = Some(side);
+        let Placed { frame, t, x, e } = &placed;
+        let outputs = quantity.walk.evaluate_again(&mut OnBox { frame, t, x, e }, memory, changed);
+        use_it(&Values { engine, chart, frame, quantity, outputs, time, error: e }, frame)
     }
 }
 
@@ -145,13 +165,15 @@ impl Engine {
 type BoundOnBox<'a> = dyn Fn(&Frame, &Chart, &Ball, Option<&Centred>) -> Centred + 'a;
 
 /// The formulas of a bound on a box.
-struct Values<'a> {
+pub(super) struct Values<'a> {
     engine: &'a Engine,
     chart: &'a Chart,
     frame: &'a Frame,
     quantity: &'a Quantity,
     outputs: Vec<Centred>,
     time: Arc<TimeCell>,
+    /// e.
+    error: &'a Centred,
 }
 
 impl Values<'_> {
@@ -209,7 +231,47 @@ impl Values<'_> {
         (0..rows.len()).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()
     }
 
-    fn examine(&self, kind: Kind, bound: &Centred, ball: &Ball) -> Verdict {
+    /// The value in the middle of the box, and how far the others may be from it, in doubles; of a rate the negative. Nothing
+    /// rests on them.
+    pub(super) fn middle(&self, kind: Kind) -> [f64; 2] {
+        let doubles = |value: &Centred| -> [f64; 2] {
+            let middle = value.centre.midpoint_f64();
+            [middle, (value.range.upper_f64() - middle).max(middle - value.range.lower_f64())]
+        };
+        let length = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>().sqrt();
+        let matrix = self.matrix();
+        if kind.is_rate() {
+            let zero = self.frame.constant(Enclosure::zero(PRECISION));
+            let matrices = self.time.matrices[usize::from(kind == Kind::RateExistence)].as_ref();
+            let (Some(decay), Some([p, _])) = (self.decay(kind, &matrix, &zero), matrices) else {
+                return [f64::NAN; 2];
+            };
+            let p: Vec<Vec<f64>> = p.iter().map(|row| row.iter().map(|entry| doubles(entry)[0]).collect()).collect();
+            let [_, root] = roots(&p);
+            let mut growth = vec![vec![0.0; decay.order]; decay.order];
+            for (i, j, value) in &decay.entries {
+                let half = -doubles(value)[0] / 2.0;
+                (growth[*i][*j], growth[*j][*i]) = (half, half);
+            }
+            let reach = length(&mut decay.entries.iter().map(|(.., value)| doubles(value)[1]));
+            let weight = length(&mut root.iter().flatten().copied()).powi(2);
+            return [largest(product(&root, &product(&growth, &root))), reach * weight];
+        }
+        let values: Vec<Vec<[f64; 2]>> = matrix.iter().map(|row| row.iter().map(doubles).collect()).collect();
+        let reach = length(&mut values.iter().flatten().map(|value| value[1]));
+        let middles: Vec<Vec<f64>> = values.iter().map(|row| row.iter().map(|value| value[0]).collect()).collect();
+        let middle = match &middles[..] {
+            [row] if kind == Kind::QEMax => row.first().copied().unwrap_or(f64::NAN),
+            rows => {
+                let transposed: Vec<Vec<f64>> =
+                    (0..rows.first().map_or(0, Vec::len)).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
+                largest(product(&transposed, rows)).max(0.0).sqrt()
+            }
+        };
+        [middle, reach]
+    }
+
+    pub(super) fn examine(&self, kind: Kind, bound: &Centred, ball: &Ball) -> Verdict {
         let frame = self.frame;
         let matrix = self.matrix();
         if kind.is_rate() {

@@ -5,7 +5,7 @@
 //! - [`Engine`]: decides an [`Entry`] of a table of bounds, and smoothness, by subdivision;
 //! - [`Engine::decide_majorant`]: the same of a [`Majorant`], a polynomial in X and E;
 //! - [`FloatSuprema`]: the same bounds by sampling, for searches;
-//! - [`Engine::prove_value`]: from a sampled supremum to a decided bound a little above.
+//! - [`Engine::prove_value`]: from a sampled supremum, and what boxes show beyond it, to a decided bound a little above.
 //!
 //! Within: `chart` (coordinates of boxes), `time_cell` (what depends on t alone), `centred` (values with slopes about the
 //! middle of a box), `quantity` (the formulas of each bound), `definite` (semidefiniteness on a box).
@@ -17,6 +17,7 @@ mod definite;
 mod eigen;
 mod engine;
 mod entry;
+mod explore;
 mod extent;
 mod majorant;
 mod pointwise;

@@ -74,6 +74,8 @@ pub struct FloatSuprema {
     moments: Vec<Moment>,
     /// Points of the unit ball.
     ball: Vec<Vec<f64>>,
+    /// Whether anything depends on e.
+    by_error: bool,
     velocity: Arc<Program>,
 }
 
@@ -121,6 +123,13 @@ impl FloatSuprema {
         outputs.extend(rows(&mut formulas, &q_x));
         outputs.extend(rows(&mut formulas, &q_e));
         let program = Arc::new(Program::of_formulas(&formulas, &outputs, n));
+        // What depends on nothing need not be looked at in more than one place: a linear plant has one matrix.
+        let variables = formulas.walk(&outputs).all_variables();
+        let by_states = states.iter().any(|state| variables.has(*state));
+        let by_error = variables.has(PlantVariable::Error);
+        let matrices = lyapunov.map(|matrix| matrix.map(FloatMatrix::new));
+        let steady = matrices.iter().flatten().all(|matrix| matrix.steady.is_some());
+        let times = if by_states || by_error || !steady || variables.has(PlantVariable::Time) { TIMES } else { 1 };
         let velocity = Arc::new(Program::of_formulas(&formulas, f, n));
         let mut suprema = FloatSuprema {
             order: n,
@@ -128,16 +137,17 @@ impl FloatSuprema {
             orbit,
             inverse: inverse(&matrix),
             matrix,
-            matrices: lyapunov.map(|matrix| matrix.map(FloatMatrix::new)),
+            matrices,
             program,
             moments: Vec::new(),
-            ball: ball_points(n),
+            ball: if by_states { ball_points(n) } else { vec![vec![0.0; n]] },
+            by_error,
             velocity,
         };
         let mut evaluator = Evaluator::new(suprema.program.clone());
         let mut slow = Evaluator::new(suprema.velocity.clone());
         suprema.moments =
-            (0..TIMES).map(|i| suprema.moment((i as f64 + 0.5) / TIMES as f64, &mut evaluator, &mut slow)).collect();
+            (0..times).map(|i| suprema.moment((i as f64 + 0.5) / TIMES as f64, &mut evaluator, &mut slow)).collect();
         suprema
     }
 
@@ -164,7 +174,7 @@ impl FloatSuprema {
     pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; Kind::TABLE.len()] {
         let mut largest = [f64::NEG_INFINITY; Kind::TABLE.len()];
         let errors: &[f64] = match stride {
-            _ if e == 0.0 => &[0.0],
+            _ if e == 0.0 || !self.by_error => &[0.0],
             1 => &[-1.0, 0.0, 1.0],
             _ => &[-1.0, 1.0],
         };
@@ -232,7 +242,7 @@ impl FloatSuprema {
 
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Kind, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
-        let errors: &[f64] = if e == 0.0 { &[0.0] } else { &[-1.0, 0.0, 1.0] };
+        let errors: &[f64] = if e == 0.0 || !self.by_error { &[0.0] } else { &[-1.0, 0.0, 1.0] };
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
         self.at_points(reach, e, ([1, 1], errors), |at, values| {
@@ -416,12 +426,15 @@ fn ball_points(order: usize) -> Vec<Vec<f64>> {
 /// Points in other directions than those of the axes, for three states and more.
 const SPREAD: u32 = 24;
 
-/// The inverse in doubles, by Gauss and Jordan with pivots; without one, entries that are not numbers.
+/// The inverse in doubles, by Gauss and Jordan with pivots; without one, entries that are not numbers. Rows may be in units of
+/// their own: they are brought to one size first.
 fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let n = matrix.len();
+    let size = |row: &Vec<f64>| row.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
+    let sizes: Vec<f64> = matrix.iter().map(size).collect();
     let unit = |i: usize| (0..n).map(move |j| f64::from(i == j));
-    let mut rows: Vec<Vec<f64>> =
-        matrix.iter().enumerate().map(|(i, row)| row.iter().copied().chain(unit(i)).collect()).collect();
+    let scaled = |(i, row): (usize, &Vec<f64>)| row.iter().map(|entry| entry / sizes[i]).chain(unit(i)).collect();
+    let mut rows: Vec<Vec<f64>> = matrix.iter().enumerate().map(scaled).collect();
     for column in 0..n {
         let pivot = (column..n).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()));
         rows.swap(column, pivot.unwrap_or(column));
@@ -433,5 +446,6 @@ fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
             row.iter_mut().zip(&pivot).for_each(|(entry, by)| *entry -= factor * by);
         }
     }
-    rows.into_iter().map(|row| row.into_iter().skip(n).collect()).collect()
+    let written = |row: Vec<f64>| row.into_iter().skip(n).zip(&sizes).map(|(entry, size)| entry / size).collect();
+    rows.into_iter().map(written).collect()
 }

@@ -1,25 +1,28 @@
 //! Proposals for coordinates y with x = x_0 + L y in which the zero dynamics contract, in floating point (derivation, 11.5).
 //!
 //! For a constant P nothing is lost with P = I: L L^T = P^-1. L is taken lower triangular, which is the shortest of them: the
-//! norm of y does not depend on the choice. A P(t) of the periodic Lyapunov equation stands by for plants that contract in no
-//! constant one.
+//! norm of y does not depend on the choice. Everything is sought in the axes of the modes along the orbit (`modes`), so that it
+//! does not depend on the units of the states. A P(t) of the periodic Lyapunov equation stands by for plants that contract in
+//! no constant one.
 
+use super::balance::balance;
 use super::failure::OrbitFailure;
 use super::field::Field;
 use super::find::FloatOrbit;
+use super::modes::modes;
 use super::series::{FloatSeries, Turn};
-use super::shape::{decay, most_matrices, shapes};
+use super::shape::{Channel, decay, most_matrices, shapes};
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
 use crate::expr::TrigonometricPolynomial;
 use crate::lyapunov::{Deviation, Family, candidates_of};
 use crate::number::{Direction, round_f64};
 use crate::plant::Plant;
 use crate::spec::PeriodicMatrix;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 
 /// Significant digits of L, tried in turn.
-const DIGITS: [u32; 4] = [3, 4, 5, 7];
+const DIGITS: [u32; 6] = [3, 4, 5, 7, 10, 14];
 
 /// What rounding L may take from the rate.
 const KEPT: f64 = 0.999;
@@ -34,8 +37,14 @@ const MAX_PERIODIC: usize = 8;
 const JACOBIAN_HARMONICS: usize = 8;
 const NEGLIGIBLE: f64 = 1e-5;
 
-/// Sweeps over the states that bring them to a common size.
-const SWEEPS: usize = 10;
+/// Matrices that differ by less, relative to the size of all, are one.
+const SAME: f64 = 1e-10;
+
+/// Vectors f_e and q_x for which coordinates are sought.
+const CHANNELS: usize = 6;
+
+/// The least singular value of L that doubles tell from 0, relative to the largest.
+const LEAST_SINGULAR: f64 = 1e-14;
 
 /// Coordinates and the P in them.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,8 +77,10 @@ pub fn propose_coordinates(
         let p = PeriodicMatrix { mean: Vec::new(), harmonics: Vec::new() };
         return Ok(vec![Coordinates { l: Vec::new(), p, rate: f64::INFINITY }]);
     }
-    let along = sample(&mut field, &orbit.series, &[vec![0.0; n]], &[0.0], most_matrices(n));
+    let series = field.own(&orbit.series);
+    let along = sample(&mut field, &series, &[vec![0.0; n]], &[0.0], most_matrices(n));
     let scale = balance(&along);
+    let (f_e, q_x) = channels(&mut field, &series, &scale);
     let balanced = |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] * (scale[j] / scale[i]));
     let mut matrices = along;
     if states > 0.0 || error > 0.0 {
@@ -80,25 +91,63 @@ pub fn propose_coordinates(
         let shifts: Vec<Vec<f64>> = axes.map(shift).collect();
         let errors = if error > 0.0 { vec![-error, error] } else { vec![0.0] };
         let times = (most_matrices(n) / (shifts.len() * errors.len())).max(2);
-        matrices.extend(sample(&mut field, &orbit.series, &shifts, &errors, times));
+        matrices.extend(sample(&mut field, &series, &shifts, &errors, times));
     }
     if !matrices.iter().all(|matrix| matrix.iter().all(|entry| entry.is_finite())) {
         return Err(OrbitFailure::NotFinite);
     }
-    let matrices: Vec<DMatrix<f64>> = matrices.iter().map(balanced).collect();
+    let matrices = distinct(matrices.iter().map(balanced).collect());
+    let mean = |vectors: &[DVector<f64>]| vectors.iter().fold(DVector::zeros(n), |sum, vector| sum + vector);
+    let middle = matrices.iter().fold(DMatrix::zeros(n, n), |sum, matrix| sum + matrix) / matrices.len() as f64;
+    let basis = modes(&middle, &mean(&f_e), &mean(&q_x)).unwrap_or_else(|| DMatrix::identity(n, n));
+    let inverse = basis.clone().try_inverse().ok_or(OrbitFailure::NotFinite)?;
+    let own: Vec<DMatrix<f64>> = matrices.iter().map(|matrix| &inverse * matrix * &basis).collect();
+    let channel = Channel {
+        inputs: f_e.iter().map(|vector| &inverse * vector).collect(),
+        outputs: q_x.iter().map(|vector| basis.transpose() * vector).collect(),
+    };
     let limit = orbit.floquet.first().map_or(f64::NAN, |first| -first[0]);
+    let units: Vec<f64> = scale.iter().zip(field.units()).map(|(scale, unit)| scale * unit).collect();
     let mut found: Vec<Coordinates> = Vec::new();
-    for p in shapes(&matrices, limit) {
-        if let Some(candidate) = constant(&matrices, &p, &scale)
+    for p in shapes(&own, &channel, limit) {
+        let root = p.try_inverse().and_then(|inverse| inverse.cholesky());
+        if let Some(candidate) = root.and_then(|root| constant(&matrices, &(&basis * root.l()), &units))
             && !found.iter().any(|other| other.l == candidate.l)
         {
             found.push(candidate);
         }
     }
-    if found.first().is_none_or(|best| best.rate < ENOUGH * limit) {
-        found.extend(periodic(&mut field, orbit, &balanced, &scale));
+    if found.iter().map(|candidate| candidate.rate).fold(0.0, f64::max) < ENOUGH * limit {
+        found.extend(periodic(&mut field, &series, &balanced, &units));
     }
     Ok(found)
+}
+
+/// The matrices without those that repeat one before them.
+fn distinct(matrices: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
+    let size = matrices.iter().map(DMatrix::amax).fold(0.0, f64::max);
+    let mut kept: Vec<DMatrix<f64>> = Vec::new();
+    for matrix in matrices {
+        if !kept.iter().any(|other| (other - &matrix).amax() <= SAME * size) {
+            kept.push(matrix);
+        }
+    }
+    kept
+}
+
+/// f_e and q_x at a few times, with the states in units of `scale`.
+fn channels(field: &mut Field, series: &FloatSeries, scale: &[f64]) -> (Vec<DVector<f64>>, Vec<DVector<f64>>) {
+    let turn = Turn::new(CHANNELS);
+    let vectors = |j: usize| {
+        field.set(j as f64 / CHANNELS as f64, &series.at_part(&turn, j).0, 0.0);
+        let (mut f_e, mut q_x) = (field.f_e(), field.q_x());
+        for (i, scale) in scale.iter().enumerate() {
+            f_e[i] /= scale;
+            q_x[i] *= scale;
+        }
+        (f_e, q_x)
+    };
+    (0..CHANNELS).map(vectors).unzip()
 }
 
 /// Jacobians at so many times, with each shift of the state and each error.
@@ -124,38 +173,25 @@ fn sample(
     matrices
 }
 
-/// Powers of two by which the states are to be divided, so that rows and columns of the matrices have similar sizes (Osborne,
-/// On pre-conditioning of matrices, 1960).
-fn balance(matrices: &[DMatrix<f64>]) -> Vec<f64> {
-    let n = matrices.first().map_or(0, DMatrix::nrows);
-    let mut scale = vec![1.0_f64; n];
-    for _ in 0..SWEEPS {
-        for i in 0..n {
-            let (mut row, mut column) = (0.0, 0.0);
-            for matrix in matrices {
-                for j in (0..n).filter(|j| *j != i) {
-                    row += matrix[(i, j)].abs() * scale[j] / scale[i];
-                    column += matrix[(j, i)].abs() * scale[i] / scale[j];
-                }
-            }
-            if row > 0.0 && column > 0.0 && row.is_finite() && column.is_finite() {
-                // The nearest power of two to the root of the quotient.
-                let (fraction, exponent) = libm::frexp((row / column).sqrt());
-                let exponent = if fraction < std::f64::consts::FRAC_1_SQRT_2 { exponent - 1 } else { exponent };
-                scale[i] *= libm::ldexp(1.0, exponent);
-            }
+/// The lower triangular matrix that is this one but for a rotation on its right; nothing is squared, so that no digit is lost.
+pub(crate) fn lower_triangular(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut lower = matrix.transpose().qr().r().transpose();
+    for (j, mut column) in lower.column_iter_mut().enumerate() {
+        if column[j] < 0.0 {
+            column.neg_mut();
         }
     }
-    scale
+    lower
 }
 
-/// L with `L L^T = P^-1` in the plant's own units, rounded to few digits; with singular values of at least about 1, so that
-/// |y| is at most about |x - x_0|.
-fn coordinates_of(p: &DMatrix<f64>, scale: &[f64], digits: u32) -> Option<Vec<Vec<Rational>>> {
-    let n = p.nrows();
-    let own = p.clone().try_inverse()?.cholesky()?.l();
+/// L in the plant's own units, of which the states of `own` are the multiples `scale`, rounded to few digits; with singular
+/// values of at least about 1, so that |y| is at most about |x - x_0|.
+fn coordinates_of(own: &DMatrix<f64>, scale: &[f64], digits: u32) -> Option<Vec<Vec<Rational>>> {
+    let n = own.nrows();
+    let own = lower_triangular(own);
     let own = DMatrix::from_fn(n, n, |i, j| scale[i] * own[(i, j)]);
-    let least = own.clone().singular_values().min();
+    let values = own.clone().singular_values();
+    let least = values.min().max(LEAST_SINGULAR * values.max());
     if !(least.is_finite() && least > 0.0) {
         return None;
     }
@@ -182,15 +218,18 @@ fn doubles(l: &[Vec<Rational>], scale: &[f64]) -> Option<[DMatrix<f64>; 2]> {
     Some([own, inverse])
 }
 
-/// The coordinates of a constant P.
-fn constant(matrices: &[DMatrix<f64>], p: &DMatrix<f64>, scale: &[f64]) -> Option<Coordinates> {
-    let exact = super::shape::rate(matrices, p)?;
+/// The coordinates of a constant P, from those before they are rounded, in the units of the matrices.
+fn constant(matrices: &[DMatrix<f64>], own: &DMatrix<f64>, scale: &[f64]) -> Option<Coordinates> {
+    let rate_in = |own: &DMatrix<f64>, inverse: &DMatrix<f64>| {
+        let rates: Option<Vec<f64>> = matrices.iter().map(|matrix| decay(&(inverse * matrix * own))).collect();
+        rates.map(|rates| rates.into_iter().fold(f64::INFINITY, f64::min))
+    };
+    let exact = rate_in(own, &own.clone().try_inverse()?)?;
     let mut last = None;
     for digits in DIGITS {
-        let Some(l) = coordinates_of(p, scale, digits) else { continue };
-        let Some([own, inverse]) = doubles(&l, scale) else { continue };
-        let rates: Option<Vec<f64>> = matrices.iter().map(|matrix| decay(&(&inverse * matrix * &own))).collect();
-        let rate = rates?.into_iter().fold(f64::INFINITY, f64::min);
+        let Some(l) = coordinates_of(own, scale, digits) else { continue };
+        let Some([rounded, inverse]) = doubles(&l, scale) else { continue };
+        let rate = rate_in(&rounded, &inverse)?;
         if rate > 0.0 {
             last = Some(Coordinates { p: identity(l.len()), l, rate });
         }
@@ -210,13 +249,13 @@ fn identity(order: usize) -> PeriodicMatrix {
 /// Coordinates of P(t), from the periodic Lyapunov equation and semidefinite programs for the Jacobian along the orbit.
 fn periodic(
     field: &mut Field,
-    orbit: &FloatOrbit,
+    curve: &FloatSeries,
     balanced: &dyn Fn(&DMatrix<f64>) -> DMatrix<f64>,
     scale: &[f64],
 ) -> Vec<Coordinates> {
     let n = field.states();
-    let times = 8 * (orbit.series.harmonics.len() + JACOBIAN_HARMONICS);
-    let samples = sample(field, &orbit.series, &[vec![0.0; n]], &[0.0], times);
+    let times = 8 * (curve.harmonics.len() + JACOBIAN_HARMONICS);
+    let samples = sample(field, curve, &[vec![0.0; n]], &[0.0], times);
     let rows: Vec<Vec<f64>> = samples.iter().map(|matrix| balanced(matrix).as_slice().to_vec()).collect();
     let mut series = FloatSeries::from_samples(&rows, JACOBIAN_HARMONICS);
     let size = rows.iter().flatten().fold(0.0_f64, |size, entry| size.max(entry.abs()));
@@ -248,7 +287,8 @@ fn periodic(
 /// A P(t) in coordinates in which its mean is nearly the identity.
 fn in_coordinates(matrix: &PeriodicMatrix, rate: f64, scale: &[f64]) -> Option<Coordinates> {
     let double = |rows: &Vec<Vec<Rational>>| DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j].to_f64());
-    let l = coordinates_of(&double(&matrix.mean), scale, DIGITS[1])?;
+    let root = double(&matrix.mean).try_inverse()?.cholesky()?.l();
+    let l = coordinates_of(&root, scale, DIGITS[1])?;
     let own = doubles(&l, scale)?[0].clone();
     let size = (own.transpose() * double(&matrix.mean) * &own).amax();
     // Nine decimals beside entries of about 1.

@@ -30,6 +30,9 @@ const BETWEEN: usize = 4;
 /// Periods that are simulated before Newton's method is tried again.
 const APPROACHES: [usize; 2] = [10, 100];
 
+/// Sizes of all states from which the search starts where it cannot start at 0, in the units of the field.
+const ELSEWHERE: [f64; 7] = [1.0, 0.1, 10.0, 0.01, 100.0, 1e-4, 1e4];
+
 /// Steps of a simulated period, and of all of them.
 const LEAST_STEPS: usize = 128;
 const MAX_STEPS: usize = 400_000;
@@ -61,17 +64,25 @@ pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
         return Ok(FloatOrbit { series: FloatSeries::zero(0), defect: 0.0, floquet: Vec::new() });
     }
     // Another start may lead to another orbit: the first that is stable is taken, and the first failure told.
-    let zero = vec![0.0; n];
+    let constant = |mean: Vec<f64>| FloatSeries { mean, harmonics: Vec::new() };
+    let zero = field.own(&constant(vec![0.0; n])).mean;
+    let initial = field.own(&constant(plant.initial.x.clone())).mean;
     let mut first = None;
-    let simulated = APPROACHES.into_iter().flat_map(|periods| [(&zero, periods), (&plant.initial.x, periods)]);
-    for (start, periods) in std::iter::once((&zero, 0)).chain(simulated) {
+    let simulated = APPROACHES.into_iter().flat_map(|periods| [(zero.clone(), periods), (initial.clone(), periods)]);
+    let starts = std::iter::once((zero.clone(), 0)).chain(simulated);
+    // Where f is singular at 0, as a level's root is, it starts elsewhere by itself.
+    field.set(0.0, &zero, 0.0);
+    let singular = !field.jacobian().iter().all(|entry| entry.is_finite());
+    let sizes = if singular { &ELSEWHERE[..] } else { &[] };
+    let elsewhere = sizes.iter().flat_map(|size| [(vec![*size; n], APPROACHES[0]), (vec![*size; n], 0)]);
+    for (start, periods) in starts.chain(elsewhere) {
         let curve = match periods {
-            0 => Some(FloatSeries::zero(n)),
-            _ => simulate(&mut field, start, periods),
+            0 => Some(constant(start)),
+            _ => simulate(&mut field, &start, periods),
         };
         let Some(curve) = curve else { continue };
         match from(&mut field, &curve) {
-            Ok(orbit) => return Ok(orbit),
+            Ok(orbit) => return Ok(FloatOrbit { series: field.written(&orbit.series), ..orbit }),
             // An unstable orbit says more than none.
             Err(failure @ OrbitFailure::NotStable { .. }) if !matches!(first, Some(OrbitFailure::NotStable { .. })) => {
                 first = Some(failure);

@@ -40,7 +40,7 @@ const NEGLIGIBLE_REST: f64 = 1e-12;
 /// qb in doubles, rounded: the harmonics that matter, with short coefficients. `None` where q is not finite.
 fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<[Rational; 2]>)> {
     let mut field = Field::new(plant);
-    let curve = doubles(orbit);
+    let curve = field.own(&doubles(orbit));
     let sample = |j: usize| {
         let s = j as f64 / POINTS as f64;
         field.set(s, &curve.at(s).0, 0.0);
@@ -129,7 +129,7 @@ pub fn decide_forcing(
 /// The largest rests at sampled times, in doubles, but no less than what is negligible.
 fn sampled_rests(plant: &Plant, orbit: &TrigonometricVector, forcing: &ProvedForcing) -> [f64; 2] {
     let mut field = Field::new(plant);
-    let curve = doubles(orbit);
+    let curve = field.own(&doubles(orbit));
     let vector = |value: &Rational| vec![value.to_f64()];
     let harmonics = forcing.harmonics.iter().map(|pair| pair.each_ref().map(vector)).collect();
     let qb = FloatSeries { mean: vector(&forcing.mean), harmonics };

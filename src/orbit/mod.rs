@@ -1,12 +1,14 @@
 //! The T-periodic solution x_0(t) of x' = f(t, x, 0): found in floating point, proved; the harmonics of q(t, x_0, 0); and
 //! coordinates in which the zero dynamics contract (derivation, 11.2, 11.4, 11.5).
 //!
+//! - `balance`, `modes`: units and axes that do not depend on how a plant is written;
 //! - `field`, `series`, `collocation`, `floquet`, `find`: the orbit in doubles;
 //! - `round`, `shape`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
 //! - `recurrences`, `taylor`, `cells`, `curve`: Taylor series of formulas along a curve, over enclosures;
 //! - `defect`, `rate`, `prove`: the orbit, proved;
 //! - `forcing`: the harmonics of q, proposed and proved.
 
+mod balance;
 mod cells;
 mod collocation;
 mod coordinates;
@@ -18,6 +20,7 @@ mod find;
 mod floquet;
 mod forcing;
 mod linear;
+mod modes;
 mod prove;
 mod rate;
 mod recurrences;
@@ -29,6 +32,7 @@ mod taylor;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use coordinates::lower_triangular;
 pub use coordinates::{Coordinates, propose_coordinates};
 pub use curve::MAX_HARMONICS;
 pub use failure::{OrbitFailure, OrbitNotProved};

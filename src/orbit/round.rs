@@ -44,7 +44,7 @@ pub(super) fn shorten(vector: &mut TrigonometricVector) {
 #[must_use]
 pub fn round_orbit(plant: &Plant, orbit: &FloatOrbit) -> Option<TrigonometricVector> {
     let mut field = Field::new(plant);
-    let (n, series) = (field.states(), &orbit.series);
+    let (n, series) = (field.states(), &field.own(&orbit.series));
     let count = 4 * series.harmonics.len() + 16;
     let (mut sizes, mut slopes) = (vec![0.0_f64; n], vec![vec![0.0_f64; n]; n]);
     for j in 0..count {
@@ -72,12 +72,13 @@ pub fn round_orbit(plant: &Plant, orbit: &FloatOrbit) -> Option<TrigonometricVec
         };
         (0..n).map(allowed).fold(f64::INFINITY, f64::min)
     };
+    let written = field.units().to_vec();
     let round = |state: usize, k: usize, value: f64| {
         let unit = unit(state, k);
         match value == 0.0 || largest == 0.0 || !unit.is_finite() {
             true => Some(Rational::new()),
             // A state that is 0 up to rounding has no size of its own.
-            false => to_grain(value, unit.max(f64::MIN_POSITIVE)),
+            false => to_grain(value * written[state], (unit * written[state]).max(f64::MIN_POSITIVE)),
         }
     };
     let vector = |k: usize, values: &[f64]| -> Option<Vec<Rational>> {

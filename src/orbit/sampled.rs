@@ -45,9 +45,10 @@ impl Sampled {
     pub(super) fn new(plant: &Plant, orbit: &TrigonometricVector, coordinates: &Coordinates) -> Option<Sampled> {
         let mut field = Field::new(plant);
         let n = field.states();
-        let l = DMatrix::from_fn(n, n, |i, j| coordinates.l[i][j].to_f64());
+        let units = field.units().to_vec();
+        let l = DMatrix::from_fn(n, n, |i, j| coordinates.l[i][j].to_f64() / units[i]);
         let inverse = l.clone().try_inverse()?;
-        let (series, p) = (doubles(orbit), entries(&coordinates.p));
+        let (series, p) = (field.own(&doubles(orbit)), entries(&coordinates.p));
         let count = LEAST + PER_HARMONIC * (series.harmonics.len() + p.harmonics.len());
         let mut sampled = Sampled { defect: 0.0, size: 0.0, rate: f64::INFINITY, eigenvalues: [f64::INFINITY, 0.0] };
         for j in 0..count {

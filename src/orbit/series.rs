@@ -42,6 +42,13 @@ impl FloatSeries {
         FloatSeries { mean: vec![0.0; dimension], harmonics: Vec::new() }
     }
 
+    /// The series with each component times a factor.
+    pub(super) fn scaled(&self, factor: impl Fn(usize) -> f64) -> FloatSeries {
+        let scale = |values: &Vec<f64>| values.iter().enumerate().map(|(i, value)| value * factor(i)).collect();
+        let harmonics = self.harmonics.iter().map(|pair| pair.each_ref().map(scale)).collect();
+        FloatSeries { mean: scale(&self.mean), harmonics }
+    }
+
     /// The number of components.
     #[must_use]
     pub fn dimension(&self) -> usize {

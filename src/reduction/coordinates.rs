@@ -139,8 +139,12 @@ impl CoordinateSearch<'_> {
         if l.nrows() > MOST_STATES || l.nrows() < 2 {
             return self.with(alone(l), Some(&start));
         }
-        let l = self.improved(l, &start);
-        let single = self.with(alone(&l), Some(&start))?;
+        let improved = self.improved(l, &start);
+        let single = match self.with(alone(&improved), Some(&start)) {
+            Ok(single) => single,
+            // The descent compares at few samples.
+            Err(_) => self.with(alone(l), Some(&start))?,
+        };
         let worth = |sigma: f64| sigma < single.proposal.sigma * (1.0 - WORTH);
         let second = self.second(&single).filter(|(_, sigma)| worth(*sigma));
         let pair = second.and_then(|(second, _)| self.together(&single, second));

@@ -45,7 +45,7 @@ pub struct Grid {
 const SMALLEST: f64 = 1e-4;
 
 /// The largest node is so many units.
-const LARGEST: f64 = 1e4;
+const LARGEST: f64 = 1e6;
 
 impl Grid {
     /// A grid about the size `units` of (X, E).

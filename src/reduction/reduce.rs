@@ -29,6 +29,13 @@ pub(super) const PRECISION: u32 = 64;
 /// larger than the sampled ones, then close to the arguments that are used.
 pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
+/// In between, while the proved values lead to no gain.
+const FURTHER: [f64; 2] = [0.1, 0.4];
+
+/// How far above the gain of a proposal the arguments are taken: close to the least gain at which there is a set, a little room
+/// in its inequalities takes more than the same share of the gain, and the first that has a set is used.
+const ABOVE: [f64; 7] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
+
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
 
@@ -99,12 +106,20 @@ fn with_coordinates<T>(
     let model = FloatModel::new(&data, trade_off);
     let sampling = Sampling::new(plant, &curve, &model);
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
-    let (base, chosen) = match constant.is_empty() {
-        false => best_constant(plant, &curve, &constant, &model, &sampling)?,
-        true => {
-            let (coordinates, chosen) = best_periodic(plant, &curve, &candidates, &model, &sampling)?;
+    let by_constant = match constant.is_empty() {
+        false => best_constant(plant, &curve, &constant, &model, &sampling),
+        true => Err(PlantRefusal::NoContraction),
+    };
+    let moving: Vec<Coordinates> =
+        candidates.iter().filter(|candidate| !candidate.p.harmonics.is_empty()).cloned().collect();
+    let (base, chosen) = match by_constant {
+        Ok(found) => found,
+        // Where no constant P leads to a gain, one that moves may.
+        Err(_) if !moving.is_empty() => {
+            let (coordinates, chosen) = best_periodic(plant, &curve, &moving, &model, &sampling)?;
             (along(plant, &curve, &coordinates)?, chosen)
         }
+        Err(refusal) => return Err(refusal),
     };
     prove(plant, &base, &sampling, &chosen)
 }
@@ -125,7 +140,8 @@ fn best_constant(
     };
     let search = search(model, plant, sampling, &sampler, 1.0);
     let chosen = search.choose(&matrices).map_err(PlantRefusal::NoGain)?;
-    let l = rational_matrix(&chosen.l).ok_or(PlantRefusal::NoContraction)?;
+    let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], Density::Rough)(0.0, 0.0);
+    let l = rational_matrix(&chosen.l, at_origin).ok_or(PlantRefusal::NoContraction)?;
     let coordinates = Coordinates { l, p: first.p.clone(), rate: f64::NAN };
     let mut base = along(plant, curve, &coordinates)?;
     // The rounded L, which is L times a rotation, is the one that counts.
@@ -313,7 +329,12 @@ fn prove_bounds(
     let suprema = along.suprema(sampling);
     let mut best: Option<Reduced> = None;
     let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
-    for enlarged in ENLARGED {
+    let [first, last] = ENLARGED;
+    for enlarged in [first].into_iter().chain(FURTHER).chain([last]) {
+        // Further out only while nothing is found, closer only once something is.
+        if (enlarged > first && best.is_some()) || (enlarged == last && best.is_none()) {
+            continue;
+        }
         let at = arguments(&model, &proposal, enlarged, along.second().is_some())?;
         let [x, e] = at.largest();
         engine.smooth(&x, &e)?;
@@ -331,7 +352,7 @@ fn prove_bounds(
         };
         let with_values = FloatModel::new(&data, trade_off);
         let Some(found) = search_sharp_near(&with_values, &proposal) else {
-            break;
+            continue;
         };
         let improved = best.as_ref().is_none_or(|known| found.sigma < known.proposal.sigma * (1.0 - WORTH));
         if !improved {
@@ -350,9 +371,16 @@ fn arguments(
     enlarged: f64,
     second: bool,
 ) -> Result<Needed, PlantRefusal> {
-    let (set, at) =
-        at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + 1e-9), 1e-9).map_err(PlantRefusal::NoGain)?;
-    needed(&set, &at, enlarged, second).ok_or(PlantRefusal::NoGain(Obstacle::Magnitude))
+    let mut obstacle = Obstacle::Existence;
+    for above in ABOVE {
+        match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above), ABOVE[0]) {
+            Ok((set, at)) => {
+                return needed(&set, &at, enlarged, second).ok_or(PlantRefusal::NoGain(Obstacle::Magnitude));
+            }
+            Err(found) => obstacle = found,
+        }
+    }
+    Err(PlantRefusal::NoGain(obstacle))
 }
 
 /// Proves again what a certificate says of a plant, without any search.

@@ -5,6 +5,7 @@ use super::entries::kind;
 use super::grid::{KINDS, RATE, Source, Values};
 use crate::bounds::{FloatOrbit, FloatSuprema};
 use crate::number::{Direction, round_f64};
+use crate::orbit::lower_triangular;
 use crate::plant::Plant;
 use crate::search::FloatModel;
 use crate::spec::{Bound, PeriodicMatrix, TrigonometricVector};
@@ -12,8 +13,12 @@ use nalgebra::DMatrix;
 use rug::Rational;
 use std::sync::Arc;
 
-/// Significant digits of L.
+/// Significant digits of a P of existence.
 const DIGITS: u32 = 4;
+
+/// Those of L, in turn, until no more than this share of the rate and of the norms on the orbit is lost.
+const DIGITS_OF_L: [u32; 4] = [4, 6, 9, 14];
+const LOST: f64 = 1e-3;
 
 /// The suprema along one orbit, for any coordinates.
 pub(super) struct Sampling<'a> {
@@ -101,16 +106,35 @@ pub(super) fn float_matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {
     DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j].to_f64())
 }
 
-/// L with short entries, lower triangular: what is right of it, a rotation, changes no norm of y.
-pub(super) fn rational_matrix(l: &DMatrix<f64>) -> Option<Vec<Vec<Rational>>> {
+/// L with short entries, lower triangular: what is right of it, a rotation, changes no norm of y. `at_origin` are the bounds on
+/// the orbit in given coordinates.
+pub(super) fn rational_matrix(
+    l: &DMatrix<f64>,
+    at_origin: impl Fn(&DMatrix<f64>) -> Values,
+) -> Option<Vec<Vec<Rational>>> {
     let n = l.nrows();
-    let triangular = match n {
-        0 => l.clone(),
-        _ => (l * l.transpose()).cholesky()?.l(),
-    };
-    let entry = |i: usize, j: usize| match j > i {
-        true => Some(Rational::new()),
-        false => round_f64(triangular[(i, j)], DIGITS, Direction::Nearest),
-    };
-    (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    if n == 0 {
+        return Some(Vec::new());
+    }
+    let triangular = lower_triangular(l);
+    let wanted = at_origin(&triangular);
+    let mut last = None;
+    for digits in DIGITS_OF_L {
+        let entry = |i: usize, j: usize| match j > i {
+            true => Some(Rational::new()),
+            false => round_f64(triangular[(i, j)], digits, Direction::Nearest),
+        };
+        let rows: Vec<Vec<Rational>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect::<Option<_>>()?;
+        let found = at_origin(&float_matrix(&rows));
+        last = Some(rows);
+        let kept = |(index, bound): (usize, &Bound)| match bound {
+            Bound::Rate => found[index] >= wanted[index] * (1.0 - LOST),
+            Bound::Fe | Bound::Qx => found[index] <= wanted[index] * (1.0 + LOST),
+            _ => true,
+        };
+        if KINDS.iter().enumerate().all(kept) {
+            break;
+        }
+    }
+    last
 }

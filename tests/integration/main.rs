@@ -39,6 +39,7 @@ mod no_plant;
 mod notations;
 mod plain;
 mod plants;
+mod plants_linear;
 mod plants_random;
 mod positive_part;
 mod rate;
