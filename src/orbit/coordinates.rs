@@ -11,7 +11,7 @@ use super::field::Field;
 use super::find::FloatOrbit;
 use super::modes::modes;
 use super::series::{FloatSeries, Turn};
-use super::shape::{Channel, decay, most_matrices, shapes};
+use super::shape::{Channel, decay, largest_rate, most_matrices, narrow_shapes, round_shapes};
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
 use crate::expr::TrigonometricPolynomial;
 use crate::lyapunov::{Deviation, Family, candidates_of};
@@ -109,9 +109,19 @@ pub fn propose_coordinates(
     let limit = orbit.floquet.first().map_or(f64::NAN, |first| -first[0]);
     let units: Vec<f64> = scale.iter().zip(field.units()).map(|(scale, unit)| scale * unit).collect();
     let mut found: Vec<Coordinates> = Vec::new();
-    for p in shapes(&own, &channel, limit) {
+    let largest = largest_rate(&own, limit);
+    // A linear plant is sought in its modes alone, which units do not touch. Where the matrix moves, the roundest P in units of
+    // one size comes first, and the modes stand by.
+    let round = if own.len() == 1 { Vec::new() } else { round_shapes(&matrices, largest) };
+    let in_modes = match round.is_empty() {
+        true => narrow_shapes(&own, &channel, largest).into_iter().chain(round_shapes(&own, largest)).collect(),
+        false => Vec::new(),
+    };
+    let identity = DMatrix::identity(n, n);
+    let shapes = round.into_iter().map(|p| (p, &identity)).chain(in_modes.into_iter().map(|p| (p, &basis)));
+    for (p, axes) in shapes {
         let root = p.try_inverse().and_then(|inverse| inverse.cholesky());
-        if let Some(candidate) = root.and_then(|root| constant(&matrices, &(&basis * root.l()), &units))
+        if let Some(candidate) = root.and_then(|root| constant(&matrices, &(axes * root.l()), &units))
             && !found.iter().any(|other| other.l == candidate.l)
         {
             found.push(candidate);

@@ -178,18 +178,15 @@ pub(super) fn decay(matrix: &DMatrix<f64>) -> Option<f64> {
     values.iter().copied().min_by(f64::total_cmp)
 }
 
-/// Constant P from the largest rate for all matrices down to rounder ones, and narrow ones; none where no constant P has a rate
-/// above 0, or where none was found. `limit` bounds every rate. The identity comes first where it has a rate: in the axes of the
-/// modes of a linear plant it has the largest.
-pub(super) fn shapes(matrices: &[DMatrix<f64>], channel: &Channel, limit: f64) -> Vec<DMatrix<f64>> {
-    let Some(first) = matrices.first() else { return Vec::new() };
-    if first.nrows() <= 1 {
-        return vec![DMatrix::identity(first.nrows(), first.nrows())];
+/// The largest rate that a constant P was found to have for all matrices; 0 where none has one. `limit` bounds every rate.
+pub(super) fn largest_rate(matrices: &[DMatrix<f64>], limit: f64) -> f64 {
+    let Some(n) = matrices.first().map(DMatrix::nrows) else { return 0.0 };
+    let own = rate(matrices, &DMatrix::identity(n, n)).unwrap_or(0.0).max(0.0);
+    if n <= 1 {
+        return own;
     }
-    let size = matrices.iter().map(DMatrix::norm).fold(f64::MIN_POSITIVE, f64::max);
-    let identity = DMatrix::identity(first.nrows(), first.nrows());
-    let own = rate(matrices, &identity).filter(|rate| *rate > 0.0);
-    let (mut low, mut high) = (own.unwrap_or(0.0).min(limit), limit);
+    let size = size(matrices);
+    let (mut low, mut high) = (own.min(limit), limit);
     for _ in 0..BISECTIONS {
         if low >= ENOUGH * high {
             break;
@@ -200,12 +197,35 @@ pub(super) fn shapes(matrices: &[DMatrix<f64>], channel: &Channel, limit: f64) -
             None => high = middle,
         }
     }
-    if low == 0.0 {
+    low
+}
+
+/// The size of the matrices, as a unit.
+fn size(matrices: &[DMatrix<f64>]) -> f64 {
+    matrices.iter().map(DMatrix::norm).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// Constant P from the largest rate for all matrices down to rounder ones; none where there is no rate above 0, or where none
+/// was found.
+pub(super) fn round_shapes(matrices: &[DMatrix<f64>], largest: f64) -> Vec<DMatrix<f64>> {
+    let Some(n) = matrices.first().map(DMatrix::nrows) else { return Vec::new() };
+    if n <= 1 {
+        return vec![DMatrix::identity(n, n)];
+    }
+    if largest == 0.0 {
         return Vec::new();
     }
-    let narrow = NARROW.iter().filter_map(|share| narrowest(matrices, channel, size, share * low));
-    let round = SHARES.iter().filter_map(|share| roundest(matrices, size, share * low));
-    own.map(|_| identity).into_iter().chain(narrow).chain(round).collect()
+    SHARES.iter().filter_map(|share| roundest(matrices, size(matrices), share * largest)).collect()
+}
+
+/// Narrow ones. The identity comes first where it has a rate: in the axes of the modes of a linear plant it has the largest.
+pub(super) fn narrow_shapes(matrices: &[DMatrix<f64>], channel: &Channel, largest: f64) -> Vec<DMatrix<f64>> {
+    let Some(n) = matrices.first().map(DMatrix::nrows) else { return Vec::new() };
+    let identity = DMatrix::identity(n, n);
+    let own = rate(matrices, &identity).filter(|rate| *rate > 0.0).map(|_| identity);
+    let shares = NARROW.iter().filter(|_| n > 1 && largest > 0.0);
+    let narrow = shares.filter_map(|share| narrowest(matrices, channel, size(matrices), share * largest));
+    own.into_iter().chain(narrow).collect()
 }
 
 #[cfg(test)]
@@ -217,9 +237,7 @@ mod tests {
     fn rate_and_roundness_are_traded() {
         let matrices = [DMatrix::from_row_slice(2, 2, &[-1.0, 10.0, 0.0, -2.0])];
         assert!(rate(&matrices, &DMatrix::identity(2, 2)).unwrap() < 0.0);
-        let vector = || DVector::from_vec(vec![0.0, 0.0]);
-        let nowhere = Channel { inputs: vec![vector()], outputs: vec![vector()] };
-        let found = shapes(&matrices, &nowhere, 1.0);
+        let found = round_shapes(&matrices, largest_rate(&matrices, 1.0));
         let rates: Vec<f64> = found.iter().map(|p| rate(&matrices, p).unwrap()).collect();
         assert!(rates[0] > 0.99 && rates.windows(2).all(|pair| pair[0] > pair[1]), "{rates:?}");
         let ratios: Vec<f64> = found
