@@ -11,6 +11,7 @@ pub mod formula;
 pub mod harmonics;
 pub mod machine;
 pub mod model;
+mod narrowing;
 pub mod orbit;
 pub mod path;
 pub mod periodic;

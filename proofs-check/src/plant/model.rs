@@ -35,7 +35,7 @@ impl Model {
         let states: Vec<Id> = (0..order).map(|j| formulas.leaf(Leaf::State(j))).collect();
         let mut variables = vec![formulas.leaf(Leaf::Time), formulas.leaf(Leaf::Output)];
         for (i, row) in plant.coordinates.matrix.iter().enumerate() {
-            let orbit = formulas.leaf(Leaf::Orbit { state: i, order: 0 });
+            let orbit = orbit(&mut formulas, plant, i, 0);
             let moved = linear(&mut formulas, row, &states);
             variables.push(formulas.add(orbit, moved));
         }
@@ -43,7 +43,7 @@ impl Model {
         let q = formulas.read(&plant.q.expr, &variables, &mut demands);
         let apart: Vec<Id> = (0..order)
             .map(|i| {
-                let velocity = formulas.leaf(Leaf::Orbit { state: i, order: 1 });
+                let velocity = orbit(&mut formulas, plant, i, 1);
                 formulas.sub(f[i], velocity)
             })
             .collect();
@@ -60,6 +60,15 @@ impl Model {
     /// The number of states.
     pub fn states(&self) -> usize {
         self.f.len()
+    }
+}
+
+/// A derivative of a component of xb: a number where it does not move.
+fn orbit(formulas: &mut Formulas, plant: &Plant, state: usize, order: usize) -> Id {
+    match plant.orbit.waves.get(state).filter(|wave| wave.is_constant()) {
+        Some(wave) if order == 0 => formulas.number(&wave.mean),
+        Some(_) => formulas.int(0),
+        None => formulas.leaf(Leaf::Orbit { state, order }),
     }
 }
 

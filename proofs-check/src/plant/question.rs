@@ -2,15 +2,17 @@
 //! docs/mathematics.md is such a question.
 //!
 //! On a box with the middle c, `Q(z) = Q(c) + sum_k (z_k - c_k) D_k`, where D_k lies in the enclosure of the k-th derivative on the
-//! box (mean value theorem, entry by entry). With an invertible S of the middle, `S'QS` is enclosed entry by entry, and is positive
+//! box (mean value theorem, entry by entry). The box may reach out of the ball, so that its middle and the segments to it lie
+//! where nothing is known of the formulas: it is used only where every operation is seen to be smooth on the whole box. With an invertible S of the middle, `S'QS` is enclosed entry by entry, and is positive
 //! definite if its pivots are. S makes the entries beside the diagonal vanish at the middle, so they count with their squares,
 //! and the entry that decides is bounded from below to second order. Its part in v is bounded over the ball as well, where a
 //! linear function has a bound that no box around the ball gives.
 //!
 //! The boxes are halved where that fails, along the axis that contributes most; the choice of the axis and of S decides nothing.
 
-use super::formula::{Axis, Formulas, Id};
+use super::formula::{Axis, Demand, Formulas, Id};
 use super::machine::{At, Cell, Machine, Program, Values};
+use super::narrowing::Narrowing;
 use super::region::{Piece, Region, axis};
 use super::time::{around, point};
 use crate::effort;
@@ -31,6 +33,8 @@ pub struct Question {
     rows: Vec<Vec<Id>>,
     /// Along t (`None`) and the sides on which an entry depends.
     slopes: Vec<(Option<usize>, Vec<Vec<Id>>)>,
+    /// What makes the entries continuously differentiable.
+    corners: Vec<(Id, Demand)>,
     depends: u16,
 }
 
@@ -56,19 +60,23 @@ impl Question {
             let rows = rows.iter().map(|row| row.iter().map(|id| formulas.derivative(*id, axis)).collect()).collect();
             (side, rows)
         };
-        Question { slopes: used.into_iter().map(slope).collect(), rows, depends }
+        let slopes = used.into_iter().map(slope).collect();
+        let entries: Vec<Id> = rows.iter().flatten().copied().collect();
+        Question { slopes, corners: formulas.corners(&entries), rows, depends }
     }
 
     /// Decides it on a region.
     pub fn decide(&self, machine: &Machine<'_>, root: &Rc<Cell>, region: &Region, values: &mut Values) -> Answer {
         let entries: Vec<Id> = self.rows.iter().flatten().copied().collect();
-        let all: Vec<Id> =
-            entries.iter().chain(self.slopes.iter().flat_map(|(_, rows)| rows.iter().flatten())).copied().collect();
+        let slopes = self.slopes.iter().flat_map(|(_, rows)| rows.iter().flatten());
+        let corners = self.corners.iter().map(|(id, _)| id);
+        let all: Vec<Id> = entries.iter().chain(slopes).chain(corners).copied().collect();
         let mut decision = Decision {
             question: self,
             machine,
             region,
             programs: [machine.program(&entries), machine.program(&all)],
+            narrowings: self.corners.iter().map(|(id, _)| Narrowing::new(machine, *id)).collect(),
             values,
         };
         let mut queue = region.pieces(machine, root, self.depends);
@@ -80,7 +88,7 @@ impl Question {
             if count > MAX_PIECES || effort::exhausted() {
                 return Answer::Open(place(&piece));
             }
-            match decision.judge(&piece, count > PROBED_AFTER) {
+            match decision.judge(&piece, &whole, count > PROBED_AFTER) {
                 Judgement::Proved => {}
                 Judgement::Refuted => return Answer::Refuted(place(&piece)),
                 Judgement::Halve(side) => match side.or_else(|| piece.widest(&whole, self.depends)) {
@@ -115,6 +123,8 @@ struct Decision<'a, 'f> {
     region: &'a Region,
     /// For the entries alone, and with the derivatives.
     programs: [Program; 2],
+    /// One for each corner.
+    narrowings: Vec<Narrowing>,
     values: &'a mut Values,
 }
 
@@ -123,7 +133,7 @@ impl Decision<'_, '_> {
         rows.iter().map(|row| row.iter().map(|id| self.machine.get(*id, at, cell, self.values)).collect()).collect()
     }
 
-    fn judge(&mut self, piece: &Piece, probed: bool) -> Judgement {
+    fn judge(&mut self, piece: &Piece, whole: &Piece, probed: bool) -> Judgement {
         let states = self.region.states;
         if self.region.misses(piece) {
             return Judgement::Proved;
@@ -135,6 +145,8 @@ impl Decision<'_, '_> {
         if semidefinite(on_box.clone()) == Some(true) {
             return Judgement::Proved;
         }
+        let value = |id: Id| self.machine.get(id, At::Box, &piece.cell, self.values);
+        let corner = self.question.corners.iter().position(|(id, what)| !what.holds(&value(*id)));
         let slopes: Vec<(Option<usize>, Matrix)> =
             self.question.slopes.iter().map(|(side, rows)| (*side, self.read(rows, At::Box, &piece.cell))).collect();
         let middles: Vec<Float> = (0..=states).map(|i| piece.middle(i)).collect();
@@ -145,7 +157,12 @@ impl Decision<'_, '_> {
         if semidefinite(middle.clone()) == Some(false) && self.region.has_middle(piece) {
             return Judgement::Refuted;
         }
-        let judgement = self.by_mean_value(piece, &middle, &slopes);
+        let defined = on_box.iter().chain(slopes.iter().flat_map(|(_, rows)| rows)).flatten().all(Interval::is_defined);
+        let judgement = match corner {
+            Some(corner) => Judgement::Halve(self.narrowings[corner].axis(self.machine, piece, whole, self.values)),
+            None if defined => self.by_mean_value(piece, &middle, &slopes),
+            None => Judgement::Halve(None),
+        };
         let open = matches!(judgement, Judgement::Halve(_));
         if open && probed && self.fails_at_end(piece, &middle, &slopes) { Judgement::Refuted } else { judgement }
     }
@@ -323,7 +340,8 @@ impl Basis {
         Some(Basis(sorted.iter().map(|pivot| columns[*pivot].iter().map(entry).collect()).collect()))
     }
 
-    /// The entry (i, j) of S'AS for a symmetric A, of which the lower triangle is read.
+    /// The entry (i, j) of S'AS for a symmetric A, of which the lower triangle is read. Entries of A that are multiplied with 0 are
+    /// left out, so all of them have to be defined.
     fn form(&self, matrix: &Matrix, i: usize, j: usize) -> Interval {
         let entry = |k: usize, l: usize| if k >= l { &matrix[k][l] } else { &matrix[l][k] };
         let total = |parts: &mut dyn Iterator<Item = Interval>| {
