@@ -13,8 +13,9 @@ use crate::number::{Direction, round_rational, write_exact};
 use crate::spec::model::{InitialSet, LyapunovSource};
 use crate::spec::{Bound, OfPlant, Specification};
 use crate::transfer::{TransferProof, closed_form_pair};
-use rug::Rational;
+use rug::{Integer, Rational};
 use serde_json::{Map, Value};
+use std::sync::LazyLock;
 
 /// The format of a certificate file.
 pub const FORMAT: &str = "sigmastar/certificate";
@@ -44,10 +45,16 @@ fn interval(value: &Enclosure) -> Value {
 /// An upper end, rounded up; the text "inf" when there is none.
 pub(super) fn upper_end(value: &Enclosure) -> Value {
     match value.upper_rational() {
+        // A bound of what is smaller still, which no reader of exact numerals need take: `f_e` of exp(-1e12) gives one.
+        Some(upper) if upper > 0 && upper < *LEAST_WRITTEN => exact(&LEAST_WRITTEN),
         Some(upper) => exact(&round_rational(&upper, CLAIM_DIGITS, Direction::Up)),
         None => text("inf"),
     }
 }
+
+/// The least positive upper bound that a claim writes.
+static LEAST_WRITTEN: LazyLock<Rational> =
+    LazyLock::new(|| Rational::from((Integer::from(1), Integer::from(Integer::u_pow_u(10, 1000)))));
 
 /// The certificate of a certified run; `None` when nothing was certified.
 ///

@@ -18,11 +18,11 @@ use super::time::{around, point};
 use crate::effort;
 use crate::interval::Interval;
 use crate::matrix::semidefinite;
-use rug::{Float, Rational};
+use rug::Float;
 use std::rc::Rc;
 
-/// The most boxes that one question may take.
-const MAX_PIECES: usize = 40_000;
+/// The most boxes that one question may take, where the steps of interval arithmetic are not bounded.
+pub const MAX_PIECES: usize = 1_000_000;
 
 /// After so many boxes, places where the matrix may not be semidefinite are tried as well.
 const PROBED_AFTER: usize = 24;
@@ -65,8 +65,20 @@ impl Question {
         Question { slopes, corners: formulas.corners(&entries), rows, depends }
     }
 
-    /// Decides it on a region.
-    pub fn decide(&self, machine: &Machine<'_>, root: &Rc<Cell>, region: &Region, values: &mut Values) -> Answer {
+    /// Whether it changes with t.
+    pub fn moves(&self) -> bool {
+        self.depends & Axis::Time.bit() != 0
+    }
+
+    /// Decides it on a region, by so many boxes at most.
+    pub fn decide(
+        &self,
+        machine: &Machine<'_>,
+        root: &Rc<Cell>,
+        region: &Region,
+        most: usize,
+        values: &mut Values,
+    ) -> Answer {
         let entries: Vec<Id> = self.rows.iter().flatten().copied().collect();
         let slopes = self.slopes.iter().flat_map(|(_, rows)| rows.iter().flatten());
         let corners = self.corners.iter().map(|(id, _)| id);
@@ -85,7 +97,7 @@ impl Question {
         let mut count = 0;
         while let Some(piece) = queue.pop() {
             count += 1;
-            if count > MAX_PIECES || effort::exhausted() {
+            if count > most || effort::exhausted() {
                 return Answer::Open(place(&piece));
             }
             match decision.judge(&piece, &whole, count > PROBED_AFTER) {
@@ -182,13 +194,7 @@ impl Decision<'_, '_> {
                 place[side].clone_from(&piece.sides[side][end]);
             }
         }
-        let zero = Interval::int(0, self.machine.precision);
-        let distance = place[..states].iter().fold(zero, |sum, v| sum + point(v).sqr()).sqrt();
-        if distance.lt(&self.region.radius) != Some(true) && distance.is_positive() {
-            let inward = Interval::rational(&Rational::from((999_999, 1_000_000)), self.machine.precision);
-            let factor = middle_of(&(&self.region.radius * inward / distance));
-            place[..states].iter_mut().for_each(|v| *v *= &factor);
-        }
+        self.region.inward(&mut place[..states]);
         let points: Vec<Interval> = place.iter().map(point).collect();
         let (v, e) = points.split_at(states);
         self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, &e[0], self.values);
@@ -200,7 +206,7 @@ impl Decision<'_, '_> {
         let Some(basis) = Basis::new(middle) else { return Judgement::Halve(None) };
         let order = middle.len();
         let widths: Vec<Interval> = slopes.iter().map(|(side, _)| piece.half_width(*side)).collect();
-        let inside = self.region.contains(piece);
+        let radius = self.region.reaches_out(piece);
         let mut enclosed: Matrix = Vec::with_capacity(order);
         // How much each axis contributes; a hint.
         let mut scores = vec![0.0; slopes.len()];
@@ -220,7 +226,7 @@ impl Decision<'_, '_> {
                 row.push(value + around(&size));
             }
             let own = rates(i);
-            row.push(basis.form(middle, i, i) - self.fall(piece, slopes, &own, &moves(&own), inside));
+            row.push(basis.form(middle, i, i) - self.fall(piece, slopes, &own, &moves(&own), radius));
             for ((score, rate), width) in scores.iter_mut().zip(&own).zip(&widths) {
                 *score += Float::with_val(53, rate.hi() - rate.lo()).to_f64() * width.hi().to_f64();
             }
@@ -234,14 +240,15 @@ impl Decision<'_, '_> {
         Judgement::Halve(best.max_by(|a, b| a.0.total_cmp(b.0)).map(|(_, (side, _))| *side).filter(|_| known))
     }
 
-    /// How far an entry of the diagonal may lie on the box below its value at the middle.
+    /// How far an entry of the diagonal may lie on the box below its value at the middle; `radius`: of the ball that the box
+    /// reaches out of.
     fn fall(
         &self,
         piece: &Piece,
         slopes: &[(Option<usize>, Matrix)],
         rates: &[Interval],
         parts: &[Interval],
-        inside: bool,
+        radius: Option<&Interval>,
     ) -> Interval {
         let zero = || Interval::int(0, self.machine.precision);
         let is_state = |side: &Option<usize>| side.is_some_and(|side| side < self.region.states);
@@ -250,9 +257,7 @@ impl Decision<'_, '_> {
             all.fold(zero(), |sum, (_, part)| sum + part)
         };
         let (others, by_box) = (of(false), of(true));
-        if inside {
-            return others + by_box;
-        }
+        let Some(radius) = radius else { return others + by_box };
         // g v >= -|g| radius in the ball, for a number g in the enclosure; the rest of it moves over the box.
         let (mut square, mut at_middle, mut rest) = (zero(), zero(), zero());
         for ((side, _), rate) in slopes.iter().zip(rates) {
@@ -262,7 +267,7 @@ impl Decision<'_, '_> {
             at_middle = at_middle + &number * point(&piece.middle(side));
             rest = rest + (rate - number).abs() * piece.half_width(Some(side));
         }
-        let by_ball = square.sqrt() * &self.region.radius + at_middle + rest;
+        let by_ball = square.sqrt() * radius + at_middle + rest;
         if by_ball.is_defined() { others + by_box.ceiling().min(&by_ball.ceiling()) } else { others + by_box }
     }
 }
