@@ -24,6 +24,10 @@ use std::rc::Rc;
 /// The most boxes that one question may take, where the steps of interval arithmetic are not bounded.
 pub const MAX_PIECES: usize = 1_000_000;
 
+/// A side that is narrower in comparison with that of the first boxes is not halved: what is not decided there is not decided by
+/// boxes, as a value that only a smaller bound of the drift would show.
+const LEAST_SHARE: f64 = 1e-12;
+
 /// After so many boxes, places where the matrix may not be semidefinite are tried as well.
 const PROBED_AFTER: usize = 24;
 
@@ -104,8 +108,8 @@ impl Question {
                 Judgement::Proved => {}
                 Judgement::Refuted => return Answer::Refuted(place(&piece)),
                 Judgement::Halve(side) => match side.or_else(|| piece.widest(&whole, self.depends)) {
-                    Some(side) => queue.extend(piece.halves(side)),
-                    None => return Answer::Open(place(&piece)),
+                    Some(side) if piece.share(side, &whole) > LEAST_SHARE => queue.extend(piece.halves(side)),
+                    _ => return Answer::Open(place(&piece)),
                 },
             }
         }

@@ -147,15 +147,18 @@ impl Piece {
         })
     }
 
+    /// The width along t (`None`) or a side in comparison with that of another box, 0 where that has none. A hint.
+    pub fn share(&self, side: Option<usize>, whole: &Piece) -> f64 {
+        let width = |piece: &Piece| piece.half_width(side).hi().to_f64();
+        let (now, first) = (width(self), width(whole));
+        if first > 0.0 { now / first } else { 0.0 }
+    }
+
     /// Along which of these axes a box is widest, in comparison with the widths at the beginning: t (`None`) or a side. A hint,
     /// of which nothing is believed.
     pub fn widest(&self, whole: &Piece, depends: u16) -> Option<Option<usize>> {
         let states = self.sides.len() - 1;
-        let share = |side: Option<usize>| {
-            let width = |piece: &Piece| piece.half_width(side).hi().to_f64();
-            let (now, first) = (width(self), width(whole));
-            if first > 0.0 { now / first } else { 0.0 }
-        };
+        let share = |side: Option<usize>| self.share(side, whole);
         let time = (depends & Axis::Time.bit() != 0).then_some(None);
         let sides = (0..=states).filter(|side| depends & axis(*side, states).bit() != 0).map(Some);
         let all = time.into_iter().chain(sides).map(|side| (share(side), side)).filter(|(share, _)| *share > 0.0);
