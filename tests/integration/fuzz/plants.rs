@@ -70,7 +70,7 @@ fn edge(random: &mut StdRng, slope: f64, reach: f64, c: f64) -> String {
 
 /// A steep place at the rim of the ball.
 fn bump(random: &mut StdRng, slope: f64, reach: f64) -> String {
-    let (at, steep) = (reach * random.random_range(0.97..1.0), 10_f64.powf(random.random_range(1.0..3.0)) / reach);
+    let (at, steep) = (reach * random.random_range(0.993..1.0), 10_f64.powf(random.random_range(1.0..3.0)) / reach);
     format!("{}*tanh({}*(W - {}))", number(slope / steep), number(steep), number(at))
 }
 
@@ -139,7 +139,9 @@ impl Drawn {
         let w = format!("({})", w.join(" + "));
         let mut feature = |error: bool| {
             let slope = 10_f64.powf(random.random_range(-0.5..2.0));
-            let c = reach * (1.0 + 0.5 * random.random_range(0.05_f64..1.0).powi(2));
+            // Boxes whose middle lies beyond the edge are those at the rim, unless the edge is far.
+            let beyond = if random.random_bool(0.7) { 0.05 } else { 0.5 };
+            let c = reach * (1.002 + random.random_range(0.0..beyond));
             let mut text = match error {
                 true => of_error(random, slope, reach, c, largest_e),
                 false => edge(random, slope, reach, c),
