@@ -102,7 +102,7 @@ fn counterexample(expr: &Expr, ends: [&Rational; 2], random: &mut StdRng) -> Opt
 #[test]
 fn fuzz_monotonicity_by_both_programs() {
     let settings = ProofSettings { max_boxes: 150, max_operations: 6000, ..ProofSettings::default() };
-    let (mut proved, cases) = ([0, 0], cases(700));
+    let (mut proved, cases) = ([0, 0], cases(400));
     for case in cases.clone() {
         let random = &mut random(4, case);
         let depth = random.random_range(0..3);
