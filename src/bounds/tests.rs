@@ -1,5 +1,7 @@
 //! Decided bounds against samples, and the paper's plant.
 
+mod outside;
+
 use super::*;
 use crate::expr::Evaluator;
 use crate::number::{Direction, round_f64};
