@@ -29,9 +29,9 @@ impl Readable for OrbitReport<'_> {
                  with p_low = {}, p_up = {}, alpha = {}.",
                 exact(&orbit.tube, Direction::Down),
                 up(&orbit.radius),
-                write_exact(&orbit.p_low),
-                write_exact(&orbit.p_up),
-                write_exact(&orbit.alpha)
+                exact(&orbit.p_low, Direction::Down),
+                up(&orbit.p_up),
+                exact(&orbit.alpha, Direction::Down)
             )),
             Block::heading("L, by rows"),
             Block::List(rows(&coordinates.l)),

@@ -1,11 +1,14 @@
 //! sigma* and the sets of the claim.
 
 use super::document::{Block, Table};
-use super::number::{exact, upper};
+use super::number::{self, upper};
+use super::words;
 use crate::certify::{Certification, Derivation};
+use crate::derivation::sharp::ClaimedSet;
 use crate::enclosure::Enclosure;
-use crate::number::{Direction, write_exact};
+use crate::number::Direction;
 use crate::plot::{Curve, Figure, Scale, Style};
+use crate::spec::Specification;
 use rug::Rational;
 use std::f64::consts::FRAC_PI_2;
 
@@ -17,25 +20,19 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         return Vec::new();
     };
     // Of a plant the norm is that of y = L^-1 (x - x_0).
-    let state = if run.spec.plant().is_some() { "|y|" } else { "|x|" };
-    let none = || "-".to_owned();
-    let down = |value| exact(value, Direction::Down);
-    let mut table = Table::new(&["<", state, "|e|", "|zeta|_N", "|z|_N"]);
-    table.push(["initial set (covered)".to_owned(), down(&set.x0), down(&set.e0), none(), down(&set.z0)]);
-    let [x, e, zeta, z] = periodic.each_ref().map(upper);
-    table.push(["periodic solution, at most".to_owned(), x, e, zeta, z]);
+    let mut sizes = Sizes::new(run.spec);
+    sizes.of_claim(set, &periodic);
     // The box is where solutions stay, so its radii are upper bounds.
-    let [d_x, d_e] = error_box.each_ref().map(upper);
-    table.push(["error box around it (radii)".to_owned(), d_x, d_e, none(), none()]);
+    sizes.row("error box around it (radii)", error_box.each_ref().map(upper));
     let exact = run.exact_arguments();
     let claim = if exact.is_some() { "bounding functions used up to, sigma*" } else { "bounding functions used up to" };
     for (what, arguments) in [(claim, run.largest_arguments()), ("bounding functions used up to, sigma*_oo", exact)] {
-        if let Some([x, e]) = arguments.map(|arguments| arguments.each_ref().map(upper)) {
-            table.push([what.to_owned(), x, e, none(), none()]);
+        if let Some(arguments) = arguments.map(|arguments| arguments.each_ref().map(upper)) {
+            sizes.row(what, arguments);
         }
     }
     let boxes = Boxes {
-        state,
+        state: words::state(run.spec),
         initial: [&set.x0, &set.e0].map(Rational::to_f64),
         periodic: [&periodic[0], &periodic[1]].map(Enclosure::upper_f64),
         error: error_box.each_ref().map(Enclosure::upper_f64),
@@ -44,8 +41,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         ellipse: run.options.derivation == Derivation::Sharp,
     };
     vec![
-        Block::Heading(format!("sigma* = {} and the sets", write_exact(sigma))),
-        Block::Table(table),
+        Block::Heading(format!("sigma* = {} and the sets", number::exact(sigma, Direction::Up))),
+        Block::Table(sizes.table),
         Block::Drawing(boxes.figure()),
         Block::says(
             "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
@@ -54,10 +51,40 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     ]
 }
 
+/// The table of the sizes of sets: in the norms of the state, where there is one, of e, of zeta and of z.
+pub(super) struct Sizes<'s> {
+    spec: &'s Specification,
+    pub(super) table: Table,
+}
+
+impl<'s> Sizes<'s> {
+    pub(super) fn new(spec: &'s Specification) -> Sizes<'s> {
+        let state = words::state(spec).map(|name| format!("|{name}|"));
+        let titles: Vec<&str> = ["<"].into_iter().chain(state.as_deref()).chain(["|e|", "|zeta|_N", "|z|_N"]).collect();
+        Sizes { spec, table: Table::new(&titles) }
+    }
+
+    /// Where solutions start, rounded inward, and how large the periodic solution is, rounded outward.
+    pub(super) fn of_claim(&mut self, set: &ClaimedSet, periodic: &[Enclosure; 4]) {
+        let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(|value| number::exact(value, Direction::Down));
+        self.cells("initial set (covered)", [x0, e0, "-".to_owned(), z0]);
+        self.cells("periodic solution, at most", periodic.each_ref().map(upper));
+    }
+
+    /// Sizes in the first two norms.
+    pub(super) fn row(&mut self, name: &str, [x, e]: [String; 2]) {
+        self.cells(name, [x, e, "-".to_owned(), "-".to_owned()]);
+    }
+
+    fn cells(&mut self, name: &str, cells: [String; 4]) {
+        self.table.push(std::iter::once(name.to_owned()).chain(words::with_state(self.spec, cells)));
+    }
+}
+
 /// Sizes of sets in the plane of |x| and |e|.
 pub(super) struct Boxes {
-    /// How the norm of x is written.
-    pub(super) state: &'static str,
+    /// What the state is called; without one only e is drawn.
+    pub(super) state: Option<&'static str>,
     /// The initial set.
     pub(super) initial: [f64; 2],
     /// The periodic solution, at most.
@@ -76,16 +103,21 @@ impl Boxes {
 
     /// The quarter of each set in which both coordinates are positive. It is drawn from doubles and claims nothing.
     pub(super) fn figure(&self) -> Figure {
-        let state = self.state;
+        // Without a state the sets are intervals of |e|, drawn with no width.
+        let state = self.state.map_or_else(|| "no state".to_owned(), |name| format!("|{name}|"));
+        let flat = |[x, e]: [f64; 2]| if self.state.is_some() { [x, e] } else { [0.0, e] };
         let curve = |label: &str, points, style| Curve { label: label.to_owned(), points, style };
-        let edge = |[x, e]: [f64; 2]| vec![(0.0, e), (x, e), (x, 0.0)];
+        let edge = |size| {
+            let [x, e] = flat(size);
+            vec![(0.0, e), (x, e), (x, 0.0)]
+        };
         let mut curves = Vec::new();
         curves.extend(self.used.map(|used| curve("bounding functions used up to", edge(used), Style::Bound)));
         curves.push(curve("initial set", edge(self.initial), Style::Line));
         curves.push(curve("periodic solution, at most", edge(self.periodic), Style::Line));
         curves.push(curve("error box, from the periodic solution", edge(self.error), Style::Line));
         if self.ellipse {
-            let [x, e] = self.error;
+            let [x, e] = flat(self.error);
             let point = |k| {
                 let (sin, cos) = libm::sincos(f64::from(k) / f64::from(Self::QUARTER) * FRAC_PI_2);
                 (x * sin, e * cos)
