@@ -174,7 +174,7 @@ fn sets(run: &DigitalCertification<'_>) -> Vec<Block> {
         used: run.largest_arguments().map(|arguments| arguments.each_ref().map(Enclosure::upper_f64)),
         ellipse: false,
     };
-    vec![
+    let mut blocks = vec![
         Block::Heading(format!("The law and the sets at h = {}", clean(&witness.sampling.text()))),
         Block::facts([
             ("samples in a period", witness.sampling.samples.to_string()),
@@ -183,12 +183,13 @@ fn sets(run: &DigitalCertification<'_>) -> Vec<Block> {
             ("theta = h mu Nbar^2/2", upper(&theta(law))),
         ]),
         Block::Table(sizes.table),
-        Block::Drawing(boxes.figure()),
-        Block::says(
-            "Solutions from the initial set stay in the error box around the periodic solution, between samples too; zeta and z \
-             are those at samples. The rate of convergence depends on n_o and is not part of the claim.",
-        ),
-    ]
+    ];
+    blocks.extend(boxes.figure().map(Block::Drawing));
+    blocks.push(Block::says(
+        "Solutions from the initial set stay in the error box around the periodic solution, between samples too; zeta and z \
+         are those at samples. The rate of convergence depends on n_o and is not part of the claim.",
+    ));
+    blocks
 }
 
 /// theta.

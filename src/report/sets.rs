@@ -40,15 +40,16 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         // C4 keeps solutions below a level of U in the box; as P >= P_low I, such a level is within this ellipse.
         ellipse: run.options.derivation == Derivation::Sharp,
     };
-    vec![
+    let mut blocks = vec![
         Block::Heading(format!("sigma* = {} and the sets", number::exact(sigma, Direction::Up))),
         Block::Table(sizes.table),
-        Block::Drawing(boxes.figure()),
-        Block::says(
-            "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
-             depends on n_o and is not part of the claim; sigma* and the sets do not depend on n_o. sigma is in 1/time.",
-        ),
-    ]
+    ];
+    blocks.extend(boxes.figure().map(Block::Drawing));
+    blocks.push(Block::says(
+        "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
+         depends on n_o and is not part of the claim; sigma* and the sets do not depend on n_o. sigma is in 1/time.",
+    ));
+    blocks
 }
 
 /// The table of the sizes of sets: in the norms of the state, where there is one, of e, of zeta and of z.
@@ -83,7 +84,7 @@ impl<'s> Sizes<'s> {
 
 /// Sizes of sets in the plane of |x| and |e|.
 pub(super) struct Boxes {
-    /// What the state is called; without one only e is drawn.
+    /// What the state is called, where there is one.
     pub(super) state: Option<&'static str>,
     /// The initial set.
     pub(super) initial: [f64; 2],
@@ -102,22 +103,18 @@ impl Boxes {
     const QUARTER: u32 = 60;
 
     /// The quarter of each set in which both coordinates are positive. It is drawn from doubles and claims nothing.
-    pub(super) fn figure(&self) -> Figure {
-        // Without a state the sets are intervals of |e|, drawn with no width.
-        let state = self.state.map_or_else(|| "no state".to_owned(), |name| format!("|{name}|"));
-        let flat = |[x, e]: [f64; 2]| if self.state.is_some() { [x, e] } else { [0.0, e] };
+    /// Nothing without a state: the sets are intervals of |e| then.
+    pub(super) fn figure(&self) -> Option<Figure> {
+        let state = format!("|{}|", self.state?);
         let curve = |label: &str, points, style| Curve { label: label.to_owned(), points, style };
-        let edge = |size| {
-            let [x, e] = flat(size);
-            vec![(0.0, e), (x, e), (x, 0.0)]
-        };
+        let edge = |[x, e]: [f64; 2]| vec![(0.0, e), (x, e), (x, 0.0)];
         let mut curves = Vec::new();
         curves.extend(self.used.map(|used| curve("bounding functions used up to", edge(used), Style::Bound)));
         curves.push(curve("initial set", edge(self.initial), Style::Line));
         curves.push(curve("periodic solution, at most", edge(self.periodic), Style::Line));
         curves.push(curve("error box, from the periodic solution", edge(self.error), Style::Line));
         if self.ellipse {
-            let [x, e] = flat(self.error);
+            let [x, e] = self.error;
             let point = |k| {
                 let (sin, cos) = libm::sincos(f64::from(k) / f64::from(Self::QUARTER) * FRAC_PI_2);
                 (x * sin, e * cos)
@@ -125,13 +122,13 @@ impl Boxes {
             let points = (0..=Self::QUARTER).map(point).collect();
             curves.push(curve("solutions stay within, from the periodic solution", points, Style::Line));
         }
-        Figure {
+        Some(Figure {
             title: format!("The sets in the plane of {state} and |e|"),
             x: format!("{state} [unit of the norm]"),
             y: "|e| [unit of e]".to_owned(),
             scale: Scale::Linear,
             floor: 0.0,
             curves,
-        }
+        })
     }
 }
