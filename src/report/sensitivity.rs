@@ -81,7 +81,7 @@ pub(super) fn one_per_cent(spec: &Specification, datum: Datum) -> String {
 fn compared(run: &Certification<'_>) -> String {
     // What another mu needs is not worked out where it takes boxes.
     let by_boxes = run.sharp.proved().is_some_and(|proof| matches!(proof.witness.transfer, TransferProof::Boxes(_)));
-    let (mu, rest) = if by_boxes { ("", "mu and the weights") } else { (" and mu", "the weights") };
+    let (mu, rest) = if by_boxes { ("", "mu and the weights") } else { (", and mu", "the weights") };
     match run.spec.plant().is_some() {
         true => format!(
             "the sizes of the initial set that the file states{mu}, with the bounds that are proved for the present set. Not \

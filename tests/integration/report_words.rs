@@ -6,7 +6,6 @@ use serde_json::Value;
 fn certify(args: &[&str]) -> String {
     let output = program().arg("certify").args(args).output().expect("the program runs");
     assert_eq!(output.status.code(), Some(0), "{args:?}: {}", utf8(output.stderr));
-    // A wrapped line is one sentence.
     utf8(output.stdout)
 }
 
@@ -37,6 +36,15 @@ fn of_a_plant_without_states_nothing_is_said_of_states() {
         assert!(!claims.contains(words), "{words}: {claims}");
     }
     assert!(!text.contains("sup|x|") && !text.contains("sup|y|"), "{text}");
+    let other = |args: &[&str]| utf8(program().args(args).output().expect("the program runs").stdout);
+    let lyapunov = other(&["lyapunov", "specs/plants/linear.json", "--full"]);
+    assert!(lyapunov.contains("no state") && !lyapunov.contains("x_0"), "{lyapunov}");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("certificate.json");
+    let name = file.to_str().expect("a plain name");
+    certify(&["specs/plants/linear.json", "--no-compare", "-o", name]);
+    let falsified = other(&["falsify", name, "--trials", "1", "--full"]);
+    assert!(falsified.contains("sup|e| of the periodic") && !falsified.contains("|x"), "{falsified}");
     // One with a state has all of it.
     let text = certify(&["specs/plants/motor-axis.json", "--full"]);
     for words in ["|y|", "L^-1", "x_0", "y stays", "rate along it", "sup|y|"] {
