@@ -235,7 +235,8 @@ pub(super) fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) ->
 /// The same about one plant: nothing of it is assumed.
 fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String {
     let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
-        format!(" (a model that holds for |x - x_0| <= {}, |e| <= {})", domain.x.text, domain.e.text)
+        let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.text) } else { String::new() };
+        format!(" (a model that holds for {of_x}|e| <= {})", domain.e.text)
     });
     let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(write_exact);
     let (state, orbit) = match claimed_ball(plant, &set.x0) {

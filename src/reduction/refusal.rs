@@ -20,6 +20,8 @@ pub enum PlantRefusal {
         span: Range<usize>,
         /// In words.
         message: String,
+        /// What to do.
+        help: String,
     },
     /// More states than are taken.
     TooManyStates {
@@ -50,7 +52,8 @@ pub enum PlantRefusal {
 impl From<SmoothnessFailure> for PlantRefusal {
     fn from(failure: SmoothnessFailure) -> PlantRefusal {
         let message = failure.to_string();
-        PlantRefusal::NotSmooth { index: failure.index, span: failure.span, message }
+        let help = failure.advice();
+        PlantRefusal::NotSmooth { index: failure.index, span: failure.span, message, help }
     }
 }
 
@@ -78,11 +81,9 @@ impl PlantRefusal {
                     Some(help.into()),
                 )]
             }
-            PlantRefusal::NotSmooth { index, span, message } => {
-                let help = "keep its argument away from there, or write a smooth function in its place, such as \
-                            sqrt(x^2 + 1/100) for abs(x) and tanh(20*x) for a sign";
+            PlantRefusal::NotSmooth { index, span, message, help } => {
                 let kind = ErrorKind::Undecided;
-                vec![plant.errors_at(&field(*index), span, kind, message.clone(), Some(help.into()))]
+                vec![plant.errors_at(&field(*index), span, kind, message.clone(), Some(help.clone()))]
             }
             PlantRefusal::TooManyStates { states } => {
                 let message = format!("{states} states; a plant of at most {MAX_STATES} is certified");

@@ -20,11 +20,22 @@ pub enum Datum {
     PUp,
     /// One of the bounding functions.
     Bound(Bound),
+    /// The bounds of the harmonics of q(t,0,0) and of the rest, all of them.
+    Harmonics,
+    /// A size of the initial set that is asked for: X0 (or the ball), E0, Z0.
+    Size(usize),
+    /// The largest X and E at which the data hold (larger values help).
+    Domain,
+    /// mu, which may be too large or too small.
+    Mu {
+        /// Whether a larger one helps.
+        larger: bool,
+    },
 }
 
 impl Datum {
-    /// Every datum that the sharp derivation uses.
-    pub const ALL: [Datum; 13] = [
+    /// Every datum of which [`FloatModel::improved`] knows the better value.
+    pub const ALL: [Datum; 22] = [
         Datum::Alpha,
         Datum::PUp,
         Datum::Bound(Bound::F),
@@ -38,6 +49,15 @@ impl Datum {
         Datum::Bound(Bound::Q),
         Datum::Bound(Bound::QeMax),
         Datum::Bound(Bound::Rate),
+        Datum::Bound(Bound::Qt),
+        Datum::Bound(Bound::Fx),
+        Datum::Bound(Bound::Qtx),
+        Datum::Bound(Bound::Qte),
+        Datum::Harmonics,
+        Datum::Size(0),
+        Datum::Size(1),
+        Datum::Size(2),
+        Datum::Domain,
     ];
 
     /// Its name in a specification.
@@ -50,6 +70,10 @@ impl Datum {
                 Some(other) if !bound.is_signed() => format!("{} (or {})", bound.field(), other.field()),
                 _ => bound.field().to_owned(),
             },
+            Datum::Harmonics => "q_0".to_owned(),
+            Datum::Size(index) => ["X0", "E0", "Z0"].get(index).copied().unwrap_or_default().to_owned(),
+            Datum::Domain => "domain".to_owned(),
+            Datum::Mu { larger } => format!("mu ({})", if larger { "larger" } else { "smaller" }),
         }
     }
 }
@@ -236,7 +260,8 @@ impl FloatModel {
             && self.functions().all(|function| function.at(0.0, 0.0) != f64::INFINITY)
     }
 
-    /// The same model with one datum improved by the relative amount `by` (alpha up, everything else down).
+    /// The same model with one datum improved by the relative amount `by` (alpha, a rate and the domain up, everything else
+    /// down). The better value of mu is not known: it is left as it is.
     #[must_use]
     pub fn improved(&self, datum: Datum, by: f64) -> FloatModel {
         let mut model = self.clone();
@@ -260,15 +285,39 @@ impl FloatModel {
                     }
                 }
             }
+            Datum::Harmonics => {
+                if let Some(known) = &mut model.numbers.q_0 {
+                    let sizes = known.harmonics.iter_mut().chain([&mut known.rest_rms]).chain(&mut known.rest_t_rms);
+                    sizes.for_each(|size| *size *= 1.0 - by);
+                }
+            }
+            Datum::Size(index) => {
+                model.set = model.set.map_each(|place, size| if place == index { size * (1.0 - by) } else { *size });
+            }
+            Datum::Domain => {
+                let (x, e) = model.domain;
+                model.domain = (x * (1.0 + by), e * (1.0 + by));
+            }
+            Datum::Mu { .. } => {}
         }
         model
     }
 
-    /// The data that the specification has, of [`Datum::ALL`].
-    pub fn data(&self) -> impl Iterator<Item = Datum> {
-        Datum::ALL.into_iter().filter(|datum| match datum {
-            Datum::Bound(bound) => !bound.is_signed() || self.given(*bound),
+    /// The data that the specification has, of [`Datum::ALL`]; of a plant's formulas what stands in its file: not the
+    /// bounds, which follow from them.
+    pub fn data(&self, of_plant: bool) -> impl Iterator<Item = Datum> {
+        let mut sizes = [None; 3];
+        let _ = self.set.map_each(|place, size| sizes[place] = Some(*size));
+        Datum::ALL.into_iter().filter(move |datum| match datum {
+            Datum::Size(index) => sizes.get(*index).is_some_and(|size| size.is_some_and(|size| size > 0.0)),
+            // Beyond the domain of a plant nothing is proved of it yet.
+            _ if of_plant => false,
+            // Where one is left out, what serves in its place is spoken of under its name.
+            Datum::Bound(bound) => self.given(*bound) || (!bound.is_signed() && bound.replacement().is_some()),
             Datum::Alpha | Datum::PUp => true,
+            Datum::Harmonics => self.q_0.is_some(),
+            Datum::Domain => self.domain.0.is_finite(),
+            Datum::Mu { .. } => false,
         })
     }
 

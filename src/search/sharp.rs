@@ -293,17 +293,21 @@ pub fn at_sigma(
     Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) }.at(sigma, room)
 }
 
-/// By how much (relatively) sigma* falls when one datum improves by 1 %, for every datum that is given, in the order of
-/// [`Datum::ALL`]; floating point, local steps from the proposal. None where the bounding functions are long.
+/// By how much (relatively) sigma* falls for each of these models, in which one datum is better; floating point, local steps
+/// from the proposal, and against what such steps find without any better datum. None where the bounding functions are long.
 #[must_use]
-pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum, f64)> {
+pub fn sensitivities(
+    model: &FloatModel,
+    proposal: &SharpProposal,
+    improved: &[(Datum, FloatModel)],
+) -> Vec<(Datum, f64)> {
     if !model.effort().sensitivities() {
         return Vec::new();
     }
-    scan::evaluate_all(&model.data().collect::<Vec<_>>(), |&datum| {
-        let improved = model.improved(datum, 0.01);
-        let gain = search_sharp_near(&improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / proposal.sigma);
-        (datum, gain.max(0.0))
+    let as_it_is = search_sharp_near(model, proposal).map_or(proposal.sigma, |near| near.sigma.min(proposal.sigma));
+    scan::evaluate_all(improved, |(datum, improved)| {
+        let gain = search_sharp_near(improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / as_it_is);
+        (*datum, gain.max(0.0))
     })
 }
 

@@ -98,13 +98,31 @@ impl Readable for SimulationReport<'_> {
     }
 }
 
-/// Six digits.
+/// Four digits.
 pub(super) fn number(value: f64) -> String {
+    digits(value, 4)
+}
+
+/// A Floquet multiplier: six digits, for what is near 1 is told apart from 1.
+pub(super) fn multiplier(value: f64) -> String {
+    digits(value, 6)
+}
+
+fn digits(value: f64, count: usize) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
-        let digits = (5 - libm::log10(value.abs().max(1e-300)).floor() as i32).clamp(0, 12) as usize;
-        return format!("{value:.digits$}");
+        let before = libm::log10(value.abs().max(1e-300)).floor() as i32 + 1;
+        let behind = (count as i32 - before).clamp(0, 12) as usize;
+        return format!("{value:.behind$}");
     }
-    format!("{value:.5e}")
+    format!("{value:.*e}", count - 1)
+}
+
+/// Amplitudes below this share of the largest |e| are rounding.
+const NOISE: f64 = 1e-12;
+
+/// The amplitude of a harmonic; what is rounding, against the largest |e| `scale`, is 0.
+pub(super) fn amplitude(value: f64, scale: f64) -> String {
+    if value.abs() <= NOISE * scale { "0".to_owned() } else { format!("{value:.3e}") }
 }
 
 /// Why there are no figures, and what to try.
@@ -124,9 +142,10 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
         true => format!(" (uncertain: the derivative that it is of is known to {:.0e} only)", steady.uncertainty),
         false => String::new(),
     };
+    let scale = figures.sup;
     let mut table = Table::new(&["k", "|c_k| of e"]);
     for (k, amplitude) in figures.amplitudes.iter().enumerate() {
-        table.push([k.to_string(), format!("{amplitude:.4e}")]);
+        table.push([k.to_string(), self::amplitude(*amplitude, scale)]);
     }
     vec![
         Block::says(format!(
@@ -134,7 +153,7 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
             number(figures.sup),
             number(figures.rms),
             steady.residual,
-            number(slowest),
+            multiplier(slowest),
         )),
         Block::says(format!("Over a period: {}.", period_words(plant, &figures.period))),
         Block::Table(table),
