@@ -8,12 +8,13 @@ use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetri
 use super::specification::specification;
 use crate::bounds::{Engine, FloatOrbit, FloatSuprema, Region};
 use crate::data::Data;
+use crate::number::{Direction, round_f64};
 use crate::orbit::{
     self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
     propose_coordinates, prove_forcing, prove_orbit, prove_second, round_orbit,
 };
 use crate::plant::Plant;
-use crate::search::{FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
+use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
 use crate::spec::{
     self, OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
@@ -21,6 +22,7 @@ use crate::spec::{
 use crate::transfer::TradeOff;
 use nalgebra::DMatrix;
 use rug::Rational;
+use std::f64::consts::TAU;
 
 /// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
 pub(super) const PRECISION: u32 = 64;
@@ -28,6 +30,9 @@ pub(super) const PRECISION: u32 = 64;
 /// How far beyond the arguments of a proposal the bounds are proved, in turn: first with room for what the proved values are
 /// larger than the sampled ones, then close to the arguments that are used.
 pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
+
+/// So many times 2 pi/T, mu is suspected where no gain is found.
+const LARGE_MU: f64 = 10.0;
 
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
@@ -91,22 +96,58 @@ fn with_coordinates<T>(
     let base = along(plant, &curve, first)?;
     let spec = base.specification(plant, ProvedValues::default())?;
     let data = Data::new(&spec, PRECISION);
-    // The transfer constants hardly move the best coordinates: the cheap ones do.
-    let trade_off = match spec.internal_model.matched {
-        true => TradeOff::matched(&data),
-        false => TradeOff::closed_form(&data),
-    };
-    let model = FloatModel::new(&data, trade_off);
+    let model = FloatModel::new(&data, trade_off(&data));
     let sampling = Sampling::new(plant, &curve, &model);
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
     let (base, chosen) = match constant.is_empty() {
-        false => best_constant(plant, &curve, &constant, &model, &sampling)?,
+        false => best_constant(plant, &curve, &constant, &model, &sampling)
+            .map_err(|refusal| mu_to_blame(plant, &base, refusal, &curve, &constant))?,
         true => {
             let (coordinates, chosen) = best_periodic(plant, &curve, &candidates, &model, &sampling)?;
             (along(plant, &curve, &coordinates)?, chosen)
         }
     };
     prove(plant, &base, &sampling, &chosen)
+}
+
+/// The refusal, with mu where a much smaller one would do: 2 pi/T is its natural size.
+fn mu_to_blame(
+    plant: &Plant,
+    base: &Along,
+    refusal: PlantRefusal,
+    curve: &TrigonometricVector,
+    candidates: &[&Coordinates],
+) -> PlantRefusal {
+    let PlantRefusal::NoGain(obstacle) = refusal else { return refusal };
+    let mu = plant.internal_model.mu.to_f64();
+    let natural = round_f64(TAU / plant.period.to_f64(), 2, Direction::Nearest);
+    let Some(natural) = natural.filter(|natural| natural.to_f64() * LARGE_MU < mu) else {
+        return PlantRefusal::NoGain(obstacle);
+    };
+    let found = || {
+        let mut spec = base.specification(plant, ProvedValues::default()).ok()?;
+        spec.internal_model.mu = Constant::rational(&natural);
+        let data = Data::new(&spec, PRECISION);
+        let model = FloatModel::new(&data, trade_off(&data));
+        let sampling = Sampling::new(plant, curve, &model);
+        let sampler = |Shape { l, .. }: Shape<'_>, density: Density| sampling.source(l, [None; 2], density);
+        let search = search(&model, plant, &sampling, &sampler, 1.0);
+        let finds = |candidate: &&Coordinates| {
+            let shape = Shape { l: &float_matrix(&candidate.l), second: None };
+            search_sharp(&search.model(shape, Density::Rough)).is_ok()
+        };
+        candidates.iter().copied().find(finds)
+    };
+    match found() {
+        Some(_) => PlantRefusal::LargeMu { obstacle, mu: [mu, natural.to_f64()] },
+        None => PlantRefusal::NoGain(obstacle),
+    }
+}
+
+/// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger
+/// that no gain is found with them.
+fn trade_off(data: &Data<'_>) -> TradeOff {
+    if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
 }
 
 /// The best coordinates for a constant P, and a P of existence where one helps; rounded, and proved along the orbit.
@@ -311,7 +352,7 @@ fn prove_bounds(
 ) -> Result<Reduced, PlantRefusal> {
     let engine = along.engine(plant)?;
     let suprema = along.suprema(sampling);
-    let mut best: Option<Reduced> = None;
+    let (mut best, mut closest): (Option<Reduced>, _) = (None, Closest::default());
     let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
     for enlarged in ENLARGED {
         let at = arguments(&model, &proposal, enlarged, along.second().is_some())?;
@@ -325,13 +366,14 @@ fn prove_bounds(
         };
         let spec = along.specification(plant, values)?;
         let data = Data::new(&spec, PRECISION);
-        let trade_off = match spec.internal_model.matched {
-            true => TradeOff::matched(&data),
-            false => TradeOff::curve(&data),
-        };
-        let with_values = FloatModel::new(&data, trade_off);
-        let Some(found) = search_sharp_near(&with_values, &proposal) else {
-            break;
+        let with_values = FloatModel::new(&data, trade_off(&data));
+        let found = match search_sharp_near(&with_values, &proposal) {
+            Ok(found) => found,
+            Err(_) if best.is_some() => break,
+            Err(obstacle) => {
+                closest.record(beyond_the_bounds(obstacle));
+                continue;
+            }
         };
         let improved = best.as_ref().is_none_or(|known| found.sigma < known.proposal.sigma * (1.0 - WORTH));
         if !improved {
@@ -340,7 +382,15 @@ fn prove_bounds(
         (model, proposal) = (with_values, found);
         best = Some(Reduced { spec, proposal: found });
     }
-    best.ok_or(PlantRefusal::NoGain(Obstacle::Bounds))
+    closest.or(best).map_err(PlantRefusal::NoGain)
+}
+
+/// Where the values of a plant have none, they are not proved so far.
+pub(super) fn beyond_the_bounds(obstacle: Obstacle) -> Obstacle {
+    match obstacle.failing {
+        Failing::NotFinite(Some(_)) => Obstacle { failing: Failing::Bounds, ..obstacle },
+        _ => obstacle,
+    }
 }
 
 /// The arguments of a proposal, enlarged.
@@ -352,7 +402,7 @@ fn arguments(
 ) -> Result<Needed, PlantRefusal> {
     let (set, at) =
         at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + 1e-9), 1e-9).map_err(PlantRefusal::NoGain)?;
-    needed(&set, &at, enlarged, second).ok_or(PlantRefusal::NoGain(Obstacle::Magnitude))
+    needed(&set, &at, enlarged, second).ok_or(PlantRefusal::NoGain(Failing::NotFinite(None).into()))
 }
 
 /// Proves again what a certificate says of a plant, without any search.
