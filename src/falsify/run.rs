@@ -113,7 +113,8 @@ mod tests {
     /// The finding of a trial of a plant with one state from x = 1, e = 0, for a claim with these sizes of an error box.
     fn finding(f: &str, q: &str, error_box: [f64; 2]) -> Finding {
         let spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
-        let claim = Claim { error_box, ..Claim::for_tests(spec, [3.0, 3.0]) };
+        let mut claim = Claim::for_tests(spec, [3.0, 3.0]);
+        claim.error_box = error_box;
         let text = format!(
             r#"{{"format": "sigmastar/plant", "version": 1, "name": "n", "period": 1, "states": ["x1"], "f": ["{f}"],
             "q": "{q}", "internal_model": {{"mu": 1, "base_frequency": "2*pi",

@@ -8,13 +8,12 @@ use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetri
 use super::specification::specification;
 use crate::bounds::{Engine, FloatOrbit, FloatSuprema, Region};
 use crate::data::Data;
-use crate::number::{Direction, round_f64};
 use crate::orbit::{
     self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
     propose_coordinates, prove_forcing, prove_orbit, prove_second, round_orbit,
 };
 use crate::plant::Plant;
-use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp, search_sharp_near};
+use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
 use crate::spec::{
     self, OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
@@ -22,7 +21,6 @@ use crate::spec::{
 use crate::transfer::TradeOff;
 use nalgebra::DMatrix;
 use rug::Rational;
-use std::f64::consts::TAU;
 
 /// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
 pub(super) const PRECISION: u32 = 64;
@@ -30,9 +28,6 @@ pub(super) const PRECISION: u32 = 64;
 /// How far beyond the arguments of a proposal the bounds are proved, in turn: first with room for what the proved values are
 /// larger than the sampled ones, then close to the arguments that are used.
 pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
-
-/// So many times 2 pi/T, mu is suspected where no gain is found.
-const LARGE_MU: f64 = 10.0;
 
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
@@ -100,48 +95,13 @@ fn with_coordinates<T>(
     let sampling = Sampling::new(plant, &curve, &model);
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
     let (base, chosen) = match constant.is_empty() {
-        false => best_constant(plant, &curve, &constant, &model, &sampling)
-            .map_err(|refusal| mu_to_blame(plant, &base, refusal, &curve, &constant))?,
+        false => best_constant(plant, &curve, &constant, &model, &sampling)?,
         true => {
             let (coordinates, chosen) = best_periodic(plant, &curve, &candidates, &model, &sampling)?;
             (along(plant, &curve, &coordinates)?, chosen)
         }
     };
     prove(plant, &base, &sampling, &chosen)
-}
-
-/// The refusal, with mu where a much smaller one would do: 2 pi/T is its natural size.
-fn mu_to_blame(
-    plant: &Plant,
-    base: &Along,
-    refusal: PlantRefusal,
-    curve: &TrigonometricVector,
-    candidates: &[&Coordinates],
-) -> PlantRefusal {
-    let PlantRefusal::NoGain(obstacle) = refusal else { return refusal };
-    let mu = plant.internal_model.mu.to_f64();
-    let natural = round_f64(TAU / plant.period.to_f64(), 2, Direction::Nearest);
-    let Some(natural) = natural.filter(|natural| natural.to_f64() * LARGE_MU < mu) else {
-        return PlantRefusal::NoGain(obstacle);
-    };
-    let found = || {
-        let mut spec = base.specification(plant, ProvedValues::default()).ok()?;
-        spec.internal_model.mu = Constant::rational(&natural);
-        let data = Data::new(&spec, PRECISION);
-        let model = FloatModel::new(&data, trade_off(&data));
-        let sampling = Sampling::new(plant, curve, &model);
-        let sampler = |Shape { l, .. }: Shape<'_>, density: Density| sampling.source(l, [None; 2], density);
-        let search = search(&model, plant, &sampling, &sampler, 1.0);
-        let finds = |candidate: &&Coordinates| {
-            let shape = Shape { l: &float_matrix(&candidate.l), second: None };
-            search_sharp(&search.model(shape, Density::Rough)).is_ok()
-        };
-        candidates.iter().copied().find(finds)
-    };
-    match found() {
-        Some(_) => PlantRefusal::LargeMu { obstacle, mu: [mu, natural.to_f64()] },
-        None => PlantRefusal::NoGain(obstacle),
-    }
 }
 
 /// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger

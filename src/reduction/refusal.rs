@@ -34,13 +34,6 @@ pub enum PlantRefusal {
     NoContraction,
     /// No gain was found in floating point.
     NoGain(Obstacle),
-    /// No gain was found in floating point with this mu, and one is found with a smaller one.
-    LargeMu {
-        /// What stands in the way with it.
-        obstacle: Obstacle,
-        /// mu, and the smaller one.
-        mu: [f64; 2],
-    },
     /// What keeps the witness of another plant from being one of this plant.
     OfAnother(Box<PlantRefusal>),
     /// A bound is not proved, at an argument that is needed.
@@ -113,13 +106,6 @@ impl PlantRefusal {
                 ),
             ),
             PlantRefusal::NoGain(obstacle) => undecided("", no_gain(obstacle), Some(help(obstacle))),
-            PlantRefusal::LargeMu { obstacle, mu: [mu, smaller] } => {
-                let help = format!(
-                    "a smaller mu: with {smaller}, which is about 2 pi/period, a gain is found in floating point; {mu} lets the \
-                     internal model grow for a whole period before q turns"
-                );
-                undecided("/internal_model/mu", no_gain(obstacle), Some(&help))
-            }
             PlantRefusal::OfAnother(refusal) => {
                 let all = refusal.errors(plant);
                 let told: Vec<&str> =
@@ -170,7 +156,7 @@ fn help(obstacle: &Obstacle) -> &'static str {
              right side has no finite derivative, or is far larger than the orbit"
         }
         Failing::Existence => {
-            "zero dynamics with a larger rate, or less coupling between e and x: the initial set has no part in this"
+            "a larger rate of the zero dynamics, less coupling between e and x, or units in which the numbers are of one size"
         }
         Failing::DomainX | Failing::DomainE => {
             "a larger `domain`, or a smaller initial set (`at-rest` without sizes is the smallest)"

@@ -122,7 +122,7 @@ impl Certifier for OfPlant<'_> {
 
     fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle> {
         let reduced = self.pairs.reduce(sampling, gain).map_err(|refusal| match refusal {
-            PlantRefusal::NoGain(obstacle) | PlantRefusal::LargeMu { obstacle, .. } => obstacle,
+            PlantRefusal::NoGain(obstacle) => obstacle,
             _ => Failing::Bounds.into(),
         })?;
         let run = certify_digital(&reduced.spec, sampling, gain, Some(&reduced.proposal), Ladder::default());

@@ -256,13 +256,16 @@ impl FloatModel {
         extreme.map_or(Ok(()), |extreme| Err(Failing::Magnitude(extreme).into()))
     }
 
-    /// That a number which is made of the bounding functions at (X, E) is not finite: with the first of them that is not, where
-    /// there is one.
+    /// That a number which is made of the bounding functions at (X, E) is not finite: with the first of them that is not, and is at
+    /// X = E = 0, where there is one.
     #[must_use]
     pub(super) fn not_finite(&self, x: f64, e: f64) -> Obstacle {
-        let has_none =
-            |which: &Bound| self.bounds[*which as usize].function.is_some() && !self.bound(*which, &x, &e).is_finite();
-        Failing::NotFinite(Bound::ALL.into_iter().find(has_none)).at(x, e)
+        let ends = |which: &Bound| {
+            self.bounds[*which as usize].function.is_some()
+                && self.bound(*which, &0.0, &0.0).is_finite()
+                && !self.bound(*which, &x, &e).is_finite()
+        };
+        Failing::NotFinite(Bound::ALL.into_iter().find(ends)).at(x, e)
     }
 
     /// The same model with one datum improved by the relative amount `by` (alpha up, everything else down).

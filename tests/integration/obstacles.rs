@@ -87,7 +87,8 @@ fn the_witness_of_another_plant_is_told() {
 #[test]
 fn an_orbit_away_from_a_singularity_is_found() {
     let with = |f: &str| {
-        plant("linear", &[("/states", r#"["h"]"#), ("/f", &format!(r#"["{f}"]"#)), ("/q", "h/10 + sin(2*pi*t)")])
+        let f = format!(r#"["{f}"]"#);
+        plant("linear", &[("/states", r#"["h"]"#), ("/f", &f), ("/q", "h/10 + sin(2*pi*t)")])
     };
     let (code, told) = certify(&with("2 - sqrt(h) + sin(2*pi*t)/5"), &[]);
     assert_eq!(code, 0, "{told}");
