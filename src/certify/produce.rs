@@ -21,7 +21,7 @@ use crate::derivation::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
-use crate::search::{FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, without_optional_data};
+use crate::search::{Failing, FloatModel, SharpProposal, search_printed, search_repaired, without_optional_data};
 use crate::spec::model::Specification;
 use crate::transfer::{TradeOff, printed_transfer};
 use rug::Rational;
@@ -268,13 +268,13 @@ fn proved_up_to_arguments<W: Witness>(
     unproved: &mut Vec<BoundingProblem>,
 ) -> Result<Outcome<Proof<W>>, Refusal> {
     let (None, Some(proof)) = (&spec.domain, outcome.attempt()) else { return Ok(outcome) };
-    let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
+    let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Failing::NotFinite(None).into())) };
     let result = prove_up_to(spec, &x, &e);
     if chosen {
         unproved.extend(undecided_or_error(result)?);
         return Ok(outcome);
     }
-    Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Obstacle::Bounds) })
+    Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Failing::Bounds.into()) })
 }
 
 /// The largest arguments that a proof uses, rounded up.

@@ -30,6 +30,12 @@ const BETWEEN: usize = 4;
 /// Periods that are simulated before Newton's method is tried again.
 const APPROACHES: [usize; 2] = [10, 100];
 
+/// Where x = 0 is singular, these values of all components are tried.
+const SIZES: [f64; 3] = [1.0, 1e-3, 1e3];
+
+/// Times of a period at which that is looked at.
+const TIMES: u8 = 16;
+
 /// Steps of a simulated period, and of all of them.
 const LEAST_STEPS: usize = 128;
 const MAX_STEPS: usize = 400_000;
@@ -62,11 +68,16 @@ pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
     }
     // Another start may lead to another orbit: the first that is stable is taken, and the first failure told.
     let zero = vec![0.0; n];
+    let singular = !is_finite_at(&mut field, &zero);
+    // Where the right sides have no value at 0, other sizes do as well.
+    let mut states = vec![zero, plant.initial.x.clone()];
+    states.extend(SIZES.into_iter().filter(|_| singular).map(|size| vec![size; n]));
+    let constant = states.iter().take(if singular { states.len() } else { 1 }).map(|start| (start, 0));
+    let simulated = APPROACHES.into_iter().flat_map(|periods| states.iter().map(move |start| (start, periods)));
     let mut first = None;
-    let simulated = APPROACHES.into_iter().flat_map(|periods| [(&zero, periods), (&plant.initial.x, periods)]);
-    for (start, periods) in std::iter::once((&zero, 0)).chain(simulated) {
+    for (start, periods) in constant.chain(simulated) {
         let curve = match periods {
-            0 => Some(FloatSeries::zero(n)),
+            0 => Some(FloatSeries::constant(start)),
             _ => simulate(&mut field, start, periods),
         };
         let Some(curve) = curve else { continue };
@@ -79,7 +90,18 @@ pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
             Err(failure) => first = first.or(Some(failure)),
         }
     }
-    Err(first.unwrap_or(OrbitFailure::NotFinite))
+    match first {
+        Some(OrbitFailure::NotFinite) | None if singular => Err(OrbitFailure::Singular),
+        first => Err(first.unwrap_or(OrbitFailure::NotFinite)),
+    }
+}
+
+/// Whether the right sides and their derivatives have values at a state, at some times of a period.
+fn is_finite_at(field: &mut Field, x: &[f64]) -> bool {
+    (0..TIMES).all(|at| {
+        field.set(f64::from(at) / f64::from(TIMES), x, 0.0);
+        field.f().iter().chain(field.jacobian().iter()).all(|value| value.is_finite())
+    })
 }
 
 /// Newton's method from a curve, with more and more harmonics.

@@ -42,6 +42,11 @@ impl FloatSeries {
         FloatSeries { mean: vec![0.0; dimension], harmonics: Vec::new() }
     }
 
+    /// A series that is constant.
+    pub(super) fn constant(mean: &[f64]) -> FloatSeries {
+        FloatSeries { mean: mean.to_vec(), harmonics: Vec::new() }
+    }
+
     /// The number of components.
     #[must_use]
     pub fn dimension(&self) -> usize {

@@ -15,7 +15,7 @@ use crate::certificate::no_plant_json;
 use crate::certify::{DigitalCertification, DigitalProof, Outcome, Verdict};
 use crate::enclosure::{Enclosure, Truth};
 use crate::number::{Direction, write_exact};
-use crate::search::Obstacle;
+use crate::search::{Failing, Obstacle};
 use rug::Rational;
 use serde_json::{Value, json};
 
@@ -77,7 +77,15 @@ impl<'r> DigitalReport<'r> {
         let run = self.run;
         let mut items = Vec::new();
         match &run.outcome {
-            Outcome::NotFound(Obstacle::Sampling | Obstacle::Coupling | Obstacle::Existence) => {
+            Outcome::NotFound(Obstacle { failing: Failing::Hold { given, .. }, .. }) => {
+                items.push(
+                    if *given { "a smaller gain, or a shorter sampling period" } else { "a shorter sampling period" }
+                        .to_owned(),
+                );
+            }
+            Outcome::NotFound(Obstacle {
+                failing: Failing::Sampling | Failing::Coupling | Failing::Existence, ..
+            }) => {
                 if run.given_gain.is_some() {
                     items.push("another gain, or none: without --sigma the smallest one is sought".to_owned());
                 }

@@ -2,6 +2,7 @@
 
 use super::effort::Effort;
 use super::float_bound::FloatBound;
+use super::obstacle::{Extreme, Failing, Obstacle};
 use super::sharp::OptionalDatum;
 use crate::data::{Bound, Data, ExistenceTriple, KnownForcing, Numbers, Problem};
 use crate::derivation::initial_set::paper_z0;
@@ -250,14 +251,45 @@ impl FloatModel {
         Effort::new(self.functions().map(FloatBound::operations).sum())
     }
 
-    /// Whether every number, and every bounding function at X = E = 0, is one that doubles can work with.
+    /// That every number, and every bounding function at X = E = 0, is one that doubles can work with.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub fn in_range(&self) -> Result<(), Obstacle> {
+        let numbers = [
+            ("the period", self.period),
+            ("p_low", self.p_low),
+            ("p_up", self.p_up),
+            ("alpha", self.alpha),
+            ("mu", self.mu),
+            ("base_frequency", self.base_frequency),
+            ("Nbar (of the weights)", self.n_bar),
+        ];
+        let [x_0, e_0, z_0] = self.set.required([0.0; 2], || 0.0, 0.0);
+        let set = [("X0", x_0), ("E0", e_0), ("Z0", z_0)];
+        let extreme = numbers.into_iter().find(|(_, value)| !value.is_normal());
+        let extreme = extreme.or_else(|| set.into_iter().find(|(_, value)| !value.is_finite()));
+        let bound = || {
+            let infinite = |which: &Bound| {
+                let function = self.bounds[*which as usize].function.as_ref();
+                function.is_some_and(|function| function.at(0.0, 0.0) == f64::INFINITY)
+            };
+            Bound::ALL.into_iter().find(infinite).map(Extreme::Bound)
+        };
+        let extreme = extreme.map(|(name, value)| Extreme::Number(name, value)).or_else(bound);
+        extreme.map_or(Ok(()), |extreme| Err(Failing::Magnitude(extreme).into()))
+    }
+
+    /// That a number which is made of the bounding functions at (X, E) is not finite: with the first of them that is not, and is at
+    /// X = E = 0, where there is one.
     #[must_use]
-    pub fn is_in_range(&self) -> bool {
-        let numbers = [self.period, self.p_low, self.p_up, self.alpha, self.mu, self.base_frequency, self.n_bar];
-        let set = self.set.required([0.0; 2], || 0.0, 0.0);
-        numbers.iter().all(|value| value.is_normal())
-            && set.iter().all(|value| value.is_finite())
-            && self.functions().all(|function| function.at(0.0, 0.0) != f64::INFINITY)
+    pub(super) fn not_finite(&self, x: f64, e: f64) -> Obstacle {
+        let ends = |which: &Bound| {
+            self.bounds[*which as usize].function.is_some()
+                && self.bound(*which, &0.0, &0.0).is_finite()
+                && !self.bound(*which, &x, &e).is_finite()
+        };
+        Failing::NotFinite(Bound::ALL.into_iter().find(ends)).at(x, e)
     }
 
     /// The same model with one datum improved by the relative amount `by` (alpha, a rate and the domain up, everything else

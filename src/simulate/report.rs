@@ -3,7 +3,7 @@
 use super::figures::{figures, regulator_words};
 use super::run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SteadyFigures};
 use super::{ClosedLoop, IntegrationFailure, SteadyState};
-use crate::plant::Plant;
+use crate::plant::{Initial, Plant};
 use crate::report::document::{Block, Readable, Table, clean};
 use serde_json::{Value, json};
 
@@ -31,9 +31,11 @@ impl Readable for SimulationReport<'_> {
         ];
         match &simulation.steady {
             Ok((steady, figures)) => blocks.extend(steady_blocks(plant, steady, figures)),
-            Err(error) => {
-                blocks.push(Block::says(format!("None was found: {error}{}.", advice(error.way_out("--fixed")))))
-            }
+            Err(error) => blocks.push(Block::says(format!(
+                "None was found: {error}; {}. The run starts at {}.",
+                error.way_out("--fixed"),
+                initial_words(plant)
+            ))),
         }
         blocks.push(Block::heading("From the initial condition"));
         match &simulation.long {
@@ -63,7 +65,9 @@ impl Readable for SimulationReport<'_> {
                 "residual": steady.residual, "multipliers": steady.multipliers,
                 "multipliers_uncertainty": steady.uncertainty, "method": steady.method(), "start": steady.start,
             }),
-            Err(error) => json!({ "error": error.to_string(), "help": error.way_out("--fixed") }),
+            Err(error) => json!({
+                "error": error.to_string(), "help": error.way_out("--fixed"), "from": initial_words(plant),
+            }),
         };
         let failure =
             |error: &IntegrationFailure, flag| json!({ "error": error.to_string(), "help": error.way_out(flag) });
@@ -127,11 +131,16 @@ pub(super) fn amplitude(value: f64, scale: f64) -> String {
 
 /// Why there are no figures, and what to try.
 fn ended_early(error: &IntegrationFailure, flag: &str) -> Block {
-    Block::says(format!("It has no figures: {error}{}.", advice(Some(error.way_out(flag)))))
+    Block::says(format!("It has no figures: {error}; {}.", error.way_out(flag)))
 }
 
-fn advice(way_out: Option<String>) -> String {
-    way_out.map_or_else(String::new, |help| format!("; {help}"))
+/// The initial condition of a plant file.
+fn initial_words(plant: &Plant) -> String {
+    let Initial { x, e, z } = &plant.initial;
+    let states = plant.names.states().iter().zip(x).map(|(name, value)| format!("{name} = {value}"));
+    let mut words: Vec<String> = states.chain([format!("e = {e}")]).collect();
+    words.push(if z.is_empty() { "with the regulator at rest" } else { "with the z of the plant file" }.to_owned());
+    words.join(", ")
 }
 
 fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -> Vec<Block> {

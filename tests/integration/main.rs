@@ -39,6 +39,7 @@ mod mutants;
 mod mutated_specifications;
 mod no_plant;
 mod notations;
+mod obstacles;
 mod plain;
 mod plants;
 mod plants_random;
