@@ -91,7 +91,7 @@ pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
         }
     }
     match first {
-        Some(OrbitFailure::NotFinite) | None if singular => Err(OrbitFailure::Singular),
+        Some(OrbitFailure::NotFinite | OrbitFailure::NotFound { .. }) | None if singular => Err(OrbitFailure::Singular),
         first => Err(first.unwrap_or(OrbitFailure::NotFinite)),
     }
 }
