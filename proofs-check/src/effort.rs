@@ -50,7 +50,12 @@ fn spend(steps: u64) -> bool {
 
 /// Whether everything is spent, by the claim or by its proposals.
 pub fn exhausted() -> bool {
-    [&LEFT, &ASIDE].iter().any(|steps| steps.with(|left| left.get() == 0))
+    spent() || ASIDE.with(|left| left.get() == 0)
+}
+
+/// Whether the claim itself has spent everything: then some operation of it gave the undefined interval.
+pub fn spent() -> bool {
+    LEFT.with(|left| left.get() == 0)
 }
 
 /// Answers a question with at most `steps` steps, and as many for proposals; also says how many the answer itself took.

@@ -146,10 +146,18 @@ impl Interval {
     }
 
     /// `self < other`: certain, certainly not, or unknown.
+    ///
+    /// | ends                                        | answer        |
+    /// |---------------------------------------------|---------------|
+    /// | self.hi < other.lo, both finite             | certain       |
+    /// | self.lo >= other.hi, both finite            | certainly not |
+    /// | one of these infinite: it has no members    | unknown       |
+    /// | anything else, or undefined                 | unknown       |
     pub fn lt(&self, other: &Interval) -> Option<bool> {
-        if self.hi < other.lo {
+        let finite = |a: &Float, b: &Float| a.is_finite() && b.is_finite();
+        if self.hi < other.lo && finite(&self.hi, &other.lo) {
             Some(true)
-        } else if self.lo >= other.hi {
+        } else if self.lo >= other.hi && finite(&self.lo, &other.hi) {
             Some(false)
         } else {
             None

@@ -48,8 +48,12 @@ pub fn check_within(bytes: &[u8], specification: Option<&[u8]>, limit: u64) -> R
     let (result, steps) = effort::limited(limit, || {
         let asked = specification.map(asked_for).transpose()?;
         let result = json::parse(bytes).and_then(|json| certificate::check(&json, asked.as_ref(), limit, &mut lines));
-        // What an undefined interval made of a rule says nothing about the file.
-        if effort::exhausted() { result.map_err(|_| exhausted()) } else { result }
+        // What an undefined interval made of a rule says nothing about the file; proposals that were cut short prove nothing less.
+        match result {
+            Ok(_) if effort::spent() => Err(exhausted()),
+            Err(_) if effort::exhausted() => Err(exhausted()),
+            result => result,
+        }
     });
     lines.push(format!("effort: {steps} of {limit} steps of interval arithmetic"));
     let (proved, finding) = match result {

@@ -272,8 +272,17 @@ impl InternalModel {
 /// `format` and `version` of a file.
 pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
     let field = file.required("format")?;
-    if field.text()? != format {
-        return bad(&field.pointer, format!("expected `{format}`"));
+    let found = field.text()?;
+    if found != format {
+        // What is to be certified, in the place of what was.
+        let what = match (found, format) {
+            ("sigmastar/plant", "sigmastar/certificate") => "a plant",
+            ("sigmastar/bounding-spec", "sigmastar/certificate") => "a specification",
+            _ => return bad(&field.pointer, format!("expected `{format}`")),
+        };
+        let first =
+            "is to be certified first: `sigmastar certify FILE -o CERTIFICATE`, and then the CERTIFICATE is checked";
+        return bad(&field.pointer, format!("expected `{format}`; this is {what}, which {first}"));
     }
     let field = file.required("version")?;
     if field.whole()? == 1 { Ok(()) } else { bad(&field.pointer, "only version 1 is read") }

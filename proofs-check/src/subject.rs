@@ -20,7 +20,7 @@ const MAX_SHOWN: usize = 200;
 pub struct Subject {
     /// The claim in words: proved.
     pub statement: String,
-    /// What is proved besides: exact regulation.
+    /// What is proved besides: exact regulation, in words.
     pub also: Option<String>,
     /// What stands in the file: `specification` or `plant`.
     pub about: &'static str,
@@ -53,9 +53,9 @@ impl Subject {
         free_texts.push(("tool", format!("{} {}", printable(tool), printable(version))));
         let also = derivation.regulation.as_ref().map(|w| {
             format!(
-                "With infinitely many oscillators and any gain sigma >= {}, solutions from the same set are bounded, and \
-                 x and e tend to 0.",
-                w.sigma_text
+                "With infinitely many oscillators and any gain sigma >= {}, solutions from the same set are bounded, and {}.",
+                w.sigma_text,
+                limit(spec.plant.as_deref())
             )
         });
         Subject {
@@ -79,13 +79,27 @@ impl Subject {
     }
 }
 
+/// What vanishes with infinitely many oscillators (docs/mathematics.md, section 6): within bounding functions x is the
+/// deviation from the solution of `x' = f(t,x,0)`, in the formulas of a plant it is not.
+fn limit(plant: Option<&Plant>) -> &'static str {
+    match plant {
+        None => "x and e tend to 0",
+        Some(plant) if plant.states() == 0 => "e tends to 0",
+        Some(_) => "x - x_0(t) and e tend to 0",
+    }
+}
+
 /// What the claim takes for granted (docs/trust.md) of the plant.
 fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
     let given = |bound: Bound| spec.bounds[bound as usize].is_some();
     let names: Vec<&str> = BOUND_NAMES.iter().zip(&spec.bounds).filter(|(_, b)| b.is_some()).map(|(n, _)| *n).collect();
     let where_ = match &spec.domain {
         Some([x, e]) => format!("on the domain |x| <= {}, |e| <= {}", printable(&x.text), printable(&e.text)),
-        None => format!("for all X and E (no domain is stated; the main claim uses them up to X = {x:.6}, E = {e:.6})"),
+        None => format!(
+            "for all X and E (no domain is stated; the main claim uses them up to X = {}, E = {})",
+            rounded_up(x),
+            rounded_up(e)
+        ),
     };
     let mut list = vec![
         "the plant is x' = f(t,x,e), e' = q(t,x,e) + u with f, q C2, T-periodic in t, and f(t,0,0) = 0".to_owned(),
@@ -109,6 +123,25 @@ fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
     list
 }
 
+/// Four digits that are not below the number.
+fn rounded_up(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let places = 3 - value.abs().log10().floor() as i32;
+    let in_digits = |value: f64| match places {
+        0..=6 => format!("{value:.0$}", places.unsigned_abs() as usize),
+        _ => format!("{value:.3e}"),
+    };
+    let half = 10f64.powi(-places) / 2.0;
+    let bounds = |text: &String| text.parse().is_ok_and(|shown: f64| shown >= value);
+    [value, value + half, value + 2.0 * half]
+        .into_iter()
+        .map(in_digits)
+        .find(bounds)
+        .unwrap_or_else(|| format!("{value:e}"))
+}
+
 /// What it takes for granted of a continuous regulator.
 fn regulator(spec: &Specification) -> String {
     let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
@@ -120,13 +153,14 @@ fn regulator(spec: &Specification) -> String {
 
 /// What a claim about formulas takes for granted.
 fn assumed_of_plant(plant: &Plant) -> Vec<String> {
-    let of_x = if plant.states() > 0 { "|x - x_0| <= " } else { "" };
+    let stateless = plant.states() == 0;
     let where_ = match &plant.domain {
         None => String::new(),
-        Some([_, e]) if of_x.is_empty() => format!(" for |e| <= {}", printable(&e.text)),
-        Some([x, e]) => format!(" for {of_x}{}, |e| <= {}", printable(&x.text), printable(&e.text)),
+        Some([_, e]) if stateless => format!(" for |e| <= {}", printable(&e.text)),
+        Some([x, e]) => format!(" for |x - x_0| <= {}, |e| <= {}", printable(&x.text), printable(&e.text)),
     };
-    vec![format!("the machine is x' = f(t,x,e), e' = q(t,x,e) + u with exactly these formulas{where_}")]
+    let equations = if stateless { "e' = q(t,e) + u" } else { "x' = f(t,x,e), e' = q(t,x,e) + u" };
+    vec![format!("the machine is {equations} with exactly these formulas{where_}")]
 }
 
 /// A free text on one line: control characters are escaped, and what is long is cut.
@@ -220,5 +254,27 @@ fn shown(json: Option<&Json>) -> String {
         Some(Json::Null) => "null".to_owned(),
         Some(Json::Array(list)) => format!("a list of {}", list.len()),
         Some(Json::Object(_)) => "an object".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_up;
+
+    #[test]
+    fn what_is_shown_is_not_below_the_number() {
+        for (value, shown) in [
+            (0.767_681_2, "0.7677"),
+            (2.809_26, "2.810"),
+            (1189.634_5, "1190"),
+            (40_381.9, "4.039e4"),
+            (1.0e-9, "1.000e-9"),
+            (0.5, "0.5000"),
+            (9.999_9, "10.000"),
+            (0.0, "0"),
+        ] {
+            let text = rounded_up(value);
+            assert!(text == shown && text.parse::<f64>().unwrap() >= value, "{value}: {text}");
+        }
     }
 }

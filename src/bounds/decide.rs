@@ -3,7 +3,7 @@
 use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox};
 use super::chart::{Active, Ball, Cell, Chart, MAX_LEVEL, Placed, Side};
-use super::definite::{SymmetricValues, Verdict, definite, nonnegative};
+use super::definite::{SymmetricValues, Verdict, definite, leaves_out, nonnegative};
 use super::eigen::largest;
 use super::engine::Engine;
 use super::entry::{Entry, Kind};
@@ -222,7 +222,7 @@ impl Values<'_> {
             let zero = frame.constant(Enclosure::zero(PRECISION));
             (0..exact.len()).fold(zero, |sum, k| {
                 let (factor, value) = if right { (&exact[k][j], &rows[i][k]) } else { (&exact[i][k], &rows[k][j]) };
-                if factor.is_zero() {
+                if leaves_out(factor, value) {
                     return sum;
                 }
                 frame.add(&sum, &frame.scale(value, &Enclosure::from_rational(factor, PRECISION)))
@@ -315,9 +315,12 @@ impl Values<'_> {
         let entry = |i: usize, j: usize| {
             let start = frame.add(&moved(&derivative[i][j]), &frame.mul(&moved(&p[i][j]), &rate));
             let sum = (0..order).fold(start, |sum, k| {
-                let (left, right) = (&p[i][k], &p[k][j]);
-                let sum = if left.is_zero() { sum } else { frame.add(&sum, &frame.mul(&moved(left), &jacobian[k][j])) };
-                if right.is_zero() { sum } else { frame.add(&sum, &frame.mul(&jacobian[k][i], &moved(right))) }
+                // 0 times what may be undefined is undefined.
+                let vanishes = |p: &Centred, slope: &Centred| p.is_zero() && slope.range.is_defined();
+                let (left, down) = (&p[i][k], &jacobian[k][j]);
+                let (right, across) = (&p[k][j], &jacobian[k][i]);
+                let sum = if vanishes(left, down) { sum } else { frame.add(&sum, &frame.mul(&moved(left), down)) };
+                if vanishes(right, across) { sum } else { frame.add(&sum, &frame.mul(across, &moved(right))) }
             });
             frame.scale(&sum, &Enclosure::from_integer(-1, PRECISION))
         };

@@ -225,7 +225,7 @@ pub(super) fn definite(frame: &Frame, matrix: &SymmetricValues, ball: &Ball) -> 
             if i != j {
                 factor += Rational::from(&columns[a][*j] * &columns[b][*i]);
             }
-            if factor.is_zero() {
+            if leaves_out(&factor, value) {
                 sum
             } else {
                 plus(&sum, &frame.scale(value, &Enclosure::from_rational(&factor, PRECISION)))
@@ -250,6 +250,11 @@ pub(super) fn definite(frame: &Frame, matrix: &SymmetricValues, ball: &Ball) -> 
         }
     }
     blame.verdict(frame)
+}
+
+/// Whether a product is 0 for the factor's sake: 0 times what may be undefined is undefined.
+pub(super) fn leaves_out(factor: &Rational, value: &Centred) -> bool {
+    factor.is_zero() && value.range.is_defined()
 }
 
 /// The sum, without tightening on the way.

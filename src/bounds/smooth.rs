@@ -16,8 +16,7 @@ pub(super) const BOXES: usize = 1 << 14;
 
 /// An operation of a right side that is not proved to be applied where it is smooth.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("`{part}`: it is not {} that {what} for all states and errors within X and E of the orbit",
-    if .truth.is_false() { "true" } else { "proved" })]
+#[error("`{part}`: {}", told(.what, .truth.is_false()))]
 pub struct SmoothnessFailure {
     /// The index of the right side: a state, or the number of states for q.
     pub index: usize,
@@ -29,6 +28,40 @@ pub struct SmoothnessFailure {
     pub what: &'static str,
     /// False where the demand fails somewhere; undecided where it was not proved.
     pub truth: Truth,
+}
+
+/// What becomes of a demand, straight: what happens where it fails, or what is not decided.
+fn told(what: &str, fails: bool) -> String {
+    const OTHERWISE: [(&str, &str); 3] =
+        [(" does not vanish", " vanishes"), (" is positive", " is not positive"), (" differ", " are equal")];
+    let otherwise = OTHERWISE.iter().find_map(|(wanted, other)| Some(format!("{}{other}", what.strip_suffix(wanted)?)));
+    let where_ = "within X and E of the orbit, where the operation is not smooth";
+    match otherwise {
+        Some(otherwise) if fails => format!("{otherwise} at some state and error {where_}"),
+        Some(otherwise) => format!("it is not decided whether {otherwise} somewhere {where_}"),
+        None => format!(
+            "it is not {} that {what} everywhere within X and E of the orbit",
+            if fails { "true" } else { "proved" }
+        ),
+    }
+}
+
+impl SmoothnessFailure {
+    /// What helps: a smooth function in the place of the operation, or arguments that keep away from there.
+    #[must_use]
+    pub fn advice(&self) -> String {
+        const INSTEAD: [(&str, &str); 6] = [
+            ("the argument of abs", "write sqrt(u^2 + 1/100) for abs(u)"),
+            ("the two arguments", "write (a + b - sqrt((a - b)^2 + 1/100))/2 for min(a, b), with + for max(a, b)"),
+            ("the argument of sqrt", "write sqrt(u + 1/100) for sqrt(u), if u is not negative"),
+            ("the argument of log", "write log(u + 1/100) for log(u), if u is not negative"),
+            ("the divisor", "write u/(v^2 + 1/100)*v for u/v"),
+            ("the argument of tan", "write a function without poles"),
+        ];
+        let instead = INSTEAD.iter().find(|(start, _)| self.what.starts_with(start));
+        let instead = instead.map_or("write a smooth function in its place", |(_, instead)| instead);
+        format!("{instead}; or take a smaller initial set, where it is that set which reaches so far")
+    }
 }
 
 /// One demand on a right side, ready to be decided.

@@ -224,8 +224,8 @@ impl FloatSuprema {
     }
 
     /// The largest value at these points: t/T, y in the unit ball, e/E; of a rate the negative.
-    #[cfg(test)]
-    pub(crate) fn largest_at(&self, kind: Kind, [reach, e]: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
+    #[must_use]
+    pub fn largest_at(&self, kind: Kind, [reach, e]: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut slow = Evaluator::new(self.velocity.clone());
         let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);

@@ -13,8 +13,9 @@ use crate::number::{Direction, round_rational, write_exact};
 use crate::spec::model::{InitialSet, LyapunovSource};
 use crate::spec::{Bound, OfPlant, Specification};
 use crate::transfer::{TransferProof, closed_form_pair};
-use rug::Rational;
+use rug::{Integer, Rational};
 use serde_json::{Map, Value};
+use std::sync::LazyLock;
 
 /// The format of a certificate file.
 pub const FORMAT: &str = "sigmastar/certificate";
@@ -44,10 +45,16 @@ fn interval(value: &Enclosure) -> Value {
 /// An upper end, rounded up; the text "inf" when there is none.
 pub(super) fn upper_end(value: &Enclosure) -> Value {
     match value.upper_rational() {
+        // A bound of what is smaller still, which no reader of exact numerals need take: `f_e` of exp(-1e12) gives one.
+        Some(upper) if upper > 0 && upper < *LEAST_WRITTEN => exact(&LEAST_WRITTEN),
         Some(upper) => exact(&round_rational(&upper, CLAIM_DIGITS, Direction::Up)),
         None => text("inf"),
     }
 }
+
+/// The least positive upper bound that a claim writes.
+static LEAST_WRITTEN: LazyLock<Rational> =
+    LazyLock::new(|| Rational::from((Integer::from(1), Integer::from(Integer::u_pow_u(10, 1000)))));
 
 /// The certificate of a certified run; `None` when nothing was certified.
 ///
@@ -228,7 +235,8 @@ pub(super) fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) ->
 /// The same about one plant: nothing of it is assumed.
 fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String {
     let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
-        format!(" (a model that holds for |x - x_0| <= {}, |e| <= {})", domain.x.text, domain.e.text)
+        let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.text) } else { String::new() };
+        format!(" (a model that holds for {of_x}|e| <= {})", domain.e.text)
     });
     let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(write_exact);
     let (state, orbit) = match claimed_ball(plant, &set.x0) {

@@ -4,7 +4,7 @@ use super::options::{Options, TransferChoice};
 use super::proof::{Outcome, SharpProof};
 use super::round::{TransferKind, round_sharp};
 use crate::data::Data;
-use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_at, search_sharp_near};
+use crate::search::{Failing, FloatModel, Obstacle, SharpProposal, search_sharp, search_sharp_at, search_sharp_near};
 use crate::transfer::TradeOff;
 use rug::Rational;
 
@@ -29,8 +29,12 @@ impl BestSharp {
         let model = model(data, kind);
         let Wanted { start, gain } = wanted;
         let proposal = match gain {
-            None => start.and_then(|known| search_sharp_near(&model, known)).map_or_else(|| search_sharp(&model), Ok),
-            Some(gain) => search_sharp_at(&model, gain.to_f64(), start),
+            None => {
+                let near = start.and_then(|known| search_sharp_near(&model, known).ok());
+                near.map_or_else(|| search_sharp(&model), Ok)
+            }
+            Some(gain) => search_sharp_at(&model, gain.to_f64(), start)
+                .map_err(|obstacle| below_the_smallest(&model, gain.to_f64(), start).unwrap_or(obstacle)),
         };
         let outcome = match &proposal {
             Err(obstacle) => Outcome::NotFound(*obstacle),
@@ -47,6 +51,14 @@ impl BestSharp {
             _ => self,
         }
     }
+}
+
+/// That a gain is below the smallest one that is found, where it is.
+fn below_the_smallest(model: &FloatModel, given: f64, start: Option<&SharpProposal>) -> Option<Obstacle> {
+    let near = start.and_then(|known| search_sharp_near(model, known).ok());
+    let smallest = near.or_else(|| search_sharp(model).ok())?;
+    let smallest = (given < smallest.sigma).then_some((smallest.sigma, smallest.binding));
+    smallest.map(|smallest| Failing::Gain { given, smallest: Some(smallest) }.into())
 }
 
 pub(super) fn model(data: &Data<'_>, kind: TransferKind) -> FloatModel {

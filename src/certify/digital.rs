@@ -18,7 +18,7 @@ use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{MeanSquares, SetBounds};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
-use crate::search::{DigitalLimit, DigitalProposal, DigitalSearch, FloatModel, Obstacle};
+use crate::search::{DigitalLimit, DigitalProposal, DigitalSearch, Extreme, Failing, FloatModel};
 use crate::spec::model::Specification;
 use crate::spec::{SampledGain, Sampling};
 use rug::Rational;
@@ -107,10 +107,13 @@ pub fn certify_digital<'s>(
     let unproved = undecided_or_error(prove_on_domain(spec))?;
     let data = Data::new(spec, ladder.start.max(53));
     let Some(law) = spec.internal_model.sampled_gain(&sampling.step) else {
-        return assemble(spec, sampling, gain, (Outcome::NotFound(Obstacle::Magnitude), None), unproved);
+        let extreme = Extreme::Number("the sampling period", sampling.step.to_f64());
+        return assemble(spec, sampling, gain, (Outcome::NotFound(Failing::Magnitude(extreme).into()), None), unproved);
     };
-    if gain.is_some_and(|gain| !sampling.fits(gain).is_true()) {
-        return assemble(spec, sampling, gain, (Outcome::NotFound(Obstacle::Sampling), None), unproved);
+    if let Some(gain) = gain.filter(|gain| !sampling.fits(gain).is_true()) {
+        let (sigma, largest) = (gain.to_f64(), sampling.step.to_f64().recip());
+        let obstacle = Failing::Hold { sigma, largest, given: true }.into();
+        return assemble(spec, sampling, Some(gain), (Outcome::NotFound(obstacle), None), unproved);
     }
     let model = digital_model(&data, sampling, &law);
     let search = DigitalSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64());

@@ -67,7 +67,7 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         let (mut searches, mut start): (usize, Option<SharpProposal>) = (0, None);
         let mut sigma = |candidate: &Candidate| {
             let model = model.with_triple(candidate.ratio, candidate.alpha);
-            let near = start.and_then(|known| search_sharp_near(&model, &known));
+            let near = start.and_then(|known| search_sharp_near(&model, &known).ok());
             let found = near.or_else(|| {
                 let search = searches < MAX_SEARCHES;
                 searches += usize::from(search);
@@ -125,7 +125,7 @@ fn for_existence(
 ) -> Option<ProvedTriple> {
     let ratio = Rational::from(&stability.p_up / &stability.p_low).to_f64();
     let model = model.with_triple(ratio, stability.alpha.to_f64());
-    let alone = search_sharp_near(&model, known).or_else(|| search_sharp(&model).ok())?;
+    let alone = search_sharp_near(&model, known).or_else(|_| search_sharp(&model)).ok()?;
     let sigma = |candidate: &&Candidate| {
         let model = model.with_existence_triple(candidate.ratio, candidate.alpha);
         search_sharp_near(&model, &alone).map_or(f64::INFINITY, |found| found.sigma)

@@ -20,6 +20,7 @@ mod produce;
 mod proof;
 mod refusal;
 mod round;
+mod sensitivity;
 mod smaller;
 mod verdict;
 

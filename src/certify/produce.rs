@@ -11,6 +11,7 @@ use super::options::{Derivation, Options};
 use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
 use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
+use super::sensitivity::ranked;
 use super::verdict::Verdict;
 use crate::data::Data;
 use crate::derivation::condition::Condition;
@@ -20,9 +21,7 @@ use crate::derivation::relative_degree::{RelativeDegreeError, k_2, k_infinity};
 use crate::enclosure::Enclosure;
 use crate::expr::BoundingFailure;
 use crate::number::{Direction, round_f64};
-use crate::search::{
-    FloatModel, Obstacle, SharpProposal, search_printed, search_repaired, sensitivities, without_optional_data,
-};
+use crate::search::{Failing, FloatModel, SharpProposal, search_printed, search_repaired, without_optional_data};
 use crate::spec::model::Specification;
 use crate::transfer::{TradeOff, printed_transfer};
 use rug::Rational;
@@ -202,8 +201,8 @@ fn assemble<'s>(
     let columns = Columns { sharp, repaired, printed: &printed, exact: exact.as_ref() };
     let (columns, constants) = columns.evaluated(spec, data.precision, options.ladder);
     let Columns { sharp, repaired, .. } = columns;
-    let mut sensitivities = match (&sharp, &proposal) {
-        (Outcome::Proved(_), Some(proposal)) => sensitivities(model, proposal),
+    let sensitivities = match (&sharp, &proposal) {
+        (Outcome::Proved(proof), Some(proposal)) => ranked(spec, model, proposal, proof),
         _ => Vec::new(),
     };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
@@ -216,8 +215,6 @@ fn assemble<'s>(
         (Outcome::Proved(_), Some(_)) if spec.plant().is_none() => without_optional_data(model),
         _ => Vec::new(),
     };
-    sensitivities.retain(|(_, gain)| *gain > 0.0);
-    sensitivities.sort_by(|a, b| b.1.total_cmp(&a.1));
     Ok(Certification {
         spec,
         options,
@@ -271,13 +268,13 @@ fn proved_up_to_arguments<W: Witness>(
     unproved: &mut Vec<BoundingProblem>,
 ) -> Result<Outcome<Proof<W>>, Refusal> {
     let (None, Some(proof)) = (&spec.domain, outcome.attempt()) else { return Ok(outcome) };
-    let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Obstacle::NotFinite)) };
+    let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Failing::NotFinite(None).into())) };
     let result = prove_up_to(spec, &x, &e);
     if chosen {
         unproved.extend(undecided_or_error(result)?);
         return Ok(outcome);
     }
-    Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Obstacle::Bounds) })
+    Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Failing::Bounds.into()) })
 }
 
 /// The largest arguments that a proof uses, rounded up.

@@ -9,7 +9,7 @@ use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
 use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::enclosure::{Enclosure, Truth};
-use crate::search::Obstacle;
+use crate::search::{Failing, Obstacle};
 use crate::transfer::TransferProof;
 use rug::Rational;
 
@@ -254,7 +254,7 @@ impl<P> Outcome<P> {
 impl<W: Decidable> From<Option<Proof<W>>> for Outcome<Proof<W>> {
     /// Proved, where every condition is; without a witness, no numbers were finite.
     fn from(attempt: Option<Proof<W>>) -> Outcome<Proof<W>> {
-        let Some(proof) = attempt.map(Box::new) else { return Outcome::NotFound(Obstacle::NotFinite) };
+        let Some(proof) = attempt.map(Box::new) else { return Outcome::NotFound(Failing::NotFinite(None).into()) };
         let failing = failing(W::conditions(&proof.evaluation));
         if failing.is_empty() { Outcome::Proved(proof) } else { Outcome::NotProved { proof, failing } }
     }

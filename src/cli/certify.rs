@@ -12,7 +12,7 @@ use sigmastar::certificate::{certificate_json, is_digital, read_lyapunov, read_p
 use sigmastar::certify::{Verdict, certify_at, certify_near, recheck, with_triple};
 use sigmastar::derivation::targets::TargetKind;
 use sigmastar::plant::Plant;
-use sigmastar::reduction::decide_again;
+use sigmastar::reduction::{PlantRefusal, decide_again};
 use sigmastar::report::Report;
 use sigmastar::search::SharpProposal;
 use sigmastar::spec::{Document, SpecErrors, Specification};
@@ -110,14 +110,19 @@ pub fn tell_other_specification(spec: &Specification, certificate: &Document, qu
     let digest = if spec.plant().is_some() { "/plant_sha256" } else { "/specification_sha256" };
     let made_for = certificate.at(digest);
     if made_for.is_some_and(|digest| digest.text() != Some(&spec.sha256)) && !quiet {
-        output::remark("the certificate was made for another specification; its witness is tried on this one");
+        let subject = if spec.plant().is_some() { "plant" } else { "specification" };
+        output::remark(&format!("the certificate was made for another {subject}; its witness is tried on this one"));
     }
 }
 
 /// The data that the witness of a certificate says of a plant, proved again.
 pub fn proved_again(plant: &Plant, document: &Document) -> Result<Specification, Failure> {
     let (_, of_plant, values) = read_plant_witness(document)?;
-    decide_again(plant, of_plant, values).map_err(|refusal| Failure::Documents(refusal.errors(plant)))
+    let other = document.at("/plant_sha256").is_some_and(|digest| digest.text() != Some(&plant.sha256));
+    decide_again(plant, of_plant, values).map_err(|refusal| {
+        let refusal = if other { PlantRefusal::OfAnother(Box::new(refusal)) } else { refusal };
+        Failure::Documents(refusal.errors(plant))
+    })
 }
 
 /// Writes the certificate, or says why there is none.

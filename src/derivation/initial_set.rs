@@ -12,12 +12,21 @@ impl<N: Clone> InitialSet<N> {
     /// The same kind of set over other numbers.
     #[must_use]
     pub fn map<M>(&self, number: impl Fn(&N) -> M) -> InitialSet<M> {
+        self.map_each(|_, size| number(size))
+    }
+
+    /// The same, where it matters which number it is: 0 for X_0, 1 for E_0, 2 for Z_0.
+    #[must_use]
+    pub fn map_each<M>(&self, mut number: impl FnMut(usize, &N) -> M) -> InitialSet<M> {
         match self {
             InitialSet::Paper => InitialSet::Paper,
-            InitialSet::AtRest { x0, e0 } => {
-                InitialSet::AtRest { x0: x0.as_ref().map(&number), e0: e0.as_ref().map(&number) }
+            InitialSet::AtRest { x0, e0 } => InitialSet::AtRest {
+                x0: x0.as_ref().map(|size| number(0, size)),
+                e0: e0.as_ref().map(|size| number(1, size)),
+            },
+            InitialSet::Box { x0, e0, z0 } => {
+                InitialSet::Box { x0: number(0, x0), e0: number(1, e0), z0: number(2, z0) }
             }
-            InitialSet::Box { x0, e0, z0 } => InitialSet::Box { x0: number(x0), e0: number(e0), z0: number(z0) },
         }
     }
 

@@ -148,6 +148,9 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
         "pow" => return Some("write a power as u^v".to_owned()),
         "log10" => return Some("write log(u)/log(10)".to_owned()),
         "log2" => return Some("write log(u)/log(2)".to_owned()),
+        "sign" | "sgn" | "signum" => {
+            return Some("a jump is not smooth: write tanh(20*x) for sign(x), steeper with a larger number".to_owned());
+        }
         _ => {}
     }
     let product = scope.spelled_out(name);
@@ -187,6 +190,10 @@ mod tests {
         let advice = suggest("t").unwrap();
         assert!(advice.contains("take the supremum over t, or give the plant itself (`sigmastar/plant`)"), "{advice}");
         assert_eq!(super::suggest("t", &Variables::Time).as_deref(), Some("write t"));
+        for name in ["sign", "sgn", "SIGNUM"] {
+            assert!(suggest(name).unwrap().contains("write tanh(20*x) for sign(x)"), "{name}");
+        }
+        assert_eq!(suggest("sinn").as_deref(), Some("did you mean sin?"));
         assert_eq!(suggest("q"), None);
         assert_eq!(suggest("velocity"), None);
         assert_eq!(super::suggest("e", &Variables::None).as_deref(), Some("Euler's number is exp(1)"));

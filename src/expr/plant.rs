@@ -123,6 +123,10 @@ impl Scope for PlantNames {
         OPERAND
     }
 
+    fn instead_of(&self, name: &str) -> Option<&'static str> {
+        (name == "u").then_some("leave u out: it is added to q, e' = q + u")
+    }
+
     fn names(&self) -> impl Iterator<Item = &str> {
         ["t", "e"].into_iter().chain(self.states.iter().map(String::as_str))
     }

@@ -16,6 +16,8 @@ pub struct OwnPlant {
     inverse: DMatrix<f64>,
     mean: DVector<f64>,
     harmonics: Vec<[DVector<f64>; 2]>,
+    /// How far x_0 may be from the approximation, in the norm of y.
+    radius: f64,
 }
 
 impl OwnPlant {
@@ -28,7 +30,8 @@ impl OwnPlant {
         let vector = |values: &[Rational]| DVector::from_iterator(n, values.iter().map(Rational::to_f64));
         let TrigonometricVector { mean, harmonics } = &proved.orbit.approximation;
         let harmonics = harmonics.iter().map(|pair| pair.each_ref().map(|part| vector(part))).collect();
-        Some(OwnPlant { plant, coordinates, inverse, mean: vector(mean), harmonics })
+        let radius = proved.orbit.radius.to_f64();
+        Some(OwnPlant { plant, coordinates, inverse, mean: vector(mean), harmonics, radius })
     }
 
     /// xb at t = s T.
@@ -46,9 +49,14 @@ impl OwnPlant {
         (self.orbit(s) + &self.coordinates * DVector::from_column_slice(y)).as_slice().to_vec()
     }
 
-    /// |y| of a state at t = s T.
+    /// |y| of a state at t = s T, at least: the approximation of the orbit is taken, and what it may be away from x_0 left out.
     pub(super) fn distance(&self, s: f64, x: &[f64]) -> f64 {
-        self.norm((DVector::from_column_slice(x) - self.orbit(s)).as_slice())
+        (self.norm((DVector::from_column_slice(x) - self.orbit(s)).as_slice()) - self.radius).max(0.0)
+    }
+
+    /// The largest |y| of a difference of two states whose components are at most 1.
+    pub(super) fn spread(&self) -> f64 {
+        self.inverse.row_iter().map(|row| row.abs().sum().powi(2)).sum::<f64>().sqrt()
     }
 
     /// |y| of a difference of two states.

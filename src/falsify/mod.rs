@@ -22,6 +22,7 @@ mod linear;
 mod membership;
 mod random;
 mod report;
+mod run;
 mod sampled_claim;
 mod sampled_trial;
 mod shape;

@@ -6,6 +6,7 @@ use super::finding::{Closest, Falsification, Finding, Trial};
 use crate::number::{Direction, round_f64, told_apart, write_exact};
 use crate::plot::Bars;
 use crate::report::document::{Block, Readable, Table, clean};
+use crate::report::state_name;
 use serde_json::{Value, json};
 
 /// The report on the trials of a certificate, and of those at other base frequencies.
@@ -80,13 +81,13 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
         blocks.push(Block::heading("How much of each bound was used, at most"));
         let number = worst.trial.number;
         let mut table = Table::new(&["<quantity", "found/bound", "in trial", &format!("trial {number}")]);
-        for Closest { quantity, share, trial, .. } in outcome.closest() {
+        for Closest { quantity, share, trial, .. } in shown(claim, outcome) {
             let of_worst = worst.shares.iter().find(|(name, _)| *name == quantity);
             let of_worst = of_worst.map_or_else(String::new, |(_, share)| format!("{share:.3}"));
             table.push([quantity.to_owned(), format!("{share:.3}"), trial.number.to_string(), of_worst]);
         }
         blocks.push(Block::Table(table));
-        blocks.push(Block::Bars(used(outcome)));
+        blocks.push(Block::Bars(used(claim, outcome)));
     }
     unfinished.sort_unstable();
     unfinished.dedup();
@@ -100,12 +101,18 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
     blocks
 }
 
+/// What came closest to each bound; of a plant without states, without those of a state.
+fn shown<'o>(claim: &Claim, outcome: &'o Falsification) -> Vec<Closest<'o>> {
+    let stateless = state_name(&claim.spec).is_none();
+    outcome.closest().into_iter().filter(|closest| !(stateless && closest.quantity.contains("|x"))).collect()
+}
+
 /// How much of each bound was used.
-fn used(outcome: &Falsification) -> Bars {
+fn used(claim: &Claim, outcome: &Falsification) -> Bars {
     let entry = |closest: Closest<'_>| (closest.quantity.to_owned(), closest.share, format!("{:.3}", closest.share));
     Bars {
         title: "Found, as a share of the bound".to_owned(),
-        entries: outcome.closest().into_iter().map(entry).collect(),
+        entries: shown(claim, outcome).into_iter().map(entry).collect(),
     }
 }
 
@@ -118,7 +125,8 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     let mut facts: Vec<(String, String)> =
         f.into_iter().zip(names).map(|(text, name)| (format!("d{name}/dt"), text)).collect();
     facts.push(("de/dt - u".to_owned(), q));
-    facts.push(("start".to_owned(), format!("x = {x:?}, e = {e:?}, z = {z:?}")));
+    let of_state = if x.is_empty() { String::new() } else { format!("x = {x:?}, ") };
+    facts.push(("start".to_owned(), format!("{of_state}e = {e:?}, z = {z:?}")));
     vec![
         Block::heading("The worst plant"),
         Block::says(format!(

@@ -3,11 +3,12 @@
 use super::claim::Claim;
 use super::finding::{Finding, LYAPUNOV, MULTIPLIER, Trial, TriedPlant};
 use super::random::Random;
+use super::run::{self, Largest};
 use super::sampled_claim::SampledClaim;
-use super::trial::{Checks, ESCAPES, PERIODS, boundary, drawn_plant, escaped, file, no_member, norm, unfinished};
+use super::trial::{Checks, PERIODS, boundary, drawn_plant, file, no_member, norm, unfinished, why_none};
 use crate::progress::Silent;
 use crate::simulate::{
-    DigitalLoop, DigitalRun, DigitalSteady, DigitalSteadyError, IntegrationFailure, Piece, SteadyStateError, Tolerance,
+    DigitalLoop, DigitalRun, DigitalSteady, DigitalSteadyError, IntegrationFailure, Piece, Tolerance,
     digital_periodic_solution,
 };
 
@@ -86,9 +87,8 @@ fn period(
 fn check(claim: &Claim, trial: Trial, digital: &DigitalLoop) -> Finding {
     let steady = match digital_periodic_solution(digital, &trial.start, &Silent) {
         Ok(steady) => steady,
-        Err(error) if error.is_escape() => return escaped(trial),
-        // That an integration does not come to its end says nothing about the solution.
-        Err(DigitalSteadyError::Search(SteadyStateError::Integration(failure))) => return unfinished(&failure),
+        // That no periodic solution is found says nothing about the claim; the run itself may.
+        Err(DigitalSteadyError::Search(error)) => return alone(claim, trial, digital, why_none(&error)),
         Err(error) => return Finding::Unfinished(error.to_string()),
     };
     let orbit = DigitalRun::new(digital, 0, &steady.start).map(|mut run| period(digital, &mut run, Tolerance::TIGHT));
@@ -97,12 +97,42 @@ fn check(claim: &Claim, trial: Trial, digital: &DigitalLoop) -> Finding {
         Some(Err(failure)) => return unfinished(&failure),
         None => return Finding::Unfinished("the periodic solution has another dimension".to_owned()),
     };
-    let mut checks = Checks::default();
+    let multiplier = steady.largest_multiplier().unwrap_or(0.0);
+    let mut checks = Checks::around(claim, &steady.start, steady.residual, multiplier);
     check_orbit(claim, digital, &steady, &orbit, &mut checks);
+    if checks.are_broken() && !run::comes_to(&trial, &steady.start, |_, y| passed(digital, y)) {
+        return alone(claim, trial, digital, run::ELSEWHERE.to_owned());
+    }
     match check_approach(claim, &trial, digital, &orbit, &mut checks) {
         Ok(()) => checks.finding(trial),
+        Err(failure @ IntegrationFailure::Escaped { .. }) => alone(claim, trial, digital, failure.to_string()),
         Err(failure) => unfinished(&failure),
     }
+}
+
+/// The state after a period from one at its start.
+fn passed(digital: &DigitalLoop, y: &[f64]) -> Result<Vec<f64>, IntegrationFailure> {
+    let mut run = DigitalRun::new(digital, 0, y).ok_or(IntegrationFailure::TooMuchWork { t: digital.time(0) })?;
+    for _ in 0..digital.samples_rounded_up() {
+        run.advance(1, Tolerance::ORDINARY)?;
+    }
+    Ok(run.whole_state())
+}
+
+/// The finding of a trial for which there is no periodic solution to compare with.
+fn alone(claim: &Claim, trial: Trial, digital: &DigitalLoop, why: String) -> Finding {
+    let mut largest = Largest::default();
+    if let Some(mut run) = DigitalRun::new(digital, 0, &trial.start) {
+        // What happens within a sample after which it has escaped is not looked at.
+        let intervals =
+            (0..PERIODS * digital.samples_rounded_up()).map_while(|_| run.advance(BETWEEN, Tolerance::ORDINARY).ok());
+        for piece in intervals.flatten() {
+            for (at, state) in piece.states.iter().enumerate() {
+                largest.take(claim, (piece.t + piece.unit * at as f64) / digital.period(), state);
+            }
+        }
+    }
+    largest.finding(claim, trial, why)
 }
 
 fn check_orbit(claim: &Claim, digital: &DigitalLoop, steady: &DigitalSteady, orbit: &[Interval], checks: &mut Checks) {
@@ -131,7 +161,7 @@ fn check_orbit(claim: &Claim, digital: &DigitalLoop, steady: &DigitalSteady, orb
 /// upper bound counts, later the lower.
 ///
 /// # Errors
-/// An integration that did not come to its end, the solution still within bounds.
+/// An integration that did not come to its end.
 fn check_approach(
     claim: &Claim,
     trial: &Trial,
@@ -144,14 +174,7 @@ fn check_approach(
     let (mut away, mut level) = ([0.0_f64; 2], [0.0_f64; 2]);
     let [low, up, eta] = claim.lyapunov.unwrap_or_default();
     for index in 0..PERIODS {
-        let intervals = match period(digital, &mut run, Tolerance::ORDINARY) {
-            Ok(intervals) => intervals,
-            Err(IntegrationFailure::Escaped { .. }) => {
-                checks.at_most(ESCAPES, f64::INFINITY, f64::MAX);
-                return Ok(());
-            }
-            Err(failure) => return Err(failure),
-        };
+        let intervals = period(digital, &mut run, Tolerance::ORDINARY)?;
         for (sample, (interval, of_orbit)) in intervals.iter().zip(orbit).enumerate() {
             let difference: Vec<f64> = interval.zeta.iter().zip(&of_orbit.zeta).map(|(a, b)| a - b).collect();
             let zeta = eta * digital.regulator.weighted_norm(&difference).powi(2);

@@ -44,11 +44,13 @@ enum Signal {
     Phi,
 }
 
-/// The sector, or a slightly larger one where it is a single slope other than 0: its multiplier would run to infinity.
+/// The sector, or a slightly larger one where it is nearly a single slope: its multiplier would run to infinity. Where it is
+/// exactly one, u_e is that multiple of et, and has neither a row nor a multiplier.
 fn open_sector([below, above]: [Rational; 2]) -> [Rational; 2] {
     let room = Rational::from(below.abs_ref()) >> 30u32;
     let least = room - &below;
-    let above = if below != 0 && above < least { least } else { above };
+    let is_single = Rational::from(&below + &above) == 0;
+    let above = if !is_single && above < least { least } else { above };
     [below, above]
 }
 

@@ -64,11 +64,14 @@ pub(super) fn slope(x: &[Enclosure], period: &Enclosure) -> Taylor {
     slope
 }
 
-/// The sum of series with factors. A factor that is exactly 0 leaves its series out, even an undefined one: every column of an
-/// invertible matrix has another factor.
+/// The sum of series with factors. A factor that is exactly 0 leaves its series out, but never an undefined one: 0 times what
+/// is undefined is undefined.
 pub(super) fn weigh<'a>(terms: impl Iterator<Item = (&'a Enclosure, &'a Taylor)>) -> Taylor {
-    let nothing = |factor: &Enclosure| factor.is_exact() && factor.contains_zero();
-    terms.filter(|(factor, _)| !nothing(factor)).fold(vec![Enclosure::zero(PRECISION)], |sum, (factor, term)| {
+    let nothing = |factor: &Enclosure, term: &Taylor| {
+        factor.is_exact() && factor.contains_zero() && term.iter().all(Enclosure::is_defined)
+    };
+    let terms = terms.filter(|(factor, term)| !nothing(factor, term));
+    terms.fold(vec![Enclosure::zero(PRECISION)], |sum, (factor, term)| {
         let scaled: Taylor = term.iter().map(|c| c * factor).collect();
         combine(&sum, &scaled, 1)
     })

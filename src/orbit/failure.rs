@@ -36,6 +36,12 @@ pub enum OrbitFailure {
         /// How many there are.
         states: usize,
     },
+    /// The right sides have no values where the search starts.
+    #[error(
+        "no T-periodic solution of x' = f(t,x,0) was found: the right sides, or their derivatives, are not finite at x = 0, \
+         where the search starts, and from other states it comes to none"
+    )]
+    Singular,
     /// Numbers out of range.
     #[error("the right sides, or their derivatives, are not finite along x_0(t) in floating point")]
     NotFinite,
@@ -53,6 +59,7 @@ impl OrbitFailure {
             OrbitFailure::NotStable { .. } => {
                 Some("the zero dynamics have to be stable: close a loop around them first, or choose another output e")
             }
+            OrbitFailure::Singular => Some("state an `initial` of the plant file that is near the periodic solution"),
             OrbitFailure::TooLarge { .. } => None,
             OrbitFailure::NotFinite => Some("write the plant in units in which its numbers are of ordinary size"),
         }

@@ -30,8 +30,11 @@ const BETWEEN: usize = 4;
 /// Periods that are simulated before Newton's method is tried again.
 const APPROACHES: [usize; 2] = [10, 100];
 
-/// Sizes of all states from which the search starts where it cannot start at 0, in the units of the field.
-const ELSEWHERE: [f64; 7] = [1.0, 0.1, 10.0, 0.01, 100.0, 1e-4, 1e4];
+/// Where x = 0 is singular, as a level's root is, these values of all components are tried, in the units of the field.
+const SIZES: [f64; 7] = [1.0, 0.1, 10.0, 0.01, 100.0, 1e-4, 1e4];
+
+/// Times of a period at which that is looked at.
+const TIMES: u8 = 16;
 
 /// Steps of a simulated period, and of all of them.
 const LEAST_STEPS: usize = 128;
@@ -64,21 +67,19 @@ pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
         return Ok(FloatOrbit { series: FloatSeries::zero(0), defect: 0.0, floquet: Vec::new() });
     }
     // Another start may lead to another orbit: the first that is stable is taken, and the first failure told.
-    let constant = |mean: Vec<f64>| FloatSeries { mean, harmonics: Vec::new() };
-    let zero = field.own(&constant(vec![0.0; n])).mean;
-    let initial = field.own(&constant(plant.initial.x.clone())).mean;
+    let mut own = |mean: &[f64]| field.own(&FloatSeries::constant(mean)).mean;
+    let (zero, initial) = (own(&vec![0.0; n]), own(&plant.initial.x));
+    let singular = !is_finite_at(&mut field, &zero);
+    // Where the right sides have no value at 0, other sizes do as well.
+    let mut states = vec![zero, initial];
+    states.extend(SIZES.into_iter().filter(|_| singular).map(|size| vec![size; n]));
+    let constant = states.iter().take(if singular { states.len() } else { 1 }).map(|start| (start, 0));
+    let simulated = APPROACHES.into_iter().flat_map(|periods| states.iter().map(move |start| (start, periods)));
     let mut first = None;
-    let simulated = APPROACHES.into_iter().flat_map(|periods| [(zero.clone(), periods), (initial.clone(), periods)]);
-    let starts = std::iter::once((zero.clone(), 0)).chain(simulated);
-    // Where f is singular at 0, as a level's root is, it starts elsewhere by itself.
-    field.set(0.0, &zero, 0.0);
-    let singular = !field.jacobian().iter().all(|entry| entry.is_finite());
-    let sizes = if singular { &ELSEWHERE[..] } else { &[] };
-    let elsewhere = sizes.iter().flat_map(|size| [(vec![*size; n], APPROACHES[0]), (vec![*size; n], 0)]);
-    for (start, periods) in starts.chain(elsewhere) {
+    for (start, periods) in constant.chain(simulated) {
         let curve = match periods {
-            0 => Some(constant(start)),
-            _ => simulate(&mut field, &start, periods),
+            0 => Some(FloatSeries::constant(start)),
+            _ => simulate(&mut field, start, periods),
         };
         let Some(curve) = curve else { continue };
         match from(&mut field, &curve) {
@@ -90,7 +91,18 @@ pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
             Err(failure) => first = first.or(Some(failure)),
         }
     }
-    Err(first.unwrap_or(OrbitFailure::NotFinite))
+    match first {
+        Some(OrbitFailure::NotFinite | OrbitFailure::NotFound { .. }) | None if singular => Err(OrbitFailure::Singular),
+        first => Err(first.unwrap_or(OrbitFailure::NotFinite)),
+    }
+}
+
+/// Whether the right sides and their derivatives have values at a state, at some times of a period.
+fn is_finite_at(field: &mut Field, x: &[f64]) -> bool {
+    (0..TIMES).all(|at| {
+        field.set(f64::from(at) / f64::from(TIMES), x, 0.0);
+        field.f().iter().chain(field.jacobian().iter()).all(|value| value.is_finite())
+    })
 }
 
 /// Newton's method from a curve, with more and more harmonics.

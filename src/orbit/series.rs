@@ -49,6 +49,11 @@ impl FloatSeries {
         FloatSeries { mean: scale(&self.mean), harmonics }
     }
 
+    /// A series that is constant.
+    pub(super) fn constant(mean: &[f64]) -> FloatSeries {
+        FloatSeries { mean: mean.to_vec(), harmonics: Vec::new() }
+    }
+
     /// The number of components.
     #[must_use]
     pub fn dimension(&self) -> usize {

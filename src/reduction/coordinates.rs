@@ -6,7 +6,7 @@
 use super::grid::{Grid, RATE, RATE_EXISTENCE, Source};
 use crate::number::Portable;
 use crate::search::{
-    Descent, FloatModel, Obstacle, SharpProposal, at_sigma, minimise, search_sharp, search_sharp_near,
+    Closest, Descent, FloatModel, Obstacle, SharpProposal, at_sigma, minimise, search_sharp, search_sharp_near,
 };
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
@@ -119,23 +119,26 @@ impl CoordinateSearch<'_> {
     /// The obstacle of the candidate that came closest.
     pub fn choose(&self, candidates: &[DMatrix<f64>]) -> Result<Chosen, Obstacle> {
         // The first one that has a gain leads to those of the others by local steps.
-        let mut closest = Obstacle::NotFinite;
+        let mut closest = Closest::default();
         let first = candidates.iter().find_map(|l| {
             let found = search_sharp(&self.model(alone(l), Density::Rough));
-            found.map_err(|obstacle| closest = closest.max(obstacle)).ok()
+            found.map_err(|obstacle| closest.record(obstacle)).ok()
         });
-        let first = first.ok_or(closest)?;
+        let first = closest.or(first)?;
         let near = |l: &DMatrix<f64>| search_sharp_near(&self.model(alone(l), Density::Coarse), &first);
-        let found: Vec<Option<SharpProposal>> = candidates.par_iter().map(near).collect();
+        let found: Vec<Result<SharpProposal, Obstacle>> = candidates.par_iter().map(near).collect();
+        let mut closest = Closest::default();
         let mut best: Option<(SharpProposal, &DMatrix<f64>)> = None;
         for (l, found) in candidates.iter().zip(found) {
-            if let Some(found) = found
-                && best.as_ref().is_none_or(|(known, _)| found.sigma < known.sigma)
-            {
-                best = Some((found, l));
+            match found {
+                Ok(found) if best.as_ref().is_none_or(|(known, _)| found.sigma < known.sigma) => {
+                    best = Some((found, l))
+                }
+                Ok(_) => {}
+                Err(obstacle) => closest.record(obstacle),
             }
         }
-        let (start, l) = best.ok_or(closest)?;
+        let (start, l) = closest.or(best)?;
         if l.nrows() > MOST_STATES || l.nrows() < 2 {
             return self.with(alone(l), Some(&start));
         }
@@ -157,7 +160,7 @@ impl CoordinateSearch<'_> {
     /// The obstacle, where no gain is found.
     pub fn with(&self, shape: Shape<'_>, near: Option<&SharpProposal>) -> Result<Chosen, Obstacle> {
         let model = self.model(shape, Density::Fine);
-        let near = near.and_then(|known| search_sharp_near(&model, known));
+        let near = near.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
         Ok(Chosen { l: shape.l.clone(), second: shape.second.cloned(), model, proposal })
     }
@@ -174,7 +177,7 @@ impl CoordinateSearch<'_> {
             let values = second.clone().symmetric_eigenvalues();
             let rate = (self.sampler)(Shape { l, second: Some(&second) }, Density::Coarse)(x_p, 0.0)[RATE_EXISTENCE];
             let model = model.with_existence_triple(values.max() / values.min(), rate).with_rate_of_existence(rate);
-            search_sharp_near(&model, proposal).map(|found| found.sigma.portable_ln())
+            search_sharp_near(&model, proposal).ok().map(|found| found.sigma.portable_ln())
         };
         let (best, sigma) = minimise(cost, &vec![0.0; freedom], &vec![STEP; freedom], DESCENT)?;
         Some((best, sigma.portable_exp()))
@@ -191,7 +194,7 @@ impl CoordinateSearch<'_> {
                 let second = exponential(n, &s[freedom..]);
                 let shape = Shape { l: &(&single.l * exponential(n, &s[..freedom])), second: Some(&second) };
                 let found = search_sharp_near(&self.model(shape, Density::Coarse), &single.proposal);
-                found.map(|found| found.sigma.portable_ln())
+                found.ok().map(|found| found.sigma.portable_ln())
             };
             let from: Vec<f64> = std::iter::repeat_n(0.0, freedom).chain(second.iter().copied()).collect();
             if let Some((best, _)) = minimise(cost, &from, &vec![STEP; 2 * freedom], DESCENT) {
@@ -211,7 +214,7 @@ impl CoordinateSearch<'_> {
         }
         let cost = |s: &[f64]| {
             let model = self.model(alone(&(l * exponential(n, s))), Density::Coarse);
-            search_sharp_near(&model, start).map(|found| found.sigma.portable_ln())
+            search_sharp_near(&model, start).ok().map(|found| found.sigma.portable_ln())
         };
         let (zero, steps) = (vec![0.0; freedom], vec![STEP; freedom]);
         match minimise(cost, &zero, &steps, DESCENT) {

@@ -2,14 +2,14 @@
 
 use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
-use super::reduce::{Along, ENLARGED, PRECISION};
+use super::reduce::{Along, ENLARGED, PRECISION, beyond_the_bounds};
 use super::refusal::PlantRefusal;
 use super::sampling::Sampling;
 use crate::certify::digital_model;
 use crate::data::Data;
 use crate::derivation::digital::{SampledLaw, sampled_trade_off};
 use crate::plant::Plant;
-use crate::search::{DigitalProposal, DigitalSearch, Obstacle};
+use crate::search::{DigitalProposal, DigitalSearch, Extreme, Failing, Obstacle};
 use crate::spec::{self, ProvedValues, Specification};
 use rug::Rational;
 
@@ -83,19 +83,19 @@ impl<'p> DigitalPairs<'p> {
             let (set, at) = search.at(proposal.sigma, proposal.floors, near, ROOM)?;
             Ok((proposal, set, at))
         });
-        let found = found.unwrap_or(Err(Obstacle::Magnitude));
+        let found = found.unwrap_or_else(|| Err(beyond(sampling)));
         let (proposal, set, at) = found.map_err(PlantRefusal::NoGain)?;
         let engine = self.along.engine(self.plant)?;
         let suprema = self.along.suprema(self.sampled);
         let mut best: Option<ReducedDigital> = None;
-        let mut refusal = PlantRefusal::NoGain(Obstacle::Bounds);
+        let mut refusal = PlantRefusal::NoGain(Failing::Bounds.into());
         let wider = WIDER.into_iter().filter(|_| given.is_some()).map(|enlarged| (enlarged, true));
         for (enlarged, only_without) in ENLARGED.map(|enlarged| (enlarged, false)).into_iter().chain(wider) {
             if only_without && best.is_some() {
                 break;
             }
             let at = needed(&set, &at, enlarged, self.along.second().is_some())
-                .ok_or(PlantRefusal::NoGain(Obstacle::Magnitude))?;
+                .ok_or(PlantRefusal::NoGain(Failing::NotFinite(None).into()))?;
             let [x, e] = at.largest();
             engine.smooth(&x, &e)?;
             let values = match prove_all(&engine, &suprema, &at) {
@@ -111,11 +111,16 @@ impl<'p> DigitalPairs<'p> {
                     best = Some(ReducedDigital { spec, proposal: found });
                 }
                 Ok(_) => {}
-                Err(obstacle) => refusal = PlantRefusal::NoGain(obstacle),
+                Err(obstacle) => refusal = PlantRefusal::NoGain(beyond_the_bounds(obstacle)),
             }
         }
         best.ok_or(refusal)
     }
+}
+
+/// That the law has no numbers for this sampling period.
+fn beyond(sampling: &spec::Sampling) -> Obstacle {
+    Failing::Magnitude(Extreme::Number("the sampling period", sampling.step.to_f64())).into()
 }
 
 /// The proposal with proved bounds in the place of sampled ones.
@@ -125,7 +130,7 @@ fn found_again(
     proposal: &DigitalProposal,
     gain: Option<f64>,
 ) -> Result<DigitalProposal, Obstacle> {
-    let law = spec.internal_model.sampled_gain(&sampling.step).ok_or(Obstacle::Magnitude)?;
+    let law = spec.internal_model.sampled_gain(&sampling.step).ok_or_else(|| beyond(sampling))?;
     let data = Data::new(spec, PRECISION);
     let model = digital_model(&data, sampling, &law);
     DigitalSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64()).near(proposal, gain)

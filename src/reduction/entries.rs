@@ -100,12 +100,15 @@ pub(super) fn prove_all(
     Ok(ProvedValues::new(proofs.into_iter().collect::<Result<_, _>>()?))
 }
 
-/// The smallest power of ten that is proved.
+/// What a small value is multiplied with, so that another program proves it, whose bound of x_0' may be coarser.
+const ROOM: u32 = 1000;
+
+/// The smallest power of ten that is proved, with room; not of a rate.
 fn smallest(engine: &Engine, kind: Kind, [x, e]: [&Rational; 2]) -> Option<Rational> {
     SMALL.into_iter().find_map(|exponent| {
         let value = round_f64(10f64.powi(exponent), 1, Direction::Up)?;
         let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value };
-        engine.decide(&entry, SMALL_EFFORT).truth.is_true().then_some(entry.value)
+        engine.decide(&entry, SMALL_EFFORT).truth.is_true().then(|| entry.value * ROOM)
     })
 }
 

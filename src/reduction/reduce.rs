@@ -13,7 +13,7 @@ use crate::orbit::{
     propose_coordinates, prove_forcing, prove_orbit, prove_second, round_orbit,
 };
 use crate::plant::Plant;
-use crate::search::{FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
+use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
 use crate::spec::{
     self, OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
@@ -98,12 +98,7 @@ fn with_coordinates<T>(
     let base = along(plant, &curve, first)?;
     let spec = base.specification(plant, ProvedValues::default())?;
     let data = Data::new(&spec, PRECISION);
-    // The transfer constants hardly move the best coordinates: the cheap ones do.
-    let trade_off = match spec.internal_model.matched {
-        true => TradeOff::matched(&data),
-        false => TradeOff::closed_form(&data),
-    };
-    let model = FloatModel::new(&data, trade_off);
+    let model = FloatModel::new(&data, trade_off(&data));
     let sampling = Sampling::new(plant, &curve, &model);
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
     let by_constant = match constant.is_empty() {
@@ -122,6 +117,12 @@ fn with_coordinates<T>(
         Err(refusal) => return Err(refusal),
     };
     prove(plant, &base, &sampling, &chosen)
+}
+
+/// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger
+/// that no gain is found with them.
+fn trade_off(data: &Data<'_>) -> TradeOff {
+    if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
 }
 
 /// The best coordinates for a constant P, and a P of existence where one helps; rounded, and proved along the orbit.
@@ -327,7 +328,7 @@ fn prove_bounds(
 ) -> Result<Reduced, PlantRefusal> {
     let engine = along.engine(plant)?;
     let suprema = along.suprema(sampling);
-    let mut best: Option<Reduced> = None;
+    let (mut best, mut closest): (Option<Reduced>, _) = (None, Closest::default());
     let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
     let [first, last] = ENLARGED;
     for enlarged in [first].into_iter().chain(FURTHER).chain([last]) {
@@ -346,13 +347,14 @@ fn prove_bounds(
         };
         let spec = along.specification(plant, values)?;
         let data = Data::new(&spec, PRECISION);
-        let trade_off = match spec.internal_model.matched {
-            true => TradeOff::matched(&data),
-            false => TradeOff::curve(&data),
-        };
-        let with_values = FloatModel::new(&data, trade_off);
-        let Some(found) = search_sharp_near(&with_values, &proposal) else {
-            continue;
+        let with_values = FloatModel::new(&data, trade_off(&data));
+        let found = match search_sharp_near(&with_values, &proposal) {
+            Ok(found) => found,
+            Err(_) if best.is_some() => break,
+            Err(obstacle) => {
+                closest.record(beyond_the_bounds(obstacle));
+                continue;
+            }
         };
         let improved = best.as_ref().is_none_or(|known| found.sigma < known.proposal.sigma * (1.0 - WORTH));
         if !improved {
@@ -361,7 +363,15 @@ fn prove_bounds(
         (model, proposal) = (with_values, found);
         best = Some(Reduced { spec, proposal: found });
     }
-    best.ok_or(PlantRefusal::NoGain(Obstacle::Bounds))
+    closest.or(best).map_err(PlantRefusal::NoGain)
+}
+
+/// Where the values of a plant have none, they are not proved so far.
+pub(super) fn beyond_the_bounds(obstacle: Obstacle) -> Obstacle {
+    match obstacle.failing {
+        Failing::NotFinite(Some(_)) => Obstacle { failing: Failing::Bounds, ..obstacle },
+        _ => obstacle,
+    }
 }
 
 /// The arguments of a proposal, enlarged.
@@ -371,16 +381,14 @@ fn arguments(
     enlarged: f64,
     second: bool,
 ) -> Result<Needed, PlantRefusal> {
-    let mut obstacle = Obstacle::Existence;
+    let mut last = PlantRefusal::NoGain(Failing::NotFinite(None).into());
     for above in ABOVE {
         match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above), ABOVE[0]) {
-            Ok((set, at)) => {
-                return needed(&set, &at, enlarged, second).ok_or(PlantRefusal::NoGain(Obstacle::Magnitude));
-            }
-            Err(found) => obstacle = found,
+            Ok((set, at)) => return needed(&set, &at, enlarged, second).ok_or(last),
+            Err(obstacle) => last = PlantRefusal::NoGain(obstacle),
         }
     }
-    Err(PlantRefusal::NoGain(obstacle))
+    Err(last)
 }
 
 /// Proves again what a certificate says of a plant, without any search.

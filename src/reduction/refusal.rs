@@ -3,7 +3,7 @@
 use crate::bounds::SmoothnessFailure;
 use crate::orbit::{OrbitFailure, OrbitNotProved};
 use crate::plant::{PeriodicityFailure, Plant};
-use crate::search::Obstacle;
+use crate::search::{Failing, Obstacle};
 use crate::spec::{ErrorKind, SpecErrors};
 use std::ops::Range;
 
@@ -20,6 +20,8 @@ pub enum PlantRefusal {
         span: Range<usize>,
         /// In words.
         message: String,
+        /// What to do.
+        help: String,
     },
     /// More states than are taken.
     TooManyStates {
@@ -34,6 +36,8 @@ pub enum PlantRefusal {
     NoContraction,
     /// No gain was found in floating point.
     NoGain(Obstacle),
+    /// What keeps the witness of another plant from being one of this plant.
+    OfAnother(Box<PlantRefusal>),
     /// A bound is not proved, at an argument that is needed.
     NotProved {
         /// Its name.
@@ -50,7 +54,8 @@ pub enum PlantRefusal {
 impl From<SmoothnessFailure> for PlantRefusal {
     fn from(failure: SmoothnessFailure) -> PlantRefusal {
         let message = failure.to_string();
-        PlantRefusal::NotSmooth { index: failure.index, span: failure.span, message }
+        let help = failure.advice();
+        PlantRefusal::NotSmooth { index: failure.index, span: failure.span, message, help }
     }
 }
 
@@ -78,11 +83,9 @@ impl PlantRefusal {
                     Some(help.into()),
                 )]
             }
-            PlantRefusal::NotSmooth { index, span, message } => {
-                let help = "keep its argument away from there, or write a smooth function in its place, such as \
-                            sqrt(x^2 + 1/100) for abs(x) and tanh(20*x) for a sign";
+            PlantRefusal::NotSmooth { index, span, message, help } => {
                 let kind = ErrorKind::Undecided;
-                vec![plant.errors_at(&field(*index), span, kind, message.clone(), Some(help.into()))]
+                vec![plant.errors_at(&field(*index), span, kind, message.clone(), Some(help.clone()))]
             }
             PlantRefusal::TooManyStates { states } => {
                 let message = format!("{states} states; a plant of at most {MAX_STATES} is certified");
@@ -103,11 +106,23 @@ impl PlantRefusal {
                     "they have to be stable with a margin: close a loop around them first, or choose another output e",
                 ),
             ),
-            PlantRefusal::NoGain(obstacle) => undecided(
-                "",
-                format!("no gain was found for this initial set in floating point. {}", obstacle.describe()),
-                Some("a smaller initial set (`at-rest` without sizes is the smallest), or a larger domain"),
-            ),
+            PlantRefusal::NoGain(obstacle) => undecided("", no_gain(obstacle), Some(help(obstacle))),
+            PlantRefusal::OfAnother(refusal) => {
+                let all = refusal.errors(plant);
+                let told: Vec<&str> =
+                    all.iter().flat_map(|errors| errors.errors()).map(|error| error.message.as_str()).collect();
+                let message = format!(
+                    "the certificate was made for another plant, and what it says is not proved of this one: {}",
+                    told.join("; ")
+                );
+                undecided(
+                    "",
+                    message,
+                    Some(
+                        "give the plant that the certificate is of, or search for a witness of this one (without --witness)",
+                    ),
+                )
+            }
             PlantRefusal::NotProved { bound, at: [x, e] } => undecided(
                 "",
                 format!("the bound `{bound}` is not proved for |y| <= {x:.6}, |e| <= {e:.6} within the effort"),
@@ -124,5 +139,40 @@ impl PlantRefusal {
                 Some("write the states in units in which they are of one size"),
             ),
         }
+    }
+}
+
+fn no_gain(obstacle: &Obstacle) -> String {
+    format!("no gain was found for this initial set in floating point. {}", obstacle.describe())
+}
+
+/// What helps where no gain was found, for the very reason.
+fn help(obstacle: &Obstacle) -> &'static str {
+    match obstacle.failing {
+        Failing::Magnitude(_) | Failing::NotFinite(None) => {
+            "write the plant in units in which its numbers are of ordinary size"
+        }
+        Failing::NotFinite(Some(_)) => {
+            "a smaller initial set (`at-rest` without sizes is the smallest): around this one the error box reaches where a \
+             right side has no finite derivative, or is far larger than the orbit"
+        }
+        Failing::Existence => {
+            "a larger rate of the zero dynamics, less coupling between e and x, or units in which the numbers are of one size"
+        }
+        Failing::DomainX | Failing::DomainE => {
+            "a larger `domain`, or a smaller initial set (`at-rest` without sizes is the smallest)"
+        }
+        Failing::Curvature => {
+            "a smaller initial set (`at-rest` without sizes is the smallest): on the error box around this one the zero \
+             dynamics do not contract"
+        }
+        Failing::Coupling => {
+            "a smaller initial set (`at-rest` without sizes is the smallest), or less coupling between e and x"
+        }
+        Failing::Gain { .. } => "a larger gain, or none: the smallest one is then sought",
+        Failing::Hold { given: true, .. } => "a smaller gain, or a shorter sampling period",
+        Failing::Hold { given: false, .. } | Failing::Samples => "a shorter sampling period, or a smaller gain",
+        Failing::Sampling => "a shorter sampling period, a smaller mu, or another gain",
+        Failing::Bounds => "a smaller initial set, or a smoother plant",
     }
 }

@@ -3,7 +3,9 @@
 
 use super::document::Block;
 use super::number::{estimate, exact, upper};
+use super::sensitivity;
 use super::verdict::assumed;
+use super::words;
 use crate::certify::{Certification, Derivation, DigitalCertification, claimed_ball};
 use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::targets::Consequences;
@@ -48,10 +50,10 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
 pub(super) fn of_samples(run: &DigitalCertification<'_>, rechecked: bool) -> Vec<Block> {
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
     let witness = &proof.witness;
-    let gain = format!(
-        "sigma = {} in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples",
-        write_exact(&witness.sigma)
-    );
+    // That gain stands exactly in the sentence above: the claim is about no other.
+    let gain = "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for \
+                faster samples"
+        .to_owned();
     let next = match rechecked {
         true => {
             "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the code"
@@ -73,41 +75,42 @@ pub(super) fn of_samples(run: &DigitalCertification<'_>, rechecked: bool) -> Vec
 
 /// What the norms are of, and whom a gain or a law serves.
 fn norms(spec: &Specification, what: &str) -> String {
-    match spec.plant().is_some() {
-        true => "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with the orbit x_0 and a matrix L.".to_owned(),
-        false => {
+    match (spec.plant().is_some(), words::state(spec)) {
+        (true, Some(_)) => {
+            "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with the orbit x_0 and a matrix L.".to_owned()
+        }
+        (true, None) => "Here |z|_N = sqrt(z'Nz).".to_owned(),
+        (false, _) => {
             format!("Here |z|_N = sqrt(z'Nz). The same {what} serves every plant that the bounding functions describe.")
         }
     }
 }
 
-fn state(spec: &Specification) -> &'static str {
-    if spec.plant().is_some() { "y" } else { "x" }
-}
-
 /// The initial set, and of a plant the ball in it.
 fn from(spec: &Specification, set: &ClaimedSet, when: &str) -> String {
-    let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(|value| exact(value, Direction::Down));
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
     let ball =
         ball.map_or_else(String::new, |ball| format!("; so from |x - x_0| <= {}", exact(&ball, Direction::Down)));
-    format!("|{}| <= {x0}, |e| <= {e0}, |z|_N <= {z0}, at {when}{ball}", state(spec))
+    format!("{}, at {when}{ball}", words::set(spec, set))
 }
 
 /// The periodic solution, and how far from it solutions go.
 fn to(spec: &Specification, periodic: &[Enclosure; 4], [d_x, d_e]: [String; 2]) -> String {
     let [x, e, _, _] = periodic.each_ref().map(upper);
-    let state = state(spec);
-    format!(
-        "a periodic solution with |{state}| <= {x}, |e| <= {e}; on the way {state} stays within {d_x} of it and e within {d_e}"
-    )
+    match words::state(spec) {
+        Some(state) => format!(
+            "a periodic solution with |{state}| <= {x}, |e| <= {e}; on the way {state} stays within {d_x} of it and e within \
+             {d_e}"
+        ),
+        None => format!("a periodic solution with |e| <= {e}; on the way e stays within {d_e} of it"),
+    }
 }
 
 /// The mechanism that asks for most of sigma*, and the datum that would lower it most.
 fn set_by(run: &Certification<'_>) -> Option<String> {
     let binding = run.binding.filter(|_| run.options.derivation == Derivation::Sharp && run.given_gain.is_none())?;
     let best = run.sensitivities.first().map(|(datum, gain)| {
-        format!("; one per cent better {} lowers sigma* by about {} %", datum.name(), estimate(100.0 * gain))
+        format!("; {} lowers sigma* by about {} %", sensitivity::one_per_cent(run.spec, *datum), estimate(100.0 * gain))
     });
     Some(format!("{}{} (estimates)", binding.describe(), best.unwrap_or_default()))
 }

@@ -60,7 +60,7 @@ impl Readable for Report<'_> {
             blocks.extend(printed::section(run, self.rechecked));
         }
         blocks.extend(sensitivity::section(run));
-        blocks.extend(self.consequences.iter().flat_map(consequences::section));
+        blocks.extend(self.consequences.iter().flat_map(|all| consequences::section(run.spec, all)));
         blocks.extend(exact_regulation::section(run, self.rechecked));
         blocks.extend(relative_degree::section(run));
         blocks

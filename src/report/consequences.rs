@@ -2,14 +2,16 @@
 
 use super::document::{Block, Table, clean};
 use super::number::upper;
+use super::words;
 use crate::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi};
 use crate::derivation::targets::{Consequences, Target, TargetOutcome};
 use crate::enclosure::Enclosure;
 use crate::plot::{Curve, Figure, Scale, Style};
+use crate::spec::Specification;
 
 /// The section of the report.
-pub(super) fn section(consequences: &Consequences) -> Vec<Block> {
-    let mut blocks = vec![Block::heading("The regulated error"), Block::List(psi_items(consequences))];
+pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<Block> {
+    let mut blocks = vec![Block::heading("The regulated error"), Block::List(psi_items(spec, consequences))];
     if consequences.matched {
         let mut table = Table::new(&["n_o", "rms(e) at most", "sup|e| at most"]);
         for (n_o, bounds) in &consequences.by_n_o {
@@ -54,12 +56,13 @@ fn figure(consequences: &Consequences) -> Figure {
     }
 }
 
-fn psi_items(consequences: &Consequences) -> Vec<String> {
+fn psi_items(spec: &Specification, consequences: &Consequences) -> Vec<String> {
     let Psi { psi_1, psi_x, psi_2 } = &consequences.psi;
-    let mut items = vec![
-        format!("sup|e| <= psi_1/sigma with psi_1 = {}, for every n_o and mu", upper(psi_1)),
-        format!("sup|x| <= psi_x/sigma with psi_x = {}, for every n_o and mu", upper(psi_x)),
-    ];
+    let mut items = vec![format!("sup|e| <= psi_1/sigma with psi_1 = {}, for every n_o and mu", upper(psi_1))];
+    items.extend(
+        words::state(spec)
+            .map(|state| format!("sup|{state}| <= psi_x/sigma with psi_x = {}, for every n_o and mu", upper(psi_x))),
+    );
     if consequences.matched {
         items.push(format!("the integral of e^2 over a period <= psi_2/(n_o + 1)^2 with psi_2 = {}", upper(psi_2)));
     }

@@ -1,21 +1,21 @@
 //! The report on a certification of the regulator at samples.
 
-use super::document::{Block, Readable, Table, clean};
+use super::document::{Block, Readable, clean};
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::json::conditions_with_truth;
 use super::number::{estimate, exact, full, upper};
 use super::obstacles::{describe, first_of, rest_of};
 use super::of_plant::plant_json;
 use super::remarks::digital_remarks;
-use super::sets::Boxes;
+use super::sets::{Boxes, Sizes};
 use super::verdict::of_the_data;
+use super::words;
 use super::{brief, conditions, of_plant};
 use crate::certificate::no_plant_json;
 use crate::certify::{DigitalCertification, DigitalProof, Outcome, Verdict};
-use crate::derivation::sharp::ClaimedSet;
 use crate::enclosure::{Enclosure, Truth};
 use crate::number::{Direction, write_exact};
-use crate::search::Obstacle;
+use crate::search::{Failing, Obstacle};
 use rug::Rational;
 use serde_json::{Value, json};
 
@@ -77,7 +77,15 @@ impl<'r> DigitalReport<'r> {
         let run = self.run;
         let mut items = Vec::new();
         match &run.outcome {
-            Outcome::NotFound(Obstacle::Sampling | Obstacle::Coupling | Obstacle::Existence) => {
+            Outcome::NotFound(Obstacle { failing: Failing::Hold { given, .. }, .. }) => {
+                items.push(
+                    if *given { "a smaller gain, or a shorter sampling period" } else { "a shorter sampling period" }
+                        .to_owned(),
+                );
+            }
+            Outcome::NotFound(Obstacle {
+                failing: Failing::Sampling | Failing::Coupling | Failing::Existence, ..
+            }) => {
                 if run.given_gain.is_some() {
                     items.push("another gain, or none: without --sigma the smallest one is sought".to_owned());
                 }
@@ -138,22 +146,17 @@ impl<'r> DigitalReport<'r> {
 /// The claim in one sentence.
 fn certified(run: &DigitalCertification<'_>, proof: &DigitalProof) -> String {
     let (spec, witness) = (run.spec, &proof.witness);
-    let ClaimedSet { x0, e0, z0 } = &witness.set;
     let samples = witness.sampling.samples;
     format!(
         "Certified: the regulator at samples h = {} apart ({samples} in a period) with sigma = {} and K = {}, mu = {} and base \
          frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples: every solution that \
-         starts, at a sampling instant, from {} <= {}, |e| <= {}, |z|_N <= {} converges exponentially to a T-periodic \
-         solution, T = {}.",
+         starts, at a sampling instant, from {} converges exponentially to a T-periodic solution, T = {}.",
         clean(&witness.sampling.text()),
         write_exact(&witness.sigma),
         super::number::compact(&proof.evaluation.law.gain),
         clean(&spec.internal_model.mu.text),
         clean(&spec.internal_model.base_frequency.text),
-        if spec.plant().is_some() { "|y|" } else { "|x|" },
-        exact(x0, Direction::Down),
-        exact(e0, Direction::Down),
-        exact(z0, Direction::Down),
+        words::set(spec, &witness.set),
         clean(&spec.period.text),
     )
 }
@@ -162,43 +165,39 @@ fn certified(run: &DigitalCertification<'_>, proof: &DigitalProof) -> String {
 fn sets(run: &DigitalCertification<'_>) -> Vec<Block> {
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
     let (witness, evaluation) = (&proof.witness, &proof.evaluation);
-    let state = if run.spec.plant().is_some() { "|y|" } else { "|x|" };
-    let none = || "-".to_owned();
-    let down = |value| exact(value, Direction::Down);
-    let mut table = Table::new(&["<", state, "|e|", "|zeta|_N", "|z|_N"]);
     let set = &witness.set;
-    table.push(["initial set (covered)".to_owned(), down(&set.x0), down(&set.e0), none(), down(&set.z0)]);
-    let [x, e, zeta, z] = periodic.each_ref().map(upper);
-    table.push(["periodic solution, at most".to_owned(), x, e, zeta, z]);
-    let radius = |value| exact(value, Direction::Up);
-    table.push(["error box around it (radii)".to_owned(), radius(&witness.d_x), radius(&witness.d_e), none(), none()]);
-    if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
-        table.push(["bounding functions used up to".to_owned(), x, e, none(), none()]);
+    let mut sizes = Sizes::new(run.spec);
+    sizes.of_claim(set, &periodic);
+    let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
+    sizes.row("error box around it (radii)", radii);
+    if let Some(arguments) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
+        sizes.row("bounding functions used up to", arguments);
     }
     let law = &evaluation.law;
     let boxes = Boxes {
-        state,
+        state: words::state(run.spec),
         initial: [&set.x0, &set.e0].map(Rational::to_f64),
         periodic: [&periodic[0], &periodic[1]].map(Enclosure::upper_f64),
         error: [&witness.d_x, &witness.d_e].map(Rational::to_f64),
         used: run.largest_arguments().map(|arguments| arguments.each_ref().map(Enclosure::upper_f64)),
         ellipse: false,
     };
-    vec![
-        Block::Heading(format!("sigma = {} at h = {}", write_exact(&witness.sigma), clean(&witness.sampling.text()))),
+    let mut blocks = vec![
+        Block::Heading(format!("The law and the sets at h = {}", clean(&witness.sampling.text()))),
         Block::facts([
             ("samples in a period", witness.sampling.samples.to_string()),
             ("h sigma", upper(&evaluation.product)),
             ("K, of u = -sigma e + K v", super::number::compact(&law.gain)),
             ("theta = h mu Nbar^2/2", upper(&theta(law))),
         ]),
-        Block::Table(table),
-        Block::Drawing(boxes.figure()),
-        Block::says(
-            "Solutions from the initial set stay in the error box around the periodic solution, between samples too; zeta and z \
-             are those at samples. The rate of convergence depends on n_o and is not part of the claim.",
-        ),
-    ]
+        Block::Table(sizes.table),
+    ];
+    blocks.extend(boxes.figure().map(Block::Drawing));
+    blocks.push(Block::says(
+        "Solutions from the initial set stay in the error box around the periodic solution, between samples too; zeta and z \
+         are those at samples. The rate of convergence depends on n_o and is not part of the claim.",
+    ));
+    blocks
 }
 
 /// theta.

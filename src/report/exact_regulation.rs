@@ -2,6 +2,7 @@
 
 use super::document::Block;
 use super::number::exact;
+use super::words;
 use crate::certify::{Certification, Verdict};
 use crate::number::{Direction, write_exact};
 
@@ -14,16 +15,12 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
         (Some(claim), Some(proof)) => {
             let set = &proof.witness.set;
             format!(
-                "sigma*_oo = {}: with infinitely many oscillators and any sigma >= sigma*_oo, every solution from |{}| <= {}, \
-                 |e| <= {}, |z|_N <= {} is bounded, and x and e tend to 0. No rate is claimed, and nothing about z. This uses \
-                 the bounding functions up to X = {}, E = {}.",
+                "sigma*_oo = {}: with infinitely many oscillators and any sigma >= sigma*_oo, every solution from {} is \
+                 bounded, and {}. No rate is claimed, and nothing about z. This uses the bounding functions up to {}.",
                 write_exact(&claim.witness.sigma),
-                if run.spec.plant().is_some() { "y" } else { "x" },
-                exact(&set.x0, Direction::Down),
-                exact(&set.e0, Direction::Down),
-                exact(&set.z0, Direction::Down),
-                exact(&claim.witness.d_x, Direction::Up),
-                exact(&claim.witness.d_e, Direction::Up)
+                words::set(run.spec, set),
+                words::limit(run.spec),
+                words::arguments(run.spec, [&claim.witness.d_x, &claim.witness.d_e].map(|d| exact(d, Direction::Up)))
             )
         }
         _ if !run.spec.internal_model.matched => {

@@ -7,6 +7,7 @@ use super::obstacles::advice;
 use super::of_plant::plant_json;
 use super::relative_degree::gains_json;
 use super::remarks::remarks;
+use super::sensitivity;
 use super::verdict::{basis, sentence};
 use crate::certificate::{conditions_json, constants_json, no_plant_json};
 use crate::certify::{Certification, Outcome, Verdict};
@@ -56,7 +57,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("plant", plant_json(run.spec, run.claimed_set())),
         ("printed", printed(run)),
         ("binding", json!(run.binding.map(Binding::describe))),
-        ("binding_advice", json!(run.binding.map(Binding::advice))),
+        ("binding_advice", json!(run.binding.map(|binding| binding.advice(run.spec.plant().is_some())))),
         ("without_optional", without_optional(run)),
         ("sensitivities", sensitivities(run)),
         ("consequences", consequences.map_or(Value::Null, consequences_json)),
@@ -120,7 +121,7 @@ fn without_optional(run: &Certification<'_>) -> Value {
 fn sensitivities(run: &Certification<'_>) -> Value {
     run.sensitivities
         .iter()
-        .map(|(datum, gain)| json!({ "datum": datum.name(), "estimate": estimate(*gain) }))
+        .map(|(datum, gain)| json!({ "datum": sensitivity::name(run.spec, *datum), "estimate": estimate(*gain) }))
         .collect()
 }
 

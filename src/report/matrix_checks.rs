@@ -95,12 +95,13 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         let verdict = if check.is_positive_definite() { "R is positive definite" } else { "nothing is proved of R" };
         blocks.push(Block::says(format!(
             "Sylvester's criterion for R of the repaired derivation, with entries rounded to its disadvantage; the minors are \
-             exact: {verdict}."
+             computed exactly, and all are shown to four digits: {verdict}."
         )));
         let mut table = Table::new(&["<", "R", "", "", "leading minor"]);
         for (row, entries) in check.rows.iter().enumerate() {
-            let minor = check.minors.get(row).map_or_else(|| "-".to_owned(), write_exact);
-            let cells = entries.iter().map(write_exact);
+            let shown = |value: &Rational| exact(value, Direction::Nearest);
+            let minor = check.minors.get(row).map_or_else(|| "-".to_owned(), shown);
+            let cells = entries.iter().map(shown);
             table.push(std::iter::once(format!("{}", row + 1)).chain(cells).chain([minor]));
         }
         blocks.push(Block::Table(table));

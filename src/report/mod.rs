@@ -30,6 +30,7 @@ mod sensitivity;
 mod sets;
 mod transfer;
 mod verdict;
+mod words;
 
 pub use certification::Report;
 pub use digital::DigitalReport;
@@ -42,3 +43,4 @@ pub(crate) use remarks::{digital_remarks, remarks};
 pub use sampling::{SamplingReport, sampling_figure};
 pub use transfer::{pair_failure_json, transfer_figure};
 pub use verdict::sentence;
+pub(crate) use words::state as state_name;

@@ -4,27 +4,37 @@ use crate::enclosure::{self, Enclosure};
 use crate::number::{Direction, round_f64, round_rational, write_exact};
 use rug::Rational;
 
-/// Significant digits of a number in a report.
-const DIGITS: usize = 6;
+/// Significant digits of a number in a report; certificates and JSON have all of them.
+const DIGITS: usize = 4;
 
-/// Significant digits of both ends of an enclosure: one more, so that a short rational shows between them.
-const PAIR_DIGITS: usize = 7;
-
-/// The same decimal with an exponent, where it starts with many zeros.
+/// The same decimal with an exponent, where it starts with many zeros, or ends with so many that they would look like digits.
 fn shorter(text: String) -> String {
     let (sign, size) = text.strip_prefix('-').map_or(("", text.as_str()), |size| ("-", size));
-    let Some(fraction) = size.strip_prefix("0.000") else { return text };
-    let digits = fraction.trim_start_matches('0');
-    let exponent = 4 + fraction.len() - digits.len();
+    let (digits, exponent) = match size.strip_prefix("0.000") {
+        Some(fraction) => {
+            let digits = fraction.trim_start_matches('0');
+            (digits, format!("-{}", 4 + fraction.len() - digits.len()))
+        }
+        None if size.len() > DIGITS + 3 && size.bytes().all(|c| c.is_ascii_digit()) => {
+            (size.trim_end_matches('0'), (size.len() - 1).to_string())
+        }
+        None => return text,
+    };
     let Some(first) = digits.get(..1) else { return text };
     let dot = if digits.len() > 1 { "." } else { "" };
-    format!("{sign}{first}{dot}{}e-{exponent}", &digits[1..])
+    format!("{sign}{first}{dot}{}e{exponent}", &digits[1..])
 }
 
 /// An upper bound, rounded up.
 #[must_use]
 pub fn upper(value: &Enclosure) -> String {
     shorter(value.upper_decimal(DIGITS))
+}
+
+/// A lower bound, rounded down.
+#[must_use]
+pub fn lower(value: &Enclosure) -> String {
+    shorter(value.lower_decimal(DIGITS))
 }
 
 /// An upper bound for JSON: the upper end with all its digits.
@@ -42,7 +52,7 @@ pub fn margin(value: &Enclosure) -> String {
 /// An enclosure, rounded outward; one number when that is exact.
 #[must_use]
 pub fn pair(value: &Enclosure) -> String {
-    let (lower, upper) = (shorter(value.lower_decimal(PAIR_DIGITS)), shorter(value.upper_decimal(PAIR_DIGITS)));
+    let (lower, upper) = (shorter(value.lower_decimal(DIGITS)), shorter(value.upper_decimal(DIGITS)));
     if lower == upper { lower } else { format!("[{lower}, {upper}]") }
 }
 
@@ -80,12 +90,10 @@ fn short(rounded: &Rational, value: f64, digits: usize) -> String {
     }
 }
 
-/// A rational exactly where that is short, else rounded in the given direction.
+/// A rational number of few digits, rounded in the given direction: exactly itself where it has no more of them.
 #[must_use]
 pub fn exact(value: &Rational, direction: Direction) -> String {
-    const LONGEST: usize = 16;
-    let written = write_exact(value);
-    if written.len() <= LONGEST { written } else { write_exact(&round_rational(value, 9, direction)) }
+    shorter(write_exact(&round_rational(value, DIGITS as u32, direction)))
 }
 
 /// A floating-point estimate to three digits.
@@ -104,21 +112,30 @@ mod tests {
     #[test]
     fn claims_are_rounded_outward() {
         let third = Enclosure::from_rational(&Rational::from((1, 3)), 128);
-        assert_eq!(upper(&third), "0.333334");
+        assert_eq!(upper(&third), "0.3334");
         assert_eq!(margin(&third), "0.333");
-        assert_eq!(pair(&third), "[0.3333333, 0.3333334]");
-        assert_eq!(compact(&third), "0.333333");
-        assert_eq!(compact(&third.hull(&Enclosure::one(128))), "[0.3333333, 1]");
-        assert_eq!(compact(&Enclosure::from_rational(&Rational::from((472_233, 10_000)), 128)), "47.2233");
-        assert_eq!(compact(&Enclosure::from_integer(1_499_714_004_546, 64)), "1.49971e12");
+        assert_eq!(pair(&third), "[0.3333, 0.3334]");
+        assert_eq!(compact(&third), "0.3333");
+        assert_eq!(compact(&third.hull(&Enclosure::one(128))), "[0.3333, 1]");
+        assert_eq!(compact(&Enclosure::from_rational(&Rational::from((472_233, 10_000)), 128)), "47.22");
+        assert_eq!(compact(&Enclosure::from_integer(1_499_714_004_546, 64)), "1.5e12");
         assert_eq!(compact(&Enclosure::from_integer(2, 64)), "2");
         assert_eq!(compact(&Enclosure::undefined(64)), "undefined");
         let around_0 = Enclosure::between(&Rational::from((-1, 3)), &Rational::from((1, 3)), 64);
         assert_eq!(compact(&around_0), "[-0.34, 0.34]");
-        assert_eq!(exact(&Rational::from((1, 3)), Direction::Down), "1/3");
-        let long = Rational::from((1_000_000_007, 3_000_000_019_i64));
-        assert_eq!(exact(&long, Direction::Down), "0.333333333");
-        assert_eq!(exact(&long, Direction::Up), "0.333333334");
+        for (value, down, up) in [
+            ((1, 3), "0.3333", "0.3334"),
+            ((-1, 3), "-0.3334", "-0.3333"),
+            ((5, 4), "1.25", "1.25"),
+            ((0, 1), "0", "0"),
+            ((233_112_i64, 1_000_000_000_000_i64), "2.331e-7", "2.332e-7"),
+            ((7_236_227, 1), "7236000", "7237000"),
+            ((16_987_651, 1), "1.698e7", "1.699e7"),
+            ((-20_000_000, 1), "-2e7", "-2e7"),
+        ] {
+            let value = Rational::from(value);
+            assert_eq!([exact(&value, Direction::Down), exact(&value, Direction::Up)], [down, up]);
+        }
     }
 
     #[test]
@@ -129,6 +146,9 @@ mod tests {
             ("0.00123", "0.00123"),
             ("0.000", "0.000"),
             ("1.000001", "1.000001"),
+            ("-7236000", "-7236000"),
+            ("72360000", "7.236e7"),
+            ("10000000", "1e7"),
             ("undefined", "undefined"),
         ] {
             assert_eq!(shorter(plain.to_owned()), short);

@@ -7,7 +7,7 @@ use crate::derivation::condition::Condition;
 use crate::enclosure::Truth;
 use crate::expr::BoundingFailure;
 use crate::number::write_exact;
-use crate::search::{Obstacle, SmallerSet};
+use crate::search::{Failing, Obstacle, SmallerSet};
 
 /// So many items of a list are in the short form.
 const FEW: usize = 3;
@@ -185,34 +185,43 @@ pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
 
 fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn FnMut(&str)) {
     let domain = run.spec.domain.as_ref();
-    match obstacle {
-        Obstacle::Magnitude => add("units of time, x, e and q in which the numbers are of ordinary size"),
-        Obstacle::NotFinite => {
-            add("check the bounding functions and the magnitude of the data: no finite values were found")
+    match obstacle.failing {
+        Failing::Magnitude(_) => add("units of time, x, e and q in which the numbers are of ordinary size"),
+        Failing::NotFinite(Some(bound)) if run.spec.plant().is_some() => {
+            add(&format!(
+                "of a plant {} is known as far as the smallest gain needs it: another gain, or the plant without this witness",
+                bound.field()
+            ));
         }
-        Obstacle::Existence => {
+        Failing::NotFinite(Some(bound)) => {
+            add(&smaller(run));
+            add(&format!("a {} that is finite at these arguments", bound.field()));
+        }
+        Failing::NotFinite(None) => add("units of time, x, e and q in which the numbers are of ordinary size"),
+        Failing::Existence => {
             add(
                 "a larger alpha, a smaller p_up/p_low, or smaller f_e, f_xx: a_1 > 0 (sharp), C1 and C3 (repaired) do not contain sigma there",
             );
         }
-        Obstacle::DomainX | Obstacle::DomainE => {
+        Failing::DomainX | Failing::DomainE => {
             if let Some(domain) = domain {
                 let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));
                 add(&format!("a larger domain than X = {x}, E = {e}, if the bounding functions hold there"));
             }
             add(&smaller(run));
         }
-        Obstacle::Curvature => {
+        Failing::Curvature => {
             add(&smaller(run));
             add("a larger alpha, or smaller f_xx and f_ex: the nonlinearity is too strong for this initial set");
         }
-        Obstacle::Coupling => {
+        Failing::Coupling => {
             add(&smaller(run));
             add("smaller q_x, f_e");
         }
-        Obstacle::Gain => add("a larger gain, or none: without --sigma the smallest one is sought"),
-        Obstacle::Sampling => add("a shorter sampling period, or a smaller mu"),
-        Obstacle::Bounds => add("a `domain` on which the bounding functions are valid"),
+        Failing::Gain { .. } => add("a larger gain, or none: without --sigma the smallest one is sought"),
+        Failing::Hold { .. } | Failing::Samples => add("a smaller gain or a shorter sampling period"),
+        Failing::Sampling => add("a shorter sampling period, or a smaller mu"),
+        Failing::Bounds => add("a `domain` on which the bounding functions are valid"),
     }
     if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));

@@ -2,10 +2,11 @@
 
 use super::document::{Block, Table};
 use super::number::exact;
+use super::words;
 use crate::certify::claimed_ball;
 use crate::derivation::sharp::ClaimedSet;
 use crate::number::{Direction, write_exact};
-use crate::spec::model::Lyapunov;
+use crate::spec::model::{Constant, Lyapunov};
 use crate::spec::{OfPlant, ProvedValue, Specification};
 use rug::Rational;
 use serde_json::{Value, json};
@@ -22,12 +23,22 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         blocks.push(Block::facts(facts(plant, set)));
         blocks.push(matrix("L", &plant.coordinates));
     }
-    blocks.push(Block::says("The bounds that the conditions use, for |y| <= X, |e| <= E and every t:"));
-    let mut table = Table::new(&["<bound", "<of", "X", "E", "value"]);
+    let (where_, titles) = match words::state(spec) {
+        Some(_) => ("|y| <= X, |e| <= E", &["<bound", "<of", "X", "E", "value"][..]),
+        None => ("|e| <= E", &["<bound", "<of", "E", "value"][..]),
+    };
+    blocks.push(Block::says(format!("The bounds that the conditions use, for {where_} and every t:")));
+    let mut table = Table::new(titles);
     for ProvedValue { bound, x, e, value } in spec.bounds.proved_values().entries() {
+        // Without states those of f, and of derivatives by x, are of nothing.
+        if words::state(spec).is_none() && bound.is_of_state() {
+            continue;
+        }
         let [x, e] = [x, e].map(|end| exact(end, Direction::Down));
         let direction = if bound.is_nonincreasing() { Direction::Down } else { Direction::Up };
-        table.push([bound.field().to_owned(), bound.of_what().to_owned(), x, e, exact(value, direction)]);
+        let arguments = words::with_state(spec, [x, e]);
+        let names = [bound.field(), bound.of_what()].map(str::to_owned);
+        table.push(names.into_iter().chain(arguments).chain([exact(value, direction)]));
     }
     blocks.push(Block::Table(table));
     blocks
@@ -47,7 +58,7 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
                 up(&orbit.tube)
             ),
         ),
-        ("rate along it", format!("alpha = {}", plant.triple.alpha.text)),
+        ("rate along it", format!("alpha = {}", number(&plant.triple.alpha, Direction::Down))),
     ];
     if !plant.matrix.harmonics.is_empty() {
         facts.push((
@@ -55,14 +66,16 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
             format!(
                 "{} harmonics, p_low = {}, p_up = {}",
                 plant.matrix.harmonics.len(),
-                plant.triple.p_low.text,
-                plant.triple.p_up.text
+                number(&plant.triple.p_low, Direction::Down),
+                number(&plant.triple.p_up, Direction::Up)
             ),
         ));
     }
     if let Some((triple, _)) = plant.existence.as_deref() {
         let Lyapunov { p_low, p_up, alpha } = triple;
-        facts.push(("P of existence", format!("alpha = {}, p_low = {}, p_up = {}", alpha.text, p_low.text, p_up.text)));
+        let [alpha, p_low] = [alpha, p_low].map(|value| number(value, Direction::Down));
+        let p_up = number(p_up, Direction::Up);
+        facts.push(("P of existence", format!("alpha = {alpha}, p_low = {p_low}, p_up = {p_up}")));
     }
     facts.push((
         "q(t, x_0, 0)",
@@ -79,7 +92,13 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
     facts
 }
 
+/// A number of a triple in few digits.
+fn number(constant: &Constant, direction: Direction) -> String {
+    constant.as_rational().map_or_else(|| constant.text.clone(), |value| exact(value, direction))
+}
+
 fn matrix(name: &str, rows: &[Vec<Rational>]) -> Block {
+    // Exactly: it is what the norms are of.
     let row = |row: &Vec<Rational>| row.iter().map(write_exact).collect::<Vec<_>>().join(", ");
     let rows: Vec<String> = rows.iter().map(row).collect();
     Block::facts([(name.to_owned(), format!("[{}]", rows.join("; ")))])

@@ -20,18 +20,24 @@ pub struct OrbitReport<'r> {
 impl Readable for OrbitReport<'_> {
     fn blocks(&self) -> Vec<Block> {
         let OrbitStudy { coordinates, orbit, candidates, floquet } = self.study;
+        let title = Block::Title(format!("{}: the zero dynamics along their orbit", clean(&self.plant.name)));
+        if self.plant.states() == 0 {
+            let nothing =
+                "Proved: the plant has no state, so there are no zero dynamics, and nothing of them to prove.";
+            return vec![title, Block::Verdict(nothing.to_owned())];
+        }
         let up = |value: &Rational| exact(value, Direction::Up);
         let mut blocks = vec![
-            Block::Title(format!("{}: the zero dynamics along their orbit", clean(&self.plant.name))),
+            title,
             Block::Verdict(format!(
                 "Proved: x' = f(t,x,0) has exactly one T-periodic solution x_0 with |L^-1 (x_0 - xb)| <= {} for all t; it has \
                  |L^-1 (x_0 - xb)| <= {}; along it p_low I <= P <= p_up I and P' + P J + J'P <= -2 alpha P, J = L^-1 df/dx L, \
                  with p_low = {}, p_up = {}, alpha = {}.",
                 exact(&orbit.tube, Direction::Down),
                 up(&orbit.radius),
-                write_exact(&orbit.p_low),
-                write_exact(&orbit.p_up),
-                write_exact(&orbit.alpha)
+                exact(&orbit.p_low, Direction::Down),
+                up(&orbit.p_up),
+                exact(&orbit.alpha, Direction::Down)
             )),
             Block::heading("L, by rows"),
             Block::List(rows(&coordinates.l)),

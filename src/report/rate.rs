@@ -2,6 +2,7 @@
 
 use super::document::{Block, Readable, Table, clean};
 use super::number::{estimate, exact, margin};
+use super::words;
 use crate::certify::Certification;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};
@@ -17,6 +18,10 @@ pub struct RateReport {
     sigma_star: Rational,
     /// Whether e is a filtered error: then it depends on x whether the rates speak of xi_1, ..., xi_(r-1).
     filtered: bool,
+    /// What converges, in words.
+    state: &'static str,
+    /// Whether the claim is about a plant by its formulas.
+    of_plant: bool,
     rates: Vec<Rates>,
 }
 
@@ -26,7 +31,16 @@ impl RateReport {
     pub fn new(run: &Certification<'_>, sigma: &Rational, rates: Vec<Rates>) -> Option<RateReport> {
         let sigma_star = run.sigma_star()?.clone();
         let filtered = run.spec.relative_degree.is_some();
-        Some(RateReport { name: clean(&run.spec.name), sigma: sigma.clone(), sigma_star, filtered, rates })
+        let (of_plant, state) = (run.spec.plant().is_some(), words::state(run.spec).map_or("(e, z)", |_| "(x, e, z)"));
+        Some(RateReport {
+            name: clean(&run.spec.name),
+            sigma: sigma.clone(),
+            sigma_star,
+            filtered,
+            state,
+            of_plant,
+            rates,
+        })
     }
 }
 
@@ -69,8 +83,8 @@ impl Readable for RateReport {
     fn blocks(&self) -> Vec<Block> {
         let mut table = Table::new(&[
             "n_o",
-            "spectral abscissa (estimate)",
-            "decay rate of Phi - mu M M'N",
+            "spectral abscissa of the oscillators alone (estimate)",
+            "their decay rate, of Phi - mu M M'N",
             "by Lemma 1, any kappa",
             "p",
             "closed loop",
@@ -103,11 +117,13 @@ impl Readable for RateReport {
         blocks.extend([
             Block::says(format!(
                 "sigma* = {} serves every n_o; the rates tend to 0 as n_o grows. All in 1/time, computed with enclosures and \
-                 rounded down, but for the spectral abscissa, which is floating point; no certificate carries them, and no \
-                 independent program checks them. The rate of the closed loop is that at which (x, e, z) is \
-                 proved to approach the periodic solution from the initial set of the certificate, for this n_o and this gain: \
-                 a lower bound for every plant with these bounding functions.",
-                exact(&self.sigma_star, Direction::Up)
+                 rounded down, but for the spectral abscissa, which is floating point, and of the oscillators alone, not of the \
+                 closed loop; no certificate carries them, and no independent program checks them. The rate of the closed loop \
+                 is that at which {} is proved to approach the periodic solution from the initial set of the certificate, for \
+                 this n_o and this gain: a lower bound for {}.",
+                exact(&self.sigma_star, Direction::Up),
+                self.state,
+                if self.of_plant { "this plant" } else { "every plant with these bounding functions" }
             )),
             Block::Table(table),
             Block::Drawing(self.figure()),
@@ -140,7 +156,7 @@ impl Readable for RateReport {
             })
         };
         json!({
-            "format": "sigmastar/rates", "version": 1, "verdict": "certified", "independent_check": "none", "state": "(x, e, z)",
+            "format": "sigmastar/rates", "version": 1, "verdict": "certified", "independent_check": "none", "state": self.state,
             "sigma": write_exact(&self.sigma), "sigma_star": write_exact(&self.sigma_star),
             "rates": self.rates.iter().map(one).collect::<Vec<_>>(),
         })

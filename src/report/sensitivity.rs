@@ -1,11 +1,14 @@
 //! What binds sigma*, and which datum would lower it most.
 
 use super::document::{Block, Table};
-use super::number::estimate;
+use super::number::{estimate, exact};
 use crate::certify::{Certification, Derivation, Verdict};
 use crate::enclosure::Enclosure;
-use crate::number::write_exact;
+use crate::number::Direction;
 use crate::plot::Bars;
+use crate::search::Datum;
+use crate::spec::Specification;
+use crate::transfer::TransferProof;
 use rug::Rational;
 
 /// The binding condition and the sensitivities of the sharp derivation.
@@ -16,7 +19,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let Some(binding) = run.binding else { return Vec::new() };
     let mut blocks = vec![
         Block::heading("What sets sigma* (estimates)"),
-        Block::says(format!("sigma* is set by {}. {}", binding.describe(), binding.advice())),
+        Block::says(format!("sigma* is set by {}. {}", binding.describe(), binding.advice(run.spec.plant().is_some()))),
     ];
     blocks.extend(ingredients(run).map(Block::Bars));
     if !run.without_optional.is_empty() {
@@ -29,23 +32,66 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     let shown: Vec<_> = run.sensitivities.iter().filter(|(_, gain)| *gain >= 1e-6).collect();
     if let Some((datum, gain)) = shown.first() {
+        let sentence = one_per_cent(run.spec, *datum);
         blocks.push(Block::says(format!(
-            "One per cent better {} lowers sigma* by about {} %, more than any other datum. Better means larger for \
-             alpha and a rate, and smaller for the rest; floating point, re-optimised locally, not certified.",
-            datum.name(),
-            estimate(100.0 * gain)
+            "{}{} lowers sigma* by about {} %, more than any other of what is compared: {}. Floating point, re-optimised \
+             locally, not certified.",
+            sentence[..1].to_uppercase(),
+            &sentence[1..],
+            estimate(100.0 * gain),
+            compared(run)
         )));
         let mut table = Table::new(&["<1 % better", "lowers sigma* by"]);
         let mut bars = Bars { title: "By how much one per cent better lowers sigma*".to_owned(), entries: Vec::new() };
         for (datum, gain) in shown {
             let lowers = format!("{} %", estimate(100.0 * gain));
-            bars.entries.push((datum.name().to_owned(), *gain, lowers.clone()));
-            table.push([datum.name().to_owned(), lowers]);
+            bars.entries.push((name(run.spec, *datum), *gain, lowers.clone()));
+            table.push([name(run.spec, *datum), lowers]);
         }
         blocks.push(Block::Table(table));
         blocks.push(Block::Bars(bars));
     }
     blocks
+}
+
+/// What a datum is called in the file; the X0 of a plant may be given by a ball.
+pub(super) fn name(spec: &Specification, datum: Datum) -> String {
+    match (datum, spec.plant().is_some_and(|plant| plant.ball.is_some())) {
+        (Datum::Size(0), true) => "ball".to_owned(),
+        _ => datum.name(),
+    }
+}
+
+/// "one per cent smaller E0".
+pub(super) fn one_per_cent(spec: &Specification, datum: Datum) -> String {
+    let larger = match datum {
+        Datum::Alpha | Datum::Domain => true,
+        Datum::Bound(bound) => bound.is_nonincreasing(),
+        Datum::Mu { larger } => larger,
+        Datum::PUp | Datum::Harmonics | Datum::Size(_) => false,
+    };
+    let name = match datum {
+        Datum::Mu { .. } => "mu".to_owned(),
+        _ => name(spec, datum),
+    };
+    format!("one per cent {} {name}", if larger { "larger" } else { "smaller" })
+}
+
+/// What the sensitivities compare, and what they leave out.
+fn compared(run: &Certification<'_>) -> String {
+    // What another mu needs is not worked out where it takes boxes.
+    let by_boxes = run.sharp.proved().is_some_and(|proof| matches!(proof.witness.transfer, TransferProof::Boxes(_)));
+    let (mu, rest) = if by_boxes { ("", "mu and the weights") } else { (", and mu", "the weights") };
+    match run.spec.plant().is_some() {
+        true => format!(
+            "the sizes of the initial set that the file states{mu}, with the bounds that are proved for the present set. Not \
+             compared: {rest} (`sigmastar tune` tries them), the domain and the formulas"
+        ),
+        false => format!(
+            "the triple, the bounding functions, the harmonics, the sizes of the initial set and the domain that the file \
+             states{mu}. Not compared: {rest} (`sigmastar tune` tries them)"
+        ),
+    }
 }
 
 /// The two terms of the threshold of C5 beside sigma*. They are drawn from doubles and claim nothing.
@@ -54,7 +100,7 @@ fn ingredients(run: &Certification<'_>) -> Option<Bars> {
     let decay = &proof.evaluation.decay;
     let [slope, all] = [&decay.by_slope, &decay.sigma_threshold].map(Enclosure::midpoint_f64);
     let term = |name: &str, value: f64| (name.to_owned(), value, estimate(value));
-    let gain = |name: &str, sigma: &Rational| (name.to_owned(), sigma.to_f64(), write_exact(sigma));
+    let gain = |name: &str, sigma: &Rational| (name.to_owned(), sigma.to_f64(), exact(sigma, Direction::Up));
     let mut entries = vec![
         term("C5: dq/de and the internal model's start", slope),
         term("C5: the loop through x", all - slope),

@@ -1,11 +1,14 @@
 //! sigma* and the sets of the claim.
 
 use super::document::{Block, Table};
-use super::number::{exact, upper};
+use super::number::{self, upper};
+use super::words;
 use crate::certify::{Certification, Derivation};
+use crate::derivation::sharp::ClaimedSet;
 use crate::enclosure::Enclosure;
-use crate::number::{Direction, write_exact};
+use crate::number::Direction;
 use crate::plot::{Curve, Figure, Scale, Style};
+use crate::spec::Specification;
 use rug::Rational;
 use std::f64::consts::FRAC_PI_2;
 
@@ -17,25 +20,19 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         return Vec::new();
     };
     // Of a plant the norm is that of y = L^-1 (x - x_0).
-    let state = if run.spec.plant().is_some() { "|y|" } else { "|x|" };
-    let none = || "-".to_owned();
-    let down = |value| exact(value, Direction::Down);
-    let mut table = Table::new(&["<", state, "|e|", "|zeta|_N", "|z|_N"]);
-    table.push(["initial set (covered)".to_owned(), down(&set.x0), down(&set.e0), none(), down(&set.z0)]);
-    let [x, e, zeta, z] = periodic.each_ref().map(upper);
-    table.push(["periodic solution, at most".to_owned(), x, e, zeta, z]);
+    let mut sizes = Sizes::new(run.spec);
+    sizes.of_claim(set, &periodic);
     // The box is where solutions stay, so its radii are upper bounds.
-    let [d_x, d_e] = error_box.each_ref().map(upper);
-    table.push(["error box around it (radii)".to_owned(), d_x, d_e, none(), none()]);
+    sizes.row("error box around it (radii)", error_box.each_ref().map(upper));
     let exact = run.exact_arguments();
     let claim = if exact.is_some() { "bounding functions used up to, sigma*" } else { "bounding functions used up to" };
     for (what, arguments) in [(claim, run.largest_arguments()), ("bounding functions used up to, sigma*_oo", exact)] {
-        if let Some([x, e]) = arguments.map(|arguments| arguments.each_ref().map(upper)) {
-            table.push([what.to_owned(), x, e, none(), none()]);
+        if let Some(arguments) = arguments.map(|arguments| arguments.each_ref().map(upper)) {
+            sizes.row(what, arguments);
         }
     }
     let boxes = Boxes {
-        state,
+        state: words::state(run.spec),
         initial: [&set.x0, &set.e0].map(Rational::to_f64),
         periodic: [&periodic[0], &periodic[1]].map(Enclosure::upper_f64),
         error: error_box.each_ref().map(Enclosure::upper_f64),
@@ -43,21 +40,52 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         // C4 keeps solutions below a level of U in the box; as P >= P_low I, such a level is within this ellipse.
         ellipse: run.options.derivation == Derivation::Sharp,
     };
-    vec![
-        Block::Heading(format!("sigma* = {} and the sets", write_exact(sigma))),
-        Block::Table(table),
-        Block::Drawing(boxes.figure()),
-        Block::says(
-            "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
-             depends on n_o and is not part of the claim; sigma* and the sets do not depend on n_o. sigma is in 1/time.",
-        ),
-    ]
+    let mut blocks = vec![
+        Block::Heading(format!("sigma* = {} and the sets", number::exact(sigma, Direction::Up))),
+        Block::Table(sizes.table),
+    ];
+    blocks.extend(boxes.figure().map(Block::Drawing));
+    blocks.push(Block::says(
+        "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
+         depends on n_o and is not part of the claim; sigma* and the sets do not depend on n_o. sigma is in 1/time.",
+    ));
+    blocks
+}
+
+/// The table of the sizes of sets: in the norms of the state, where there is one, of e, of zeta and of z.
+pub(super) struct Sizes<'s> {
+    spec: &'s Specification,
+    pub(super) table: Table,
+}
+
+impl<'s> Sizes<'s> {
+    pub(super) fn new(spec: &'s Specification) -> Sizes<'s> {
+        let state = words::state(spec).map(|name| format!("|{name}|"));
+        let titles: Vec<&str> = ["<"].into_iter().chain(state.as_deref()).chain(["|e|", "|zeta|_N", "|z|_N"]).collect();
+        Sizes { spec, table: Table::new(&titles) }
+    }
+
+    /// Where solutions start, rounded inward, and how large the periodic solution is, rounded outward.
+    pub(super) fn of_claim(&mut self, set: &ClaimedSet, periodic: &[Enclosure; 4]) {
+        let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(|value| number::exact(value, Direction::Down));
+        self.cells("initial set (covered)", [x0, e0, "-".to_owned(), z0]);
+        self.cells("periodic solution, at most", periodic.each_ref().map(upper));
+    }
+
+    /// Sizes in the first two norms.
+    pub(super) fn row(&mut self, name: &str, [x, e]: [String; 2]) {
+        self.cells(name, [x, e, "-".to_owned(), "-".to_owned()]);
+    }
+
+    fn cells(&mut self, name: &str, cells: [String; 4]) {
+        self.table.push(std::iter::once(name.to_owned()).chain(words::with_state(self.spec, cells)));
+    }
 }
 
 /// Sizes of sets in the plane of |x| and |e|.
 pub(super) struct Boxes {
-    /// How the norm of x is written.
-    pub(super) state: &'static str,
+    /// What the state is called, where there is one.
+    pub(super) state: Option<&'static str>,
     /// The initial set.
     pub(super) initial: [f64; 2],
     /// The periodic solution, at most.
@@ -75,8 +103,9 @@ impl Boxes {
     const QUARTER: u32 = 60;
 
     /// The quarter of each set in which both coordinates are positive. It is drawn from doubles and claims nothing.
-    pub(super) fn figure(&self) -> Figure {
-        let state = self.state;
+    /// Nothing without a state: the sets are intervals of |e| then.
+    pub(super) fn figure(&self) -> Option<Figure> {
+        let state = format!("|{}|", self.state?);
         let curve = |label: &str, points, style| Curve { label: label.to_owned(), points, style };
         let edge = |[x, e]: [f64; 2]| vec![(0.0, e), (x, e), (x, 0.0)];
         let mut curves = Vec::new();
@@ -93,13 +122,13 @@ impl Boxes {
             let points = (0..=Self::QUARTER).map(point).collect();
             curves.push(curve("solutions stay within, from the periodic solution", points, Style::Line));
         }
-        Figure {
+        Some(Figure {
             title: format!("The sets in the plane of {state} and |e|"),
             x: format!("{state} [unit of the norm]"),
             y: "|e| [unit of e]".to_owned(),
             scale: Scale::Linear,
             floor: 0.0,
             curves,
-        }
+        })
     }
 }

@@ -4,9 +4,10 @@ use super::document::{Block, clean};
 use super::number::{exact, upper};
 use super::obstacles;
 use super::remarks::remarks;
+use super::words;
 use crate::certify::{Certification, Derivation, Verdict};
 use crate::enclosure::Enclosure;
-use crate::number::{Direction, write_exact};
+use crate::number::Direction;
 use crate::spec::model::{Lyapunov, LyapunovSource};
 use crate::spec::{Bound, Specification};
 use crate::transfer::TransferProof;
@@ -18,15 +19,12 @@ pub fn sentence(run: &Certification<'_>) -> String {
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
             "Certified: with sigma = {} (or any larger), mu = {} and base frequency {}, for every number of oscillators \
-             n_o >= 0, every solution that starts, at any time, from {} <= {}, |e| <= {}, |z|_N <= {} converges \
-             exponentially to a T-periodic solution, T = {}.",
-            write_exact(sigma),
+             n_o >= 0, every solution that starts, at any time, from {} converges exponentially to a T-periodic solution, \
+             T = {}.",
+            exact(sigma, Direction::Up),
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
-            if spec.plant().is_some() { "|y|" } else { "|x|" },
-            exact(&set.x0, Direction::Down),
-            exact(&set.e0, Direction::Down),
-            exact(&set.z0, Direction::Down),
+            words::set(spec, set),
             clean(&spec.period.text),
         ),
         _ => obstacles::sentence(run),
@@ -84,11 +82,11 @@ pub(super) fn of_the_data(
 ) -> Vec<String> {
     let mut items = Vec::new();
     if spec.plant().is_some() {
-        items.push(
-            "Proved from the formulas: that they have the period and are smooth where they are used, the orbit x_0, the rate, \
-             the harmonics and every bound (section 11)."
-                .to_owned(),
-        );
+        let of_states = if words::state(spec).is_some() { "the orbit x_0, the rate, " } else { "" };
+        items.push(format!(
+            "Proved from the formulas: that they have the period and are smooth where they are used, {of_states}the harmonics \
+             and every bound (section 11)."
+        ));
         items.push(format!("Assumed: {}.", assumed(spec, used, further)));
         return items;
     }
@@ -122,7 +120,9 @@ pub(super) fn of_the_data(
 pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, further: Option<[Enclosure; 2]>) -> String {
     if let Some(plant) = spec.plant() {
         let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
-            format!(", for |x - x_0| <= {}, |e| <= {}", clean(&domain.x.text), clean(&domain.e.text))
+            let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));
+            words::state(spec)
+                .map_or_else(|| format!(", for |e| <= {e}"), |_| format!(", for |x - x_0| <= {x}, |e| <= {e}"))
         });
         return format!("that these formulas are the plant{domain}");
     }

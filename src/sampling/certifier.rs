@@ -5,7 +5,7 @@ use crate::data::Data;
 use crate::derivation::digital::SampledLaw;
 use crate::enclosure::Enclosure;
 use crate::reduction::{DigitalPairs, PlantRefusal};
-use crate::search::{DigitalLimit, DigitalSearch, FloatModel, Obstacle, search_sharp};
+use crate::search::{DigitalLimit, DigitalSearch, Extreme, Failing, FloatModel, Obstacle, search_sharp};
 use crate::spec::{InternalModel, Sampling, Specification};
 use crate::transfer::TradeOff;
 use rug::Rational;
@@ -36,7 +36,7 @@ impl Pair {
         let Some(proof) = run.claim() else {
             return Err(match &run.outcome {
                 Outcome::NotFound(obstacle) => *obstacle,
-                _ => Obstacle::Bounds,
+                _ => Failing::Bounds.into(),
             });
         };
         let law = &proof.evaluation.law;
@@ -49,6 +49,11 @@ impl Pair {
             limit: run.found.map(|(proposal, limit)| (limit, 1.0 - proposal.radius)),
         })
     }
+}
+
+/// That the law has no numbers for this sampling period.
+fn beyond(sampling: &Sampling) -> Obstacle {
+    Failing::Magnitude(Extreme::Number("the sampling period", sampling.step.to_f64())).into()
 }
 
 /// What a table asks.
@@ -89,11 +94,11 @@ impl Certifier for OfSpecification<'_> {
 
     fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle> {
         let run = certify_digital(self.spec, sampling, gain, None, Ladder::default());
-        run.map_err(|_| Obstacle::Bounds).and_then(|run| Pair::new(&run))
+        run.map_err(|_| Obstacle::from(Failing::Bounds)).and_then(|run| Pair::new(&run))
     }
 
     fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle> {
-        let law = self.spec.internal_model.sampled_gain(&sampling.step).ok_or(Obstacle::Magnitude)?;
+        let law = self.spec.internal_model.sampled_gain(&sampling.step).ok_or_else(|| beyond(sampling))?;
         let data = Data::new(self.spec, PRECISION);
         let model = digital_model(&data, sampling, &law);
         DigitalSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64()).at_gain(gain).map(drop)
@@ -118,15 +123,15 @@ impl Certifier for OfPlant<'_> {
     fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle> {
         let reduced = self.pairs.reduce(sampling, gain).map_err(|refusal| match refusal {
             PlantRefusal::NoGain(obstacle) => obstacle,
-            _ => Obstacle::Bounds,
+            _ => Failing::Bounds.into(),
         })?;
         let run = certify_digital(&reduced.spec, sampling, gain, Some(&reduced.proposal), Ladder::default());
-        run.map_err(|_| Obstacle::Bounds).and_then(|run| Pair::new(&run))
+        run.map_err(|_| Obstacle::from(Failing::Bounds)).and_then(|run| Pair::new(&run))
     }
 
     fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle> {
         let found = self.pairs.search(sampling, |search| search.at_gain(gain).map(drop));
-        found.unwrap_or(Err(Obstacle::Magnitude))
+        found.unwrap_or_else(|| Err(beyond(sampling)))
     }
 
     fn model(&self) -> &InternalModel {

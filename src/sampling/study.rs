@@ -2,7 +2,7 @@
 
 use super::certifier::{Certifier, Pair};
 use crate::number::{Direction, round_f64};
-use crate::search::Obstacle;
+use crate::search::{Closest, Failing, Obstacle};
 use crate::spec::{Constant, MAX_SAMPLES, Sampling};
 use rug::Rational;
 
@@ -20,6 +20,9 @@ const AGAIN: u32 = 4;
 
 /// How far beyond the samples that h sigma <= 1 and theta <= 1 ask for they are doubled.
 const FAR: f64 = 256.0;
+
+/// More samples than are taken.
+const MANY: Obstacle = Obstacle { failing: Failing::Samples, at: None };
 
 /// What a row is about.
 #[derive(Clone, Debug)]
@@ -109,12 +112,11 @@ fn default_gains(continuous: Option<f64>) -> Vec<Rational> {
 /// The pair of a gain with the fewest samples: doubled until a search finds a witness, then bisected.
 fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Result<Pair, Obstacle> {
     let sigma = gain.to_f64();
-    let promise =
-        |n: u32| samples(period, n).ok_or(Obstacle::Sampling).and_then(|sampling| certifier.promise(&sampling, sigma));
+    let promise = |n: u32| samples(period, n).ok_or(MANY).and_then(|sampling| certifier.promise(&sampling, sigma));
     // h sigma <= 1.
     let least = (period.to_f64() * sigma * (1.0 - 1e-12)).ceil().max(2.0);
     if least > f64::from(MAX_SAMPLES) {
-        return Err(Obstacle::Sampling);
+        return Err(MANY);
     }
     let most = most(certifier, period, least);
     let mut high = least as u32;
@@ -130,15 +132,15 @@ fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Re
         let middle = low + (high - low) / 2;
         if promise(middle).is_ok() { high = middle } else { low = middle }
     }
-    let mut failure = Obstacle::Sampling;
+    let mut closest = Closest::default();
     for _ in 0..=AGAIN {
-        match samples(period, high).ok_or(Obstacle::Sampling).and_then(|at| certifier.pair(&at, Some(gain))) {
+        match samples(period, high).ok_or(MANY).and_then(|at| certifier.pair(&at, Some(gain))) {
             Ok(pair) => return Ok(pair),
-            Err(obstacle) => failure = obstacle,
+            Err(obstacle) => closest.record(obstacle),
         }
         high = (high + 1 + high / 32).min(MAX_SAMPLES);
     }
-    Err(failure)
+    closest.or(None)
 }
 
 /// The most samples that are tried: far beyond h sigma = 1 and theta = 1, where sampling hardly matters any more.

@@ -53,9 +53,33 @@ impl Binding {
         }
     }
 
-    /// What lowers it.
+    /// What lowers it: data of a specification, or of a plant what its file states.
     #[must_use]
-    pub fn advice(self) -> &'static str {
+    pub fn advice(self, of_plant: bool) -> &'static str {
+        if of_plant { self.of_plant() } else { self.of_specification() }
+    }
+
+    fn of_plant(self) -> &'static str {
+        match self {
+            Binding::Existence => {
+                "It hardly depends on the initial set: less disturbance in q, a q and f that bend less near the orbit, or \
+                 another mu and other weights (`sigmastar tune`) lower it."
+            }
+            Binding::Slope { .. } => {
+                "A smaller initial set lowers it, where q is steeper further out; a smaller mu hardly does."
+            }
+            Binding::InternalModel => {
+                "A controller started at rest or a smaller initial set lowers it; so do a mu and weights that fit the plant \
+                 (`sigmastar tune`)."
+            }
+            Binding::Coupling => {
+                "A smaller initial set, in which f and q bend less, lowers it; so does less coupling between x and e, by a loop \
+                 around x or by another output e."
+            }
+        }
+    }
+
+    fn of_specification(self) -> &'static str {
         match self {
             Binding::Existence => {
                 "Bounds of q in the mean (q_rms, q_t_rms), its harmonics (q_0), or a bound of dq/de from above (q_e_max) \

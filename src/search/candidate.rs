@@ -1,6 +1,7 @@
 //! Parts of a candidate that the derivations share, in floating point.
 
 use super::model::FloatModel;
+use super::obstacle::{Failing, Obstacle};
 use super::scan;
 use crate::derivation::existence::StateBounds;
 use crate::derivation::stability::{DecayCondition, ErrorBox};
@@ -8,58 +9,6 @@ use crate::derivation::stability::{DecayCondition, ErrorBox};
 /// Strict inequalities that do not involve sigma are proposed with this much room, so that rounding to short rationals
 /// cannot destroy them.
 pub(super) const BELOW_ONE: f64 = 1.0 - 1e-6;
-
-/// What stands in the way of a candidate; later ones come closer to a certificate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Obstacle {
-    /// A number is beyond what the search can work with.
-    Magnitude,
-    /// A bounding function is not finite there.
-    NotFinite,
-    /// S1 or S2 fails (C1 or C3 in the repaired derivation).
-    Existence,
-    /// X_b leaves the domain.
-    DomainX,
-    /// E_b leaves the domain.
-    DomainE,
-    /// a_2 <= 0: the nonlinearity in the error box takes all of alpha.
-    Curvature,
-    /// (h/mu) k_x^2 >= 4 w_x a_2.
-    Coupling,
-    /// The gain is below the threshold of C5.
-    Gain,
-    /// C5h: the decay from sample to sample is not positive.
-    Sampling,
-    /// A proof was found, but the bounding functions are not proved up to its arguments.
-    Bounds,
-}
-
-impl Obstacle {
-    /// The condition that binds, for reports.
-    #[must_use]
-    pub fn describe(self) -> &'static str {
-        match self {
-            Obstacle::Magnitude => {
-                "a number of the specification, or a bounding function at X = E = 0, is beyond the range of double \
-                 precision, in which the search works: use units in which the numbers are of ordinary size"
-            }
-            Obstacle::NotFinite => "the bounding functions are not finite at any arguments tried",
-            Obstacle::Existence => "existence: no set was found that the map of the proof takes into itself",
-            Obstacle::DomainX => "domain X: the error box around the initial set leaves it",
-            Obstacle::DomainE => "domain E: the error box around the initial set leaves it",
-            Obstacle::Curvature => "C5: a_2 <= 0, the nonlinearity over the error box takes all of the decay rate",
-            Obstacle::Coupling => "C5: (h/mu) k_x^2 >= 4 w_x a_2",
-            Obstacle::Gain => {
-                "C5: the gain is below the threshold of the quadratic form for every error box that was tried"
-            }
-            Obstacle::Sampling => {
-                "C5h: the decay from sample to sample is not positive for any error box that was tried, or h sigma would \
-                 have to exceed 1"
-            }
-            Obstacle::Bounds => "the bounding functions are not proved up to the arguments of the proof that was found",
-        }
-    }
-}
 
 /// The error box of a candidate at one sigma.
 #[derive(Clone, Copy, Debug)]
@@ -117,19 +66,20 @@ impl Shape {
         let d_x = rho * model.c * dist_x;
         let level = active_level(eta, dist_e, rho);
         let d_e = level.sqrt();
-        if x_per + d_x > model.domain.0 * (1.0 - 1e-7) {
-            return Err(Obstacle::DomainX);
+        let (x_b, e_b) = (x_per + d_x, e_per + d_e);
+        if x_b > model.domain.0 * (1.0 - 1e-7) {
+            return Err(Failing::DomainX.at(x_b, e_b));
         }
-        if e_per + d_e > model.domain.1 * (1.0 - 1e-7) {
-            return Err(Obstacle::DomainE);
+        if e_b > model.domain.1 * (1.0 - 1e-7) {
+            return Err(Failing::DomainE.at(x_b, e_b));
         }
         let error_box = ErrorBox::new(model, &x_per, &e_per, &d_x, &d_e);
         let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
         if ![rate, k_x, k_f, &sector.below, &sector.above].iter().all(|v| v.is_finite()) {
-            return Err(Obstacle::NotFinite);
+            return Err(model.not_finite(x_b, e_b));
         }
         if *rate <= model.alpha * (1.0 - BELOW_ONE) {
-            return Err(Obstacle::Curvature);
+            return Err(Failing::Curvature.at(x_b, e_b));
         }
         let w_x = level / (model.p_low * d_x * d_x);
         Ok(Shape { d_x, w_x, weight: weight_h(eta, dist_e, dist_z), error_box })
@@ -146,12 +96,13 @@ pub fn error_box(
 ) -> Result<AtSigma, Obstacle> {
     let Shape { d_x, w_x, weight, error_box } = Shape::new(model, (x_per, e_per), [dist_x, dist_e, dist_z], rho, eta)?;
     let decay = DecayCondition::new(model, &error_box, &w_x, &weight);
+    let (x_b, e_b) = (error_box.x_b, error_box.e_b);
     let margin = decay.curvature - decay.coupling;
     if margin.is_nan() || margin <= (1.0 - BELOW_ONE) * 4.0 * w_x * model.alpha {
-        return Err(Obstacle::Coupling);
+        return Err(Failing::Coupling.at(x_b, e_b));
     }
     if !decay.sigma_threshold.is_finite() {
-        return Err(Obstacle::NotFinite);
+        return Err(model.not_finite(x_b, e_b));
     }
     Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, threshold: decay.sigma_threshold })
 }

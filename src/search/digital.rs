@@ -3,10 +3,11 @@
 //! Nothing is monotone here: too small a sigma does not hold the plant, too large a one asks too much of a sample. So sigma is
 //! scanned from below up to 1/h, and refined where the scan changes its mind.
 
-use super::candidate::{AtSigma, Obstacle, Shape};
+use super::candidate::{AtSigma, Shape};
 use super::error_box::{best_shape, shape_near};
 use super::floors::{ordinary, raised, tiny};
 use super::model::FloatModel;
+use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
 use super::scan;
 use super::sharp::{ROOM, search_sharp, start_distances};
@@ -160,9 +161,10 @@ impl<'m> DigitalSearch<'m> {
         let shape = Shape::new(self.model, (set.x_per, set.e_per), distances, rho, eta)?;
         let forms = self.forms(sigma, &shape, None);
         if forms.within.is_nan() || forms.within <= 0.0 {
-            return Err(Obstacle::Sampling);
+            return Err(Failing::Sampling.at(shape.error_box.x_b, shape.error_box.e_b));
         }
-        let radius = radius(&forms.start).zip(radius(&forms.end)).ok_or(Obstacle::Coupling)?;
+        let coupled = Failing::Coupling.at(shape.error_box.x_b, shape.error_box.e_b);
+        let radius = radius(&forms.start).zip(radius(&forms.end)).ok_or(coupled)?;
         let [_, dist_e, dist_z] = distances;
         // Where nothing is coupled the radius is 0, which has no logarithm.
         let threshold = radius.0.max(radius.1).max(1e-300);
@@ -185,12 +187,10 @@ impl<'m> DigitalSearch<'m> {
     /// # Errors
     /// What stands in the way.
     pub fn at_gain(&self, sigma: f64) -> Result<DigitalProposal, Obstacle> {
-        if !self.model.is_in_range() {
-            return Err(Obstacle::Magnitude);
-        }
+        self.model.in_range()?;
         let found = self.proposal(sigma, tiny(self.model), None)?;
         if found.radius > LARGEST {
-            return Err(Obstacle::Sampling);
+            return Err(Failing::Sampling.into());
         }
         Ok(self.with_ordinary_floors(found))
     }
@@ -207,15 +207,15 @@ impl<'m> DigitalSearch<'m> {
             Some(gain) => vec![gain],
             None => LARGER.map(|share| (sigma * (1.0 + share)).min(largest)).to_vec(),
         };
-        let mut closest = Obstacle::Sampling;
+        let mut closest = Closest::default();
         for sigma in gains {
             match self.proposal(sigma, floors, Some((rho, eta))) {
                 Ok(found) if found.radius <= LARGEST => return Ok(found),
-                Ok(_) => {}
-                Err(obstacle) => closest = obstacle,
+                Ok(_) => closest.record(Failing::Sampling.into()),
+                Err(obstacle) => closest.record(obstacle),
             }
         }
-        Err(closest)
+        closest.or(None)
     }
 
     /// The smallest sigma up to 1/h that is found.
@@ -226,7 +226,7 @@ impl<'m> DigitalSearch<'m> {
         let start = search_sharp(self.model)?.sigma * BELOW;
         let end = self.law.step.recip();
         if start >= end {
-            return Err(Obstacle::Sampling);
+            return Err(Failing::Hold { sigma: start, largest: end, given: false }.into());
         }
         let points = self.scan(start, end);
         let feasible = |point: &ScanPoint| point.outcome.is_ok_and(|radius| radius <= LARGEST);
@@ -272,14 +272,15 @@ impl<'m> DigitalSearch<'m> {
         let radius = |point: &ScanPoint| point.outcome.unwrap_or(f64::INFINITY);
         let best = points.iter().enumerate().min_by(|a, b| radius(a.1).total_cmp(&radius(b.1)));
         let Some((index, best)) = best.filter(|(_, point)| point.outcome.is_ok()) else {
-            let closest = points.iter().filter_map(|point| point.outcome.err()).max();
-            return Err(closest.unwrap_or(Obstacle::Sampling));
+            let mut closest = Closest::default();
+            points.iter().filter_map(|point| point.outcome.err()).for_each(|obstacle| closest.record(obstacle));
+            return closest.or(None);
         };
         let low = points.get(index.wrapping_sub(1)).map_or(best.sigma, |point| point.sigma);
         let high = points.get(index + 1).map_or(best.sigma, |point| point.sigma);
         let fine = self.scan(low, high);
         let feasible = |point: &&ScanPoint| point.outcome.is_ok_and(|radius| radius <= LARGEST);
-        let found = fine.iter().find(feasible).ok_or(Obstacle::Sampling)?;
+        let found = fine.iter().find(feasible).ok_or(Failing::Sampling)?;
         Ok(self.with_ordinary_floors(self.bisect(low, self.proposal(found.sigma, tiny(self.model), None)?)))
     }
 

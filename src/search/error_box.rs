@@ -1,9 +1,10 @@
 //! The error box in floating point: rho and eta that make the threshold of C5 (or what the law at samples has in its place)
 //! small, for given distances.
 
-use super::candidate::{AtSigma, Obstacle, error_box};
+use super::candidate::{AtSigma, error_box};
 use super::minimise::minimise;
 use super::model::FloatModel;
+use super::obstacle::{Closest, Obstacle};
 use crate::number::Portable;
 
 /// Powers of two of rho - 1 in the scan.
@@ -50,7 +51,7 @@ fn scan(
     far: impl Iterator<Item = f64>,
     evaluate: impl Fn(f64) -> Result<AtSigma, Obstacle>,
 ) -> Result<AtSigma, Obstacle> {
-    let mut closest = Obstacle::NotFinite;
+    let mut closest = Closest::default();
     let mut best: Option<AtSigma> = None;
     let mut look = |value: f64| match evaluate(value) {
         Ok(at) if best.is_none_or(|b| at.threshold < b.threshold) => {
@@ -59,7 +60,7 @@ fn scan(
         }
         Ok(_) => false,
         Err(obstacle) => {
-            closest = closest.max(obstacle);
+            closest.record(obstacle);
             false
         }
     };
@@ -73,7 +74,7 @@ fn scan(
             break;
         }
     }
-    best.ok_or(closest)
+    closest.or(best)
 }
 
 /// The best error box that local minimisation reaches from a known one; `None` where that is not feasible here.

@@ -1,8 +1,9 @@
 //! The search for exact regulation: the error box around the origin.
 
-use super::candidate::{AtSigma, Obstacle};
+use super::candidate::AtSigma;
 use super::error_box::best_error_box;
 use super::model::FloatModel;
+use super::obstacle::Obstacle;
 
 /// The error box of exact regulation in floating point, with its sigma as `threshold`.
 ///

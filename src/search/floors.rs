@@ -1,7 +1,7 @@
 //! The smallest X_p and E_p of a search, where nothing in the data gives them a size.
 
-use super::candidate::Obstacle;
 use super::model::FloatModel;
+use super::obstacle::Obstacle;
 use super::periodic::Floors;
 use crate::spec::model::InitialSet;
 

@@ -2,6 +2,7 @@
 
 use super::effort::Effort;
 use super::float_bound::FloatBound;
+use super::obstacle::{Extreme, Failing, Obstacle};
 use super::sharp::OptionalDatum;
 use crate::data::{Bound, Data, ExistenceTriple, KnownForcing, Numbers, Problem};
 use crate::derivation::initial_set::paper_z0;
@@ -20,11 +21,22 @@ pub enum Datum {
     PUp,
     /// One of the bounding functions.
     Bound(Bound),
+    /// The bounds of the harmonics of q(t,0,0) and of the rest, all of them.
+    Harmonics,
+    /// A size of the initial set that is asked for: X0 (or the ball), E0, Z0.
+    Size(usize),
+    /// The largest X and E at which the data hold (larger values help).
+    Domain,
+    /// mu, which may be too large or too small.
+    Mu {
+        /// Whether a larger one helps.
+        larger: bool,
+    },
 }
 
 impl Datum {
-    /// Every datum that the sharp derivation uses.
-    pub const ALL: [Datum; 13] = [
+    /// Every datum of which [`FloatModel::improved`] knows the better value.
+    pub const ALL: [Datum; 22] = [
         Datum::Alpha,
         Datum::PUp,
         Datum::Bound(Bound::F),
@@ -38,6 +50,15 @@ impl Datum {
         Datum::Bound(Bound::Q),
         Datum::Bound(Bound::QeMax),
         Datum::Bound(Bound::Rate),
+        Datum::Bound(Bound::Qt),
+        Datum::Bound(Bound::Fx),
+        Datum::Bound(Bound::Qtx),
+        Datum::Bound(Bound::Qte),
+        Datum::Harmonics,
+        Datum::Size(0),
+        Datum::Size(1),
+        Datum::Size(2),
+        Datum::Domain,
     ];
 
     /// Its name in a specification.
@@ -50,6 +71,10 @@ impl Datum {
                 Some(other) if !bound.is_signed() => format!("{} (or {})", bound.field(), other.field()),
                 _ => bound.field().to_owned(),
             },
+            Datum::Harmonics => "q_0".to_owned(),
+            Datum::Size(index) => ["X0", "E0", "Z0"].get(index).copied().unwrap_or_default().to_owned(),
+            Datum::Domain => "domain".to_owned(),
+            Datum::Mu { larger } => format!("mu ({})", if larger { "larger" } else { "smaller" }),
         }
     }
 }
@@ -226,17 +251,49 @@ impl FloatModel {
         Effort::new(self.functions().map(FloatBound::operations).sum())
     }
 
-    /// Whether every number, and every bounding function at X = E = 0, is one that doubles can work with.
-    #[must_use]
-    pub fn is_in_range(&self) -> bool {
-        let numbers = [self.period, self.p_low, self.p_up, self.alpha, self.mu, self.base_frequency, self.n_bar];
-        let set = self.set.required([0.0; 2], || 0.0, 0.0);
-        numbers.iter().all(|value| value.is_normal())
-            && set.iter().all(|value| value.is_finite())
-            && self.functions().all(|function| function.at(0.0, 0.0) != f64::INFINITY)
+    /// That every number, and every bounding function at X = E = 0, is one that doubles can work with.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub fn in_range(&self) -> Result<(), Obstacle> {
+        let numbers = [
+            ("the period", self.period),
+            ("p_low", self.p_low),
+            ("p_up", self.p_up),
+            ("alpha", self.alpha),
+            ("mu", self.mu),
+            ("base_frequency", self.base_frequency),
+            ("Nbar (of the weights)", self.n_bar),
+        ];
+        let [x_0, e_0, z_0] = self.set.required([0.0; 2], || 0.0, 0.0);
+        let set = [("X0", x_0), ("E0", e_0), ("Z0", z_0)];
+        let extreme = numbers.into_iter().find(|(_, value)| !value.is_normal());
+        let extreme = extreme.or_else(|| set.into_iter().find(|(_, value)| !value.is_finite()));
+        let bound = || {
+            let infinite = |which: &Bound| {
+                let function = self.bounds[*which as usize].function.as_ref();
+                function.is_some_and(|function| function.at(0.0, 0.0) == f64::INFINITY)
+            };
+            Bound::ALL.into_iter().find(infinite).map(Extreme::Bound)
+        };
+        let extreme = extreme.map(|(name, value)| Extreme::Number(name, value)).or_else(bound);
+        extreme.map_or(Ok(()), |extreme| Err(Failing::Magnitude(extreme).into()))
     }
 
-    /// The same model with one datum improved by the relative amount `by` (alpha up, everything else down).
+    /// That a number which is made of the bounding functions at (X, E) is not finite: with the first of them that is not, and is at
+    /// X = E = 0, where there is one.
+    #[must_use]
+    pub(super) fn not_finite(&self, x: f64, e: f64) -> Obstacle {
+        let ends = |which: &Bound| {
+            self.bounds[*which as usize].function.is_some()
+                && self.bound(*which, &0.0, &0.0).is_finite()
+                && !self.bound(*which, &x, &e).is_finite()
+        };
+        Failing::NotFinite(Bound::ALL.into_iter().find(ends)).at(x, e)
+    }
+
+    /// The same model with one datum improved by the relative amount `by` (alpha, a rate and the domain up, everything else
+    /// down). The better value of mu is not known: it is left as it is.
     #[must_use]
     pub fn improved(&self, datum: Datum, by: f64) -> FloatModel {
         let mut model = self.clone();
@@ -260,15 +317,39 @@ impl FloatModel {
                     }
                 }
             }
+            Datum::Harmonics => {
+                if let Some(known) = &mut model.numbers.q_0 {
+                    let sizes = known.harmonics.iter_mut().chain([&mut known.rest_rms]).chain(&mut known.rest_t_rms);
+                    sizes.for_each(|size| *size *= 1.0 - by);
+                }
+            }
+            Datum::Size(index) => {
+                model.set = model.set.map_each(|place, size| if place == index { size * (1.0 - by) } else { *size });
+            }
+            Datum::Domain => {
+                let (x, e) = model.domain;
+                model.domain = (x * (1.0 + by), e * (1.0 + by));
+            }
+            Datum::Mu { .. } => {}
         }
         model
     }
 
-    /// The data that the specification has, of [`Datum::ALL`].
-    pub fn data(&self) -> impl Iterator<Item = Datum> {
-        Datum::ALL.into_iter().filter(|datum| match datum {
-            Datum::Bound(bound) => !bound.is_signed() || self.given(*bound),
+    /// The data that the specification has, of [`Datum::ALL`]; of a plant's formulas what stands in its file: not the
+    /// bounds, which follow from them.
+    pub fn data(&self, of_plant: bool) -> impl Iterator<Item = Datum> {
+        let mut sizes = [None; 3];
+        let _ = self.set.map_each(|place, size| sizes[place] = Some(*size));
+        Datum::ALL.into_iter().filter(move |datum| match datum {
+            Datum::Size(index) => sizes.get(*index).is_some_and(|size| size.is_some_and(|size| size > 0.0)),
+            // Beyond the domain of a plant nothing is proved of it yet.
+            _ if of_plant => false,
+            // Where one is left out, what serves in its place is spoken of under its name.
+            Datum::Bound(bound) => self.given(*bound) || (!bound.is_signed() && bound.replacement().is_some()),
             Datum::Alpha | Datum::PUp => true,
+            Datum::Harmonics => self.q_0.is_some(),
+            Datum::Domain => self.domain.0.is_finite(),
+            Datum::Mu { .. } => false,
         })
     }
 

@@ -4,8 +4,8 @@
 //! point is the smallest, in every component at once; and everything that section 5 makes of w grows with it. So nothing is
 //! left to choose: the iteration of G from below finds it.
 
-use super::candidate::Obstacle;
 use super::model::FloatModel;
+use super::obstacle::{Failing, Obstacle};
 use crate::derivation::digital::{SampledGains, SampledLaw, SampledResponse, SampledSize};
 use crate::derivation::existence::kappas;
 use crate::derivation::harmonics::AtOrigin;
@@ -96,14 +96,14 @@ impl Iteration<'_> {
     /// (1 + room) G, not below the floors.
     fn image(&self, [x_p, e_p, x, e, e_rate]: Point) -> Result<Point, Obstacle> {
         if x_p > self.model.domain.0 {
-            return Err(Obstacle::DomainX);
+            return Err(Failing::DomainX.at(x_p, e_p));
         }
         if e_p > self.model.domain.1 {
-            return Err(Obstacle::DomainE);
+            return Err(Failing::DomainE.at(x_p, e_p));
         }
         let bounds = SetBounds::new(self.model, x_p, e_p);
         if bounds.rate <= 0.0 {
-            return Err(Obstacle::Existence);
+            return Err(Failing::Existence.at(x_p, e_p));
         }
         let squares = MeanSquares { x, e, e_rate };
         let by_squares = sup_by_mean_squares(self.model, &squares);
@@ -126,9 +126,9 @@ impl Iteration<'_> {
         let next = [bounds.x_sup(&squares), sup, bounds.x_rms(&squares), rms, rate_rms].map(|v| v * self.enlarged);
         if !next.iter().all(|value| value.is_finite() && *value < 1e140) {
             return Err(if next.iter().any(|value| value.is_nan()) {
-                Obstacle::NotFinite
+                self.model.not_finite(x_p, e_p)
             } else {
-                Obstacle::Existence
+                Failing::Existence.at(x_p, e_p)
             });
         }
         let [x_p, e_p] = [next[0].max(self.floors.x_p), next[1].max(self.floors.e_p)];
@@ -163,7 +163,7 @@ impl Iteration<'_> {
             before = Some(at);
             at = next;
         }
-        Err(Obstacle::Existence)
+        Err(Failing::Existence.at(at[0], at[1]))
     }
 
     /// A little beyond the limit of a geometric sequence through three points, if G maps it below itself.
@@ -250,7 +250,7 @@ impl PeriodicSet {
         let pair = cheapest_pair(model, &size.forcing);
         let z = size.z_squared(model, [&pair.0, &pair.1]).sqrt();
         if !z.is_finite() {
-            return Err(Obstacle::NotFinite);
+            return Err(model.not_finite(x_p, e_p));
         }
         Ok(PeriodicSet { x_p, e_p, squares, kap, refined, x_per: size.x_per, e_per: size.e_per, z, pair })
     }
@@ -276,7 +276,7 @@ impl PeriodicSet {
         let pair = cheapest_pair(model, &size.forcing);
         let z = size.z_squared(model, law, [&pair.0, &pair.1]).sqrt();
         if !z.is_finite() {
-            return Err(Obstacle::NotFinite);
+            return Err(model.not_finite(x_p, e_p));
         }
         let (x_per, e_per) = (size.x_per, size.e_per);
         Ok(PeriodicSet { x_p, e_p, squares, kap: 0.0, refined: None, x_per, e_per, z, pair })

@@ -1,8 +1,9 @@
 //! The search of the repaired derivation: X, E, L, h that make sigma* small.
 
-use super::candidate::{BELOW_ONE, Obstacle, demand, largest_e, weight_h};
+use super::candidate::{BELOW_ONE, demand, largest_e, weight_h};
 use super::minimise::minimise;
 use super::model::FloatModel;
+use super::obstacle::{Closest, Failing, Obstacle};
 use super::scan;
 use crate::derivation::existence::{LeastSigma, PeriodicBounds, kappas};
 use crate::derivation::gains::{beta, k_alpha};
@@ -32,7 +33,7 @@ fn k_of(model: &FloatModel) -> f64 {
 fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProposal, Obstacle> {
     let bounds = PeriodicBounds::new(model, x, e);
     if demand(model, &bounds.state, k_of(model), 2).partial_cmp(&1.0).is_none_or(Ordering::is_gt) {
-        return Err(Obstacle::Existence);
+        return Err(Failing::Existence.at(x, e));
     }
     let pair = model.trade_off.best(1.0, 1.0);
     let (kappa_0, kappa_1) = kappas(model, &pair.0, &pair.1);
@@ -43,20 +44,20 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     let level = model.p_up * dist_x * dist_x + (1.0 + eta) * dist_e * dist_e;
     let (x_b, e_b) = (x + (level / model.p_low).sqrt(), e + level.sqrt());
     if x_b > model.domain.0 * (1.0 - 1e-7) {
-        return Err(Obstacle::DomainX);
+        return Err(Failing::DomainX.at(x_b, e_b));
     }
     if e_b > model.domain.1 * (1.0 - 1e-7) {
-        return Err(Obstacle::DomainE);
+        return Err(Failing::DomainE.at(x_b, e_b));
     }
     let lyapunov = LyapunovMatrix::new(model, &LyapunovPoint { x, e, x_b, e_b, h }, false);
     let curvature = lyapunov.curvature;
     if curvature.is_nan() || curvature <= (1.0 - BELOW_ONE) * model.alpha * model.p_low {
-        return Err(Obstacle::Curvature);
+        return Err(Failing::Curvature.at(x_b, e_b));
     }
     let least = LeastSigma::repaired(model, &bounds);
     let sigma = least.by_size.max(least.by_contraction * (1.0 + 1e-9)).max(lyapunov.sigma_a);
     if !sigma.is_finite() {
-        return Err(Obstacle::NotFinite);
+        return Err(model.not_finite(x_b, e_b));
     }
     Ok(RepairedProposal { x, e, h, sigma })
 }
@@ -80,32 +81,30 @@ pub fn perron_repaired(model: &FloatModel, x: f64, e: f64, sigma: f64) -> [f64; 
 /// The obstacle of the candidate that came closest, when none is feasible.
 pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle> {
     const ETAS: [f64; 5] = [1e-6, 1e-3, 0.1, 1.0, 30.0];
-    if !model.is_in_range() {
-        return Err(Obstacle::Magnitude);
-    }
+    model.in_range()?;
     let effort = model.effort();
     let xs = scan::x_values(model.domain.0, effort.x_step);
     let columns = scan::evaluate_all(&xs, |&x| {
-        let mut closest = Obstacle::Existence;
+        let mut closest = Closest::default();
         let mut best: Option<(RepairedProposal, f64)> = None;
-        let e_max = largest_e_repaired(model, x).ok_or(closest)?;
+        let e_max = largest_e_repaired(model, x).ok_or(Failing::Existence.at(x, 0.0))?;
         for depth in scan::e_depths(effort.e_step) {
             for eta in ETAS {
                 match evaluate(model, x, e_max * (-depth).portable_exp(), eta) {
                     Ok(found) if best.is_none_or(|(least, _)| found.sigma < least.sigma) => best = Some((found, eta)),
                     Ok(_) => {}
-                    Err(obstacle) => closest = closest.max(obstacle),
+                    Err(obstacle) => closest.record(obstacle),
                 }
             }
         }
-        best.ok_or(closest)
+        closest.or(best)
     });
-    let mut closest = Obstacle::NotFinite;
+    let mut closest = Closest::default();
     let mut found = Vec::new();
     for column in columns {
         match column {
             Ok(candidate) => found.push(candidate),
-            Err(obstacle) => closest = closest.max(obstacle),
+            Err(obstacle) => closest.record(obstacle),
         }
     }
     found.sort_by(|a, b| a.0.sigma.total_cmp(&b.0.sigma));
@@ -126,7 +125,9 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
         )?;
         decode(&best)
     });
-    refined.into_iter().flatten().min_by(|a, b| a.sigma.total_cmp(&b.sigma)).ok_or(closest)
+    // Where the refinement of every column fails, what the scan found serves.
+    let refined = refined.into_iter().flatten().min_by(|a, b| a.sigma.total_cmp(&b.sigma));
+    closest.or(refined.or(found.first().map(|(start, _)| *start)))
 }
 
 /// A depth below the largest E_p from an unbounded parameter: logarithmic near 0, linear beyond 1.

@@ -1,10 +1,11 @@
 //! The search of the sharp derivation: the smallest sigma at which the smallest set with a periodic solution has an error box.
 
 use super::binding::Binding;
-use super::candidate::{AtSigma, Obstacle};
+use super::candidate::AtSigma;
 use super::error_box::{best_error_box, error_box_near};
 use super::floors::{ordinary, raised, tiny};
 use super::model::{Datum, FloatModel};
+use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
 use super::root::crossing;
 use super::scan;
@@ -132,7 +133,8 @@ impl Search<'_> {
                     low = Some((at.0, outcome.unwrap_or(f64::INFINITY)));
                     match outcome {
                         Err(obstacle) if at.0 > LARGEST => return Err(obstacle),
-                        _ if at.0 > LARGEST => return Err(Obstacle::Coupling),
+                        // The threshold is as large as any gain.
+                        _ if at.0 > LARGEST => return Err(Failing::NotFinite(None).into()),
                         _ => {}
                     }
                     let asked = outcome.map_or(0.0, |value| at.0 * value.portable_exp() * (1.0 + 1e-6));
@@ -146,7 +148,7 @@ impl Search<'_> {
             at = (next, self.excess(next));
         }
         // The loop ends only with both; a gain that cannot be found has returned from within it.
-        let (Some(low), Some(high)) = (low, high) else { return Err(Obstacle::Existence) };
+        let (Some(low), Some(high)) = (low, high) else { return Err(Failing::NotFinite(None).into()) };
         let exponent = |sigma: f64| sigma.portable_ln();
         let excess = |t: f64| self.excess(t.portable_exp()).unwrap_or(f64::INFINITY);
         let found = crossing(excess, (exponent(low.0), low.1), (exponent(high.0), high.1), TOLERANCE).portable_exp();
@@ -167,24 +169,22 @@ pub(super) fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3]
 /// # Errors
 /// The obstacle of the candidate that came closest, when none is feasible.
 pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
-    if !model.is_in_range() {
-        return Err(Obstacle::Magnitude);
-    }
+    model.in_range()?;
     let tiny = tiny(model);
     let found = scan::evaluate_all(&forms(model), |form| {
         let search = Search { model, origin: AtOrigin::new(model), form: *form, floors: tiny, near: None };
         search.smallest(first_guess(model)).map(|sigma| (sigma, *form))
     });
-    let mut closest = Obstacle::NotFinite;
+    let mut closest = Closest::default();
     let mut best: Option<(f64, ExistenceForm)> = None;
     for outcome in found {
         match outcome {
             Ok(found) if best.is_none_or(|(sigma, _)| found.0 < sigma) => best = Some(found),
             Ok(_) => {}
-            Err(obstacle) => closest = closest.max(obstacle),
+            Err(obstacle) => closest.record(obstacle),
         }
     }
-    let (sigma, form) = best.ok_or(closest)?;
+    let (sigma, form) = closest.or(best)?;
     let search = Search { model, origin: AtOrigin::new(model), form, floors: tiny, near: None };
     search.with_ordinary_floors(sigma, |search, sigma| {
         // One that costs nothing.
@@ -201,28 +201,26 @@ pub fn search_sharp_at(
     sigma: f64,
     known: Option<&SharpProposal>,
 ) -> Result<SharpProposal, Obstacle> {
-    if !model.is_in_range() {
-        return Err(Obstacle::Magnitude);
-    }
+    model.in_range()?;
     let searches = match known {
         Some(SharpProposal { parameters: SharpParameters { form, floors, rho, eta }, .. }) => {
             vec![(*form, *floors, Some((*rho, *eta)))]
         }
         None => forms(model).into_iter().map(|form| (form, tiny(model), None)).collect(),
     };
-    let mut closest = Obstacle::NotFinite;
+    let mut closest = Closest::default();
     let mut best: Option<(f64, Search<'_>)> = None;
     for (form, floors, near) in searches {
         let search = Search { model, origin: AtOrigin::new(model), form, floors, near };
         match search.excess(sigma) {
             Ok(excess) if best.as_ref().is_none_or(|(least, _)| excess < *least) => best = Some((excess, search)),
             Ok(_) => {}
-            Err(obstacle) => closest = closest.max(obstacle),
+            Err(obstacle) => closest.record(obstacle),
         }
     }
-    let (excess, search) = best.ok_or(closest)?;
+    let (excess, search) = closest.or(best)?;
     if excess > 0.0 {
-        return Err(Obstacle::Gain);
+        return Err(Failing::Gain { given: sigma, smallest: None }.into());
     }
     if known.is_some() {
         return proposal(&search, sigma);
@@ -250,14 +248,16 @@ fn first_guess(model: &FloatModel) -> f64 {
     if guess.is_finite() && guess > 0.0 { guess } else { 1.0 }
 }
 
-/// The proposal that local steps reach from the free numbers of a neighbouring problem; `None` where they are not
-/// feasible here. For many similar problems, of which only the first is worth a search.
-#[must_use]
-pub fn search_sharp_near(model: &FloatModel, known: &SharpProposal) -> Option<SharpProposal> {
+/// The proposal that local steps reach from the free numbers of a neighbouring problem. For many similar problems, of which
+/// only the first is worth a search.
+///
+/// # Errors
+/// The obstacle, where they are not feasible here.
+pub fn search_sharp_near(model: &FloatModel, known: &SharpProposal) -> Result<SharpProposal, Obstacle> {
     let SharpParameters { form, floors, rho, eta } = known.parameters;
     let search = Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) };
-    let sigma = search.smallest(known.sigma).ok()?;
-    proposal(&search, sigma).ok()
+    let sigma = search.smallest(known.sigma)?;
+    proposal(&search, sigma)
 }
 
 /// Whether there is a candidate with some gain.
@@ -266,14 +266,14 @@ pub fn any_candidate(model: &FloatModel) -> bool {
     let floors = tiny(model);
     // The sets only shrink with sigma, and kap > 0 gains nothing where that is large.
     let search = Search { model, origin: AtOrigin::new(model), form: ExistenceForm::Plain, floors, near: None };
-    model.is_in_range() && search.at(LARGEST.sqrt(), ROOM).is_ok()
+    model.in_range().is_ok() && search.at(LARGEST.sqrt(), ROOM).is_ok()
 }
 
 fn proposal(search: &Search<'_>, sigma: f64) -> Result<SharpProposal, Obstacle> {
     let (set, at) = search.at(sigma, ROOM)?;
     let parameters = SharpParameters { form: search.form, floors: search.floors, rho: at.rho, eta: at.eta };
     let binding = match search.at(sigma * (1.0 - 1e-6), ROOM) {
-        Err(Obstacle::Existence) => Binding::Existence,
+        Err(Obstacle { failing: Failing::Existence, .. }) => Binding::Existence,
         _ => Binding::of_decay(search.model, &set, &at),
     };
     Ok(SharpProposal { parameters, sigma, binding })
@@ -293,17 +293,21 @@ pub fn at_sigma(
     Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) }.at(sigma, room)
 }
 
-/// By how much (relatively) sigma* falls when one datum improves by 1 %, for every datum that is given, in the order of
-/// [`Datum::ALL`]; floating point, local steps from the proposal. None where the bounding functions are long.
+/// By how much (relatively) sigma* falls for each of these models, in which one datum is better; floating point, local steps
+/// from the proposal, and against what such steps find without any better datum. None where the bounding functions are long.
 #[must_use]
-pub fn sensitivities(model: &FloatModel, proposal: &SharpProposal) -> Vec<(Datum, f64)> {
+pub fn sensitivities(
+    model: &FloatModel,
+    proposal: &SharpProposal,
+    improved: &[(Datum, FloatModel)],
+) -> Vec<(Datum, f64)> {
     if !model.effort().sensitivities() {
         return Vec::new();
     }
-    scan::evaluate_all(&model.data().collect::<Vec<_>>(), |&datum| {
-        let improved = model.improved(datum, 0.01);
-        let gain = search_sharp_near(&improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / proposal.sigma);
-        (datum, gain.max(0.0))
+    let as_it_is = search_sharp_near(model, proposal).map_or(proposal.sigma, |near| near.sigma.min(proposal.sigma));
+    scan::evaluate_all(improved, |(datum, improved)| {
+        let gain = search_sharp_near(improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / as_it_is);
+        (*datum, gain.max(0.0))
     })
 }
 

@@ -32,7 +32,7 @@ impl Effort {
 
 impl ClosedLoop {
     /// Starts counting anew, for another part of a simulation.
-    pub(super) fn renew_effort(&self) {
+    pub fn renew_effort(&self) {
         self.effort.0.store(0, Ordering::Relaxed);
     }
 

@@ -12,6 +12,7 @@ mod effort;
 mod figures;
 mod fixed;
 mod implicit;
+mod newton;
 mod noise;
 mod orbit;
 mod period;
@@ -32,6 +33,7 @@ pub use digital::{
 pub use effort::{MAX_NUMBERS, MAX_OPERATIONS};
 pub use figures::{FIGURE_FILES, bode, csv, figures, spectrum, spectrum_curve};
 pub use fixed::FixedStep;
+pub use newton::NewtonFailure;
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};
 pub use report::SimulationReport;

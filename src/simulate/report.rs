@@ -3,7 +3,7 @@
 use super::figures::{figures, regulator_words};
 use super::run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SteadyFigures};
 use super::{ClosedLoop, IntegrationFailure, SteadyState};
-use crate::plant::Plant;
+use crate::plant::{Initial, Plant};
 use crate::report::document::{Block, Readable, Table, clean};
 use serde_json::{Value, json};
 
@@ -31,9 +31,11 @@ impl Readable for SimulationReport<'_> {
         ];
         match &simulation.steady {
             Ok((steady, figures)) => blocks.extend(steady_blocks(plant, steady, figures)),
-            Err(error) => {
-                blocks.push(Block::says(format!("None was found: {error}{}.", advice(error.way_out("--fixed")))))
-            }
+            Err(error) => blocks.push(Block::says(format!(
+                "None was found: {error}; {}. The run starts at {}.",
+                error.way_out("--fixed"),
+                initial_words(plant)
+            ))),
         }
         blocks.push(Block::heading("From the initial condition"));
         match &simulation.long {
@@ -63,7 +65,9 @@ impl Readable for SimulationReport<'_> {
                 "residual": steady.residual, "multipliers": steady.multipliers,
                 "multipliers_uncertainty": steady.uncertainty, "method": steady.method(), "start": steady.start,
             }),
-            Err(error) => json!({ "error": error.to_string(), "help": error.way_out("--fixed") }),
+            Err(error) => json!({
+                "error": error.to_string(), "help": error.way_out("--fixed"), "from": initial_words(plant),
+            }),
         };
         let failure =
             |error: &IntegrationFailure, flag| json!({ "error": error.to_string(), "help": error.way_out(flag) });
@@ -98,22 +102,45 @@ impl Readable for SimulationReport<'_> {
     }
 }
 
-/// Six digits.
+/// Four digits.
 pub(super) fn number(value: f64) -> String {
+    digits(value, 4)
+}
+
+/// A Floquet multiplier: six digits, for what is near 1 is told apart from 1.
+pub(super) fn multiplier(value: f64) -> String {
+    digits(value, 6)
+}
+
+fn digits(value: f64, count: usize) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
-        let digits = (5 - libm::log10(value.abs().max(1e-300)).floor() as i32).clamp(0, 12) as usize;
-        return format!("{value:.digits$}");
+        let before = libm::log10(value.abs().max(1e-300)).floor() as i32 + 1;
+        let behind = (count as i32 - before).clamp(0, 12) as usize;
+        return format!("{value:.behind$}");
     }
-    format!("{value:.5e}")
+    format!("{value:.*e}", count - 1)
+}
+
+/// Amplitudes below this share of the largest |e| are rounding.
+const NOISE: f64 = 1e-12;
+
+/// The amplitude of a harmonic; what is rounding, against the largest |e| `scale`, is 0.
+pub(super) fn amplitude(value: f64, scale: f64) -> String {
+    if value.abs() <= NOISE * scale { "0".to_owned() } else { format!("{value:.3e}") }
 }
 
 /// Why there are no figures, and what to try.
 fn ended_early(error: &IntegrationFailure, flag: &str) -> Block {
-    Block::says(format!("It has no figures: {error}{}.", advice(Some(error.way_out(flag)))))
+    Block::says(format!("It has no figures: {error}; {}.", error.way_out(flag)))
 }
 
-fn advice(way_out: Option<String>) -> String {
-    way_out.map_or_else(String::new, |help| format!("; {help}"))
+/// The initial condition of a plant file.
+fn initial_words(plant: &Plant) -> String {
+    let Initial { x, e, z } = &plant.initial;
+    let states = plant.names.states().iter().zip(x).map(|(name, value)| format!("{name} = {value}"));
+    let mut words: Vec<String> = states.chain([format!("e = {e}")]).collect();
+    words.push(if z.is_empty() { "with the regulator at rest" } else { "with the z of the plant file" }.to_owned());
+    words.join(", ")
 }
 
 fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -> Vec<Block> {
@@ -124,9 +151,10 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
         true => format!(" (uncertain: the derivative that it is of is known to {:.0e} only)", steady.uncertainty),
         false => String::new(),
     };
+    let scale = figures.sup;
     let mut table = Table::new(&["k", "|c_k| of e"]);
     for (k, amplitude) in figures.amplitudes.iter().enumerate() {
-        table.push([k.to_string(), format!("{amplitude:.4e}")]);
+        table.push([k.to_string(), self::amplitude(*amplitude, scale)]);
     }
     vec![
         Block::says(format!(
@@ -134,7 +162,7 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
             number(figures.sup),
             number(figures.rms),
             steady.residual,
-            number(slowest),
+            multiplier(slowest),
         )),
         Block::says(format!("Over a period: {}.", period_words(plant, &figures.period))),
         Block::Table(table),

@@ -4,6 +4,7 @@ use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
 use super::effort::MAX_NUMBERS;
 use super::fixed::checked;
 use super::orbit::{Orbit, amplitudes, rms, sup};
+use super::steady::steady_state_near;
 use super::{
     BandLimitedNoise, ClosedLoop, Disturbance, FixedStep, Noise, NoiseSettings, SteadyState, SteadyStateError,
     steady_state,
@@ -166,15 +167,32 @@ pub fn simulate(
     settings: &SimulationSettings,
     progress: &dyn Progress,
 ) -> Simulation {
-    let steady = steady_state(closed_loop, start, progress).and_then(|steady| {
+    let found = steady_state(closed_loop, start, progress);
+    let long = long_run(closed_loop, start, settings, progress);
+    let steady = found.or_else(|error| from_the_end(closed_loop, &long, error)).and_then(|steady| {
         let figures = SteadyFigures::new(closed_loop, &steady, settings.harmonics)?;
         Ok((steady, figures))
     });
-    let long = long_run(closed_loop, start, settings, progress);
     let noisy = settings.noise.map(|(noise, enters)| {
         noisy_run(closed_loop, start, settings.periods, settings.noise_steps, noise, enters, progress)
     });
     Simulation { settings: *settings, steady, long, noisy }
+}
+
+/// The steady state from the end of a long run, where Newton's method failed from its start.
+fn from_the_end(
+    closed_loop: &ClosedLoop,
+    long: &Result<LongRun, IntegrationFailure>,
+    error: SteadyStateError,
+) -> Result<SteadyState, SteadyStateError> {
+    let end = long.as_ref().ok().and_then(|run| run.states.last());
+    match (&error, end) {
+        (SteadyStateError::Newton { .. }, Some(end)) => {
+            closed_loop.renew_effort();
+            steady_state_near(closed_loop, end).map_err(|_| error)
+        }
+        _ => Err(error),
+    }
 }
 
 /// Numbers that the samples of a long run may fill; written as text they take twenty bytes each.

@@ -2,31 +2,14 @@
 
 use super::ClosedLoop;
 use super::adaptive::{IntegrationFailure, Span, Tolerance, flow, is_stiff};
+use super::newton::{NewtonFailure, Shot, shoot};
 use super::period::Period;
 use crate::progress::Progress;
-use nalgebra::{DMatrix, DVector, Dyn, LU};
+use nalgebra::DMatrix;
 use thiserror::Error;
 
 /// Periods that are simulated before Newton's method is tried, and then again before the second and third try.
 const APPROACHES: [usize; 3] = [10, 30, 90];
-
-/// Derivatives that Newton's method takes in one try, and steps.
-const MAX_DERIVATIVES: usize = 12;
-const MAX_STEPS: usize = 60;
-
-/// A step that leaves at most this share of the residual was worth it: the next one uses the same derivative.
-const ENOUGH: f64 = 0.1;
-
-/// Relative to 1 + max|y|, the derivatives at two points this close to each other have the same multipliers, to the digits
-/// that are shown.
-const CLOSE_BY: f64 = 1e-9;
-
-/// A residual at which Newton's method has nothing left to do, relative to 1 + max|y|. It is below rounding: as the
-/// slowest multiplier comes close to 1 the residual understates the error, so steps go on while they help.
-const CONVERGED: f64 = 1e-16;
-
-/// A residual that is accepted where rounding allows no smaller one.
-const ACCEPTED: f64 = 1e-11;
 
 /// Implicit steps of a period at most.
 const MOST_STEPS: usize = 1 << 14;
@@ -63,28 +46,30 @@ impl SteadyState {
 /// Why no steady state was found.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SteadyStateError {
-    /// The simulation did not get there.
+    /// The run from the initial condition, or an integration on the way, did not come to its end.
     #[error(transparent)]
     Integration(#[from] IntegrationFailure),
-    /// Newton's method did not converge.
-    #[error("Newton's method did not converge; the last residual is {residual:.3e}")]
-    NoConvergence {
-        /// The last residual.
-        residual: f64,
+    /// The run stays within bounds, and Newton's method came to no periodic solution from any of its states that were tried.
+    #[error("the run stays within bounds, but Newton's method from its state after {periods} periods {failure}")]
+    Newton {
+        /// The periods of the run before the last try.
+        periods: u32,
+        /// What became of that try.
+        failure: NewtonFailure,
     },
 }
 
 impl SteadyStateError {
-    fn is_too_much_work(&self) -> bool {
-        matches!(self, SteadyStateError::Integration(IntegrationFailure::TooMuchWork { .. }))
-    }
-
     /// What to try, where that is known; `flag` is the flag that sets the steps per period.
     #[must_use]
-    pub fn way_out(&self, flag: &str) -> Option<String> {
+    pub fn way_out(&self, flag: &str) -> String {
         match self {
-            SteadyStateError::Integration(failure) => Some(failure.way_out(flag)),
-            SteadyStateError::NoConvergence { .. } => None,
+            SteadyStateError::Integration(failure) => failure.way_out(flag),
+            SteadyStateError::Newton { .. } => {
+                "an `initial` of the plant file that is nearer to the periodic solution may help; the run below says whether \
+                 the loop settles"
+                    .to_owned()
+            }
         }
     }
 }
@@ -103,16 +88,23 @@ pub fn steady_state(
         flow(closed_loop, f64::from(period) * closed_loop.period, closed_loop.period, y, Tolerance::ORDINARY)
     };
     closed_loop.renew_effort();
+    search(start, approach, |y| steady_state_near(closed_loop, y), progress)
+}
+
+/// The T-periodic solution that Newton's method comes to from a state at t = 0, without any simulation before.
+///
+/// # Errors
+/// [`NewtonFailure`].
+pub(super) fn steady_state_near(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, NewtonFailure> {
     let one_period = Span { t: 0.0, unit: closed_loop.period, units: 1 };
-    let shoot = |y: &[f64]| match is_stiff(closed_loop, one_period, y, Tolerance::TIGHT)? {
+    match is_stiff(closed_loop, one_period, y, Tolerance::TIGHT)? {
         false => shoot_explicitly(closed_loop, y),
         true => shoot_implicitly(closed_loop, y),
-    };
-    search(start, approach, shoot, progress)
+    }
 }
 
 /// Newton's method with explicit flows at the tightest tolerance; only the derivative is by implicit steps.
-fn shoot_explicitly(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, SteadyStateError> {
+fn shoot_explicitly(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, NewtonFailure> {
     let mut steps = Period::fewest_steps(closed_loop);
     let shot = shoot(
         y,
@@ -141,7 +133,7 @@ fn shoot_explicitly(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, 
 }
 
 /// The periodic solution of the implicit method with ever shorter steps, until two of them agree.
-fn shoot_implicitly(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, SteadyStateError> {
+fn shoot_implicitly(closed_loop: &ClosedLoop, y: &[f64]) -> Result<SteadyState, NewtonFailure> {
     let mut coarse: Option<Shot> = None;
     let mut steps = Period::fewest_steps(closed_loop);
     loop {
@@ -209,107 +201,28 @@ pub(super) fn multipliers(monodromy: &DMatrix<f64>) -> Vec<f64> {
 pub(super) fn search<S>(
     start: &[f64],
     mut approach: impl FnMut(u32, &[f64]) -> Result<Vec<f64>, IntegrationFailure>,
-    shoot: impl Fn(&[f64]) -> Result<S, SteadyStateError>,
+    shoot: impl Fn(&[f64]) -> Result<S, NewtonFailure>,
     progress: &dyn Progress,
 ) -> Result<S, SteadyStateError> {
     let mut y = start.to_vec();
     let mut periods = 0;
-    let mut outcome = Err(SteadyStateError::NoConvergence { residual: f64::INFINITY });
+    let mut failure = NewtonFailure::NoConvergence { residual: f64::INFINITY };
     for more in APPROACHES {
         for _ in 0..more {
             y = approach(periods, &y)?;
             periods += 1;
             progress.advance();
         }
-        outcome = shoot(&y);
-        if outcome.is_ok() {
-            break;
+        match shoot(&y) {
+            Ok(found) => return Ok(found),
+            Err(error) => failure = error,
         }
     }
-    outcome
-}
-
-/// Newton's method for y(T; y0) - y0 = 0, with `end` for y(T; y0) and `derivative` for dy(T)/dy0.
-///
-/// The derivative costs as much as all flows together, so a step uses the last one again while that helps
-/// ([`ENOUGH`]); the one at the solution gives the multipliers.
-pub(super) fn shoot(
-    guess: &[f64],
-    mut end: impl FnMut(&[f64]) -> Result<Vec<f64>, IntegrationFailure>,
-    mut derivative: impl FnMut(&[f64]) -> Result<DMatrix<f64>, IntegrationFailure>,
-) -> Result<Shot, SteadyStateError> {
-    let mut y = DVector::from_column_slice(guess);
-    let mut best: Option<(f64, DVector<f64>)> = None;
-    let mut known: Option<Known> = None;
-    let mut derivatives = 0;
-    for _ in 0..MAX_STEPS {
-        let defect = DVector::from_vec(end(y.as_slice())?) - &y;
-        let residual = defect.amax();
-        let scale = 1.0 + y.amax();
-        let previous = best.as_ref().map(|(smallest, _)| *smallest);
-        let worse = previous.is_some_and(|smallest| residual >= smallest);
-        let accepted = previous.is_some_and(|smallest| smallest <= ACCEPTED * scale);
-        if !worse {
-            best = Some((residual, y.clone()));
+    Err(match failure {
+        NewtonFailure::NoConvergence { .. } | NewtonFailure::Integration(IntegrationFailure::Escaped { .. }) => {
+            SteadyStateError::Newton { periods, failure }
         }
-        // Once rounding is all that is left, further steps only move about.
-        if residual <= CONVERGED * scale || (worse && accepted) {
-            break;
-        }
-        let near = known.as_ref().is_some_and(|known| known.is_near(&y));
-        let helped =
-            previous.is_none_or(|smallest| residual <= ENOUGH * smallest) || (residual <= ACCEPTED * scale && near);
-        if !helped || known.is_none() {
-            if derivatives == MAX_DERIVATIVES {
-                break;
-            }
-            derivatives += 1;
-            known = Some(Known::new(&y, derivative(y.as_slice())?));
-        }
-        let Some(step) = known.as_ref().and_then(|known| known.factors.solve(&defect)) else { break };
-        y += step;
-        if !y.iter().all(|value| value.is_finite()) {
-            break;
-        }
-    }
-    match best {
-        Some((residual, y)) if residual <= ACCEPTED * (1.0 + y.amax()) => {
-            // A derivative from close by is the one here.
-            let monodromy = match known.filter(|known| known.is_near(&y)) {
-                Some(known) => known.monodromy,
-                None => derivative(y.as_slice())?,
-            };
-            Ok(Shot { start: y.as_slice().to_vec(), residual, monodromy })
-        }
-        other => {
-            let residual = other.map_or(f64::INFINITY, |(residual, ..)| residual);
-            Err(SteadyStateError::NoConvergence { residual })
-        }
-    }
-}
-
-/// What Newton's method arrived at.
-pub(super) struct Shot {
-    pub(super) start: Vec<f64>,
-    pub(super) residual: f64,
-    pub(super) monodromy: DMatrix<f64>,
-}
-
-/// A derivative that was computed, and where.
-struct Known {
-    at: DVector<f64>,
-    monodromy: DMatrix<f64>,
-    /// Of I - monodromy.
-    factors: LU<f64, Dyn, Dyn>,
-}
-
-impl Known {
-    fn new(at: &DVector<f64>, monodromy: DMatrix<f64>) -> Known {
-        let d = monodromy.nrows();
-        Known { at: at.clone(), factors: (DMatrix::identity(d, d) - &monodromy).lu(), monodromy }
-    }
-
-    fn is_near(&self, y: &DVector<f64>) -> bool {
-        (&self.at - y).amax() <= CLOSE_BY * (1.0 + y.amax())
-    }
+        // What is too much work, or stiff, is that whatever asks for it.
+        NewtonFailure::Integration(other) => SteadyStateError::Integration(other),
+    })
 }

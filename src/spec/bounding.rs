@@ -129,6 +129,16 @@ impl Bound {
         }
     }
 
+    /// Whether it is of f, or of a derivative by x: without a state there is nothing that it bounds.
+    #[must_use]
+    pub fn is_of_state(self) -> bool {
+        match self {
+            Bound::F | Bound::Fe | Bound::Fxx | Bound::Fex | Bound::Fx | Bound::Qx | Bound::Qtx => true,
+            Bound::Rate | Bound::RateExistence => true,
+            Bound::Q | Bound::Qe | Bound::Qt | Bound::QRms | Bound::QtRms | Bound::QeMax | Bound::Qte => false,
+        }
+    }
+
     /// The field of a specification in which its own field is.
     #[must_use]
     pub fn section(self) -> &'static str {

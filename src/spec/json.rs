@@ -75,6 +75,24 @@ pub(super) fn parse(text: &str) -> Result<Node, SpecError> {
     }
 }
 
+/// What to do with a document that starts as one of another notation.
+fn other_notation(text: &str) -> Option<&'static str> {
+    const TOML: &str = "this looks like TOML: name the file `.toml`, which is read";
+    const YAML: &str = "this looks like YAML, which is not read: write it as JSON, or as TOML in a file named `.toml`";
+    let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let is_key = |key: &str| {
+        let bare = key.trim().trim_matches(['"', '\'']);
+        !bare.is_empty() && bare.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '$'))
+    };
+    let is_table = first.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')).is_some_and(is_key);
+    if first.split_once('=').is_some_and(|(key, _)| is_key(key)) || is_table {
+        return Some(TOML);
+    }
+    let yaml_key =
+        first.split_once(':').is_some_and(|(key, rest)| is_key(key) && (rest.is_empty() || rest.starts_with(' ')));
+    (first.starts_with("---") || first.starts_with("%YAML") || yaml_key).then_some(YAML)
+}
+
 /// The parser's complaint, in its place.
 fn syntax_error(text: &str, error: &serde_json::Error) -> SpecError {
     let line_start = match error.line() {
@@ -88,6 +106,9 @@ fn syntax_error(text: &str, error: &serde_json::Error) -> SpecError {
     let suffix = format!(" at line {} column {}", error.line(), error.column());
     let message = full.strip_suffix(&suffix).unwrap_or(&full);
     let located = SpecError::new(ErrorKind::Syntax, "", at..end, format!("not valid JSON: {message}"));
+    if let Some(help) = other_notation(text) {
+        return located.help(help);
+    }
     match &text[at..end] {
         "/" | "#" => located.help("JSON has no comments; name the file `.jsonc`, or put remarks in `description`"),
         "'" => located.help("strings stand in double quotes"),

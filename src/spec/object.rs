@@ -91,7 +91,16 @@ impl<'d> Object<'d> {
                 return Ok(());
             }
             let message = format!("this is a file of format `{}`", shown(found));
-            Err(errors.report(value.error(ErrorKind::Format, message).expected(format!("expected `{format}`"))))
+            let error = value.error(ErrorKind::Format, message).expected(format!("expected `{format}`"));
+            // What is to be certified, in the place of what was.
+            let what = match (found, format) {
+                ("sigmastar/plant", "sigmastar/certificate") => "a plant",
+                ("sigmastar/bounding-spec", "sigmastar/certificate") => "a specification",
+                _ => return Err(errors.report(error)),
+            };
+            Err(errors.report(error.help(format!(
+                "{what} is to be certified first: `sigmastar certify FILE -o CERTIFICATE`; this command reads the CERTIFICATE"
+            ))))
         });
         let version = self.required("version", errors).and_then(|value| {
             let version = value.integer(errors)?;

@@ -5,6 +5,7 @@ use super::results::Results;
 use super::row::Row;
 use super::values::number;
 use crate::certify::Verdict;
+use crate::enclosure::Enclosure;
 use crate::number::parse_decimal;
 use rug::Rational;
 use std::cmp::Ordering;
@@ -13,7 +14,9 @@ use std::cmp::Ordering;
 const COLUMNS: [&str; 12] =
     ["verdict", "sigma_star", "X0", "E0", "Z0", "x", "e", "zeta", "z", "no_plant", "sha256", "message"];
 
-/// The table (RFC 4180): a row for each case. A fraction becomes the nearest double; everything else is as in the results.
+/// The table (RFC 4180): a row for each case. Numbers are as in the results, exactly; but a fraction becomes a double, of a
+/// parameter the nearest one, and of a claim the next one at which the claim holds: the gain and the sizes of the periodic
+/// solution are rounded up, the initial set down.
 #[must_use]
 pub fn csv(results: &Results) -> String {
     let names = results.header.parameters.iter().map(|(_, name)| name.as_str());
@@ -21,9 +24,10 @@ pub fn csv(results: &Results) -> String {
     for row in results.rows.values() {
         let none = || std::iter::repeat_n(String::new(), 9).collect::<Vec<_>>();
         let claimed = row.claim.as_ref().map_or_else(none, |claim| {
-            let sizes = claim.initial_set.iter().chain(&claim.periodic).map(|text| decimal(text));
-            let sigma = std::iter::once(decimal(&claim.sigma_star));
-            sigma.chain(sizes).chain(std::iter::once(claim.no_plant.to_string())).collect()
+            let up = |text: &String| claimed_number(text, Enclosure::upper_f64);
+            let set = claim.initial_set.iter().map(|text| claimed_number(text, Enclosure::lower_f64));
+            let sizes = set.chain(claim.periodic.iter().map(up));
+            std::iter::once(up(&claim.sigma_star)).chain(sizes).chain([claim.no_plant.to_string()]).collect()
         });
         let message = row.errors.first().map(|error| error.message.clone()).or_else(|| row.reason.clone());
         let start = std::iter::once(row.index.to_string()).chain(row.values.iter().map(|text| decimal(text)));
@@ -39,6 +43,12 @@ fn decimal(text: &str) -> String {
         return text.to_owned();
     }
     number(text).map_or_else(|| text.to_owned(), |number| number.to_string())
+}
+
+/// The same of a number that is claimed, rounded to a side where it is no decimal.
+fn claimed_number(text: &str, side: fn(&Enclosure) -> f64) -> String {
+    let fraction = exact(text).filter(|_| parse_decimal(text).is_err());
+    fraction.map_or_else(|| decimal(text), |value| side(&Enclosure::from_rational(&value, 53)).to_string())
 }
 
 fn record(fields: impl Iterator<Item = String>) -> String {
@@ -94,4 +104,18 @@ pub fn summary(results: &Results, with_best: bool) -> String {
         }
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_claimed_fraction_is_rounded_to_the_side_where_the_claim_holds() {
+        let [down, up] = [Enclosure::lower_f64, Enclosure::upper_f64].map(|side| claimed_number("1/3", side));
+        let exact = |text: &str| Rational::from_f64(text.parse().unwrap()).unwrap();
+        assert!(exact(&down) < Rational::from((1, 3)) && exact(&up) > Rational::from((1, 3)), "{down} {up}");
+        assert_eq!(claimed_number("41.4618", Enclosure::upper_f64), "41.4618");
+        assert_eq!([decimal("1/4"), decimal("2*pi")], ["0.25".to_owned(), std::f64::consts::TAU.to_string()]);
+    }
 }

@@ -3,6 +3,7 @@
 use crate::certify::{Certification, Options, Verdict, verdict_of_errors};
 use crate::enclosure::Enclosure;
 use crate::reduction::{Prepared, Run, Subject};
+use crate::report::state_name;
 use crate::spec::{Document, SpecErrors};
 use rug::Rational;
 
@@ -47,6 +48,8 @@ pub struct Figures {
     pub error: Option<[Enclosure; 2]>,
     /// Whether it is proved that no plant with a state has these data.
     pub no_plant: bool,
+    /// What the state is called whose norms these are; `None` for a plant without states.
+    pub state: Option<&'static str>,
 }
 
 impl Figures {
@@ -87,6 +90,7 @@ fn figures(run: &Run<'_>, n_o: u64) -> Result<Figures, Verdict> {
                 periodic,
                 error: None,
                 no_plant: run.no_plant.is_some(),
+                state: state_name(run.spec),
             })
         }
     }
@@ -102,5 +106,6 @@ fn continuous(run: &Certification<'_>, n_o: u64) -> Option<Figures> {
         periodic: run.periodic_solution()?,
         error: run.error_with(n_o).map(|bounds| [bounds.rms, bounds.sup]),
         no_plant: run.no_plant.is_some(),
+        state: state_name(run.spec),
     })
 }

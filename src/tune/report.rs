@@ -3,9 +3,9 @@
 use super::descent::{Tried, Tuning};
 use super::figures::{Figures, Goal};
 use super::parameter::Parameter;
-use crate::number::write_exact;
+use crate::number::{Direction, write_exact};
 use crate::report::document::{Block, Readable, Table, clean};
-use crate::report::number::{estimate, full, upper};
+use crate::report::number::{estimate, exact, full, upper};
 use serde_json::{Map, Value, json};
 
 /// The format of the JSON.
@@ -130,7 +130,7 @@ impl TuningReport<'_> {
     /// What was to be small.
     fn goal(&self, figures: &Figures) -> String {
         match self.tuning.settings.goal {
-            Goal::Sigma => write_exact(&figures.sigma),
+            Goal::Sigma => exact(&figures.sigma, Direction::Up),
             Goal::Feedback => figures.feedback.as_ref().map(upper).unwrap_or_default(),
             Goal::Error(_) => figures.error.as_ref().map(|[_, sup]| upper(sup)).unwrap_or_default(),
         }
@@ -171,11 +171,20 @@ impl TuningReport<'_> {
             let name = format!("{name} at sigma*, n_o = {}, at most", tuning.settings.n_o);
             row(&name, &|figures| figures.error.as_ref().map(|error| upper(&error[index])));
         }
-        for (index, name) in ["|x|", "|e|", "|z|_N"].into_iter().enumerate() {
-            row(&format!("initial set: {name}"), &|figures| Some(write_exact(&figures.initial_set[index])));
+        let tried = [Some(&tuning.before), after].into_iter().flatten();
+        let state = tried.filter_map(|tried| tried.outcome.as_ref().ok()).find_map(|figures| figures.state);
+        // Of a plant without states there is no size of a state.
+        let norms = |others: &[&str]| -> Vec<(usize, String)> {
+            let others = others.iter().map(|name| Some((*name).to_owned()));
+            let all = std::iter::once(state.map(|name| format!("|{name}|"))).chain(others);
+            all.enumerate().filter_map(|(index, name)| Some((index, name?))).collect()
+        };
+        for (index, name) in norms(&["|e|", "|z|_N"]) {
+            let size = |figures: &Figures| figures.initial_set.get(index).map(|size| exact(size, Direction::Down));
+            row(&format!("initial set: {name}"), &size);
         }
-        for (index, name) in ["|x|", "|e|", "|zeta|_N", "|z|_N"].into_iter().enumerate() {
-            row(&format!("periodic solution: {name}, at most"), &|figures| Some(upper(&figures.periodic[index])));
+        for (index, name) in norms(&["|e|", "|zeta|_N", "|z|_N"]) {
+            row(&format!("periodic solution: {name}, at most"), &|figures| figures.periodic.get(index).map(upper));
         }
         table
     }

@@ -42,6 +42,20 @@ fn numbers_reach_the_checker_as_they_are_written() {
 }
 
 #[test]
+fn bounds_that_all_but_vanish_are_written_so_that_they_are_read() {
+    let spec: serde_json::Value = serde_json::from_str(&specification_text("paper-example")).unwrap();
+    for small in ["exp(-1e12)", "exp(-1e4)", "exp(-2e3)*X"] {
+        let mut spec = spec.clone();
+        spec["bounds"]["f_e"] = small.into();
+        let spec = Specification::from_json("test", &spec.to_string()).unwrap();
+        let options = Options { compare: false, ..Options::default() };
+        let certificate = certificate_json(&certify(&spec, options).unwrap()).expect("it certifies").to_string();
+        let report = proofs_check::check(certificate.as_bytes());
+        assert!(report.is_flawless(), "{small}: {}", report.text(false));
+    }
+}
+
+#[test]
 fn the_command() {
     let valid = "proofs-check/tests/certificates/paper-example.sharp.json";
     let forged = "proofs-check/tests/forged/sharp-C4.json";

@@ -18,8 +18,8 @@ fn a_simulation_at_samples_reports_writes_samples_and_draws() {
     let arguments = ["--sigma", "2", "--n-o", "2", "--sampled", "1/100", "--samples", "300"];
     let mut call = program();
     call.args(SHORT).arg("3").args(arguments).arg("--csv").arg(&csv).arg("--plots").arg(&plots);
-    let words = predicate::str::contains("sup|e| = 0.0182872 (0.0181431 at the samples)")
-        .and(predicate::str::contains("at samples h = 0.0100000"))
+    let words = predicate::str::contains("sup|e| = 0.01829 (0.01814 at the samples)")
+        .and(predicate::str::contains("at samples h = 0.01000"))
         .and(predicate::str::contains("100 samples a period"))
         .and(predicate::str::contains("multiplier 0.848528"));
     call.assert().success().stdout(words);

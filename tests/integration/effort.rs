@@ -10,7 +10,7 @@ use sigmastar::lyapunov::MAX_PROGRAM_COST;
 use sigmastar::plant::Plant;
 use sigmastar::progress::Silent;
 use sigmastar::regulator::Design;
-use sigmastar::search::Obstacle;
+use sigmastar::search::{Failing, Obstacle};
 use sigmastar::simulate::{
     ClosedLoop, IntegrationFailure, MAX_NUMBERS, MAX_OPERATIONS, SteadyStateError, steady_state,
 };
@@ -65,7 +65,10 @@ fn huge_and_tiny_bounds_are_undecided_with_what_to_do() {
             let spec = read(&with(&format!("/bounds/{field}"), json!(text)));
             let run = certify(&spec, Default::default()).unwrap();
             assert_eq!(run.verdict.exit_code(), 3, "{field} {text}");
-            assert!(matches!(run.sharp, Outcome::NotFound(Obstacle::Magnitude)), "{field} {text}");
+            assert!(
+                matches!(run.sharp, Outcome::NotFound(Obstacle { failing: Failing::Magnitude(_), .. })),
+                "{field} {text}"
+            );
         }
     }
     for field in ["f_e", "q_e", "q_x"] {

@@ -30,3 +30,25 @@ fn the_matrix_inequality_confirms_every_certificate() {
     }
     assert!(set_by_c5 >= 10, "C5 sets sigma* on {set_by_c5} only");
 }
+
+/// Where dq/de is exactly one number, both programs put it in the place of u_e, and neither has a multiplier for it.
+#[test]
+fn a_sector_of_one_slope_has_no_multiplier() {
+    let folder = tempfile::tempdir().unwrap();
+    let [spec, certificate] = ["spec.json", "certificate.json"].map(|name| folder.path().join(name));
+    let text = std::fs::read_to_string("specs/paper-example.json").unwrap();
+    for (most, present) in [("-1/2", false), ("-1/2 + 1/1000", true)] {
+        let mut changed: serde_json::Value = serde_json::from_str(&text).unwrap();
+        changed["bounds"]["q_e"] = "1/2".into();
+        changed["bounds"]["q_e_max"] = most.into();
+        std::fs::write(&spec, changed.to_string()).unwrap();
+        let call = |args: &[&std::ffi::OsStr]| crate::support::program().args(args).output().unwrap();
+        let [certify, output, force] = ["certify", "-o", "--force"].map(std::ffi::OsStr::new);
+        assert!(call(&[certify, spec.as_os_str(), output, certificate.as_os_str(), force]).status.success());
+        let written: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
+        assert_eq!(written["witness"]["lmi"]["l_e"] != "0", present, "{most}: {}", written["witness"]["lmi"]);
+        let answer = call(&[std::ffi::OsStr::new("check"), certificate.as_os_str()]);
+        let text = String::from_utf8_lossy(&answer.stdout).into_owned();
+        assert!(text.starts_with("valid; figures: all"), "{most}: {text}");
+    }
+}

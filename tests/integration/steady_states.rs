@@ -161,3 +161,42 @@ fn escaping_solutions_and_missing_steady_states_are_told() {
     assert!(matches!(run(&text("sqrt(x1 - 10)", "-x1")), Err(SteadyStateError::Integration(_))));
     assert!(run(&text("cos(2*pi*t)", "-x1")).is_ok());
 }
+
+/// A slow level whose rate grows exponentially: from below, a whole step of Newton's method leads to where no period can be
+/// integrated. Damped, it arrives.
+#[test]
+fn a_step_that_leads_too_far_is_cut() {
+    let text = r#"{"format": "sigmastar/plant", "version": 1, "name": "level", "period": 60, "states": ["h"],
+        "f": ["(1 - exp((h - 900)/5))/500"], "q": "e/20 + (h - 900)/100000 + sin(2*pi*t/60) + sin(4*pi*t/60)/2",
+        "internal_model": {"mu": "1/100", "base_frequency": "2*pi/60",
+        "weights": {"family": "power", "n0": 2, "epsilon": "1/2"}}}"#;
+    let plant = Plant::from_json("level", text).unwrap();
+    let regulator = Regulator::new(2.0, 0.01, std::f64::consts::TAU / 60.0, vec![2.0, 1.0]);
+    let closed_loop = ClosedLoop::new(&plant, regulator);
+    let steady = steady_state(&closed_loop, &closed_loop.start(&[850.0], 10.0), &Silent).unwrap();
+    assert!((steady.start[0] - 900.0).abs() < 1e-6, "{steady:?}");
+    assert!((steady.multipliers[0] - (-60.0_f64 / 2500.0).exp()).abs() < 1e-6, "{steady:?}");
+}
+
+/// Where the run stays within bounds and there is no periodic solution, that is told, and no larger gain is advised; where the
+/// run itself escapes, one may help.
+#[test]
+fn a_failing_search_is_not_called_an_escape() {
+    let failure = |f: &str| {
+        let text = format!(
+            r#"{{"format": "sigmastar/plant", "version": 1, "name": "n", "period": 1, "states": ["x1"], "f": ["{f}"],
+            "q": "0", "internal_model": {{"mu": 1, "base_frequency": "2*pi",
+            "weights": {{"family": "power", "n0": 2, "epsilon": 1}}}}}}"#
+        );
+        let closed_loop = ClosedLoop::new(&Plant::from_json("test", &text).unwrap(), Regulator::high_gain(1.0));
+        steady_state(&closed_loop, &closed_loop.start(&[1.0], 0.0), &Silent).unwrap_err()
+    };
+    let drift = failure("1");
+    assert!(matches!(drift, SteadyStateError::Newton { periods: 130, .. }), "{drift}");
+    assert!(drift.to_string().contains("the run stays within bounds"), "{drift}");
+    let way_out = drift.way_out("--fixed");
+    assert!(way_out.contains("`initial`") && !way_out.contains("gain"), "{way_out}");
+    let escape = failure("x1^2");
+    assert!(matches!(escape, SteadyStateError::Integration(_)), "{escape}");
+    assert!(escape.way_out("--fixed").contains("gain"));
+}

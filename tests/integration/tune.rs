@@ -98,7 +98,7 @@ fn bad_values_to_start_from_are_left_behind() {
     assert!(number(&report["after"]["sigma_star"]) < 4000.0, "{report}");
     // Not "100 % less".
     assert!(
-        report["sentence"].as_str().unwrap().contains("about 0.0388 % of what it was, down from 7616930"),
+        report["sentence"].as_str().unwrap().contains("about 0.0388 % of what it was, down from 7617000"),
         "{report}"
     );
 }

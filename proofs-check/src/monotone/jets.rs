@@ -18,7 +18,11 @@ pub(super) struct Jet {
 const AXES: [[usize; 2]; 3] = [[0, 0], [0, 1], [1, 1]];
 
 impl Jet {
+    /// A constant, where it is one: of what is not defined no derivative is known.
     fn constant(value: Interval) -> Jet {
+        if !value.is_defined() {
+            return Jet::without_derivatives(value);
+        }
         let zero = Interval::int(0, value.precision());
         Jet { first: [zero.clone(), zero.clone()], second: [zero.clone(), zero.clone(), zero], value }
     }

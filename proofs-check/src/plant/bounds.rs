@@ -41,6 +41,11 @@ const NAMES: [(&str, Name); 9] = [
 ];
 
 impl Name {
+    /// Whether its formula has the velocity of the frame.
+    pub fn is_of_motion(self) -> bool {
+        matches!(self, Name::Qtx | Name::Qte)
+    }
+
     /// Whether it is a rate, of which the largest is the best.
     fn is_rate(self) -> bool {
         matches!(self, Name::Rate | Name::RateExistence)
@@ -196,15 +201,14 @@ pub fn rate(formulas: &mut Formulas, value: &Rational, p: &[Vec<Id>], jacobian: 
 pub fn question(model: &mut Model, entry: &Entry) -> Question {
     let states = model.states();
     let (value, q) = (&entry.value, model.q);
-    let formulas = &mut model.formulas;
-    let row: Vec<Id> = (0..states).map(|j| formulas.derivative(q, Axis::State(j))).collect();
+    let (formulas, row) = (&mut model.formulas, &model.row);
     let rows = match entry.name {
         Name::Fx => spectral_norm(formulas, value, &model.jacobian),
         Name::Fe => {
             let column: Vec<Id> = model.f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
             norm(formulas, value, &column)
         }
-        Name::Qx => norm(formulas, value, &row),
+        Name::Qx => norm(formulas, value, row),
         Name::Qe => {
             let slope = formulas.derivative(q, Axis::Output);
             norm(formulas, value, &[slope])

@@ -2,11 +2,13 @@
 //!
 //! The plant is written in the variables of the proof: the states are `x = xb(t) + L v`, so a formula is a function of t, v and e,
 //! and the approximation xb of the orbit, its derivatives, and those of P are leaves that depend on t alone. Constants are
-//! exact where they have an exact form. What is left out because it is 0 may have been undefined: so what each operation asks
-//! of its operands is written down apart, when a formula is read.
+//! exact where they have an exact form. What is left out because it is 0 may have been undefined: so what each operation that is
+//! written asks of its operands is written down apart, when a formula is read ([`Formulas::read`]); and what is differentiated
+//! on a set is asked once more there ([`Formulas::corners`]).
 
 use crate::exact::Exact;
 use crate::expr::{Expr, Op, exact_op};
+use crate::interval::Interval;
 use rug::Rational;
 use std::collections::HashMap;
 
@@ -88,6 +90,17 @@ pub enum Demand {
     Finite,
     Nonzero,
     Positive,
+}
+
+impl Demand {
+    /// Whether every number of an enclosure is so. Of one sign: an interval with numbers of both signs has 0.
+    pub fn holds(self, value: &Interval) -> bool {
+        match self {
+            Demand::Finite => value.is_bounded(),
+            Demand::Nonzero => value.is_positive() || (-value).is_positive(),
+            Demand::Positive => value.is_positive(),
+        }
+    }
 }
 
 /// All nodes.
@@ -257,20 +270,46 @@ impl Formulas {
         }
         let constant = [a, b].iter().take(operands(op)).all(|id| self.depends(*id) == 0);
         if constant {
-            // A constant is smooth where it is a number; an operation that gives none is still there.
+            // A constant is smooth where it is a number: `sqrt(0)` and `abs(0)` are.
             demands.push((value, Demand::Finite));
-            return;
         }
+        // A divisor stands for itself: of 0/b nothing is left that would show it.
+        if !constant || *op == Op::Div {
+            demands.extend(self.asks(op, [a, b]));
+        }
+    }
+
+    /// What an operation asks for being smooth.
+    fn asks(&mut self, op: &Op, [a, b]: [Id; 2]) -> Option<(Id, Demand)> {
         match op {
-            Op::Div => demands.push((b, Demand::Nonzero)),
-            Op::Sqrt | Op::Log | Op::Pow => demands.push((a, Demand::Positive)),
-            Op::Abs => demands.push((a, Demand::Nonzero)),
-            Op::Power(n) if *n < 0 => demands.push((a, Demand::Nonzero)),
-            Op::Tan => demands.push((self.apply(&Op::Cos, [a, 0]), Demand::Nonzero)),
+            Op::Div => Some((b, Demand::Nonzero)),
+            Op::Sqrt | Op::Log | Op::Pow => Some((a, Demand::Positive)),
+            Op::Abs => Some((a, Demand::Nonzero)),
+            Op::Power(n) if *n < 0 => Some((a, Demand::Nonzero)),
+            Op::Tan => Some((self.apply(&Op::Cos, [a, 0]), Demand::Nonzero)),
             // Two formulas that are the same have no corner where they meet, and are refused all the same.
-            Op::Min | Op::Max => demands.push((self.sub(a, b), Demand::Nonzero)),
-            _ => {}
+            Op::Min | Op::Max => Some((self.sub(a, b), Demand::Nonzero)),
+            _ => None,
         }
+    }
+
+    /// What has to hold at each point of a set for nodes to be continuously differentiable on it, with the derivatives that
+    /// [`Formulas::derivative`] gives: every operation below them inside of where it is smooth, and every sign that is left of a
+    /// corner constant. The formulas' own demands hold on G alone, and a box may reach out of it.
+    pub fn corners(&mut self, roots: &[Id]) -> Vec<(Id, Demand)> {
+        let mut all = Vec::new();
+        for id in self.below(roots) {
+            if self.depends(id) == 0 {
+                continue;
+            }
+            let asked = match self.node(id).kind.clone() {
+                Kind::Leaf(_) => None,
+                Kind::Sign(a) => Some((a, Demand::Nonzero)),
+                Kind::Apply(op, operands) => self.asks(&op, operands),
+            };
+            all.extend(asked.filter(|asked| !all.contains(asked)));
+        }
+        all
     }
 
     /// The nodes that these are made from, and themselves, in the order in which they can be computed.

@@ -11,6 +11,7 @@ pub mod formula;
 pub mod harmonics;
 pub mod machine;
 pub mod model;
+mod narrowing;
 pub mod orbit;
 pub mod path;
 pub mod periodic;
@@ -18,6 +19,7 @@ pub mod question;
 pub mod read;
 pub mod region;
 pub mod smooth;
+mod still;
 pub mod taylor;
 pub mod time;
 
@@ -25,10 +27,10 @@ use crate::interval::Interval;
 use crate::spec::Specification;
 use crate::verdict::{Outcome, Verdict, demand, finding};
 use machine::{Cell, Machine, Values};
-use model::Model;
+use model::{Frame, Model};
 use question::{Answer, Question};
 use read::Plant;
-use region::Region;
+use region::{Region, Shape};
 use rug::{Float, Rational};
 use std::rc::Rc;
 
@@ -62,16 +64,18 @@ pub fn prove(spec: &Specification, plant: &Plant, arguments: [&Float; 2], lines:
         )?;
     }
     lines.push("formulas: periodic in t, by their form".to_owned());
-    let mut model = Model::new(plant);
+    let mut model = Model::new(plant, Frame::Moving);
     let rest = harmonics::Rest::new(&mut model);
     let mut asked = Vec::new();
     if plant.states() > 0 {
         orbit::radii(&plant.orbit, &plant.lyapunov[0])?;
         asked = of_orbit(plant, &mut model)?;
     }
+    let of_the_orbit = asked.len();
     for entry in &plant.entries.list {
         asked.push(of_entry(plant, &mut model, entry));
     }
+    let still = still::Still::new(plant);
     if model.formulas.is_too_large() {
         let message = "the formulas and their derivatives have too many parts";
         return Err(finding(Verdict::Undecided, "formulas", "/plant", message));
@@ -102,8 +106,14 @@ pub fn prove(spec: &Specification, plant: &Plant, arguments: [&Float; 2], lines:
     })?;
     lines.push(format!("forcing: harmonics and rest by {cells} cells of t"));
     machine.drift = drift(plant, &model, &machine, &root, &mut values);
-    for Asked { question, region, rule, pointer, what } in asked {
-        match question.decide(&machine, &root, &region, &mut values) {
+    let mut in_states = still.prepared(&curves, &om, &period);
+    for (at, Asked { question, region, rule, pointer, what }) in asked.into_iter().enumerate() {
+        let entry = at.checked_sub(of_the_orbit);
+        if let Some(count) = entry.and_then(|entry| in_states.proves(plant, entry)) {
+            lines.push(format!("{rule}: {what}, by {count} boxes of the states"));
+            continue;
+        }
+        match question.decide(&machine, &root, &region, question::MAX_PIECES, &mut values) {
             Answer::Proved(count) => lines.push(format!("{rule}: {what}, by {count} boxes")),
             Answer::Refuted(place) => demand(Some(false), rule, &pointer, format!("{what}, at {place}"))?,
             Answer::Open(place) => demand(None, rule, &pointer, format!("{what}, near {place}"))?,
@@ -117,7 +127,7 @@ fn of_orbit(plant: &Plant, model: &mut Model) -> Outcome<Vec<Asked>> {
     let zero = || Interval::int(0, PRECISION);
     let mut asked = Vec::new();
     for (which, what, question) in orbit::sizes(plant, model)? {
-        let region = Region { states: plant.states(), radius: zero(), output: zero() };
+        let region = Region { states: plant.states(), shape: Shape::Ball(zero()), output: zero() };
         let pointer = plant.lyapunov[which].pointer.clone();
         asked.push(Asked { question, region, rule: orbit::RULE, pointer, what: what.to_owned() });
     }
@@ -127,7 +137,7 @@ fn of_orbit(plant: &Plant, model: &mut Model) -> Outcome<Vec<Asked>> {
         let rows = bounds::rate(&mut model.formulas, &w.numbers[2], &p, &jacobian);
         asked.push(Asked {
             question: Question::new(&mut model.formulas, rows, plant.states()),
-            region: Region { states: plant.states(), radius: tube(plant), output: zero() },
+            region: Region { states: plant.states(), shape: Shape::Ball(tube(plant)), output: zero() },
             rule: orbit::RULE,
             pointer: format!("{}/alpha", w.pointer),
             what: "P' + P J + J'P <= -2 alpha P in the tube".to_owned(),
@@ -152,11 +162,18 @@ fn of_entry(plant: &Plant, model: &mut Model, entry: &bounds::Entry) -> Asked {
     }
 }
 
+fn end(value: &Float) -> Interval {
+    Interval::new(value.clone(), value.clone()).round(PRECISION)
+}
+
+/// X + r.
+fn radius(plant: &Plant, x: &Float) -> Interval {
+    end(x) + Interval::rational(&plant.orbit.radius, PRECISION)
+}
+
 /// G(X, E).
 fn region(plant: &Plant, x: &Float, e: &Float) -> Region {
-    let end = |value: &Float| Interval::new(value.clone(), value.clone()).round(PRECISION);
-    let radius = end(x) + Interval::rational(&plant.orbit.radius, PRECISION);
-    Region { states: plant.states(), radius, output: end(e) }
+    Region { states: plant.states(), shape: Shape::Ball(radius(plant, x)), output: end(e) }
 }
 
 /// On the largest region that anything is used on, and in the tube.
@@ -172,11 +189,11 @@ fn smoothness(
     let [x, e] = [0, 1].map(|i| if *arguments[i] > largest[i] { arguments[i] } else { &largest[i] });
     let whole = region(plant, x, e);
     let count = smooth::prove(model, machine, root, &whole, values)?;
-    let tube = Region { radius: tube(plant), output: Interval::int(0, PRECISION), ..whole.clone() };
-    if tube.radius.le(&whole.radius) == Some(true) {
+    let tube_region = Region { shape: Shape::Ball(tube(plant)), output: Interval::int(0, PRECISION), ..whole };
+    if tube(plant).le(&radius(plant, x)) == Some(true) {
         return Ok(count);
     }
-    Ok(count + smooth::prove(model, machine, root, &tube, values)?)
+    Ok(count + smooth::prove(model, machine, root, &tube_region, values)?)
 }
 
 /// `eps + r sup|J|` over `|v| <= r`: a bound of `L^-1 (x_0' - xb')`, in every component, as an interval around 0.

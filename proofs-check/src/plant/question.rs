@@ -2,25 +2,31 @@
 //! docs/mathematics.md is such a question.
 //!
 //! On a box with the middle c, `Q(z) = Q(c) + sum_k (z_k - c_k) D_k`, where D_k lies in the enclosure of the k-th derivative on the
-//! box (mean value theorem, entry by entry). With an invertible S of the middle, `S'QS` is enclosed entry by entry, and is positive
+//! box (mean value theorem, entry by entry). The box may reach out of the ball, so that its middle and the segments to it lie
+//! where nothing is known of the formulas: it is used only where every operation is seen to be smooth on the whole box. With an invertible S of the middle, `S'QS` is enclosed entry by entry, and is positive
 //! definite if its pivots are. S makes the entries beside the diagonal vanish at the middle, so they count with their squares,
 //! and the entry that decides is bounded from below to second order. Its part in v is bounded over the ball as well, where a
 //! linear function has a bound that no box around the ball gives.
 //!
 //! The boxes are halved where that fails, along the axis that contributes most; the choice of the axis and of S decides nothing.
 
-use super::formula::{Axis, Formulas, Id};
+use super::formula::{Axis, Demand, Formulas, Id};
 use super::machine::{At, Cell, Machine, Program, Values};
+use super::narrowing::Narrowing;
 use super::region::{Piece, Region, axis};
 use super::time::{around, point};
 use crate::effort;
 use crate::interval::Interval;
 use crate::matrix::semidefinite;
-use rug::{Float, Rational};
+use rug::Float;
 use std::rc::Rc;
 
-/// The most boxes that one question may take.
-const MAX_PIECES: usize = 40_000;
+/// The most boxes that one question may take, where the steps of interval arithmetic are not bounded.
+pub const MAX_PIECES: usize = 1_000_000;
+
+/// A side that is narrower in comparison with that of the first boxes is not halved: what is not decided there is not decided by
+/// boxes, as a value that only a smaller bound of the drift would show.
+const LEAST_SHARE: f64 = 1e-12;
 
 /// After so many boxes, places where the matrix may not be semidefinite are tried as well.
 const PROBED_AFTER: usize = 24;
@@ -31,6 +37,8 @@ pub struct Question {
     rows: Vec<Vec<Id>>,
     /// Along t (`None`) and the sides on which an entry depends.
     slopes: Vec<(Option<usize>, Vec<Vec<Id>>)>,
+    /// What makes the entries continuously differentiable.
+    corners: Vec<(Id, Demand)>,
     depends: u16,
 }
 
@@ -56,19 +64,35 @@ impl Question {
             let rows = rows.iter().map(|row| row.iter().map(|id| formulas.derivative(*id, axis)).collect()).collect();
             (side, rows)
         };
-        Question { slopes: used.into_iter().map(slope).collect(), rows, depends }
+        let slopes = used.into_iter().map(slope).collect();
+        let entries: Vec<Id> = rows.iter().flatten().copied().collect();
+        Question { slopes, corners: formulas.corners(&entries), rows, depends }
     }
 
-    /// Decides it on a region.
-    pub fn decide(&self, machine: &Machine<'_>, root: &Rc<Cell>, region: &Region, values: &mut Values) -> Answer {
+    /// Whether it changes with t.
+    pub fn moves(&self) -> bool {
+        self.depends & Axis::Time.bit() != 0
+    }
+
+    /// Decides it on a region, by so many boxes at most.
+    pub fn decide(
+        &self,
+        machine: &Machine<'_>,
+        root: &Rc<Cell>,
+        region: &Region,
+        most: usize,
+        values: &mut Values,
+    ) -> Answer {
         let entries: Vec<Id> = self.rows.iter().flatten().copied().collect();
-        let all: Vec<Id> =
-            entries.iter().chain(self.slopes.iter().flat_map(|(_, rows)| rows.iter().flatten())).copied().collect();
+        let slopes = self.slopes.iter().flat_map(|(_, rows)| rows.iter().flatten());
+        let corners = self.corners.iter().map(|(id, _)| id);
+        let all: Vec<Id> = entries.iter().chain(slopes).chain(corners).copied().collect();
         let mut decision = Decision {
             question: self,
             machine,
             region,
             programs: [machine.program(&entries), machine.program(&all)],
+            narrowings: self.corners.iter().map(|(id, _)| Narrowing::new(machine, *id)).collect(),
             values,
         };
         let mut queue = region.pieces(machine, root, self.depends);
@@ -77,15 +101,15 @@ impl Question {
         let mut count = 0;
         while let Some(piece) = queue.pop() {
             count += 1;
-            if count > MAX_PIECES || effort::exhausted() {
+            if count > most || effort::exhausted() {
                 return Answer::Open(place(&piece));
             }
-            match decision.judge(&piece, count > PROBED_AFTER) {
+            match decision.judge(&piece, &whole, count > PROBED_AFTER) {
                 Judgement::Proved => {}
                 Judgement::Refuted => return Answer::Refuted(place(&piece)),
                 Judgement::Halve(side) => match side.or_else(|| piece.widest(&whole, self.depends)) {
-                    Some(side) => queue.extend(piece.halves(side)),
-                    None => return Answer::Open(place(&piece)),
+                    Some(side) if piece.share(side, &whole) > LEAST_SHARE => queue.extend(piece.halves(side)),
+                    _ => return Answer::Open(place(&piece)),
                 },
             }
         }
@@ -115,6 +139,8 @@ struct Decision<'a, 'f> {
     region: &'a Region,
     /// For the entries alone, and with the derivatives.
     programs: [Program; 2],
+    /// One for each corner.
+    narrowings: Vec<Narrowing>,
     values: &'a mut Values,
 }
 
@@ -123,7 +149,7 @@ impl Decision<'_, '_> {
         rows.iter().map(|row| row.iter().map(|id| self.machine.get(*id, at, cell, self.values)).collect()).collect()
     }
 
-    fn judge(&mut self, piece: &Piece, probed: bool) -> Judgement {
+    fn judge(&mut self, piece: &Piece, whole: &Piece, probed: bool) -> Judgement {
         let states = self.region.states;
         if self.region.misses(piece) {
             return Judgement::Proved;
@@ -135,6 +161,8 @@ impl Decision<'_, '_> {
         if semidefinite(on_box.clone()) == Some(true) {
             return Judgement::Proved;
         }
+        let value = |id: Id| self.machine.get(id, At::Box, &piece.cell, self.values);
+        let corner = self.question.corners.iter().position(|(id, what)| !what.holds(&value(*id)));
         let slopes: Vec<(Option<usize>, Matrix)> =
             self.question.slopes.iter().map(|(side, rows)| (*side, self.read(rows, At::Box, &piece.cell))).collect();
         let middles: Vec<Float> = (0..=states).map(|i| piece.middle(i)).collect();
@@ -145,7 +173,12 @@ impl Decision<'_, '_> {
         if semidefinite(middle.clone()) == Some(false) && self.region.has_middle(piece) {
             return Judgement::Refuted;
         }
-        let judgement = self.by_mean_value(piece, &middle, &slopes);
+        let defined = on_box.iter().chain(slopes.iter().flat_map(|(_, rows)| rows)).flatten().all(Interval::is_defined);
+        let judgement = match corner {
+            Some(corner) => Judgement::Halve(self.narrowings[corner].axis(self.machine, piece, whole, self.values)),
+            None if defined => self.by_mean_value(piece, &middle, &slopes),
+            None => Judgement::Halve(None),
+        };
         let open = matches!(judgement, Judgement::Halve(_));
         if open && probed && self.fails_at_end(piece, &middle, &slopes) { Judgement::Refuted } else { judgement }
     }
@@ -165,13 +198,7 @@ impl Decision<'_, '_> {
                 place[side].clone_from(&piece.sides[side][end]);
             }
         }
-        let zero = Interval::int(0, self.machine.precision);
-        let distance = place[..states].iter().fold(zero, |sum, v| sum + point(v).sqr()).sqrt();
-        if distance.lt(&self.region.radius) != Some(true) && distance.is_positive() {
-            let inward = Interval::rational(&Rational::from((999_999, 1_000_000)), self.machine.precision);
-            let factor = middle_of(&(&self.region.radius * inward / distance));
-            place[..states].iter_mut().for_each(|v| *v *= &factor);
-        }
+        self.region.inward(&mut place[..states]);
         let points: Vec<Interval> = place.iter().map(point).collect();
         let (v, e) = points.split_at(states);
         self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, &e[0], self.values);
@@ -183,7 +210,7 @@ impl Decision<'_, '_> {
         let Some(basis) = Basis::new(middle) else { return Judgement::Halve(None) };
         let order = middle.len();
         let widths: Vec<Interval> = slopes.iter().map(|(side, _)| piece.half_width(*side)).collect();
-        let inside = self.region.contains(piece);
+        let radius = self.region.reaches_out(piece);
         let mut enclosed: Matrix = Vec::with_capacity(order);
         // How much each axis contributes; a hint.
         let mut scores = vec![0.0; slopes.len()];
@@ -203,7 +230,7 @@ impl Decision<'_, '_> {
                 row.push(value + around(&size));
             }
             let own = rates(i);
-            row.push(basis.form(middle, i, i) - self.fall(piece, slopes, &own, &moves(&own), inside));
+            row.push(basis.form(middle, i, i) - self.fall(piece, slopes, &own, &moves(&own), radius));
             for ((score, rate), width) in scores.iter_mut().zip(&own).zip(&widths) {
                 *score += Float::with_val(53, rate.hi() - rate.lo()).to_f64() * width.hi().to_f64();
             }
@@ -217,14 +244,15 @@ impl Decision<'_, '_> {
         Judgement::Halve(best.max_by(|a, b| a.0.total_cmp(b.0)).map(|(_, (side, _))| *side).filter(|_| known))
     }
 
-    /// How far an entry of the diagonal may lie on the box below its value at the middle.
+    /// How far an entry of the diagonal may lie on the box below its value at the middle; `radius`: of the ball that the box
+    /// reaches out of.
     fn fall(
         &self,
         piece: &Piece,
         slopes: &[(Option<usize>, Matrix)],
         rates: &[Interval],
         parts: &[Interval],
-        inside: bool,
+        radius: Option<&Interval>,
     ) -> Interval {
         let zero = || Interval::int(0, self.machine.precision);
         let is_state = |side: &Option<usize>| side.is_some_and(|side| side < self.region.states);
@@ -233,9 +261,7 @@ impl Decision<'_, '_> {
             all.fold(zero(), |sum, (_, part)| sum + part)
         };
         let (others, by_box) = (of(false), of(true));
-        if inside {
-            return others + by_box;
-        }
+        let Some(radius) = radius else { return others + by_box };
         // g v >= -|g| radius in the ball, for a number g in the enclosure; the rest of it moves over the box.
         let (mut square, mut at_middle, mut rest) = (zero(), zero(), zero());
         for ((side, _), rate) in slopes.iter().zip(rates) {
@@ -245,7 +271,7 @@ impl Decision<'_, '_> {
             at_middle = at_middle + &number * point(&piece.middle(side));
             rest = rest + (rate - number).abs() * piece.half_width(Some(side));
         }
-        let by_ball = square.sqrt() * &self.region.radius + at_middle + rest;
+        let by_ball = square.sqrt() * radius + at_middle + rest;
         if by_ball.is_defined() { others + by_box.ceiling().min(&by_ball.ceiling()) } else { others + by_box }
     }
 }
@@ -323,7 +349,8 @@ impl Basis {
         Some(Basis(sorted.iter().map(|pivot| columns[*pivot].iter().map(entry).collect()).collect()))
     }
 
-    /// The entry (i, j) of S'AS for a symmetric A, of which the lower triangle is read.
+    /// The entry (i, j) of S'AS for a symmetric A, of which the lower triangle is read. Entries of A that are multiplied with 0 are
+    /// left out, so all of them have to be defined.
     fn form(&self, matrix: &Matrix, i: usize, j: usize) -> Interval {
         let entry = |k: usize, l: usize| if k >= l { &matrix[k][l] } else { &matrix[l][k] };
         let total = |parts: &mut dyn Iterator<Item = Interval>| {

@@ -4,6 +4,7 @@
 use super::formula::{Demand, Id};
 use super::machine::{At, Cell, Machine, Values};
 use super::model::Model;
+use super::narrowing::Narrowing;
 use super::region::Region;
 use crate::effort;
 use crate::interval::Interval;
@@ -14,14 +15,6 @@ use std::rc::Rc;
 pub const RULE: &str = "smoothness";
 /// The most boxes.
 const MAX_PIECES: usize = 40_000;
-
-fn holds(what: Demand, value: &Interval) -> bool {
-    match what {
-        Demand::Finite => value.is_bounded(),
-        Demand::Nonzero => value.is_positive() || (-value).is_positive(),
-        Demand::Positive => value.is_positive(),
-    }
-}
 
 /// Proves every demand on a region; how many boxes that took.
 pub fn prove(
@@ -37,7 +30,7 @@ pub fn prove(
     let undecided = |what: String| demand(None, RULE, "/plant", what).map(|()| 0);
     for (id, what) in constant {
         // An operand that is the same everywhere: 1/(2 - 2), or a function of numbers.
-        if !holds(what, &machine.number(id, values)) {
+        if !what.holds(&machine.number(id, values)) {
             return undecided(format!("a constant is {}", words(what)));
         }
     }
@@ -46,6 +39,7 @@ pub fn prove(
     }
     let ids: Vec<Id> = varying.iter().map(|(id, _)| *id).collect();
     let program = machine.program(&ids);
+    let narrowings: Vec<Narrowing> = ids.iter().map(|id| Narrowing::new(machine, *id)).collect();
     let all = ids.iter().fold(0, |all, id| all | depends(*id));
     let mut queue = region.pieces(machine, root, all);
     let Some(whole) = queue.last().cloned() else { return Ok(0) };
@@ -57,14 +51,15 @@ pub fn prove(
         count += 1;
         let sides: Vec<Interval> = (0..states).map(|i| piece.side(i)).collect();
         machine.run(&program, At::Box, &piece.cell, &sides, &piece.side(states), values);
-        let open = varying.iter().find(|(id, what)| !holds(*what, &machine.get(*id, At::Box, &piece.cell, values)));
-        let Some((id, what)) = open else { continue };
-        let side = piece.widest(&whole, depends(*id)).filter(|_| count < MAX_PIECES && !effort::exhausted());
-        match side {
+        let open = varying.iter().position(|(id, what)| !what.holds(&machine.get(*id, At::Box, &piece.cell, values)));
+        let Some(open) = open else { continue };
+        let (_, what) = varying[open];
+        let side = narrowings[open].axis(machine, &piece, &whole, values);
+        match side.filter(|_| count < MAX_PIECES && !effort::exhausted()) {
             Some(side) => queue.extend(piece.halves(side)),
             None => {
                 let t = piece.cell.middle.to_f64();
-                return undecided(format!("the operand of an operation of f or q is {} near t = {t:.6}", words(*what)));
+                return undecided(format!("the operand of an operation of f or q is {} near t = {t:.6}", words(what)));
             }
         }
     }

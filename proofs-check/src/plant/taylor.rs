@@ -2,7 +2,8 @@
 //! (docs/mathematics.md, section 11.6).
 //!
 //! A series `a_0, a_1, ..., a_m` at a point c contains `g^(k)(c)/k!`; on a cell, those at every point of it. So
-//! `g(c + d) = sum_{k<m} a_k(c) d^k + a_m d^m` with a_m from the cell. What a series does not list is 0.
+//! `g(c + d) = sum_{k<m} a_k(c) d^k + a_m d^m` with a_m from the cell. What a series does not list is 0, unless it has an undefined
+//! coefficient: then nothing is known of the function, and every coefficient is undefined.
 
 use super::formula::{Formulas, Id, Kind, Leaf};
 use crate::expr::{Op, interval_op};
@@ -30,9 +31,18 @@ pub fn expand(
             Kind::Sign(a) => vec![sign(first(&all[*a]))],
             Kind::Apply(op, [a, b]) => apply(op, &all[*a], all.get(*b).map_or(&[], Vec::as_slice), length),
         };
-        all[*id] = series;
+        all[*id] = if is_defined(&series) { series } else { unknown(&series, length) };
     }
     all
+}
+
+fn is_defined(a: &[Interval]) -> bool {
+    a.iter().all(Interval::is_defined)
+}
+
+/// Nothing known, of a function with this series.
+fn unknown(a: &[Interval], length: usize) -> Series {
+    vec![Interval::undefined(first(a).precision()); length.max(1)]
 }
 
 /// The value.
@@ -151,6 +161,10 @@ fn scaled(a: &[Interval], factor: &Interval) -> Series {
 
 fn product(a: &[Interval], b: &[Interval], length: usize) -> Series {
     let zero = Interval::int(0, first(a).precision());
+    // 0 times what is not known is not known.
+    if !is_defined(a) || !is_defined(b) {
+        return unknown(a, length);
+    }
     if is_zero(a) || is_zero(b) {
         return vec![zero];
     }
@@ -280,6 +294,25 @@ mod tests {
                 assert!(on_cell.intersect(coefficient).is_defined(), "{text}, {k}");
             }
         }
+    }
+
+    #[test]
+    fn nothing_times_what_is_not_known_is_not_known() {
+        let (zero, none) = (vec![number(0, 1)], vec![Interval::undefined(256)]);
+        let long = vec![number(1, 1), Interval::undefined(256), number(0, 1)];
+        for other in [&none, &long] {
+            for product in [product(&zero, other, 4), product(other, &zero, 4)] {
+                assert!(product.len() == 4 && product.iter().all(|a| !a.is_defined()), "{product:?}");
+            }
+        }
+        // A series that lists less than is asked for is not 0 beyond, where it is not known.
+        let mut formulas = Formulas::default();
+        let t = formulas.leaf(Leaf::Time);
+        let sign = formulas.sign(t);
+        let cell = number(-1, 10).hull(&number(1, 10));
+        let on_cell = series(&formulas, sign, &cell, 4);
+        assert!(on_cell.len() == 4 && on_cell.iter().all(|a| !a.is_defined()));
+        assert!(is_defined(&series(&formulas, sign, &number(1, 10), 4)));
     }
 
     #[test]

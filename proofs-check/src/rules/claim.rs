@@ -172,7 +172,8 @@ impl<'a> Claim<'a> {
     /// The claim about a plant in words.
     fn of_plant(&self, spec: &Specification, plant: &Plant) -> Outcome<String> {
         let domain = plant.domain.as_ref().map_or_else(String::new, |[x, e]| {
-            format!(" (a model that holds for |x - x_0| <= {}, |e| <= {})", x.text, e.text)
+            let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", x.text) } else { String::new() };
+            format!(" (a model that holds for {of_x}|e| <= {})", e.text)
         });
         let [x0, e0, z0] = self.set_text;
         let (states, orbit) = match &self.ball {

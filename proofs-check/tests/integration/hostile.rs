@@ -59,6 +59,9 @@ fn effort_is_counted() {
         let report = proofs_check::check_within(certificate.as_bytes(), None, limit);
         assert!(report.verdict == Undecided && report.steps <= limit, "{limit}: {}", report.text(false));
     }
+    // Where the last step is the one that is missing, it is missing too.
+    let report = proofs_check::check_within(certificate.as_bytes(), None, whole.steps);
+    assert_eq!(report.verdict, Undecided);
     let report = proofs_check::check_within(certificate.as_bytes(), None, whole.steps + 1);
     assert_eq!((report.verdict, report.steps), (whole.verdict, whole.steps));
     // The figures of this file take more than its claim: they are left open, and the claim stands.

@@ -74,6 +74,24 @@ fn strict_and_loose_comparisons() {
 }
 
 #[test]
+fn an_infinite_end_decides_nothing_where_it_leaves_no_members() {
+    let (one, entire) = (Interval::int(1, 64), Interval::entire(64));
+    let from_one = one.hull(&entire).max(&one);
+    // An upper bound that is not known, as an interval of its own.
+    let (above, below) = (entire.ceiling(), -entire.ceiling());
+    for value in [&one, &entire, &from_one, &above, &below] {
+        for none in [&above, &below] {
+            assert_eq!((value.lt(none), value.le(none)), (None, None), "{value:?}, {none:?}");
+            assert_eq!((none.lt(value), none.le(value)), (None, None), "{none:?}, {value:?}");
+        }
+    }
+    // A bound on one side is enough where it lies right.
+    let two = Interval::int(2, 64);
+    assert_eq!((one.lt(&from_one.max(&two)), from_one.lt(&one), from_one.le(&one)), (Some(true), Some(false), None));
+    assert_eq!(Interval::int(0, 64).le(&from_one), Some(true));
+}
+
+#[test]
 fn exact_numbers() {
     let rational = |n: i64, d: i64| Exact::rational(&Rational::from((n, d))).unwrap();
     let two = rational(2, 1).sqrt().unwrap();

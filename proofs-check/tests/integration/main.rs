@@ -21,6 +21,7 @@ mod mean_squares;
 mod monotone;
 mod mutations;
 mod plant_certificates;
+mod plant_corners;
 mod plant_mutations;
 mod plant_paper;
 mod plant_rules;

@@ -60,6 +60,41 @@ fn certificates_are_valid_and_take_little_for_granted() {
     }
 }
 
+/// With infinitely many oscillators it is x - x_0(t) that vanishes, not x, which is as large as the orbit; and of states that
+/// are not there nothing is said.
+#[test]
+fn exact_regulation_is_of_the_deviation_from_the_orbit() {
+    for (name, vanishes) in [
+        ("linear", "x - x_0(t) and e tend to 0."),
+        ("motor-axis", "x - x_0(t) and e tend to 0."),
+        ("no-states", "are bounded, and e tends to 0."),
+    ] {
+        let report = check(stored(name).to_string().as_bytes());
+        let also = report.proved.as_ref().and_then(|proved| proved.subject.also.clone()).unwrap();
+        assert!(also.ends_with(vanishes) && !also.contains("x and e"), "{name}: {also}");
+        assert!(report.text(false).contains(vanishes) && report.json()["also_proved"] == json!(also), "{name}");
+    }
+    let text = check(stored("no-states").to_string().as_bytes()).text(false);
+    for state in ["x_0", "x'", "|x", "x,"] {
+        assert!(!text.contains(state), "{state}: {text}");
+    }
+}
+
+#[test]
+fn a_domain_without_states_is_one_of_e() {
+    let domain = ("/plant/domain", json!({ "x": "1", "e": "5000" }));
+    let statement = stored("no-states")["claim"]["statement"].as_str().unwrap().to_owned();
+    let says = |words: &str| {
+        let whole =
+            statement.replace("these formulas has", &format!("these formulas (a model that holds for {words}) has"));
+        changed("no-states", &[domain.clone(), ("/claim/statement", json!(whole))])
+    };
+    let report = says("|e| <= 5000");
+    let refused_for_its_words = |report: &Report| report.finding.as_ref().is_some_and(|found| found.rule == "claim");
+    assert!(!refused_for_its_words(&report), "{}", report.text(false));
+    assert!(refused_for_its_words(&says("|x - x_0| <= 1, |e| <= 5000")));
+}
+
 #[test]
 fn the_claim_says_what_is_proved() {
     let statement = |name: &str| stored(name)["claim"]["statement"].as_str().unwrap().to_owned();
@@ -150,6 +185,35 @@ fn a_second_matrix_has_rates_of_its_own() {
     let value = format!("/witness/bounds/{index}/value");
     wrong.push((&value, json!("1.01")));
     refused(&changed("linear", &wrong), Verdict::Invalid, "bounds of the plant");
+}
+
+/// What section 11.2 demands of the second P, each broken alone: its sizes, constant and in t, and its rate in the tube.
+#[test]
+fn a_second_matrix_lies_between_its_bounds() {
+    let index = entry(&stored("linear"), "rate", true);
+    let name = format!("/witness/bounds/{index}/bound");
+    let wave = json!([{ "cos": [["1/100"]], "sin": [["0"]] }]);
+    // With p_low = p_up every condition of existence holds as it did, whatever they are.
+    let second = |size: &str, alpha: &str, in_t: bool| {
+        let mut second = json!({ "P": [["2"]], "p_low": size, "p_up": size, "alpha": alpha });
+        if in_t {
+            second["harmonics"] = wave.clone();
+        }
+        changed("linear", &[("/witness/lyapunov_existence", second), (name.as_str(), json!("rate_existence"))])
+    };
+    assert_eq!(second("2", "1", false).verdict, Verdict::Valid);
+    for (size, alpha, in_t, broken) in [
+        ("2.0001", "1", false, "p_low I <= P"),
+        ("1.9999", "1", false, "P <= p_up I"),
+        ("2", "1.01", false, "alpha"),
+        ("2.02", "0.9", true, "p_low I <= P"),
+        ("1.98", "0.9", true, "P <= p_up I"),
+    ] {
+        let report = second(size, alpha, in_t);
+        refused(&report, Verdict::Invalid, "orbit");
+        let finding = report.finding.unwrap();
+        assert!(finding.message.contains(broken) && finding.pointer.contains("lyapunov_existence"), "{finding:?}");
+    }
 }
 
 #[test]

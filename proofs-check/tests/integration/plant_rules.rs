@@ -241,6 +241,58 @@ fn formulas_must_be_smooth_where_they_are_used() {
 }
 
 #[test]
+fn what_is_written_is_defined_whatever_it_is_multiplied_with() {
+    // Each of these is simplified to a number, or left out, where the operand that is not defined is not looked at.
+    let undefined = [
+        "0/(1-1)",
+        "0/0",
+        "(x-x)/(x-x)",
+        "0/(e-e)",
+        "(x-x)/(x-x) + 0/(e-e)",
+        "0/sin(pi)",
+        "(0/0)^2",
+        "(0/0)^0",
+        "(0/0)^1",
+        "(1/0)^-1",
+        "1/(1/0)",
+        "log(1+0/0)",
+        "0*(0/0)",
+        "x*(0/0)*0",
+        "x^(0/0)",
+        "(0/0)^x*0",
+        "1*(0/0)",
+        "-1*(0/0)",
+        "0/0 - 0/0",
+        "0 - 0/0",
+        "--(0/0)",
+        "0*sqrt(0/0)",
+        "0*exp(0/0)",
+        "0*sin(0/0)",
+        "0*atan(0/0)",
+        "0*tanh(0/0)",
+        "0*abs(0/0)",
+        "0*tan(0/0)",
+        "min(0, 0/0)",
+        "max(x, 0/0)*0",
+        "0*(x/(1-1))",
+        "0*log(0)",
+        "0*0^-1",
+        "0*0^-0.5",
+        "0*(-1)^0.5",
+    ];
+    for part in undefined {
+        let (verdict, rule) = linear().with("/plant/q", json!(format!("sin(2*pi*t) + x + {part}"))).verdict();
+        assert!(rule == "smoothness" && verdict != Verdict::Valid, "q with {part}: {verdict} by {rule}");
+        let f = format!("-x + e + cos(2*pi*t) + {part}");
+        let (verdict, rule) = linear().with("/plant/f/0", json!(f)).verdict();
+        assert!(rule == "smoothness" && verdict != Verdict::Valid, "f with {part}: {verdict} by {rule}");
+    }
+    for part in ["0/(1-2)", "0/pi", "0/sin(1)", "(x-x)/(x-x+1)", "0*(1/3)^x", "0^0 - 1", "0*sqrt(0)", "0/exp(x)"] {
+        linear().with("/plant/q", json!(format!("sin(2*pi*t) + x + {part}"))).accepted();
+    }
+}
+
+#[test]
 fn functions_of_every_kind_have_bounds() {
     // q_e at x = sin(2 pi t) + v, |v| <= 1/2, of e g(x): the largest |g|.
     for (g, value) in [

@@ -1,5 +1,6 @@
 //! The parts of a document, without any format.
 
+use super::notation::one_notation;
 use crate::plot::{Bars, Figure};
 
 /// How the cells of a column are placed.
@@ -48,6 +49,17 @@ impl Table {
         let mut row: Vec<String> = cells.into_iter().take(self.columns.len()).collect();
         row.resize(self.columns.len(), String::new());
         self.rows.push(row);
+    }
+
+    /// The rows as they are shown: where one number of a column has an exponent, every number of that column has one.
+    #[must_use]
+    pub fn shown(&self) -> Vec<Vec<String>> {
+        let mut rows = self.rows.clone();
+        for index in 0..self.columns.len() {
+            let mut column: Vec<&mut String> = rows.iter_mut().filter_map(|row| row.get_mut(index)).collect();
+            one_notation(&mut column);
+        }
+        rows
     }
 }
 

@@ -35,7 +35,7 @@ fn render_table(table: &Table) -> String {
         }
         .to_owned()
     })));
-    for cells in &table.rows {
+    for cells in &table.shown() {
         output.push_str(&row(&mut cells.iter().map(|cell| escape(cell))));
     }
     output

@@ -7,6 +7,7 @@ mod block;
 mod html;
 mod made;
 mod markdown;
+mod notation;
 mod text;
 
 pub use block::{Align, Block, Column, Extent, Table, clean};

@@ -79,8 +79,9 @@ fn glued(text: &str) -> Vec<String> {
 }
 
 fn render_table(output: &mut String, table: &Table) {
+    let rows = table.shown();
     let width = |index: usize| {
-        let cells = table.rows.iter().map(|row| row[index].chars().count());
+        let cells = rows.iter().map(|row| row[index].chars().count());
         cells.chain([table.columns[index].title.chars().count()]).max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..table.columns.len()).map(width).collect();
@@ -99,7 +100,7 @@ fn render_table(output: &mut String, table: &Table) {
     line(&mut table.columns.iter().map(|column| column.title.as_str()));
     let rules: Vec<String> = widths.iter().map(|width| "-".repeat(*width)).collect();
     line(&mut rules.iter().map(String::as_str));
-    for row in &table.rows {
+    for row in &rows {
         line(&mut row.iter().map(String::as_str));
     }
 }

@@ -3,7 +3,7 @@
 use crate::data::Data;
 use crate::number::{Direction, write_exact};
 use crate::report::document::{Block, Table};
-use crate::report::number::{compact, exact, upper};
+use crate::report::number::{compact, exact, lower, upper};
 use crate::transfer::{CertifiedPair, MatchedPair, Uniformity, kappas};
 
 /// The claim itself.
@@ -41,7 +41,7 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
     if let (Some(point), Some(excess)) = (&pair.binding, pair.excess(data)) {
         blocks.push(Block::says(format!(
             "With this k0 no k1 below {} is admissible, because of T_{}({}) = {}: k1 is at most {} % above the best.",
-            point.least_k1.lower_decimal(7),
+            lower(&point.least_k1),
             point.n_o,
             exact(&point.x, Direction::Nearest),
             compact(&point.value),
@@ -60,8 +60,8 @@ pub(super) fn uniformity(rows: &[Uniformity]) -> Vec<Block> {
     for Uniformity { sup, decay } in rows {
         table.push([
             sup.n_o.to_string(),
-            sup.ratio.lower_decimal(7),
-            sup.ratio.upper_decimal(7),
+            lower(&sup.ratio),
+            upper(&sup.ratio),
             exact(&sup.x, Direction::Nearest),
             decay.as_ref().map_or_else(|| "-".to_owned(), compact),
         ]);
@@ -84,8 +84,8 @@ pub(super) fn trade_off(data: &Data<'_>, pairs: &[CertifiedPair]) -> Vec<Block> 
         let excess = pair.excess(data).map_or_else(|| "unknown".to_owned(), |excess| upper(&(100 * excess)));
         let proof = &pair.proof;
         table.push([
-            write_exact(&pair.k0),
-            write_exact(&pair.k1),
+            exact(&pair.k0, Direction::Up),
+            exact(&pair.k1, Direction::Up),
             excess,
             proof.m0.to_string(),
             proof.n0.to_string(),
@@ -109,8 +109,8 @@ pub(super) fn matched(data: &Data<'_>, matched: &MatchedPair) -> Vec<Block> {
         Block::says(format!(
             "The base frequency is exactly 2 pi/T, so only integers x occur. Proved for these: k0 = {}, k1 = {} \
              (harmonics below {} one by one, the others by one inequality), that is kappa_0 = {}, kappa_1 = {}.",
-            write_exact(&matched.k0),
-            write_exact(&matched.k1),
+            exact(&matched.k0, Direction::Up),
+            exact(&matched.k1, Direction::Up),
             matched.first_of_tail,
             upper(&kappa_0),
             upper(&kappa_1),

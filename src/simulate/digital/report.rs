@@ -7,7 +7,7 @@ use super::steady::{DigitalSteady, run_way_out};
 use super::words::{converter_words, loop_words};
 use crate::plant::Plant;
 use crate::report::document::{Block, Readable, Table, clean};
-use crate::simulate::report::{number, period_words};
+use crate::simulate::report::{amplitude, multiplier, number, period_words};
 use serde_json::{Value, json};
 
 /// Why a run of an unstable loop has no figures.
@@ -108,8 +108,8 @@ fn steady_blocks(plant: &Plant, steady: &DigitalSteady, sums: &PeriodSums) -> Ve
     let mut table = Table::new(&["k", "|c_k| of e", "|c_k| of e at the samples"]);
     for (k, amplitude) in sums.amplitudes.iter().enumerate() {
         let sampled =
-            sums.amplitudes_at_samples.get(k).map_or_else(String::new, |amplitude| format!("{amplitude:.4e}"));
-        table.push([k.to_string(), format!("{amplitude:.4e}"), sampled]);
+            sums.amplitudes_at_samples.get(k).map_or_else(String::new, |size| self::amplitude(*size, sums.sup));
+        table.push([k.to_string(), self::amplitude(*amplitude, sums.sup), sampled]);
     }
     let stability = match steady.largest_multiplier() {
         // Six digits are shown.
@@ -117,7 +117,7 @@ fn steady_blocks(plant: &Plant, steady: &DigitalSteady, sums: &PeriodSums) -> Ve
             "; largest Floquet multiplier {largest:.9}, known to {:.0e} only: it cannot be told whether it attracts its neighbours",
             steady.uncertainty
         ),
-        Some(largest) => format!("; largest Floquet multiplier {}: it attracts its neighbours", number(largest)),
+        Some(largest) => format!("; largest Floquet multiplier {}: it attracts its neighbours", multiplier(largest)),
         None => ": a run settles on it; a loop that quantises has no multipliers".to_owned(),
     };
     vec![

@@ -5,7 +5,8 @@ use super::digital_loop::{BEGIN, DigitalLoop, DigitalRun};
 use crate::progress::Progress;
 use crate::simulate::adaptive::{IntegrationFailure, Tolerance};
 use crate::simulate::effort::MAX_OPERATIONS;
-use crate::simulate::steady::{SteadyStateError, distance, multipliers, search, shoot};
+use crate::simulate::newton::shoot;
+use crate::simulate::steady::{SteadyStateError, distance, multipliers, search};
 use thiserror::Error;
 
 /// Periods of a loop without a derivative, and the distance from one to the next at which it has settled, relative to
@@ -68,7 +69,7 @@ pub enum DigitalSteadyError {
 }
 
 impl DigitalSteadyError {
-    /// Whether the solution was seen to leave all bounds.
+    /// Whether the run from the initial condition was seen to leave all bounds.
     #[must_use]
     pub fn is_escape(&self) -> bool {
         matches!(self, DigitalSteadyError::Search(SteadyStateError::Integration(IntegrationFailure::Escaped { .. })))
@@ -88,7 +89,7 @@ impl DigitalSteadyError {
                 "a loop that quantises may go around forever; the run below says how large it stays".to_owned()
             }
             DigitalSteadyError::Search(SteadyStateError::Integration(failure)) => run_way_out(failure),
-            DigitalSteadyError::Search(SteadyStateError::NoConvergence { .. }) => {
+            DigitalSteadyError::Search(SteadyStateError::Newton { .. }) => {
                 "start elsewhere, or see in the run below whether it settles".to_owned()
             }
         }

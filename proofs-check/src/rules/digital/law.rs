@@ -12,7 +12,7 @@ use rug::Rational;
 /// The name of this rule.
 pub const RULE: &str = "digital regulator";
 /// The most samples in a period: the sums of section 12.1 have as many terms.
-const MAX_SAMPLES: u32 = 100_000;
+const MAX_SAMPLES: u32 = 65_536;
 /// How far mu may lie from that of the specification, relatively: one part in this many.
 const MU_PARTS: i64 = 1_000_000;
 

@@ -83,7 +83,7 @@ impl<'a> Pair<'a> {
         &self.inverse * 2 / self.weight(j)
     }
 
-    /// Bounds of s_j for every j from `first` to `last`: `pi^2 Nbar^2/4`, since `|sin| >= 2/pi` times the angle; and, with m =
+    /// Bounds of s_j for every j from `first` to `last` (12.5b): `pi^2 Nbar^2/4`, since `|sin| >= 2/pi` times the angle; and, with m =
     /// first/2, `(pi^2/3) n_{m+1}/2` for |l| > m, since `sum_{d=1}^{N_s-1} x^2/sin^2(d x) < pi^2/3`, with `x^2 Nbar^2/sin^2` for the
     /// others, at the least sine from first - m to last + m < N_s, which stands at an end.
     pub fn beyond(&self, first: u32, last: u32) -> [Interval; 2] {

@@ -53,7 +53,7 @@ fn grid(table: &Table) -> Markup {
                 @if column.title.is_empty() { td {} }
                 @else { th scope="col" class=[place(column)] { (Inline(&column.title)) } }
             } } }
-            tbody { @for row in &table.rows { (LINE) tr {
+            tbody { @for row in &table.shown() { (LINE) tr {
                 @for (at, (cell, column)) in row.iter().zip(&table.columns).enumerate() {
                     // A first column of words says what its row is.
                     @if at == 0 && column.align == Align::Left && !cell.is_empty() { th scope="row" { (Inline(cell)) } }
