@@ -67,7 +67,7 @@ pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
         return Ok(FloatOrbit { series: FloatSeries::zero(0), defect: 0.0, floquet: Vec::new() });
     }
     // Another start may lead to another orbit: the first that is stable is taken, and the first failure told.
-    let mut own = |mean: &[f64]| field.own(&FloatSeries::constant(mean)).mean;
+    let own = |mean: &[f64]| field.own(&FloatSeries::constant(mean)).mean;
     let (zero, initial) = (own(&vec![0.0; n]), own(&plant.initial.x));
     let singular = !is_finite_at(&mut field, &zero);
     // Where the right sides have no value at 0, other sizes do as well.
