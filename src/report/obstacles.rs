@@ -63,7 +63,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
             Some(condition) => format!("condition {} is {}", condition.id, truth(condition)),
             None => "the conditions were not proved".to_owned(),
         },
-        Attempt::NotFound(obstacle) => format!("no candidate was found. {}", obstacle.describe()),
+        Attempt::NotFound(obstacle) => format!("no candidate was found: {}", obstacle.describe()),
         Attempt::Skipped => "this derivation was not worked out".to_owned(),
     };
     let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };

@@ -276,7 +276,7 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
             .code(code);
         utf8(output.get_output().stdout.clone())
     };
-    assert!(again(&[], 0).contains("sigma = 25 at h = 0.001"));
+    assert!(again(&[], 0).contains("with sigma = 25 and"));
     again(&["--sampling-period", "1/500"], 2);
 
     let source = path("axis.c");
