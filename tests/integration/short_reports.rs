@@ -21,7 +21,11 @@ fn fits(report: &str) {
 
 #[track_caller]
 fn answers(report: &str) {
-    for fact in ["gain: sigma", "from: |", "next: `", "set by: ", "to: a periodic solution with ", "assumed: "] {
+    assert!(
+        ["sigma", "exactly that sigma"].iter().any(|gain| report.contains(&format!("  - gain: {gain}"))),
+        "{report}"
+    );
+    for fact in ["from: |", "next: `", "set by: ", "to: a periodic solution with ", "assumed: "] {
         assert!(report.contains(&format!("  - {fact}")), "{fact}: {report}");
     }
 }
