@@ -158,7 +158,7 @@ fn what_is_undefined_in_a_bounding_function_is_never_certified() {
     let settings = ProofSettings { max_boxes: 100, max_operations: 2000, ..ProofSettings::default() };
     let fields = ["f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t"];
     let end = Rational::from(2);
-    for index in 0..TERMS.len() {
+    for (index, term) in TERMS.iter().enumerate() {
         for variable in ["X", "E"] {
             let text = format!("1 + X + E + {}", in_place(index, variable));
             let expr = Expr::parse(&text, Variables::XAndE).unwrap();
@@ -169,7 +169,7 @@ fn what_is_undefined_in_a_bounding_function_is_never_certified() {
         let bound = &mut specification["bounds"][*field];
         let text = bound.as_str().unwrap().to_owned();
         *bound = format!("{text} + {}", in_place(index, "X")).into();
-        refused(&format!("{field}: {}", TERMS[index]), certify_text(&specification.to_string()));
+        refused(&format!("{field}: {term}"), certify_text(&specification.to_string()));
     }
 }
 

@@ -249,7 +249,7 @@ fn blocks_of_harmonics() {
 #[test]
 fn many_harmonics() {
     let accepts = |mu: f64, k0: f64, k1: f64| {
-        let float = Float::new(1.0, mu, 100_000, 0.1);
+        let float = Float::new(1.0, mu, 65_536, 0.1);
         let mut answer = None;
         let (_, steps) = proofs_check::effort::limited(proofs_check::effort::LIMIT, || {
             with_law(&float, |law| answer = Some(transfer::check(law, &rational(k0), &rational(k1), "").is_ok()));

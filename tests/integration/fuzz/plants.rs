@@ -101,12 +101,10 @@ fn wave([mean, cos, sin]: [&str; 3]) -> [String; 2] {
 fn matrix(random: &mut StdRng, order: usize, moves: bool) -> PeriodicMatrix {
     let mut symmetric = |size: f64, one: i32| {
         let mut rows = vec![vec![Rational::new(); order]; order];
-        for i in 0..order {
-            for j in 0..=i {
-                let own = rational(&decimal(random, 3, -size, size)) + i32::from(i == j) * one;
-                rows[i][j].clone_from(&own);
-                rows[j][i] = own;
-            }
+        for (i, j) in (0..order).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let own = rational(&decimal(random, 3, -size, size)) + i32::from(i == j) * one;
+            rows[i][j].clone_from(&own);
+            rows[j][i] = own;
         }
         rows
     };
