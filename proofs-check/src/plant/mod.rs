@@ -4,6 +4,7 @@
 //! `bounds` is true (P2), and the forcing is as `forcing` says (P3). What the claim says of balls and domains is decided in
 //! [`coordinates`] (P4).
 
+mod around;
 pub mod bounds;
 pub mod coordinates;
 mod derivative;

@@ -74,6 +74,11 @@ impl Question {
         self.depends & Axis::Time.bit() != 0
     }
 
+    /// Whether an entry depends on a component of the states.
+    pub fn names(&self, state: usize) -> bool {
+        self.depends & Axis::State(state).bit() != 0
+    }
+
     /// Decides it on a region, by so many boxes at most.
     pub fn decide(
         &self,

@@ -4,6 +4,7 @@
 //! Boxes that are certainly outside of the ball are left out. The ends of a box are shared with its neighbours, so the boxes
 //! cover the region whatever is rounded.
 
+use super::around::Around;
 use super::formula::Axis;
 use super::machine::{Cell, Machine};
 use crate::interval::Interval;
@@ -26,8 +27,8 @@ pub struct Region {
 pub enum Shape {
     /// `|v| <= radius`.
     Ball(Interval),
-    /// Each component between two ends.
-    Sides(Vec<[Float; 2]>),
+    /// Each component between two ends, and all around a middle that moves.
+    Sides(Vec<[Float; 2]>, Around),
 }
 
 /// A box: those axes on which nothing depends have the whole range.
@@ -53,15 +54,21 @@ impl Region {
         };
         let mut sides = match &self.shape {
             Shape::Ball(radius) => vec![ends(radius); self.states],
-            Shape::Sides(sides) => sides.clone(),
+            Shape::Sides(sides, _) => sides.clone(),
         };
         sides.push(ends(&self.output));
         cells.into_iter().map(|cell| Piece { cell, sides: sides.clone() }).collect()
     }
 
-    /// Whether a box has no point of the ball.
+    /// Whether a box has no point of the region.
     pub fn misses(&self, piece: &Piece) -> bool {
-        let Shape::Ball(radius) = &self.shape else { return false };
+        let radius = match &self.shape {
+            Shape::Ball(radius) => radius,
+            Shape::Sides(_, around) => {
+                let sides: Vec<Interval> = (0..self.states).map(|state| piece.side(state)).collect();
+                return around.excludes(&sides);
+            }
+        };
         let nearest = |side: &[Float; 2]| {
             let end = if side[0] > 0 { &side[0] } else { &side[1] };
             let outside = side[0] > 0 || side[1] < 0;
@@ -108,7 +115,9 @@ impl Region {
                 let distance = place[..self.states].iter().fold(zero, |sum, v| sum + v.sqr());
                 lies_within(&distance, &radius.sqr())
             }
-            Shape::Sides(sides) => place.iter().zip(sides).all(|(v, [lo, hi])| v.lo() >= lo && v.hi() <= hi),
+            Shape::Sides(sides, around) => {
+                place.iter().zip(sides).all(|(v, [lo, hi])| v.lo() >= lo && v.hi() <= hi) && !around.excludes(place)
+            }
         };
         within && lies_within(&place[self.states].abs(), &self.output)
     }

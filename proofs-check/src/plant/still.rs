@@ -4,6 +4,7 @@
 //! and t move one state, one side is to be cut in the place of four. The set is larger than G(X,E), each state over all that it is
 //! there, so what is not proved on it says nothing.
 
+use super::around::Around;
 use super::bounds;
 use super::machine::{At, Cell, Curves, Machine, Values};
 use super::model::{Frame, Model};
@@ -82,11 +83,19 @@ impl Prepared<'_> {
             return None;
         }
         let [x, e] = &plant.entries.list.get(entry)?.arguments;
-        let region = Region { states: plant.states(), shape: Shape::Sides(self.sides(plant, x)?), output: end(e) };
+        let shape = Shape::Sides(self.sides(plant, x)?, self.around(plant, x, question)?);
+        let region = Region { states: plant.states(), shape, output: end(e) };
         match question.decide(&self.machine, &self.root, &region, MAX_PIECES, &mut self.values) {
             Answer::Proved(count) => Some(count),
             Answer::Refuted(_) | Answer::Open(_) => None,
         }
+    }
+
+    /// What is known of the components that a question names, together.
+    fn around(&self, plant: &Plant, x: &Float, question: &Question) -> Option<Around> {
+        let named = (0..plant.states()).filter(|state| question.names(*state));
+        let rows = named.map(|state| (state, plant.coordinates.matrix[state].as_slice(), self.ranges[state].clone()));
+        Around::new(rows.collect(), radius(plant, x))
     }
 
     /// `|x_i - xb_i| <= |row i of L| (X + r)`.
