@@ -33,7 +33,10 @@ const LAST_EFFORT: usize = 40_000;
 /// Digits of a value, beyond those that its slack takes.
 const DIGITS: u32 = 6;
 
-/// What an attempt adds at least, relative to the spread of the local rates over the region: a rate may be near 0.
+/// So many of the attempts take the value alone for its size first, where what follows would take much of it.
+const OWN: usize = 3;
+
+/// What an attempt adds at least otherwise, relative to the spread of the local rates over the region: a rate may be near 0.
 const PART_OF_SPREAD: f64 = 0.1;
 
 /// A bound with its proof done.
@@ -59,16 +62,19 @@ impl Engine {
         if !sampled.value.is_finite() {
             return None;
         }
-        let size = |value: f64| match kind.is_rate() {
-            true => value.abs().max(PART_OF_SPREAD * sampled.spread),
-            false => value.abs(),
-        };
+        let spread = if kind.is_rate() { PART_OF_SPREAD * sampled.spread } else { 0.0 };
+        let size = |value: f64| value.abs().max(spread);
+        let ladder = if self.states() > 2 { MODEST_ATTEMPTS } else { ATTEMPTS };
+        // Beside a spread that is larger than the value, the value's own digits come first.
+        let own = |value: f64| ladder.iter().take(OWN).map(move |(slack, effort)| (slack * value.abs(), *effort));
         let sign = if kind.is_rate() { -1.0 } else { 1.0 };
         let explored = EXPLORED[usize::from(self.states() > 2)];
         let mut known = sampled.value;
         'lessons: for _ in 0..LESSONS {
-            for (slack, effort) in if self.states() > 2 { MODEST_ATTEMPTS } else { ATTEMPTS } {
-                let (proved, boxes) = self.attempt(kind, [x, e], (known, known + sign * slack * size(known)), effort);
+            let own = own(known).filter(|_| spread > known.abs()).map(|(room, effort)| (0.0, room, effort));
+            let steps = own.chain(ladder.iter().map(|(slack, effort)| (*slack, slack * size(known), *effort)));
+            for (slack, room, effort) in steps {
+                let (proved, boxes) = self.attempt(kind, [x, e], (known, known + sign * room), effort);
                 if proved.is_some() {
                     return proved;
                 }
