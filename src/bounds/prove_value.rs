@@ -44,8 +44,8 @@ const PART_OF_SPREAD: f64 = 0.1;
 pub struct ProvedValue {
     /// The value, which [`Engine::decide`] has found true.
     pub value: Rational,
-    /// How far it lies from the sampled supremum, relative to it.
-    pub slack: f64,
+    /// The largest sample (of a rate the least) that it was sought from.
+    pub sampled: f64,
     /// The boxes of the proof.
     pub boxes: usize,
 }
@@ -139,8 +139,7 @@ impl Engine {
         let direction = if kind.is_rate() { Direction::Down } else { Direction::Up };
         let Some(value) = round_f64(value, DIGITS, direction) else { return (None, effort) };
         let decision = self.decide(&Entry { bound: kind, x: x.clone(), e: e.clone(), value: value.clone() }, effort);
-        let slack = ((value.to_f64() - known) / known).abs();
         let boxes = decision.boxes;
-        (decision.truth.is_true().then_some(ProvedValue { value, slack, boxes }), boxes)
+        (decision.truth.is_true().then_some(ProvedValue { value, sampled: known, boxes }), boxes)
     }
 }

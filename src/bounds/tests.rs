@@ -241,9 +241,9 @@ fn proved_bounds_hold_at_random_points() {
             let proved = engine.prove_value(&samples, kind, &x, &e).unwrap_or_else(|| panic!("{name}: {what}"));
             let time = start.elapsed().as_secs_f64() * 1e3;
             println!(
-                "{name}: {what:8} {:9.5} {} {} boxes, {time:.1} ms",
+                "{name}: {what:8} {:9.5} over {:9.5}: {} boxes, {time:.1} ms",
                 proved.value.to_f64(),
-                proved.slack,
+                proved.sampled,
                 proved.boxes
             );
             let bound = if kind.is_rate() { -proved.value.to_f64() } else { proved.value.to_f64() };

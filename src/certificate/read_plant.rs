@@ -128,7 +128,7 @@ fn read_values(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedValues, R
         });
         let [x, e, value] = ["X", "E", "value"].map(|name| rational(&mut fields, name, errors));
         fields.finish(errors);
-        entries.push(ProvedValue { bound: bound?, x: x?, e: e?, value: value? });
+        entries.push(ProvedValue { bound: bound?, x: x?, e: e?, value: value?, sampled: None });
     }
     Ok(ProvedValues::new(entries))
 }

@@ -50,6 +50,9 @@ const COARSE: f64 = 1.6;
 /// That of a fine one.
 const FINE: f64 = 1.12;
 
+/// That of every grid without states, where a node costs next to nothing.
+const ALONE: f64 = 1.02;
+
 /// The first step of S.
 const STEP: f64 = 0.15;
 
@@ -97,6 +100,7 @@ impl CoordinateSearch<'_> {
     pub fn model(&self, shape: Shape<'_>, density: Density) -> FloatModel {
         let Shape { l, second } = shape;
         let ratio = match density {
+            _ if l.nrows() == 0 => ALONE,
             Density::Rough => ROUGH,
             Density::Coarse => COARSE,
             Density::Fine => FINE,

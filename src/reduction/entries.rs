@@ -87,14 +87,14 @@ pub(super) fn prove_all(
         .map(|(bound, x, e)| {
             let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
             let kind = kind(bound).ok_or_else(refusal)?;
-            let value = match engine.prove_value(suprema, kind, &x, &e) {
-                Some(proved) => proved.value,
+            let (value, sampled) = match engine.prove_value(suprema, kind, &x, &e) {
+                Some(proved) => (proved.value, Rational::from_f64(proved.sampled)),
                 // Without states every rate is as good as any other, and the checker asks for none.
-                None if kind.is_rate() && stateless => Rational::from(1),
+                None if kind.is_rate() && stateless => (Rational::from(1), None),
                 None if kind.is_rate() => return Err(refusal()),
-                None => smallest(engine, kind, [&x, &e]).ok_or_else(refusal)?,
+                None => (smallest(engine, kind, [&x, &e]).ok_or_else(refusal)?, None),
             };
-            Ok(ProvedValue { bound, value, x, e })
+            Ok(ProvedValue { bound, x, e, value, sampled })
         })
         .collect();
     Ok(ProvedValues::new(proofs.into_iter().collect::<Result<_, _>>()?))
@@ -117,7 +117,7 @@ fn smallest(engine: &Engine, kind: Kind, [x, e]: [&Rational; 2]) -> Option<Ratio
 /// # Errors
 /// The first that is not proved.
 pub(super) fn decide_all(engine: &Engine, values: &ProvedValues) -> Result<(), PlantRefusal> {
-    values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value }| {
+    values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value, .. }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
         let kind = kind(*bound).ok_or_else(refusal)?;
         if kind.is_rate() && engine.states() == 0 {

@@ -29,8 +29,12 @@ pub(super) const PRECISION: u32 = 64;
 /// larger than the sampled ones, then close to the arguments that are used.
 pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
-/// In between, while the proved values lead to no gain.
-const FURTHER: [f64; 2] = [0.1, 0.4];
+/// In between, while the proved values lead to no gain near the proposal: at so much larger a gain (where the least set there is
+/// ceases to be one, the set of a somewhat larger gain has room for proved values), and so far beyond the arguments there.
+const FURTHER: [(f64, f64); 4] = [(5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
+
+/// A gain from proved values that is at most so many times the proposal is near it.
+const NEAR: f64 = 1.1;
 
 /// How far above the gain of a proposal the arguments are taken: close to the least gain at which there is a set, a little room
 /// in its inequalities takes more than the same share of the gain, and the first that has a set is used.
@@ -326,44 +330,61 @@ fn prove_bounds(
     sampling: &Sampling<'_>,
     chosen: &Chosen,
 ) -> Result<Reduced, PlantRefusal> {
-    let engine = along.engine(plant)?;
-    let suprema = along.suprema(sampling);
-    let (mut best, mut closest): (Option<Reduced>, _) = (None, Closest::default());
-    let (mut model, mut proposal) = (chosen.model.clone(), chosen.proposal);
+    let proofs = Proofs { plant, along, engine: along.engine(plant)?, suprema: along.suprema(sampling) };
+    let (model, proposal) = (&chosen.model, &chosen.proposal);
+    let (mut best, mut closest): (Option<(FloatModel, Reduced)>, _) = (None, Closest::default());
     let [first, last] = ENLARGED;
-    for enlarged in [first].into_iter().chain(FURTHER).chain([last]) {
-        // Further out only while nothing is found, closer only once something is.
-        if (enlarged > first && best.is_some()) || (enlarged == last && best.is_none()) {
-            continue;
+    for (above, enlarged) in [(0.0, first)].into_iter().chain(FURTHER) {
+        match proofs.with_values(model, proposal, above, enlarged) {
+            Ok(Ok(found)) if smaller(&found.1, best.as_ref()) => best = Some(found),
+            Ok(Ok(_)) => {}
+            Ok(Err(obstacle)) => closest.record(beyond_the_bounds(obstacle)),
+            Err(refusal) if best.is_none() => return Err(refusal),
+            Err(_) => {}
         }
-        let at = arguments(&model, &proposal, enlarged, along.second().is_some())?;
-        let [x, e] = at.largest();
-        engine.smooth(&x, &e)?;
-        let proved = prove_all(&engine, &suprema, &at);
-        let values = match (proved, &best) {
-            (Ok(values), _) => values,
-            (Err(_), Some(_)) => break,
-            (Err(refusal), None) => return Err(refusal),
-        };
-        let spec = along.specification(plant, values)?;
-        let data = Data::new(&spec, PRECISION);
-        let with_values = FloatModel::new(&data, trade_off(&data));
-        let found = match search_sharp_near(&with_values, &proposal) {
-            Ok(found) => found,
-            Err(_) if best.is_some() => break,
-            Err(obstacle) => {
-                closest.record(beyond_the_bounds(obstacle));
-                continue;
-            }
-        };
-        let improved = best.as_ref().is_none_or(|known| found.sigma < known.proposal.sigma * (1.0 - WORTH));
-        if !improved {
+        if best.as_ref().is_some_and(|(_, found)| found.proposal.sigma < proposal.sigma * NEAR) {
             break;
         }
-        (model, proposal) = (with_values, found);
-        best = Some(Reduced { spec, proposal: found });
     }
-    closest.or(best).map_err(PlantRefusal::NoGain)
+    if let Some((model, found)) = &best
+        && let Ok(Ok(closer)) = proofs.with_values(model, &found.proposal, 0.0, last)
+        && smaller(&closer.1, best.as_ref())
+    {
+        best = Some(closer);
+    }
+    closest.or(best.map(|(_, found)| found)).map_err(PlantRefusal::NoGain)
+}
+
+/// Whether a gain is smaller by what is worth it.
+fn smaller(found: &Reduced, best: Option<&(FloatModel, Reduced)>) -> bool {
+    best.is_none_or(|(_, known)| found.proposal.sigma < known.proposal.sigma * (1.0 - WORTH))
+}
+
+/// What proves bounds of a plant at arguments.
+struct Proofs<'a> {
+    plant: &'a Plant,
+    along: &'a Along,
+    engine: Engine,
+    suprema: FloatSuprema,
+}
+
+impl Proofs<'_> {
+    /// The best proposal with the values proved at the arguments of a proposal, and these values as a model.
+    fn with_values(
+        &self,
+        model: &FloatModel,
+        proposal: &SharpProposal,
+        above: f64,
+        enlarged: f64,
+    ) -> Result<Result<(FloatModel, Reduced), Obstacle>, PlantRefusal> {
+        let at = arguments(model, proposal, above, enlarged, self.along.second().is_some())?;
+        let [x, e] = at.largest();
+        self.engine.smooth(&x, &e)?;
+        let spec = self.along.specification(self.plant, prove_all(&self.engine, &self.suprema, &at)?)?;
+        let data = Data::new(&spec, PRECISION);
+        let with_values = FloatModel::new(&data, trade_off(&data));
+        Ok(search_sharp_near(&with_values, proposal).map(|proposal| (with_values, Reduced { spec, proposal })))
+    }
 }
 
 /// Where the values of a plant have none, they are not proved so far.
@@ -374,16 +395,17 @@ pub(super) fn beyond_the_bounds(obstacle: Obstacle) -> Obstacle {
     }
 }
 
-/// The arguments of a proposal, enlarged.
+/// The arguments of a proposal at so much larger a gain, enlarged.
 fn arguments(
     model: &FloatModel,
     proposal: &SharpProposal,
+    above: f64,
     enlarged: f64,
     second: bool,
 ) -> Result<Needed, PlantRefusal> {
     let mut last = PlantRefusal::NoGain(Failing::NotFinite(None).into());
-    for above in ABOVE {
-        match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above), ABOVE[0]) {
+    for little in ABOVE {
+        match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above + little), ABOVE[0]) {
             Ok((set, at)) => return needed(&set, &at, enlarged, second).ok_or(last),
             Err(obstacle) => last = PlantRefusal::NoGain(obstacle),
         }

@@ -33,7 +33,7 @@ fn values_are_above_random_points_and_near_them() {
         let (_, samples) = bounds_around(&plant, reduced.spec.plant().unwrap()).unwrap();
         let radius = reduced.spec.plant().unwrap().orbit.radius.to_f64();
         let points = random_points(plant.states(), 100_000);
-        for ProvedValue { bound, x, e, value } in reduced.spec.bounds.proved_values().entries() {
+        for ProvedValue { bound, x, e, value, .. } in reduced.spec.bounds.proved_values().entries() {
             let place = format!("{name}: {} at ({}, {})", bound.field(), x.to_f64(), e.to_f64());
             if plant.states() == 0 && bound.is_nonincreasing() {
                 continue;

@@ -29,7 +29,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     };
     blocks.push(Block::says(format!("The bounds that the conditions use, for {where_} and every t:")));
     let mut table = Table::new(titles);
-    for ProvedValue { bound, x, e, value } in spec.bounds.proved_values().entries() {
+    for ProvedValue { bound, x, e, value, .. } in spec.bounds.proved_values().entries() {
         // Without states those of f, and of derivatives by x, are of nothing.
         if words::state(spec).is_none() && bound.is_of_state() {
             continue;

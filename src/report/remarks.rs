@@ -1,10 +1,50 @@
 //! What the data themselves are to be looked at for; no verdict depends on it.
 
+use super::number::{estimate, exact};
 use crate::certify::{Certification, DigitalCertification, ExceededBy, NoPlant};
+use crate::number::Direction;
+use crate::spec::{ProvedValue, Specification};
+use rug::Rational;
 
 /// One sentence or two for each.
 pub(crate) fn remarks(run: &Certification<'_>) -> Vec<String> {
-    of(run.no_plant.as_ref(), run.has_force_at_origin())
+    let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
+    if let Some(sigma) = run.sigma_star().filter(|_| run.given_gain.is_none())
+        && sigma.to_f64() * run.spec.period.to_f64() > LARGE
+    {
+        let cause = far_above_its_samples(run.spec).unwrap_or_else(|| {
+            let of_plant = run.spec.plant().is_some();
+            run.binding.map_or_else(String::new, |binding| {
+                format!(" It is set by {}. {}", binding.describe(), binding.advice(of_plant))
+            })
+        });
+        remarks.push(format!("Remark: sigma* is above 10^4 divided by the period.{cause}"));
+    }
+    remarks
+}
+
+/// A gain times the period above which a remark names what asks for it.
+const LARGE: f64 = 1e4;
+
+/// A bound that is so many times its samples is far above them.
+const FAR: f64 = 2.0;
+
+/// The bound of a plant that is farthest above what samples reach, where one is far above.
+fn far_above_its_samples(spec: &Specification) -> Option<String> {
+    let ratio = |entry: &&ProvedValue| {
+        let sampled = entry.sampled.as_ref().filter(|sampled| **sampled > 0 && !entry.bound.is_nonincreasing())?;
+        Some(Rational::from(&entry.value / sampled).to_f64()).filter(|ratio| *ratio > FAR)
+    };
+    let rated = spec.bounds.proved_values().entries().iter().filter_map(|entry| Some((ratio(&entry)?, entry)));
+    let (_, entry) = rated.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
+    Some(format!(
+        " One bound is far above its samples: {} ({}) is proved to be at most {}, and samples reach {}. A formula that is \
+         less steep, or a smaller `domain`, may bring the two together, and a smaller gain.",
+        entry.bound.field(),
+        entry.bound.of_what(),
+        exact(&entry.value, Direction::Up),
+        estimate(entry.sampled.as_ref()?.to_f64()),
+    ))
 }
 
 /// The same of a run about the regulator at samples.

@@ -16,6 +16,8 @@ pub struct ProvedValue {
     pub e: Rational,
     /// The bound; of a rate from below.
     pub value: Rational,
+    /// What samples reach, where it was sought from them; no claim rests on it.
+    pub sampled: Option<Rational>,
 }
 
 /// All of them for one plant. The bounding function itself is the least upper bound on each box, so it is monotone by
@@ -75,7 +77,7 @@ mod tests {
 
     fn entry(bound: Bound, [x, e, value]: [i32; 3]) -> ProvedValue {
         let [x, e, value] = [x, e, value].map(Rational::from);
-        ProvedValue { bound, x, e, value }
+        ProvedValue { bound, x, e, value, sampled: None }
     }
 
     /// The best of those that reach; none beyond.

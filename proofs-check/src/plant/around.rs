@@ -65,13 +65,15 @@ impl Around {
 mod tests {
     use super::*;
 
+    type Place = [(i32, i32); 3];
+
     /// The second and the third of three coordinates, and what they are at y where xb = (0, 1, 0).
-    fn around(radius: i64) -> (Around, impl Fn([(i32, i32); 3]) -> Vec<Interval>) {
+    fn around(radius: i64) -> (Around, impl Fn(Place) -> Vec<Interval>) {
         let l = [[2, 0, 0], [3, -1, 0], [1, 5, 4]].map(|row| row.map(Rational::from));
         let number = |value: &Rational| Interval::rational(value, 128);
         let rows = (1..3).map(|i| (i, l[i].as_slice(), number(&Rational::from(i == 1)))).collect();
         let around = Around::new(rows, Interval::int(radius, 128)).unwrap();
-        let place = move |y: [(i32, i32); 3]| {
+        let place = move |y: Place| {
             let y = y.map(Rational::from);
             let x = |(i, row): (usize, &[Rational; 3])| {
                 row.iter().zip(&y).fold(Rational::from(i == 1), |sum, (l, y)| sum + Rational::from(l * y))
