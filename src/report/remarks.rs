@@ -3,7 +3,7 @@
 use super::number::{estimate, exact};
 use crate::certify::{Certification, DigitalCertification, ExceededBy, NoPlant};
 use crate::number::Direction;
-use crate::spec::{ProvedValue, Specification};
+use crate::spec::ProvedValue;
 use rug::Rational;
 
 /// One sentence or two for each.
@@ -12,7 +12,7 @@ pub(crate) fn remarks(run: &Certification<'_>) -> Vec<String> {
     if let Some(sigma) = run.sigma_star().filter(|_| run.given_gain.is_none())
         && sigma.to_f64() * run.spec.period.to_f64() > LARGE
     {
-        let cause = far_above_its_samples(run.spec).unwrap_or_else(|| {
+        let cause = far_above_its_samples(run.spec.bounds.proved_values().entries()).unwrap_or_else(|| {
             let of_plant = run.spec.plant().is_some();
             run.binding.map_or_else(String::new, |binding| {
                 format!(" It is set by {}. {}", binding.describe(), binding.advice(of_plant))
@@ -30,12 +30,12 @@ const LARGE: f64 = 1e4;
 const FAR: f64 = 2.0;
 
 /// The bound of a plant that is farthest above what samples reach, where one is far above.
-fn far_above_its_samples(spec: &Specification) -> Option<String> {
+fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
     let ratio = |entry: &&ProvedValue| {
         let sampled = entry.sampled.as_ref().filter(|sampled| **sampled > 0 && !entry.bound.is_nonincreasing())?;
         Some(Rational::from(&entry.value / sampled).to_f64()).filter(|ratio| *ratio > FAR)
     };
-    let rated = spec.bounds.proved_values().entries().iter().filter_map(|entry| Some((ratio(&entry)?, entry)));
+    let rated = entries.iter().filter_map(|entry| Some((ratio(&entry)?, entry)));
     let (_, entry) = rated.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
     Some(format!(
         " One bound is far above its samples: {} ({}) is proved to be at most {}, and samples reach {}. A formula that is \
@@ -70,4 +70,24 @@ fn of(no_plant: Option<&NoPlant>, force_at_origin: bool) -> Vec<String> {
         );
     }
     remarks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::Bound;
+
+    fn entry(bound: Bound, value: i32, sampled: Option<i32>) -> ProvedValue {
+        let [value, x, e] = [value, 1, 1].map(Rational::from);
+        ProvedValue { bound, x, e, value, sampled: sampled.map(Rational::from) }
+    }
+
+    #[test]
+    fn the_bound_that_is_farthest_above_its_samples_is_told() {
+        let near = [entry(Bound::Qx, 200, Some(100)), entry(Bound::Rate, 9, Some(1)), entry(Bound::Fe, 7, None)];
+        assert_eq!(far_above_its_samples(&near), None);
+        let far = [entry(Bound::Qe, 201, Some(100)), entry(Bound::Qx, 1000, Some(10)), entry(Bound::Fe, 7, Some(0))];
+        let told = far_above_its_samples(&[near.as_slice(), &far].concat()).unwrap();
+        assert!(told.contains("q_x (") && told.contains("at most 1000, and samples reach 10."), "{told}");
+    }
 }

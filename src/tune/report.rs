@@ -165,7 +165,7 @@ impl TuningReport<'_> {
                 table.push([name.to_owned(), before, after]);
             }
         };
-        row(&self.gain(), &|figures| Some(write_exact(&figures.sigma)));
+        row(&self.gain(), &|figures| Some(exact(&figures.sigma, Direction::Up)));
         row("sigma* + mu Nbar^2, at most", &|figures| figures.feedback.as_ref().map(upper));
         for (index, name) in ["rms(e)", "sup|e|"].into_iter().enumerate() {
             let name = format!("{name} at sigma*, n_o = {}, at most", tuning.settings.n_o);

@@ -7,13 +7,18 @@ use std::path::Path;
 
 /// A plant of `specs/plants` with other fields.
 fn plant(name: &str, changes: &[(&str, &str)]) -> String {
-    let text = std::fs::read_to_string(format!("{}/specs/plants/{name}.json", crate::support::ROOT)).unwrap();
-    let mut plant: Value = serde_json::from_str(&text).unwrap();
+    changed(&format!("plants/{name}"), changes)
+}
+
+/// A document of `specs` with other fields.
+fn changed(name: &str, changes: &[(&str, &str)]) -> String {
+    let text = std::fs::read_to_string(format!("{}/specs/{name}.json", crate::support::ROOT)).unwrap();
+    let mut document: Value = serde_json::from_str(&text).unwrap();
     for (pointer, value) in changes {
-        let field = plant.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}"));
+        let field = document.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}"));
         *field = serde_json::from_str(value).unwrap_or_else(|_| Value::String((*value).to_owned()));
     }
-    plant.to_string()
+    document.to_string()
 }
 
 /// The exit code of `certify`, and what it tells.
@@ -99,4 +104,87 @@ fn an_orbit_away_from_a_singularity_is_found() {
     // Without a singularity `initial` is not blamed.
     let (code, told) = certify(&with("2 + 0*h"), &[]);
     assert!(code == 3 && !told.contains("`initial`"), "{told}");
+}
+
+const BOX: &str = "/initial_set";
+
+/// A specification, changes under which a cause is told with these words, and the changes that nearly do.
+type Case = (&'static str, &'static [(&'static str, &'static str)], &'static str, &'static [(&'static str, &'static str)]);
+
+/// Each cause of a search that finds nothing is told where it is the cause, and not where the data nearly have it. Without words
+/// the near case is certified.
+#[test]
+fn each_cause_is_told_where_it_is_one() {
+    const WIDE: &str = r#"{ "kind": "box", "X0": "3", "E0": "1", "Z0": "0" }"#;
+    const WIDER: &str = r#"{ "kind": "box", "X0": "5", "E0": "1", "Z0": "0" }"#;
+    const OF_X: &str = r#"{ "kind": "box", "X0": "3", "E0": "0", "Z0": "0" }"#;
+    const HIGH: &str = r#"{ "kind": "box", "X0": "1", "E0": "3", "Z0": "0" }"#;
+    const UNIT: &str = r#"{ "kind": "box", "X0": "1", "E0": "1", "Z0": "0" }"#;
+    const TENFOLD: &str = r#"{ "kind": "box", "X0": "10", "E0": "1", "Z0": "0" }"#;
+    const STEEP: (&str, &str) = ("/bounds/q_e", "exp(exp(X))");
+    const GROWING: [(&str, &str); 3] =
+        [("/bounds/f", "2*X + exp(E) - 1"), ("/bounds/f_e", "exp(E)"), ("/bounds/f_ex", "exp(E)")];
+    let cases: [Case; 8] = [
+        ("paper-example", &[(BOX, WIDE), ("/domain/X", "29/10")], "domain X:", &[(BOX, WIDE)]),
+        ("paper-example", &[(BOX, HIGH), ("/domain/E", "23/10")], "domain E:", &[(BOX, HIGH)]),
+        ("paper-example", &[(BOX, WIDER)], "C5: a_2 <= 0", &[(BOX, WIDE)]),
+        ("paper-example", &[(BOX, OF_X), ("/bounds/q_x", "1e9")], "k_x^2 >= 4 w_x a_2", &[
+            (BOX, OF_X),
+            ("/bounds/q_x", "1e6"),
+        ]),
+        ("linear", &[(BOX, TENFOLD), STEEP], "q_e has no finite value", &[(BOX, UNIT), STEEP]),
+        ("linear", &[GROWING[0], GROWING[1], GROWING[2], ("/bounds/f_xx", "1e50")], "existence: no set", &[
+            GROWING[0],
+            GROWING[1],
+            GROWING[2],
+            ("/bounds/f_xx", "1e5"),
+        ]),
+        ("linear", &[("/lyapunov/alpha", "1e-320")], "alpha = ", &[("/lyapunov/alpha", "1e-9")]),
+        ("linear", &[("/bounds/q", "1e400 + X")], "the bounding function q at X = E = 0", &[("/bounds/q", "1e9 + X")]),
+    ];
+    for (name, failing, words, near) in cases {
+        let (code, told) = certify(&changed(name, failing), &[]);
+        assert!(code == 3 && told.contains(words), "{words}: {told}");
+        assert!(told.contains("What to try"), "{told}");
+        let (code, told) = certify(&changed(name, near), &[]);
+        assert_eq!(code, 0, "nearly {words}: {told}");
+    }
+}
+
+/// The same of the law at samples.
+#[test]
+fn each_cause_at_samples_is_told_where_it_is_one() {
+    let overshoots = "h sigma exceeds 1";
+    let every = "h sigma > 1 for every gain that may do";
+    let decay = "the decay from sample to sample is not positive";
+    let large = [("/internal_model/mu", "15")];
+    let changes: [&[(&str, &str)]; 2] = [&[], &large];
+    for (name, changes, options, told, exit) in [
+        ("linear", changes[0], &["1/7", "--sigma", "71/10"][..], Some(overshoots), 3),
+        ("linear", changes[0], &["1/7", "--sigma", "6"], None, 0),
+        ("paper-example", changes[0], &["1/7"], Some(every), 3),
+        ("paper-example", changes[0], &["1/1000"], None, 0),
+        ("linear", changes[1], &["1/7"], Some(decay), 3),
+        ("linear", changes[0], &["1/3"], Some(decay), 3),
+        ("linear", changes[1], &["1/40"], None, 0),
+        ("linear", changes[0], &["1/4"], None, 0),
+    ] {
+        let (code, words) = certify(&changed(name, changes), &[&["--sampling-period"], options].concat());
+        assert_eq!(code, exit, "{name} {options:?}: {words}");
+        for cause in [overshoots, every, decay] {
+            assert_eq!(words.contains(cause), told == Some(cause), "{name} {options:?}: {words}");
+        }
+    }
+}
+
+/// What makes a large gain is named, where it was sought.
+#[test]
+fn a_large_gain_is_remarked() {
+    let large = changed("linear", &[("/bounds/q_e", "30000")]);
+    let (code, told) = certify(&large, &[]);
+    assert!(code == 0 && told.contains("sigma* is above 10^4 divided by the period. It is set by S2"), "{told}");
+    for (text, options) in [(changed("linear", &[]), &[][..]), (large, &["--sigma", "40000"])] {
+        let (code, told) = certify(&text, options);
+        assert!(code == 0 && !told.contains("above 10^4"), "{told}");
+    }
 }

@@ -76,3 +76,8 @@ pub fn assert_refused(report: &Report, verdict: Verdict, rule: &str, pointer: &s
     assert_eq!((report.verdict, finding.rule), (verdict, rule), "{}", report.text(false));
     assert!(finding.pointer.starts_with(pointer), "{} is not below {pointer}", finding.pointer);
 }
+
+/// Of what takes long an ordinary run takes every so many-th; with `SIGMASTAR_ALL` set, every run takes all.
+pub fn every(ordinary: usize) -> usize {
+    if std::env::var_os("SIGMASTAR_ALL").is_some() { 1 } else { ordinary }
+}

@@ -1,6 +1,7 @@
 //! Boxes reach out of the ball on which formulas are smooth. Corners, poles and ends of domains out there, of which nothing is
 //! demanded, must not make a false bound inside pass.
 
+use super::common::every;
 use super::plant_support::Parts;
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
@@ -95,7 +96,8 @@ fn kinds() -> Vec<(Parts, &'static str, &'static str, &'static str)> {
 
 #[test]
 fn no_kind_of_bound_is_believed_beyond_a_corner_a_pole_or_the_end_of_a_domain() {
-    for (parts, bound, e, value) in kinds() {
+    // Of nine or four cases a guise every fourth: each guise and each kind of bound once.
+    for (parts, bound, e, value) in kinds().into_iter().step_by(every(4)) {
         let q: &Value = &parts.0["plant"];
         let (verdict, rule) = parts.clone().bounds(&[(bound, "1", e, value)]).verdict();
         let text = format!("{bound} <= {value}: {} and {}", q["f"], q["q"]);
