@@ -1,5 +1,7 @@
 //! The regulator of a shipped specification, and a step of it at a sample: `cargo run --release --example regulator`.
 
+#![allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
+
 use sigmastar::{Error, Specification, regulator_matrices, sampled_regulator};
 
 fn main() -> Result<(), Error> {

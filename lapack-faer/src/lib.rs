@@ -68,6 +68,7 @@
 
 #![deny(unsafe_op_in_unsafe_fn)]
 #![deny(missing_docs)]
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
 #![deny(clippy::undocumented_unsafe_blocks)]
 #![allow(clippy::too_many_arguments, reason = "the signatures are LAPACK's")]
 

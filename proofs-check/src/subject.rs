@@ -128,12 +128,13 @@ fn rounded_up(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let places = 3 - value.abs().log10().floor() as i32;
+    let exponent = format!("{value:e}").split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
+    let places = 3 - exponent.unwrap_or(0);
     let in_digits = |value: f64| match places {
         0..=6 => format!("{value:.0$}", places.unsigned_abs() as usize),
         _ => format!("{value:.3e}"),
     };
-    let half = 10f64.powi(-places) / 2.0;
+    let half = format!("5e{}", -places - 1).parse().unwrap_or(0.0);
     let bounds = |text: &String| text.parse().is_ok_and(|shown: f64| shown >= value);
     [value, value + half, value + 2.0 * half]
         .into_iter()

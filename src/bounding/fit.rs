@@ -1,6 +1,7 @@
 //! Polynomials with coefficients of one sign above sampled suprema: proposals in doubles.
 
 use crate::matrix::AffineMatrix;
+use crate::number::Portable;
 use crate::semidefinite;
 
 /// The largest degree of a polynomial.
@@ -49,7 +50,7 @@ impl Samples {
         let coefficients = self.solve(&powers, signed)?;
         let size = self.size();
         let unscaled = |((x, e), c): (&(u32, u32), &f64)| {
-            let scale = far_x.powi(*x as i32) * far_e.powi(*e as i32);
+            let scale = far_x.portable_powi(*x as i32) * far_e.portable_powi(*e as i32);
             let positive = if signed && (*x, *e) == (0, 0) { *c } else { c.max(0.0) };
             (*x, *e, positive * size / scale)
         };
@@ -65,7 +66,9 @@ impl Samples {
         };
         let (x, e) = (relative(&self.x), relative(&self.e));
         let points: Vec<(f64, f64)> = x.iter().flat_map(|x| e.iter().map(move |e| (*x, *e))).collect();
-        let power = |point: usize, (i, j): (u32, u32)| points[point].0.powi(i as i32) * points[point].1.powi(j as i32);
+        let power = |point: usize, (i, j): (u32, u32)| {
+            points[point].0.portable_powi(i as i32) * points[point].1.portable_powi(j as i32)
+        };
         let value = |point: usize| self.values[point] / size;
         // Most uses are well inside of the domain; its far ends are there so that a search does not end at them.
         let inner = |point: usize| if points[point].0.max(points[point].1) > INNER { OUTER_WEIGHT } else { 1.0 };

@@ -2,7 +2,7 @@
 
 use super::fit::Samples;
 use crate::bounds::{Engine, Entry, FloatSuprema, Kind, Majorant, Term};
-use crate::number::{Direction, round_f64, round_rational};
+use crate::number::{Direction, Portable, round_f64, round_rational};
 use crate::reduction::PlantRefusal;
 use rayon::prelude::*;
 use rug::Rational;
@@ -185,7 +185,7 @@ fn least(engine: &Engine, kind: Kind, [x, e]: &[Rational; 2]) -> Option<Rational
         return Some(zero);
     }
     let (exponent, mut best) =
-        EXPONENTS.into_iter().find_map(|exponent| Some((exponent, proved(10f64.powi(exponent))?)))?;
+        EXPONENTS.into_iter().find_map(|exponent| Some((exponent, proved(10f64.portable_powi(exponent))?)))?;
     let (mut low, mut high) = (f64::from(exponent - 3), f64::from(exponent));
     for _ in 0..HALVINGS {
         let middle = (low + high) / 2.0;

@@ -13,6 +13,7 @@ use super::quantity::{Quantity, Right};
 use super::time_cell::TimeCell;
 use crate::enclosure::{Enclosure, Truth};
 use crate::expr::{Memory, VariableSet};
+use crate::number::Portable;
 use rug::Rational;
 use std::sync::Arc;
 
@@ -254,7 +255,7 @@ impl Values<'_> {
                 (growth[*i][*j], growth[*j][*i]) = (half, half);
             }
             let reach = length(&mut decay.entries.iter().map(|(.., value)| doubles(value)[1]));
-            let weight = length(&mut root.iter().flatten().copied()).powi(2);
+            let weight = length(&mut root.iter().flatten().copied()).portable_powi(2);
             return [largest(product(&root, &product(&growth, &root))), reach * weight];
         }
         let values: Vec<Vec<[f64; 2]>> = matrix.iter().map(|row| row.iter().map(doubles).collect()).collect();

@@ -10,6 +10,7 @@ use super::centred::{Centred, Frame};
 use super::chart::Ball;
 use super::eigen::eigen;
 use crate::enclosure::Enclosure;
+use crate::number::Portable;
 use rug::{Float, Rational};
 
 /// Entries of K are whole multiples of this.
@@ -101,7 +102,7 @@ fn lower_bound_in_ball(frame: &Frame, value: &Centred, ball: &Ball) -> Option<En
         .iter()
         .zip(&ball.member)
         .filter(|(_, member)| **member)
-        .map(|([low, _, high], _)| low.upper_f64().abs().max(high.upper_f64().abs()).powi(2));
+        .map(|([low, _, high], _)| low.upper_f64().abs().max(high.upper_f64().abs()).portable_powi(2));
     if farthest.sum::<f64>() <= 1.0 || !value.range.is_defined() || !value.centre.is_defined() {
         return None;
     }
@@ -152,7 +153,7 @@ fn multiplier(slopes: &[f64], ends: &[[f64; 3]], member: &[bool]) -> Option<f64>
             // A slope of 0 times infinity: the nearest point to 0.
             if free.is_nan() { 0.0_f64.clamp(low, high) } else { free.clamp(low, high) }
         };
-        (0..slopes.len()).filter(|&i| member[i]).map(|i| coordinate(i).powi(2)).sum()
+        (0..slopes.len()).filter(|&i| member[i]).map(|i| coordinate(i).portable_powi(2)).sum()
     };
     if square(0.0) <= 1.0 {
         return None;

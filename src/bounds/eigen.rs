@@ -1,5 +1,7 @@
 //! Eigenvalues of small symmetric matrices in doubles, by Jacobi's rotations. They propose; nothing rests on them.
 
+use crate::number::Portable;
+
 /// Sweeps after which the rotations end; convergence is quadratic.
 const SWEEPS: usize = 12;
 
@@ -47,7 +49,7 @@ pub(super) fn eigen(mut matrix: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
 /// The largest eigenvalue of a symmetric matrix; of order 0, negative infinity.
 pub(super) fn largest(matrix: Vec<Vec<f64>>) -> f64 {
     if let [[a, b], [_, d]] = matrix.iter().map(Vec::as_slice).collect::<Vec<_>>()[..] {
-        return (a + d) / 2.0 + ((a - d).powi(2) / 4.0 + b * b).sqrt();
+        return (a + d) / 2.0 + ((a - d).portable_powi(2) / 4.0 + b * b).sqrt();
     }
     eigen(matrix).0.into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
@@ -56,7 +58,7 @@ pub(super) fn largest(matrix: Vec<Vec<f64>>) -> f64 {
 pub(super) fn largest_of(matrix: &mut [f64], order: usize) -> f64 {
     match (order, &*matrix) {
         (1, [a]) => return *a,
-        (2, [a, b, _, d]) => return (a + d) / 2.0 + ((a - d).powi(2) / 4.0 + b * b).sqrt(),
+        (2, [a, b, _, d]) => return (a + d) / 2.0 + ((a - d).portable_powi(2) / 4.0 + b * b).sqrt(),
         (3, [a, b, c, _, d, e, _, _, f]) => return largest_of_three([*a, *d, *f], [*b, *c, *e]),
         _ => {}
     }
@@ -101,7 +103,7 @@ fn largest_of_three([a, d, f]: [f64; 3], [b, c, e]: [f64; 3]) -> f64 {
         return mean;
     }
     let determinant = a * (d * f - e * e) - b * (b * f - e * c) + c * (b * e - d * c);
-    let cosine = (determinant / (2.0 * size.powi(3))).clamp(-1.0, 1.0);
+    let cosine = (determinant / (2.0 * size.portable_powi(3))).clamp(-1.0, 1.0);
     mean + 2.0 * size * libm::cos(libm::acos(cosine) / 3.0)
 }
 

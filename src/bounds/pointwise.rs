@@ -2,6 +2,7 @@
 
 use super::eigen::{eigen, largest, largest_of};
 use super::entry::Kind;
+use crate::number::Portable;
 use std::sync::Arc;
 
 /// Where the outputs of the program of derivatives begin: f_x (rows) at 0, then f_e, q_x, q_e, q_tx, q_te, q_xx (rows), q_xe.
@@ -77,7 +78,7 @@ impl Pointwise {
         let (n, blocks) = (self.order, self.blocks);
         self.transform(outputs);
         let column = &outputs[blocks.f_e..blocks.f_e + n];
-        let f_e = (0..n).map(|i| dot(&self.inverse[i * n..(i + 1) * n], column).powi(2)).sum::<f64>().sqrt();
+        let f_e = (0..n).map(|i| dot(&self.inverse[i * n..(i + 1) * n], column).portable_powi(2)).sum::<f64>().sqrt();
         let q_x = self.row_norm(|i| outputs[blocks.q_x + i]);
         let q_e = outputs[blocks.q_e];
         let q_tx = self.row_norm(|i| {
@@ -109,7 +110,7 @@ impl Pointwise {
     fn row_norm(&self, row: impl Fn(usize) -> f64) -> f64 {
         let n = self.order;
         let entry = |j: usize| (0..n).map(|i| row(i) * self.matrix[i * n + j]).sum::<f64>();
-        (0..n).map(|j| entry(j).powi(2)).sum::<f64>().sqrt()
+        (0..n).map(|j| entry(j).portable_powi(2)).sum::<f64>().sqrt()
     }
 
     fn spectral_norm(&mut self) -> f64 {

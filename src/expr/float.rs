@@ -3,6 +3,7 @@
 use super::Expr;
 use super::syntax::{Algebra, Argument, Binary, Unary, evaluate};
 use crate::enclosure::Enclosure;
+use crate::number::Portable;
 use rug::Rational;
 
 /// Precision at which constants are enclosed before they are rounded to doubles.
@@ -90,7 +91,7 @@ impl FloatExpr {
         for instruction in &self.program {
             match *instruction {
                 Instruction::Unary(operation) => top = unary(operation, top),
-                Instruction::Power(exponent) => top = top.powi(exponent),
+                Instruction::Power(exponent) => top = top.portable_powi(exponent),
                 Instruction::Binary(operation) => {
                     height -= 1;
                     top = binary(operation, stack[height], top);
@@ -172,7 +173,7 @@ impl Algebra for Compiler {
 
     fn power(&mut self, constant: bool, exponent: i32) -> bool {
         match self.program.last_mut() {
-            Some(Instruction::Number(value)) if constant => *value = value.powi(exponent),
+            Some(Instruction::Number(value)) if constant => *value = value.portable_powi(exponent),
             _ => self.program.push(Instruction::Power(exponent)),
         }
         constant

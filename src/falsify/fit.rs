@@ -9,6 +9,7 @@ use super::membership::{respects, respects_signed};
 use super::shape::{Number, Shape};
 use crate::data::Bound;
 use crate::expr::{Expr, Variables};
+use crate::number::Portable;
 
 /// What is kept of a coefficient that is too large.
 const FACTOR: f64 = 0.93;
@@ -76,7 +77,7 @@ fn leaves_room(which: Bound, bound: &FamilyBound, allowed: &Expr, reach: [f64; 2
         return false;
     };
     let allowed = allowed.to_float();
-    let along = |end: f64, at: i32| if at == GRID { 0.0 } else { end * 0.8_f64.powi(at) };
+    let along = |end: f64, at: i32| if at == GRID { 0.0 } else { end * 0.8_f64.portable_powi(at) };
     (0..=GRID).all(|i| {
         (0..=GRID).all(|j| {
             let (x, e) = (along(reach[0], i), along(reach[1], j));

@@ -8,6 +8,7 @@ use super::random::Random;
 use super::shape::{Factor, Number};
 use crate::data::Bound;
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
+use crate::number::Portable;
 use crate::spec::model::{Constant, KnownForcing};
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -99,7 +100,7 @@ pub(super) fn fill(family: &mut Family, claim: &Claim) {
     let amplitude = |harmonic: &Harmonic| harmonic.amplitude.value();
     let sum = |weight: &dyn Fn(&Harmonic) -> f64| family.harmonics.iter().map(weight).sum::<f64>();
     let rms = |weight: &dyn Fn(&Harmonic) -> f64| {
-        sum(&|harmonic| weight(harmonic).powi(2) * mean_square(harmonic.factor.order)).sqrt()
+        sum(&|harmonic| weight(harmonic).portable_powi(2) * mean_square(harmonic.factor.order)).sqrt()
     };
     let mut room = vec![
         limits.at_zero(Bound::Q) / sum(&amplitude),

@@ -56,7 +56,7 @@ impl OwnPlant {
 
     /// The largest |y| of a difference of two states whose components are at most 1.
     pub(super) fn spread(&self) -> f64 {
-        self.inverse.row_iter().map(|row| row.abs().sum().powi(2)).sum::<f64>().sqrt()
+        self.inverse.row_iter().map(|row| row.abs().sum().portable_powi(2)).sum::<f64>().sqrt()
     }
 
     /// |y| of a difference of two states.

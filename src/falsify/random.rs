@@ -1,6 +1,7 @@
 //! Random numbers for plants.
 
 use super::shape::Number;
+use crate::number::Portable;
 use rand_core::{RngCore, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -17,7 +18,7 @@ impl Random {
 
     /// A number from 0 to 1.
     pub(super) fn uniform(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 * 2.0_f64.powi(-53)
+        (self.0.next_u64() >> 11) as f64 * 2.0_f64.portable_powi(-53)
     }
 
     /// Whether something of this probability happens.

@@ -4,6 +4,7 @@
 use super::claim::Claim;
 use super::finding::{Finding, Trial};
 use super::trial::{Checks, norm};
+use crate::number::Portable;
 use crate::simulate::{ClosedLoop, IntegrationFailure, Tolerance, flow, trajectory};
 
 /// Periods of a run whose sizes are looked at, as many as a search for the steady state simulates; and samples of each.
@@ -71,7 +72,7 @@ pub(super) fn alone(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop, why: 
             }
             Err(IntegrationFailure::Escaped { t: end }) => {
                 for k in 1..=LAST {
-                    let length = (end - t) * (1.0 - 2f64.powi(-k));
+                    let length = (end - t) * (1.0 - 2f64.portable_powi(-k));
                     let Ok(state) = flow(closed_loop, t, length, &y, Tolerance::ORDINARY) else { break };
                     largest.take(claim, length / period, &state[..of_plant]);
                 }

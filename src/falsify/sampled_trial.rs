@@ -6,6 +6,7 @@ use super::random::Random;
 use super::run::{self, Largest};
 use super::sampled_claim::SampledClaim;
 use super::trial::{Checks, PERIODS, boundary, drawn_plant, file, no_member, norm, unfinished, why_none};
+use crate::number::Portable;
 use crate::progress::Silent;
 use crate::simulate::{
     DigitalLoop, DigitalRun, DigitalSteady, DigitalSteadyError, IntegrationFailure, Piece, Tolerance,
@@ -177,7 +178,7 @@ fn check_approach(
         let intervals = period(digital, &mut run, Tolerance::ORDINARY)?;
         for (sample, (interval, of_orbit)) in intervals.iter().zip(orbit).enumerate() {
             let difference: Vec<f64> = interval.zeta.iter().zip(&of_orbit.zeta).map(|(a, b)| a - b).collect();
-            let zeta = eta * digital.regulator.weighted_norm(&difference).powi(2);
+            let zeta = eta * digital.regulator.weighted_norm(&difference).portable_powi(2);
             for (piece, point) in interval.pieces.iter().zip(&of_orbit.pieces) {
                 for (at, (state, point)) in piece.states.iter().zip(&point.states).enumerate() {
                     let difference: Vec<f64> = state.iter().zip(point).map(|(a, b)| a - b).collect();

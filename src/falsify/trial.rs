@@ -13,6 +13,7 @@ use super::{run, sampled_trial};
 use crate::certify::no_plant;
 use crate::data::{Bound, Data};
 use crate::enclosure::DEFAULT_PRECISION;
+use crate::number::Portable;
 use crate::plant::Plant;
 use crate::progress::{Progress, Silent};
 use crate::regulator::Regulator;
@@ -338,7 +339,7 @@ fn check_approach(
             away = [away[0].max(x), away[1].max(e.abs())];
             if let Some([low, up, h]) = claim.lyapunov {
                 let zeta: Vec<f64> = difference[n + 1..].iter().zip(&m).map(|(z, m)| z - m * e).collect();
-                let rest = e * e + h * closed_loop.regulator.weighted_norm(&zeta).powi(2);
+                let rest = e * e + h * closed_loop.regulator.weighted_norm(&zeta).portable_powi(2);
                 if index == 0 && at == 0 {
                     level[0] = up * x * x + rest;
                 }

@@ -48,7 +48,11 @@ pub(super) fn combine(order: usize, matrices: &[Mat<f64>], factors: impl Iterato
 fn norm(matrix: &Mat<f64>) -> f64 {
     let entries = || (0..matrix.ncols()).flat_map(|j| (0..matrix.nrows()).map(move |i| matrix[(i, j)].abs()));
     let largest = entries().fold(0.0, f64::max);
-    if largest == 0.0 { 0.0 } else { largest * entries().map(|entry| (entry / largest).powi(2)).sum::<f64>().sqrt() }
+    if largest == 0.0 {
+        0.0
+    } else {
+        largest * entries().map(|entry| (entry / largest).portable_powi(2)).sum::<f64>().sqrt()
+    }
 }
 
 impl FloatFamily {

@@ -8,6 +8,7 @@
 //! row sums r_i of R (by `2 |v_i v_j| <= v_i^2 + v_j^2`), so it is enough that `A - diag(r)` is positive definite.
 
 use crate::enclosure::{Enclosure, Truth};
+use crate::number::Portable;
 use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side};
@@ -156,9 +157,9 @@ impl ScaledMatrix {
 
     /// The factor of the matrix less 2^shift on the diagonal, in floating point.
     fn cholesky(&self, shift: i32) -> Option<Mat<f64>> {
-        let unit = 2f64.powi(-(ENTRY_BITS as i32));
+        let unit = 2f64.portable_powi(-(ENTRY_BITS as i32));
         let matrix = Mat::from_fn(self.order, self.order, |i, j| match j <= i {
-            true => row(&self.lower, i)[j] as f64 * unit - if i == j { 2f64.powi(shift) } else { 0.0 },
+            true => row(&self.lower, i)[j] as f64 * unit - if i == j { 2f64.portable_powi(shift) } else { 0.0 },
             false => 0.0,
         });
         Llt::new(matrix.as_ref(), Side::Lower).ok().map(|factor| factor.L().to_owned())
@@ -167,8 +168,8 @@ impl ScaledMatrix {
     /// One step of refinement: with `E = L^-1 (A - 2^shift I - L L') L^-T`, `L (I + Phi(E))` with Phi(E) the lower triangle of E
     /// and half its diagonal is the factor to twice the digits.
     fn refined(&self, units: &Factor, factor: &Mat<f64>, residual: &[i128], shift: i32) -> bool {
-        let (n, unit) = (self.order, 2f64.powi(-(ENTRY_BITS as i32)));
-        let shift = 2f64.powi(shift);
+        let (n, unit) = (self.order, 2f64.portable_powi(-(ENTRY_BITS as i32)));
+        let shift = 2f64.portable_powi(shift);
         let mut correction = Mat::from_fn(n, n, |i, j| {
             let entry = row(residual, i.max(j))[i.min(j)] as f64 * unit;
             if i == j { entry - shift } else { entry }

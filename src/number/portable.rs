@@ -14,6 +14,10 @@ pub trait Portable {
     fn portable_tanh(self) -> f64;
     /// The power.
     fn portable_pow(self, exponent: f64) -> f64;
+    /// The power with a whole exponent.
+    fn portable_powi(self, exponent: i32) -> f64;
+    /// `sqrt(self^2 + other^2)` without overflow.
+    fn portable_hypot(self, other: f64) -> f64;
 }
 
 impl Portable for f64 {
@@ -31,5 +35,22 @@ impl Portable for f64 {
 
     fn portable_pow(self, exponent: f64) -> f64 {
         libm::pow(self, exponent)
+    }
+
+    #[inline]
+    fn portable_powi(self, exponent: i32) -> f64 {
+        let (mut power, mut square, mut left) = (1.0, self, exponent.unsigned_abs());
+        while left > 0 {
+            if left % 2 == 1 {
+                power *= square;
+            }
+            square *= square;
+            left /= 2;
+        }
+        if exponent < 0 { 1.0 / power } else { power }
+    }
+
+    fn portable_hypot(self, other: f64) -> f64 {
+        libm::hypot(self, other)
     }
 }

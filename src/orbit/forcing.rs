@@ -14,7 +14,7 @@ use super::series::FloatSeries;
 use super::taylor::Expansion;
 use crate::enclosure::Enclosure;
 use crate::expr::{Enclosing, Formula, Formulas, PlantVariable, Walk};
-use crate::number::{Direction, round_f64};
+use crate::number::{Direction, Portable, round_f64};
 use crate::plant::Plant;
 use crate::spec::{ProvedForcing, TrigonometricVector};
 use rayon::prelude::*;
@@ -52,7 +52,7 @@ fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<
     let mean = series.mean[0];
     let amplitude = |[a, b]: [f64; 2]| libm::hypot(a, b);
     let square = |weight: &dyn Fn(usize) -> f64| -> f64 {
-        pairs.iter().enumerate().map(|(at, pair)| (weight(at + 1) * amplitude(*pair)).powi(2) / 2.0).sum()
+        pairs.iter().enumerate().map(|(at, pair)| (weight(at + 1) * amplitude(*pair)).portable_powi(2) / 2.0).sum()
     };
     let size = (mean * mean + square(&|_| 1.0)).sqrt();
     let slope = square(&|k| TAU * k as f64).sqrt().max(LEAST_SLOPE * size);

@@ -14,6 +14,7 @@
 //! At rate 0 gamma is at most 1/sigma (derivation, section 3). Nothing here is a claim: it says where to look for Q.
 
 use super::inequality::ErrorDynamics;
+use crate::number::Portable;
 use faer::c64;
 
 /// Steps of the bisection in the rate.
@@ -63,7 +64,8 @@ impl SmallGain {
         let oscillators = dynamics.oscillators;
         let states = oscillators.b.iter().enumerate();
         // |b|^2 on the first state of each oscillator; the second has 0.
-        let weights = states.filter(|(i, _)| *i == 0 || i % 2 == 1).map(|(_, b)| b.midpoint_f64().powi(2)).collect();
+        let weights =
+            states.filter(|(i, _)| *i == 0 || i % 2 == 1).map(|(_, b)| b.midpoint_f64().portable_powi(2)).collect();
         let bounds = dynamics.bounds;
         SmallGain {
             sigma: dynamics.sigma.to_f64(),
@@ -107,7 +109,7 @@ impl SmallGain {
             .iter()
             .flat_map(|value| OFFSETS.iter().map(move |offset| value.im + offset * (-value.re - rate)))
             .filter(|omega| *omega >= 0.0)
-            .chain((0..60).map(|k| self.sigma * 1e-3 * 1.25f64.powi(k)))
+            .chain((0..60).map(|k| self.sigma * 1e-3 * 1.25f64.portable_powi(k)))
             .chain([0.0])
             .collect();
         omegas.sort_by(f64::total_cmp);
@@ -163,10 +165,10 @@ impl SmallGain {
         let slack = (budget.available - budget.from_e - budget.from_x) / 3.0;
         let (from_e, from_x) = (budget.from_e + slack, budget.from_x + slack);
         let (l_x, l_e) = (1.0, from_x / from_e);
-        let l_f = if k_f > 0.0 { (from_x / k_f).powi(2) } else { 0.0 };
+        let l_f = if k_f > 0.0 { (from_x / k_f).portable_powi(2) } else { 0.0 };
         let distance = self.x_decay - rate;
         let w_x = match (self.has_x, k_f > 0.0, k_x > 0.0) {
-            (true, true, _) => distance * l_f / self.root_p_up.powi(2),
+            (true, true, _) => distance * l_f / self.root_p_up.portable_powi(2),
             (true, false, true) => k_x * k_x / distance,
             // Nothing couples x to the rest.
             (true, false, false) => 1.0,

@@ -2,7 +2,7 @@
 
 use super::refusal::PlantRefusal;
 use crate::bounds::{Engine, Entry, FloatSuprema, Kind};
-use crate::number::{Direction, round_f64};
+use crate::number::{Direction, Portable, round_f64};
 use crate::search::{AtSigma, PeriodicSet, active_level};
 use crate::spec::{Bound, ProvedValue, ProvedValues};
 use rayon::prelude::*;
@@ -106,7 +106,7 @@ const ROOM: u32 = 1000;
 /// The smallest power of ten that is proved, with room; not of a rate.
 fn smallest(engine: &Engine, kind: Kind, [x, e]: [&Rational; 2]) -> Option<Rational> {
     SMALL.into_iter().find_map(|exponent| {
-        let value = round_f64(10f64.powi(exponent), 1, Direction::Up)?;
+        let value = round_f64(10f64.portable_powi(exponent), 1, Direction::Up)?;
         let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value };
         engine.decide(&entry, SMALL_EFFORT).truth.is_true().then(|| entry.value * ROOM)
     })

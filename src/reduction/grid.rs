@@ -92,7 +92,7 @@ impl Grid {
     }
 
     fn argument(&self, index: u16, unit: f64) -> f64 {
-        if index == 0 { 0.0 } else { SMALLEST * unit * self.ratio.powi(i32::from(index) - 1) }
+        if index == 0 { 0.0 } else { SMALLEST * unit * self.ratio.portable_powi(i32::from(index) - 1) }
     }
 
     fn node(&self, [i, j]: [u16; 2]) -> Values {

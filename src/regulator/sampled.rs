@@ -1,6 +1,7 @@
 //! What sampling does to the loop: the spectral radius on the plant e' = u.
 
 use super::{Design, Discrete, Regulator};
+use crate::number::Portable;
 use crate::spec::Constant;
 use faer::Mat;
 use std::fmt;
@@ -88,7 +89,7 @@ pub fn spectral_radius(matrix: &Mat<f64>) -> Option<f64> {
         return None;
     }
     let eigenvalues = matrix.eigenvalues().ok()?;
-    Some(eigenvalues.iter().fold(0.0, |largest: f64, value| largest.max(value.re.hypot(value.im))))
+    Some(eigenvalues.iter().fold(0.0, |largest: f64, value| largest.max(value.re.portable_hypot(value.im))))
 }
 
 #[cfg(test)]

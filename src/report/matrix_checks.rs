@@ -4,7 +4,7 @@ use super::document::{Block, Table};
 use super::number::{exact, pair};
 use crate::certify::{Certification, Derivation};
 use crate::lmi::{CrossCheck, SigmaBothWays};
-use crate::number::{Direction, round_f64, write_exact};
+use crate::number::{Direction, Portable, round_f64, write_exact};
 use rug::Rational;
 use serde_json::{Value, json};
 
@@ -15,7 +15,10 @@ fn solver_sigma(value: f64) -> String {
 
 /// The power of ten above a difference; the last digits of a solver are not the same on every machine.
 fn order_of_magnitude(difference: f64) -> String {
-    (-6..=0).map(|k| 10f64.powi(k)).find(|power| difference < *power).map_or("unknown".to_owned(), |p| format!("{p:e}"))
+    (-6..=0)
+        .map(|k| 10f64.portable_powi(k))
+        .find(|power| difference < *power)
+        .map_or("unknown".to_owned(), |p| format!("{p:e}"))
 }
 
 /// C5 for the weights of the certificate, and with C4 for the best ones in its error box.

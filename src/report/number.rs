@@ -1,7 +1,7 @@
 //! Numbers as they are printed: claims rounded outward, estimates marked as such by their section.
 
 use crate::enclosure::{self, Enclosure};
-use crate::number::{Direction, round_f64, round_rational, write_exact};
+use crate::number::{Direction, Portable, round_f64, round_rational, write_exact};
 use rug::Rational;
 
 /// Significant digits of a number in a report; certificates and JSON have all of them.
@@ -77,7 +77,7 @@ pub fn compact(value: &Enclosure) -> String {
 /// A rounded number as a decimal, with an exponent where the plain form would be long.
 fn short(rounded: &Rational, value: f64, digits: usize) -> String {
     // Beyond this, plain digits would claim more than the significant ones.
-    let largest = 10f64.powi(digits as i32 + 1);
+    let largest = 10f64.portable_powi(digits as i32 + 1);
     if value == 0.0 || (1e-3..largest).contains(&value.abs()) {
         return write_exact(rounded);
     }

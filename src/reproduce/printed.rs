@@ -1,5 +1,6 @@
 //! What the paper prints (its two tables), and the plant that it prints it for.
 
+use crate::number::Portable;
 use std::f64::consts::TAU;
 
 /// The plant of the paper's numerical example.
@@ -49,7 +50,7 @@ impl PrintedRow {
 pub fn last_place(printed: &str) -> f64 {
     let (mantissa, exponent) = printed.split_once('e').unwrap_or((printed, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, fraction)| fraction.len() as i32);
-    10_f64.powi(exponent.parse::<i32>().unwrap_or(0) - decimals)
+    10_f64.portable_powi(exponent.parse::<i32>().unwrap_or(0) - decimals)
 }
 
 const fn high_gain(sigma: f64, quiet: [&'static str; 2], noisy: [&'static str; 2]) -> PrintedRow {

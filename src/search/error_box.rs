@@ -37,10 +37,10 @@ pub fn best_shape(
     evaluate: impl Fn(f64, f64) -> Result<AtSigma, Obstacle>,
 ) -> Result<AtSigma, Obstacle> {
     let step = model.effort().shape_step;
-    let rhos: Vec<f64> = RHO_EXPONENTS.step_by(step).map(|k| 1.0 + 2f64.powi(k)).collect();
-    let far_rhos = (1..=FAR).map(|k| 1.0 + 2f64.powi(4 + 5 * k as i32));
+    let rhos: Vec<f64> = RHO_EXPONENTS.step_by(step).map(|k| 1.0 + 2f64.portable_powi(k)).collect();
+    let far_rhos = (1..=FAR).map(|k| 1.0 + 2f64.portable_powi(4 + 5 * k as i32));
     let etas: Vec<f64> = ETA_EXPONENTS.step_by(step).map(|k| 10f64.portable_pow(f64::from(k) / 2.0)).collect();
-    let far_etas: Vec<f64> = (1..=FAR).map(|k| 10f64.powi(6 + 2 * k as i32)).collect();
+    let far_etas: Vec<f64> = (1..=FAR).map(|k| 10f64.portable_powi(6 + 2 * k as i32)).collect();
     let at_rho = |rho: f64| scan(&etas, far_etas.iter().copied(), |eta| evaluate(rho, eta));
     refine(model, &evaluate, scan(&rhos, far_rhos, at_rho)?)
 }

@@ -13,6 +13,7 @@ use crate::derivation::mean_squares::{
     DampedResponse, ErrorGains, Forcing, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,
     sup_by_mean_squares,
 };
+use crate::number::Portable;
 
 /// Which form of S2 existence is sought with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -286,6 +287,6 @@ impl PeriodicSet {
 /// The pair that makes Z smallest.
 fn cheapest_pair(model: &FloatModel, forcing: &Forcing<f64>) -> (f64, f64, u32) {
     // What a unit of k0 and of k1 adds to Z^2.
-    let (by_size, by_rate) = kappas(model, &forcing.q_rms.powi(2), &forcing.q_rate_rms.powi(2));
+    let (by_size, by_rate) = kappas(model, &forcing.q_rms.portable_powi(2), &forcing.q_rate_rms.portable_powi(2));
     model.trade_off.best(by_size, by_rate)
 }

@@ -32,7 +32,7 @@ pub fn in_range(x: f64) -> Option<f64> {
 /// A cost too small to matter where an argument does (it moves ln sigma by at most 1e-7), which keeps the argument near
 /// 1 where it does not.
 pub fn preference(argument: f64) -> f64 {
-    1e-11 * argument.portable_ln().powi(2)
+    1e-11 * argument.portable_ln().portable_powi(2)
 }
 
 /// Every so many of the E depths of the scan.

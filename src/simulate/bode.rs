@@ -1,5 +1,6 @@
 //! The transfer function of the linear example e' = u + q.
 
+use crate::number::Portable;
 use crate::regulator::Regulator;
 
 /// |e/q| at the angular frequency omega > 0 for e' = u + q with a regulator: 1/(|i omega + sigma| |1 + mu G|) with
@@ -8,14 +9,14 @@ use crate::regulator::Regulator;
 #[must_use]
 pub fn magnitude(regulator: &Regulator, omega: f64) -> f64 {
     let Some((n_0, weights)) = regulator.weights.split_first() else {
-        return 1.0 / omega.hypot(regulator.sigma);
+        return 1.0 / omega.portable_hypot(regulator.sigma);
     };
     let sum = weights
         .iter()
         .zip(&regulator.frequencies)
         .fold(-n_0 / omega, |sum, (n_l, pole)| sum + n_l * omega / ((pole - omega) * (pole + omega)));
     // At a pole the sum is infinite and the magnitude 0.
-    1.0 / (omega.hypot(regulator.sigma) * 1.0_f64.hypot(regulator.mu * sum))
+    1.0 / (omega.portable_hypot(regulator.sigma) * 1.0_f64.portable_hypot(regulator.mu * sum))
 }
 
 /// `count` angular frequencies from `first` to `last`, evenly spaced on a logarithmic scale.

@@ -3,6 +3,7 @@
 use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
 use super::period::Period;
 use super::{ClosedLoop, SteadyState};
+use crate::number::Portable;
 use num_complex::Complex;
 use rustfft::FftPlanner;
 
@@ -52,7 +53,7 @@ pub fn sup(samples: &[f64]) -> f64 {
     if bend >= 0.0 {
         return here;
     }
-    here - (after - before).powi(2) / (8.0 * bend)
+    here - (after - before).portable_powi(2) / (8.0 * bend)
 }
 
 /// The root mean square of equally spaced samples of a period.

@@ -107,7 +107,7 @@ impl SampledGraph {
     /// The indices of the samples on the upper concave hull that starts at (0, T(0)) and does not fall.
     fn hull(&self) -> Vec<usize> {
         let mut hull: Vec<usize> = Vec::new();
-        let point = |index: usize| (self.samples[index].x.powi(2), self.samples[index].value);
+        let point = |index: usize| (self.samples[index].x.portable_powi(2), self.samples[index].value);
         let start = (0.0, self.sums.at_zero());
         for index in 0..self.samples.len() {
             let (y, value) = point(index);
@@ -178,7 +178,7 @@ impl SampledGraph {
         let mut lines = Vec::new();
         let mut from = (0.0, self.sums.at_zero());
         for index in self.hull() {
-            let to = (self.samples[index].x.powi(2), self.samples[index].value);
+            let to = (self.samples[index].x.portable_powi(2), self.samples[index].value);
             let slope = (to.1 - from.1) / (to.0 - from.0);
             if slope < self.floor {
                 break;

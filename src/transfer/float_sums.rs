@@ -2,6 +2,7 @@
 
 use super::lorentz::weight_tail;
 use crate::data::Data;
+use crate::number::Portable;
 
 /// The weights and nu in doubles.
 #[derive(Clone, Debug)]
@@ -69,10 +70,10 @@ impl FloatSums {
     /// T from the sums without the nearest pole m; `reached` says whether m is among the poles.
     fn combine(&self, x: f64, m: usize, reached: bool, (sum, slope): (f64, f64)) -> f64 {
         if !reached {
-            return slope / (1.0 + (self.nu * sum).powi(2));
+            return slope / (1.0 + (self.nu * sum).portable_powi(2));
         }
         let (c, d) = (self.residue(m), x - m as f64);
-        (c + slope * d * d) / (d * d + (self.nu * (c - sum * d)).powi(2))
+        (c + slope * d * d) / (d * d + (self.nu * (c - sum * d)).portable_powi(2))
     }
 
     /// T_N(x), x > 0.
@@ -132,7 +133,7 @@ impl FloatSums {
         let mut slope = if without == 0 { 0.0 } else { self.weights[0] / (a * a) };
         for (l, weight) in self.weights.iter().enumerate().take(group.last + 1).skip(1) {
             let l_float = l as f64;
-            slope += weight / 2.0 / (l_float + a).powi(2);
+            slope += weight / 2.0 / (l_float + a).portable_powi(2);
             if l != without {
                 let nearest_end = if l_float > b { l_float - b } else { a - l_float };
                 slope += weight / 2.0 / (nearest_end * nearest_end);
@@ -140,7 +141,7 @@ impl FloatSums {
         }
         let mut high = high;
         if let Some(tail) = group.tail {
-            let gap = 1.0 - (b / (group.last + 1) as f64).powi(2);
+            let gap = 1.0 - (b / (group.last + 1) as f64).portable_powi(2);
             high += b * tail / gap;
             slope += 2.0 * tail / (gap * gap);
         }
@@ -166,10 +167,10 @@ impl FloatSums {
         for (l, weight) in self.weights.iter().enumerate().take(group.last + 1).skip(1) {
             let square = (l * l) as f64;
             s += weight / (square - y);
-            slope += weight * (square + y) / (square - y).powi(2);
+            slope += weight * (square + y) / (square - y).portable_powi(2);
         }
         if let Some(tail) = group.tail {
-            let gap = 1.0 - (b / (group.last + 1) as f64).powi(2);
+            let gap = 1.0 - (b / (group.last + 1) as f64).portable_powi(2);
             s += tail / gap;
             slope += 2.0 * tail / (gap * gap);
         }

@@ -4,6 +4,7 @@ use super::curve::sample_points;
 use super::float_sums::FloatSums;
 use super::pole_sums::OscillatorCount;
 use crate::data::Data;
+use crate::number::Portable;
 
 /// As many poles as a picture can show; larger N look the same.
 const POLES: u64 = 256;
@@ -20,7 +21,7 @@ pub fn transfer_graph(data: &Data<'_>, n_o: OscillatorCount, from: f64, to: f64)
     let sums = FloatSums::new(data, poles);
     let reach = poles.min(to.max(0.0).ceil() as usize);
     let mut points = sample_points(&sums, reach, |m| if m < poles { vec![poles] } else { Vec::new() });
-    points.extend((0..=EVEN).map(|k| from * (to / from).powf(f64::from(k) / f64::from(EVEN))));
+    points.extend((0..=EVEN).map(|k| from * (to / from).portable_pow(f64::from(k) / f64::from(EVEN))));
     points.retain(|x| (from..=to).contains(x));
     points.sort_by(f64::total_cmp);
     points.dedup();

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::data::{Bound, Data, Problem};
 use crate::enclosure::Enclosure;
-use crate::number::{Direction, round_f64, round_rational};
+use crate::number::{Direction, Portable, round_f64, round_rational};
 use crate::spec::{Constant, Specification};
 use rayon::prelude::*;
 use rug::Rational;
@@ -135,7 +135,7 @@ fn weights(data: &Data<'_>, choice: &PairChoice) -> (f64, f64) {
             let at_zero = |bound| data.bound(bound, &zero, &zero).midpoint_f64();
             let w = data.base_frequency.midpoint_f64();
             let (q, q_t) = (at_zero(Bound::QRms), at_zero(Bound::QtRms));
-            if q > 0.0 || q_t > 0.0 { (q * q, (q_t / w).powi(2)) } else { (1.0, 1.0) }
+            if q > 0.0 || q_t > 0.0 { (q * q, (q_t / w).portable_powi(2)) } else { (1.0, 1.0) }
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Random valid specifications over many orders of magnitude: every one with the paper's set, or at rest without the
 //! user's X_0, E_0, certifies.
 
+use crate::support::count;
 use proptest::prelude::*;
 use sigmastar::certificate::certificate_json;
 use sigmastar::certify::{Derivation, Options, Verdict, certify};
@@ -82,7 +83,7 @@ fn no_better_weights(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, max_shrink_iters: 40, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: count(8, 100), max_shrink_iters: 40, ..ProptestConfig::default() })]
 
     #[test]
     fn the_sharp_derivation_certifies(text in specification()) {

@@ -1,13 +1,13 @@
 //! Reports as users see them, held against reviewed copies in `tests/integration/snapshots`: one report as a whole, and of
 //! the others what is special to them, so that a digit that changes is in few copies.
 
-use crate::support::{program, utf8};
+use crate::support::{answer, utf8};
 use insta::assert_snapshot;
 use std::sync::LazyLock;
 
 /// What `sigmastar certify` writes to both streams, and its exit code.
 fn shown(args: &[&str]) -> String {
-    let output = program().arg("certify").args(args).output().expect("the program runs");
+    let output = answer(&[&["certify"], args].concat());
     format!(
         "exit code {}\n--- standard output\n{}--- standard error\n{}",
         output.status.code().map_or_else(|| "none".to_owned(), |code| code.to_string()),

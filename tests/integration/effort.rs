@@ -1,6 +1,6 @@
 //! Hostile input ends: what is read and worked on is counted in steps, and the counts are what is tested, never the clock.
 
-use crate::support::{EXAMPLE_TEXT, PLANT_TEXT, program};
+use crate::support::{EXAMPLE_TEXT, PLANT_TEXT, every, program};
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar::certify::{MAX_SEARCHES, Outcome, certify, prove_up_to, resolve};
@@ -60,16 +60,14 @@ fn numbers_become_rationals_of_bounded_size() {
 /// Each of these ran for minutes, or took more than 1.6 GB.
 #[test]
 fn huge_and_tiny_bounds_are_undecided_with_what_to_do() {
-    for field in ["f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t"] {
-        for text in ["exp(1e10)", "exp(7e8)"] {
-            let spec = read(&with(&format!("/bounds/{field}"), json!(text)));
-            let run = certify(&spec, Default::default()).unwrap();
-            assert_eq!(run.verdict.exit_code(), 3, "{field} {text}");
-            assert!(
-                matches!(run.sharp, Outcome::NotFound(Obstacle { failing: Failing::Magnitude(_), .. })),
-                "{field} {text}"
-            );
-        }
+    let fields = ["f", "f_e", "f_xx", "f_ex", "q", "q_e", "q_x", "q_t"];
+    let cases = fields.into_iter().flat_map(|field| ["exp(1e10)", "exp(7e8)"].map(|text| (field, text)));
+    for (field, text) in cases.step_by(every(5)) {
+        let spec = read(&with(&format!("/bounds/{field}"), json!(text)));
+        let run = certify(&spec, Default::default()).unwrap();
+        assert_eq!(run.verdict.exit_code(), 3, "{field} {text}");
+        let told = matches!(run.sharp, Outcome::NotFound(Obstacle { failing: Failing::Magnitude(_), .. }));
+        assert!(told, "{field} {text}");
     }
     for field in ["f_e", "q_e", "q_x"] {
         let spec = read(&with(&format!("/bounds/{field}"), json!("exp(-7e8)")));

@@ -1,6 +1,6 @@
 //! `--format html`: every report is one page with balanced tags, links within itself alone, and no markup from files.
 
-use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, PLANT_TEXT, program, utf8};
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, PLANT_TEXT, answer, program, utf8};
 use insta::assert_snapshot;
 use std::collections::HashSet;
 
@@ -141,8 +141,9 @@ fn every(cases: &[Case]) {
         assert_eq!(["svg", "details"].map(|name| count(&found, name)), *expected, "{arguments:?}");
         // A page is whole.
         let full = if ["certify", "transfer", "lyapunov"].contains(&arguments[0]) { &["--full"][..] } else { &[] };
-        let assert = program().args(arguments).args(["--format", "markdown"]).args(full).assert().code(*code);
-        let markdown = utf8(assert.get_output().stdout.clone());
+        let output = answer(&[arguments, &["--format", "markdown"][..], full].concat());
+        assert_eq!(output.status.code(), Some(*code), "{arguments:?}");
+        let markdown = utf8(output.stdout);
         let lines = |starts: &str| markdown.lines().filter(|line| line.starts_with(starts)).count();
         let tables = lines("| --:") + lines("| :--");
         let titles = [lines("# "), lines("## "), lines("### "), tables];

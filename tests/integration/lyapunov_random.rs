@@ -1,5 +1,6 @@
 //! P and the triple for random Jacobians: found and proved whenever the Floquet exponent leaves a margin.
 
+use crate::support::count;
 use proptest::prelude::*;
 use sigmastar::expr::{Expr, Variables};
 use sigmastar::lyapunov::{Candidates, LyapunovFailure, candidates, floquet_exponents};
@@ -67,7 +68,7 @@ fn largest_rate(rows: &[Vec<String>]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 16, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: count(6, 100), ..ProptestConfig::default() })]
 
     #[test]
     fn constant_jacobians_with_a_margin_of_5_percent(n in 1..=8usize, numbers in prop::collection::vec(-20..=20i32, 64)) {
@@ -78,7 +79,7 @@ proptest! {
 
 proptest! {
     // A case of order 8 takes many seconds.
-    #![proptest_config(ProptestConfig { cases: 6, max_shrink_iters: 4, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: count(2, 20), max_shrink_iters: 4, ..ProptestConfig::default() })]
 
     #[test]
     fn periodic_jacobians_with_a_margin_of_5_percent(

@@ -1,23 +1,18 @@
 //! Whatever is certified is valid to the independent checker, with every figure that the certificate stores.
 
 use crate::mutants;
+use crate::support::cases;
 use sigmastar::certificate::certificate_json;
 use sigmastar::certify::{Derivation, Options, TransferChoice, certify, resolve};
 use sigmastar::spec::Specification;
 
-/// Cases of an ordinary run; with `SIGMASTAR_MUTANTS=FIRST..LAST cargo test --release --test integration mutated` the seeds
-/// are others.
-const SEEDS: std::ops::Range<u64> = 0..80;
+/// Seeds of an ordinary run, and of a night; `SIGMASTAR_CASES=0..3000 cargo test --release --test integration mutated` takes
+/// others.
+const SEEDS: [u64; 2] = [30, 1000];
 
 /// Cases that a long campaign found: a checker whose cosine was too rough on [0, 1] to prove `tan(min(X, 1))` monotone, and
 /// `sqrt(1 + X^2) - 1` at X = 1e-40, whose figures need more bits than the claim.
 const FOUND: [u64; 2] = [627, 1303];
-
-fn seeds() -> Vec<u64> {
-    let Ok(text) = std::env::var("SIGMASTAR_MUTANTS") else { return SEEDS.chain(FOUND).collect() };
-    let (first, last) = text.split_once("..").expect("FIRST..LAST");
-    (first.parse().expect("a whole number")..last.parse().expect("a whole number")).collect()
-}
 
 /// The certificate of a specification, if there is one.
 fn certificate(seed: u64, text: &str) -> Option<String> {
@@ -38,7 +33,7 @@ fn certificate(seed: u64, text: &str) -> Option<String> {
 #[test]
 fn whatever_is_certified_is_valid() {
     let (mut certified, mut wrong) = (0, Vec::new());
-    for seed in seeds() {
+    for seed in cases(SEEDS[0], SEEDS[1]).chain(FOUND) {
         let text = mutants::specification(seed).to_string();
         let Some(certificate) = certificate(seed, &text) else { continue };
         certified += 1;

@@ -109,7 +109,8 @@ fn an_orbit_away_from_a_singularity_is_found() {
 const BOX: &str = "/initial_set";
 
 /// A specification, changes under which a cause is told with these words, and the changes that nearly do.
-type Case = (&'static str, &'static [(&'static str, &'static str)], &'static str, &'static [(&'static str, &'static str)]);
+type Case =
+    (&'static str, &'static [(&'static str, &'static str)], &'static str, &'static [(&'static str, &'static str)]);
 
 /// Each cause of a search that finds nothing is told where it is the cause, and not where the data nearly have it. Without words
 /// the near case is certified.
@@ -128,17 +129,19 @@ fn each_cause_is_told_where_it_is_one() {
         ("paper-example", &[(BOX, WIDE), ("/domain/X", "29/10")], "domain X:", &[(BOX, WIDE)]),
         ("paper-example", &[(BOX, HIGH), ("/domain/E", "23/10")], "domain E:", &[(BOX, HIGH)]),
         ("paper-example", &[(BOX, WIDER)], "C5: a_2 <= 0", &[(BOX, WIDE)]),
-        ("paper-example", &[(BOX, OF_X), ("/bounds/q_x", "1e9")], "k_x^2 >= 4 w_x a_2", &[
-            (BOX, OF_X),
-            ("/bounds/q_x", "1e6"),
-        ]),
+        (
+            "paper-example",
+            &[(BOX, OF_X), ("/bounds/q_x", "1e9")],
+            "k_x^2 >= 4 w_x a_2",
+            &[(BOX, OF_X), ("/bounds/q_x", "1e6")],
+        ),
         ("linear", &[(BOX, TENFOLD), STEEP], "q_e has no finite value", &[(BOX, UNIT), STEEP]),
-        ("linear", &[GROWING[0], GROWING[1], GROWING[2], ("/bounds/f_xx", "1e50")], "existence: no set", &[
-            GROWING[0],
-            GROWING[1],
-            GROWING[2],
-            ("/bounds/f_xx", "1e5"),
-        ]),
+        (
+            "linear",
+            &[GROWING[0], GROWING[1], GROWING[2], ("/bounds/f_xx", "1e50")],
+            "existence: no set",
+            &[GROWING[0], GROWING[1], GROWING[2], ("/bounds/f_xx", "1e5")],
+        ),
         ("linear", &[("/lyapunov/alpha", "1e-320")], "alpha = ", &[("/lyapunov/alpha", "1e-9")]),
         ("linear", &[("/bounds/q", "1e400 + X")], "the bounding function q at X = E = 0", &[("/bounds/q", "1e9 + X")]),
     ];

@@ -1,19 +1,17 @@
 //! Random stable linear plants: section 10 proves each of them for a large enough gain, so all are certified, all certificates
 //! are valid, and the gain does not depend on the units of the states and of time.
 //!
-//! An ordinary run has a few; `SIGMASTAR_LINEAR=0..200 cargo test --release --test integration random_linear` has as many as
-//! are asked for.
+//! `SIGMASTAR_CASES=0..200 cargo test --release --test integration random_linear` takes other seeds than an ordinary run.
 
-use crate::support::{json, program};
+use crate::support::{cases, json, program};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::{Value, json as value};
-use std::ops::Range;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Of an ordinary run.
-const SEEDS: Range<u64> = 0..6;
+/// Seeds of an ordinary run, and of a night.
+const SEEDS: [u64; 2] = [6, 200];
 
 /// The gain in other units, relative to the gain in the first.
 const CLOSE: f64 = 0.02;
@@ -133,13 +131,6 @@ fn identity(n: usize) -> Vec<Vec<f64>> {
     (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect()
 }
 
-/// The seeds that were asked for, as `FIRST..END`.
-fn seeds() -> Range<u64> {
-    let Ok(asked) = std::env::var("SIGMASTAR_LINEAR") else { return SEEDS };
-    let (first, end) = asked.split_once("..").expect("FIRST..END");
-    first.parse().expect("a number")..end.parse().expect("a number")
-}
-
 /// The gain, certified and checked; a reason without one.
 fn gain(folder: &Path, name: &str, plant: &Value) -> Result<f64, String> {
     let file = folder.join(format!("{name}.json"));
@@ -163,7 +154,7 @@ fn gain(folder: &Path, name: &str, plant: &Value) -> Result<f64, String> {
 fn random_linear_plants_are_certified_in_any_units() {
     let folder = TempDir::new().unwrap();
     let mut failures = Vec::new();
-    for seed in seeds() {
+    for seed in cases(SEEDS[0], SEEDS[1]) {
         let random = &mut StdRng::seed_from_u64(seed);
         let plant = Linear::random(random);
         let n = plant.b.len();

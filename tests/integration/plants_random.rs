@@ -1,17 +1,15 @@
 //! Random plants with stable zero dynamics, of two kinds: what is certified is valid for the checker, and hardly any is left out.
 //!
-//! An ordinary run has a few; `SIGMASTAR_PLANTS=0..40 cargo test --release --test integration random_plants` has as many as
-//! are asked for.
+//! `SIGMASTAR_CASES=0..40 cargo test --release --test integration random_plants` takes other seeds than an ordinary run.
 
-use crate::support::{json, program};
+use crate::support::{cases, json, program};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::json as value;
-use std::ops::Range;
 use tempfile::TempDir;
 
-/// Of an ordinary run.
-const SEEDS: Range<u64> = 0..3;
+/// Seeds of an ordinary run, and of a night.
+const SEEDS: [u64; 2] = [3, 200];
 
 /// The least share of random plants that have to be certified.
 const SHARE: f64 = 0.9;
@@ -157,13 +155,6 @@ fn saturating_plant(seed: u64) -> serde_json::Value {
     })
 }
 
-/// The seeds that were asked for, as `FIRST..END`.
-fn seeds() -> Range<u64> {
-    let Ok(asked) = std::env::var("SIGMASTAR_PLANTS") else { return SEEDS };
-    let (first, end) = asked.split_once("..").expect("FIRST..END");
-    first.parse().expect("a number")..end.parse().expect("a number")
-}
-
 #[test]
 fn random_plants_are_certified_and_valid() {
     all_that_is_certified_is_valid(plant);
@@ -177,7 +168,7 @@ fn saturating_random_plants_are_certified_and_valid() {
 fn all_that_is_certified_is_valid(plant: fn(u64) -> serde_json::Value) {
     let folder = TempDir::new().unwrap();
     let (mut certified, mut valid) = (0, 0);
-    let seeds = seeds();
+    let seeds = cases(SEEDS[0], SEEDS[1]);
     for seed in seeds.clone() {
         let file = folder.path().join(format!("{seed}.json"));
         std::fs::write(&file, plant(seed).to_string()).unwrap();

@@ -1,6 +1,6 @@
 //! The short forms of reports, and how to see the rest.
 
-use crate::support::{EXAMPLE, PLANT, ROOT, files, program, stem, utf8};
+use crate::support::{EXAMPLE, PLANT, ROOT, answer, files, program, stem, utf8};
 
 const AT_REST: &str = "specs/paper-example-at-rest.json";
 const JACOBIAN: &str = "specs/paper-example-jacobian.json";
@@ -8,7 +8,7 @@ const REMARK: &str = "this is the short form; `--full` shows the whole report";
 
 /// Standard output, standard error, and the exit code.
 fn run(arguments: &[&str]) -> (String, String, i32) {
-    let output = program().args(arguments).output().expect("the program runs");
+    let output = answer(arguments);
     (utf8(output.stdout), utf8(output.stderr), output.status.code().expect("it ends by itself"))
 }
 

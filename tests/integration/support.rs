@@ -6,8 +6,11 @@ use serde_json::Value;
 use sigmastar::certificate::certificate_json;
 use sigmastar::certify::{Certification, Derivation, Options, certify, resolve};
 use sigmastar::spec::Specification;
+use std::collections::HashMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::process::Output;
+use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 /// The root of the repository.
 pub const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -32,6 +35,39 @@ pub fn process() -> std::process::Command {
     let mut process = std::process::Command::new(assert_cmd::cargo::cargo_bin("sigmastar"));
     process.current_dir(ROOT);
     process
+}
+
+type Outputs = Mutex<HashMap<Vec<String>, Arc<OnceLock<Output>>>>;
+
+/// What the program answers to arguments that name shipped files alone: it is run once for all tests.
+pub fn answer(arguments: &[&str]) -> Output {
+    static OUTPUTS: LazyLock<Outputs> = LazyLock::new(Outputs::default);
+    let key: Vec<String> = arguments.iter().map(|argument| (*argument).to_owned()).collect();
+    let place = Arc::clone(OUTPUTS.lock().expect("no test panics in here").entry(key).or_default());
+    place.get_or_init(|| program().args(arguments).output().expect("the program runs")).clone()
+}
+
+/// Of what takes long an ordinary run takes every so many-th, and `SIGMASTAR_CASES=all` all.
+pub fn every(ordinary: usize) -> usize {
+    if std::env::var_os("SIGMASTAR_CASES").is_some_and(|asked| asked == "all") { 1 } else { ordinary }
+}
+
+/// How many cases a property test draws: in an ordinary run, and in a night.
+pub fn count(ordinary: u64, night: u64) -> u32 {
+    let range = cases(ordinary, night);
+    u32::try_from(range.end - range.start).unwrap_or(u32::MAX)
+}
+
+/// The numbers of the cases of a campaign: of an ordinary run so many, with `SIGMASTAR_CASES=all` those of a night, with
+/// `SIGMASTAR_CASES=COUNT` or `FIRST..END` these.
+pub fn cases(ordinary: u64, night: u64) -> Range<u64> {
+    let Ok(asked) = std::env::var("SIGMASTAR_CASES") else { return 0..ordinary };
+    let number = |text: &str| text.parse().expect("SIGMASTAR_CASES is all, COUNT or FIRST..END");
+    match asked.split_once("..") {
+        Some((first, end)) => number(first)..number(end),
+        None if asked == "all" => 0..night,
+        None => 0..number(&asked),
+    }
 }
 
 /// What was written as JSON.

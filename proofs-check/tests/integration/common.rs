@@ -77,7 +77,18 @@ pub fn assert_refused(report: &Report, verdict: Verdict, rule: &str, pointer: &s
     assert!(finding.pointer.starts_with(pointer), "{} is not below {pointer}", finding.pointer);
 }
 
-/// Of what takes long an ordinary run takes every so many-th; with `SIGMASTAR_ALL` set, every run takes all.
+/// Of what takes long an ordinary run takes every so many-th, and `SIGMASTAR_CASES=all` all.
 pub fn every(ordinary: usize) -> usize {
-    if std::env::var_os("SIGMASTAR_ALL").is_some() { 1 } else { ordinary }
+    if std::env::var_os("SIGMASTAR_CASES").is_some_and(|cases| cases == "all") { 1 } else { ordinary }
+}
+
+/// Numbers in [0, 1) of a case, the same in every run (SplitMix64).
+pub fn drawn(case: u64) -> impl FnMut() -> f64 {
+    let mut state = case << 32;
+    move || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
 }

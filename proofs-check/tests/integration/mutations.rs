@@ -1,6 +1,6 @@
 //! Every leaf, field and element of shipped certificates, altered in every way that a forger or an accident might.
 //!
-//! An ordinary run takes some of the places; `SIGMASTAR_ALL=1` all of them, but of certificates that are like others.
+//! An ordinary run takes some of the places; `SIGMASTAR_CASES=all` all of them, but of certificates that are like others.
 //! A mutant may be accepted only in one of the classes of `harmless`, each of which leaves a true claim, or with figures that
 //! are said to differ, in one of the classes of `told`.
 

@@ -1,7 +1,7 @@
 //! Boxes reach out of the ball on which formulas are smooth. Corners, poles and ends of domains out there, of which nothing is
 //! demanded, must not make a false bound inside pass.
 
-use super::common::every;
+use super::common::{drawn, every};
 use super::plant_support::Parts;
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
@@ -107,5 +107,52 @@ fn no_kind_of_bound_is_believed_beyond_a_corner_a_pole_or_the_end_of_a_domain() 
         let enough = if bound.starts_with("rate") { "-5" } else { "3000" };
         let (verdict, rule) = parts.bounds(&[(bound, "1", e, enough)]).verdict();
         assert!(verdict == Verdict::Valid, "{text} with {enough}: {verdict} by {rule}");
+    }
+}
+
+/// A relative of the audited plant: with `y = d . x` a slope K up to an edge outside of the ball, none beyond, and a step of a
+/// slope that is a small part of K at the rim. `d` is near the diagonal: there the boxes that cover the rim have their middles
+/// beyond the edge. The bound is exceeded at the step.
+fn relative(case: u64) -> (Parts, &'static str, String) {
+    let mut next = drawn(case);
+    let directions = [["3/5", "4/5"], ["4/5", "3/5"], ["20/29", "21/29"], ["48/73", "55/73"], ["72/97", "65/97"]];
+    let [along, across] = directions[(5.0 * next()) as usize];
+    let y = format!("({along}*a + {across}*b)");
+    let edge = format!("{:.4}", 1.002 + 0.05 * next());
+    let (steep, at) = (10f64.powf(2.7 + 0.8 * next()).round(), format!("{:.5}", 0.996 + 0.002 * next()));
+    let step = 10f64.powf(4.0 * next()).round();
+    // What the step bends over a quarter of the ball is less than K.
+    let slope = (step * steep * 10f64.powf(2.0 * next())).round();
+    let cut = match (3.0 * next()) as u32 {
+        0 => format!("{slope}*(min({y} - {edge}, 0) + {edge})"),
+        1 => format!("{slope}*({edge} - max({edge} - {y}, 0))"),
+        _ => format!("{slope}/2*({y} - abs({y} - {edge}) + {edge})"),
+    };
+    let m = format!("({cut} + {}*(tanh({steep}*({y} - {at})) - tanh(-{steep}*{at})))", step / steep);
+    // Along d the slope of f is -1 and that of the step.
+    let f = [format!("-{0}*a + {along}*{m}", slope + 1.0), format!("-{0}*b + {across}*{m}", slope + 1.0)];
+    let moved = two_states([&f[0], &f[1]], "cos(2*pi*t)", "9/10");
+    let unmoved = |q: &str| two_states(["-a", "-b"], q, "1");
+    match (4.0 * next()) as u32 {
+        0 => (moved, "rate", format!("{}", 1.0 - step / 2.0)),
+        1 => {
+            let p = json!({ "P": [["1", "0"], ["0", "1"]], "p_low": "1", "p_up": "1", "alpha": "9/10" });
+            (moved.with("/witness/lyapunov_existence", p), "rate_existence", format!("{}", 1.0 - step / 2.0))
+        }
+        2 => (unmoved(&format!("cos(2*pi*t) + {m}")), "q_x", format!("{}", slope + step / 2.0)),
+        _ => (unmoved(&format!("cos(2*pi*t)*(1 + {m})")), "q_tx", format!("{}", 6.2831853 * (slope + step / 2.0))),
+    }
+}
+
+/// Were the sign of what may vanish taken for a number, and the mean value form used where a corner cuts a box, all of the rates and
+/// of q_x here would be called valid.
+#[test]
+fn no_relative_of_a_plant_with_a_corner_outside_is_believed() {
+    for case in 0..400 / every(10) as u64 {
+        let (parts, bound, value) = relative(case);
+        let plant = parts.0["plant"].clone();
+        let (verdict, rule) = parts.bounds(&[(bound, "1", "0", &value)]).verdict();
+        let text = format!("case {case}: {bound} <= {value}: {} and {}", plant["f"], plant["q"]);
+        assert!(verdict != Verdict::Valid && rule == "bounds of the plant", "{text}: {verdict} by {rule}");
     }
 }

@@ -1,6 +1,6 @@
 //! The figure: T_N(x) for several N under the envelope that holds for all of them.
 
-use crate::number::Direction;
+use crate::number::{Direction, Portable};
 use crate::plot::{COLOURS, Curve, Figure, Scale, Style};
 use crate::report::number::exact;
 use crate::transfer::{OscillatorCount, TransferStudy, transfer_graph};
@@ -32,7 +32,7 @@ pub fn transfer_figure(study: &TransferStudy<'_>) -> Figure {
     };
     let [k0, k1] = [&study.pair.k0, &study.pair.k1].map(rug::Rational::to_f64);
     let envelope = (0..=ENVELOPE).map(|k| {
-        let x = from * (to / from).powf(f64::from(k) / f64::from(ENVELOPE));
+        let x = from * (to / from).portable_pow(f64::from(k) / f64::from(ENVELOPE));
         (x, k0 + k1 * x * x)
     });
     let bound = Curve { label: "k0 + k1 x^2, every N".to_owned(), points: envelope.collect(), style: Style::Bound };

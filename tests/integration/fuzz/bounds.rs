@@ -48,7 +48,7 @@ fn stated(drawn: &Drawn, samples: &FloatSuprema, kind: Kind, random: &mut StdRng
 #[test]
 fn fuzz_bounds_of_plants_by_the_producer() {
     let (mut tried, mut accepted) = (0, 0);
-    for case in cases(30) {
+    for case in cases(10) {
         let random = &mut random(5, case);
         let drawn = Drawn::new(random);
         let (engine, samples) = (drawn.engine(), drawn.samples());
@@ -68,6 +68,7 @@ fn fuzz_bounds_of_plants_by_the_producer() {
         }
     }
     println!("{accepted} of {tried} true values proved");
+    assert!(tried == 0 || accepted > 0, "nothing is proved, so nothing is tested");
 }
 
 #[test]
@@ -96,4 +97,5 @@ fn fuzz_bounds_of_plants_by_the_checker() {
         }
     }
     println!("true values: {accepted} proved, {refused} refused, {open} beyond the steps");
+    assert!(accepted + refused + open == 0 || accepted > 0, "nothing is proved, so nothing is tested");
 }

@@ -1,7 +1,7 @@
 //! Random cases of what proofs rest on, against values at points: an ordinary run has some thousand in all, and
-//! `SIGMASTAR_FUZZ=100000 cargo test --release --test integration fuzz` (or `FIRST..LAST`) as many of each as are asked for.
+//! `SIGMASTAR_CASES=100000 cargo test --release --test integration fuzz` (or `FIRST..END`) as many of each as are asked for.
 //!
-//! Case N of a fuzzer is the same in every run, so that `SIGMASTAR_FUZZ=N..N+1` repeats a failure, whose message names it.
+//! Case N of a fuzzer is the same in every run, so that `SIGMASTAR_CASES=N..N+1` repeats a failure, whose message names it.
 
 mod bounds;
 mod intervals;
@@ -14,14 +14,9 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use std::ops::Range;
 
-/// The cases that were asked for; of an ordinary run so many.
+/// The numbers of cases: of an ordinary run so many, in a night a hundred times as many.
 fn cases(ordinary: u64) -> Range<u64> {
-    let Ok(asked) = std::env::var("SIGMASTAR_FUZZ") else { return 0..ordinary };
-    let number = |text: &str| text.parse().expect("SIGMASTAR_FUZZ is COUNT or FIRST..LAST");
-    match asked.split_once("..") {
-        Some((first, last)) => number(first)..number(last),
-        None => 0..number(&asked),
-    }
+    crate::support::cases(ordinary, 100 * ordinary)
 }
 
 /// The random numbers of one case of one fuzzer.
