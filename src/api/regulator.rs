@@ -147,6 +147,6 @@ fn overflow() -> Error {
     Error::new(ErrorKind::Overflow, "a number of this regulator is beyond double precision", help)
 }
 
-fn rows(matrix: &ndarray::Array2<f64>) -> Vec<Vec<f64>> {
-    matrix.outer_iter().map(|row| row.to_vec()).collect()
+fn rows(matrix: &faer::Mat<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }

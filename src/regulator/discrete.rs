@@ -53,9 +53,9 @@ impl Discrete {
 
     /// R = e^(Phi h) = blkdiag(1, [[cos a, sin a], [-sin a, cos a]]) with a = l w h.
     #[must_use]
-    pub fn transition(&self) -> ndarray::Array2<f64> {
+    pub fn transition(&self) -> faer::Mat<f64> {
         let dimension = self.input.len();
-        let mut transition = ndarray::Array2::eye(dimension);
+        let mut transition = faer::Mat::identity(dimension, dimension);
         for (at, [cosine, sine]) in self.rotations.iter().enumerate() {
             let first = 2 * at + 1;
             transition[(first, first)] = *cosine;

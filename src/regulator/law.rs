@@ -1,6 +1,6 @@
 //! The regulator in double precision.
 
-use ndarray::Array2;
+use faer::Mat;
 
 /// The parameters of the regulator in double precision.
 ///
@@ -57,8 +57,8 @@ impl Regulator {
 
     /// Phi = blkdiag(0, l w [[0, 1], [-1, 0]]).
     #[must_use]
-    pub fn phi(&self) -> Array2<f64> {
-        let mut phi = Array2::zeros((self.dimension(), self.dimension()));
+    pub fn phi(&self) -> Mat<f64> {
+        let mut phi = Mat::zeros(self.dimension(), self.dimension());
         for (at, &frequency) in self.frequencies.iter().enumerate() {
             let first = 2 * at + 1;
             phi[(first, first + 1)] = frequency;
@@ -117,13 +117,13 @@ mod tests {
         let regulator = regulator();
         let phi = regulator.phi();
         assert_eq!((phi[(1, 2)], phi[(2, 1)], phi[(3, 4)], phi[(4, 3)]), (2.0, -2.0, 4.0, -4.0));
-        assert_eq!(phi.iter().filter(|entry| **entry != 0.0).count(), 4);
+        assert_eq!(phi.col_iter().flat_map(|column| column.iter()).filter(|entry| **entry != 0.0).count(), 4);
         assert_eq!(regulator.m(), [1.0, 1.0, 0.0, 1.0, 0.0]);
         assert_eq!(regulator.n_diagonal(), [2.0, 1.0, 1.0, 0.25, 0.25]);
         // Gamma = -(Phi + sigma I) M, multiplied out.
-        let m = ndarray::Array1::from(regulator.m());
-        let product = -(phi.dot(&m) + 3.0 * &m);
-        assert_eq!(regulator.gamma(), product.to_vec());
+        let m = faer::Col::from_fn(5, |i| regulator.m()[i]);
+        let product = -(&phi * &m + faer::Scale(3.0) * &m);
+        assert_eq!(regulator.gamma(), product.iter().copied().collect::<Vec<f64>>());
     }
 
     #[test]

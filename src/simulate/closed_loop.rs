@@ -280,11 +280,11 @@ mod tests {
         evaluator.set_time(0.25);
         let mut dy = vec![0.0; 6];
         closed_loop.right_side(&mut evaluator, &y, noise, &mut dy);
-        let z = ndarray::Array1::from(y[1..].to_vec());
-        let (m, n) = (ndarray::Array1::from(regulator.m()), ndarray::Array1::from(regulator.n_diagonal()));
+        let (m, n, gamma, phi) = (regulator.m(), regulator.n_diagonal(), regulator.gamma(), regulator.phi());
+        let z = &y[1..];
         let measured = 0.3 + 0.2;
-        let expected = regulator.phi().dot(&z) + measured * ndarray::Array1::from(regulator.gamma());
-        let s = (&m * &n).dot(&(&z - measured * &m));
+        let expected = (0..5).map(|i| (0..5).map(|j| phi[(i, j)] * z[j]).sum::<f64>() + measured * gamma[i]);
+        let s: f64 = (0..5).map(|i| m[i] * n[i] * (z[i] - measured * m[i])).sum();
         let u = -3.0 * (0.3 - 0.1) + 1.5 * s;
         assert!((dy[0] - (1.0 + 3.0_f64.tanh() + u)).abs() < 1e-14);
         assert!((closed_loop.control(&y, noise) - u).abs() < 1e-14);

@@ -2,10 +2,11 @@
 
 use crate::support::{json, program, specification, utf8};
 use assert_cmd::Command;
-use ndarray::{Array1, Array2};
+use faer::{Col, Mat, Scale};
 use predicates::prelude::*;
 use sigmastar::regulator::{Design, Stepper};
 use sigmastar::spec::{Constant, Document, Errors, Specification, positive_constant};
+use std::io::Read as _;
 use std::process::Command as Process;
 
 pub fn controller(arguments: &[&str]) -> Command {
@@ -35,15 +36,36 @@ pub fn installed(program: &str, arguments: &[&str]) -> bool {
 }
 
 /// e^(A) by scaling and a Taylor series.
-fn exponential(matrix: &Array2<f64>) -> Array2<f64> {
-    let scaled = matrix / 1024.0;
-    let mut term = Array2::eye(matrix.nrows());
+fn exponential(matrix: &Mat<f64>) -> Mat<f64> {
+    let scaled = Scale(1.0 / 1024.0) * matrix;
+    let mut term = Mat::identity(matrix.nrows(), matrix.nrows());
     let mut sum = term.clone();
     for k in 1..20 {
-        term = term.dot(&scaled) / f64::from(k);
+        term = Scale(1.0 / f64::from(k)) * &term * &scaled;
         sum += &term;
     }
-    (0..10).fold(sum, |power, _| power.dot(&power))
+    (0..10).fold(sum, |power, _| &power * &power)
+}
+
+/// What an array of an archive is said to hold (in NumPy's words), its shape and its bytes.
+pub fn array(archive: &std::path::Path, name: &str) -> (String, String, Vec<u8>) {
+    let mut archive = zip::ZipArchive::new(std::fs::File::open(archive).unwrap()).unwrap();
+    let mut bytes = Vec::new();
+    archive.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
+    assert_eq!(bytes[..8], *b"\x93NUMPY\x01\x00");
+    let data = bytes.split_off(10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]])));
+    assert!(bytes.len() % 64 == 0 && bytes.ends_with(b"\n"));
+    let header = utf8(bytes[10..].to_vec());
+    let (descr, rest) = header.strip_prefix("{'descr': '").unwrap().split_once("', 'fortran_order': False, ").unwrap();
+    let shape = rest.strip_prefix("'shape': (").unwrap().split_once(')').unwrap().0;
+    (descr.to_owned(), shape.to_owned(), data)
+}
+
+/// The doubles of an array of the shape given.
+fn doubles(archive: &std::path::Path, name: &str, expected: &str) -> Vec<f64> {
+    let (descr, shape, data) = array(archive, name);
+    assert_eq!((descr.as_str(), shape.as_str()), ("<f8", expected), "{name}");
+    data.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect()
 }
 
 #[test]
@@ -53,27 +75,29 @@ fn the_discretisation_is_the_law_of_the_matrices() {
         let sigma = constant(sigma);
         let design = Design::new(&spec.internal_model, &sigma, n_o);
         let (regulator, discrete) = (design.regulator(), design.discretise(&constant(step)).unwrap());
-        let (n, m) = (regulator.dimension(), Array1::from(regulator.m()));
-        let exact = exponential(&(regulator.phi() * discrete.step));
+        let column = |values: &[f64]| Col::from_fn(values.len(), |i| values[i]);
+        let (n, m) = (regulator.dimension(), column(&regulator.m()));
+        let exact = exponential(&(Scale(discrete.step) * regulator.phi()));
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{step}: {a} {b}");
         let transition = discrete.transition();
-        exact.iter().zip(&transition).for_each(|(a, b)| close(*a, *b));
+        (0..n).for_each(|i| (0..n).for_each(|j| close(exact[(i, j)], transition[(i, j)])));
         let decay = 1.0 - discrete.step * regulator.sigma;
         close(decay, discrete.decay);
-        let input = decay * &m - exact.dot(&m);
+        let input = Scale(decay) * &m - &exact * &m;
         input.iter().zip(&discrete.input).for_each(|(a, b)| close(*a, *b));
-        let weighted = Array1::from(regulator.n_diagonal()) * &m * discrete.gain;
-        let output = weighted.dot(&exact);
+        let weights = regulator.n_diagonal();
+        let weighted = Col::from_fn(n, |i| weights[i] * m[i] * discrete.gain);
+        let output = exact.transpose() * weighted;
         output.iter().zip(&discrete.output).for_each(|(a, b)| close(*a, *b));
-        close(-regulator.sigma - output.dot(&m), discrete.feedthrough);
+        close(-regulator.sigma - output.transpose() * &m, discrete.feedthrough);
         // The stepper is that linear system, up to the rounding of both.
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * (1.0 + a.abs()), "{step}: {a} {b}");
         let mut stepper = Stepper::new(regulator.clone(), discrete.clone());
-        let mut z = Array1::<f64>::zeros(n);
+        let mut z = Col::<f64>::zeros(n);
         for k in 0..50 {
             let e = signal(k);
-            close(stepper.step(e), output.dot(&z) + discrete.feedthrough * e);
-            z = exact.dot(&z) + &input * e;
+            close(stepper.step(e), output.transpose() * &z + discrete.feedthrough * e);
+            z = &exact * &z + Scale(e) * &input;
             z.iter().zip(stepper.state()).for_each(|(a, b)| close(*a, *b));
         }
     }
@@ -291,12 +315,16 @@ fn every_export_says_what_the_sampling_does_and_what_is_not_claimed() {
         }
         let archive = folder.path().join("regulator.npz");
         controller(&call).args(["--format", "npz", "--force", "-o"]).arg(&archive).assert().success();
-        let mut archive = ndarray_npy::NpzReader::new(std::fs::File::open(archive).unwrap()).unwrap();
-        let read: ndarray::Array0<f64> = archive.by_name("spectral_radius").unwrap();
-        let unstable: ndarray::Array0<bool> = archive.by_name("unstable").unwrap();
-        assert_eq!((read.into_scalar(), unstable.into_scalar()), (radius, verdict == "unstable"));
-        let bytes: Array1<u8> = archive.by_name("notice").unwrap();
-        assert_eq!(utf8(bytes.to_vec()), notice.join("\n"));
+        assert_eq!(doubles(&archive, "spectral_radius", ""), [radius]);
+        let unstable = u8::from(verdict == "unstable");
+        assert_eq!(array(&archive, "unstable"), ("|b1".into(), String::new(), vec![unstable]));
+        let text = notice.join("\n");
+        assert_eq!(array(&archive, "notice"), ("|u1".into(), format!("{},", text.len()), text.into_bytes()));
+        // Row by row: Phi_d is not symmetric.
+        let phi = report["discrete"]["Phi"].as_array().unwrap().iter().flat_map(|row| row.as_array().unwrap());
+        let phi: Vec<f64> = phi.map(|entry| entry.as_f64().unwrap()).collect();
+        let dimension = phi.len().isqrt();
+        assert_eq!(doubles(&archive, "Phi_d", &format!("{dimension}, {dimension},")), phi);
     }
 }
 

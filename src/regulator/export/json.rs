@@ -1,7 +1,7 @@
 //! The regulator as JSON.
 
 use super::{Export, Provenance, SAMPLED_LAW, notice};
-use ndarray::Array2;
+use faer::Mat;
 use serde_json::{Value, json as object};
 
 /// The `format` of the file.
@@ -58,7 +58,7 @@ pub fn json(export: &Export<'_>) -> Value {
     })
 }
 
-fn rows(matrix: &Array2<f64>) -> Vec<Vec<f64>> {
+fn rows(matrix: &Mat<f64>) -> Vec<Vec<f64>> {
     // -0 is a number of its own in JSON, and means nothing here.
-    matrix.rows().into_iter().map(|row| row.iter().map(|entry| entry + 0.0).collect()).collect()
+    matrix.row_iter().map(|row| row.iter().map(|entry| entry + 0.0).collect()).collect()
 }
