@@ -1,6 +1,8 @@
 //! Clarabel itself, linked against the symbols of this crate, on semidefinite programs whose optima
 //! are known. All cones are of order 4 or more: below that Clarabel uses code of its own.
 
+#![allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
+
 extern crate lapack_faer as _;
 
 use clarabel::algebra::CscMatrix;

@@ -63,15 +63,15 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
 
     let has_states = spec.plant.as_ref().is_some_and(|plant| plant.states() > 0);
     let claim = Claim::read(&file.required("claim")?, has_states)?;
-    let derivation = match &claim.digital {
-        Some(regulator) => Derivation::read_digital(&mut witness, regulator, claim.set.clone())?,
+    let derivation = match &claim.sampled {
+        Some(regulator) => Derivation::read_sampled(&mut witness, regulator, claim.set.clone())?,
         None => Derivation::read(&mut witness, claim.sharp, claim.sigma.clone(), claim.set.clone())?,
     };
     if spec.plant.is_some() && !derivation.is_by_mean_squares() {
         return bad("/witness", "the claim about a plant is of the sharp derivation, with r_x, r_e, r_d");
     }
-    // The other figures are those of a continuous regulator; in a digital certificate they are left to be refused.
-    let continuous = claim.digital.is_none();
+    // The other figures are those of a continuous regulator; in a sampled certificate they are left to be refused.
+    let continuous = claim.sampled.is_none();
     let parts = figures::Parts {
         conditions: file.optional("conditions"),
         constants: if continuous { file.optional("constants") } else { None },

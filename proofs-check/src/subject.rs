@@ -5,7 +5,7 @@ use crate::json::{Field, Json, join};
 use crate::plant::read::Plant;
 use crate::rules::claim::Claim;
 use crate::rules::derivation::Derivation;
-use crate::rules::digital::claim::Regulator;
+use crate::rules::sampled::claim::Regulator;
 use crate::spec::{BOUND_NAMES, Bound, Specification};
 use crate::verdict::{Outcome, invalid};
 use rug::Rational;
@@ -68,7 +68,7 @@ impl Subject {
                     Some(plant) => assumed_of_plant(plant),
                     None => assumed(spec, arguments),
                 };
-                match claim.digital {
+                match claim.sampled {
                     Some(_) => list.extend(Regulator::assumed()),
                     None => list.push(regulator(spec)),
                 }

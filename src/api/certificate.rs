@@ -5,13 +5,13 @@ use super::condition::Condition;
 use super::report::Report;
 use super::subject::Subject;
 use super::{json_text, nearest, rounded_down, rounded_up};
-use crate::certificate::{certificate_json, digital_certificate_json, digital_statement, statement};
-use crate::certify::{Certification, DigitalCertification, claimed_ball};
+use crate::certificate::{certificate_json, sampled_certificate_json, sampled_statement, statement};
+use crate::certify::{Certification, SampledCertification, claimed_ball};
 use crate::derivation::sharp::ClaimedSet;
 use crate::enclosure::Enclosure;
 use crate::number::write_exact;
 use crate::reduction::Run;
-use crate::report::{digital_remarks, remarks};
+use crate::report::{remarks, sampled_remarks};
 use crate::spec::Specification;
 use rug::Rational;
 
@@ -32,7 +32,7 @@ impl Certificate {
     pub(super) fn new(run: &Run<'_>, subject: &Subject) -> Option<Certificate> {
         let (claim, json, remarks) = match run {
             Run::Continuous(run) => (Claim::new(run)?, certificate_json(run)?, remarks(run)),
-            Run::Sampled(run) => (Claim::at_samples(run)?, digital_certificate_json(run)?, digital_remarks(run)),
+            Run::Sampled(run) => (Claim::at_samples(run)?, sampled_certificate_json(run)?, sampled_remarks(run)),
         };
         let (json, subject) = (json_text(&json), subject.clone());
         Some(Certificate { claim, conditions: conditions(run), remarks, json, report: full_report(run), subject })
@@ -110,7 +110,7 @@ impl Claim {
     }
 
     /// That of the regulator at samples.
-    fn at_samples(run: &DigitalCertification<'_>) -> Option<Claim> {
+    fn at_samples(run: &SampledCertification<'_>) -> Option<Claim> {
         let witness = &run.claim()?.witness;
         Some(Claim {
             sigma_star: write_exact(&witness.sigma),
@@ -120,7 +120,7 @@ impl Claim {
                 count: witness.sampling.samples,
                 gain: write_exact(&witness.law.gain),
             }),
-            statement: digital_statement(run.spec, witness),
+            statement: sampled_statement(run.spec, witness),
             initial_set: InitialSet::new(run.spec, &witness.set),
             periodic_solution: PeriodicSolution::new(&run.periodic_solution()?),
             sha256: run.spec.sha256.clone(),

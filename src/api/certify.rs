@@ -7,7 +7,7 @@ use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
 use crate::reduction::{Prepared, Run, Subject as Read, at_samples};
-use crate::report::{self, DigitalReport};
+use crate::report::{self, SampledReport};
 
 /// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
 /// small gain, and the rigorous decision of every condition.
@@ -55,7 +55,7 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
 pub(super) fn not_certified(run: &Run<'_>) -> Error {
     let (verdict, sentence) = match run {
         Run::Continuous(run) => (run.verdict, report::sentence(run)),
-        Run::Sampled(run) => (run.verdict, DigitalReport::new(run, false).sentence()),
+        Run::Sampled(run) => (run.verdict, SampledReport::new(run, false).sentence()),
     };
     Error::not_certified(verdict.without_claim(), sentence, &run.unproved(), conditions(run), full_report(run))
 }
@@ -64,7 +64,7 @@ pub(super) fn not_certified(run: &Run<'_>) -> Error {
 pub(super) fn full_report(run: &Run<'_>) -> Report {
     match run {
         Run::Continuous(run) => Report::of(&report::Report::new(run, &[])),
-        Run::Sampled(run) => Report::of(&DigitalReport::new(run, false)),
+        Run::Sampled(run) => Report::of(&SampledReport::new(run, false)),
     }
 }
 

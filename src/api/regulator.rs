@@ -3,7 +3,7 @@
 use super::error::{Error, ErrorKind};
 use super::positive;
 use super::subject::Subject;
-use crate::regulator::{Design, Discrete, MAX_EXPORTED_OSCILLATORS, Regulator, SampledLoop};
+use crate::regulator::{Convergence, Design, Discrete, MAX_EXPORTED_OSCILLATORS, Regulator};
 use crate::spec::Constant;
 
 /// The regulator `z' = Phi z + Gamma e`, `u = -sigma e + mu M'N(z - M e)` in double precision. Each number is the exact one
@@ -118,7 +118,7 @@ pub fn sampled_regulator(
         return Err(Error::new(ErrorKind::Range, error.to_string(), &error.way_out()));
     }
     let discrete = design.discretise(&step).filter(Discrete::is_representable).ok_or_else(overflow)?;
-    let sampled = SampledLoop::new(&design, &step, &regulator, &discrete).ok_or_else(overflow)?;
+    let sampled = Convergence::new(&design, &step, &regulator, &discrete).ok_or_else(overflow)?;
     Ok(SampledRegulator {
         step: discrete.step,
         gain: discrete.gain,

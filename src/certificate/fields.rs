@@ -3,10 +3,10 @@
 //! A further number of a witness is one line here, beside its field in `derivation`. A part that is nested, or may be
 //! missing, is a list of its own; it is read and written as `exact_regulation` is.
 
-use crate::derivation::digital::DigitalWitness;
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::mean_squares::MeanSquares;
 use crate::derivation::repaired::RepairedWitness;
+use crate::derivation::sampled::SampledWitness;
 use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::number::write_exact;
 use crate::spec::{ErrorKind, Errors, Object, Reported, SampledGain, Sampling, Value, any_constant};
@@ -82,7 +82,7 @@ numbers!(RefinedSquares { x: "r_x", e: "r_e", e_rate: "r_d" } and ());
 numbers!(RepairedWitness { x: "X", e: "E", level: "L", h: "h", p_x: "p_x", p_e: "p_e", k0: "k0", k1: "k1" }
     and (sigma: Rational, set: ClaimedSet, transfer: TransferProof));
 
-numbers!(DigitalWitness {
+numbers!(SampledWitness {
     x_p: "X_p",
     e_p: "E_p",
     r_x: "r_x",

@@ -1,17 +1,17 @@
 //! What a certificate states: its specification, its witness, and its bounds of the periodic solution.
 
 use super::read::{read_lyapunov, read_witness};
-use super::read_digital::read_digital_witness;
 use super::read_plant::read_plant_witness;
+use super::read_sampled::read_sampled_witness;
 use crate::certify::{GivenWitness, resolve_with};
-use crate::derivation::digital::DigitalWitness;
+use crate::derivation::sampled::SampledWitness;
 use crate::plant::Plant;
 use crate::reduction::{PlantRefusal, specification};
 use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
 
 /// The statement of a certificate, for whoever holds it against something else.
 ///
-/// The witness is a [`GivenWitness`] of the regulator in continuous time, or a [`DigitalWitness`] of the one at samples.
+/// The witness is a [`GivenWitness`] of the regulator in continuous time, or a [`SampledWitness`] of the one at samples.
 #[derive(Clone, Debug)]
 pub struct StatedClaim<W = GivenWitness> {
     /// The specification inside the certificate, with its triple where that is proved by the witness.
@@ -33,12 +33,12 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
     stated(document, read_witness(document)?)
 }
 
-/// The same of a certificate about the regulator at samples ([`is_digital`](super::is_digital)).
+/// The same of a certificate about the regulator at samples ([`is_sampled`](super::is_sampled)).
 ///
 /// # Errors
 /// Those of [`read_claim`].
-pub fn read_digital_claim(document: &Document) -> Result<StatedClaim<DigitalWitness>, SpecErrors> {
-    stated(document, read_digital_witness(document)?)
+pub fn read_sampled_claim(document: &Document) -> Result<StatedClaim<SampledWitness>, SpecErrors> {
+    stated(document, read_sampled_witness(document)?)
 }
 
 fn stated<W>(document: &Document, witness: W) -> Result<StatedClaim<W>, SpecErrors> {

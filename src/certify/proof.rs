@@ -4,9 +4,9 @@ use super::options::Derivation;
 use crate::data::Data;
 use crate::derivation::condition::{self, Condition};
 use crate::derivation::consequences::Excitation;
-use crate::derivation::digital::{DigitalEvaluation, DigitalWitness};
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::repaired::{RepairedEvaluation, RepairedWitness};
+use crate::derivation::sampled::{SampledEvaluation, SampledWitness};
 use crate::derivation::sharp::{ClaimedSet, SharpEvaluation, SharpWitness};
 use crate::enclosure::{Enclosure, Truth};
 use crate::search::{Failing, Obstacle};
@@ -77,16 +77,16 @@ pub type SharpProof = Proof<SharpWitness>;
 pub type RepairedProof = Proof<RepairedWitness>;
 
 /// Of the regulator at samples.
-pub type DigitalProof = Proof<DigitalWitness>;
+pub type SampledProof = Proof<SampledWitness>;
 
-impl Decidable for DigitalWitness {
-    type Evaluation = DigitalEvaluation;
+impl Decidable for SampledWitness {
+    type Evaluation = SampledEvaluation;
 
-    fn evaluate(&self, data: &Data<'_>) -> DigitalEvaluation {
-        DigitalEvaluation::new(data, self)
+    fn evaluate(&self, data: &Data<'_>) -> SampledEvaluation {
+        SampledEvaluation::new(data, self)
     }
 
-    fn conditions(evaluation: &DigitalEvaluation) -> &[Condition] {
+    fn conditions(evaluation: &SampledEvaluation) -> &[Condition] {
         &evaluation.conditions
     }
 }

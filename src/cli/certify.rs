@@ -6,9 +6,9 @@ use super::files::{Input, OutputFile};
 use super::output::Shortened;
 use super::progress::{Audience, Working};
 use super::subject::{IntoData, Subject, seeking_triple};
-use super::{digital, input, output};
+use super::{input, output, sampled};
 use serde_json::Value;
-use sigmastar::certificate::{certificate_json, is_digital, read_lyapunov, read_plant_witness, read_witness};
+use sigmastar::certificate::{certificate_json, is_sampled, read_lyapunov, read_plant_witness, read_witness};
 use sigmastar::certify::{Verdict, certify_at, certify_near, recheck, with_triple};
 use sigmastar::derivation::targets::TargetKind;
 use sigmastar::plant::Plant;
@@ -37,13 +37,13 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     }
     let document = input::document(&args.spec)?;
     let subject = match &args.sampling_period {
-        Some(text) => Subject::read(&digital::with_sampling_period(&document, text)?)?,
+        Some(text) => Subject::read(&sampled::with_sampling_period(&document, text)?)?,
         None => Subject::read(&document)?,
     };
     let witness = args.witness.as_deref().map(input::written).transpose()?;
     let gain = args.sigma.as_deref().map(|text| input::rational("--sigma", text)).transpose()?;
-    if witness.as_ref().is_some_and(is_digital) || (witness.is_none() && subject.sampling().is_some()) {
-        return digital::run(args, subject, witness.as_ref(), gain.as_ref(), output.as_ref());
+    if witness.as_ref().is_some_and(is_sampled) || (witness.is_none() && subject.sampling().is_some()) {
+        return sampled::run(args, subject, witness.as_ref(), gain.as_ref(), output.as_ref());
     }
     if subject.sampling().is_some() {
         let message =

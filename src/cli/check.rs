@@ -1,10 +1,10 @@
 //! `sigmastar check`.
 
 use super::args::CheckArgs;
-use super::digital::with_sampling_period;
 use super::failure::Failure;
 use super::input;
 use super::output::{self, reason, shown};
+use super::sampled::with_sampling_period;
 use sigmastar::report::document::{Block, Made, clean};
 use sigmastar::spec::{Document, Notation};
 use std::fs::File;

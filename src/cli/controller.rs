@@ -7,7 +7,7 @@ use super::files::{Input, OutputFile, write_together};
 use super::input;
 use super::output::{self, shown};
 use sigmastar::regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};
-use sigmastar::regulator::{Design, Discrete, SampledLoop};
+use sigmastar::regulator::{Convergence, Design, Discrete};
 use sigmastar::report::document::clean;
 use sigmastar::spec::Constant;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let discrete = match discrete.as_ref().zip(step.as_ref()) {
         None => None,
         Some((discrete, step)) => {
-            let sampled = SampledLoop::new(&design, step, &regulator, discrete).ok_or_else(beyond)?;
+            let sampled = Convergence::new(&design, step, &regulator, discrete).ok_or_else(beyond)?;
             remarks(&design, step, sampled);
             Some((discrete, sampled))
         }
@@ -126,7 +126,7 @@ fn refuse(
 }
 
 /// Says what the sampling does that is no reason to refuse it.
-fn remarks(design: &Design<'_>, step: &Constant, sampled: SampledLoop) {
+fn remarks(design: &Design<'_>, step: &Constant, sampled: Convergence) {
     if let Some(samples) = design.uneven_samples(step) {
         output::remark(&format!(
             "a period has {samples:.6} samples, not a whole number: the samples fall differently in every period, and the \

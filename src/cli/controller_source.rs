@@ -1,8 +1,8 @@
 //! Where `controller` takes its regulator from: a specification, a plant, or a certificate of one.
 
 use super::failure::Failure;
-use sigmastar::certificate::{FORMAT as CERTIFICATE, is_digital, read_digital_witness, read_witness};
-use sigmastar::derivation::digital::DigitalWitness;
+use sigmastar::certificate::{FORMAT as CERTIFICATE, is_sampled, read_sampled_witness, read_witness};
+use sigmastar::derivation::sampled::SampledWitness;
 use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar::number::write_exact;
 use sigmastar::plant::{self, Plant};
@@ -50,8 +50,8 @@ impl Given {
     /// # Errors
     /// What cannot be read, in its place.
     pub fn read(document: &Document) -> Result<Given, Failure> {
-        let (sigma_star, sampled) = if is_digital(document) {
-            let DigitalWitness { sigma, sampling, law, .. } = read_digital_witness(document)?;
+        let (sigma_star, sampled) = if is_sampled(document) {
+            let SampledWitness { sigma, sampling, law, .. } = read_sampled_witness(document)?;
             (sigma, Some((sampling, law)))
         } else {
             (read_witness(document)?.sigma().clone(), None)

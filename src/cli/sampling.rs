@@ -9,7 +9,7 @@ use super::transfer::svg_file;
 use super::{input, output};
 use rug::Rational;
 use sigmastar::certify::Verdict;
-use sigmastar::reduction::with_digital_pairs;
+use sigmastar::reduction::with_sampled_pairs;
 use sigmastar::report::{SamplingReport, sampling_figure};
 use sigmastar::sampling::{OfPlant, OfSpecification, SamplingStudy};
 use sigmastar::spec::{Constant, MAX_SAMPLES, Sampling};
@@ -37,7 +37,7 @@ fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
         Subject::Plant(plant) => {
             let _working = Working::new("finding the orbit, proving the bounds of every pair", audience);
             let study =
-                with_digital_pairs(&plant, |pairs| SamplingStudy::new(&OfPlant { pairs }, &period, steps, gains));
+                with_sampled_pairs(&plant, |pairs| SamplingStudy::new(&OfPlant { pairs }, &period, steps, gains));
             study.map_err(|refusal| Failure::Documents(refusal.errors(&plant)))?
         }
         specification @ Subject::Specification(_) => {

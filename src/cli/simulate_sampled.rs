@@ -10,8 +10,8 @@ use sigmastar::certify::Verdict;
 use sigmastar::plant::{Initial, Plant};
 use sigmastar::regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
 use sigmastar::simulate::{
-    Converters, DigitalLoop, DigitalReport, DigitalSettings, FIGURE_FILES, digital_csv, digital_figures,
-    simulate_digital,
+    Converters, FIGURE_FILES, SampledLoop, SampledReport, SampledSettings, sampled_csv, sampled_figures,
+    simulate_sampled,
 };
 use sigmastar::spec::Constant;
 
@@ -44,32 +44,32 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
         None => discrete,
         Some(limit) => discrete.saturated(Some(limit.to_f64())),
     };
-    let mut digital = DigitalLoop::new(&plant, regulator, discrete);
-    (digital.converters, digital.phase) = (converters, phase.map_or(0.0, |phase| phase.to_f64()));
-    let ordinary = digital.regulator.is_representable() && digital.discrete.is_representable();
-    if !ordinary || !digital.period().is_normal() || !digital.phase.is_finite() {
+    let mut sampled = SampledLoop::new(&plant, regulator, discrete);
+    (sampled.converters, sampled.phase) = (converters, phase.map_or(0.0, |phase| phase.to_f64()));
+    let ordinary = sampled.regulator.is_representable() && sampled.discrete.is_representable();
+    if !ordinary || !sampled.period().is_normal() || !sampled.phase.is_finite() {
         return Err(beyond());
     }
     if let Some(folder) = &args.plots {
         args.replace.folder(folder, &FIGURE_FILES)?;
     }
-    let start = start(&digital, &plant.initial)?;
-    let settings = DigitalSettings {
+    let start = start(&sampled, &plant.initial)?;
+    let settings = SampledSettings {
         periods: args.periods as usize,
         samples: args.samples as usize,
         harmonics: args.harmonics as usize,
     };
     let bar = Bar::new(u64::from(args.periods), args.quiet);
-    let simulation = simulate_digital(&digital, &start, &settings, &bar);
+    let simulation = simulate_sampled(&sampled, &start, &settings, &bar);
     bar.finish();
 
-    let report = DigitalReport { plant: &plant, digital: &digital, simulation: &simulation };
+    let report = SampledReport { plant: &plant, sampled: &sampled, simulation: &simulation };
     let text = output::report(&report, args.format);
     if let (Some(file), Ok(run)) = (&csv_file, &simulation.long) {
-        file.write(digital_csv(&plant, &digital, run))?;
+        file.write(sampled_csv(&plant, &sampled, run))?;
     }
     if let Some(folder) = &args.plots {
-        let drawn = digital_figures(&plant, &digital, &simulation);
+        let drawn = sampled_figures(&plant, &sampled, &simulation);
         args.replace.figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
     }
     if let Err(code) = output::data(&text) {
@@ -128,8 +128,8 @@ fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discret
 }
 
 /// The initial condition of the plant file.
-fn start(digital: &DigitalLoop, initial: &Initial) -> Result<Vec<f64>, Failure> {
-    let (given, needed) = (initial.z.len(), digital.regulator.dimension());
+fn start(sampled: &SampledLoop, initial: &Initial) -> Result<Vec<f64>, Failure> {
+    let (given, needed) = (initial.z.len(), sampled.regulator.dimension());
     if given != 0 && given != needed {
         let message = format!("the initial z of the plant file has {given} components, this regulator has {needed}");
         let help = "give the number of oscillators that it is for, or remove z for a start at rest";
@@ -137,6 +137,6 @@ fn start(digital: &DigitalLoop, initial: &Initial) -> Result<Vec<f64>, Failure> 
     }
     let mut start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(initial.z.iter().copied()).collect();
     // At rest, and with a delay no control acts yet.
-    start.resize(digital.dimension(), 0.0);
+    start.resize(sampled.dimension(), 0.0);
     Ok(start)
 }

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::progress::{Audience, Working};
 use rug::Rational;
-use sigmastar::search::{DigitalProposal, SharpProposal};
+use sigmastar::search::{SampledProposal, SharpProposal};
 use sigmastar::spec::{Sampling, Specification};
 
 pub use sigmastar::reduction::Subject;
@@ -20,12 +20,12 @@ pub trait IntoData {
     ///
     /// # Errors
     /// Those of [`IntoData::into_data`].
-    fn into_digital_data(
+    fn into_sampled_data(
         self,
         sampling: &Sampling,
         gain: Option<&Rational>,
         quiet: bool,
-    ) -> Result<(Specification, Option<DigitalProposal>), Failure>;
+    ) -> Result<(Specification, Option<SampledProposal>), Failure>;
 }
 
 impl IntoData for Subject {
@@ -34,12 +34,12 @@ impl IntoData for Subject {
         self.proved().map_err(Failure::Documents)
     }
 
-    fn into_digital_data(
+    fn into_sampled_data(
         self,
         sampling: &Sampling,
         gain: Option<&Rational>,
         quiet: bool,
-    ) -> Result<(Specification, Option<DigitalProposal>), Failure> {
+    ) -> Result<(Specification, Option<SampledProposal>), Failure> {
         let _working = proving(&self, quiet);
         self.proved_at_samples(sampling, gain).map_err(Failure::Documents)
     }

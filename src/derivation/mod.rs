@@ -7,7 +7,6 @@
 pub mod condition;
 pub mod consequences;
 pub mod contraction;
-pub mod digital;
 pub mod exact_regulation;
 pub mod existence;
 pub mod gains;
@@ -18,6 +17,7 @@ pub mod mean_squares;
 pub mod printed;
 pub mod relative_degree;
 pub mod repaired;
+pub mod sampled;
 pub mod sharp;
 pub mod stability;
 pub mod table;

@@ -2,12 +2,12 @@
 
 use super::frame::OwnPlant;
 use super::sampled_claim::SampledClaim;
-use crate::certificate::{StatedClaim, is_digital, read_claim, read_digital_claim};
+use crate::certificate::{StatedClaim, is_sampled, read_claim, read_sampled_claim};
 use crate::certify::{Derivation, GivenWitness};
 use crate::data::Data;
 use crate::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds};
-use crate::derivation::digital::DigitalWitness;
 use crate::derivation::existence::PeriodicBounds;
+use crate::derivation::sampled::SampledWitness;
 use crate::derivation::sharp::SharpEvaluation;
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::spec::{Constant, Document, SpecErrors, Specification};
@@ -52,14 +52,14 @@ impl Claim {
     /// # Errors
     /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<Claim, SpecErrors> {
-        if is_digital(document) {
-            return read_digital_claim(document).map(Claim::at_samples);
+        if is_sampled(document) {
+            return read_sampled_claim(document).map(Claim::at_samples);
         }
         read_claim(document).map(Claim::new)
     }
 
     /// The claim about the law at samples.
-    fn at_samples(stated: StatedClaim<DigitalWitness>) -> Claim {
+    fn at_samples(stated: StatedClaim<SampledWitness>) -> Claim {
         let own = stated.plant.as_ref().zip(stated.spec.plant());
         let own = own.and_then(|(plant, proved)| OwnPlant::new(plant.clone(), proved));
         let StatedClaim { spec, witness, periodic: [x, e, zeta, z], .. } = stated;

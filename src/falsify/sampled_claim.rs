@@ -1,6 +1,6 @@
 //! What a claim about the law at samples is about.
 
-use crate::derivation::digital::DigitalWitness;
+use crate::derivation::sampled::SampledWitness;
 use crate::regulator::{Design, Discrete, Regulator};
 use crate::spec::{Constant, InternalModel, SampledGain};
 
@@ -18,7 +18,7 @@ pub struct SampledClaim {
 }
 
 impl SampledClaim {
-    pub(super) fn new(witness: &DigitalWitness) -> SampledClaim {
+    pub(super) fn new(witness: &SampledWitness) -> SampledClaim {
         SampledClaim {
             sigma: Constant::rational(&witness.sigma),
             step: witness.sampling.step.clone(),

@@ -9,8 +9,8 @@ use super::trial::{Checks, PERIODS, boundary, drawn_plant, file, no_member, norm
 use crate::number::Portable;
 use crate::progress::Silent;
 use crate::simulate::{
-    DigitalLoop, DigitalRun, DigitalSteady, DigitalSteadyError, IntegrationFailure, Piece, Tolerance,
-    digital_periodic_solution,
+    IntegrationFailure, Piece, SampledLoop, SampledRun, SampledSteady, SampledSteadyError, Tolerance,
+    sampled_periodic_solution,
 };
 
 /// States of a period that are looked at, at least, and in a sampling interval.
@@ -18,11 +18,11 @@ const STATES: usize = 1024;
 const BETWEEN: usize = 2;
 
 /// Runs a trial.
-pub(super) fn run(claim: &Claim, sampled: &SampledClaim, mut random: Random, number: u64) -> Finding {
-    let tried = sampled.tried_n_o();
+pub(super) fn run(claim: &Claim, law: &SampledClaim, mut random: Random, number: u64) -> Finding {
+    let tried = law.tried_n_o();
     // From the first trial on, so that the ends are tried whatever the number of trials is.
     let n_o = tried.get((number.saturating_sub(1) % tried.len().max(1) as u64) as usize).copied().unwrap_or(0);
-    let Some((regulator, discrete)) = sampled.regulator(&claim.spec.internal_model, n_o) else {
+    let Some((regulator, discrete)) = law.regulator(&claim.spec.internal_model, n_o) else {
         return Finding::Unfinished("a number of the law at samples is beyond double precision".to_owned());
     };
     // On the grid itself, then anywhere: a claim is about every phase.
@@ -44,20 +44,20 @@ pub(super) fn run(claim: &Claim, sampled: &SampledClaim, mut random: Random, num
         }
     };
     start.shrink_to_fit();
-    let trial = Trial { number, plant, sigma: sampled.sigma.to_f64(), n_o, start, phase: Some(phase) };
-    let mut digital = match &claim.own {
-        Some(own) => DigitalLoop::new(&own.plant, regulator, discrete),
+    let trial = Trial { number, plant, sigma: law.sigma.to_f64(), n_o, start, phase: Some(phase) };
+    let mut sampled = match &claim.own {
+        Some(own) => SampledLoop::new(&own.plant, regulator, discrete),
         None => match file(claim, &trial) {
-            Ok(file) => DigitalLoop::new(&file, regulator, discrete),
+            Ok(file) => SampledLoop::new(&file, regulator, discrete),
             Err(unfinished) => return unfinished,
         },
     };
-    digital.phase = phase;
-    if digital.samples() != Some(sampled.samples as usize) {
+    sampled.phase = phase;
+    if sampled.samples() != Some(law.samples as usize) {
         // A certificate that was tampered with: its samples are not those of its period.
-        return Finding::Unfinished(format!("{} samples of the claimed length are not a period", sampled.samples));
+        return Finding::Unfinished(format!("{} samples of the claimed length are not a period", law.samples));
     }
-    check(claim, trial, &digital)
+    check(claim, trial, &sampled)
 }
 
 /// A period of the loop: for each sampling interval zeta and z at its start, and the plant on it.
@@ -68,13 +68,13 @@ struct Interval {
 }
 
 fn period(
-    digital: &DigitalLoop,
-    run: &mut DigitalRun<'_>,
+    sampled: &SampledLoop,
+    run: &mut SampledRun<'_>,
     tolerance: Tolerance,
 ) -> Result<Vec<Interval>, IntegrationFailure> {
-    let samples = digital.samples_rounded_up();
+    let samples = sampled.samples_rounded_up();
     let each = STATES.div_ceil(samples).max(BETWEEN);
-    let m = digital.regulator.m();
+    let m = sampled.regulator.m();
     let mut intervals = Vec::with_capacity(samples);
     for _ in 0..samples {
         let e = run.plant_state().last().copied().unwrap_or_default();
@@ -85,14 +85,14 @@ fn period(
     Ok(intervals)
 }
 
-fn check(claim: &Claim, trial: Trial, digital: &DigitalLoop) -> Finding {
-    let steady = match digital_periodic_solution(digital, &trial.start, &Silent) {
+fn check(claim: &Claim, trial: Trial, sampled: &SampledLoop) -> Finding {
+    let steady = match sampled_periodic_solution(sampled, &trial.start, &Silent) {
         Ok(steady) => steady,
         // That no periodic solution is found says nothing about the claim; the run itself may.
-        Err(DigitalSteadyError::Search(error)) => return alone(claim, trial, digital, why_none(&error)),
+        Err(SampledSteadyError::Search(error)) => return alone(claim, trial, sampled, why_none(&error)),
         Err(error) => return Finding::Unfinished(error.to_string()),
     };
-    let orbit = DigitalRun::new(digital, 0, &steady.start).map(|mut run| period(digital, &mut run, Tolerance::TIGHT));
+    let orbit = SampledRun::new(sampled, 0, &steady.start).map(|mut run| period(sampled, &mut run, Tolerance::TIGHT));
     let orbit = match orbit {
         Some(Ok(orbit)) => orbit,
         Some(Err(failure)) => return unfinished(&failure),
@@ -100,51 +100,51 @@ fn check(claim: &Claim, trial: Trial, digital: &DigitalLoop) -> Finding {
     };
     let multiplier = steady.largest_multiplier().unwrap_or(0.0);
     let mut checks = Checks::around(claim, &steady.start, steady.residual, multiplier);
-    check_orbit(claim, digital, &steady, &orbit, &mut checks);
-    if checks.are_broken() && !run::comes_to(&trial, &steady.start, |_, y| passed(digital, y)) {
-        return alone(claim, trial, digital, run::ELSEWHERE.to_owned());
+    check_orbit(claim, sampled, &steady, &orbit, &mut checks);
+    if checks.are_broken() && !run::comes_to(&trial, &steady.start, |_, y| passed(sampled, y)) {
+        return alone(claim, trial, sampled, run::ELSEWHERE.to_owned());
     }
-    match check_approach(claim, &trial, digital, &orbit, &mut checks) {
+    match check_approach(claim, &trial, sampled, &orbit, &mut checks) {
         Ok(()) => checks.finding(trial),
-        Err(failure @ IntegrationFailure::Escaped { .. }) => alone(claim, trial, digital, failure.to_string()),
+        Err(failure @ IntegrationFailure::Escaped { .. }) => alone(claim, trial, sampled, failure.to_string()),
         Err(failure) => unfinished(&failure),
     }
 }
 
 /// The state after a period from one at its start.
-fn passed(digital: &DigitalLoop, y: &[f64]) -> Result<Vec<f64>, IntegrationFailure> {
-    let mut run = DigitalRun::new(digital, 0, y).ok_or(IntegrationFailure::TooMuchWork { t: digital.time(0) })?;
-    for _ in 0..digital.samples_rounded_up() {
+fn passed(sampled: &SampledLoop, y: &[f64]) -> Result<Vec<f64>, IntegrationFailure> {
+    let mut run = SampledRun::new(sampled, 0, y).ok_or(IntegrationFailure::TooMuchWork { t: sampled.time(0) })?;
+    for _ in 0..sampled.samples_rounded_up() {
         run.advance(1, Tolerance::ORDINARY)?;
     }
     Ok(run.whole_state())
 }
 
 /// The finding of a trial for which there is no periodic solution to compare with.
-fn alone(claim: &Claim, trial: Trial, digital: &DigitalLoop, why: String) -> Finding {
+fn alone(claim: &Claim, trial: Trial, sampled: &SampledLoop, why: String) -> Finding {
     let mut largest = Largest::default();
-    if let Some(mut run) = DigitalRun::new(digital, 0, &trial.start) {
+    if let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) {
         // What happens within a sample after which it has escaped is not looked at.
         let intervals =
-            (0..PERIODS * digital.samples_rounded_up()).map_while(|_| run.advance(BETWEEN, Tolerance::ORDINARY).ok());
+            (0..PERIODS * sampled.samples_rounded_up()).map_while(|_| run.advance(BETWEEN, Tolerance::ORDINARY).ok());
         for piece in intervals.flatten() {
             for (at, state) in piece.states.iter().enumerate() {
-                largest.take(claim, (piece.t + piece.unit * at as f64) / digital.period(), state);
+                largest.take(claim, (piece.t + piece.unit * at as f64) / sampled.period(), state);
             }
         }
     }
     largest.finding(claim, trial, why)
 }
 
-fn check_orbit(claim: &Claim, digital: &DigitalLoop, steady: &DigitalSteady, orbit: &[Interval], checks: &mut Checks) {
-    let n = digital.states();
+fn check_orbit(claim: &Claim, sampled: &SampledLoop, steady: &SampledSteady, orbit: &[Interval], checks: &mut Checks) {
+    let n = sampled.states();
     let (mut x, mut e, mut zeta, mut z) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     for interval in orbit {
-        zeta = zeta.max(digital.regulator.weighted_norm(&interval.zeta));
-        z = z.max(digital.regulator.weighted_norm(&interval.z));
+        zeta = zeta.max(sampled.regulator.weighted_norm(&interval.zeta));
+        z = z.max(sampled.regulator.weighted_norm(&interval.z));
         for piece in &interval.pieces {
             for (at, state) in piece.states.iter().enumerate() {
-                let s = (piece.t + piece.unit * at as f64) / digital.period();
+                let s = (piece.t + piece.unit * at as f64) / sampled.period();
                 x = x.max(claim.own.as_ref().map_or_else(|| norm(&state[..n]), |own| own.distance(s, &state[..n])));
                 e = e.max(state[n].abs());
             }
@@ -166,19 +166,19 @@ fn check_orbit(claim: &Claim, digital: &DigitalLoop, steady: &DigitalSteady, orb
 fn check_approach(
     claim: &Claim,
     trial: &Trial,
-    digital: &DigitalLoop,
+    sampled: &SampledLoop,
     orbit: &[Interval],
     checks: &mut Checks,
 ) -> Result<(), IntegrationFailure> {
-    let n = digital.states();
-    let Some(mut run) = DigitalRun::new(digital, 0, &trial.start) else { return Ok(()) };
+    let n = sampled.states();
+    let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) else { return Ok(()) };
     let (mut away, mut level) = ([0.0_f64; 2], [0.0_f64; 2]);
     let [low, up, eta] = claim.lyapunov.unwrap_or_default();
     for index in 0..PERIODS {
-        let intervals = period(digital, &mut run, Tolerance::ORDINARY)?;
+        let intervals = period(sampled, &mut run, Tolerance::ORDINARY)?;
         for (sample, (interval, of_orbit)) in intervals.iter().zip(orbit).enumerate() {
             let difference: Vec<f64> = interval.zeta.iter().zip(&of_orbit.zeta).map(|(a, b)| a - b).collect();
-            let zeta = eta * digital.regulator.weighted_norm(&difference).portable_powi(2);
+            let zeta = eta * sampled.regulator.weighted_norm(&difference).portable_powi(2);
             for (piece, point) in interval.pieces.iter().zip(&of_orbit.pieces) {
                 for (at, (state, point)) in piece.states.iter().zip(&point.states).enumerate() {
                     let difference: Vec<f64> = state.iter().zip(point).map(|(a, b)| a - b).collect();

@@ -5,12 +5,12 @@
 //! what a certificate says of a plant. A [`Subject`] is either of both, and [`Prepared`] goes the whole way with it.
 
 mod coordinates;
-mod digital;
 mod entries;
 mod grid;
 mod reduce;
 mod refusal;
 mod run;
+mod sampled;
 mod sampling;
 mod specification;
 mod study;
@@ -18,10 +18,10 @@ mod subject;
 #[cfg(test)]
 mod tests;
 
-pub use digital::{DigitalPairs, ReducedDigital};
-pub use reduce::{Reduced, bounds_around, decide_again, reduce, reduce_digital, with_digital_pairs};
+pub use reduce::{Reduced, bounds_around, decide_again, reduce, reduce_sampled, with_sampled_pairs};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use run::{Prepared, Run};
+pub use sampled::{ReducedSampled, SampledPairs};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
 pub use subject::{Subject, at_samples};

@@ -1,9 +1,9 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
 use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler, Shape};
-use super::digital::{DigitalPairs, ReducedDigital};
 use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
+use super::sampled::{ReducedSampled, SampledPairs};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::specification::specification;
 use crate::bounds::{Engine, FloatOrbit, FloatSuprema, Region};
@@ -67,21 +67,21 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
 ///
 /// # Errors
 /// What could not be proved or found.
-pub fn reduce_digital(
+pub fn reduce_sampled(
     plant: &Plant,
     sampling: &spec::Sampling,
     gain: Option<&Rational>,
-) -> Result<ReducedDigital, PlantRefusal> {
-    with_digital_pairs(plant, |pairs| pairs.reduce(sampling, gain))?
+) -> Result<ReducedSampled, PlantRefusal> {
+    with_sampled_pairs(plant, |pairs| pairs.reduce(sampling, gain))?
 }
 
 /// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
 ///
 /// # Errors
 /// What could not be proved or found of those.
-pub fn with_digital_pairs<T>(plant: &Plant, with: impl FnOnce(&DigitalPairs<'_>) -> T) -> Result<T, PlantRefusal> {
+pub fn with_sampled_pairs<T>(plant: &Plant, with: impl FnOnce(&SampledPairs<'_>) -> T) -> Result<T, PlantRefusal> {
     with_coordinates(plant, |plant, along, sampled, chosen| {
-        DigitalPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
+        SampledPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
     })
 }
 

@@ -2,16 +2,16 @@
 
 use super::Subject;
 use crate::certify::{
-    Certification, DigitalCertification, Options, Refusal, certify_at, certify_digital, certify_near,
+    Certification, Options, Refusal, SampledCertification, certify_at, certify_near, certify_sampled,
 };
-use crate::search::{DigitalProposal, SharpProposal};
+use crate::search::{SampledProposal, SharpProposal};
 use crate::spec::{Sampling, SpecErrors, Specification};
 use rug::Rational;
 
 /// Where a search may start: of the regulator in continuous time, or of the one at samples.
 enum Start {
     Continuous(Option<SharpProposal>),
-    Sampled(Box<Sampling>, Option<DigitalProposal>),
+    Sampled(Box<Sampling>, Option<SampledProposal>),
 }
 
 /// A subject whose data are proved, for one question.
@@ -27,7 +27,7 @@ pub enum Run<'s> {
     /// Of the regulator in continuous time.
     Continuous(Box<Certification<'s>>),
     /// Of the regulator at samples.
-    Sampled(Box<DigitalCertification<'s>>),
+    Sampled(Box<SampledCertification<'s>>),
 }
 
 impl Prepared {
@@ -60,7 +60,7 @@ impl Prepared {
                 Some(gain) => certify_at(spec, options, start.as_ref(), gain),
             }
             .map(|run| Run::Continuous(Box::new(run))),
-            Start::Sampled(sampling, start) => certify_digital(spec, sampling, gain, start.as_ref(), options.ladder)
+            Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
                 .map(|run| Run::Sampled(Box::new(run))),
         };
         run.map_err(|refusal: Refusal| refusal.errors(spec))

@@ -1,9 +1,9 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
-use super::{reduce, reduce_digital};
+use super::{reduce, reduce_sampled};
 use crate::certify::with_triple;
 use crate::plant::{self, Plant};
-use crate::search::{DigitalProposal, SharpProposal};
+use crate::search::{SampledProposal, SharpProposal};
 use crate::spec::{Constant, Document, InternalModel, Sampling, SpecErrors, Specification};
 use rug::Rational;
 
@@ -118,10 +118,10 @@ impl Subject {
         self,
         sampling: &Sampling,
         gain: Option<&Rational>,
-    ) -> Result<(Specification, Option<DigitalProposal>), Vec<SpecErrors>> {
+    ) -> Result<(Specification, Option<SampledProposal>), Vec<SpecErrors>> {
         match self {
             Subject::Plant(plant) => {
-                let reduced = reduce_digital(&plant, sampling, gain).map_err(|refusal| refusal.errors(&plant))?;
+                let reduced = reduce_sampled(&plant, sampling, gain).map_err(|refusal| refusal.errors(&plant))?;
                 Ok((reduced.spec, Some(reduced.proposal)))
             }
             specification @ Subject::Specification(_) => Ok((specification.proved()?.0, None)),

@@ -20,5 +20,5 @@ pub use discrete::{Discrete, Stepper};
 pub use law::Regulator;
 pub use read::read_regulator;
 pub use read_discrete::read_discrete;
-pub use sampled::{SampledLoop, spectral_radius};
+pub use sampled::{Convergence, spectral_radius};
 pub use sampling::SamplingError;

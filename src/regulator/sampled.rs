@@ -11,12 +11,12 @@ const NEARLY_ONE: f64 = 1.0 - 1e-9;
 
 /// The loop of the plant e' = u with the sampled regulator: e measured at the samples, u held between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SampledLoop {
+pub struct Convergence {
     radius: f64,
     proved: bool,
 }
 
-impl SampledLoop {
+impl Convergence {
     /// The loop with the law as it is exported: e(k+1) = e(k) + h u(k). `None` where a number is beyond double precision.
     #[must_use]
     pub fn new(
@@ -24,10 +24,10 @@ impl SampledLoop {
         step: &Constant,
         regulator: &Regulator,
         discrete: &Discrete,
-    ) -> Option<SampledLoop> {
+    ) -> Option<Convergence> {
         let radius = spectral_radius(&energy_matrix(regulator, discrete))?;
         // e takes nothing from zeta but what zeta does by itself: the loop is triangular, with 1 - h sigma for e.
-        Some(SampledLoop { radius: radius.max(discrete.decay.abs()), proved: design.converges(step) })
+        Some(Convergence { radius: radius.max(discrete.decay.abs()), proved: design.converges(step) })
     }
 
     /// The spectral radius in ten digits, in floating point: by this factor the loop converges from sample to sample in the end.
@@ -51,7 +51,7 @@ impl SampledLoop {
     }
 }
 
-impl fmt::Display for SampledLoop {
+impl fmt::Display for Convergence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -112,7 +112,7 @@ mod tests {
             let (sigma, step) = (constant(sigma, 1), constant(1, samples));
             let design = Design::new(&spec.internal_model, &sigma, n_o);
             let (regulator, discrete) = (design.regulator(), design.discretise(&step).unwrap());
-            let sampled = SampledLoop::new(&design, &step, &regulator, &discrete).unwrap();
+            let sampled = Convergence::new(&design, &step, &regulator, &discrete).unwrap();
             assert_eq!(sampled.is_unstable(), unstable, "{n_o} {samples} {sampled}");
             // The growth of a long run, over as many samples as it takes for the largest mode to stand alone.
             let (mut stepper, mut e) = (Stepper::new(regulator.clone(), discrete.clone()), 1.0);
@@ -134,7 +134,7 @@ mod tests {
         let matrix = Mat::from_fn(2, 2, |i, j| [[0.0, -2.0], [2.0, 0.0]][i][j]);
         assert!((spectral_radius(&matrix).unwrap() - 2.0).abs() < 1e-14);
         assert_eq!(spectral_radius(&Mat::from_fn(1, 1, |_, _| f64::NAN)), None);
-        let unstable = |radius: f64, proved: bool| SampledLoop { radius, proved }.is_unstable();
+        let unstable = |radius: f64, proved: bool| Convergence { radius, proved }.is_unstable();
         assert!(unstable(1.0, false) && unstable(1.0 - 1e-12, false));
         assert!(!unstable(0.99, false) && !unstable(1.0, true));
     }

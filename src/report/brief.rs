@@ -6,7 +6,7 @@ use super::number::{estimate, exact, upper};
 use super::sensitivity;
 use super::verdict::assumed;
 use super::words;
-use crate::certify::{Certification, Derivation, DigitalCertification, claimed_ball};
+use crate::certify::{Certification, Derivation, SampledCertification, claimed_ball};
 use crate::derivation::sharp::ClaimedSet;
 use crate::derivation::targets::Consequences;
 use crate::enclosure::Enclosure;
@@ -47,7 +47,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
 }
 
 /// Of a claim about the regulator at samples; nothing without one.
-pub(super) fn of_samples(run: &DigitalCertification<'_>, rechecked: bool) -> Vec<Block> {
+pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec<Block> {
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.

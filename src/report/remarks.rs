@@ -1,7 +1,7 @@
 //! What the data themselves are to be looked at for; no verdict depends on it.
 
 use super::number::{estimate, exact};
-use crate::certify::{Certification, DigitalCertification, ExceededBy, NoPlant};
+use crate::certify::{Certification, ExceededBy, NoPlant, SampledCertification};
 use crate::number::Direction;
 use crate::spec::ProvedValue;
 use rug::Rational;
@@ -48,7 +48,7 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
 }
 
 /// The same of a run about the regulator at samples.
-pub(crate) fn digital_remarks(run: &DigitalCertification<'_>) -> Vec<String> {
+pub(crate) fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
     of(run.no_plant.as_ref(), run.has_force_at_origin())
 }
 

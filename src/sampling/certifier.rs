@@ -1,11 +1,11 @@
 //! Certifying one pair of a gain and a sampling period, of a specification or of a plant.
 
-use crate::certify::{DigitalCertification, Ladder, Outcome, certify_digital, digital_model};
+use crate::certify::{Ladder, Outcome, SampledCertification, certify_sampled, sampled_model};
 use crate::data::Data;
-use crate::derivation::digital::SampledLaw;
+use crate::derivation::sampled::SampledLaw;
 use crate::enclosure::Enclosure;
-use crate::reduction::{DigitalPairs, PlantRefusal};
-use crate::search::{DigitalLimit, DigitalSearch, Extreme, Failing, FloatModel, Obstacle, search_sharp};
+use crate::reduction::{PlantRefusal, SampledPairs};
+use crate::search::{Extreme, Failing, FloatModel, Obstacle, SampledLimit, SampledSearch, search_sharp};
 use crate::spec::{InternalModel, Sampling, Specification};
 use crate::transfer::TradeOff;
 use rug::Rational;
@@ -27,12 +27,12 @@ pub struct Pair {
     /// theta.
     pub theta: Enclosure,
     /// What limits it, and about how far the forms are from where they fail.
-    pub limit: Option<(DigitalLimit, f64)>,
+    pub limit: Option<(SampledLimit, f64)>,
 }
 
 impl Pair {
     /// The pair of a run that certified one.
-    fn new(run: &DigitalCertification<'_>) -> Result<Pair, Obstacle> {
+    fn new(run: &SampledCertification<'_>) -> Result<Pair, Obstacle> {
         let Some(proof) = run.claim() else {
             return Err(match &run.outcome {
                 Outcome::NotFound(obstacle) => *obstacle,
@@ -93,15 +93,15 @@ impl Certifier for OfSpecification<'_> {
     }
 
     fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle> {
-        let run = certify_digital(self.spec, sampling, gain, None, Ladder::default());
+        let run = certify_sampled(self.spec, sampling, gain, None, Ladder::default());
         run.map_err(|_| Obstacle::from(Failing::Bounds)).and_then(|run| Pair::new(&run))
     }
 
     fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle> {
         let law = self.spec.internal_model.sampled_gain(&sampling.step).ok_or_else(|| beyond(sampling))?;
         let data = Data::new(self.spec, PRECISION);
-        let model = digital_model(&data, sampling, &law);
-        DigitalSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64()).at_gain(gain).map(drop)
+        let model = sampled_model(&data, sampling, &law);
+        SampledSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64()).at_gain(gain).map(drop)
     }
 
     fn model(&self) -> &InternalModel {
@@ -112,7 +112,7 @@ impl Certifier for OfSpecification<'_> {
 /// A plant whose orbit is proved and whose coordinates are chosen.
 pub struct OfPlant<'p> {
     /// The pairs of the plant.
-    pub pairs: &'p DigitalPairs<'p>,
+    pub pairs: &'p SampledPairs<'p>,
 }
 
 impl Certifier for OfPlant<'_> {
@@ -125,7 +125,7 @@ impl Certifier for OfPlant<'_> {
             PlantRefusal::NoGain(obstacle) => obstacle,
             _ => Failing::Bounds.into(),
         })?;
-        let run = certify_digital(&reduced.spec, sampling, gain, Some(&reduced.proposal), Ladder::default());
+        let run = certify_sampled(&reduced.spec, sampling, gain, Some(&reduced.proposal), Ladder::default());
         run.map_err(|_| Obstacle::from(Failing::Bounds)).and_then(|run| Pair::new(&run))
     }
 

@@ -32,8 +32,8 @@ fn fields(embedded: Field, digest: Field, of_plant: bool) -> Vec<Field> {
         must("name", "Name", "The program that wrote this file.", Shape::Text),
         must("version", "Version", "Its version.", Shape::Text),
     ];
-    let claims = [false, true].map(|digital| Shape::Object(claim(digital, of_plant)));
-    let witnesses = [Kind::MeanSquares, Kind::Contraction, Kind::Repaired, Kind::Digital];
+    let claims = [false, true].map(|sampled| Shape::Object(claim(sampled, of_plant)));
+    let witnesses = [Kind::MeanSquares, Kind::Contraction, Kind::Repaired, Kind::Sampled];
     let witnesses = Shape::OneOf(witnesses.map(|kind| Shape::Object(witness(kind, true))).into());
     let compared = vec![
         may(
@@ -76,10 +76,10 @@ fn named(name: &'static str, shape: Shape) -> Shape {
     Shape::Named(name, Box::new(shape))
 }
 
-fn claim(digital: bool, of_plant: bool) -> Vec<Field> {
+fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
     let word = |name, title: &str, text: &str, word| must(name, title, text, Shape::Word(vec![word]));
     let mut fields = vec![word("verdict", "Verdict", "Nothing else is written.", "certified")];
-    if digital {
+    if sampled {
         fields.extend([
             word("regulator", "Regulator", "The regulator at samples.", "digital"),
             word("derivation", "Derivation", "How it is proved.", "sharp"),
@@ -125,7 +125,7 @@ enum Kind {
     /// Of earlier versions.
     Contraction,
     Repaired,
-    Digital,
+    Sampled,
 }
 
 /// The free numbers of the other derivation.
@@ -147,7 +147,7 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
         Kind::MeanSquares => &["X_p", "E_p", "r_x", "r_e", "r_d", "kap", "D_x", "D_e", "w_x", "h", "k0", "k1"],
         Kind::Contraction => &["X_p", "E_p", "p_x", "p_e", "D_x", "D_e", "w_x", "h", "k0", "k1"],
         Kind::Repaired => &["X", "E", "L", "h", "p_x", "p_e", "k0", "k1"],
-        Kind::Digital => &["X_p", "E_p", "r_x", "r_e", "r_d", "D_x", "D_e", "w_x", "h", "k0", "k1", "weight_sum"],
+        Kind::Sampled => &["X_p", "E_p", "r_x", "r_e", "r_d", "D_x", "D_e", "w_x", "h", "k0", "k1", "weight_sum"],
     };
     let mut fields = numbers(names, "A free number of the proof.");
     fields.push(must("transfer", "Transfer bound", "How (k0, k1) is proved.", Shape::OneOf(transfer(kind))));
@@ -161,7 +161,7 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
         let refined = numbers(&["r_x", "r_e", "r_d"], "A root mean square of the periodic solution.");
         fields.push(may("refined", "Refined", "Smaller mean squares.", Shape::Object(refined)));
     }
-    if main && kind != Kind::Digital {
+    if main && kind != Kind::Sampled {
         let multipliers = numbers(&["l_x", "l_e", "l_f"], "A multiplier.");
         fields.push(may("lmi", "Multipliers", "C5 as a matrix inequality; a figure.", Shape::Object(multipliers)));
     }
@@ -173,7 +173,7 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
 
 fn transfer(kind: Kind) -> Vec<Shape> {
     let proof = |word| must("proof", "Proof", "Which proof it is.", Shape::Word(vec![word]));
-    if kind == Kind::Digital {
+    if kind == Kind::Sampled {
         return vec![Shape::Object(vec![proof("sampled")])];
     }
     let whole = |name| must(name, name, "A whole number of the proof.", Shape::Whole(0, 999_999_999));

@@ -5,7 +5,6 @@
 
 mod binding;
 mod candidate;
-mod digital;
 mod effort;
 mod error_box;
 mod exact;
@@ -18,13 +17,13 @@ mod periodic;
 mod printed;
 mod repaired;
 mod root;
+mod sampled;
 mod scan;
 mod sharp;
 mod smaller_set;
 
 pub use binding::Binding;
 pub use candidate::{AtSigma, active_level, weight_h};
-pub use digital::{DigitalLimit, DigitalProposal, DigitalSearch, ScanPoint};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;
 pub use minimise::{Descent, minimise};
@@ -33,6 +32,7 @@ pub use obstacle::{Closest, Extreme, Failing, Obstacle};
 pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
+pub use sampled::{SampledLimit, SampledProposal, SampledSearch, ScanPoint};
 pub use sharp::{
     OptionalDatum, SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near,
     sensitivities, without_optional_data,

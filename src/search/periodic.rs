@@ -6,13 +6,13 @@
 
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
-use crate::derivation::digital::{SampledGains, SampledLaw, SampledResponse, SampledSize};
 use crate::derivation::existence::kappas;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{
     DampedResponse, ErrorGains, Forcing, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,
     sup_by_mean_squares,
 };
+use crate::derivation::sampled::{SampledGains, SampledLaw, SampledResponse, SampledSize};
 use crate::number::Portable;
 
 /// Which form of S2 existence is sought with.

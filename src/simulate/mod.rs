@@ -7,7 +7,6 @@ mod adaptive;
 mod bode;
 mod closed_loop;
 mod collocation;
-mod digital;
 mod effort;
 mod figures;
 mod fixed;
@@ -19,17 +18,13 @@ mod period;
 mod radau;
 mod report;
 mod run;
+mod sampled;
 mod steady;
 mod stiffness;
 
 pub use adaptive::{IntegrationFailure, Tolerance, flow, trajectory};
 pub use bode::{frequencies, magnitude};
 pub use closed_loop::{ClosedLoop, Disturbance, Noise};
-pub use digital::{
-    Converters, DigitalLongRun, DigitalLoop, DigitalReport, DigitalRun, DigitalSettings, DigitalSimulation,
-    DigitalSteady, DigitalSteadyError, PeriodSums, Piece, digital_csv, digital_figures, digital_periodic_solution,
-    digital_steady_state, period_derivative, simulate_digital,
-};
 pub use effort::{MAX_NUMBERS, MAX_OPERATIONS};
 pub use figures::{FIGURE_FILES, bode, csv, figures, spectrum, spectrum_curve};
 pub use fixed::FixedStep;
@@ -39,6 +34,11 @@ pub use orbit::{Orbit, amplitudes, rms, sup};
 pub use report::SimulationReport;
 pub use run::{
     Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SimulationSettings, SteadyFigures, noisy_run, simulate,
+};
+pub use sampled::{
+    Converters, PeriodSums, Piece, SampledLongRun, SampledLoop, SampledReport, SampledRun, SampledSettings,
+    SampledSimulation, SampledSteady, SampledSteadyError, period_derivative, sampled_csv, sampled_figures,
+    sampled_periodic_solution, sampled_steady_state, simulate_sampled,
 };
 pub use steady::{SteadyState, SteadyStateError, steady_state};
 pub use stiffness::{MAX_FIXED_STEPS, enough_steps, is_stable};

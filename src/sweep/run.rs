@@ -2,10 +2,10 @@
 
 use super::cases::{Case, Sweep};
 use super::row::{Claim, Row, RowError};
-use crate::certify::{Certification, Derivation, DigitalCertification, Options, Verdict, verdict_of_errors};
+use crate::certify::{Certification, Derivation, Options, SampledCertification, Verdict, verdict_of_errors};
 use crate::progress::Progress;
 use crate::reduction::{Prepared, Run, Subject};
-use crate::report::{DigitalReport, sentence};
+use crate::report::{SampledReport, sentence};
 use crate::spec::SpecErrors;
 use rayon::prelude::*;
 
@@ -50,7 +50,7 @@ fn attempt(case: &Case, derivation: Derivation) -> Result<Row, Vec<SpecErrors>> 
     Ok(match &run {
         Run::Continuous(run) => told(run.verdict, continuous_claim(run), || sentence(run), &unproved),
         Run::Sampled(run) => {
-            told(run.verdict, digital_claim(run), || DigitalReport::new(run, false).sentence(), &unproved)
+            told(run.verdict, sampled_claim(run), || SampledReport::new(run, false).sentence(), &unproved)
         }
     })
 }
@@ -60,7 +60,7 @@ fn continuous_claim(run: &Certification<'_>) -> Option<Claim> {
     Some(Claim::new(sigma, set, &periodic, run.no_plant.is_some()))
 }
 
-fn digital_claim(run: &DigitalCertification<'_>) -> Option<Claim> {
+fn sampled_claim(run: &SampledCertification<'_>) -> Option<Claim> {
     let (witness, periodic) = (&run.claim()?.witness, run.periodic_solution()?);
     let claim = Claim::new(&witness.sigma, &witness.set, &periodic, run.no_plant.is_some());
     Some(Claim { sampling_period: Some(run.sampling.text()), ..claim })

@@ -93,7 +93,8 @@ fn found(src: &str) -> Imports {
         let top = Path::new(&top).file_stem().unwrap().to_str().unwrap().to_owned();
         let text = std::fs::read_to_string(&path).unwrap();
         let code = text.split("#[cfg(test)]\nmod tests").next().unwrap();
-        let code: String = code.lines().filter(|line| !line.trim_start().starts_with("//")).map(|l| format!("{l}\n")).collect();
+        let code: String =
+            code.lines().filter(|line| !line.trim_start().starts_with("//")).map(|l| format!("{l}\n")).collect();
         found.entry(top).or_default().extend(imported(&code));
     }
     let tops: BTreeSet<String> = found.keys().cloned().collect();

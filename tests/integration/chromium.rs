@@ -90,7 +90,7 @@ fn every_page(folder: &Path) -> Vec<PathBuf> {
     let jacobian = "specs/paper-example-jacobian.json";
     let others: [(&str, &[&str], i32); 11] = [
         ("plant", &["certify", PLANT, "-q"], 0),
-        ("digital", &["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0),
+        ("sampled", &["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0),
         ("refuted", &["certify", EXAMPLE, "-q", "--derivation", "printed"], 1),
         ("transfer", &["transfer", EXAMPLE, "-q", "--n-o", "0,1,2,5,10,inf"], 0),
         ("rate", &["rate", EXAMPLE, "--n-o", "0..3"], 0),
@@ -190,8 +190,8 @@ fn the_first_screen_answers_what_a_reader_asks() {
     let cases: [(&str, &[&str], i32, u64); 6] = [
         ("claim", &["certify", EXAMPLE, "-q"], 0, 4),
         ("plant", &["certify", PLANT, "-q"], 0, 4),
-        ("digital", &["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0, 4),
-        ("digital-undecided", &["certify", AT_REST, "-q", "--sampling-period", "1/10"], 3, 2),
+        ("sampled", &["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0, 4),
+        ("sampled-undecided", &["certify", AT_REST, "-q", "--sampling-period", "1/10"], 3, 2),
         ("undecided", &["certify", EXAMPLE, "-q", "--sigma", "30"], 3, 2),
         ("refuted", &["certify", EXAMPLE, "-q", "--derivation", "printed"], 1, 2),
     ];

@@ -3,8 +3,8 @@
 
 use assert_cmd::Command;
 use serde_json::{Map, Value, json};
-use sigmastar::certificate::{certificate_json, digital_certificate_json};
-use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice, certify, certify_digital, resolve};
+use sigmastar::certificate::{certificate_json, sampled_certificate_json};
+use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice, certify, certify_sampled, resolve};
 use sigmastar::plant::Plant;
 use sigmastar::regulator::read_regulator;
 use sigmastar::spec::{Document, SpecErrors, Specification};
@@ -273,19 +273,19 @@ fn certificates() -> Vec<Value> {
         assert!(none["no_plant"].is_object(), "{}", none["no_plant"]);
         all.push(none);
     }
-    all.push(digital_certificate());
+    all.push(sampled_certificate());
     all
 }
 
 /// That of the example on the page.
-fn digital_certificate() -> Value {
+fn sampled_certificate() -> Value {
     let mut document = parsed(&file("specs/paper-example-rms-at-rest.json"), "the example at rest");
     document["internal_model"]["sampling_period"] = json!("1/1000");
     let spec = specification(&document.to_string(), "sampled");
     let sampling = spec.internal_model.sampling.clone().expect("it is given");
     let run =
-        certify_digital(&spec, &sampling, Some(&25.into()), None, Ladder::default()).expect("the bounds are proved");
-    digital_certificate_json(&run).expect("it certifies")
+        certify_sampled(&spec, &sampling, Some(&25.into()), None, Ladder::default()).expect("the bounds are proved");
+    sampled_certificate_json(&run).expect("it certifies")
 }
 
 /// The lines of a sweep at samples with a case that is certified, one that is not and one that is refused.
@@ -375,7 +375,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                 let parameters = ["controller", EXAMPLE, "--sigma", "48", "--n-o", "1"];
                 let certified = ["controller", VALID, "--n-o", "0", "--discretise", "1/1000", "--saturation", "9"];
                 let sampled = path("sampled.json");
-                std::fs::write(&sampled, digital_certificate().to_string()).expect("written");
+                std::fs::write(&sampled, sampled_certificate().to_string()).expect("written");
                 vec![
                     other(&["controller", &sampled, "--n-o", "3"]),
                     other(&parameters),
@@ -401,7 +401,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             }),
             ("falsification-fragment", {
                 let at_samples = path("samples.json");
-                std::fs::write(&at_samples, crate::digital_falsify::CERTIFICATE.to_string()).expect("written");
+                std::fs::write(&at_samples, crate::sampled_falsify::CERTIFICATE.to_string()).expect("written");
                 vec![
                     other(&[&falsify[..], &["--base-frequency", "3*pi"]].concat()),
                     other(&["falsify", "-q", "--trials", "2", &at_samples]),

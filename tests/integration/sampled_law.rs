@@ -5,7 +5,7 @@ use crate::controller::{constant, example};
 use crate::support::every;
 use faer::Mat;
 use proptest::prelude::*;
-use sigmastar::regulator::{Design, Discrete, Regulator, SampledLoop, Stepper, spectral_radius};
+use sigmastar::regulator::{Convergence, Design, Discrete, Regulator, Stepper, spectral_radius};
 use sigmastar::spec::{Constant, InternalModel};
 
 /// The internal model of the paper's example with another mu; T = 1.
@@ -17,12 +17,12 @@ fn step(samples: u32) -> Constant {
     constant(&format!("1/{samples}"))
 }
 
-fn sampled(model: &InternalModel, sigma: &str, n_o: u32, samples: u32) -> (Regulator, Discrete, SampledLoop) {
+fn sampled(model: &InternalModel, sigma: &str, n_o: u32, samples: u32) -> (Regulator, Discrete, Convergence) {
     let (sigma, step) = (constant(sigma), step(samples));
     let design = Design::new(model, &sigma, n_o);
     assert!(design.sampling_errors(&step).is_empty());
     let (regulator, discrete) = (design.regulator(), design.discretise(&step).unwrap());
-    let sampled = SampledLoop::new(&design, &step, &regulator, &discrete).unwrap();
+    let sampled = Convergence::new(&design, &step, &regulator, &discrete).unwrap();
     (regulator, discrete, sampled)
 }
 

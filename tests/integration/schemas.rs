@@ -50,7 +50,7 @@ fn every_shipped_file_is_valid() {
         (Schema::Study, &["specs/studies"]),
         (
             Schema::Certificate,
-            &["proofs-check/tests/certificates", "proofs-check/tests/digital", "proofs-check/tests/forged"],
+            &["proofs-check/tests/certificates", "proofs-check/tests/sampled", "proofs-check/tests/forged"],
         ),
     ] {
         let validator = validator(schema);
@@ -346,7 +346,7 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
         assert!(found.is_empty(), "{}: {found:#?}", shipped.name);
         names(&shipped.certificate, &mut used);
     }
-    for folder in ["proofs-check/tests/certificates", "proofs-check/tests/digital", "proofs-check/tests/plants"] {
+    for folder in ["proofs-check/tests/certificates", "proofs-check/tests/sampled", "proofs-check/tests/plants"] {
         for path in files(folder).iter().filter(|path| !path.ends_with("plants/paper-example.json")) {
             let certificate = parsed(path);
             assert!(validator.is_valid(&certificate), "{}", path.display());

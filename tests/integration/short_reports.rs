@@ -1,6 +1,6 @@
 //! The short forms of reports, and how to see the rest.
 
-use crate::support::{EXAMPLE, PLANT, ROOT, answer, files, program, stem, utf8};
+use crate::support::{EXAMPLE, PLANT, ROOT, answer, files, stem, utf8};
 
 const AT_REST: &str = "specs/paper-example-at-rest.json";
 const JACOBIAN: &str = "specs/paper-example-jacobian.json";

@@ -131,7 +131,7 @@ impl Attempt<'_> {
         self.conditions(&proved);
         self.tight(&proved.sizes());
         // Those that follow are of a continuous regulator.
-        if main.is_digital() {
+        if main.is_sampled() {
             return;
         }
         self.multipliers(main, &proved);

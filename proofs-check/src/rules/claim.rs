@@ -1,6 +1,6 @@
 //! Rule: the claim says what the witness proves, and nothing that it does not.
 
-use super::digital::claim::{N_O, Regulator};
+use super::sampled::claim::{N_O, Regulator};
 use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
@@ -17,10 +17,10 @@ const RULE: &str = "claim";
 pub struct Claim<'a> {
     /// `sharp` (true) or `repaired`.
     pub sharp: bool,
-    /// sigma*, or the one gain of a digital regulator.
+    /// sigma*, or the one gain of a sampled regulator.
     pub sigma: Rational,
-    /// The digital regulator that it is about, if it is.
-    pub digital: Option<Regulator<'a>>,
+    /// The sampled regulator that it is about, if it is.
+    pub sampled: Option<Regulator<'a>>,
     /// X_0, E_0, Z_0.
     pub set: [Rational; 3],
     /// Bounds of the periodic solution.
@@ -81,11 +81,11 @@ impl<'a> Claim<'a> {
             "repaired" => false,
             _ => return bad(&derivation.pointer, "only `sharp` and `repaired` can be claimed"),
         };
-        let digital = Regulator::read(&mut fields)?;
-        if digital.is_some() && !sharp {
-            return bad(&derivation.pointer, "only `sharp` can be claimed of a digital regulator");
+        let sampled = Regulator::read(&mut fields)?;
+        if sampled.is_some() && !sharp {
+            return bad(&derivation.pointer, "only `sharp` can be claimed of a sampled regulator");
         }
-        let (sigma, sigma_text) = match &digital {
+        let (sigma, sigma_text) = match &sampled {
             Some(regulator) => (regulator.sigma.clone(), ""),
             None => {
                 let sigma = fields.required("sigma_star")?;
@@ -101,7 +101,7 @@ impl<'a> Claim<'a> {
         let claim = Claim {
             sharp,
             sigma,
-            digital,
+            sampled,
             set: numbers,
             ball,
             sigma_text,
@@ -122,7 +122,7 @@ impl<'a> Claim<'a> {
     pub fn check(&self, d: &Data<'_>, sizes: &Sizes, exact: [&Rational; 2]) -> Outcome<()> {
         reads(RULE, &self.verdict, "certified")?;
         let spec = d.spec;
-        match &self.digital {
+        match &self.sampled {
             None => reads(RULE, &self.n_o, "every n_o >= 0")?,
             Some(regulator) => {
                 reads(RULE, &self.n_o, N_O)?;
@@ -144,7 +144,7 @@ impl<'a> Claim<'a> {
         let mut fields = self.periodic.fields()?;
         for (index, (name, mine)) in sizes.named(d).into_iter().enumerate() {
             // z is a state at the samples alone.
-            let field = match self.digital {
+            let field = match self.sampled {
                 Some(_) if name == "z" => fields.optional(name),
                 _ => Some(fields.required(name)?),
             };
@@ -196,7 +196,7 @@ impl<'a> Claim<'a> {
 
     /// The beginning of the claim in words, and where its solutions start.
     fn regulator(&self, spec: &Specification) -> (String, &'static str) {
-        if let Some(regulator) = &self.digital {
+        if let Some(regulator) = &self.sampled {
             return (regulator.in_words(spec), "sampling instant");
         }
         let reach = if spec.matched { "" } else { " (which need not match the period)" };

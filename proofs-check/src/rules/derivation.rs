@@ -4,7 +4,7 @@
 //! as they must be up to every argument that is used, and so the claim at `sigma` and `set` is proved.
 
 use super::claim::Sizes;
-use super::digital::{self, claim::Regulator};
+use super::sampled::{self, claim::Regulator};
 use super::stability::Plant;
 use super::transfer::Proof;
 use super::{bounding, mean_squares, regulation, repaired, sharp};
@@ -20,8 +20,8 @@ pub enum Witnesses {
     Sharp(Box<sharp::Witness>),
     /// The paper's architecture.
     Repaired(Box<repaired::Witness>),
-    /// A digital regulator: section 12.
-    Digital(Box<digital::Witness>),
+    /// A sampled regulator: section 12.
+    Sampled(Box<sampled::Witness>),
 }
 
 /// One derivation with its witness.
@@ -37,8 +37,8 @@ pub enum Proved {
     Sharp(Box<sharp::Sharp>),
     /// The paper's architecture.
     Repaired(Box<repaired::Repaired>),
-    /// A digital regulator: section 12.
-    Digital(Box<digital::Digital>),
+    /// A sampled regulator: section 12.
+    Sampled(Box<sampled::Sampled>),
 }
 
 fn proof(field: &Field<'_>) -> Outcome<Proof> {
@@ -118,10 +118,10 @@ impl Derivation {
         Ok(Derivation { witnesses: Witnesses::Sharp(Box::new(w)), regulation })
     }
 
-    /// The same for a digital regulator.
-    pub fn read_digital(fields: &mut Fields<'_>, regulator: &Regulator<'_>, set: [Rational; 3]) -> Outcome<Derivation> {
-        let w = digital::Witness::read(fields, regulator, set)?;
-        Ok(Derivation { witnesses: Witnesses::Digital(Box::new(w)), regulation: None })
+    /// The same for a sampled regulator.
+    pub fn read_sampled(fields: &mut Fields<'_>, regulator: &Regulator<'_>, set: [Rational; 3]) -> Outcome<Derivation> {
+        let w = sampled::Witness::read(fields, regulator, set)?;
+        Ok(Derivation { witnesses: Witnesses::Sampled(Box::new(w)), regulation: None })
     }
 
     /// Whether it is the sharp one in continuous time.
@@ -129,9 +129,9 @@ impl Derivation {
         matches!(self.witnesses, Witnesses::Sharp(_))
     }
 
-    /// Whether it is about a digital regulator.
-    pub fn is_digital(&self) -> bool {
-        matches!(self.witnesses, Witnesses::Digital(_))
+    /// Whether it is about a sampled regulator.
+    pub fn is_sampled(&self) -> bool {
+        matches!(self.witnesses, Witnesses::Sampled(_))
     }
 
     /// Whether existence is that of section 10.
@@ -139,7 +139,7 @@ impl Derivation {
         match &self.witnesses {
             Witnesses::Sharp(w) => matches!(w.existence, sharp::By::MeanSquares(_)),
             Witnesses::Repaired(_) => false,
-            Witnesses::Digital(_) => true,
+            Witnesses::Sampled(_) => true,
         }
     }
 
@@ -153,7 +153,7 @@ impl Derivation {
         match &self.witnesses {
             Witnesses::Sharp(w) => [&w.x_p, &w.e_p],
             Witnesses::Repaired(w) => [&w.x, &w.e],
-            Witnesses::Digital(w) => [&w.x_p, &w.e_p],
+            Witnesses::Sampled(w) => [&w.x_p, &w.e_p],
         }
     }
 
@@ -162,7 +162,7 @@ impl Derivation {
         Ok(match &self.witnesses {
             Witnesses::Sharp(w) => Proved::Sharp(Box::new(sharp::evaluate(d, w)?)),
             Witnesses::Repaired(w) => Proved::Repaired(Box::new(repaired::evaluate(d, w)?)),
-            Witnesses::Digital(w) => Proved::Digital(Box::new(digital::evaluate(d, w)?)),
+            Witnesses::Sampled(w) => Proved::Sampled(Box::new(sampled::evaluate(d, w)?)),
         })
     }
 
@@ -172,7 +172,7 @@ impl Derivation {
         let (name, pointer, sigma, set) = match &self.witnesses {
             Witnesses::Sharp(w) => ("sharp", &w.pointer, &w.sigma, &w.set),
             Witnesses::Repaired(w) => ("repaired", &w.pointer, &w.sigma, &w.set),
-            Witnesses::Digital(w) => ("digital", &w.pointer, &w.terms.sigma, &w.set),
+            Witnesses::Sampled(w) => ("sampled", &w.pointer, &w.terms.sigma, &w.set),
         };
         lines.push(format!("{name} derivation, sigma = {sigma}"));
         let (transfer, conditions, arguments) = proved.parts();
@@ -194,7 +194,7 @@ impl Proved {
         match self {
             Proved::Sharp(s) => (&s.transfer, &s.conditions, &s.arguments),
             Proved::Repaired(r) => (&r.transfer, &r.conditions, &r.arguments),
-            Proved::Digital(digital) => (&digital.transfer, &digital.conditions, &digital.arguments),
+            Proved::Sampled(sampled) => (&sampled.transfer, &sampled.conditions, &sampled.arguments),
         }
     }
 
@@ -213,7 +213,7 @@ impl Proved {
         let [x, e, zeta] = match self {
             Proved::Sharp(s) => [&s.solution.x, &s.solution.e, &s.z],
             Proved::Repaired(r) => [&r.existence.x_p, &r.existence.e_p, &r.z],
-            Proved::Digital(digital) => [&digital.solution.x, &digital.solution.e, &digital.solution.z],
+            Proved::Sampled(sampled) => [&sampled.solution.x, &sampled.solution.e, &sampled.solution.z],
         };
         Sizes { x: x.clone(), e: e.clone(), zeta: zeta.clone() }
     }

@@ -2,7 +2,6 @@
 pub mod bounding;
 pub mod claim;
 pub mod derivation;
-pub mod digital;
 pub mod existence;
 pub mod gains;
 pub mod lyapunov;
@@ -10,6 +9,7 @@ pub mod mean_squares;
 pub mod period;
 pub mod regulation;
 pub mod repaired;
+pub mod sampled;
 pub mod set;
 pub mod sharp;
 pub mod stability;

@@ -140,7 +140,11 @@ fn relative(case: u64) -> (Parts, &'static str, String) {
             (moved.with("/witness/lyapunov_existence", p), "rate_existence", format!("{}", 1.0 - step / 2.0))
         }
         2 => (unmoved(&format!("cos(2*pi*t) + {m}")), "q_x", format!("{}", slope + step / 2.0)),
-        _ => (unmoved(&format!("cos(2*pi*t)*(1 + {m})")), "q_tx", format!("{}", 6.2831853 * (slope + step / 2.0))),
+        _ => (
+            unmoved(&format!("cos(2*pi*t)*(1 + {m})")),
+            "q_tx",
+            format!("{}", std::f64::consts::TAU * (slope + step / 2.0)),
+        ),
     }
 }
 

@@ -12,7 +12,7 @@ pub use matlab::matlab;
 pub use notice::{Provenance, SAMPLED_LAW, Scope, notice};
 pub use npz::npz;
 
-use super::{Discrete, Regulator, SampledLoop};
+use super::{Convergence, Discrete, Regulator};
 
 /// What is written out.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub struct Export<'r> {
     /// The regulator.
     pub regulator: &'r Regulator,
     /// Its discretisation and what that does to the loop, where one was asked for.
-    pub discrete: Option<(&'r Discrete, SampledLoop)>,
+    pub discrete: Option<(&'r Discrete, Convergence)>,
     /// The certificate, where one was given for this plant.
     pub certificate: Option<&'r Provenance>,
 }

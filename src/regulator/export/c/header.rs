@@ -4,13 +4,13 @@ use super::literal::hexadecimal;
 use super::{Prefix, harmless};
 use crate::regulator::export::notice::comment;
 use crate::regulator::export::{Export, decimal, notice};
-use crate::regulator::{Discrete, SampledLoop};
+use crate::regulator::{Convergence, Discrete};
 
 /// The header, with what is claimed and what is not in front.
 pub(super) fn header(
     export: &Export<'_>,
     discrete: &Discrete,
-    sampled: SampledLoop,
+    sampled: Convergence,
     prefix: &Prefix,
     id: &str,
 ) -> String {

@@ -1,0 +1,49 @@
+//! Rules S1 and S2 for a sampled regulator: the periodic solution, at every phase of the sampling grid (docs/mathematics.md,
+//! section 12.2).
+//!
+//! Guarantee: for every n_o < N_s/2 there is a T-periodic solution with sup|x| <= X_p, sup|e| <= E_p at all times, rms(x) <= r_x,
+//! rms(e) <= r_e, rms(e') <= r_d, and `|zeta_k|_N <= Z` at all samples. Nothing is said of another sigma or h. The bounds of `q_0`
+//! for the response to harmonics are those of a continuous regulator, and are not used; what it says of q is.
+
+use super::gains::Gains;
+use super::law::Law;
+use crate::interval::Interval;
+use crate::rules::mean_squares::{Bounds, Means};
+use crate::verdict::Condition;
+
+/// What is proved of the periodic solution.
+pub struct Solution {
+    pub x: Interval,
+    pub e: Interval,
+    pub z: Interval,
+    pub conditions: Vec<Condition>,
+}
+
+/// Evaluates S1 and S2; `pair` is (k0, k1), which the transfer rule has to settle.
+pub fn evaluate(law: &Law<'_>, means: &Means, [x_p, e_p]: [&Interval; 2], pair: [&Interval; 2]) -> Solution {
+    let d = law.d;
+    let bounds = Bounds::new(d, &law.sigma, [x_p, e_p]);
+    let r = means.each_ref().map(|value| d.number(value));
+    let [_, r_e, r_d] = &r;
+    let [[r_q, r_1], _] = bounds.inputs(&r);
+    let gains = Gains::new(law);
+    let pi = Interval::pi(d.precision);
+    // Between samples e is a linear interpolation and G, which vanishes at both ends: sup|G| and rms(G).
+    let between = &law.h / (&pi * 2) * (&law.h * &d.period).sqrt() * &r_1;
+    let between_rms = (&law.h / &pi).sqr() * &r_1;
+    let at_samples = (&gains.sup * &r_q).least(&(&gains.sup_t * &r_1));
+    // sum e_k = 0, so e has a zero.
+    let sup_e = (at_samples + between).least(&(&d.period * r_e * r_d).sqrt());
+    let rms_e = (&gains.rms * &r_q).least(&(&gains.rms_t * &r_1)) + between_rms;
+    let steepest = &law.growth * 2 / (2 - &law.share) * &r_q;
+    let rms_e_t = steepest.least(&((gains.rms.sqr() + (&law.h / &pi).sqr()).sqrt() * &r_1));
+
+    let mut conditions = bounds.of_states(&r);
+    conditions.push(Condition::at_most("S2", "sup|e| <= E_p", sup_e.clone(), e_p.clone()));
+    conditions.push(Condition::at_most("S2b", "rms(e) <= r_e", rms_e, r_e.clone()));
+    conditions.push(Condition::at_most("S2c", "rms(e') <= r_d", rms_e_t, r_d.clone()));
+    let e = e_p.min(&sup_e);
+    let w_squared = d.w.sqr();
+    let mean = (&d.period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();
+    Solution { x: bounds.sup_x(&e, r_e), z: &law.growth * mean.sqrt(), e, conditions }
+}

@@ -1,0 +1,63 @@
+//! What the sampled loop makes of a periodic input, uniformly in n_o (docs/mathematics.md, sections 12.1 and 12.2, S3).
+//!
+//! The harmonic j of e is `S_j h/(e^{i om h} - a)` times that of the mean input, `|e^{i om h} - a|^2 = (h sigma)^2 + a (h om_j)^2`, and
+//! `|S_j| <= Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|}`; S_0 = 0.
+
+use super::law::Law;
+use crate::interval::Interval;
+
+/// Up to so many samples 1/|cos| is used; beyond, where theta is small, Sb_j = 1 + theta and sg_S = sg_h/(1 + theta).
+const MAX_SHARPENED: u32 = 8192;
+
+/// The gains from the mean input over a step, or from its differences over h.
+pub struct Gains {
+    /// `bt_S^2 = sum_{j=1}^{N_s-1} Sb_j^2/(sigma^2 + a om_j^2)`: sup|e_k| over rms(q).
+    pub sup: Interval,
+    /// `tau_S^2 = sum_{j=1}^{N_s-1} Sb_j^2/(om_j^2 (sigma^2 + a om_j^2))`: sup|e_k| over rms(q').
+    pub sup_t: Interval,
+    /// 1/sg_S: rms(e_k) over rms(q), and rms of (e_{k+1} - e_k)/h over rms(q').
+    pub rms: Interval,
+    /// 1/(om_1 sg_S): rms(e_k) over rms(q').
+    pub rms_t: Interval,
+}
+
+impl Gains {
+    /// Sums over the harmonics; j and N_s - j are equal.
+    pub fn new(law: &Law<'_>) -> Gains {
+        let d = law.d;
+        let (mut sup, mut sup_t) = (d.int(0), d.int(0));
+        let sigma_squared = law.sigma.sqr();
+        let largest = law.growth.sqr();
+        let sharpened = law.samples <= MAX_SHARPENED;
+        for j in 1..=law.samples / 2 {
+            let sine = law.sine(j);
+            let frequency = law.frequency_squared(&sine);
+            // At j = N_s/2 the cosine is 0.
+            let share = if sharpened { largest.least(&(1 - sine.sqr()).recip()) } else { largest.clone() };
+            let gain = share / (&sigma_squared + &law.a * &frequency);
+            let times = if 2 * j == law.samples { 1 } else { 2 };
+            sup_t = sup_t + &gain / frequency * times;
+            sup = sup + gain * times;
+        }
+        let rms = slowest(law, sharpened).recip();
+        let om_1 = law.frequency_squared(&law.sine(1)).sqrt();
+        Gains { sup: sup.sqrt(), sup_t: sup_t.sqrt(), rms_t: &rms / om_1, rms }
+    }
+}
+
+/// `sg_S = max{ sg_h/(1+theta), min{ cos(pi/N_s) sg_h, sqrt(sigma^2 + 4 a s*/h^2)/(1+theta) } }`, `s* = 1 - (1+theta)^-2`: at most
+/// `sqrt(sigma^2 + a om_j^2)/Sb_j` for every j. With s = sin^2, `(1 - s)(sigma^2 + 4 a s/h^2)` is concave, so least at an end of
+/// [s_1, s*]; beyond s* the other part of Sb_j counts.
+fn slowest(law: &Law<'_>, sharpened: bool) -> Interval {
+    let d = law.d;
+    let sine = law.sine(1);
+    let speed = |squared: Interval| (law.sigma.sqr() + &law.a * squared).sqrt();
+    let first = speed(law.frequency_squared(&sine));
+    if !sharpened {
+        return first / &law.growth;
+    }
+    let cosine = (1 - sine.sqr()).max(&d.int(0)).sqrt();
+    let turn = (1 - law.growth.sqr().recip()).max(&d.int(0));
+    let at_turn = speed(turn * 4 / law.h.sqr()) / &law.growth;
+    (&first / &law.growth).max(&(cosine * first).min(&at_turn))
+}

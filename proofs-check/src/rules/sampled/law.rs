@@ -1,0 +1,113 @@
+//! Rule S0: the sampled law that is claimed, and the numbers that follow from it (docs/mathematics.md, section 12).
+//!
+//! `u_k = -sigma e_k + K v_k`, `v_k = M'N R (z_k - M e_k)`, `z_{k+1} = R (z_k - M e_k) + (1 - h sigma) M e_k`, `R = e^{Phi h}`, with
+//! `h = T/N_s` and 2 n_o < N_s. Guarantee, where the conditions hold: for every such n_o the response y of `q_k + K v_k` to a periodic
+//! input has `|y_j| <= (1 + theta)|q_j|` in every harmonic, and none at j = 0; the loop without input is stable.
+
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::verdict::{Condition, Outcome, Verdict, demand, finding};
+use rug::Rational;
+
+/// The name of this rule.
+pub const RULE: &str = "sampled regulator";
+/// The most samples in a period: the sums of section 12.1 have as many terms.
+const MAX_SAMPLES: u32 = 65_536;
+/// How far mu may lie from that of the specification, relatively: one part in this many.
+const MU_PARTS: i64 = 1_000_000;
+
+/// What is claimed of the law.
+#[derive(Clone, Debug)]
+pub struct Terms {
+    pub sigma: Rational,
+    /// N_s >= 2.
+    pub samples: u32,
+    /// K.
+    pub gain: Rational,
+    /// Nb2, at least the sum of all weights.
+    pub weight_sum: Rational,
+}
+
+/// The numbers of section 12 under their names there.
+pub struct Law<'a> {
+    pub d: &'a Data<'a>,
+    pub samples: u32,
+    pub sigma: Interval,
+    /// h = T/N_s.
+    pub h: Interval,
+    /// h sigma.
+    pub share: Interval,
+    /// a = 1 - h sigma >= 0.
+    pub a: Interval,
+    /// K.
+    pub gain: Interval,
+    /// K h Nb2/2 = theta/(1 + theta).
+    pub loss: Interval,
+    /// 1 + theta = 1/(1 - K h Nb2/2).
+    pub growth: Interval,
+    /// mu = K (1 + theta), which need not be exactly that of the specification.
+    pub mu: Interval,
+    weight_sum: Interval,
+}
+
+impl<'a> Law<'a> {
+    /// Encloses the numbers; N_s is the one that is claimed, so h is T/N_s exactly.
+    pub fn new(d: &'a Data<'a>, terms: &Terms) -> Law<'a> {
+        let [sigma, gain, weight_sum] = [&terms.sigma, &terms.gain, &terms.weight_sum].map(|value| d.number(value));
+        let h = &d.period / i64::from(terms.samples);
+        // Where T is rational h sigma may be exactly 1.
+        let share = match d.spec.period.rational() {
+            Some(period) => d.number(&(period * &terms.sigma / terms.samples)),
+            None => &h * &sigma,
+        };
+        let loss = &gain * &h * &weight_sum / 2;
+        let rest = 1 - &loss;
+        let growth = if rest.is_positive() { rest.recip() } else { Interval::undefined(d.precision) };
+        Law {
+            a: (1 - &share).max(&d.int(0)),
+            mu: &gain * &growth,
+            samples: terms.samples,
+            d,
+            sigma,
+            h,
+            share,
+            gain,
+            loss,
+            growth,
+            weight_sum,
+        }
+    }
+
+    /// S0, all of it decided here: what follows is not even defined without it.
+    pub fn conditions(&self, pointer: &str) -> Outcome<Vec<Condition>> {
+        let d = self.d;
+        demand(Some(d.spec.matched), RULE, pointer, "a sampled regulator needs `matched` in the specification")?;
+        if self.samples > MAX_SAMPLES {
+            let message = format!("more than {MAX_SAMPLES} samples in a period are not looked at");
+            return Err(finding(Verdict::Undecided, RULE, pointer, message));
+        }
+        let apart = (&self.mu - &d.mu).abs();
+        let conditions = vec![
+            Condition::at_most("S0", "h sigma <= 1", self.share.clone(), d.int(1)),
+            Condition::at_most("S0b", "Nbar^2 <= weight_sum", d.n_bar.sqr(), self.weight_sum.clone()),
+            Condition::less("S0c", "K h weight_sum < 2", &self.loss * 2, d.int(2)),
+            Condition::at_most("S0d", "|K (1 + theta) - mu| <= mu/10^6", apart, &d.mu / MU_PARTS),
+        ];
+        conditions.iter().try_for_each(|condition| condition.demand(RULE, pointer))?;
+        // A larger sum would let a smaller K pass for the mu that is asked for.
+        let largest = d.n_bar.sqr() * (d.int(1) + d.int(1) / MU_PARTS);
+        let what = "weight_sum <= Nbar^2 (1 + 1/10^6)";
+        Condition::at_most("S0b", what, self.weight_sum.clone(), largest).demand(RULE, pointer)?;
+        Ok(conditions)
+    }
+
+    /// sin(pi j/N_s).
+    pub fn sine(&self, j: u32) -> Interval {
+        (Interval::pi(self.d.precision) * i64::from(j) / i64::from(self.samples)).sin()
+    }
+
+    /// om_j^2 = (2/h)^2 sin^2(pi j/N_s), from the sine.
+    pub fn frequency_squared(&self, sine: &Interval) -> Interval {
+        (sine * 2 / &self.h).sqr()
+    }
+}

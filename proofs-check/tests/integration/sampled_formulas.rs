@@ -1,0 +1,357 @@
+//! Every formula of section 12 against floating point, and against the sampled loop itself.
+
+use crate::common::certificate;
+use proofs_check::data::Data;
+use proofs_check::interval::Interval;
+use proofs_check::json::{Field, decimal, parse};
+use proofs_check::rules::sampled::existence;
+use proofs_check::rules::sampled::gains::Gains;
+use proofs_check::rules::sampled::law::{Law, Terms};
+use proofs_check::rules::sampled::stability::{self, Weights};
+use proofs_check::rules::sampled::transfer;
+use proofs_check::rules::stability::{ErrorBox, Plant};
+use proofs_check::spec::Specification;
+use proofs_check::verdict::Verdict;
+use rug::Rational;
+use serde_json::json;
+use std::f64::consts::PI;
+
+/// n_0 = 2, n_l = l^-1.5: the sum of all.
+const NBAR_SQUARED: f64 = 4.612_375_348_685_488;
+
+/// The paper's example with another T and mu, and q steep enough for its parts to be seen.
+fn specification(period: &str, mu: f64) -> Specification {
+    let mut document = certificate("paper-example.means")["specification"].clone();
+    document["period"] = json!(period);
+    document["internal_model"]["mu"] = json!(format!("{mu}"));
+    document["internal_model"]["base_frequency"] = json!(format!("2*pi/({period})"));
+    document["bounds"]["q_e"] = json!("0.5 + 2*X + 3*E");
+    document["bounds"]["q_x"] = json!("0.3 + 0.5*X + 0.7*E");
+    document["bounds"]["q_e_max"] = json!("0.1 + X + E");
+    let (json, none) = (parse(document.to_string().as_bytes()).unwrap(), parse(b"{}").unwrap());
+    let field = |json| Field { json, pointer: String::new() };
+    Specification::read(&field(&json), &mut field(&none).fields().unwrap()).unwrap_or_else(|e| panic!("{e:?}"))
+}
+
+fn rational(value: f64) -> Rational {
+    Rational::from_f64(value).unwrap()
+}
+
+/// The law of section 12 in floating point.
+#[derive(Clone, Copy, Debug)]
+struct Float {
+    period: f64,
+    mu: f64,
+    sigma: f64,
+    samples: u32,
+    h: f64,
+    gain: f64,
+    growth: f64,
+    a: f64,
+}
+
+impl Float {
+    fn new(period: f64, mu: f64, samples: u32, share: f64) -> Float {
+        let h = period / f64::from(samples);
+        let growth = 1.0 + h * mu * NBAR_SQUARED / 2.0;
+        let sigma = share / h;
+        Float { period, mu, sigma, samples, h, gain: mu / growth, growth, a: 1.0 - h * sigma }
+    }
+
+    fn terms(&self) -> Terms {
+        let weight_sum = decimal("4.612375348685489").unwrap();
+        Terms { sigma: rational(self.sigma), samples: self.samples, gain: rational(self.gain), weight_sum }
+    }
+
+    /// pi/N_s.
+    fn angle(&self) -> f64 {
+        PI / f64::from(self.samples)
+    }
+
+    fn frequency(&self, j: u32) -> f64 {
+        2.0 / self.h * (f64::from(j) * self.angle()).sin()
+    }
+
+    fn w(&self) -> f64 {
+        2.0 * PI / self.period
+    }
+}
+
+fn weight(l: i64) -> f64 {
+    if l == 0 { 2.0 } else { (l as f64).powf(-1.5) }
+}
+
+/// c_l.
+fn share(l: i64) -> f64 {
+    if l == 0 { 2.0 } else { weight(l.abs()) / 2.0 }
+}
+
+/// Laws of every kind: few samples and many, h sigma up to 1, theta small and large.
+fn laws() -> Vec<Float> {
+    let mut laws = Vec::new();
+    for (period, mu) in [(1.0, 1.0), (2.0, 0.05), (0.5, 40.0)] {
+        for samples in [2, 3, 4, 5, 8, 31, 64] {
+            laws.extend([0.03, 0.4, 0.96875].map(|share| Float::new(period, mu, samples, share)));
+        }
+    }
+    laws
+}
+
+fn with_law(float: &Float, check: impl FnOnce(&Law<'_>)) {
+    let spec = specification(&format!("{}", float.period), float.mu);
+    let data = Data::new(&spec, 192);
+    let law = Law::new(&data, &float.terms());
+    law.conditions("").unwrap_or_else(|finding| panic!("{float:?}: {finding:?}"));
+    check(&law);
+}
+
+#[track_caller]
+fn close(what: &str, value: &Interval, expected: f64, float: &Float) {
+    let (lo, hi) = (value.lo().to_f64(), value.hi().to_f64());
+    let apart = (lo - expected).abs() + (hi - expected).abs();
+    assert!(apart <= 1e-9 * expected.abs(), "{what}: [{lo}, {hi}], not {expected}: {float:?}");
+}
+
+#[test]
+fn numbers_of_the_law() {
+    for float in laws() {
+        with_law(&float, |law| {
+            close("growth", &law.growth, float.growth, &float);
+            close("mu", &law.mu, float.mu, &float);
+            close("loss", &law.loss, 1.0 - 1.0 / float.growth, &float);
+            close("a", &law.a, float.a, &float);
+            close("om", &law.frequency_squared(&law.sine(1)), float.frequency(1).powi(2), &float);
+        });
+    }
+}
+
+/// The sums, each against the closed form where 1/|cos| is nowhere less than 1 + theta, and the gain sg_S against every harmonic.
+#[test]
+fn gains_of_the_loop() {
+    for float in laws() {
+        with_law(&float, |law| {
+            let gains = Gains::new(law);
+            let sharp = |j: u32| float.growth.min(1.0 / (f64::from(j) * float.angle()).cos().abs());
+            let speed = |j: u32| (float.sigma.powi(2) + float.a * float.frequency(j).powi(2)).sqrt();
+            let sum = |term: &dyn Fn(u32) -> f64| (1..float.samples).map(term).sum::<f64>().sqrt();
+            close("bt", &gains.sup, sum(&|j| (sharp(j) / speed(j)).powi(2)), &float);
+            close("tau", &gains.sup_t, sum(&|j| (sharp(j) / speed(j) / float.frequency(j)).powi(2)), &float);
+            let worst = (1..float.samples).map(|j| sharp(j) / speed(j)).fold(0.0, f64::max);
+            let rms = gains.rms.lo().to_f64();
+            assert!(rms >= worst * (1.0 - 1e-12) && rms <= float.growth / speed(1) * (1.0 + 1e-12), "{float:?}");
+            close("rms_t", &gains.rms_t, rms / float.frequency(1), &float);
+            // 12.1: the closed forms, which S3 does not exceed.
+            let (n, a, sigma) = (f64::from(float.samples), float.a, float.sigma);
+            let power = a.powf(n);
+            let bt = float.period * (1.0 + power) / (sigma * (2.0 - float.h * sigma) * (1.0 - power)) - sigma.powi(-2);
+            let tau = ((float.period.powi(2) - float.h.powi(2)) / 12.0 - a * bt) / sigma.powi(2);
+            let ceiling = |square: f64| float.growth * square.sqrt() * (1.0 + 1e-6);
+            assert!(gains.sup.hi().to_f64() <= ceiling(bt) && gains.sup_t.hi().to_f64() <= ceiling(tau), "{float:?}");
+        });
+    }
+    // Beyond 8192 samples the closed forms, to the last digit that floating point has.
+    let float = Float::new(1.0, 1.0, 8193, 0.25);
+    with_law(&float, |law| {
+        let gains = Gains::new(law);
+        let bt = float.period / (float.sigma * (2.0 - 0.25)) - float.sigma.powi(-2);
+        close("bt", &gains.sup, float.growth * bt.sqrt(), &float);
+        let slowest = (float.sigma.powi(2) + float.a * float.frequency(1).powi(2)).sqrt();
+        close("sg", &gains.rms, float.growth / slowest, &float);
+    });
+}
+
+/// `T_d(j) w^2/(1+theta)^2` of the sampled internal model with n_o oscillators, from its formula in z.
+fn transfer_of(float: &Float, n_o: u32, j: u32) -> f64 {
+    let angle = |l: i64| (i64::from(j) - l) as f64 * float.angle();
+    let scale = float.w().powi(2) / float.growth.powi(2);
+    if j <= n_o {
+        return scale / (float.gain.powi(2) * share(i64::from(j)));
+    }
+    let range = -i64::from(n_o)..=i64::from(n_o);
+    let b: f64 = range.clone().map(share).sum();
+    let squares: f64 = range.clone().map(|l| share(l) / angle(l).sin().powi(2)).sum();
+    let cotangents: f64 = range.map(|l| share(l) / angle(l).tan()).sum();
+    let half = float.gain * float.h / 2.0;
+    let denominator = (1.0 - half * b).powi(2) + (half * cotangents).powi(2);
+    scale * float.h.powi(2) / 4.0 * squares / denominator
+}
+
+/// `max{2/(nu^2 n_j), s_j}`.
+fn demanded(float: &Float, j: u32) -> f64 {
+    let pole = 2.0 / (float.mu / float.w()).powi(2) / weight(i64::from(j));
+    let j = i64::from(j);
+    let angle = |l: i64| (j - l) as f64 * float.angle();
+    (1 - j..j).map(|l| share(l) * (float.angle() / angle(l).sin()).powi(2)).sum::<f64>().max(pole)
+}
+
+#[test]
+fn the_pair_bounds_the_transfer_of_every_loop() {
+    for float in laws() {
+        let last = float.samples / 2;
+        let speed = |j: u32| (float.frequency(j) / float.w()).powi(2);
+        for n_o in 0..=(float.samples - 1) / 2 {
+            for j in 1..=last {
+                let (truth, bound) = (transfer_of(&float, n_o, j), demanded(&float, j));
+                assert!(truth <= bound * (1.0 + 1e-9), "n_o = {n_o}, j = {j}: {truth} > {bound}, {float:?}");
+            }
+        }
+        let least = 1.0 / ((float.mu / float.w()).powi(2) * 2.0);
+        for factor in [1.000_001, 1.7, 30.0] {
+            let k0 = least * factor;
+            let k1 = (1..=last).map(|j| (demanded(&float, j) - k0) / speed(j)).fold(0.0, f64::max);
+            let accepts = |k0: f64, k1: f64| {
+                let mut answer = None;
+                with_law(&float, |law| answer = Some(transfer::check(law, &rational(k0), &rational(k1), "")));
+                answer.unwrap().map(drop).map_err(|finding| (finding.verdict, finding.message))
+            };
+            assert_eq!(accepts(k0, k1 * (1.0 + 1e-9)), Ok(()), "{float:?}");
+            if k1 > 0.0 {
+                let refused = accepts(k0, k1 * (1.0 - 1e-6)).unwrap_err();
+                assert!(refused.0 == Verdict::Invalid && refused.1.contains("at j = "), "{refused:?}");
+            }
+            assert!(accepts(least * 0.999_999, k1 * 2.0 + 1.0).unwrap_err().1.contains("1/(nu^2 n_0) <= k0"));
+        }
+    }
+}
+
+/// The bounds of a block of harmonics hold for each in it, and are not far from the truth.
+#[test]
+fn blocks_of_harmonics() {
+    for samples in [2, 3, 10, 31, 64, 200] {
+        let float = Float::new(1.0, 1.0, samples, 0.5);
+        with_law(&float, |law| {
+            let pair = transfer::Pair::new(law, &Rational::from(1), &Rational::from(1));
+            let last = samples / 2;
+            let sums: Vec<f64> = (1..=last).map(|j| pair.sum(j).hi().to_f64()).collect();
+            for j in 1..=last {
+                let l = i64::from(j);
+                let angle = |l: i64| (i64::from(j) - l) as f64 * float.angle();
+                let sum: f64 = (1 - l..l).map(|l| share(l) * (float.angle() / angle(l).sin()).powi(2)).sum();
+                close("s_j", &pair.sum(j), sum, &float);
+            }
+            for first in 1..=last {
+                for end in first..=last {
+                    let block = &sums[first as usize - 1..end as usize];
+                    let most = block.iter().copied().fold(0.0, f64::max);
+                    let bounds = pair.beyond(first, end).map(|bound| bound.lo().to_f64());
+                    assert!(bounds.iter().all(|bound| *bound >= most), "{first} to {end}: {most}, {bounds:?}");
+                    let least = bounds[0].min(bounds[1]);
+                    assert!(end > 2 * first || least <= 8.0 * most, "{first} to {end}: {most}, {bounds:?}");
+                }
+            }
+            let [widest, _] = pair.beyond(1, last);
+            close("pi^2 Nbar^2/4", &widest, PI * PI * NBAR_SQUARED / 4.0, &float);
+        });
+    }
+}
+
+/// One pair for as many harmonics as there may be, of which each is settled by its block or by itself.
+#[test]
+fn many_harmonics() {
+    let accepts = |mu: f64, k0: f64, k1: f64| {
+        let float = Float::new(1.0, mu, 65_536, 0.1);
+        let mut answer = None;
+        let (_, steps) = proofs_check::effort::limited(proofs_check::effort::LIMIT, || {
+            with_law(&float, |law| answer = Some(transfer::check(law, &rational(k0), &rational(k1), "").is_ok()));
+        });
+        (answer.unwrap(), steps)
+    };
+    let (accepted, steps) = accepts(1.0, 19.74, 59.22);
+    assert!(accepted && steps < 2_000_000, "{steps}");
+    // nu is large: k0 alone bounds s_j for the first harmonics, and the poles 2/(nu^2 n_j) rise slowly.
+    let (accepted, steps) = accepts(100.0, 3.0, 0.01);
+    assert!(accepted && steps < 5_000_000, "{steps}");
+    assert!(!accepts(100.0, 1.0, 0.01).0);
+}
+
+const AT: [f64; 2] = [0.25, 0.5];
+
+/// S2 by its parts at (X_p, E_p) = (1/4, 1/2), (r_x, r_e, r_d) = (1/8, 1/4, 2).
+#[test]
+fn parts_of_existence() {
+    for float in laws() {
+        with_law(&float, |law| {
+            let d = law.d;
+            let [x, e] = AT.map(|value| d.number(&rational(value)));
+            let pair = [d.number(&Rational::from(20)), d.number(&Rational::from(60))];
+            let means = [0.125, 0.25, 2.0].map(rational);
+            let found = existence::evaluate(law, &means, [&x, &e], [&pair[0], &pair[1]]);
+            let (c, alpha, t, h) = (1.5512_f64.sqrt(), 0.58, float.period, float.h);
+            let [x_p, e_p] = AT;
+            let rate = alpha - c * 0.2237 * x_p / 2.0;
+            let f_e = x_p + 0.189;
+            let f_x = 2.302 + 0.112 * x_p + 0.2237 * x_p;
+            let (q_x, q_e) = (0.3 + 0.5 * x_p + 0.7 * e_p, 0.5 + 2.0 * x_p + 3.0 * e_p);
+            let d_0 = q_x * 0.125 + q_e * 0.25;
+            let r_q = (4.822 + x_p + (e_p * f_e).atan()).min(4.822 + d_0);
+            let r_1 = 24.18 + 2.106 * e_p + q_x * (f_x * 0.125 + f_e * 0.25) + q_e * 2.0;
+            let gains = Gains::new(law);
+            let [sup, sup_t, rms] = [&gains.sup, &gains.sup_t, &gains.rms].map(|gain| gain.hi().to_f64());
+            let side = |id: &str| {
+                let condition = found.conditions.iter().find(|condition| condition.id == id).unwrap();
+                condition.lhs.clone()
+            };
+            let at_samples = (sup * r_q).min(sup_t * r_1) + h / (2.0 * PI) * (h * t).sqrt() * r_1;
+            let sup_e = at_samples.min((t * 0.25 * 2.0).sqrt());
+            close("S2", &side("S2"), sup_e, &float);
+            close("S2b", &side("S2b"), rms * r_q.min(r_1 / float.frequency(1)) + (h / PI).powi(2) * r_1, &float);
+            let steepest = 2.0 * float.growth / (2.0 - h * float.sigma) * r_q;
+            close("S2c", &side("S2c"), steepest.min((rms.powi(2) + (h / PI).powi(2)).sqrt() * r_1), &float);
+            close("S1c", &side("S1c"), c / rate * f_e * 0.25, &float);
+            close("e_per", &found.e, sup_e.min(e_p), &float);
+            let k2 = c * (t / (rate * t / 2.0).tanh() / (2.0 * rate)).sqrt();
+            close("x_per", &found.x, x_p.min(c / rate * f_e * sup_e.min(e_p)).min(k2 * f_e * 0.25), &float);
+            let mean = (t / (2.0 * float.mu) + 20.0 / float.w().powi(2)) * r_q.powi(2);
+            let z = float.growth * (mean + 60.0 / float.w().powi(4) * r_1.powi(2)).sqrt();
+            close("Z", &found.z, z, &float);
+        });
+    }
+}
+
+#[test]
+fn parts_of_stability() {
+    let (x_per, e_per, d_x, d_e, w_x, eta) = (0.01, 0.02, 0.04, 0.08, 3.0, 0.7);
+    for float in laws() {
+        with_law(&float, |law| {
+            let number = |value: f64| law.d.number(&rational(value));
+            let error_box =
+                ErrorBox::new(law.d, Plant::OneSided, [&number(x_per), &number(e_per)], [&number(d_x), &number(d_e)]);
+            let (w, zeta) = (number(w_x), number(eta));
+            let found = stability::conditions(law, &error_box, &Weights { w_x: &w, eta: &zeta });
+            let (x_b, e_b) = (x_per + d_x, e_per + d_e);
+            let c = 1.5512_f64.sqrt();
+            let rate = 0.58 - c * (0.2237 * x_per + e_per + 0.2237 * d_x / 2.0);
+            let (k_x, k_l, m, k_f) =
+                (0.3 + 0.5 * x_b + 0.7 * e_b, 0.5 + 2.0 * x_b + 3.0 * e_b, 0.1 + x_b + e_b, x_b + 0.189);
+            let (h, k_e, s) = (float.h, k_l, eta / float.gain);
+            let room = 1.0 - h * k_e / PI;
+            close("kp", &found[0].rhs, room, &float);
+            let coupling = w_x * c * k_f;
+            for (t, at_end, first) in [(0.0, 0.0, 1), (h, 1.0, 4)] {
+                let ts = t * float.sigma;
+                let drift = t * k_e / (PI * room);
+                let (c_x, c_e, c_y) =
+                    (t * k_x / (PI * room), (1.0 - ts + ts * ts / 3.0).sqrt() + drift, t / (3.0_f64.sqrt() * room));
+                let g = t * k_e / 12.0_f64.sqrt() / room;
+                let p_y = t * t * k_e * k_e / (6.0 * room);
+                let d_t =
+                    (1.0 - ts + s * (1.0 - ts / 2.0) * m).abs().max((1.0 - ts - s * (1.0 - ts / 2.0) * k_l).abs());
+                let xx = 2.0 * w_x * rate - 2.0 * coupling * c_x;
+                let xe = -coupling * c_e;
+                let xy = -coupling * c_y - s * k_x * (1.0 + g);
+                let ee = float.sigma * (2.0 - ts);
+                let ey = -d_t - s * g * k_e;
+                let yy = 2.0 * s * (1.0 - at_end * (1.0 - 1.0 / float.growth)) - t - s * t * m - 2.0 * s * p_y;
+                let second = xx * ee - xe * xe;
+                let third = xx * (ee * yy - ey * ey) - xe * (xe * yy - ey * xy) + xy * (xe * ey - ee * xy);
+                for (i, minor) in [xx, second, third].into_iter().enumerate() {
+                    let (lo, hi) = (found[first + i].rhs.lo().to_f64(), found[first + i].rhs.hi().to_f64());
+                    let scale =
+                        [xx.abs(), xx.abs() * ee + xe * xe, xx.abs() * (ee * yy.abs() + ey * ey) + ee * xy * xy];
+                    let near = (lo - minor).abs() + (hi - minor).abs() <= 1e-9 * scale[i];
+                    assert!(near, "minor {} at t = {t}: [{lo}, {hi}], not {minor}: {float:?}", i + 1);
+                }
+            }
+        });
+    }
+}
