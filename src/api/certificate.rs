@@ -5,13 +5,13 @@ use super::condition::Condition;
 use super::report::Report;
 use super::subject::Subject;
 use super::{json_text, nearest, rounded_down, rounded_up};
-use crate::certificate::{certificate_json, sampled_certificate_json, sampled_statement, statement};
-use crate::certify::{Certification, SampledCertification, claimed_ball};
+use crate::certificate::{certificate_of, sampled_statement, statement};
+use crate::certify::claimed_ball;
 use crate::derivation::sharp::ClaimedSet;
 use crate::enclosure::Enclosure;
 use crate::number::write_exact;
 use crate::reduction::Run;
-use crate::report::{remarks, sampled_remarks};
+use crate::report::run_remarks;
 use crate::spec::Specification;
 use rug::Rational;
 
@@ -30,12 +30,10 @@ pub struct Certificate {
 impl Certificate {
     /// `None` where nothing was certified.
     pub(super) fn new(run: &Run<'_>, subject: &Subject) -> Option<Certificate> {
-        let (claim, json, remarks) = match run {
-            Run::Continuous(run) => (Claim::new(run)?, certificate_json(run)?, remarks(run)),
-            Run::Sampled(run) => (Claim::at_samples(run)?, sampled_certificate_json(run)?, sampled_remarks(run)),
-        };
-        let (json, subject) = (json_text(&json), subject.clone());
-        Some(Certificate { claim, conditions: conditions(run), remarks, json, report: full_report(run), subject })
+        let claim = Claim::new(run)?;
+        let (json, subject) = (json_text(&certificate_of(run)?), subject.clone());
+        let (remarks, report) = (run_remarks(run), full_report(run));
+        Some(Certificate { claim, conditions: conditions(run), remarks, json, report, subject })
     }
 
     /// What is claimed.
@@ -96,34 +94,27 @@ pub struct Claim {
 }
 
 impl Claim {
-    fn new(run: &Certification<'_>) -> Option<Claim> {
-        let (sigma, set) = (run.sigma_star()?, run.claimed_set()?);
+    fn new(run: &Run<'_>) -> Option<Claim> {
+        let certified = run.certified()?;
+        let (sigma, set) = (certified.sigma, certified.set);
+        let (sigma_star_f64, samples, statement) = match run {
+            Run::Continuous(run) => (rounded_up(sigma), None, statement(run, sigma, set)),
+            // The claim is about one gain: a larger double is not covered either.
+            Run::Sampled(run) => {
+                let witness = &run.claim()?.witness;
+                let gain = write_exact(&witness.law.gain);
+                let samples = Samples { period: witness.sampling.text(), count: witness.sampling.samples, gain };
+                (nearest(sigma), Some(samples), sampled_statement(run.spec, witness))
+            }
+        };
         Some(Claim {
             sigma_star: write_exact(sigma),
-            sigma_star_f64: rounded_up(sigma),
-            samples: None,
-            statement: statement(run, sigma, set),
-            initial_set: InitialSet::new(run.spec, set),
-            periodic_solution: PeriodicSolution::new(&run.periodic_solution()?),
-            sha256: run.spec.sha256.clone(),
-        })
-    }
-
-    /// That of the regulator at samples.
-    fn at_samples(run: &SampledCertification<'_>) -> Option<Claim> {
-        let witness = &run.claim()?.witness;
-        Some(Claim {
-            sigma_star: write_exact(&witness.sigma),
-            sigma_star_f64: nearest(&witness.sigma),
-            samples: Some(Samples {
-                period: witness.sampling.text(),
-                count: witness.sampling.samples,
-                gain: write_exact(&witness.law.gain),
-            }),
-            statement: sampled_statement(run.spec, witness),
-            initial_set: InitialSet::new(run.spec, &witness.set),
-            periodic_solution: PeriodicSolution::new(&run.periodic_solution()?),
-            sha256: run.spec.sha256.clone(),
+            sigma_star_f64,
+            samples,
+            statement,
+            initial_set: InitialSet::new(run.spec(), set),
+            periodic_solution: PeriodicSolution::new(&certified.periodic),
+            sha256: run.spec().sha256.clone(),
         })
     }
 

@@ -7,7 +7,7 @@ use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
 use crate::reduction::{Prepared, Run, Subject as Read, at_samples};
-use crate::report::{self, SampledReport};
+use crate::report::{RunReport, run_sentence};
 
 /// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
 /// small gain, and the rigorous decision of every condition.
@@ -53,25 +53,15 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
 
 /// Why a run has no certificate: the bounding functions that are not proved, or what the report says in one sentence.
 pub(super) fn not_certified(run: &Run<'_>) -> Error {
-    let (verdict, sentence) = match run {
-        Run::Continuous(run) => (run.verdict, report::sentence(run)),
-        Run::Sampled(run) => (run.verdict, SampledReport::new(run, false).sentence()),
-    };
-    Error::not_certified(verdict.without_claim(), sentence, &run.unproved(), conditions(run), full_report(run))
+    let (verdict, sentence) = (run.verdict().without_claim(), run_sentence(run));
+    Error::not_certified(verdict, sentence, &run.unproved(), conditions(run), full_report(run))
 }
 
 /// The report of `sigmastar certify`.
 pub(super) fn full_report(run: &Run<'_>) -> Report {
-    match run {
-        Run::Continuous(run) => Report::of(&report::Report::new(run, &[])),
-        Run::Sampled(run) => Report::of(&SampledReport::new(run, false)),
-    }
+    Report::of(&RunReport::new(run, &[], false))
 }
 
 pub(super) fn conditions(run: &Run<'_>) -> Vec<Condition> {
-    let conditions = match run {
-        Run::Continuous(run) => run.conditions(),
-        Run::Sampled(run) => run.conditions(),
-    };
-    conditions.iter().map(Condition::new).collect()
+    run.conditions().iter().map(Condition::new).collect()
 }

@@ -4,7 +4,7 @@ use super::args::CheckArgs;
 use super::failure::Failure;
 use super::input;
 use super::output::{self, reason, shown};
-use super::sampled::with_sampling_period;
+use super::subject::with_sampling_period;
 use sigmastar::report::document::{Block, Made, clean};
 use sigmastar::spec::{Document, Notation};
 use std::fs::File;

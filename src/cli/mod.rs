@@ -20,7 +20,6 @@ mod pages;
 mod progress;
 mod rate;
 mod reproduce;
-mod sampled;
 mod sampling;
 mod simulate;
 mod simulate_sampled;

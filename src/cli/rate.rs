@@ -3,7 +3,7 @@
 use super::args::RateArgs;
 use super::counts::finite_counts;
 use super::failure::Failure;
-use super::subject::{IntoData, Subject};
+use super::subject::{Subject, proved};
 use super::{input, output};
 use sigmastar::certify::{Options, Verdict, certify_near};
 use sigmastar::number::write_exact;
@@ -19,7 +19,7 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     let n_o = finite_counts(&args.n_o, MAX_OSCILLATORS)?;
     let subject = Subject::read(&input::document(&args.spec)?)?;
     let sigma = args.sigma.as_ref().map(|text| input::rational("--sigma", text)).transpose()?;
-    let (spec, start) = subject.into_data(false)?;
+    let (spec, start) = proved(subject, false)?;
     let run = certify_near(&spec, Options { compare: false, ..Options::default() }, start.as_ref())
         .map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
     let (sigma, found) = match certified_rates(&run, sigma, &n_o) {

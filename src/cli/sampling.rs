@@ -4,7 +4,7 @@ use super::args::SamplingArgs;
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::progress::{Audience, Working};
-use super::subject::{IntoData, Subject};
+use super::subject::{Subject, proved};
 use super::transfer::svg_file;
 use super::{input, output};
 use rug::Rational;
@@ -41,7 +41,7 @@ fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
             study.map_err(|refusal| Failure::Documents(refusal.errors(&plant)))?
         }
         specification @ Subject::Specification(_) => {
-            let spec = specification.into_data(args.quiet)?.0;
+            let spec = proved(specification, args.quiet)?.0;
             let _working = Working::new("certifying pairs of a gain and a sampling period", audience);
             SamplingStudy::new(&OfSpecification { spec: &spec }, &period, steps, gains)
         }

@@ -1,52 +1,25 @@
 //! What a command is asked about, and what of it takes long.
 
 use super::failure::Failure;
+use super::input;
 use super::progress::{Audience, Working};
-use rug::Rational;
-use sigmastar::search::{SampledProposal, SharpProposal};
-use sigmastar::spec::{Sampling, Specification};
+use sigmastar::reduction::at_samples;
+use sigmastar::search::SharpProposal;
+use sigmastar::spec::{Document, Specification};
 
 pub use sigmastar::reduction::Subject;
 
-/// Proving the data of a subject, with a word to whoever waits.
-pub trait IntoData {
-    /// [`Subject::proved`].
-    ///
-    /// # Errors
-    /// What keeps the data from being proved, at its place.
-    fn into_data(self, quiet: bool) -> Result<(Specification, Option<SharpProposal>), Failure>;
-
-    /// [`Subject::proved_at_samples`].
-    ///
-    /// # Errors
-    /// Those of [`IntoData::into_data`].
-    fn into_sampled_data(
-        self,
-        sampling: &Sampling,
-        gain: Option<&Rational>,
-        quiet: bool,
-    ) -> Result<(Specification, Option<SampledProposal>), Failure>;
+/// [`Subject::proved`], with a word to whoever waits.
+///
+/// # Errors
+/// What keeps the data from being proved, at its place.
+pub fn proved(subject: Subject, quiet: bool) -> Result<(Specification, Option<SharpProposal>), Failure> {
+    let _working = proving(&subject, quiet);
+    subject.proved().map_err(Failure::Documents)
 }
 
-impl IntoData for Subject {
-    fn into_data(self, quiet: bool) -> Result<(Specification, Option<SharpProposal>), Failure> {
-        let _working = proving(&self, quiet);
-        self.proved().map_err(Failure::Documents)
-    }
-
-    fn into_sampled_data(
-        self,
-        sampling: &Sampling,
-        gain: Option<&Rational>,
-        quiet: bool,
-    ) -> Result<(Specification, Option<SampledProposal>), Failure> {
-        let _working = proving(&self, quiet);
-        self.proved_at_samples(sampling, gain).map_err(Failure::Documents)
-    }
-}
-
-/// Says what takes long of a subject, if anything does.
-fn proving(subject: &Subject, quiet: bool) -> Option<Working> {
+/// Says what takes long of a subject's data, if anything does.
+pub fn proving(subject: &Subject, quiet: bool) -> Option<Working> {
     match subject {
         Subject::Specification(spec) => spec.lyapunov.triple().is_none().then(|| seeking_triple(quiet)),
         Subject::Plant(_) => {
@@ -60,4 +33,13 @@ fn proving(subject: &Subject, quiet: bool) -> Option<Working> {
 pub fn seeking_triple(quiet: bool) -> Working {
     let audience = if quiet { Audience::Nobody } else { Audience::Everywhere };
     Working::new("finding and proving the Lyapunov triple of the Jacobian", audience)
+}
+
+/// The document with another sampling period, or itself where it has no internal model: what is wrong with it is told as ever.
+///
+/// # Errors
+/// A period that is not an exact positive constant, and a document that is too large with it.
+pub fn with_sampling_period(document: &Document, text: &str) -> Result<Document, Failure> {
+    let step = input::positive("--sampling-period", text)?;
+    Ok(at_samples(document, &step, "--sampling-period")?)
 }

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::output::Shortened;
 use super::progress::Bar;
-use super::subject::{IntoData, Subject};
+use super::subject::{Subject, proved};
 use super::{input, output};
 use sigmastar::certify::Verdict;
 use sigmastar::enclosure::DEFAULT_PRECISION;
@@ -39,7 +39,7 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
     let n_o = counts(&args.n_o)?;
     let spec = match Subject::read(&input::document(&args.spec)?)? {
         Subject::Specification(spec) => *spec,
-        plant @ Subject::Plant(_) => plant.into_data(args.quiet)?.0,
+        plant @ Subject::Plant(_) => proved(plant, args.quiet)?.0,
     };
     let bar = Bar::new(n_o.len() as u64, args.quiet);
     let study = TransferStudy::new(&spec, DEFAULT_PRECISION, &pair, &n_o, || bar.advance());

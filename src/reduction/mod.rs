@@ -2,7 +2,8 @@
 //!
 //! [`reduce()`] finds the orbit and coordinates, searches for a gain over sampled bounds, and proves the bounds at the arguments
 //! that the conditions will use. What it returns goes through `certify` as any specification does. [`decide_again`] proves
-//! what a certificate says of a plant. A [`Subject`] is either of both, and [`Prepared`] goes the whole way with it.
+//! what a certificate says of a plant. A [`Subject`] is either of both, and [`Prepared`] goes the whole way with it: by a search,
+//! or with the [`Witness`] of a certificate.
 
 mod coordinates;
 mod entries;
@@ -17,11 +18,13 @@ mod study;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod witness;
 
 pub use reduce::{Reduced, bounds_around, decide_again, reduce, reduce_sampled, with_sampled_pairs};
 pub use refusal::{MAX_STATES, PlantRefusal};
-pub use run::{Prepared, Run};
+pub use run::{Certified, Prepared, Run};
 pub use sampled::{ReducedSampled, SampledPairs};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
 pub use subject::{Subject, at_samples};
+pub use witness::{Numbers, Witness, WitnessData};

@@ -1,17 +1,23 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
-use super::Subject;
+use super::{Numbers, Subject, Witness};
 use crate::certify::{
-    Certification, Options, Refusal, SampledCertification, certify_at, certify_near, certify_sampled,
+    Certification, Options, Refusal, SampledCertification, Verdict, certify_at, certify_near, certify_sampled, recheck,
+    recheck_sampled,
 };
+use crate::derivation::condition::Condition;
+use crate::derivation::sampled::SampledWitness;
+use crate::derivation::sharp::ClaimedSet;
+use crate::enclosure::Enclosure;
 use crate::search::{SampledProposal, SharpProposal};
 use crate::spec::{Sampling, SpecErrors, Specification};
 use rug::Rational;
 
-/// Where a search may start: of the regulator in continuous time, or of the one at samples.
+/// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
 enum Start {
     Continuous(Option<SharpProposal>),
     Sampled(Box<Sampling>, Option<SampledProposal>),
+    Given(Numbers),
 }
 
 /// A subject whose data are proved, for one question.
@@ -28,6 +34,21 @@ pub enum Run<'s> {
     Continuous(Box<Certification<'s>>),
     /// Of the regulator at samples.
     Sampled(Box<SampledCertification<'s>>),
+}
+
+/// What a certified run claims, of either regulator.
+#[derive(Clone, Debug)]
+pub struct Certified<'r> {
+    /// The gain: the smallest one of the claim, or at samples the only one.
+    pub sigma: &'r Rational,
+    /// The samples, where it is about the regulator at samples.
+    pub sampling: Option<&'r Sampling>,
+    /// The set of the starts.
+    pub set: &'r ClaimedSet,
+    /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution.
+    pub periodic: [Enclosure; 4],
+    /// Whether it is proved that no plant with a state has these data.
+    pub no_plant: bool,
 }
 
 impl Prepared {
@@ -48,6 +69,15 @@ impl Prepared {
         }
     }
 
+    /// The data of a subject as the witness of a certificate has them, each proved again: nothing is searched for.
+    ///
+    /// # Errors
+    /// What is not proved, at its place, and a witness of the other regulator or of other samples; not empty.
+    pub fn again(subject: &Subject, witness: Witness) -> Result<Prepared, Vec<SpecErrors>> {
+        let spec = witness.proved(subject)?;
+        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None })
+    }
+
     /// Searches, rounds and decides. Hypothesis: the options fit ([`Options::misfit`]).
     ///
     /// # Errors
@@ -62,19 +92,67 @@ impl Prepared {
             .map(|run| Run::Continuous(Box::new(run))),
             Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
                 .map(|run| Run::Sampled(Box::new(run))),
+            Start::Given(Numbers::Continuous(witness)) => {
+                recheck(spec, witness, options).map(|run| Run::Continuous(Box::new(run)))
+            }
+            Start::Given(Numbers::Sampled(witness)) => {
+                recheck_sampled(spec, witness, options.ladder).map(|run| Run::Sampled(Box::new(run)))
+            }
         };
         run.map_err(|refusal: Refusal| refusal.errors(spec))
     }
 }
 
 impl Run<'_> {
+    /// The verdict.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            Run::Continuous(run) => run.verdict,
+            Run::Sampled(run) => run.verdict,
+        }
+    }
+
+    /// The specification whose data were proved.
+    #[must_use]
+    pub fn spec(&self) -> &Specification {
+        match self {
+            Run::Continuous(run) => run.spec,
+            Run::Sampled(run) => run.spec,
+        }
+    }
+
+    /// What is claimed; `None` where nothing is certified.
+    #[must_use]
+    pub fn certified(&self) -> Option<Certified<'_>> {
+        let (sigma, sampling, set, periodic, no_plant) = match self {
+            Run::Continuous(run) => {
+                (run.sigma_star()?, None, run.claimed_set()?, run.periodic_solution()?, run.no_plant.is_some())
+            }
+            Run::Sampled(run) => {
+                let SampledWitness { sigma, sampling, set, .. } = &run.claim()?.witness;
+                (sigma, Some(sampling), set, run.periodic_solution()?, run.no_plant.is_some())
+            }
+        };
+        Some(Certified { sigma, sampling, set, periodic, no_plant })
+    }
+
+    /// The conditions of the derivation that was asked about, proved or not.
+    #[must_use]
+    pub fn conditions(&self) -> &[Condition] {
+        match self {
+            Run::Continuous(run) => run.conditions(),
+            Run::Sampled(run) => run.conditions(),
+        }
+    }
+
     /// The bounding functions that were neither proved nor refuted, as errors at their places.
     #[must_use]
     pub fn unproved(&self) -> Vec<SpecErrors> {
-        let (problems, spec) = match self {
-            Run::Continuous(run) => (&run.unproved_bounds, run.spec),
-            Run::Sampled(run) => (&run.unproved_bounds, run.spec),
+        let problems = match self {
+            Run::Continuous(run) => &run.unproved_bounds,
+            Run::Sampled(run) => &run.unproved_bounds,
         };
-        problems.iter().map(|problem| problem.errors(spec)).collect()
+        problems.iter().map(|problem| problem.errors(self.spec())).collect()
     }
 }

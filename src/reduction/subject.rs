@@ -4,7 +4,7 @@ use super::{reduce, reduce_sampled};
 use crate::certify::with_triple;
 use crate::plant::{self, Plant};
 use crate::search::{SampledProposal, SharpProposal};
-use crate::spec::{Constant, Document, InternalModel, Sampling, SpecErrors, Specification};
+use crate::spec::{Constant, Document, ErrorKind, InternalModel, Sampling, SpecErrors, Specification};
 use rug::Rational;
 
 /// The document with another sampling period, which is called `name` in the label of the errors; itself where it has no internal
@@ -68,6 +68,24 @@ impl Subject {
         match self {
             Subject::Specification(spec) => &spec.sha256,
             Subject::Plant(plant) => &plant.sha256,
+        }
+    }
+
+    /// The period.
+    #[must_use]
+    pub fn period(&self) -> &Constant {
+        match self {
+            Subject::Specification(spec) => &spec.period,
+            Subject::Plant(plant) => &plant.period,
+        }
+    }
+
+    /// An error at a field of the document.
+    pub(super) fn errors_at(&self, field: &str, kind: ErrorKind, message: String, help: &str) -> SpecErrors {
+        let help = Some(help.to_owned());
+        match self {
+            Subject::Specification(spec) => spec.errors_at(field, &(0..0), kind, message, help),
+            Subject::Plant(plant) => plant.errors_at(field, &(0..0), kind, message, help),
         }
     }
 

@@ -1,11 +1,10 @@
 //! One line of results: the values of a case, and what is proved of it or why nothing is.
 
 use crate::certify::Verdict;
-use crate::derivation::sharp::ClaimedSet;
-use crate::enclosure::{DIGITS, Enclosure};
+use crate::enclosure::DIGITS;
 use crate::number::write_exact;
-use crate::spec::{Document, Errors, Object, Reported, SpecErrors, Value};
-use rug::Rational;
+use crate::reduction::Certified;
+use crate::spec::{Document, Errors, Object, Reported, Sampling, SpecErrors, Value};
 use serde_json::json;
 
 /// The verdicts by their words.
@@ -28,14 +27,15 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// The claim about a gain and a set.
-    pub(super) fn new(sigma: &Rational, set: &ClaimedSet, periodic: &[Enclosure; 4], no_plant: bool) -> Claim {
+    /// The claim of a run.
+    pub(super) fn new(certified: &Certified<'_>) -> Claim {
+        let set = certified.set;
         Claim {
-            sigma_star: write_exact(sigma),
-            sampling_period: None,
+            sigma_star: write_exact(certified.sigma),
+            sampling_period: certified.sampling.map(Sampling::text),
             initial_set: [&set.x0, &set.e0, &set.z0].map(write_exact),
-            periodic: periodic.each_ref().map(|bound| bound.upper_decimal(DIGITS)),
-            no_plant,
+            periodic: certified.periodic.each_ref().map(|bound| bound.upper_decimal(DIGITS)),
+            no_plant: certified.no_plant,
         }
     }
 }

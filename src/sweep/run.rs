@@ -2,10 +2,10 @@
 
 use super::cases::{Case, Sweep};
 use super::row::{Claim, Row, RowError};
-use crate::certify::{Certification, Derivation, Options, SampledCertification, Verdict, verdict_of_errors};
+use crate::certify::{Derivation, Options, Verdict, verdict_of_errors};
 use crate::progress::Progress;
-use crate::reduction::{Prepared, Run, Subject};
-use crate::report::{SampledReport, sentence};
+use crate::reduction::{Prepared, Subject};
+use crate::report::run_sentence;
 use crate::spec::SpecErrors;
 use rayon::prelude::*;
 
@@ -46,32 +46,10 @@ fn attempt(case: &Case, derivation: Derivation) -> Result<Row, Vec<SpecErrors>> 
     let subject = Subject::read(&case.document).map_err(|errors| vec![errors])?;
     let prepared = Prepared::new(subject, None)?;
     let run = prepared.certify(options)?;
-    let unproved = run.unproved();
-    Ok(match &run {
-        Run::Continuous(run) => told(run.verdict, continuous_claim(run), || sentence(run), &unproved),
-        Run::Sampled(run) => {
-            told(run.verdict, sampled_claim(run), || SampledReport::new(run, false).sentence(), &unproved)
-        }
-    })
-}
-
-fn continuous_claim(run: &Certification<'_>) -> Option<Claim> {
-    let (sigma, set, periodic) = (run.sigma_star()?, run.claimed_set()?, run.periodic_solution()?);
-    Some(Claim::new(sigma, set, &periodic, run.no_plant.is_some()))
-}
-
-fn sampled_claim(run: &SampledCertification<'_>) -> Option<Claim> {
-    let (witness, periodic) = (&run.claim()?.witness, run.periodic_solution()?);
-    let claim = Claim::new(&witness.sigma, &witness.set, &periodic, run.no_plant.is_some());
-    Some(Claim { sampling_period: Some(run.sampling.text()), ..claim })
-}
-
-/// The row of a run: its claim, or why there is none.
-fn told(verdict: Verdict, claim: Option<Claim>, reason: impl Fn() -> String, unproved: &[SpecErrors]) -> Row {
-    let verdict = if claim.is_none() { verdict.without_claim() } else { verdict };
-    let claim = claim.filter(|_| verdict == Verdict::Certified);
-    let reason = claim.is_none().then(reason);
-    Row { verdict, claim, reason, ..empty(errors(unproved)) }
+    let claim = run.certified().map(|certified| Claim::new(&certified));
+    let verdict = if claim.is_some() { run.verdict() } else { run.verdict().without_claim() };
+    let reason = claim.is_none().then(|| run_sentence(&run));
+    Ok(Row { verdict, claim, reason, ..empty(errors(&run.unproved())) })
 }
 
 /// The row of a case that came to no run.

@@ -1,10 +1,10 @@
 //! What one proposal comes to: its certified figures, and the one that is to be small.
 
-use crate::certify::{Certification, Options, Verdict, verdict_of_errors};
+use crate::certify::{Options, Verdict, verdict_of_errors};
 use crate::enclosure::Enclosure;
 use crate::reduction::{Prepared, Run, Subject};
 use crate::report::state_name;
-use crate::spec::{Document, SpecErrors};
+use crate::spec::{Document, Sampling, SpecErrors};
 use rug::Rational;
 
 /// What is to be as small as possible.
@@ -62,7 +62,7 @@ impl Figures {
         let subject = Subject::read(document).map_err(|errors| refused(vec![errors]))?;
         let prepared = Prepared::new(subject, None).map_err(refused)?;
         let run = prepared.certify(Options { compare: false, ..Options::default() }).map_err(refused)?;
-        figures(&run, n_o)
+        figures(&run, n_o).ok_or_else(|| run.verdict().without_claim())
     }
 
     /// An upper bound of what is to be small.
@@ -75,37 +75,21 @@ impl Figures {
     }
 }
 
-fn figures(run: &Run<'_>, n_o: u64) -> Result<Figures, Verdict> {
-    match run {
-        Run::Continuous(run) => continuous(run, n_o).ok_or_else(|| run.verdict.without_claim()),
-        Run::Sampled(run) => {
-            let claim = run.claim().zip(run.periodic_solution());
-            let (proof, periodic) = claim.ok_or_else(|| run.verdict.without_claim())?;
-            let set = &proof.witness.set;
-            Ok(Figures {
-                sigma: proof.witness.sigma.clone(),
-                sampling_period: Some(run.sampling.text()),
-                feedback: None,
-                initial_set: [&set.x0, &set.e0, &set.z0].map(Rational::clone),
-                periodic,
-                error: None,
-                no_plant: run.no_plant.is_some(),
-                state: state_name(run.spec),
-            })
-        }
-    }
-}
-
-fn continuous(run: &Certification<'_>, n_o: u64) -> Option<Figures> {
-    let set = run.claimed_set()?;
+fn figures(run: &Run<'_>, n_o: u64) -> Option<Figures> {
+    let (feedback, error) = match run {
+        Run::Continuous(run) => (run.feedback(), run.error_with(n_o).map(|bounds| [bounds.rms, bounds.sup])),
+        Run::Sampled(_) => (None, None),
+    };
+    let certified = run.certified()?;
+    let set = certified.set;
     Some(Figures {
-        sigma: run.sigma_star()?.clone(),
-        sampling_period: None,
-        feedback: run.feedback(),
+        sigma: certified.sigma.clone(),
+        sampling_period: certified.sampling.map(Sampling::text),
+        feedback,
         initial_set: [&set.x0, &set.e0, &set.z0].map(Rational::clone),
-        periodic: run.periodic_solution()?,
-        error: run.error_with(n_o).map(|bounds| [bounds.rms, bounds.sup]),
-        no_plant: run.no_plant.is_some(),
-        state: state_name(run.spec),
+        periodic: certified.periodic,
+        error,
+        no_plant: certified.no_plant,
+        state: state_name(run.spec()),
     })
 }

@@ -29,7 +29,7 @@ fn the_specification_of_a_plant_is_certified() {
         ("relative-degree-2-domain", 1.05),
     ]
     .into_iter()
-    .step_by(every(3))
+    .step_by(every(5))
     {
         let plant = format!("specs/plants/{name}.json");
         let spec = folder.path().join(format!("{name}.json"));

@@ -83,7 +83,7 @@ fn no_better_weights(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: count(8, 100), max_shrink_iters: 40, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: count(4, 100), max_shrink_iters: 40, ..ProptestConfig::default() })]
 
     #[test]
     fn the_sharp_derivation_certifies(text in specification()) {

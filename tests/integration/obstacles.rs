@@ -1,7 +1,7 @@
 //! What keeps something from being certified is told with its true cause, and what helps for that; and plants whose base
 //! frequency is not that of their period are certified.
 
-use crate::support::{json, program};
+use crate::support::{every, json, program};
 use serde_json::Value;
 use std::path::Path;
 
@@ -39,7 +39,7 @@ fn certificate(folder: &Path, name: &str, text: &str) -> String {
 #[test]
 fn other_base_frequencies_are_certified_and_valid() {
     let folder = tempfile::tempdir().unwrap();
-    for (at, frequency) in ["pi", "101*pi/100", "sqrt(2)*pi"].into_iter().enumerate() {
+    for (at, frequency) in ["pi", "101*pi/100", "sqrt(2)*pi"].into_iter().enumerate().step_by(every(2)) {
         let changes = [("/internal_model/matched", "false"), ("/internal_model/base_frequency", frequency)];
         let file = certificate(folder.path(), &format!("duffing-{at}"), &plant("duffing", &changes));
         let output = program().args(["check", "--format", "json", &file]).output().unwrap();
@@ -51,7 +51,7 @@ fn other_base_frequencies_are_certified_and_valid() {
 #[test]
 fn a_gain_that_is_too_small_is_told_with_the_smallest() {
     for (text, small, large, smallest) in [
-        (plant("paper-example", &[]), "8", "9", "8.4"),
+        (plant("motor-axis", &[]), "20", "30", "28."),
         (
             std::fs::read_to_string(format!("{}/specs/linear.json", crate::support::ROOT)).unwrap(),
             "1/100",

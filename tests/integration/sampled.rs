@@ -278,6 +278,25 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
     };
     assert!(again(&[], 0).contains("with sigma = 25 and"));
     again(&["--sampling-period", "1/500"], 2);
+    let refused = |arguments: &[&str], told: &str| {
+        let assert = program().args(["certify", "-q"]).args(arguments).assert().code(2);
+        let said = utf8(assert.get_output().stderr.clone());
+        assert!(said.contains(told), "{said}");
+    };
+    let another = "another sampling period is asked for than 1/1000, which the certificate is about";
+    refused(&[AT_REST, "--sampling-period", "1/500", "--witness", &certificate], another);
+    let long = std::fs::read_to_string(AT_REST).unwrap().replace("\"period\": \"1\"", "\"period\": \"2\"");
+    std::fs::write(path("long.json"), long.replace("\"2*pi\"", "\"pi\"")).unwrap();
+    let samples = "the certificate is about 1000 samples of 1/1000 in a period at a matched base frequency, and that is not so here";
+    refused(&[&path("long.json"), "--witness", &certificate], samples);
+    let continuous = path("continuous.json");
+    program().args(["certify", AT_REST, "-q", "-o", &continuous]).assert().code(0);
+    let other = "the regulator at samples is asked for, and the certificate is about the one in continuous time";
+    refused(&[AT_REST, "--sampling-period", "1/1000", "--witness", &continuous], other);
+    let targets =
+        "--target-sup is not for the regulator at samples: bounds by the number of oscillators are of continuous time";
+    refused(&[AT_REST, "--target-sup", "1", "--witness", &certificate], targets);
+    refused(&["specs/plants/linear.json", "--witness", &continuous], "the field `plant` is missing");
 
     let source = path("axis.c");
     program().args(["controller", &certificate, "--n-o", "10", "--format", "c", "-o", &source]).assert().code(0);

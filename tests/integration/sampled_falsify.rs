@@ -77,7 +77,7 @@ fn a_forged_claim_is_contradicted() {
         ("/claim/gain", -5.0, "", 4),
     ]
     .into_iter()
-    .step_by(every(3))
+    .step_by(every(4))
     {
         let outcome = tried(&forged(pointer, factor), trials);
         let Some((trial, violation)) = outcome.counterexample() else {
