@@ -18,6 +18,9 @@ pub trait Numbers: Sized {
     /// What it holds beside the numbers, which stands elsewhere in the file.
     type Other;
 
+    /// The names of the numbers, in the order of the file.
+    const NAMES: &'static [&'static str];
+
     /// The numbers by their names, in the order of the file.
     fn numbers(&self) -> Vec<(&'static str, &Rational)>;
 
@@ -41,6 +44,8 @@ macro_rules! numbers {
     ($part:ident { $($field:ident: $name:literal),+ } and ($($other:ident: $type:ty),*)) => {
         impl Numbers for $part {
             type Other = ($($type,)*);
+
+            const NAMES: &'static [&'static str] = &[$($name),+];
 
             fn numbers(&self) -> Vec<(&'static str, &Rational)> {
                 vec![$(($name, &self.$field)),+]
@@ -75,7 +80,7 @@ numbers!(SharpWitness {
 } and (sigma: Rational, set: ClaimedSet, transfer: TransferProof, refined: Option<RefinedSquares>));
 
 /// Mean squares of the periodic solution that are smaller than those of existence.
-pub(super) type RefinedSquares = MeanSquares<Rational>;
+pub type RefinedSquares = MeanSquares<Rational>;
 
 numbers!(RefinedSquares { x: "r_x", e: "r_e", e_rate: "r_d" } and ());
 

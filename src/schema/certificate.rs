@@ -2,7 +2,11 @@
 
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use super::{plant, specification};
-use crate::certificate::{FORMAT, VERSION};
+use crate::certificate::{FORMAT, Numbers, RefinedSquares, VERSION};
+use crate::derivation::exact_regulation::ExactWitness;
+use crate::derivation::repaired::RepairedWitness;
+use crate::derivation::sampled::SampledWitness;
+use crate::derivation::sharp::SharpWitness;
 use crate::spec::Bound;
 
 /// An exact rational number, as a decimal or a fraction.
@@ -144,21 +148,25 @@ fn numbers(names: &[&'static str], text: &str) -> Vec<Field> {
 /// The witness; `main` is the one of the claim, which carries the proofs of the data.
 fn witness(kind: Kind, main: bool) -> Vec<Field> {
     let names: &[&str] = match kind {
-        Kind::MeanSquares => &["X_p", "E_p", "r_x", "r_e", "r_d", "kap", "D_x", "D_e", "w_x", "h", "k0", "k1"],
+        Kind::MeanSquares => SharpWitness::NAMES,
         Kind::Contraction => &["X_p", "E_p", "p_x", "p_e", "D_x", "D_e", "w_x", "h", "k0", "k1"],
-        Kind::Repaired => &["X", "E", "L", "h", "p_x", "p_e", "k0", "k1"],
-        Kind::Sampled => &["X_p", "E_p", "r_x", "r_e", "r_d", "D_x", "D_e", "w_x", "h", "k0", "k1", "weight_sum"],
+        Kind::Repaired => RepairedWitness::NAMES,
+        Kind::Sampled => SampledWitness::NAMES,
     };
-    let mut fields = numbers(names, "A free number of the proof.");
+    let free = "A free number of the proof.";
+    let mut fields = numbers(names, free);
+    if kind == Kind::Sampled {
+        fields.extend(numbers(&["weight_sum"], free));
+    }
     fields.push(must("transfer", "Transfer bound", "How (k0, k1) is proved.", Shape::OneOf(transfer(kind))));
     if matches!(kind, Kind::MeanSquares | Kind::Contraction) {
-        let regulated = numbers(&["sigma_star_oo", "D_x", "D_e", "w_x", "h"], "A free number of exact regulation.");
+        let regulated = numbers(ExactWitness::NAMES, "A free number of exact regulation.");
         fields.push(may("exact_regulation", "Exact regulation", "With infinitely many oscillators.", {
             Shape::Object(regulated)
         }));
     }
     if kind == Kind::MeanSquares {
-        let refined = numbers(&["r_x", "r_e", "r_d"], "A root mean square of the periodic solution.");
+        let refined = numbers(RefinedSquares::NAMES, "A root mean square of the periodic solution.");
         fields.push(may("refined", "Refined", "Smaller mean squares.", Shape::Object(refined)));
     }
     if main && kind != Kind::Sampled {
