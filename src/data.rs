@@ -93,6 +93,13 @@ where
     pub fn transfer_at_zero(&self) -> R {
         R::int(1) / (self.nu.sqr() * &self.n_0)
     }
+
+    /// kappa_0 = k0/w^2 and kappa_1 = k1/w^4: a transfer bound in the units of omega.
+    #[must_use]
+    pub fn kappas(&self, k0: &R, k1: &R) -> [R; 2] {
+        let w_squared = self.base_frequency.sqr();
+        [k0 / &w_squared, k1 / w_squared.sqr()]
+    }
 }
 
 /// What the formulas of a derivation are evaluated for: the numbers of a specification, and its bounding functions.

@@ -9,7 +9,7 @@ use super::options::Ladder;
 use super::proof::{Decidable, Proof, RepairedProof, SharpProof};
 use crate::data::Data;
 use crate::derivation::exact_regulation::{ExactWitness, steady_state_norm};
-use crate::derivation::existence::{PeriodicBounds, kappas};
+use crate::derivation::existence::PeriodicBounds;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::initial_set::{Size, required_set};
 use crate::derivation::mean_squares::{ErrorGains, MeanSquares, PeriodicSize, SetBounds};
@@ -27,7 +27,7 @@ use rug::Rational;
 
 /// Significant digits of sigma*.
 const SIGMA_DIGITS: u32 = 6;
-/// Significant digits of the kappas, and of X_p, E_p where they do.
+/// Significant digits of the , and of X_p, E_p where they do.
 pub(super) const SHORT_DIGITS: u32 = 8;
 /// Significant digits of numbers in which a condition is active.
 pub(super) const LONG_DIGITS: u32 = 14;
@@ -231,7 +231,7 @@ fn repaired_witness(
     let e = rounded_e(proposal.e, largest_e_repaired(model, x.to_f64())?, digits)?;
     let (k0, k1, transfer) = transfer_pair(data, (0.0, 0.0, 0), TransferKind::ClosedForm)?;
     let bounds = PeriodicBounds::new(data, data.rational(&x), data.rational(&e));
-    let (kappa_0, kappa_1) = kappas(data, &data.rational(&k0), &data.rational(&k1));
+    let [kappa_0, kappa_1] = data.kappas(&data.rational(&k0), &data.rational(&k1));
     let z = bounds.z_squared_printed(data, &kappa_0, &kappa_1).sqrt();
     let set = claimed_set(data, &x, &e, &z)?;
     let h = nearest(proposal.h, LONG_DIGITS)?;

@@ -116,16 +116,6 @@ where
     }
 }
 
-/// kappa_0 = k0/w^2 and kappa_1 = k1/w^4: the transfer bound in the units of omega.
-#[must_use]
-pub fn kappas<R: Real>(problem: &impl Problem<R>, k0: &R, k1: &R) -> (R, R)
-where
-    for<'a> &'a R: Operand<R>,
-{
-    let w_squared = problem.numbers().base_frequency.sqr();
-    (k0 / &w_squared, k1 / w_squared.sqr())
-}
-
 /// `(c/alpha) b_fe / (1 - (c/alpha) b_fxx X_p/2)`: sup|x| over sup|e| along the periodic solution, under C1.
 #[must_use]
 pub fn x_per_gain<R: Real>(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>) -> R

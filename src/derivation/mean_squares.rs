@@ -1,7 +1,7 @@
 //! Existence and size of the periodic solution by mean squares (derivation, 10.1 to 10.4): no contraction is asked for.
 
+use super::gains;
 use super::harmonics::{self, AtOrigin};
-use super::{existence::kappas, gains};
 use crate::data::{Bound, Numbers, Problem};
 use crate::real::{Operand, Real};
 
@@ -347,7 +347,7 @@ where
     #[must_use]
     pub fn z_squared(&self, problem: &impl Problem<R>, [k0, k1]: [&R; 2]) -> R {
         let Numbers { period, mu, q_0, .. } = problem.numbers();
-        let (kappa_0, kappa_1) = kappas(problem, k0, k1);
+        let [kappa_0, kappa_1] = problem.numbers().kappas(k0, k1);
         let swing = period / (R::int(2) * mu) * self.forcing.q_rms.sqr();
         let mean = |size: &R, rate: &R| &kappa_0 * size.sqr() + &kappa_1 * rate.sqr();
         let plain = &swing + mean(&self.forcing.q_rms, &self.forcing.q_rate_rms);

@@ -2,7 +2,7 @@
 
 use super::condition::{self, Condition};
 use super::consequences::Excitation;
-use super::existence::{PeriodicBounds, kappas};
+use super::existence::PeriodicBounds;
 use super::gains;
 use super::initial_set::set_conditions;
 use super::lyapunov_matrix::{LyapunovMatrix, LyapunovPoint};
@@ -77,7 +77,7 @@ impl RepairedEvaluation {
         let beta = gains::beta(&sigma, &data.period);
         let bounds = PeriodicBounds::new(data, x.clone(), e.clone());
         let excitation = Excitation::by_contraction(data, &bounds);
-        let (kappa_0, kappa_1) = kappas(data, &number(&witness.k0), &number(&witness.k1));
+        let [kappa_0, kappa_1] = data.kappas(&number(&witness.k0), &number(&witness.k1));
         let z = bounds.z_squared_printed(data, &kappa_0, &kappa_1).sqrt();
         let point = LyapunovPoint {
             x_b: &x + (&level / &data.p_low).sqrt(),

@@ -6,7 +6,6 @@
 
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
-use crate::derivation::existence::kappas;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{
     DampedResponse, ErrorGains, Forcing, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,
@@ -287,6 +286,7 @@ impl PeriodicSet {
 /// The pair that makes Z smallest.
 fn cheapest_pair(model: &FloatModel, forcing: &Forcing<f64>) -> (f64, f64, u32) {
     // What a unit of k0 and of k1 adds to Z^2.
-    let (by_size, by_rate) = kappas(model, &forcing.q_rms.portable_powi(2), &forcing.q_rate_rms.portable_powi(2));
+    let [by_size, by_rate] =
+        model.numbers().kappas(&forcing.q_rms.portable_powi(2), &forcing.q_rate_rms.portable_powi(2));
     model.trade_off.best(by_size, by_rate)
 }

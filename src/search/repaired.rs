@@ -5,7 +5,7 @@ use super::minimise::minimise;
 use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::scan;
-use crate::derivation::existence::{LeastSigma, PeriodicBounds, kappas};
+use crate::derivation::existence::{LeastSigma, PeriodicBounds};
 use crate::derivation::gains::{beta, k_alpha};
 use crate::derivation::initial_set::distances;
 use crate::derivation::lyapunov_matrix::{LyapunovMatrix, LyapunovPoint};
@@ -36,7 +36,7 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
         return Err(Failing::Existence.at(x, e));
     }
     let pair = model.trade_off.best(1.0, 1.0);
-    let (kappa_0, kappa_1) = kappas(model, &pair.0, &pair.1);
+    let [kappa_0, kappa_1] = model.numbers().kappas(&pair.0, &pair.1);
     let z = bounds.z_squared_printed(model, &kappa_0, &kappa_1).sqrt();
     let [x0, e0, z0] = model.required_set(x, e, z);
     let [dist_x, dist_e, dist_z] = distances(model, [&x0, &e0, &z0], [&x, &e, &z]);

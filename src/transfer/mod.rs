@@ -36,7 +36,7 @@ pub use pair::{
 pub use pole_sums::{AroundPole, MAX_DIRECT_POLES, MAX_PIECES, OscillatorCount, PoleSums};
 pub use poles::{MAX_POLE_OSCILLATORS, PoleDisc, PolesError, internal_model_poles, slowest_decay, transfer_from_poles};
 pub use printed::{PrintedCheck, PrintedChecks, PrintedTransfer, lambda_interval, printed_transfer};
-pub use study::{MatchedPair, PairChoice, TransferStudy, Uniformity, kappas, rational_k0};
+pub use study::{MatchedPair, PairChoice, TransferStudy, Uniformity, rational_k0};
 pub use uniformity::{SupRatio, sup_ratios};
 
 use crate::data::Data;

@@ -112,13 +112,6 @@ impl<'s> TransferStudy<'s> {
     }
 }
 
-/// A pair in the units of omega: kappa_0 = k0/w^2 and kappa_1 = k1/w^4.
-#[must_use]
-pub fn kappas(data: &Data<'_>, k0: &Rational, k1: &Rational) -> [Enclosure; 2] {
-    let square = data.base_frequency.sqr();
-    [data.rational(k0) / &square, data.rational(k1) / square.sqr()]
-}
-
 /// A k0 that was asked for: itself where it is rational, else rounded up; `None` where it has no upper end.
 #[must_use]
 pub fn rational_k0(k0: &Constant, precision: u32) -> Option<Rational> {

@@ -3,7 +3,6 @@
 use super::gains::{SampledGains, SampledResponse};
 use super::law::SampledLaw;
 use crate::data::{Numbers, Problem};
-use crate::derivation::existence::kappas;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{Forcing, MeanSquares, SetBounds, sup_by_mean_squares};
 use crate::real::{Operand, Real};
@@ -43,7 +42,7 @@ where
     #[must_use]
     pub fn z_squared(&self, problem: &impl Problem<R>, law: &SampledLaw<R>, [k0, k1]: [&R; 2]) -> R {
         let Numbers { period, .. } = problem.numbers();
-        let (kappa_0, kappa_1) = kappas(problem, k0, k1);
+        let [kappa_0, kappa_1] = problem.numbers().kappas(k0, k1);
         let swing = period / (R::int(2) * &law.mu);
         law.enlarged.sqr() * ((swing + kappa_0) * self.forcing.q_rms.sqr() + kappa_1 * self.forcing.q_rate_rms.sqr())
     }

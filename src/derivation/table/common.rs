@@ -4,7 +4,7 @@ use super::{At, Entry, Row, Status, TableInput, Value, number, printed, row, sou
 use crate::data::Data;
 use crate::derivation::consequences::{Excitation, Psi};
 use crate::derivation::contraction::ContractionMatrix;
-use crate::derivation::existence::{PeriodicBounds, kappas};
+use crate::derivation::existence::PeriodicBounds;
 use crate::derivation::gains;
 use crate::derivation::sharp::SharpEvaluation;
 use crate::enclosure::Enclosure;
@@ -30,13 +30,13 @@ impl<'a> Common<'a> {
         let data = input.data;
         let bounds = PeriodicBounds::new(data, x_p.clone(), e_p.clone());
         let (k0, k1) = closed_form_pair(data);
-        let closed = kappas(data, &k0, &k1);
-        let sharp = kappas(data, &data.rational(&input.sharp_pair.0), &data.rational(&input.sharp_pair.1));
+        let closed = data.kappas(&k0, &k1);
+        let sharp = data.kappas(&data.rational(&input.sharp_pair.0), &data.rational(&input.sharp_pair.1));
         let transfer = printed_transfer(data);
         Common {
             k_alpha: gains::k_alpha(&data.c, &data.alpha, &data.period),
             z_printed: bounds.z_squared_printed(data, &transfer.kappa_0, &transfer.kappa_1).sqrt(),
-            z_repaired: bounds.z_squared_printed(data, &closed.0, &closed.1).sqrt(),
+            z_repaired: bounds.z_squared_printed(data, &closed[0], &closed[1]).sqrt(),
             own: input.sharp.filter(|own| own.sigma == sigma && own.bounds.x_p == x_p && own.bounds.e_p == e_p),
             sigma,
             bounds,
@@ -112,7 +112,7 @@ pub(super) fn contraction_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row>
 pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let (transfer, closed) = (&common.transfer, &common.closed);
     // The printed pair is believed only where both members dominate the closed form.
-    let dominates = transfer.kappa_0.ge(&closed.0).and(transfer.kappa_1.ge(&closed.1));
+    let dominates = transfer.kappa_0.ge(&closed[0]).and(transfer.kappa_1.ge(&closed[1]));
     let status = if dominates.is_true() { Status::Sound } else { Status::PrintedUnsound };
     let mut rows = vec![
         row("S", At::Data, number(transfer.s.clone(), status, "P:29"), None, None),
@@ -130,15 +130,15 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
         "kappa_0",
         At::Common,
         number(transfer.kappa_0.clone(), status, "P:lemma:transfer_function"),
-        sound(closed.0.clone(), "section 2, closed form / w^2"),
-        sound(common.sharp.0.clone(), "section 2, k0/w^2"),
+        sound(closed[0].clone(), "section 2, closed form / w^2"),
+        sound(common.sharp[0].clone(), "section 2, k0/w^2"),
     ));
     rows.push(row(
         "kappa_1",
         At::Common,
         number(transfer.kappa_1.clone(), status, "P:lemma:transfer_function"),
-        sound(closed.1.clone(), "section 2, closed form / w^4"),
-        sound(common.sharp.1.clone(), "section 2, k1/w^4"),
+        sound(closed[1].clone(), "section 2, closed form / w^4"),
+        sound(common.sharp[1].clone(), "section 2, k1/w^4"),
     ));
     let z_status = if dominates.is_true() { Status::Sound } else { Status::PrintedUnsound };
     rows.push(row(

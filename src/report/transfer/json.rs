@@ -5,13 +5,13 @@ use crate::data::Data;
 use crate::number::write_exact;
 use crate::transfer::{
     CertifiedPair, OscillatorCount, PairError, PairStatus, PrintedCheck, PrintedChecks, TransferStudy, Uniformity,
-    kappas, lambda_interval,
+    lambda_interval,
 };
 use serde_json::{Value, json};
 
 pub(super) fn report(study: &TransferStudy<'_>) -> Value {
     let (data, pair) = (&study.data, &study.pair);
-    let [kappa_0, kappa_1] = kappas(data, &pair.k0, &pair.k1);
+    let [kappa_0, kappa_1] = data.kappas(&data.rational(&pair.k0), &data.rational(&pair.k1));
     let per_n_o = |Uniformity { sup, decay }: &Uniformity| {
         json!({
             "n_o": count_json(sup.n_o), "ratio": sup.ratio.decimals(), "x": write_exact(&sup.x),

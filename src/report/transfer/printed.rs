@@ -5,7 +5,7 @@ use crate::enclosure::{Enclosure, Truth};
 use crate::number::Direction;
 use crate::report::document::{Block, Table};
 use crate::report::number::{compact, exact};
-use crate::transfer::{CertifiedPair, PairStatus, PrintedChecks, kappas, lambda_interval};
+use crate::transfer::{CertifiedPair, PairStatus, PrintedChecks, lambda_interval};
 
 /// The m for which the interval of lambda is shown.
 const LAMBDA_ROWS: u32 = 3;
@@ -36,7 +36,7 @@ pub(super) fn section(printed: &PrintedChecks, data: &Data<'_>, pair: &Certified
     let mut row = |name: &str, value: &Enclosure, repaired: Enclosure, proved: Enclosure| {
         constants.push([name.to_owned(), compact(value), compact(&repaired), compact(&proved)]);
     };
-    let [kappa_0, kappa_1] = kappas(data, &pair.k0, &pair.k1);
+    let [kappa_0, kappa_1] = data.kappas(&data.rational(&pair.k0), &data.rational(&pair.k1));
     row("kappa_0", &printed.constants.kappa_0, &printed.repaired.0 / w.sqr(), kappa_0);
     row("kappa_1", &printed.constants.kappa_1, &printed.repaired.1 / w.sqr().sqr(), kappa_1);
     for (name, value) in [("S", &printed.constants.s), ("a", &printed.constants.a), ("varpi", &printed.constants.varpi)]

@@ -4,11 +4,11 @@ use crate::data::Data;
 use crate::number::{Direction, write_exact};
 use crate::report::document::{Block, Table};
 use crate::report::number::{compact, exact, lower, upper};
-use crate::transfer::{CertifiedPair, MatchedPair, Uniformity, kappas};
+use crate::transfer::{CertifiedPair, MatchedPair, Uniformity};
 
 /// The claim itself.
 pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
-    let [kappa_0, kappa_1] = kappas(data, &pair.k0, &pair.k1);
+    let [kappa_0, kappa_1] = data.kappas(&data.rational(&pair.k0), &data.rational(&pair.k1));
     let mut blocks = vec![
         Block::Verdict(format!(
             "Proved: T_N(x) <= k0 + k1 x^2 with k0 = {} and k1 = {}, for every number of oscillators N = n_o >= 0 and every \
@@ -103,7 +103,7 @@ pub(super) fn trade_off(data: &Data<'_>, pairs: &[CertifiedPair]) -> Vec<Block> 
 
 /// The pair that only integers x need.
 pub(super) fn matched(data: &Data<'_>, matched: &MatchedPair) -> Vec<Block> {
-    let [kappa_0, kappa_1] = kappas(data, &matched.k0, &matched.k1);
+    let [kappa_0, kappa_1] = data.kappas(&data.rational(&matched.k0), &data.rational(&matched.k1));
     vec![
         Block::heading("Matched base frequency"),
         Block::says(format!(
