@@ -283,11 +283,11 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
         let said = utf8(assert.get_output().stderr.clone());
         assert!(said.contains(told), "{said}");
     };
-    let another = "another sampling period is asked for than 1/1000, which the certificate is about";
+    let another = "another sampling period is asked for than 0.001, which the certificate is about";
     refused(&[AT_REST, "--sampling-period", "1/500", "--witness", &certificate], another);
     let long = std::fs::read_to_string(AT_REST).unwrap().replace("\"period\": \"1\"", "\"period\": \"2\"");
     std::fs::write(path("long.json"), long.replace("\"2*pi\"", "\"pi\"")).unwrap();
-    let samples = "the certificate is about 1000 samples of 1/1000 in a period at a matched base frequency, and that is not so here";
+    let samples = "the certificate is about 1000 samples of 0.001 in a period at a matched base frequency, and that is not so here";
     refused(&[&path("long.json"), "--witness", &certificate], samples);
     let continuous = path("continuous.json");
     program().args(["certify", AT_REST, "-q", "-o", &continuous]).assert().code(0);
