@@ -6,6 +6,7 @@
 
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
+use crate::data::Problem;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{
     DampedResponse, ErrorGains, Forcing, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,

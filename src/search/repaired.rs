@@ -5,6 +5,7 @@ use super::minimise::minimise;
 use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::scan;
+use crate::data::Problem;
 use crate::derivation::existence::{LeastSigma, PeriodicBounds};
 use crate::derivation::gains::{beta, k_alpha};
 use crate::derivation::initial_set::distances;
