@@ -12,7 +12,7 @@ use crate::derivation::exact_regulation::{ExactWitness, steady_state_norm};
 use crate::derivation::existence::PeriodicBounds;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::initial_set::{Size, required_set};
-use crate::derivation::mean_squares::{ErrorGains, MeanSquares, PeriodicSize, SetBounds};
+use crate::derivation::mean_squares::{ErrorGains, Gains, MeanSquares, PeriodicSize, SetBounds};
 use crate::derivation::repaired::RepairedWitness;
 use crate::derivation::sharp::{ClaimedSet, SharpWitness};
 use crate::enclosure::Enclosure;
@@ -169,7 +169,7 @@ fn sharp_witness(
     let bounds = SetBounds::new(data, data.rational(&x_p), data.rational(&e_p));
     let at_the_solution = refined.as_ref().unwrap_or(&existence).map(|value| data.rational(value));
     let periodic = PeriodicSize::new(data, &bounds, &AtOrigin::new(data), &gains, &at_the_solution);
-    let z = periodic.z_squared(data, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
+    let z = gains.z_squared(data, &periodic.forcing, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
     let set = claimed_set(data, &x_p, &e_p, &z)?;
 
     // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.

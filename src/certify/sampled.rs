@@ -14,8 +14,8 @@ use super::verdict::Verdict;
 use crate::data::{Bound, Data, Problem};
 use crate::derivation::condition::{Condition, all};
 use crate::derivation::harmonics::AtOrigin;
-use crate::derivation::mean_squares::{MeanSquares, SetBounds};
-use crate::derivation::sampled::{SampledGains, SampledLaw, SampledSize, SampledWitness, sampled_trade_off};
+use crate::derivation::mean_squares::{Gains, MeanSquares, PeriodicSize, SetBounds};
+use crate::derivation::sampled::{SampledGains, SampledLaw, SampledWitness, sampled_trade_off};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{Extreme, Failing, FloatModel, SampledLimit, SampledProposal, SampledSearch};
@@ -217,8 +217,8 @@ fn round(
         let bounds = SetBounds::new(data, data.rational(&x_p), data.rational(&e_p));
         let squares = MeanSquares { x: &r_x, e: &r_e, e_rate: &r_d }.map(|value| data.rational(value));
         let gains = SampledGains::new(&enclosed, &data.rational(&sigma), &data.period);
-        let size = SampledSize::new(data, &bounds, &origin, &gains, &squares);
-        let z = size.z_squared(data, &enclosed, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
+        let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
+        let z = gains.z_squared(data, &size.forcing, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
         let set = claimed_set(data, &x_p, &e_p, &z)?;
         // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.
         let [dist_x, dist_e, dist_z] =

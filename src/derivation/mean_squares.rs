@@ -216,26 +216,51 @@ pub struct Response<R> {
     pub rate_rms: R,
 }
 
-impl<R: Real> Response<R>
+/// What a regulator makes of a periodic input q, for every n_o.
+pub trait Gains<R: Real> {
+    /// Bounds of the error, from those of q.
+    fn response(&self, origin: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R>;
+
+    /// Z^2, a bound of zeta'N zeta at every instant (or at every sample) of the periodic solution; k0, k1 in units of
+    /// x = omega/w.
+    fn z_squared(&self, problem: &impl Problem<R>, forcing: &Forcing<R>, k: [&R; 2]) -> R;
+}
+
+impl<R: Real> Gains<R> for ErrorGains<R>
 where
     for<'a> &'a R: Operand<R>,
 {
     /// `min{bt R_q, tau R_1}`, `min{R_q/sg, R_1/(Om sg)}`, `min{R_q, R_1/sg}`; superposed with the known harmonics of
     /// q(t,0,0) where that is smaller.
-    #[must_use]
-    pub fn new(gains: &ErrorGains<R>, origin: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R> {
+    fn response(&self, origin: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R> {
         let Forcing { q_rms, q_rate_rms, change: [change, change_rate] } = forcing;
-        let sup = gains.sup_of(q_rms, q_rate_rms);
-        let rms = gains.rms_of(q_rms, q_rate_rms);
-        let rate_rms = q_rms.min(&(q_rate_rms * &gains.rms));
-        let (Some(known), Some(response)) = (&origin.known, &gains.known) else {
+        let sup = self.sup_of(q_rms, q_rate_rms);
+        let rms = self.rms_of(q_rms, q_rate_rms);
+        let rate_rms = q_rms.min(&(q_rate_rms * &self.rms));
+        let (Some(known), Some(response)) = (&origin.known, &self.known) else {
             return Response { sup, rms, rate_rms };
         };
         let superposed_sup =
-            &response.sup + gains.sup_of(&known.rest_rms, &known.rest_t_rms) + gains.sup_of(change, change_rate);
+            &response.sup + self.sup_of(&known.rest_rms, &known.rest_t_rms) + self.sup_of(change, change_rate);
         let superposed_rms =
-            &response.rms + gains.rms_of(&known.rest_rms, &known.rest_t_rms) + gains.rms_of(change, change_rate);
+            &response.rms + self.rms_of(&known.rest_rms, &known.rest_t_rms) + self.rms_of(change, change_rate);
         Response { sup: sup.min(&superposed_sup), rms: rms.min(&superposed_rms), rate_rms }
+    }
+
+    /// `Z^2 = (T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2`, or the superposed form where harmonics of q(t,0,0) are known.
+    fn z_squared(&self, problem: &impl Problem<R>, forcing: &Forcing<R>, [k0, k1]: [&R; 2]) -> R {
+        let Numbers { period, mu, q_0, .. } = problem.numbers();
+        let [kappa_0, kappa_1] = problem.numbers().kappas(k0, k1);
+        let swing = period / (R::int(2) * mu) * forcing.q_rms.sqr();
+        let mean = |size: &R, rate: &R| &kappa_0 * size.sqr() + &kappa_1 * rate.sqr();
+        let plain = &swing + mean(&forcing.q_rms, &forcing.q_rate_rms);
+        let Some(known) = q_0 else { return plain };
+        let rest = harmonics::rest_t_rms(problem, known);
+        let [change, change_rate] = &forcing.change;
+        let superposed = harmonics::steady_state_norm(problem, known, [k0, k1])
+            + mean(&known.rest_rms, &rest).sqrt()
+            + mean(change, change_rate).sqrt();
+        plain.min(&(swing + superposed.sqr()))
     }
 }
 
@@ -299,7 +324,7 @@ pub fn at_the_solution<R: Real>(
 where
     for<'a> &'a R: Operand<R>,
 {
-    let response = Response::new(gains, origin, &Forcing::new(bounds, origin, squares));
+    let response = gains.response(origin, &Forcing::new(bounds, origin, squares));
     let (mut e, mut e_rate) = (response.rms, response.rate_rms);
     if let Some(kap) = kap {
         let damped = DampedResponse::new(bounds, origin, [&gains.sigma, kap], squares);
@@ -313,7 +338,7 @@ where
 pub struct PeriodicSize<R> {
     /// R_q, R_1 and the change of q.
     pub forcing: Forcing<R>,
-    /// e_per = min{E_p, bt R_q, tau R_1, sqrt(T r_e r_d)}, or the superposed bound.
+    /// e_per, the least of E_p, sqrt(T r_e r_d) and the bound of sup|e| in [`Gains::response`].
     pub e_per: R,
     /// x_per = min{X_p, (c/a_1) b_fe e_per, K2(a_1) b_fe r_e}.
     pub x_per: R,
@@ -324,39 +349,18 @@ where
     for<'a> &'a R: Operand<R>,
 {
     /// Evaluates the bounds. Guarantee: sup|e| <= e_per, sup|x| <= x_per for every sigma' >= sigma and every n_o, where the
-    /// mean squares are those of a proved existence.
+    /// mean squares are those of a proved existence (of the regulator at samples for this sigma).
     #[must_use]
     pub fn new(
         problem: &impl Problem<R>,
         bounds: &SetBounds<R>,
         origin: &AtOrigin<R>,
-        gains: &ErrorGains<R>,
+        gains: &impl Gains<R>,
         squares: &MeanSquares<R>,
     ) -> PeriodicSize<R> {
         let forcing = Forcing::new(bounds, origin, squares);
-        let response = Response::new(gains, origin, &forcing);
-        let e_per = bounds.e_p.min(&response.sup).min(&sup_by_mean_squares(problem, squares));
+        let e_per = bounds.e_p.min(&gains.response(origin, &forcing).sup).min(&sup_by_mean_squares(problem, squares));
         let x_per = bounds.x_per(&e_per, squares);
         PeriodicSize { forcing, e_per, x_per }
-    }
-
-    /// `Z^2 = (T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2`, or the superposed form where harmonics of q(t,0,0) are known; k0, k1
-    /// in units of x = omega/w.
-    ///
-    /// Guarantee: sup sqrt(zeta'N zeta) <= Z along the periodic solution.
-    #[must_use]
-    pub fn z_squared(&self, problem: &impl Problem<R>, [k0, k1]: [&R; 2]) -> R {
-        let Numbers { period, mu, q_0, .. } = problem.numbers();
-        let [kappa_0, kappa_1] = problem.numbers().kappas(k0, k1);
-        let swing = period / (R::int(2) * mu) * self.forcing.q_rms.sqr();
-        let mean = |size: &R, rate: &R| &kappa_0 * size.sqr() + &kappa_1 * rate.sqr();
-        let plain = &swing + mean(&self.forcing.q_rms, &self.forcing.q_rate_rms);
-        let Some(known) = q_0 else { return plain };
-        let rest = harmonics::rest_t_rms(problem, known);
-        let [change, change_rate] = &self.forcing.change;
-        let superposed = harmonics::steady_state_norm(problem, known, [k0, k1])
-            + mean(&known.rest_rms, &rest).sqrt()
-            + mean(change, change_rate).sqrt();
-        plain.min(&(swing + superposed.sqr()))
     }
 }

@@ -6,7 +6,7 @@ use super::contraction::ContractionMatrix;
 use super::harmonics::AtOrigin;
 use super::initial_set::{distances, set_conditions};
 use super::mean_squares::{
-    DampedResponse, ErrorGains, Forcing, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,
+    DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, at_the_solution,
     sup_by_mean_squares,
 };
 use super::stability::{DecayCondition, ErrorBox, level_condition};
@@ -134,7 +134,7 @@ impl SharpEvaluation {
         let gains = ErrorGains::new(data, &sigma);
         let squares = witness.squares_at_the_solution().map(|value| number(value));
         let periodic = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
-        let z = periodic.z_squared(data, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
+        let z = gains.z_squared(data, &periodic.forcing, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
 
         let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
         let (w_x, h) = (number(&witness.w_x), number(&witness.h));
@@ -246,7 +246,7 @@ fn existence_conditions(
     let known = if data.q_0.is_some() { ", q_0 form" } else { "" };
     let [sup, rms, rate_rms] = match &kap {
         None => {
-            let response = Response::new(gains, origin, &Forcing::new(bounds, origin, &squares));
+            let response = gains.response(origin, &Forcing::new(bounds, origin, &squares));
             [
                 (format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){known}}} <= E_p"), response.sup.min(&by_squares)),
                 (format!("min{{R_q/sg, R_1/(Om sg){known}}} <= r_e"), response.rms),

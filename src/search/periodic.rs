@@ -9,10 +9,10 @@ use super::obstacle::{Failing, Obstacle};
 use crate::data::Problem;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{
-    DampedResponse, ErrorGains, Forcing, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,
+    DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,
     sup_by_mean_squares,
 };
-use crate::derivation::sampled::{SampledGains, SampledLaw, SampledResponse, SampledSize};
+use crate::derivation::sampled::{SampledGains, SampledLaw};
 use crate::number::Portable;
 
 /// Which form of S2 existence is sought with.
@@ -110,19 +110,14 @@ impl Iteration<'_> {
         let by_squares = sup_by_mean_squares(self.model, &squares);
         let kap = self.kap(&bounds);
         let forcing = || Forcing::new(&bounds, self.origin, &squares);
+        let undamped = |response: Response<f64>| [response.sup.min(by_squares), response.rms, response.rate_rms];
         let [sup, rms, rate_rms] = match self.regulated {
             Regulated::Continuous { gains, .. } if kap > 0.0 => {
                 let damped = DampedResponse::new(&bounds, self.origin, [&gains.sigma, &kap], &squares);
                 [by_squares, damped.rms, damped.rate_rms]
             }
-            Regulated::Continuous { gains, .. } => {
-                let response = Response::new(gains, self.origin, &forcing());
-                [response.sup.min(by_squares), response.rms, response.rate_rms]
-            }
-            Regulated::Sampled(gains) => {
-                let response = SampledResponse::new(gains, &forcing());
-                [response.sup.min(by_squares), response.rms, response.rate_rms]
-            }
+            Regulated::Continuous { gains, .. } => undamped(gains.response(self.origin, &forcing())),
+            Regulated::Sampled(gains) => undamped(gains.response(self.origin, &forcing())),
         };
         let next = [bounds.x_sup(&squares), sup, bounds.x_rms(&squares), rms, rate_rms].map(|v| v * self.enlarged);
         if !next.iter().all(|value| value.is_finite() && *value < 1e140) {
@@ -136,6 +131,27 @@ impl Iteration<'_> {
         let least = |share: f64, of: f64| share.max(SMALLEST_SHARE * of);
         let rate = e_p / self.model.period;
         Ok([x_p, e_p, least(next[2], x_p), least(next[3], e_p), least(next[4], rate)])
+    }
+
+    /// The smallest set, with mean squares that `refine` makes smaller.
+    fn set(
+        &self,
+        gains: &impl Gains<f64>,
+        refine: impl Fn(&Self, &SetBounds<f64>, f64) -> Option<MeanSquares<f64>>,
+    ) -> Result<PeriodicSet, Obstacle> {
+        let model = self.model;
+        let [x_p, e_p, x, e, e_rate] = self.least()?;
+        let bounds = SetBounds::new(model, x_p, e_p);
+        let squares = MeanSquares { x, e, e_rate };
+        let kap = self.kap(&bounds);
+        let refined = refine(self, &bounds, kap);
+        let size = PeriodicSize::new(model, &bounds, self.origin, gains, refined.as_ref().unwrap_or(&squares));
+        let pair = cheapest_pair(model, &size.forcing);
+        let z = gains.z_squared(model, &size.forcing, [&pair.0, &pair.1]).sqrt();
+        if !z.is_finite() {
+            return Err(model.not_finite(x_p, e_p));
+        }
+        Ok(PeriodicSet { x_p, e_p, squares, kap, refined, x_per: size.x_per, e_per: size.e_per, z, pair })
     }
 
     fn kap(&self, bounds: &SetBounds<f64>) -> f64 {
@@ -241,19 +257,8 @@ impl PeriodicSet {
     ) -> Result<PeriodicSet, Obstacle> {
         let gains = ErrorGains::new(model, &sigma);
         let regulated = Regulated::Continuous { gains: &gains, form };
-        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
-        let [x_p, e_p, x, e, e_rate] = iteration.least()?;
-        let bounds = SetBounds::new(model, x_p, e_p);
-        let squares = MeanSquares { x, e, e_rate };
-        let kap = iteration.kap(&bounds);
-        let refined = if kap > 0.0 { iteration.refined(&gains, &bounds, kap) } else { None };
-        let size = PeriodicSize::new(model, &bounds, origin, &gains, refined.as_ref().unwrap_or(&squares));
-        let pair = cheapest_pair(model, &size.forcing);
-        let z = size.z_squared(model, [&pair.0, &pair.1]).sqrt();
-        if !z.is_finite() {
-            return Err(model.not_finite(x_p, e_p));
-        }
-        Ok(PeriodicSet { x_p, e_p, squares, kap, refined, x_per: size.x_per, e_per: size.e_per, z, pair })
+        Iteration { model, origin, regulated, floors, enlarged: 1.0 + room }
+            .set(&gains, |iteration, bounds, kap| if kap > 0.0 { iteration.refined(&gains, bounds, kap) } else { None })
     }
 
     /// The same under the law at samples.
@@ -269,18 +274,7 @@ impl PeriodicSet {
     ) -> Result<PeriodicSet, Obstacle> {
         let gains = SampledGains::new(law, &sigma, &model.period);
         let regulated = Regulated::Sampled(&gains);
-        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
-        let [x_p, e_p, x, e, e_rate] = iteration.least()?;
-        let bounds = SetBounds::new(model, x_p, e_p);
-        let squares = MeanSquares { x, e, e_rate };
-        let size = SampledSize::new(model, &bounds, origin, &gains, &squares);
-        let pair = cheapest_pair(model, &size.forcing);
-        let z = size.z_squared(model, law, [&pair.0, &pair.1]).sqrt();
-        if !z.is_finite() {
-            return Err(model.not_finite(x_p, e_p));
-        }
-        let (x_per, e_per) = (size.x_per, size.e_per);
-        Ok(PeriodicSet { x_p, e_p, squares, kap: 0.0, refined: None, x_per, e_per, z, pair })
+        Iteration { model, origin, regulated, floors, enlarged: 1.0 + room }.set(&gains, |_, _, _| None)
     }
 }
 

@@ -1,7 +1,9 @@
 //! What the law at samples makes of a periodic q, for every n_o < N_s/2 (derivation, 12.1).
 
 use super::law::SampledLaw;
-use crate::derivation::mean_squares::Forcing;
+use crate::data::Problem;
+use crate::derivation::harmonics::AtOrigin;
+use crate::derivation::mean_squares::{Forcing, Gains, Response};
 use crate::real::{Operand, Real};
 
 /// With more samples than these 1 + theta, which is then nearly 1, stands for every Sb_j.
@@ -26,6 +28,9 @@ pub struct SampledGains<R> {
     pub between: R,
     /// (h/pi)^2: the same in the mean.
     pub between_rms: R,
+    /// mu and 1 + theta of the law.
+    mu: R,
+    enlarged: R,
 }
 
 impl<R: Real> SampledGains<R>
@@ -69,6 +74,8 @@ where
             rms,
             between: &in_between / R::int(2) * (&law.step * period).sqrt(),
             between_rms: in_between.sqr(),
+            mu: law.mu.clone(),
+            enlarged: law.enlarged.clone(),
         }
     }
 }
@@ -92,32 +99,27 @@ where
     plain.max(&(cosine * &first).min(&at_turn)).sqrt()
 }
 
-/// The right sides of (S2) for the law at samples.
-#[derive(Clone, Debug)]
-pub struct SampledResponse<R> {
-    /// Of sup|e|, without `sqrt(T r_e r_d)`.
-    pub sup: R,
-    /// Of rms(e).
-    pub rms: R,
-    /// Of rms(e').
-    pub rate_rms: R,
-}
-
-impl<R: Real> SampledResponse<R>
+impl<R: Real> Gains<R> for SampledGains<R>
 where
     for<'a> &'a R: Operand<R>,
 {
     /// `min{bt_S R_q, tau_S R_1} + (h/(2 pi)) sqrt(h T) R_1`, `min{R_q, R_1/om_1}/sg_S + (h/pi)^2 R_1`,
     /// `min{2 (1+theta)/(2 - h sigma) R_q, sqrt(1/sg_S^2 + (h/pi)^2) R_1}`.
-    #[must_use]
-    pub fn new(gains: &SampledGains<R>, forcing: &Forcing<R>) -> SampledResponse<R> {
+    fn response(&self, _: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R> {
         let Forcing { q_rms, q_rate_rms, .. } = forcing;
         let least = |by_size: &R, by_rate: &R| (by_size * q_rms).min_known(&(by_rate * q_rate_rms));
-        SampledResponse {
-            sup: least(&gains.sup, &gains.sup_by_rate) + &gains.between * q_rate_rms,
-            rms: least(&gains.rms, &gains.rms_by_rate) + &gains.between_rms * q_rate_rms,
-            rate_rms: least(&gains.rate, &gains.rate_by_rate),
+        Response {
+            sup: least(&self.sup, &self.sup_by_rate) + &self.between * q_rate_rms,
+            rms: least(&self.rms, &self.rms_by_rate) + &self.between_rms * q_rate_rms,
+            rate_rms: least(&self.rate, &self.rate_by_rate),
         }
+    }
+
+    /// `Z^2 = (1+theta)^2 [ (T/(2 mu) + k0/w^2) R_q^2 + (k1/w^4) R_1^2 ]` (12.2), a bound of sup_k |zeta_k|_N^2.
+    fn z_squared(&self, problem: &impl Problem<R>, forcing: &Forcing<R>, [k0, k1]: [&R; 2]) -> R {
+        let [kappa_0, kappa_1] = problem.numbers().kappas(k0, k1);
+        let swing = &problem.numbers().period / (R::int(2) * &self.mu);
+        self.enlarged.sqr() * ((swing + kappa_0) * forcing.q_rms.sqr() + kappa_1 * forcing.q_rate_rms.sqr())
     }
 }
 

@@ -7,19 +7,17 @@ mod examples;
 mod gains;
 mod law;
 mod pair;
-mod size;
 mod stability;
 
-pub use gains::{SampledGains, SampledResponse};
+pub use gains::SampledGains;
 pub use law::SampledLaw;
 pub use pair::{SampledPair, sampled_trade_off};
-pub use size::SampledSize;
 pub use stability::{DecayForms, DecayNumbers, Form, Part};
 
 use super::condition::{self, Condition};
 use super::harmonics::AtOrigin;
 use super::initial_set::set_conditions;
-use super::mean_squares::{Forcing, MeanSquares, SetBounds, sup_by_mean_squares};
+use super::mean_squares::{Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, sup_by_mean_squares};
 use super::sharp::{ClaimedSet, one_sided};
 use super::stability::{ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
@@ -84,7 +82,7 @@ pub struct SampledEvaluation {
     /// The bounding functions at (X_p, E_p).
     pub bounds: SetBounds<Enclosure>,
     /// R_q, R_1, e_per, x_per.
-    pub size: SampledSize<Enclosure>,
+    pub size: PeriodicSize<Enclosure>,
     /// Z.
     pub z: Enclosure,
     /// The error box.
@@ -116,8 +114,8 @@ impl SampledEvaluation {
         let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
         let gains = SampledGains::new(&law, &sigma, &data.period);
         let squares = witness.squares().map(|value| number(value));
-        let size = SampledSize::new(data, &bounds, &origin, &gains, &squares);
-        let z = size.z_squared(data, &law, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
+        let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
+        let z = gains.z_squared(data, &size.forcing, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
         let [d_x, d_e, w_x, eta] = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta].map(number);
         let error_box = ErrorBox::new(data, &size.x_per, &size.e_per, &d_x, &d_e);
         let forms = DecayForms::new(data, &error_box, &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta });
@@ -206,7 +204,7 @@ fn existence_conditions(
     gains: &SampledGains<Enclosure>,
     squares: &MeanSquares<Enclosure>,
 ) -> Vec<Condition> {
-    let response = SampledResponse::new(gains, &Forcing::new(bounds, origin, squares));
+    let response = gains.response(origin, &Forcing::new(bounds, origin, squares));
     let sup = response.sup.min(&sup_by_mean_squares(data, squares));
     vec![
         Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
