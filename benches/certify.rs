@@ -1,6 +1,6 @@
 //! Timings of a whole run, of one rigorous decision, and of the expression evaluators.
 //!
-//! `cargo bench` prints them; nothing here is asserted.
+//! `cargo bench` in this folder prints them; nothing here is asserted.
 
 #![allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
 
@@ -15,7 +15,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 fn paper_example() -> Specification {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/paper-example.json");
     Specification::load(&path).expect("the shipped example is valid")
 }
 

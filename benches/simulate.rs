@@ -1,6 +1,6 @@
 //! The fixed-step loop beside the same loop in hand-written C (compiled here with gcc) and in NumPy.
 //!
-//! `cargo bench --bench simulate` prints the time of one step of each; nothing here is asserted but that all three
+//! `cargo bench --bench simulate` in this folder prints the time of one step of each; nothing here is asserted but that all three
 //! compute the same. Where gcc or NumPy is missing, its line is missing.
 
 #![allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
@@ -17,8 +17,8 @@ use std::time::Duration;
 
 const STEPS_PER_PERIOD: usize = 10_000;
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 fn closed_loop() -> (ClosedLoop, Vec<f64>) {

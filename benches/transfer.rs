@@ -1,6 +1,6 @@
 //! Timings of g_N, T_N and the poles of the internal model.
 //!
-//! `cargo bench --bench transfer` prints them; nothing here is asserted.
+//! `cargo bench --bench transfer` in this folder prints them; nothing here is asserted.
 
 #![allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
 
@@ -14,7 +14,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 fn sums(criterion: &mut Criterion) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/paper-example.json");
     let spec = Specification::load(&path).expect("the shipped example is valid");
     let data = Data::new(&spec, 128);
     let x = Enclosure::from_rational(&Rational::from((17, 5)), 128);
@@ -51,7 +51,7 @@ fn sums(criterion: &mut Criterion) {
 }
 
 fn pairs(criterion: &mut Criterion) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/paper-example.json");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/paper-example.json");
     let spec = Specification::load(&path).expect("the shipped example is valid");
     let data = Data::new(&spec, 128);
     // A little above the optimum for nu = 1/(2 pi), eps = 1/2.

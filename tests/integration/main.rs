@@ -69,4 +69,5 @@ mod transfer_sums;
 mod transfer_table;
 mod tune;
 mod undefined;
+mod validator;
 mod witness;
