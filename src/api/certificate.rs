@@ -1,13 +1,12 @@
 //! What a certificate says.
 
-use super::certify::{conditions, full_report};
 use super::condition::Condition;
 use super::report::Report;
 use super::subject::Subject;
 use super::{json_text, nearest, rounded_down, rounded_up};
 use crate::certificate::{certificate_of, sampled_statement, statement};
 use crate::certify::claimed_ball;
-use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::enclosure::Enclosure;
 use crate::number::write_exact;
 use crate::reduction::Run;
@@ -32,8 +31,8 @@ impl Certificate {
     pub(super) fn new(run: &Run<'_>, subject: &Subject) -> Option<Certificate> {
         let claim = Claim::new(run)?;
         let (json, subject) = (json_text(&certificate_of(run)?), subject.clone());
-        let (remarks, report) = (run_remarks(run), full_report(run));
-        Some(Certificate { claim, conditions: conditions(run), remarks, json, report, subject })
+        let (remarks, report) = (run_remarks(run), Report::of_run(run));
+        Some(Certificate { claim, conditions: Condition::of_run(run), remarks, json, report, subject })
     }
 
     /// What is claimed.

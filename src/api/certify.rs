@@ -7,7 +7,7 @@ use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
 use crate::reduction::{Prepared, Run, Subject as Read, at_samples};
-use crate::report::{RunReport, run_sentence};
+use crate::report::run_sentence;
 
 /// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
 /// small gain, and the rigorous decision of every condition.
@@ -54,14 +54,5 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
 /// Why a run has no certificate: the bounding functions that are not proved, or what the report says in one sentence.
 pub(super) fn not_certified(run: &Run<'_>) -> Error {
     let (verdict, sentence) = (run.verdict().without_claim(), run_sentence(run));
-    Error::not_certified(verdict, sentence, &run.unproved(), conditions(run), full_report(run))
-}
-
-/// The report of `sigmastar certify`.
-pub(super) fn full_report(run: &Run<'_>) -> Report {
-    Report::of(&RunReport::new(run, &[], false))
-}
-
-pub(super) fn conditions(run: &Run<'_>) -> Vec<Condition> {
-    run.conditions().iter().map(Condition::new).collect()
+    Error::not_certified(verdict, sentence, &run.unproved(), Condition::of_run(run), Report::of_run(run))
 }

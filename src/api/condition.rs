@@ -2,6 +2,7 @@
 
 use crate::derivation::condition;
 use crate::enclosure::{Enclosure, Truth};
+use crate::reduction::Run;
 
 /// A condition: a comparison of two real numbers, each known between two doubles.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +17,12 @@ pub struct Condition {
 }
 
 impl Condition {
-    pub(super) fn new(condition: &condition::Condition) -> Condition {
+    /// Those of a run.
+    pub(super) fn of_run(run: &Run<'_>) -> Vec<Condition> {
+        run.conditions().iter().map(Condition::new).collect()
+    }
+
+    fn new(condition: &condition::Condition) -> Condition {
         let ends = |side: &Enclosure| [side.lower_f64(), side.upper_f64()];
         Condition {
             id: condition.id,

@@ -1,5 +1,7 @@
 //! Reports in the formats of the program.
 
+use crate::reduction::Run;
+use crate::report::RunReport;
 use crate::report::document::{Extent, Made, Readable};
 use std::fmt;
 
@@ -26,6 +28,11 @@ pub struct Report {
 impl Report {
     pub(super) fn of(report: &impl Readable) -> Report {
         Report { made: Box::new(Made::of(report)) }
+    }
+
+    /// That of `sigmastar certify`.
+    pub(super) fn of_run(run: &Run<'_>) -> Report {
+        Report::of(&RunReport::new(run, &[], false))
     }
 
     pub(super) fn new(made: Made) -> Report {

@@ -9,49 +9,17 @@
 use super::PRECISION;
 use super::centred::{Centred, Frame};
 use super::region::Region;
+use super::side::Side;
 use super::time_cell::TimeCell;
 use crate::enclosure::Enclosure;
 use crate::matrix::is_positive_definite;
-use rug::{Integer, Rational};
+use rug::Rational;
 
 /// How often a side is halved at most.
 pub(super) const MAX_LEVEL: u32 = 40;
 
 /// What a Cholesky factor in doubles is enlarged by, so that it is one from above.
 const ENLARGEMENT: f64 = 1.0 + 1e-9;
-
-/// One of the `2^level` equal parts of the unit interval.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Side {
-    index: u64,
-    pub(super) level: u32,
-}
-
-impl Side {
-    /// The unit interval.
-    pub(super) const WHOLE: Side = Side { index: 0, level: 0 };
-
-    /// The two halves; levels stay below [`MAX_LEVEL`], so nothing overflows.
-    pub(super) fn halves(self) -> [Side; 2] {
-        [0, 1].map(|half| Side { index: 2 * self.index + half, level: self.level + 1 })
-    }
-
-    /// The ends and the middle in [0, 1]: low, middle, high.
-    pub(super) fn unit(self) -> [Rational; 3] {
-        let at = |eighth: u64| Rational::from(Integer::from(2 * self.index + eighth)) >> (self.level + 1);
-        [at(0), at(1), at(2)]
-    }
-
-    /// Half the length.
-    pub(super) fn half(self) -> Rational {
-        Rational::from(1) >> (self.level + 1)
-    }
-
-    /// The ends and the middle in [-1, 1].
-    fn symmetric(self) -> [Rational; 3] {
-        self.unit().map(|value| value * 2 - 1)
-    }
-}
 
 /// How states follow from the coordinates.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox};
-use super::chart::{Active, Ball, Cell, Chart, MAX_LEVEL, Placed, Side};
+use super::chart::{Active, Ball, Cell, Chart, MAX_LEVEL, Placed};
 use super::definite::{SymmetricValues, Verdict, definite, leaves_out, nonnegative};
 use super::eigen::largest;
 use super::engine::Engine;
@@ -10,6 +10,7 @@ use super::entry::{Entry, Kind};
 use super::majorant::Majorant;
 use super::pointwise::{product, roots};
 use super::quantity::{Quantity, Right};
+use super::side::Side;
 use super::time_cell::TimeCell;
 use crate::enclosure::{Enclosure, Truth};
 use crate::expr::{Memory, VariableSet};

@@ -2,11 +2,11 @@
 
 use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox};
-use super::chart::Side;
 use super::entry::Kind;
 use super::extent::extent;
 use super::quantity::Quantity;
 use super::region::{Region, RegionError};
+use super::side::Side;
 use super::smooth::Requirement;
 use super::time_cell::{TimeCell, Waves};
 use crate::enclosure::Enclosure;

@@ -1,11 +1,12 @@
 //! Where a bound is large: its values in the middles of boxes, the most promising box first. A feature that samples miss is
 //! found where an enclosure cannot leave it out. Doubles; they propose, and nothing rests on them.
 
-use super::chart::{Cell, Chart, MAX_LEVEL, Side};
+use super::chart::{Cell, Chart, MAX_LEVEL};
 use super::decide::OnBoxes;
 use super::definite::Verdict;
 use super::engine::Engine;
 use super::entry::Kind;
+use super::side::Side;
 use rug::Rational;
 
 /// What was met, of a rate downwards.

@@ -1,10 +1,11 @@
 //! Smoothness of the right sides on the region (derivation, 11.1).
 
 use super::centred::OnBox;
-use super::chart::{Active, Chart, Placed, Side};
+use super::chart::{Active, Chart, Placed};
 use super::decide::subdivide;
 use super::definite::{Verdict, nonnegative};
 use super::engine::Engine;
+use super::side::Side;
 use crate::enclosure::Truth;
 use crate::expr::{Demand, Formulas, Memory, PlantExpr, PlantVariable, VariableSet, Walk};
 use rug::Rational;

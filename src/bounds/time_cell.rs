@@ -2,7 +2,7 @@
 
 use super::PRECISION;
 use super::centred::Centred;
-use super::chart::Side;
+use super::side::Side;
 use crate::enclosure::Enclosure;
 use rug::Rational;
 

@@ -4,14 +4,18 @@
 //! missing, is a list of its own; it is read and written as `exact_regulation` is.
 
 use crate::derivation::exact_regulation::ExactWitness;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::mean_squares::MeanSquares;
 use crate::derivation::repaired::RepairedWitness;
 use crate::derivation::sampled::SampledWitness;
-use crate::derivation::sharp::{ClaimedSet, SharpWitness};
+use crate::derivation::sharp::SharpWitness;
 use crate::number::write_exact;
 use crate::spec::{ErrorKind, Errors, Object, Reported, SampledGain, Sampling, Value, any_constant};
 use crate::transfer::TransferProof;
 use rug::Rational;
+
+/// The fields of a witness that only a certificate of a plant has.
+pub(super) const PLANT_FIELDS: [&str; 4] = ["coordinates", "orbit", "forcing", "bounds"];
 
 /// A part of a certificate that consists of exact rational numbers, each with a name.
 pub trait Numbers: Sized {

@@ -1,12 +1,12 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
-use super::fields::{Numbers, RefinedSquares, exact_rational, rational};
-use super::read_plant::PLANT_FIELDS;
+use super::fields::{Numbers, PLANT_FIELDS, RefinedSquares, exact_rational, rational};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
 use crate::certify::GivenWitness;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::repaired::RepairedWitness;
-use crate::derivation::sharp::{ClaimedSet, SharpWitness};
+use crate::derivation::sharp::SharpWitness;
 use crate::lyapunov::{ProvedTriple, ProvedTriples};
 use crate::spec::model::PeriodicMatrix;
 use crate::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value};

@@ -12,9 +12,6 @@ use crate::spec::{
 };
 use rug::Rational;
 
-/// The fields of a witness that only a certificate of a plant has.
-pub(super) const PLANT_FIELDS: [&str; 4] = ["coordinates", "orbit", "forcing", "bounds"];
-
 /// The plant in a certificate, and what its witness says of it.
 ///
 /// # Errors

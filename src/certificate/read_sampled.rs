@@ -1,13 +1,12 @@
 //! Reading the claim and the witness of a certificate of the regulator at samples.
 
-use super::fields::{Numbers, rational};
+use super::fields::{Numbers, PLANT_FIELDS, rational};
 use super::read::{COMMON, read_set, small_integer};
-use super::read_plant::PLANT_FIELDS;
 use super::sampled::{REGULATOR, SAMPLED};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
+use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::sampled::SampledWitness;
-use crate::derivation::sharp::ClaimedSet;
 use crate::spec::{
     Document, ErrorKind, Errors, Object, Reported, SampledGain, Sampling, SpecErrors, Value, positive_constant,
 };

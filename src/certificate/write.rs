@@ -6,7 +6,7 @@ use super::triple::{lyapunov_parts, rows};
 use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness, claimed_ball};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
-use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::table::{At, Entry, Row, Value as Cell};
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_rational, write_exact};

@@ -5,7 +5,7 @@ use super::decide::decide;
 use super::options::Ladder;
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof, Witness};
 use crate::data::Data;
-use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::table::{At, Row, TableInput, Value, table};
 use crate::enclosure::Enclosure;
 use crate::spec::model::Specification;

@@ -5,7 +5,7 @@ use super::proof::{Decidable, Proof};
 use crate::data::Data;
 use crate::derivation::condition::{self, Condition};
 use crate::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
-use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::spec::model::Specification;
 
 impl Ladder {

@@ -11,10 +11,10 @@ use crate::data::Data;
 use crate::derivation::exact_regulation::{ExactWitness, steady_state_norm};
 use crate::derivation::existence::PeriodicBounds;
 use crate::derivation::harmonics::AtOrigin;
-use crate::derivation::initial_set::{Size, required_set};
+use crate::derivation::initial_set::{ClaimedSet, Size, required_set};
 use crate::derivation::mean_squares::{ErrorGains, Gains, MeanSquares, PeriodicSize, SetBounds};
 use crate::derivation::repaired::RepairedWitness;
-use crate::derivation::sharp::{ClaimedSet, SharpWitness};
+use crate::derivation::sharp::SharpWitness;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, round_f64, round_rational};
 use crate::search::{

@@ -13,7 +13,7 @@ use sigmastar::reduction::reduce;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &BoundArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(super::args::Format::Text, args.quiet))
+    attempt(args).unwrap_or_else(|failure| failure.tell(super::format::Format::Text, args.quiet))
 }
 
 fn attempt(args: &BoundArgs) -> Result<u8, Failure> {

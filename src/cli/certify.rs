@@ -1,8 +1,9 @@
 //! `sigmastar certify`.
 
-use super::args::{CertifyArgs, Format};
+use super::args::CertifyArgs;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
+use super::format::Format;
 use super::output::Shortened;
 use super::progress::{Audience, Working};
 use super::subject::{Subject, proving, with_sampling_period};

@@ -1,9 +1,10 @@
 //! `sigmastar controller`.
 
-use super::args::{ControllerArgs, Format, RegulatorForm};
+use super::args::{ControllerArgs, RegulatorForm};
 use super::controller_source::{self, Asked, Given};
 use super::failure::Failure;
 use super::files::{Input, OutputFile, write_together};
+use super::format::Format;
 use super::input;
 use super::output::{self, shown};
 use sigmastar::regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};

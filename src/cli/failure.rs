@@ -1,6 +1,6 @@
 //! Calls that come to no claim, and how they are told.
 
-use super::args::Format;
+use super::format::Format;
 use super::output;
 use sigmastar::certify::{Misfit, Verdict, verdict_of_errors};
 use sigmastar::report::{call_failure_json, failure_json};

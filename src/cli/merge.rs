@@ -1,8 +1,9 @@
 //! `sigmastar merge`.
 
-use super::args::{Format, MergeArgs};
+use super::args::MergeArgs;
 use super::failure::Failure;
 use super::files::Input;
+use super::format::Format;
 use super::output::{self, shown};
 use super::sweep::{existing, unreadable};
 use sigmastar::certify::Verdict;

@@ -12,6 +12,7 @@ mod errata;
 mod failure;
 mod falsify;
 mod files;
+mod format;
 mod input;
 mod lyapunov;
 mod merge;

@@ -1,7 +1,7 @@
 //! Data on standard output, remarks on standard error.
 
-use super::args::Format;
 use super::colour;
+use super::format::Format;
 use sigmastar::certify::Verdict;
 use sigmastar::report::document::{Extent, Made, Readable};
 use sigmastar::spec::SpecErrors;

@@ -1,8 +1,9 @@
 //! `sigmastar reproduce`.
 
-use super::args::{Format, PartArg, ReproduceArgs};
+use super::args::{PartArg, ReproduceArgs};
 use super::failure::Failure;
 use super::files::Input;
+use super::format::Format;
 use super::output;
 use super::progress::Bar;
 use sigmastar::report::document::{Extent, Readable};

@@ -1,8 +1,9 @@
 //! `sigmastar sweep`.
 
-use super::args::{Format, Replace, SweepArgs};
+use super::args::{Replace, SweepArgs};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
+use super::format::Format;
 use super::output::{reason, shown};
 use super::progress::Bar;
 use super::{input, output};

@@ -1,9 +1,10 @@
 //! `sigmastar transfer`.
 
-use super::args::{Format, Replace, TransferArgs};
+use super::args::{Replace, TransferArgs};
 use super::counts::counts;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
+use super::format::Format;
 use super::output::Shortened;
 use super::progress::Bar;
 use super::subject::{Subject, proved};

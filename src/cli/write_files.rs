@@ -1,8 +1,9 @@
 //! `sigmastar schema`, `new` and `convert`: for the people who write files.
 
-use super::args::{ConvertArgs, Format, NewArg, NewArgs, SchemaArgs};
+use super::args::{ConvertArgs, NewArg, NewArgs, SchemaArgs};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
+use super::format::Format;
 use super::{input, output};
 use sigmastar::spec::Notation;
 use std::path::Path;

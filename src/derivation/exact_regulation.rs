@@ -2,7 +2,8 @@
 
 use super::condition::{self, Condition};
 use super::harmonics;
-use super::sharp::{ClaimedSet, one_sided};
+use super::initial_set::ClaimedSet;
+use super::sharp::one_sided;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
 use crate::data::{Bound, Data, Problem};

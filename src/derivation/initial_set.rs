@@ -1,12 +1,31 @@
 //! The initial set that a specification asks for, and how far it is from the periodic solution.
 
 use super::condition::Condition;
-use super::sharp::ClaimedSet;
 use crate::data::{Data, Problem};
 use crate::enclosure::Enclosure;
 use crate::real::{Operand, Real};
 use crate::spec::model::InitialSet;
 use rug::Rational;
+
+/// The set of initial conditions |x| <= x0, |e| <= e0, |z|_N <= z0 of a claim, exactly.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ClaimedSet {
+    /// X_0.
+    pub x0: Rational,
+    /// E_0.
+    pub e0: Rational,
+    /// Z_0.
+    pub z0: Rational,
+}
+
+impl ClaimedSet {
+    /// dX, dE, dZ ([`distances`]) from a periodic solution bounded by x_per, e_per, Z.
+    #[must_use]
+    pub fn distances(&self, data: &Data<'_>, periodic: [&Enclosure; 3]) -> [Enclosure; 3] {
+        let [x0, e0, z0] = [&self.x0, &self.e0, &self.z0].map(|size| data.rational(size));
+        distances(data, [&x0, &e0, &z0], periodic)
+    }
+}
 
 impl<N: Clone> InitialSet<N> {
     /// The same kind of set over other numbers.

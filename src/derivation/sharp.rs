@@ -4,7 +4,7 @@ use super::condition::{self, Condition};
 use super::consequences::Excitation;
 use super::contraction::ContractionMatrix;
 use super::harmonics::AtOrigin;
-use super::initial_set::{distances, set_conditions};
+use super::initial_set::{ClaimedSet, set_conditions};
 use super::mean_squares::{
     DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, at_the_solution,
     sup_by_mean_squares,
@@ -16,26 +16,6 @@ use crate::data::{Bound, Data, Problem};
 use crate::enclosure::{Enclosure, Truth};
 use crate::transfer::{self, TransferProof};
 use rug::Rational;
-
-/// The set of initial conditions |x| <= x0, |e| <= e0, |z|_N <= z0 of a claim, exactly.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ClaimedSet {
-    /// X_0.
-    pub x0: Rational,
-    /// E_0.
-    pub e0: Rational,
-    /// Z_0.
-    pub z0: Rational,
-}
-
-impl ClaimedSet {
-    /// dX, dE, dZ ([`distances`]) from a periodic solution bounded by x_per, e_per, Z.
-    #[must_use]
-    pub fn distances(&self, data: &Data<'_>, periodic: [&Enclosure; 3]) -> [Enclosure; 3] {
-        let [x0, e0, z0] = [&self.x0, &self.e0, &self.z0].map(|size| data.rational(size));
-        distances(data, [&x0, &e0, &z0], periodic)
-    }
-}
 
 /// The free numbers of the sharp derivation, exactly.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Counterexamples: exact points that prove a property false.
 
 use super::failure::{BoundingFailure, Counterexample, DomainBox, Evaluation, Property};
-use super::prove::ProofSettings;
+use super::settings::ProofSettings;
 use super::{Expr, FloatExpr};
 use crate::enclosure::Enclosure;
 use rug::Rational;

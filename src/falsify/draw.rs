@@ -1,26 +1,16 @@
 //! Drawing plants that touch the bounding functions.
 
 use super::claim::Claim;
-use super::family::Family;
+use super::family::{DrawnPlant, Family};
 use super::fit::fit;
 use super::forcing::{fill, harmonics};
 use super::jacobian::{self, Clock};
-use super::limits::Limits;
+use super::limits::{Limits, SHARE};
 use super::random::Random;
 use super::shape::{Number, Shape};
 use crate::certify::has_states;
 use crate::data::{Bound, Data};
 use crate::enclosure::DEFAULT_PRECISION;
-
-/// What is kept of a bounding function at first.
-pub(super) const SHARE: f64 = 0.98;
-
-/// A plant with its coefficients, proved to lie within the families of a claim.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DrawnPlant {
-    /// The coefficients.
-    pub family: Family,
-}
 
 /// Draws a plant: each coefficient is a random share of what the bounding functions allow at small arguments, then what
 /// exceeds one somewhere is made smaller until nothing does. `None` where the plants of this kind do not fit into the

@@ -1,6 +1,6 @@
 //! What a trial is about, and what became of it.
 
-use super::draw::DrawnPlant;
+use super::family::DrawnPlant;
 use crate::plant::Plant;
 
 /// Which trials, from which seed.

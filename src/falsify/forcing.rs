@@ -1,9 +1,8 @@
 //! Drawing A(t) = q(t,0,0).
 
 use super::claim::Claim;
-use super::draw::SHARE;
 use super::family::{Family, Harmonic};
-use super::limits::Limits;
+use super::limits::{Limits, SHARE};
 use super::random::Random;
 use super::shape::{Factor, Number};
 use crate::data::Bound;

@@ -7,6 +7,9 @@ use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 use std::f64::consts::TAU;
 
+/// How far above sigma* a trial is.
+pub(super) const ABOVE: f64 = 1.0 + 1e-6;
+
 /// A plant of its own, and the coordinates of the claim about it.
 #[derive(Clone, Debug)]
 pub struct OwnPlant {
@@ -67,7 +70,7 @@ impl OwnPlant {
     /// Gains of the trials, as multiples of sigma*: just above it, and well above it.
     pub(super) fn gain(trial: u64) -> f64 {
         match trial % 3 {
-            1 => super::trial::ABOVE,
+            1 => ABOVE,
             2 => 1.5,
             _ => 10f64.portable_pow(0.75),
         }

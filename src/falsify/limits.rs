@@ -1,9 +1,11 @@
 //! What the bounding functions of a claim allow, in double precision: sizes at which plants are drawn.
 
 use super::claim::Claim;
-use super::draw::SHARE;
 use crate::data::Bound;
 use crate::spec::Specification;
+
+/// What is kept of a bounding function at first.
+pub(super) const SHARE: f64 = 0.98;
 
 /// The bounding functions of a claim up to its reach. Nothing here decides.
 #[derive(Clone, Copy, Debug)]

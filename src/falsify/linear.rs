@@ -2,8 +2,7 @@
 
 use super::claim::Claim;
 use super::contraction;
-use super::draw::DrawnPlant;
-use super::family::Family;
+use super::family::{DrawnPlant, Family};
 use super::fit::{fit, fits};
 use super::forcing::{fill, harmonics};
 use super::jacobian::{self, Clock};

@@ -6,6 +6,7 @@
 //! The number of oscillators varies. The base frequency and the period are part of the claim and stay; other base
 //! frequencies are claims of their own, which [`with_base_frequency`] makes.
 
+mod checks;
 mod claim;
 mod contraction;
 mod counterexample;
@@ -26,12 +27,13 @@ mod run;
 mod sampled_claim;
 mod sampled_trial;
 mod shape;
+mod start;
 mod trial;
 
 pub use claim::Claim;
 pub use counterexample::{counterexample_plant, flags};
-pub use draw::{DrawnPlant, draw};
-pub use family::{Family, FamilyBound, Harmonic};
+pub use draw::draw;
+pub use family::{DrawnPlant, Family, FamilyBound, Harmonic};
 pub use finding::{Falsification, Finding, Trial, TrialSettings, TriedPlant, Violation};
 pub use frame::OwnPlant;
 pub use frequency::{FrequencyError, with_base_frequency};

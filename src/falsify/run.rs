@@ -1,9 +1,9 @@
 //! The run from the initial set by itself: only that contradicts a claim. A search for the periodic solution that fails says
 //! nothing about the claim, nor does a periodic solution that the run does not come to.
 
+use super::checks::{Checks, norm};
 use super::claim::Claim;
 use super::finding::{Finding, Trial};
-use super::trial::{Checks, norm};
 use crate::number::Portable;
 use crate::simulate::{ClosedLoop, IntegrationFailure, Tolerance, flow, trajectory};
 

@@ -1,11 +1,12 @@
 //! A trial of a claim about the law at samples: exactly its gain, its sampling time and its K, at some phase of the grid.
 
+use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
 use super::claim::Claim;
 use super::finding::{Finding, LYAPUNOV, MULTIPLIER, Trial, TriedPlant};
 use super::random::Random;
 use super::run::{self, Largest};
 use super::sampled_claim::SampledClaim;
-use super::trial::{Checks, PERIODS, boundary, drawn_plant, file, no_member, norm, unfinished, why_none};
+use super::start::{boundary, drawn_plant, file, no_member};
 use crate::number::Portable;
 use crate::progress::Silent;
 use crate::simulate::{

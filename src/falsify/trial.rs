@@ -1,22 +1,17 @@
 //! One plant, one initial condition, one number of oscillators: simulated and checked.
 
+use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
 use super::claim::Claim;
-use super::counterexample::counterexample_plant;
-use super::draw::{DrawnPlant, draw};
-use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, TriedPlant, Violation};
-use super::frame::OwnPlant;
-use super::limits::SectorEnd;
-use super::linear::linear_member;
-use super::membership::MAX_OPERATIONS;
+use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, TriedPlant};
+use super::frame::{ABOVE, OwnPlant};
 use super::random::Random;
+use super::start::{boundary, drawn_plant, file, no_member, regulator};
 use super::{run, sampled_trial};
 use crate::certify::no_plant;
-use crate::data::{Bound, Data};
+use crate::data::Data;
 use crate::enclosure::DEFAULT_PRECISION;
 use crate::number::Portable;
-use crate::plant::Plant;
 use crate::progress::{Progress, Silent};
-use crate::regulator::Regulator;
 use crate::simulate::{
     ClosedLoop, IntegrationFailure, Orbit, SteadyState, SteadyStateError, Tolerance, flow, rms, steady_state, sup,
     trajectory,
@@ -25,18 +20,6 @@ use rayon::prelude::*;
 
 /// The numbers of oscillators that are tried.
 const TRIED_N_O: [u32; 6] = [0, 1, 2, 3, 5, 8];
-/// Draws before a trial is given up.
-const DRAWS: usize = 30;
-/// How far above sigma* a trial is.
-pub(super) const ABOVE: f64 = 1.0 + 1e-6;
-/// What a bound may be exceeded by before it counts: integration and rounding.
-const TOLERANCE: f64 = 1e-6;
-/// The same, absolute, at least.
-const ROOM: f64 = 1e-9;
-/// The share of a state by which a period of it may be off.
-const ROUNDING: f64 = 1e-12;
-/// Periods from the initial condition that are compared with the periodic solution.
-pub(super) const PERIODS: usize = 12;
 /// Samples of a period in that comparison.
 const SAMPLES: usize = 4096;
 
@@ -86,28 +69,6 @@ fn run_trial(claim: &Claim, seed: u64, number: u64) -> Finding {
     check(claim, trial, &closed_loop)
 }
 
-/// The plant of a trial as a plant file has it.
-pub(super) fn file(claim: &Claim, trial: &Trial) -> Result<Plant, Finding> {
-    let file = counterexample_plant(claim, trial, None).and_then(|document| Plant::from_value(&document.root()));
-    file.map_err(|errors| Finding::Unfinished(errors.to_string()))
-}
-
-/// Draws the plant of a trial.
-pub(super) fn drawn_plant(claim: &Claim, number: u64, random: &mut Random) -> Option<DrawnPlant> {
-    // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
-    // and where none does the linear member is left.
-    let linear = |end, random: &mut Random| linear_member(claim, end, random, &mut { MAX_OPERATIONS });
-    let first = if number == 1 { linear(SectorEnd::Upper, random) } else { None };
-    let mut left = MAX_OPERATIONS;
-    let drawn = first.or_else(|| (0..DRAWS).find_map(|_| draw(claim, random, &mut left)));
-    drawn.or_else(|| {
-        // With one bound on both sides the adverse end is the upper one.
-        let one_sided = claim.spec.bounds.own(Bound::QeMax).is_some();
-        let end = if one_sided && random.chance(0.5) { SectorEnd::Lower } else { SectorEnd::Upper };
-        linear(end, random)
-    })
-}
-
 /// A trial of the plant that the claim is about.
 fn run_own(claim: &Claim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
@@ -120,83 +81,6 @@ fn run_own(claim: &Claim, own: &OwnPlant, mut random: Random, number: u64) -> Fi
     let closed_loop = ClosedLoop::new(&own.plant, regulator);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
     check(claim, Trial { number, plant, sigma, n_o, start, phase: None }, &closed_loop)
-}
-
-/// Why there is no plant to try.
-pub(super) fn no_member(claim: &Claim) -> &'static str {
-    match claim.spec.bounds.own(Bound::Rate) {
-        None => "no plant of the drawn kind is proved to lie within the families",
-        Some(_) => {
-            "no plant of the drawn kind, whose df/dx depends on t only, is proved to have the contraction rate and to lie \
-             within the families"
-        }
-    }
-}
-
-/// The regulator of the claim in double precision.
-fn regulator(claim: &Claim, sigma: f64, n_o: u32) -> Regulator {
-    let model = &claim.spec.internal_model;
-    let weights = (0..=u64::from(n_o)).map(|l| model.weights.weight_f64(l)).collect();
-    Regulator::new(sigma, model.mu.to_f64(), model.base_frequency.to_f64(), weights)
-}
-
-/// A point of the boundary, for n states: |x| = X0, |e| = E0, |z|_N = Z0.
-pub(super) fn boundary(claim: &Claim, n: usize, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
-    let [x_0, e_0, z_0] = claim.initial;
-    let mut start: Vec<f64> = random.direction(n).iter().map(|part| x_0 * part.value()).collect();
-    start.push(if random.chance(0.5) { e_0 } else { -e_0 });
-    let mut z: Vec<f64> = (0..regulator.dimension()).map(|_| 2.0 * random.uniform() - 1.0).collect();
-    let size = regulator.weighted_norm(&z);
-    z.iter_mut().for_each(|part| *part *= if size > 0.0 { z_0 / size } else { 0.0 });
-    start.extend(z);
-    start
-}
-
-/// Collects shares of bounds, and the first violation.
-pub(super) struct Checks {
-    shares: Vec<(&'static str, f64)>,
-    violation: Option<Violation>,
-    /// What a found value may be above a bound by rounding and integration alone.
-    room: f64,
-}
-
-impl Default for Checks {
-    fn default() -> Checks {
-        Checks { shares: Vec::new(), violation: None, room: ROOM }
-    }
-}
-
-impl Checks {
-    /// With the room that a periodic solution needs whose components are known to rounding, and to what is left of its
-    /// residual, which the slowest multiplier makes larger.
-    pub(super) fn around(claim: &Claim, start: &[f64], residual: f64, multiplier: f64) -> Checks {
-        let size = start.iter().fold(1.0, |size: f64, value| size.max(value.abs()));
-        let spread = claim.own.as_ref().map_or(1.0, OwnPlant::spread).max(1.0);
-        let inaccuracy = (residual + ROUNDING * size) / (1.0 - multiplier).max(ROUNDING.sqrt());
-        Checks { room: (inaccuracy * spread).max(ROOM), ..Checks::default() }
-    }
-
-    pub(super) fn at_most(&mut self, quantity: &'static str, found: f64, bound: f64) {
-        self.shares.push((quantity, if bound > 0.0 { found / bound } else { 0.0 }));
-        // NaN is no value that a bound allows; and room above a large bound may be infinite, which what is found is not to be.
-        let holds = found <= bound || (found.is_finite() && found <= bound * (1.0 + TOLERANCE) + self.room);
-        if !holds && self.violation.is_none() {
-            self.violation = Some(Violation { quantity, bound, found });
-        }
-    }
-
-    /// Whether a bound does not hold.
-    pub(super) fn are_broken(&self) -> bool {
-        self.violation.is_some()
-    }
-
-    /// What became of the trial.
-    pub(super) fn finding(self, trial: Trial) -> Finding {
-        match self.violation {
-            Some(violation) => Finding::Violated(Box::new(trial), violation),
-            None => Finding::Holds { trial: Box::new(trial), shares: self.shares },
-        }
-    }
 }
 
 pub(super) fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
@@ -239,37 +123,6 @@ fn periodic_solution(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop) -> 
         }
         (found, _) => found,
     }
-}
-
-/// Why there is no periodic solution to compare with; without the time and the size, so that trials with the same reason are
-/// told together.
-pub(super) fn why_none(error: &SteadyStateError) -> String {
-    match error {
-        SteadyStateError::Integration(failure) => why(failure),
-        SteadyStateError::Newton { .. } => {
-            "the run from the initial set stays within bounds, and Newton's method finds no periodic solution from its states"
-                .to_owned()
-        }
-    }
-}
-
-/// A trial whose simulation the machine could not finish.
-pub(super) fn unfinished(failure: &IntegrationFailure) -> Finding {
-    Finding::Unfinished(why(failure))
-}
-
-fn why(failure: &IntegrationFailure) -> String {
-    match failure {
-        IntegrationFailure::Escaped { .. } => failure.to_string(),
-        IntegrationFailure::TooMuchWork { .. } => "the simulation of the closed loop takes too much work".to_owned(),
-        IntegrationFailure::Stiff { .. } | IntegrationFailure::StepTooLong { .. } => {
-            "what the simulation of the closed loop gives depends on its tolerance".to_owned()
-        }
-    }
-}
-
-pub(super) fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
 fn check_orbit(
@@ -355,51 +208,4 @@ fn check_approach(
         checks.at_most(LYAPUNOV, level[1], level[0]);
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::spec::Specification;
-
-    #[test]
-    fn bounds_are_exceeded_by_more_than_the_tolerance() {
-        for (found, holds) in [(0.5, true), (1.0 + 1e-7, true), (1.0 + 2e-6, false), (f64::NAN, false)] {
-            let mut checks = Checks::default();
-            checks.at_most("quantity", found, 1.0);
-            assert_eq!(checks.violation.is_none(), holds, "{found}");
-        }
-        let mut checks = Checks::default();
-        checks.at_most("no number", f64::INFINITY, f64::MAX);
-        assert!(checks.are_broken());
-    }
-
-    /// A slow state around 400 is known to rounding times 1/(1 - multiplier), and no better.
-    #[test]
-    fn rounding_of_large_states_is_no_violation() {
-        let spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
-        let claim = Claim::for_tests(spec, [3.0, 3.0]);
-        let broken = |size: f64, multiplier: f64, found: f64| {
-            let mut checks = Checks::around(&claim, &[size], 0.0, multiplier);
-            checks.at_most("quantity", found, 0.0);
-            checks.are_broken()
-        };
-        assert!(!broken(412.0, 0.976, 2.4e-9) && broken(412.0, 0.976, 1e-6));
-        assert!(broken(1.0, 0.5, 2.4e-9) && !broken(1.0, 0.5, 1e-10));
-    }
-
-    #[test]
-    fn trials_start_on_the_boundary() {
-        let spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
-        let mut claim = Claim::for_tests(spec, [3.0, 3.0]);
-        claim.initial = [2.0, 0.5, 7.0];
-        let mut random = Random::new(3, 4);
-        let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).unwrap();
-        let regulator = regulator(&claim, claim.sigma, 3);
-        let n = plant.family.states();
-        let start = boundary(&claim, n, &regulator, &mut random);
-        assert!((norm(&start[..n]) - 2.0).abs() < 1e-5 && start[n].abs() == 0.5);
-        assert!((regulator.weighted_norm(&start[n + 1..]) - 7.0).abs() < 1e-12);
-        assert_eq!(start.len(), n + 1 + 7);
-    }
 }

@@ -1,8 +1,11 @@
 //! Why there is no proved orbit, and what to try.
 
-use super::find::MAX_STATES;
 use crate::number::{Direction, round_f64, write_exact};
 use thiserror::Error;
+
+/// The most states of a plant whose orbit is sought, as for a Jacobian of a specification: semidefinite programs and proofs of
+/// a rate grow with a high power of their number.
+pub const MAX_STATES: usize = 12;
 
 /// Why no orbit was found, in floating point.
 #[derive(Clone, Debug, PartialEq, Error)]

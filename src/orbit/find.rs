@@ -1,16 +1,12 @@
 //! The periodic solution of x' = f(t, x, 0) in doubles: from 0 or from a simulation, with as many harmonics as it needs.
 
 use super::collocation::collocate;
-use super::failure::OrbitFailure;
+use super::failure::{MAX_STATES, OrbitFailure};
 use super::field::Field;
 use super::floquet::{floquet_exponents, is_stable};
 use super::series::{FloatSeries, Turn};
 use crate::plant::Plant;
 use nalgebra::DVector;
-
-/// The most states of a plant whose orbit is sought, as for a Jacobian of a specification: semidefinite programs and proofs of
-/// a rate grow with a high power of their number.
-pub const MAX_STATES: usize = 12;
 
 /// The numbers of harmonics, in turn.
 const HARMONICS: [usize; 5] = [8, 16, 32, 64, 128];

@@ -1,7 +1,7 @@
 //! The curves as they are drawn, and the legend that shows the same lines and marks.
 
 use super::canvas::{Area, AreaError, DETAIL, title};
-use super::figure::{Curve, Style};
+use super::curve::{Curve, Style};
 use super::palette::{Dash, Mark};
 use plotters::coord::CoordTranslate;
 use plotters::element::DashedPathElement;

@@ -2,10 +2,12 @@
 
 mod bars;
 mod canvas;
+mod curve;
 mod figure;
 mod legend;
 mod palette;
 
 pub use bars::Bars;
-pub use figure::{Curve, Figure, PlotError, Scale, Style};
+pub use curve::{Curve, Style};
+pub use figure::{Figure, PlotError, Scale};
 pub(crate) use palette::COLOURS;

@@ -20,10 +20,10 @@ mod subject;
 mod tests;
 mod witness;
 
-pub use reduce::{Reduced, bounds_around, decide_again, reduce, reduce_sampled, with_sampled_pairs};
+pub use reduce::{Reduced, bounds_around, decide_again, reduce};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use run::{Certified, Prepared, Run};
-pub use sampled::{ReducedSampled, SampledPairs};
+pub use sampled::{ReducedSampled, SampledPairs, reduce_sampled, with_sampled_pairs};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
 pub use subject::{Subject, at_samples};

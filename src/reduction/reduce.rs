@@ -3,7 +3,6 @@
 use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler, Shape};
 use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
-use super::sampled::{ReducedSampled, SampledPairs};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::specification::specification;
 use crate::bounds::{Engine, FloatOrbit, FloatSuprema, Region};
@@ -16,7 +15,7 @@ use crate::plant::Plant;
 use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use crate::spec::model::{Constant, InitialSet, Lyapunov};
 use crate::spec::{
-    self, OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
+    OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
 };
 use crate::transfer::TradeOff;
 use nalgebra::DMatrix;
@@ -63,30 +62,8 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
     with_coordinates(plant, prove_bounds)
 }
 
-/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found.
-///
-/// # Errors
-/// What could not be proved or found.
-pub fn reduce_sampled(
-    plant: &Plant,
-    sampling: &spec::Sampling,
-    gain: Option<&Rational>,
-) -> Result<ReducedSampled, PlantRefusal> {
-    with_sampled_pairs(plant, |pairs| pairs.reduce(sampling, gain))?
-}
-
-/// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
-///
-/// # Errors
-/// What could not be proved or found of those.
-pub fn with_sampled_pairs<T>(plant: &Plant, with: impl FnOnce(&SampledPairs<'_>) -> T) -> Result<T, PlantRefusal> {
-    with_coordinates(plant, |plant, along, sampled, chosen| {
-        SampledPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
-    })
-}
-
 /// Finds and proves the orbit, chooses the coordinates, and goes on from there.
-fn with_coordinates<T>(
+pub(super) fn with_coordinates<T>(
     plant: &Plant,
     prove: impl FnOnce(&Plant, &Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {

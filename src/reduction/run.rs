@@ -6,8 +6,8 @@ use crate::certify::{
     recheck_sampled,
 };
 use crate::derivation::condition::Condition;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::sampled::SampledWitness;
-use crate::derivation::sharp::ClaimedSet;
 use crate::enclosure::Enclosure;
 use crate::search::{SampledProposal, SharpProposal};
 use crate::spec::{Sampling, SpecErrors, Specification};

@@ -2,7 +2,7 @@
 
 use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
-use super::reduce::{Along, ENLARGED, PRECISION, beyond_the_bounds};
+use super::reduce::{Along, ENLARGED, PRECISION, beyond_the_bounds, with_coordinates};
 use super::refusal::PlantRefusal;
 use super::sampling::Sampling;
 use crate::certify::sampled_model;
@@ -38,8 +38,30 @@ pub struct SampledPairs<'p> {
     empty: Specification,
 }
 
+/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found.
+///
+/// # Errors
+/// What could not be proved or found.
+pub fn reduce_sampled(
+    plant: &Plant,
+    sampling: &spec::Sampling,
+    gain: Option<&Rational>,
+) -> Result<ReducedSampled, PlantRefusal> {
+    with_sampled_pairs(plant, |pairs| pairs.reduce(sampling, gain))?
+}
+
+/// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
+///
+/// # Errors
+/// What could not be proved or found of those.
+pub fn with_sampled_pairs<T>(plant: &Plant, with: impl FnOnce(&SampledPairs<'_>) -> T) -> Result<T, PlantRefusal> {
+    with_coordinates(plant, |plant, along, sampled, chosen| {
+        SampledPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
+    })
+}
+
 impl<'p> SampledPairs<'p> {
-    pub(super) fn new(
+    fn new(
         plant: &'p Plant,
         along: &'p Along,
         sampled: &'p Sampling<'p>,

@@ -7,7 +7,7 @@ use super::sensitivity;
 use super::verdict::assumed;
 use super::words;
 use crate::certify::{Certification, Derivation, SampledCertification, claimed_ball};
-use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::targets::Consequences;
 use crate::enclosure::Enclosure;
 use crate::number::{Direction, write_exact};

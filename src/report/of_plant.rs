@@ -4,7 +4,7 @@ use super::document::{Block, Table};
 use super::number::exact;
 use super::words;
 use crate::certify::claimed_ball;
-use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::number::{Direction, write_exact};
 use crate::spec::model::{Constant, Lyapunov};
 use crate::spec::{OfPlant, ProvedValue, Specification};

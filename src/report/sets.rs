@@ -4,7 +4,7 @@ use super::document::{Block, Table};
 use super::number::{self, upper};
 use super::words;
 use crate::certify::{Certification, Derivation};
-use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::enclosure::Enclosure;
 use crate::number::Direction;
 use crate::plot::{Curve, Figure, Scale, Style};

@@ -2,7 +2,7 @@
 //! has none.
 
 use super::number::exact;
-use crate::derivation::sharp::ClaimedSet;
+use crate::derivation::initial_set::ClaimedSet;
 use crate::number::Direction;
 use crate::spec::Specification;
 

@@ -5,6 +5,7 @@
 
 mod binding;
 mod candidate;
+mod decay;
 mod effort;
 mod error_box;
 mod exact;
@@ -27,14 +28,14 @@ pub use candidate::{AtSigma, active_level, weight_h};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;
 pub use minimise::{Descent, minimise};
-pub use model::{Datum, FloatModel};
+pub use model::{Datum, FloatModel, OptionalDatum};
 pub use obstacle::{Closest, Extreme, Failing, Obstacle};
 pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
 pub use sampled::{SampledLimit, SampledProposal, SampledSearch, ScanPoint};
 pub use sharp::{
-    OptionalDatum, SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near,
-    sensitivities, without_optional_data,
+    SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near, sensitivities,
+    without_optional_data,
 };
 pub use smaller_set::{SmallerSet, smaller_set};

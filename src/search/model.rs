@@ -3,7 +3,6 @@
 use super::effort::Effort;
 use super::float_bound::FloatBound;
 use super::obstacle::{Extreme, Failing, Obstacle};
-use super::sharp::OptionalDatum;
 use crate::data::{Bound, Data, ExistenceTriple, KnownForcing, Numbers, Problem};
 use crate::derivation::initial_set::paper_z0;
 use crate::enclosure::Enclosure;
@@ -422,6 +421,26 @@ impl FloatModel {
     #[must_use]
     pub fn required_set(&self, x_p: f64, e_p: f64, z: f64) -> [f64; 3] {
         self.set.required([2.0 * x_p, 2.0 * e_p], || paper_z0(self, &e_p, &z), 0.0)
+    }
+}
+
+/// What a specification may give beyond the data that every one has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OptionalDatum {
+    /// A bounding function.
+    Bound(Bound),
+    /// The harmonics of q(t,0,0).
+    Harmonics,
+}
+
+impl OptionalDatum {
+    /// The name of its field in a specification.
+    #[must_use]
+    pub fn field(self) -> &'static str {
+        match self {
+            OptionalDatum::Bound(bound) => bound.field(),
+            OptionalDatum::Harmonics => "q_0",
+        }
     }
 }
 

@@ -4,12 +4,11 @@ use super::binding::Binding;
 use super::candidate::AtSigma;
 use super::error_box::{best_error_box, error_box_near};
 use super::floors::{ordinary, raised, tiny};
-use super::model::{Datum, FloatModel};
+use super::model::{Datum, FloatModel, OptionalDatum};
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
 use super::root::crossing;
 use super::scan;
-use crate::data::Bound;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::initial_set::distances;
 use crate::number::Portable;
@@ -309,26 +308,6 @@ pub fn sensitivities(
         let gain = search_sharp_near(improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / as_it_is);
         (*datum, gain.max(0.0))
     })
-}
-
-/// What a specification may give beyond the data that every one has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OptionalDatum {
-    /// A bounding function.
-    Bound(Bound),
-    /// The harmonics of q(t,0,0).
-    Harmonics,
-}
-
-impl OptionalDatum {
-    /// The name of its field in a specification.
-    #[must_use]
-    pub fn field(self) -> &'static str {
-        match self {
-            OptionalDatum::Bound(bound) => bound.field(),
-            OptionalDatum::Harmonics => "q_0",
-        }
-    }
 }
 
 /// For each optional datum that is given, sigma* without it, and none where there is no candidate then; floating point.

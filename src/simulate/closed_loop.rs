@@ -1,6 +1,6 @@
 //! The plant with its regulator.
 
-use super::effort::Effort;
+use super::limits::Effort;
 use crate::expr::{Evaluator, Program};
 use crate::plant::{Initial, Plant};
 use crate::regulator::Regulator;

@@ -1,15 +1,10 @@
 //! What a simulation may cost, counted in operations, so that the answer does not depend on the machine.
 
 use super::ClosedLoop;
-use super::adaptive::IntegrationFailure;
+use super::integration::IntegrationFailure;
+use super::limits::MAX_OPERATIONS;
 use super::radau;
-use std::sync::atomic::{AtomicU64, Ordering};
-
-/// Elementary operations that a steady state, a long run and a run with noise may take each: some ten seconds.
-pub const MAX_OPERATIONS: u64 = 10_000_000_000;
-
-/// Numbers that one integration, or a long run, may keep: 256 MiB.
-pub const MAX_NUMBERS: usize = 1 << 25;
+use std::sync::atomic::Ordering;
 
 /// What a step of order 8 costs outside the right side, for each component and stage: nine additions and multiplications
 /// of whole vectors, three of which take as long as one by itself.
@@ -18,17 +13,6 @@ const STAGE: u64 = 3;
 /// The stages of an implicit step, and the iterations that most of them take.
 const STAGES: u64 = radau::STAGES as u64;
 const ITERATIONS: u64 = 6;
-
-/// The operations that were spent. One closed loop is simulated by one thread, so the count does not depend on how many
-/// threads there are.
-#[derive(Debug, Default)]
-pub(super) struct Effort(AtomicU64);
-
-impl Effort {
-    fn spent(&self) -> u64 {
-        self.0.load(Ordering::Relaxed)
-    }
-}
 
 impl ClosedLoop {
     /// Starts counting anew, for another part of a simulation.

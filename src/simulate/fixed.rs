@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method with a fixed step: fast, and what noise that is held over a step needs.
 
-use super::adaptive::IntegrationFailure;
+use super::integration::IntegrationFailure;
 use super::stiffness::{enough_steps, is_stable};
 use super::{ClosedLoop, Disturbance};
 use crate::expr::Evaluator;

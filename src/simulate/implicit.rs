@@ -4,8 +4,8 @@
 //! once. Each step is made as a whole and as two halves: the difference is the estimate of its error, the halves count.
 
 use super::ClosedLoop;
-use super::adaptive::{IntegrationFailure, Span, Tolerance};
 use super::collocation::{Collocation, Table};
+use super::integration::{IntegrationFailure, Span, Tolerance, is_bounded};
 use super::radau::NODES;
 use std::collections::BTreeMap;
 
@@ -181,7 +181,7 @@ impl<'l> Steps<'l> {
                 self.sample(level + 1, made, start, at == 1 && place + 2 * half == end, &mut states);
             }
             y = second.end;
-            if !super::adaptive::is_bounded(&y) {
+            if !is_bounded(&y) {
                 return Err(escaped);
             }
             place += 2 * half;

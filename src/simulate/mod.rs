@@ -11,6 +11,8 @@ mod effort;
 mod figures;
 mod fixed;
 mod implicit;
+mod integration;
+mod limits;
 mod newton;
 mod noise;
 mod orbit;
@@ -22,12 +24,13 @@ mod sampled;
 mod steady;
 mod stiffness;
 
-pub use adaptive::{IntegrationFailure, Tolerance, flow, trajectory};
+pub use adaptive::{flow, trajectory};
 pub use bode::{frequencies, magnitude};
 pub use closed_loop::{ClosedLoop, Disturbance, Noise};
-pub use effort::{MAX_NUMBERS, MAX_OPERATIONS};
 pub use figures::{FIGURE_FILES, bode, csv, figures, spectrum, spectrum_curve};
 pub use fixed::FixedStep;
+pub use integration::{IntegrationFailure, Tolerance};
+pub use limits::{MAX_FIXED_STEPS, MAX_NUMBERS, MAX_OPERATIONS};
 pub use newton::NewtonFailure;
 pub use noise::{BandLimitedNoise, NoiseSettings};
 pub use orbit::{Orbit, amplitudes, rms, sup};
@@ -41,4 +44,4 @@ pub use sampled::{
     sampled_periodic_solution, sampled_steady_state, simulate_sampled,
 };
 pub use steady::{SteadyState, SteadyStateError, steady_state};
-pub use stiffness::{MAX_FIXED_STEPS, enough_steps, is_stable};
+pub use stiffness::{enough_steps, is_stable};

@@ -1,6 +1,6 @@
 //! Newton's method for a periodic solution: damped, with derivatives that are used again while they help.
 
-use super::adaptive::IntegrationFailure;
+use super::integration::IntegrationFailure;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use thiserror::Error;
 

@@ -1,6 +1,7 @@
 //! A periodic signal from its samples: largest value, root mean square, Fourier coefficients.
 
-use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
+use super::adaptive::trajectory;
+use super::integration::{IntegrationFailure, Tolerance};
 use super::period::Period;
 use super::{ClosedLoop, SteadyState};
 use crate::number::Portable;

@@ -5,8 +5,8 @@
 //! would be as short as the fastest oscillator demands, and as many evaluations each as it has stages.
 
 use super::ClosedLoop;
-use super::adaptive::{IntegrationFailure, is_bounded};
 use super::collocation::{Collocation, Table};
+use super::integration::{IntegrationFailure, is_bounded};
 use super::radau::STAGES;
 use nalgebra::DMatrix;
 

@@ -1,8 +1,9 @@
 //! One simulation: a steady state, a long run from the initial condition, and a run with noise.
 
-use super::adaptive::{IntegrationFailure, Tolerance, trajectory};
-use super::effort::MAX_NUMBERS;
+use super::adaptive::trajectory;
 use super::fixed::checked;
+use super::integration::{IntegrationFailure, Tolerance};
+use super::limits::MAX_NUMBERS;
 use super::orbit::{Orbit, amplitudes, rms, sup};
 use super::steady::steady_state_near;
 use super::{

@@ -1,7 +1,8 @@
 //! Steady states: the T-periodic solution by Newton shooting.
 
 use super::ClosedLoop;
-use super::adaptive::{IntegrationFailure, Span, Tolerance, flow, is_stiff};
+use super::adaptive::{flow, is_stiff};
+use super::integration::{IntegrationFailure, Span, Tolerance};
 use super::newton::{NewtonFailure, Shot, shoot};
 use super::period::Period;
 use crate::progress::Progress;

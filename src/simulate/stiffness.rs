@@ -1,11 +1,9 @@
 //! How fast the fastest mode of a closed loop is, and what a fixed step needs for it.
 
 use super::ClosedLoop;
+use super::limits::MAX_FIXED_STEPS;
 use crate::regulator::spectral_radius;
 use faer::Mat;
-
-/// The most fixed steps of a period.
-pub const MAX_FIXED_STEPS: u32 = 1_000_000;
 
 /// The classical Runge-Kutta method is stable for h |lambda| up to this, wherever lambda is in the left half plane: its
 /// region of stability contains that half of the disc.

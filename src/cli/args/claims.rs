@@ -1,6 +1,7 @@
 //! Flags of the commands that prove something, or say what was proved.
 
-use super::{Format, Replace};
+use super::Replace;
+use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice};
 use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};

@@ -11,7 +11,7 @@ pub use files::{ConvertArgs, NewArg, NewArgs, SchemaArgs};
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
 pub use studies::{MergeArgs, SweepArgs, TuneArgs, TuneGoal};
 
-use clap::{Args, ColorChoice, CommandFactory, Parser, Subcommand, ValueEnum};
+use clap::{Args, ColorChoice, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 /// The exit codes, as help and manual page tell them.
@@ -227,19 +227,6 @@ pub struct Replace {
     /// Replace files that exist already
     #[arg(long)]
     pub force: bool,
-}
-
-/// A format of a report, the same for every command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// Plain text for a terminal
-    Text,
-    /// GitHub-flavoured Markdown
-    Markdown,
-    /// One HTML page with figures, which needs no other file
-    Html,
-    /// JSON, also for failures
-    Json,
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Flags of the commands that export the regulator and set it to work.
 
-use super::{Format, Replace};
+use super::Replace;
 use crate::cli::counts::one_count;
+use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
 use sigmastar::simulate::MAX_FIXED_STEPS;

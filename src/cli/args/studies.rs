@@ -1,7 +1,8 @@
 //! Flags of the commands for many cases.
 
-use super::{Format, Replace};
+use super::Replace;
 use crate::cli::counts::one_count;
+use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
 use sigmastar::tune::MAX_TRIES;

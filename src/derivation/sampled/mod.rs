@@ -16,9 +16,9 @@ pub use stability::{DecayForms, DecayNumbers, Form, Part};
 
 use super::condition::{self, Condition};
 use super::harmonics::AtOrigin;
-use super::initial_set::set_conditions;
+use super::initial_set::{ClaimedSet, set_conditions};
 use super::mean_squares::{Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, sup_by_mean_squares};
-use super::sharp::{ClaimedSet, one_sided};
+use super::sharp::one_sided;
 use super::stability::{ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
 use crate::data::Data;

@@ -6,7 +6,8 @@
 
 use super::sampled_loop::{BEGIN, Piece, SampledLoop, SampledRun};
 use crate::regulator::Stepper;
-use crate::simulate::adaptive::{IntegrationFailure, Tolerance, flow};
+use crate::simulate::adaptive::flow;
+use crate::simulate::integration::{IntegrationFailure, Tolerance};
 use nalgebra::DMatrix;
 
 /// Displacements of difference quotients, relative to 1 + the value: the errors of the formula and of rounding are alike.

@@ -3,8 +3,8 @@
 use super::sampled_loop::{Piece, SampledLoop, SampledRun};
 use super::steady::{SampledSteady, SampledSteadyError, max_distance, sampled_steady_state};
 use crate::progress::Progress;
-use crate::simulate::adaptive::{IntegrationFailure, Tolerance};
-use crate::simulate::effort::MAX_NUMBERS;
+use crate::simulate::integration::{IntegrationFailure, Tolerance};
+use crate::simulate::limits::MAX_NUMBERS;
 use crate::simulate::orbit::amplitudes;
 use crate::simulate::run::PeriodFigures;
 use num_complex::Complex;

@@ -3,7 +3,8 @@
 use crate::plant::Plant;
 use crate::regulator::{Discrete, Regulator, Stepper};
 use crate::simulate::ClosedLoop;
-use crate::simulate::adaptive::{IntegrationFailure, Tolerance, is_bounded, trajectory};
+use crate::simulate::adaptive::trajectory;
+use crate::simulate::integration::{IntegrationFailure, Tolerance, is_bounded};
 
 /// How near to a whole number the samples of a period are for their number to count as one.
 const WHOLE: f64 = 1e-9;

@@ -3,8 +3,8 @@
 use super::derivative::{DISPLACEMENT, period_derivative};
 use super::sampled_loop::{BEGIN, SampledLoop, SampledRun};
 use crate::progress::Progress;
-use crate::simulate::adaptive::{IntegrationFailure, Tolerance};
-use crate::simulate::effort::MAX_OPERATIONS;
+use crate::simulate::integration::{IntegrationFailure, Tolerance};
+use crate::simulate::limits::MAX_OPERATIONS;
 use crate::simulate::newton::shoot;
 use crate::simulate::steady::{SteadyStateError, distance, multipliers, search};
 use thiserror::Error;
