@@ -24,6 +24,7 @@ mod pointwise;
 mod prove_value;
 mod quantity;
 mod region;
+mod requirement;
 mod side;
 mod smooth;
 mod suprema;

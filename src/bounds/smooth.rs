@@ -1,13 +1,14 @@
 //! Smoothness of the right sides on the region (derivation, 11.1).
 
 use super::centred::OnBox;
-use super::chart::{Active, Chart, Placed};
+use super::chart::{Chart, Placed};
 use super::decide::subdivide;
 use super::definite::{Verdict, nonnegative};
 use super::engine::Engine;
+use super::requirement::Requirement;
 use super::side::Side;
 use crate::enclosure::Truth;
-use crate::expr::{Demand, Formulas, Memory, PlantExpr, PlantVariable, VariableSet, Walk};
+use crate::expr::{Memory, VariableSet};
 use rug::Rational;
 use std::ops::Range;
 use thiserror::Error;
@@ -62,31 +63,6 @@ impl SmoothnessFailure {
         let instead = INSTEAD.iter().find(|(start, _)| self.what.starts_with(start));
         let instead = instead.map_or("write a smooth function in its place", |(_, instead)| instead);
         format!("{instead}; or take a smaller initial set, where it is that set which reaches so far")
-    }
-}
-
-/// One demand on a right side, ready to be decided.
-#[derive(Debug)]
-pub(super) struct Requirement {
-    index: usize,
-    part: String,
-    demand: Demand,
-    walk: Walk,
-    active: Active,
-}
-
-impl Requirement {
-    pub(super) fn new(index: usize, expr: &PlantExpr, demand: Demand, formulas: &Formulas) -> Requirement {
-        let walk = formulas.walk(&[demand.of]);
-        let variables = walk.all_variables();
-        let states = (0..crate::expr::MAX_STATES).filter(|&index| variables.has(PlantVariable::State(index)));
-        let active = Active {
-            time: variables.has(PlantVariable::Time),
-            states: states.collect(),
-            error: variables.has(PlantVariable::Error),
-        };
-        let part = expr.text().get(demand.span.clone()).unwrap_or_default().to_owned();
-        Requirement { index, part, demand, walk, active }
     }
 }
 

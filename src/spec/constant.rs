@@ -2,7 +2,7 @@
 
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::model::Constant;
+use super::parts::Constant;
 use super::quantity::{Quantity, decide};
 use crate::enclosure::{MAX_PRECISION, Truth};
 use crate::expr::{Expr, Variables};

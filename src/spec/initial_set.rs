@@ -3,8 +3,8 @@
 use super::constant::nonnegative_constant;
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::model::{Constant, InitialSet};
 use super::object::{Object, choose};
+use super::parts::{Constant, InitialSet};
 
 /// Reads `initial_set`: `paper` has no other field, `at-rest` may have X0 and E0, `box` has X0, E0 and Z0.
 ///

@@ -3,7 +3,7 @@
 use super::constant::{any_constant, expression, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::model::{Constant, Jacobian, JacobianEntry};
+use super::parts::{Constant, Jacobian, JacobianEntry};
 use super::quantity::Quantity;
 use crate::enclosure::{DEFAULT_PRECISION, Truth};
 use crate::expr::Monomial;

@@ -7,6 +7,7 @@
 //! and no answer. [`Specification::from_json`] does all of it; the reader of documents serves certificates and
 //! witness files as well.
 
+mod bound;
 mod bounding;
 mod comments;
 mod constant;
@@ -20,6 +21,7 @@ pub mod model;
 mod notation;
 mod object;
 mod of_plant;
+mod parts;
 mod power_tail;
 mod proved_values;
 mod quantity;
@@ -32,7 +34,8 @@ pub mod weights;
 mod weights_proof;
 mod weights_read;
 
-pub use bounding::{Bound, Bounds};
+pub use bound::Bound;
+pub use bounding::Bounds;
 pub use constant::{any_constant, nonnegative_constant, positive_constant};
 pub use document::{Document, Value};
 pub(crate) use error::nearest;

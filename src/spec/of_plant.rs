@@ -1,6 +1,6 @@
 //! What was proved of a plant that is known by its formulas (derivation, 11): all that a certificate has to repeat.
 
-use super::model::{Constant, Domain, Lyapunov, PeriodicMatrix, TrigonometricVector};
+use super::parts::{Constant, Domain, Lyapunov, PeriodicMatrix, TrigonometricVector};
 use rug::Rational;
 
 /// `|x_0 - xb|` is at most `radius` in the norm of y (derivation, 11.2).

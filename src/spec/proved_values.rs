@@ -1,6 +1,6 @@
 //! Bounding functions of a plant that is known by its formulas: least upper bounds, proved at a few arguments.
 
-use super::bounding::Bound;
+use super::bound::Bound;
 use crate::enclosure::Enclosure;
 use rug::Rational;
 

@@ -1,6 +1,6 @@
 //! Real numbers that are known exactly or can be enclosed at any precision, and how they are compared.
 
-use super::model::Constant;
+use super::parts::Constant;
 use crate::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION, Truth};
 use crate::expr::Monomial;
 use crate::number::write_exact;

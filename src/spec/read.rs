@@ -1,14 +1,14 @@
 //! From a document to a specification.
 
-use super::bounding::{Bound, Bounds};
+use super::bound::Bound;
+use super::bounding::Bounds;
 use super::constant::{any_constant, expression, nonnegative_constant, positive_constant, whole};
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
-use super::model::{
-    Constant, Domain, InternalModel, KnownForcing, Lyapunov, LyapunovSource, RelativeDegree, Specification,
-};
+use super::model::{InternalModel, LyapunovSource, Specification};
 use super::object::Object;
+use super::parts::{Constant, Domain, KnownForcing, Lyapunov, RelativeDegree};
 use super::quantity::Quantity;
 use super::{sampling, weights_read};
 use crate::enclosure::{MAX_PRECISION, Truth};

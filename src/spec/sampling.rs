@@ -3,7 +3,7 @@
 use super::constant::{positive_constant, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::model::{Constant, InternalModel};
+use super::parts::Constant;
 use super::quantity::Quantity;
 use crate::enclosure::{Enclosure, Truth};
 use crate::number::write_exact;
@@ -13,7 +13,7 @@ use rug::{Float, Rational};
 pub const MAX_SAMPLES: u32 = 1 << 16;
 
 /// Bits at which K and Nb2 are enclosed before they are rounded.
-const PRECISION: u32 = 512;
+pub(super) const PRECISION: u32 = 512;
 
 /// The sampling period h, with T/h samples in a period T.
 #[derive(Clone, Debug)]
@@ -31,25 +31,6 @@ pub struct SampledGain {
     pub gain: Rational,
     /// Nb2, not below the sum of all weights.
     pub weight_sum: Rational,
-}
-
-impl InternalModel {
-    /// K and Nb2 for a sampling time h > 0.
-    ///
-    /// Guarantee: both are doubles, K > 0, Nb2 is not below the sum of all weights, and K h Nb2 < 2. `None` where that is not
-    /// to be had in double precision: h mu times the sum of the weights is beyond 2^50.
-    #[must_use]
-    pub fn sampled_gain(&self, step: &Constant) -> Option<SampledGain> {
-        let step = step.enclose(PRECISION);
-        let mu = self.mu.enclose(PRECISION);
-        let total = self.weights.total(PRECISION);
-        let theta = &step * &mu * &total / 2;
-        let gain = Rational::from_f64((mu / (theta + 1)).midpoint_f64())?;
-        let weight_sum = Rational::from_f64(total.upper_f64())?;
-        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
-        let proved = (exact(&gain) * step * exact(&weight_sum)).lt(&Enclosure::from_integer(2, PRECISION)).is_true();
-        (proved && gain > 0).then_some(SampledGain { gain, weight_sum })
-    }
 }
 
 /// Reads h and proves that T/h is a whole number of at least 2; `matched` says whether the base frequency is 2 pi/T.

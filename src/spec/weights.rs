@@ -1,6 +1,6 @@
 //! The weights n_0 > n_1 > ... of the internal model: values and sum.
 
-use super::model::Constant;
+use super::parts::Constant;
 use super::power_tail::power_tail;
 use super::quantity::Quantity;
 use crate::enclosure::Enclosure;

@@ -169,7 +169,7 @@ fn require(holds: Truth, culprit: Culprit, state: impl FnOnce() -> Statement) ->
 
 #[cfg(test)]
 mod tests {
-    use super::super::model::Constant;
+    use super::super::parts::Constant;
     use super::*;
     use crate::expr::{Expr, Variables};
 
