@@ -4,7 +4,7 @@ use super::error::{ErrorKind, Errors, Reported, SpecError, SpecErrors};
 use super::json::{self, Content, Member, Node};
 use super::limits::{self, MAX_BYTES};
 use super::notation::Notation;
-use super::object::Object;
+use super::source::Source;
 use crate::expr::ExprError;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -19,30 +19,13 @@ pub(super) const COMMAND_LINE: &str = "<command line>";
 /// The field with which a document names its schema for editors.
 const SCHEMA: &str = "$schema";
 
-/// The text of a document, its notation, and the name under which errors show it.
-#[derive(Debug)]
-pub(super) struct Source {
-    pub(super) label: String,
-    pub(super) text: String,
-    notation: Notation,
-}
-
-impl Source {
-    /// Line and column (in characters) of a byte, both from 1.
-    pub(super) fn line_and_column(&self, at: usize) -> (usize, usize) {
-        let before = self.text.get(..at).unwrap_or(&self.text);
-        let line = 1 + before.matches('\n').count();
-        let column = 1 + before.rsplit('\n').next().map_or(0, |line| line.chars().count());
-        (line, column)
-    }
-}
-
 /// A document that was read strictly: RFC 8259, or another [`Notation`] of the same values, no duplicate keys, within the
 /// limits of this module ([`MAX_BYTES`], [`MAX_NESTING`](super::MAX_NESTING), [`MAX_VALUES`](super::MAX_VALUES)), with
 /// numbers kept as written. Specifications, certificates and witness files are all read through it. Cheap to clone.
 #[derive(Clone, Debug)]
 pub struct Document {
     source: Arc<Source>,
+    notation: Notation,
     root: Arc<Node>,
 }
 
@@ -62,12 +45,12 @@ impl Document {
     /// What is wrong with the text in this notation.
     pub fn parse_as(label: &str, text: &str, notation: Notation) -> Result<Document, SpecErrors> {
         if text.len() > MAX_BYTES {
-            return Err(SpecErrors::single(source(label, "", notation), limits::too_large()));
+            return Err(SpecErrors::single(source(label, ""), limits::too_large()));
         }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let source = source(label, text, notation);
+        let source = source(label, text);
         match notation.parse(text) {
-            Ok(root) => Ok(Document { source, root: Arc::new(root) }),
+            Ok(root) => Ok(Document { source, notation, root: Arc::new(root) }),
             Err(error) => Err(SpecErrors::single(source, error)),
         }
     }
@@ -81,7 +64,7 @@ impl Document {
         let number = Node { span: text.len() - value.len()..text.len(), content: Content::Number(value.to_owned()) };
         let member = json::Member { key: flag.to_owned(), key_span: 0..flag.len(), value: number };
         let root = Node { span: 0..text.len(), content: Content::Object(vec![member]) };
-        Document { source: source(COMMAND_LINE, &text, Notation::Json), root: Arc::new(root) }
+        Document { source: source(COMMAND_LINE, &text), notation: Notation::Json, root: Arc::new(root) }
     }
 
     /// Reads a document in JSON from bytes.
@@ -98,7 +81,7 @@ impl Document {
     /// Bytes that are not UTF-8, and those of [`Document::parse_as`].
     pub fn from_bytes_as(label: &str, bytes: &[u8], notation: Notation) -> Result<Document, SpecErrors> {
         if bytes.len() > MAX_BYTES {
-            return Err(SpecErrors::single(source(label, "", notation), limits::too_large()));
+            return Err(SpecErrors::single(source(label, ""), limits::too_large()));
         }
         match std::str::from_utf8(bytes) {
             Ok(text) => Document::parse_as(label, text, notation),
@@ -116,7 +99,7 @@ impl Document {
                     (format!("byte {at} (0x{:02x}) is not UTF-8", bytes[at]), "save the file as UTF-8")
                 };
                 let error = SpecError::new(ErrorKind::Encoding, "", at..at, message).help(help);
-                Err(SpecErrors::single(source(label, &valid, notation), error))
+                Err(SpecErrors::single(source(label, &valid), error))
             }
         }
     }
@@ -134,7 +117,7 @@ impl Document {
             Ok(_) => Document::from_bytes_as(&label, &bytes, notation),
             Err(error) => {
                 let error = SpecError::new(ErrorKind::Unreadable, "", 0..0, format!("cannot be read: {error}"));
-                Err(SpecErrors::single(source(&label, "", notation), error))
+                Err(SpecErrors::single(source(&label, ""), error))
             }
         }
     }
@@ -154,7 +137,7 @@ impl Document {
     /// How the text is written.
     #[must_use]
     pub fn notation(&self) -> Notation {
-        self.source.notation
+        self.notation
     }
 
     /// The value that is the whole document.
@@ -202,15 +185,37 @@ impl Document {
     }
 }
 
-fn source(label: &str, text: &str, notation: Notation) -> Arc<Source> {
-    Arc::new(Source { label: label.to_owned(), text: text.to_owned(), notation })
+fn source(label: &str, text: &str) -> Arc<Source> {
+    Arc::new(Source { label: label.to_owned(), text: text.to_owned() })
+}
+
+impl Errors {
+    /// The outcome of reading `document`: the value if nothing was reported.
+    ///
+    /// # Errors
+    /// Everything that was reported, in file order.
+    pub fn conclude<T>(mut self, document: &Document, outcome: Result<T, Reported>) -> Result<T, SpecErrors> {
+        match outcome {
+            Ok(value) if self.list.is_empty() => Ok(value),
+            // `Err` carries a `Reported`, so the list is not empty here either.
+            _ => {
+                self.list.sort_by_key(|error| (error.span.start, error.span.end));
+                Err(SpecErrors {
+                    origin: document.source().clone(),
+                    errors: self.list,
+                    omitted: self.omitted,
+                    in_full: None,
+                })
+            }
+        }
+    }
 }
 
 /// A value in a document: it knows its JSON pointer and its place.
 #[derive(Clone, Debug)]
 pub struct Value<'d> {
     document: &'d Document,
-    node: &'d Node,
+    pub(super) node: &'d Node,
     pointer: String,
     key: Option<Range<usize>>,
 }
@@ -263,10 +268,7 @@ impl<'d> Value<'d> {
     #[must_use]
     pub fn error_in(&self, kind: ErrorKind, part: &Range<usize>, message: impl Into<String>) -> SpecError {
         let span = match &self.node.content {
-            Content::Text(_) => {
-                let Source { text, notation, .. } = &*self.document.source;
-                notation.locate(text, &self.node.span, part)
-            }
+            Content::Text(_) => self.document.notation.locate(&self.document.source.text, &self.node.span, part),
             Content::Number(_) => {
                 let within = |offset: usize| self.node.span.start.saturating_add(offset).min(self.node.span.end);
                 within(part.start)..within(part.end.max(part.start))
@@ -307,17 +309,6 @@ impl<'d> Value<'d> {
     pub fn wrong_type(&self, expected: &str, errors: &mut Errors) -> Reported {
         let message = format!("{} is {}", self.name(), self.type_name());
         errors.report(self.error(ErrorKind::Type, message).expected(format!("expected {expected}")))
-    }
-
-    /// The members of an object, to be read field by field.
-    ///
-    /// # Errors
-    /// Reports a value that is not an object.
-    pub fn object(&self, errors: &mut Errors) -> Result<Object<'d>, Reported> {
-        match self.node.content {
-            Content::Object(_) => Ok(Object::new(self.clone())),
-            _ => Err(self.wrong_type("an object", errors)),
-        }
     }
 
     /// The elements of an array.

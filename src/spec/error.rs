@@ -1,6 +1,6 @@
 //! What is wrong with a document, and where.
 
-use super::document::{Document, Source};
+use super::source::Source;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -137,7 +137,7 @@ pub struct SpecErrors {
     pub(super) errors: Vec<SpecError>,
     pub(super) omitted: usize,
     /// The sentence of an error that stands alone with every digit, where its message has fewer.
-    in_full: Option<String>,
+    pub(super) in_full: Option<String>,
 }
 
 impl SpecErrors {
@@ -221,8 +221,8 @@ pub struct Reported(());
 /// Collects the errors of one document, so that a user sees all of them at once.
 #[derive(Debug, Default)]
 pub struct Errors {
-    list: Vec<SpecError>,
-    omitted: usize,
+    pub(super) list: Vec<SpecError>,
+    pub(super) omitted: usize,
 }
 
 impl Errors {
@@ -245,26 +245,6 @@ impl Errors {
     /// Counts errors that are not recorded one by one, beyond others that are.
     pub(super) fn count(&mut self, more: usize) {
         self.omitted += more;
-    }
-
-    /// The outcome of reading `document`: the value if nothing was reported.
-    ///
-    /// # Errors
-    /// Everything that was reported, in file order.
-    pub fn conclude<T>(mut self, document: &Document, outcome: Result<T, Reported>) -> Result<T, SpecErrors> {
-        match outcome {
-            Ok(value) if self.list.is_empty() => Ok(value),
-            // `Err` carries a `Reported`, so the list is not empty here either.
-            _ => {
-                self.list.sort_by_key(|error| (error.span.start, error.span.end));
-                Err(SpecErrors {
-                    origin: document.source().clone(),
-                    errors: self.list,
-                    omitted: self.omitted,
-                    in_full: None,
-                })
-            }
-        }
     }
 }
 

@@ -28,6 +28,7 @@ mod quantity;
 mod read;
 mod render;
 mod sampling;
+mod source;
 mod toml;
 mod visible;
 pub mod weights;

@@ -2,6 +2,7 @@
 
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported, SpecError, list, nearest, shown};
+use super::json::Content;
 
 /// The most unknown fields of one object that are reported one by one: a suggestion compares a name with every known
 /// one, and nobody reads thousands.
@@ -32,8 +33,21 @@ pub struct Object<'d> {
     known: Vec<&'static str>,
 }
 
+impl<'d> Value<'d> {
+    /// The members of an object, to be read field by field.
+    ///
+    /// # Errors
+    /// Reports a value that is not an object.
+    pub fn object(&self, errors: &mut Errors) -> Result<Object<'d>, Reported> {
+        match self.node.content {
+            Content::Object(_) => Ok(Object::new(self.clone())),
+            _ => Err(self.wrong_type("an object", errors)),
+        }
+    }
+}
+
 impl<'d> Object<'d> {
-    pub(super) fn new(value: Value<'d>) -> Object<'d> {
+    fn new(value: Value<'d>) -> Object<'d> {
         Object { value, known: Vec::new() }
     }
 
