@@ -1,7 +1,7 @@
 //! The data of a specification, enclosed at one working precision (docs/mathematics.md, section 1).
 
 use crate::interval::Interval;
-use crate::plant::bounds::Name;
+use crate::plant::entries::Name;
 use crate::spec::{Bound, Specification};
 use rug::Rational;
 

@@ -8,6 +8,7 @@ mod around;
 pub mod bounds;
 pub mod coordinates;
 mod derivative;
+pub mod entries;
 pub mod formula;
 pub mod harmonics;
 pub mod machine;
@@ -151,13 +152,13 @@ fn tube(plant: &Plant) -> Interval {
     Interval::rational(&plant.orbit.tube, PRECISION)
 }
 
-fn of_entry(plant: &Plant, model: &mut Model, entry: &bounds::Entry) -> Asked {
+fn of_entry(plant: &Plant, model: &mut Model, entry: &entries::Entry) -> Asked {
     let [x, e] = &entry.arguments;
     let what = format!("{} at X = {}, E = {}", entry.label, x.to_f64(), e.to_f64());
     Asked {
         question: bounds::question(model, entry),
         region: region(plant, x, e),
-        rule: bounds::RULE,
+        rule: entries::RULE,
         pointer: format!("{}/value", entry.pointer),
         what,
     }

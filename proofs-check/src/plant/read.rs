@@ -1,8 +1,8 @@
 //! A plant and the parts of a witness that are about its formulas, as a file has them (docs/formats.md, "Plant" and "A certificate
 //! of a plant"): read and checked in form. What is proved of them is in the other files of this folder.
 
-use super::bounds::Entries;
 use super::coordinates::Coordinates;
+use super::entries::Entries;
 use super::time::Wave;
 use crate::constant::{Constant, Number, expression};
 use crate::expr::Expr;

@@ -5,13 +5,13 @@
 //! there, so what is not proved on it says nothing.
 
 use super::around::Around;
-use super::bounds;
 use super::machine::{At, Cell, Curves, Machine, Values};
 use super::model::{Frame, Model};
 use super::question::{Answer, Question};
 use super::read::Plant;
 use super::region::{Region, Shape};
 use super::time::around;
+use super::{bounds, entries};
 use super::{end, formula::Leaf, radius};
 use crate::interval::Interval;
 use rug::Float;
@@ -45,7 +45,7 @@ impl Still {
     pub fn new(plant: &Plant) -> Still {
         let mut model = Model::new(plant, Frame::Still);
         let orbit = (0..plant.states()).map(|state| model.formulas.leaf(Leaf::Orbit { state, order: 0 })).collect();
-        let question = |entry: &bounds::Entry| {
+        let question = |entry: &entries::Entry| {
             let moves = entry.name.is_of_motion();
             (!moves).then(|| bounds::question(&mut model, entry)).filter(|question| !question.moves())
         };
