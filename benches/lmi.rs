@@ -17,26 +17,6 @@ fn with_spectrum(n: usize, values: impl Fn(usize) -> f64) -> Mat<f64> {
     &scaled * q.transpose()
 }
 
-#[path = "../tests/integration/sdpa/mod.rs"]
-#[allow(dead_code)]
-mod sdpa;
-
-/// Solving a random problem against proving both bounds of its optimum.
-fn bounds(c: &mut Criterion) {
-    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
-    for (order, variables) in [(3, 2), (6, 4), (12, 8), (20, 12), (30, 20), (40, 20)] {
-        let (problem, _) = sdpa::random(order, variables, 5);
-        let candidate = problem.solve().expect("solved");
-        assert!(problem.verify(&candidate).is_some());
-        c.bench_function(&format!("SDP of order {order}, {variables} variables: solve"), |b| {
-            b.iter(|| one_thread.install(|| black_box(problem.solve())));
-        });
-        c.bench_function(&format!("SDP of order {order}, {variables} variables: verify"), |b| {
-            b.iter(|| one_thread.install(|| black_box(problem.verify(&candidate))));
-        });
-    }
-}
-
 fn definiteness(c: &mut Criterion) {
     let n = 400;
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
@@ -57,6 +37,6 @@ fn definiteness(c: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(10);
-    targets = definiteness, bounds
+    targets = definiteness
 }
 criterion_main!(benches);

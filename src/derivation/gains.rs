@@ -122,18 +122,6 @@ where
     beta_s_inverse(&(level / R::int(2)), period)
 }
 
-/// The smallest sigma with `tau(sigma) <= level`; the inverse of [`tau`], and 0 where the level is at least its supremum
-/// T^2/sqrt(720).
-///
-/// Hypotheses: level, T > 0. Unknown when the level is not certainly positive, or cannot be told from the supremum.
-#[must_use]
-pub fn tau_inverse<R: Real>(level: &R, period: &R) -> R
-where
-    for<'a> &'a R: Operand<R>,
-{
-    (level / period.sqr()).oscillator_sum_inverse_of_square() / period
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -236,17 +224,6 @@ mod tests {
             prop_assert!(relative_width(&back) < 1e-25);
             let doubled = beta_inverse(&beta(&sigma, &period), &period);
             prop_assert!(doubled.lower() <= sigma.lower() && doubled.upper() >= sigma.upper());
-        }
-
-        #[test]
-        fn tau_inverts(exponent in -2.0_f64..9.0, period in -6.0_f64..6.0) {
-            let period = number(10f64.powf(period));
-            let sigma = number(10f64.powf(exponent)) / &period;
-            let back = tau_inverse(&tau(&sigma, &period), &period);
-            prop_assert!(back.lower() <= sigma.lower() && back.upper() >= sigma.upper());
-            prop_assert!(relative_width(&back) < 1e-8);
-            let supremum = period.sqr() / Enclosure::from_integer(720, 128).sqrt();
-            prop_assert_eq!(tau_inverse(&(supremum * 2), &period), Enclosure::zero(128));
         }
 
         #[test]

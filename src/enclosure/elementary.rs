@@ -37,12 +37,6 @@ impl Enclosure {
         self.nondecreasing(|x, p, round| Float::with_val_round(p, x.exp_ref(), round).0)
     }
 
-    /// `exp(x) - 1`, without cancellation near 0.
-    #[must_use]
-    pub fn exp_m1(&self) -> Enclosure {
-        self.nondecreasing(|x, p, round| Float::with_val_round(p, x.exp_m1_ref(), round).0)
-    }
-
     /// The natural logarithm; undefined if a part of the interval is not positive.
     #[must_use]
     pub fn log(&self) -> Enclosure {

@@ -13,8 +13,8 @@ use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side};
 use rayon::prelude::*;
+use rug::Float;
 use rug::float::Round;
-use rug::{Float, Rational};
 
 /// Bits after the point of the entries of L. With at most [`MAX_ORDER`] rows and entries of L at most 1, no sum of products
 /// reaches 2^126 units of 2^-116, so 128-bit integers never overflow.
@@ -96,14 +96,6 @@ impl ScaledMatrix {
             let middle = (low + up) >> 1;
             Some((middle, up - middle))
         })
-    }
-
-    /// The matrix of these rationals; `entry(i, j)` is asked for j <= i only.
-    ///
-    /// `None` as for [`ScaledMatrix::from_doubles`].
-    #[must_use]
-    pub fn from_rationals(order: usize, entry: impl Fn(usize, usize) -> Rational + Sync) -> Option<ScaledMatrix> {
-        Self::from_enclosures(order, |i, j| Enclosure::from_rational(&entry(i, j), ENTRY_BITS + 64))
     }
 
     /// Collects the entries and takes the row sums of the errors from the diagonal.
@@ -284,6 +276,7 @@ fn fixed(value: f64, exponent: i32) -> Option<Entry> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rug::Rational;
 
     /// Doubles in [-1, 1) from a linear congruence: the same on every machine.
     fn numbers(seed: u64) -> impl FnMut() -> f64 {
@@ -386,16 +379,6 @@ mod tests {
         assert_eq!(truth((6, 10)), None);
         let undefined = ScaledMatrix::from_enclosures(1, |_, _| Enclosure::undefined(64));
         assert!(undefined.is_none());
-    }
-
-    #[test]
-    fn rationals_are_enclosed() {
-        let third = |i: usize, j: usize| Rational::from((if i == j { 2 } else { -1 }, 3));
-        let matrix = ScaledMatrix::from_rationals(3, third).expect("finite");
-        // 2/3 - 2/3 = 0 is the least eigenvalue.
-        assert_eq!(matrix.is_positive_definite(), Truth::Undecided);
-        let more = |i: usize, j: usize| third(i, j) + Rational::from((i32::from(i == j), 1_000_000));
-        assert_eq!(ScaledMatrix::from_rationals(3, more).expect("finite").is_positive_definite(), Truth::True);
     }
 
     #[test]

@@ -92,37 +92,6 @@ impl Real for f64 {
         if y < 1.0 { 1.0 / 12.0 - y * y * y.oscillator_sum() } else { (y / 2.0).coth() / (2.0 * y) - 1.0 / (y * y) }
     }
 
-    /// The secant method for `sqrt(1/S(y) - 720)`, nearly a straight line: its slope falls from sqrt(120/7) to sqrt(12).
-    fn oscillator_sum_inverse_of_square(&self) -> f64 {
-        let wanted = (self * self).recip() - 720.0;
-        if !self.is_certainly_positive() || wanted.is_nan() {
-            return f64::NAN;
-        }
-        if wanted <= 0.0 {
-            return 0.0;
-        }
-        if wanted.is_infinite() {
-            return f64::INFINITY;
-        }
-        let wanted = wanted.sqrt();
-        let line = |y: f64| (y.oscillator_sum().recip() - 720.0).max(0.0).sqrt();
-        let mut slope = (120.0_f64 / 7.0).sqrt();
-        let mut y = wanted / slope;
-        let mut value = line(y);
-        for _ in 0..STEPS {
-            let next = y + (wanted - value) / slope;
-            if (next - y).abs() <= NEAR * y {
-                break;
-            }
-            let reached = line(next);
-            let secant = (reached - value) / (next - y);
-            // Rounding, not the function, where it is outside of what the slope can be.
-            slope = if (3.0..5.0).contains(&secant) { secant } else { slope };
-            (y, value) = (next, reached);
-        }
-        y
-    }
-
     fn above(&self) -> String {
         format!("{self:e}")
     }
@@ -156,24 +125,14 @@ mod tests {
             prop_assert!(near(x.coth_ratio_inverse(), &wide.coth_ratio_inverse(), 1e-14));
         }
 
-        #[test]
-        fn the_sum_is_inverted(exponent in -12.0_f64..18.0) {
-            let y = 10f64.powf(exponent);
-            let level = y.oscillator_sum().sqrt();
-            let found = level.oscillator_sum_inverse_of_square();
-            // For small y the sum hardly depends on it.
-            prop_assert!((found.oscillator_sum().sqrt() / level - 1.0).abs() < 1e-12, "{y} {found}");
-            prop_assert!(y < 0.1 || (found / y - 1.0).abs() < 1e-10, "{y} {found}");
-        }
     }
 
     #[test]
     fn the_ends_of_the_range() {
         assert_eq!(0.0_f64.coth_ratio_inverse().to_bits(), f64::NAN.to_bits());
-        assert!((-1.0_f64).coth_ratio_inverse().is_nan() && f64::NAN.oscillator_sum_inverse_of_square().is_nan());
+        assert!((-1.0_f64).coth_ratio_inverse().is_nan());
         assert!((1e-300_f64.coth_ratio_inverse() / 1e300 - 1.0).abs() < 1e-12);
         assert!((1e300_f64.coth_ratio_inverse() / 1e-150 - 1.0).abs() < 1e-12);
-        assert_eq!(1.0_f64.oscillator_sum_inverse_of_square(), 0.0);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::Real;
 use super::series::COEFFICIENTS;
-use crate::enclosure::{Enclosure, Truth};
+use crate::enclosure::Enclosure;
 use rug::Rational;
 
 /// Bits of a number that carries no precision of its own: an operation takes the larger one of its operands.
@@ -85,27 +85,6 @@ impl Real for Enclosure {
         let direct = (y / 2).coth() / (2 * y) - y.sqr().recip();
         let by_series = twelfth - y.sqr() * y.oscillator_sum();
         trivial.intersect(&direct).intersect(&by_series)
-    }
-
-    fn oscillator_sum_inverse_of_square(&self) -> Enclosure {
-        let p = self.precision();
-        if !self.is_certainly_positive() {
-            return Enclosure::undefined(p);
-        }
-        let supremum = Enclosure::from_integer(720, p).sqrt().recip();
-        match self.lt(&supremum) {
-            Truth::False => Enclosure::zero(p),
-            Truth::Undecided => Enclosure::undefined(p),
-            Truth::True => {
-                // The sum is at most 1/(12 y^2).
-                let last = (Enclosure::from_integer(12, p).sqrt() * self).recip();
-                // For y < 2 pi the series alternates: 720 times the sum is at least 1 - y^2/42 (42 = 30240/720), and
-                // sqrt(1-z) >= 1-z, so the root has y^2 >= 42 (1 - self/supremum), at most 6.5^2; half of that y is below
-                // every root, those beyond 2 pi included, and leaves room for rounding.
-                let first = ((1 - self / supremum) * 42).max(&Enclosure::zero(p)).sqrt() / 2;
-                decreasing_root(&first, &last, |y| y.oscillator_sum().sqrt(), self)
-            }
-        }
     }
 
     fn above(&self) -> String {

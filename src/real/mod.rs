@@ -88,9 +88,6 @@ pub trait Real: Clone + Operand<Self> + Neg<Output = Self> {
     /// `sum_{j != 0} 1/(y^2 + (2 pi j)^2)` for y > 0, which is `coth(y/2)/(2y) - 1/y^2` and `1/12 - y^2 S(y)` with S of
     /// [`Real::oscillator_sum`]: it decreases from 1/12 to 0.
     fn zero_mean_sum(&self) -> Self;
-    /// The number y >= 0 with [`Real::oscillator_sum`] equal to the square of this one, which is positive; 0 where it is at
-    /// least the supremum, unknown where that is not certain.
-    fn oscillator_sum_inverse_of_square(&self) -> Self;
     /// An upper bound, in a few digits, for a message.
     fn above(&self) -> String;
 }

@@ -53,8 +53,6 @@ mod sampled_falsify;
 mod sampled_law;
 mod sampled_simulation;
 mod schemas;
-mod sdp_bounds;
-mod sdpa;
 mod search_scale;
 mod short_reports;
 mod simulate;
