@@ -39,7 +39,7 @@ pub use majorant::{Majorant, Term};
 pub use prove_value::ProvedValue;
 pub use region::{Region, RegionError};
 pub use smooth::SmoothnessFailure;
-pub use suprema::{FloatOrbit, FloatSuprema};
+pub use suprema::{FloatCurve, FloatSuprema};
 
 /// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.
 const PRECISION: u32 = 64;

@@ -26,18 +26,18 @@ const STARTS: usize = 6;
 
 /// `mean + sum_k (a_k cos(k w t) + b_k sin(k w t))` in doubles.
 #[derive(Clone, Debug)]
-pub struct FloatOrbit {
+pub struct FloatCurve {
     /// The mean.
     pub mean: Vec<f64>,
     /// (a_k, b_k) for k = 1, 2, ...
     pub harmonics: Vec<[Vec<f64>; 2]>,
 }
 
-impl From<&TrigonometricVector> for FloatOrbit {
-    fn from(orbit: &TrigonometricVector) -> FloatOrbit {
+impl From<&TrigonometricVector> for FloatCurve {
+    fn from(orbit: &TrigonometricVector) -> FloatCurve {
         let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect::<Vec<f64>>();
         let harmonics = orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
-        FloatOrbit { mean: doubles(&orbit.mean), harmonics }
+        FloatCurve { mean: doubles(&orbit.mean), harmonics }
     }
 }
 
@@ -66,7 +66,7 @@ struct Moment {
 pub struct FloatSuprema {
     order: usize,
     period: f64,
-    orbit: FloatOrbit,
+    orbit: FloatCurve,
     matrix: Vec<Vec<f64>>,
     inverse: Vec<Vec<f64>>,
     matrices: [Option<FloatMatrix>; 2],
@@ -101,7 +101,7 @@ impl FloatSuprema {
     #[must_use]
     pub fn new(
         plant: &Plant,
-        orbit: FloatOrbit,
+        orbit: FloatCurve,
         matrix: Vec<Vec<f64>>,
         lyapunov: [Option<&PeriodicMatrix>; 2],
     ) -> FloatSuprema {
@@ -290,7 +290,7 @@ impl FloatSuprema {
     }
 }
 
-impl FloatOrbit {
+impl FloatCurve {
     fn at(&self, time: f64) -> Vec<f64> {
         let mut x = self.mean.clone();
         for ([a, b], k) in self.harmonics.iter().zip(1..) {

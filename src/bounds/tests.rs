@@ -80,7 +80,7 @@ fn case(plant: &Plant, matrix: &[Vec<f64>], orbit: TrigonometricVector, radius: 
         matrix.iter().map(|row| row.iter().map(|v| round_f64(*v, 4, Direction::Nearest).unwrap()).collect()).collect();
     let doubles = exact.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
     let p = identity(plant.states());
-    let samples = FloatSuprema::new(plant, FloatOrbit::from(&orbit), doubles, [Some(&p), None]);
+    let samples = FloatSuprema::new(plant, FloatCurve::from(&orbit), doubles, [Some(&p), None]);
     let region = Region::new(exact, orbit, rational(radius)).unwrap();
     Case { engine: Engine::new(plant, region, Some(p), None).unwrap(), samples }
 }
@@ -94,7 +94,7 @@ fn best_matrix(plant: &Plant, orbit: &TrigonometricVector, x: f64, e: f64) -> Ve
         vec![vec![root, b], vec![0.0, 1.0]]
     };
     let rate = |matrix: &Vec<Vec<f64>>| {
-        let samples = FloatSuprema::new(plant, FloatOrbit::from(orbit), matrix.clone(), [Some(&p), None]);
+        let samples = FloatSuprema::new(plant, FloatCurve::from(orbit), matrix.clone(), [Some(&p), None]);
         samples.at(Kind::Rate, x, e)
     };
     let (mut best, mut at, mut step) = (f64::NEG_INFINITY, (0.0, 1.0), 0.2);

@@ -8,8 +8,8 @@ use super::progress::Bar;
 use super::{input, output};
 use sigmastar::certify::Verdict;
 use sigmastar::falsify::{
-    Claim, Falsification, FalsificationReport, Finding, FrequencyError, TrialSettings, counterexample_plant, falsify,
-    flags, with_base_frequency,
+    Falsification, FalsificationReport, Finding, FrequencyError, TrialSettings, TriedClaim, counterexample_plant,
+    falsify, flags, with_base_frequency,
 };
 
 /// Runs the command and returns the exit code.
@@ -22,7 +22,7 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let output = args.replace.asked(args.output.as_deref(), input, "the counterexample")?;
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
-    let mut claims = vec![Claim::from_document(&input::written(&args.certificate)?)?];
+    let mut claims = vec![TriedClaim::from_document(&input::written(&args.certificate)?)?];
     if claims[0].sampled.is_some() && !others.is_empty() {
         let message = "the law at samples is certified for the base frequency 2 pi/period alone";
         return Err(Failure::call(message, "leave --base-frequency out"));
@@ -40,7 +40,7 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let settings = TrialSettings { trials: u64::from(args.trials), seed: args.seed, only };
     let trials = if only.is_some() { 1 } else { settings.trials };
     let bar = Bar::new(trials * claims.len() as u64, args.quiet);
-    let outcomes: Vec<(Claim, Falsification)> = claims
+    let outcomes: Vec<(TriedClaim, Falsification)> = claims
         .into_iter()
         .map(|claim| {
             let outcome = falsify(&claim, settings, &bar);
@@ -68,7 +68,7 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     if let Err(code) = Shortened::new(&report, args.format, args.full).show(args.quiet) {
         return Ok(code);
     }
-    let held = |(_, outcome): &(Claim, Falsification)| {
+    let held = |(_, outcome): &(TriedClaim, Falsification)| {
         outcome.findings.iter().any(|finding| matches!(finding, Finding::Holds { .. }))
     };
     Ok(match broken {

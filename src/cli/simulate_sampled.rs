@@ -10,7 +10,7 @@ use sigmastar::certify::Verdict;
 use sigmastar::plant::{Initial, Plant};
 use sigmastar::regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
 use sigmastar::simulate::{
-    Converters, FIGURE_FILES, SampledLoop, SampledReport, SampledSettings, sampled_csv, sampled_figures,
+    Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
 };
 use sigmastar::spec::Constant;
@@ -63,7 +63,7 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     let simulation = simulate_sampled(&sampled, &start, &settings, &bar);
     bar.finish();
 
-    let report = SampledReport { plant: &plant, sampled: &sampled, simulation: &simulation };
+    let report = SampledSimulationReport { plant: &plant, sampled: &sampled, simulation: &simulation };
     let text = output::report(&report, args.format);
     if let (Some(file), Ok(run)) = (&csv_file, &simulation.long) {
         file.write(sampled_csv(&plant, &sampled, run))?;

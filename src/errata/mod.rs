@@ -84,14 +84,14 @@ impl fmt::Display for Bearing {
 
 /// A named number.
 #[derive(Clone, Debug)]
-pub struct Quantity {
+pub struct NamedNumber {
     /// What it is.
     pub name: String,
     /// Its value.
     pub value: Side,
 }
 
-impl fmt::Display for Quantity {
+impl fmt::Display for NamedNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}", self.name, self.value)
     }
@@ -105,7 +105,7 @@ pub struct ForData {
     /// One sentence.
     pub summary: String,
     /// The numbers behind it.
-    pub figures: Vec<Quantity>,
+    pub figures: Vec<NamedNumber>,
 }
 
 impl ForData {
@@ -114,7 +114,7 @@ impl ForData {
     }
 
     fn figure(mut self, name: impl Into<String>, value: impl Into<Side>) -> ForData {
-        self.figures.push(Quantity { name: name.into(), value: value.into() });
+        self.figures.push(NamedNumber { name: name.into(), value: value.into() });
         self
     }
 }

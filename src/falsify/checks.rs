@@ -1,6 +1,6 @@
 //! What a trial holds against the bounds of a claim.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::finding::{Finding, Trial, Violation};
 use super::frame::OwnPlant;
 use crate::simulate::{IntegrationFailure, SteadyStateError};
@@ -32,7 +32,7 @@ impl Default for Checks {
 impl Checks {
     /// With the room that a periodic solution needs whose components are known to rounding, and to what is left of its
     /// residual, which the slowest multiplier makes larger.
-    pub(super) fn around(claim: &Claim, start: &[f64], residual: f64, multiplier: f64) -> Checks {
+    pub(super) fn around(claim: &TriedClaim, start: &[f64], residual: f64, multiplier: f64) -> Checks {
         let size = start.iter().fold(1.0, |size: f64, value| size.max(value.abs()));
         let spread = claim.own.as_ref().map_or(1.0, OwnPlant::spread).max(1.0);
         let inaccuracy = (residual + ROUNDING * size) / (1.0 - multiplier).max(ROUNDING.sqrt());
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn rounding_of_large_states_is_no_violation() {
         let spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
-        let claim = Claim::for_tests(spec, [3.0, 3.0]);
+        let claim = TriedClaim::for_tests(spec, [3.0, 3.0]);
         let broken = |size: f64, multiplier: f64, found: f64| {
             let mut checks = Checks::around(&claim, &[size], 0.0, multiplier);
             checks.at_most("quantity", found, 0.0);

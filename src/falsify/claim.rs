@@ -15,7 +15,7 @@ use rug::Rational;
 
 /// The claim of a certificate in double precision.
 #[derive(Clone, Debug)]
-pub struct Claim {
+pub struct TriedClaim {
     /// The specification inside the certificate, with its triple where that is proved by the witness.
     pub spec: Specification,
     /// The derivation that the claim rests on.
@@ -46,20 +46,20 @@ pub struct Claim {
     pub sampled: Option<SampledClaim>,
 }
 
-impl Claim {
+impl TriedClaim {
     /// The claim of a certificate, as [`read_claim`] reads it; the matrices that are drawn rest on its proved triple.
     ///
     /// # Errors
     /// Those of [`read_claim`].
-    pub fn from_document(document: &Document) -> Result<Claim, SpecErrors> {
+    pub fn from_document(document: &Document) -> Result<TriedClaim, SpecErrors> {
         if is_sampled(document) {
-            return read_sampled_claim(document).map(Claim::at_samples);
+            return read_sampled_claim(document).map(TriedClaim::at_samples);
         }
-        read_claim(document).map(Claim::new)
+        read_claim(document).map(TriedClaim::new)
     }
 
     /// The claim about the law at samples.
-    fn at_samples(stated: StatedClaim<SampledWitness>) -> Claim {
+    fn at_samples(stated: StatedClaim<SampledWitness>) -> TriedClaim {
         let own = stated.plant.as_ref().zip(stated.spec.plant());
         let own = own.and_then(|(plant, proved)| OwnPlant::new(plant.clone(), proved));
         let StatedClaim { spec, witness, periodic: [x, e, zeta, z], .. } = stated;
@@ -75,7 +75,7 @@ impl Claim {
         let sampled = Some(SampledClaim::new(&witness));
         let (derivation, periodic_z) = (Derivation::Sharp, z);
         let (psi, drive) = (None, None);
-        Claim {
+        TriedClaim {
             spec,
             derivation,
             sigma,
@@ -92,7 +92,7 @@ impl Claim {
         }
     }
 
-    fn new(stated: StatedClaim) -> Claim {
+    fn new(stated: StatedClaim) -> TriedClaim {
         let own = stated.plant.as_ref().zip(stated.spec.plant());
         let own = own.and_then(|(plant, proved)| OwnPlant::new(plant.clone(), proved));
         let StatedClaim { spec, witness, periodic: [x, e, zeta, z], .. } = stated;
@@ -125,7 +125,7 @@ impl Claim {
         let psi = Psi::new(&data, &excitation);
         let psi = Some([psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]);
         let (sigma, drive) = (sigma.to_f64(), Some((excitation, e_p.clone())));
-        Claim {
+        TriedClaim {
             spec,
             derivation,
             sigma,
@@ -157,13 +157,13 @@ impl Claim {
 
     /// A claim about a specification that claims nothing, for tests of what is drawn.
     #[cfg(test)]
-    pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> Claim {
+    pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> TriedClaim {
         let reach = reach.map(|end| Rational::from_f64(end).unwrap());
         let (drive, own) = (None, None);
         let (initial, periodic, error_box) = ([0.0; 3], [0.0; 3], [0.0; 2]);
         let (periodic_z, lyapunov, psi, sampled) = (0.0, None, None, None);
         let derivation = Derivation::Sharp;
-        Claim {
+        TriedClaim {
             spec,
             derivation,
             sigma: 1.0,

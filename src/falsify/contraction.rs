@@ -1,6 +1,6 @@
 //! The rate that a drawn F(t) is to have.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::family::Family;
 use super::membership::respects_signed;
 use crate::data::Bound;
@@ -25,7 +25,7 @@ const RAISED: u32 = 40;
 
 /// The larger one of alpha and the contraction rate at the origin: with it, F(t) = df/dx has both with the same P, as the
 /// contraction rate is nonincreasing. `None` where there is no finite one.
-pub(super) fn wanted(claim: &Claim, triple: &Lyapunov) -> Option<WantedRate> {
+pub(super) fn wanted(claim: &TriedClaim, triple: &Lyapunov) -> Option<WantedRate> {
     let above = triple.alpha.enclose(DEFAULT_PRECISION).upper_rational()?;
     let alpha = WantedRate { text: triple.alpha.text.clone(), value: triple.alpha.to_f64(), above };
     let Some(rate) = claim.spec.bounds.own(Bound::Rate) else { return Some(alpha) };
@@ -42,7 +42,7 @@ pub(super) fn wanted(claim: &Claim, triple: &Lyapunov) -> Option<WantedRate> {
 
 /// Whether the contraction rate of a claim is proved to be at most the [`wanted`] one, up to its reach. Only for families
 /// whose df/dx is F(t).
-pub(super) fn is_met(family: &Family, claim: &Claim, left: &mut u64) -> bool {
+pub(super) fn is_met(family: &Family, claim: &TriedClaim, left: &mut u64) -> bool {
     let Some(rate) = claim.spec.bounds.own(Bound::Rate) else { return true };
     if family.states() == 0 {
         return true;

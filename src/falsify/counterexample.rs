@@ -1,6 +1,6 @@
 //! The plant of a trial as a plant file, which anyone can simulate again.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::finding::{Trial, Violation};
 use crate::plant;
 use crate::report::document::clean;
@@ -9,7 +9,7 @@ use serde_json::json;
 
 /// The flags with which `simulate` shows a trial.
 #[must_use]
-pub fn flags(claim: &Claim, trial: &Trial) -> String {
+pub fn flags(claim: &TriedClaim, trial: &Trial) -> String {
     let plain = format!("--sigma {:?} --n-o {}", trial.sigma, trial.n_o);
     match claim.sampled.as_ref().zip(trial.phase) {
         None => plain,
@@ -22,7 +22,7 @@ pub fn flags(claim: &Claim, trial: &Trial) -> String {
 /// # Errors
 /// None is known: the text is made here.
 pub fn counterexample_plant(
-    claim: &Claim,
+    claim: &TriedClaim,
     trial: &Trial,
     violation: Option<&Violation>,
 ) -> Result<Document, SpecErrors> {

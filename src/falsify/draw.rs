@@ -1,6 +1,6 @@
 //! Drawing plants that touch the bounding functions.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::family::{DrawnPlant, Family};
 use super::fit::fit;
 use super::forcing::{fill, harmonics};
@@ -19,7 +19,7 @@ use crate::enclosure::DEFAULT_PRECISION;
 /// Guarantee: P_x exists, every bounding function holds up to the reach of the claim, the axes included, and q(t,0,0) is
 /// as q_0 says, proved for the coefficients as [`Family::texts`] writes them.
 #[must_use]
-pub fn draw(claim: &Claim, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
+pub fn draw(claim: &TriedClaim, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
     let limits = Limits::new(claim);
     let [reach_x, reach_e] = limits.reach;
     let clock = Clock { period: &claim.spec.period.text, multiple: [1, 1, 2, 3][random.whole(0, 3) as usize] };
@@ -91,12 +91,12 @@ mod tests {
     use serde_json::Value;
     use std::sync::Arc;
 
-    fn claim(spec: &str) -> Claim {
-        Claim::for_tests(Specification::from_json("test", spec).unwrap(), [3.0, 4.0])
+    fn claim(spec: &str) -> TriedClaim {
+        TriedClaim::for_tests(Specification::from_json("test", spec).unwrap(), [3.0, 4.0])
     }
 
     /// A specification with other fields.
-    fn with(spec: &str, fields: &[(&str, &str)]) -> Claim {
+    fn with(spec: &str, fields: &[(&str, &str)]) -> TriedClaim {
         let mut document: Value = serde_json::from_str(spec).unwrap();
         for (pointer, text) in fields {
             let (parent, field) = pointer.rsplit_once('/').unwrap();
@@ -158,7 +158,7 @@ mod tests {
 
     /// Checks what a plant is at many points against its own bounds and those of the specification. Returns the largest
     /// share of its own bounds that was found; for the slope from above the least distance from that of the specification.
-    fn check(family: &Family, claim: &Claim, random: &mut Random) -> Vec<(Bound, f64)> {
+    fn check(family: &Family, claim: &TriedClaim, random: &mut Random) -> Vec<(Bound, f64)> {
         let own = |bound| Expr::parse(&family.bound(bound).unwrap().text(), Variables::XAndE).unwrap().to_float();
         let mut touched: Vec<(Bound, f64)> = Vec::new();
         for _ in 0..300 {

@@ -1,6 +1,6 @@
 //! Making a family of plants smaller until it is proved to lie within the bounding functions.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::contraction;
 use super::family::{Family, FamilyBound};
 use super::forcing;
@@ -25,23 +25,23 @@ const ATTEMPTS: usize = 60;
 
 /// The bounding functions that the specification of a claim has, but for the rate. They are met in this order: the damping,
 /// which also lowers dq/de, is made smaller for q only, and that comes before `q_e_max`.
-fn conditions(claim: &Claim) -> impl Iterator<Item = (Bound, &Expr)> {
+fn conditions(claim: &TriedClaim) -> impl Iterator<Item = (Bound, &Expr)> {
     claim.spec.bounds.named().filter(|(bound, _)| *bound != Bound::Rate)
 }
 
 /// Whether a bound of a family is proved to be at most a bounding function, up to the reach of a claim.
-fn is_met(bound: Bound, by: &FamilyBound, allowed: &Expr, claim: &Claim, left: &mut u64) -> bool {
+fn is_met(bound: Bound, by: &FamilyBound, allowed: &Expr, claim: &TriedClaim, left: &mut u64) -> bool {
     let proof = if bound.is_signed() { respects_signed } else { respects };
     proof(&by.text(), allowed, &claim.reach, left)
 }
 
 /// Whether a family is proved to be as the specification says where no coefficient has a say in it.
-fn is_admissible(family: &Family, claim: &Claim, left: &mut u64) -> bool {
+fn is_admissible(family: &Family, claim: &TriedClaim, left: &mut u64) -> bool {
     forcing::is_within(family, claim) && contraction::is_met(family, claim, left)
 }
 
 /// Whether a family is proved to lie within the families of a claim, with the operations that are `left`.
-pub(super) fn fits(family: &Family, claim: &Claim, left: &mut u64) -> bool {
+pub(super) fn fits(family: &Family, claim: &TriedClaim, left: &mut u64) -> bool {
     is_admissible(family, claim, left)
         && conditions(claim)
             .all(|(bound, allowed)| family.bound(bound).is_some_and(|by| is_met(bound, &by, allowed, claim, left)))
@@ -49,7 +49,7 @@ pub(super) fn fits(family: &Family, claim: &Claim, left: &mut u64) -> bool {
 
 /// Makes a family smaller until nothing exceeds what is allowed; false where that is not proved of any size with the
 /// operations that are `left`.
-pub(super) fn fit(family: &mut Family, claim: &Claim, left: &mut u64) -> bool {
+pub(super) fn fit(family: &mut Family, claim: &TriedClaim, left: &mut u64) -> bool {
     let limits = Limits::new(claim);
     // A little more than it has to be, as nine digits are exact to 5e-9.
     let least_damping = Number::new(limits.sector().least_damping() * (1.0 + 1e-8));

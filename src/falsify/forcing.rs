@@ -1,6 +1,6 @@
 //! Drawing A(t) = q(t,0,0).
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::family::{Family, Harmonic};
 use super::limits::{Limits, SHARE};
 use super::random::Random;
@@ -18,7 +18,7 @@ const MOST_LISTED: usize = 12;
 /// `share` of its bound, and one or two of the rest; otherwise one to four of neighbouring orders, now and then with a
 /// constant.
 pub(super) fn harmonics(
-    claim: &Claim,
+    claim: &TriedClaim,
     multiple: u32,
     share: fn(&mut Random) -> f64,
     random: &mut Random,
@@ -92,7 +92,7 @@ fn mean_square(order: u32) -> f64 {
 
 /// Scales A so that the first of its bounds is reached, up to what is kept of one: those of q(t,0,0) and its derivative,
 /// and where q_0 is given those of the harmonics and of the rest.
-pub(super) fn fill(family: &mut Family, claim: &Claim) {
+pub(super) fn fill(family: &mut Family, claim: &TriedClaim) {
     let limits = Limits::new(claim);
     let period = claim.spec.period.to_f64();
     let speed = |harmonic: &Harmonic| f64::from(harmonic.factor.order) * TAU / period;
@@ -127,7 +127,7 @@ pub(super) fn fill(family: &mut Family, claim: &Claim) {
 
 /// Whether A, whose harmonics have different orders, is proved to be as q_0 says, where it is given: the coefficients of
 /// the listed orders are within their bounds, and the mean squares of the others and of their derivative are too.
-pub(super) fn is_within(family: &Family, claim: &Claim) -> bool {
+pub(super) fn is_within(family: &Family, claim: &TriedClaim) -> bool {
     let Some(known) = &claim.spec.q_0 else { return true };
     let enclose = |constant: &Constant| constant.enclose(DEFAULT_PRECISION);
     let fundamental = Enclosure::pi(DEFAULT_PRECISION) * 2 / enclose(&claim.spec.period);
@@ -196,7 +196,7 @@ mod tests {
         large["q_0"] = serde_json::json!({ "harmonics": ["9", "9", "0", "9"], "rest_rms": "0" });
         for text in [shipped.to_owned(), unlisted.to_string(), large.to_string()] {
             let spec = Specification::from_json("harmonics", &text).unwrap();
-            let claim = Claim::for_tests(spec, [3.0, 4.0]);
+            let claim = TriedClaim::for_tests(spec, [3.0, 4.0]);
             let known = claim.spec.q_0.as_ref().unwrap();
             let mut random = Random::new(11, 12);
             let first = linear_member(&claim, SectorEnd::Upper, &mut random, &mut { MAX_OPERATIONS });
@@ -227,7 +227,7 @@ mod tests {
     #[test]
     fn what_q_0_does_not_allow_is_seen() {
         let text = include_str!("../../specs/paper-example-harmonics-at-rest.json");
-        let claim = Claim::for_tests(Specification::from_json("harmonics", text).unwrap(), [3.0, 4.0]);
+        let claim = TriedClaim::for_tests(Specification::from_json("harmonics", text).unwrap(), [3.0, 4.0]);
         let family =
             linear_member(&claim, SectorEnd::Upper, &mut Random::new(1, 1), &mut { MAX_OPERATIONS }).unwrap().family;
         assert!(is_within(&family, &claim));

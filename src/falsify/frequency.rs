@@ -1,6 +1,6 @@
 //! The claim of a certificate at another base frequency: certified again.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use crate::certificate::certificate_json;
 use crate::certify::{Options, certify};
 use crate::expr::Monomial;
@@ -29,7 +29,7 @@ pub enum FrequencyError {
 ///
 /// # Errors
 /// [`FrequencyError`].
-pub fn with_base_frequency(claim: &Claim, frequency: &Constant) -> Result<Claim, FrequencyError> {
+pub fn with_base_frequency(claim: &TriedClaim, frequency: &Constant) -> Result<TriedClaim, FrequencyError> {
     let mut document = claim.spec.document.clone();
     document["internal_model"]["base_frequency"] = frequency.text.clone().into();
     document["internal_model"]["matched"] = is_matched(frequency, &claim.spec.period).into();
@@ -42,7 +42,7 @@ pub fn with_base_frequency(claim: &Claim, frequency: &Constant) -> Result<Claim,
     let Some(certificate) = certificate else {
         return Err(FrequencyError::NotCertified { frequency: frequency.text.clone() });
     };
-    Ok(Claim::from_document(&Document::parse("certificate", &certificate.to_string())?)?)
+    Ok(TriedClaim::from_document(&Document::parse("certificate", &certificate.to_string())?)?)
 }
 
 /// Whether w T = 2 pi, exactly.

@@ -1,6 +1,6 @@
 //! Drawing F(t) = df/dx(t, 0, 0) with the condition on P_x proved, and a bound of its norm.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::contraction::{self, WantedRate};
 use super::random::Random;
 use super::shape::{Factor, Number};
@@ -48,7 +48,7 @@ impl Clock<'_> {
 /// the inequality is proved for the entries as they are written. In the place of alpha stands the contraction rate at the
 /// origin where that is larger. With a Jacobian, whose triple the claim has proved for
 /// all its matrices: a member, proved entry by entry. `None` where nothing could be proved or drawn.
-pub(super) fn draw(claim: &Claim, clock: Clock<'_>, largest: f64, random: &mut Random) -> Option<Drawn> {
+pub(super) fn draw(claim: &TriedClaim, clock: Clock<'_>, largest: f64, random: &mut Random) -> Option<Drawn> {
     let (rows, family) = match &claim.spec.lyapunov {
         LyapunovSource::Given(triple) => of_triple(claim, triple, clock, largest, random)?,
         LyapunovSource::Proved { jacobian, .. } => member(claim, jacobian, clock, random)?,
@@ -59,7 +59,7 @@ pub(super) fn draw(claim: &Claim, clock: Clock<'_>, largest: f64, random: &mut R
 }
 
 /// The entries as a family of one matrix.
-fn family(claim: &Claim, rows: &[Vec<String>]) -> Option<Family> {
+fn family(claim: &TriedClaim, rows: &[Vec<String>]) -> Option<Family> {
     let entry = |text: &String| Expr::parse(text, Variables::Time).ok().map(JacobianEntry::Function);
     let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect::<Option<Vec<Vec<_>>>>()?;
     let jacobian = Jacobian { rows, period: claim.spec.period.exact.clone() };
@@ -67,7 +67,7 @@ fn family(claim: &Claim, rows: &[Vec<String>]) -> Option<Family> {
 }
 
 fn of_triple(
-    claim: &Claim,
+    claim: &TriedClaim,
     triple: &Lyapunov,
     clock: Clock<'_>,
     largest: f64,
@@ -157,7 +157,7 @@ fn condition_holds(triple: &Lyapunov, rate: &WantedRate, family: &Family, p: &DM
 /// A matrix function of a Jacobian: its functions as they are written, and for each interval a constant or a wave
 /// between the two ends, which are touched in a third of the cases.
 fn member(
-    claim: &Claim,
+    claim: &TriedClaim,
     jacobian: &Jacobian,
     clock: Clock<'_>,
     random: &mut Random,
@@ -187,7 +187,7 @@ fn member(
 }
 
 /// Whether mean + a cos + b sin is proved to lie between two constants: sqrt(a^2 + b^2) is its largest deviation.
-fn lies_between(claim: &Claim, text: &str, ends: &[Constant; 2]) -> bool {
+fn lies_between(claim: &TriedClaim, text: &str, ends: &[Constant; 2]) -> bool {
     let Some(family) = family(claim, &[vec![text.to_owned()]]) else { return false };
     let TrigonometricPolynomial { mean, harmonics } = &family.centre[0][0];
     let deviation =
@@ -299,7 +299,7 @@ mod tests {
         let triple = Lyapunov { p_low: one.clone(), p_up: one.clone(), alpha: one };
         let matrix = PeriodicMatrix { mean: Vec::new(), harmonics: Vec::new() };
         spec.lyapunov = LyapunovSource::Proved { jacobian: jacobian.clone(), triple, matrix, existence: None };
-        let claim = Claim::for_tests(spec, [10.0, 10.0]);
+        let claim = TriedClaim::for_tests(spec, [10.0, 10.0]);
         let (mut random, mut largest) = (Random::new(7, 8), 0.0_f64);
         for _ in 0..20 {
             let drawn = draw(&claim, Clock { period: "1", multiple: 1 }, 0.0, &mut random).unwrap();

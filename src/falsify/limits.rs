@@ -1,6 +1,6 @@
 //! What the bounding functions of a claim allow, in double precision: sizes at which plants are drawn.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use crate::data::Bound;
 use crate::spec::Specification;
 
@@ -21,7 +21,7 @@ pub(super) fn positive(value: f64) -> f64 {
 }
 
 impl<'c> Limits<'c> {
-    pub fn new(claim: &'c Claim) -> Limits<'c> {
+    pub fn new(claim: &'c TriedClaim) -> Limits<'c> {
         Limits { spec: &claim.spec, reach: claim.reach.each_ref().map(rug::Rational::to_f64) }
     }
 

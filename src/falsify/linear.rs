@@ -1,6 +1,6 @@
 //! The linear member of the families: gains as large as the bounding functions allow, with adverse signs.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::contraction;
 use super::family::{DrawnPlant, Family};
 use super::fit::{fit, fits};
@@ -30,7 +30,7 @@ const ROUNDED: f64 = 1.0 - 1e-7;
 ///
 /// Guarantee: as for `draw`.
 #[must_use]
-pub fn linear_member(claim: &Claim, end: SectorEnd, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
+pub fn linear_member(claim: &TriedClaim, end: SectorEnd, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
     let limits = Limits::new(claim);
     let [reach_x, reach_e] = limits.reach;
     let clock = Clock { period: &claim.spec.period.text, multiple: 1 };
@@ -95,16 +95,16 @@ mod tests {
     use crate::spec::Specification;
 
     /// The linear specification with other bounds of f.
-    fn claim(alpha: &str, f: &str, f_e: &str) -> Claim {
+    fn claim(alpha: &str, f: &str, f_e: &str) -> TriedClaim {
         let text = include_str!("../../specs/linear.json");
         let mut document: serde_json::Value = serde_json::from_str(text).unwrap();
         document["lyapunov"]["alpha"] = alpha.into();
         document["bounds"]["f"] = f.into();
         document["bounds"]["f_e"] = f_e.into();
-        Claim::for_tests(Specification::from_json("tight", &document.to_string()).unwrap(), [3.0, 4.0])
+        TriedClaim::for_tests(Specification::from_json("tight", &document.to_string()).unwrap(), [3.0, 4.0])
     }
 
-    fn member(claim: &Claim, end: SectorEnd) -> Option<DrawnPlant> {
+    fn member(claim: &TriedClaim, end: SectorEnd) -> Option<DrawnPlant> {
         linear_member(claim, end, &mut Random::new(1, 1), &mut { MAX_OPERATIONS })
     }
 
@@ -153,7 +153,7 @@ mod tests {
                 document["bounds"]["q_e_max"] = bound.into();
             }
             let spec = Specification::from_json("sector", &document.to_string()).unwrap();
-            let family = member(&Claim::for_tests(spec, [3.0, 4.0]), end).expect("a linear plant fits").family;
+            let family = member(&TriedClaim::for_tests(spec, [3.0, 4.0]), end).expect("a linear plant fits").family;
             let kept = (family.c.value(), family.damping.value());
             // Nine digits below the norm or beyond the end, where it is rounded.
             assert!((kept.0 - c).abs() + (kept.1 - damping).abs() < 1e-7, "{q_e_max:?} {end:?}: {kept:?}");
@@ -164,7 +164,8 @@ mod tests {
     fn a_sector_that_is_empty_has_no_member() {
         let mut document: serde_json::Value = serde_json::from_str(include_str!("../../specs/linear.json")).unwrap();
         document["bounds"]["q_e_max"] = "-1/2".into();
-        let claim = Claim::for_tests(Specification::from_json("empty", &document.to_string()).unwrap(), [3.0, 4.0]);
+        let claim =
+            TriedClaim::for_tests(Specification::from_json("empty", &document.to_string()).unwrap(), [3.0, 4.0]);
         assert!([SectorEnd::Upper, SectorEnd::Lower].into_iter().all(|end| member(&claim, end).is_none()));
     }
 }

@@ -30,7 +30,7 @@ mod shape;
 mod start;
 mod trial;
 
-pub use claim::Claim;
+pub use claim::TriedClaim;
 pub use counterexample::{counterexample_plant, flags};
 pub use draw::draw;
 pub use family::{DrawnPlant, Family, FamilyBound, Harmonic};

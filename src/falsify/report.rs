@@ -1,6 +1,6 @@
 //! What is said about the trials.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::counterexample::counterexample_plant;
 use super::finding::{Closest, Falsification, Finding, Trial};
 use crate::number::{Direction, round_f64, told_apart, write_exact};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 /// The report on the trials of a certificate, and of those at other base frequencies.
 pub struct FalsificationReport<'r> {
     /// The claims that were tried, the certificate's own first.
-    pub tried: &'r [(Claim, Falsification)],
+    pub tried: &'r [(TriedClaim, Falsification)],
 }
 
 impl Readable for FalsificationReport<'_> {
@@ -33,7 +33,7 @@ impl Readable for FalsificationReport<'_> {
     }
 }
 
-fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
+fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
     let mut blocks = vec![Block::Title(format!("{}: falsification", clean(&claim.spec.name)))];
     let (mut held, mut unfinished) = (0, Vec::new());
     for finding in &outcome.findings {
@@ -102,13 +102,13 @@ fn blocks(claim: &Claim, outcome: &Falsification) -> Vec<Block> {
 }
 
 /// What came closest to each bound; of a plant without states, without those of a state.
-fn shown<'o>(claim: &Claim, outcome: &'o Falsification) -> Vec<Closest<'o>> {
+fn shown<'o>(claim: &TriedClaim, outcome: &'o Falsification) -> Vec<Closest<'o>> {
     let stateless = state_name(&claim.spec).is_none();
     outcome.closest().into_iter().filter(|closest| !(stateless && closest.quantity.contains("|x"))).collect()
 }
 
 /// How much of each bound was used.
-fn used(claim: &Claim, outcome: &Falsification) -> Bars {
+fn used(claim: &TriedClaim, outcome: &Falsification) -> Bars {
     let entry = |closest: Closest<'_>| (closest.quantity.to_owned(), closest.share, format!("{:.3}", closest.share));
     Bars {
         title: "Found, as a share of the bound".to_owned(),
@@ -146,7 +146,7 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
 }
 
 /// The worst plant as JSON, with the plant file.
-fn worst_json(claim: &Claim, worst: &Closest<'_>) -> Value {
+fn worst_json(claim: &TriedClaim, worst: &Closest<'_>) -> Value {
     let Closest { quantity, share, trial, .. } = worst;
     let Trial { number, sigma, n_o, phase, .. } = trial;
     let plant = counterexample_plant(claim, trial, None).map_or(Value::Null, |document| document.root().to_json());
@@ -158,7 +158,7 @@ fn worst_json(claim: &Claim, worst: &Closest<'_>) -> Value {
     worst
 }
 
-fn json(claim: &Claim, outcome: &Falsification) -> Value {
+fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
     let trials: Vec<Value> = outcome
         .findings
         .iter()

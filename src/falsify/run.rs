@@ -2,7 +2,7 @@
 //! nothing about the claim, nor does a periodic solution that the run does not come to.
 
 use super::checks::{Checks, norm};
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::finding::{Finding, Trial};
 use crate::number::Portable;
 use crate::simulate::{ClosedLoop, IntegrationFailure, Tolerance, flow, trajectory};
@@ -33,7 +33,7 @@ pub(super) struct Largest([f64; 2]);
 
 impl Largest {
     /// Takes a state (x, e) at t = s T into account.
-    pub(super) fn take(&mut self, claim: &Claim, s: f64, state: &[f64]) {
+    pub(super) fn take(&mut self, claim: &TriedClaim, s: f64, state: &[f64]) {
         let Some((e, x)) = state.split_last() else { return };
         let x = claim.own.as_ref().map_or_else(|| norm(x), |own| own.distance(s, x));
         for (largest, size) in self.0.iter_mut().zip([x, e.abs()]) {
@@ -43,7 +43,7 @@ impl Largest {
     }
 
     /// A violation, where a size is beyond what the claim allows anywhere on the way; else why nothing was found out.
-    pub(super) fn finding(self, claim: &Claim, trial: Trial, why: String) -> Finding {
+    pub(super) fn finding(self, claim: &TriedClaim, trial: Trial, why: String) -> Finding {
         let mut checks = Checks::default();
         for (((quantity, size), per), radius) in SIZES.into_iter().zip(self.0).zip(claim.periodic).zip(claim.error_box)
         {
@@ -57,7 +57,7 @@ impl Largest {
 }
 
 /// The finding of a trial for which there is no periodic solution to compare with.
-pub(super) fn alone(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop, why: String) -> Finding {
+pub(super) fn alone(claim: &TriedClaim, trial: Trial, closed_loop: &ClosedLoop, why: String) -> Finding {
     let (mut largest, mut y) = (Largest::default(), trial.start.clone());
     let (period, of_plant) = (closed_loop.period, closed_loop.states() + 1);
     closed_loop.renew_effort();
@@ -114,7 +114,7 @@ mod tests {
     /// The finding of a trial of a plant with one state from x = 1, e = 0, for a claim with these sizes of an error box.
     fn finding(f: &str, q: &str, error_box: [f64; 2]) -> Finding {
         let spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
-        let mut claim = Claim::for_tests(spec, [3.0, 3.0]);
+        let mut claim = TriedClaim::for_tests(spec, [3.0, 3.0]);
         claim.error_box = error_box;
         let text = format!(
             r#"{{"format": "sigmastar/plant", "version": 1, "name": "n", "period": 1, "states": ["x1"], "f": ["{f}"],

@@ -1,7 +1,7 @@
 //! A trial of a claim about the law at samples: exactly its gain, its sampling time and its K, at some phase of the grid.
 
 use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::finding::{Finding, LYAPUNOV, MULTIPLIER, Trial, TriedPlant};
 use super::random::Random;
 use super::run::{self, Largest};
@@ -19,7 +19,7 @@ const STATES: usize = 1024;
 const BETWEEN: usize = 2;
 
 /// Runs a trial.
-pub(super) fn run(claim: &Claim, law: &SampledClaim, mut random: Random, number: u64) -> Finding {
+pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, number: u64) -> Finding {
     let tried = law.tried_n_o();
     // From the first trial on, so that the ends are tried whatever the number of trials is.
     let n_o = tried.get((number.saturating_sub(1) % tried.len().max(1) as u64) as usize).copied().unwrap_or(0);
@@ -86,7 +86,7 @@ fn period(
     Ok(intervals)
 }
 
-fn check(claim: &Claim, trial: Trial, sampled: &SampledLoop) -> Finding {
+fn check(claim: &TriedClaim, trial: Trial, sampled: &SampledLoop) -> Finding {
     let steady = match sampled_periodic_solution(sampled, &trial.start, &Silent) {
         Ok(steady) => steady,
         // That no periodic solution is found says nothing about the claim; the run itself may.
@@ -122,7 +122,7 @@ fn passed(sampled: &SampledLoop, y: &[f64]) -> Result<Vec<f64>, IntegrationFailu
 }
 
 /// The finding of a trial for which there is no periodic solution to compare with.
-fn alone(claim: &Claim, trial: Trial, sampled: &SampledLoop, why: String) -> Finding {
+fn alone(claim: &TriedClaim, trial: Trial, sampled: &SampledLoop, why: String) -> Finding {
     let mut largest = Largest::default();
     if let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) {
         // What happens within a sample after which it has escaped is not looked at.
@@ -137,7 +137,13 @@ fn alone(claim: &Claim, trial: Trial, sampled: &SampledLoop, why: String) -> Fin
     largest.finding(claim, trial, why)
 }
 
-fn check_orbit(claim: &Claim, sampled: &SampledLoop, steady: &SampledSteady, orbit: &[Interval], checks: &mut Checks) {
+fn check_orbit(
+    claim: &TriedClaim,
+    sampled: &SampledLoop,
+    steady: &SampledSteady,
+    orbit: &[Interval],
+    checks: &mut Checks,
+) {
     let n = sampled.states();
     let (mut x, mut e, mut zeta, mut z) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     for interval in orbit {
@@ -165,7 +171,7 @@ fn check_orbit(claim: &Claim, sampled: &SampledLoop, steady: &SampledSteady, orb
 /// # Errors
 /// An integration that did not come to its end.
 fn check_approach(
-    claim: &Claim,
+    claim: &TriedClaim,
     trial: &Trial,
     sampled: &SampledLoop,
     orbit: &[Interval],

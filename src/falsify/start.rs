@@ -1,6 +1,6 @@
 //! What a trial starts with: a plant, and a point of the boundary of the set.
 
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::counterexample::counterexample_plant;
 use super::draw::draw;
 use super::family::DrawnPlant;
@@ -17,13 +17,13 @@ use crate::regulator::Regulator;
 const DRAWS: usize = 30;
 
 /// The plant of a trial as a plant file has it.
-pub(super) fn file(claim: &Claim, trial: &Trial) -> Result<Plant, Finding> {
+pub(super) fn file(claim: &TriedClaim, trial: &Trial) -> Result<Plant, Finding> {
     let file = counterexample_plant(claim, trial, None).and_then(|document| Plant::from_value(&document.root()));
     file.map_err(|errors| Finding::Unfinished(errors.to_string()))
 }
 
 /// Draws the plant of a trial.
-pub(super) fn drawn_plant(claim: &Claim, number: u64, random: &mut Random) -> Option<DrawnPlant> {
+pub(super) fn drawn_plant(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<DrawnPlant> {
     // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
     // and where none does the linear member is left.
     let linear = |end, random: &mut Random| linear_member(claim, end, random, &mut { MAX_OPERATIONS });
@@ -39,7 +39,7 @@ pub(super) fn drawn_plant(claim: &Claim, number: u64, random: &mut Random) -> Op
 }
 
 /// Why there is no plant to try.
-pub(super) fn no_member(claim: &Claim) -> &'static str {
+pub(super) fn no_member(claim: &TriedClaim) -> &'static str {
     match claim.spec.bounds.own(Bound::Rate) {
         None => "no plant of the drawn kind is proved to lie within the families",
         Some(_) => {
@@ -50,7 +50,7 @@ pub(super) fn no_member(claim: &Claim) -> &'static str {
 }
 
 /// A point of the boundary, for n states: |x| = X0, |e| = E0, |z|_N = Z0.
-pub(super) fn boundary(claim: &Claim, n: usize, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
+pub(super) fn boundary(claim: &TriedClaim, n: usize, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
     let [x_0, e_0, z_0] = claim.initial;
     let mut start: Vec<f64> = random.direction(n).iter().map(|part| x_0 * part.value()).collect();
     start.push(if random.chance(0.5) { e_0 } else { -e_0 });
@@ -62,7 +62,7 @@ pub(super) fn boundary(claim: &Claim, n: usize, regulator: &Regulator, random: &
 }
 
 /// The regulator of the claim in double precision.
-pub(super) fn regulator(claim: &Claim, sigma: f64, n_o: u32) -> Regulator {
+pub(super) fn regulator(claim: &TriedClaim, sigma: f64, n_o: u32) -> Regulator {
     let model = &claim.spec.internal_model;
     let weights = (0..=u64::from(n_o)).map(|l| model.weights.weight_f64(l)).collect();
     Regulator::new(sigma, model.mu.to_f64(), model.base_frequency.to_f64(), weights)
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn trials_start_on_the_boundary() {
         let spec = Specification::from_json("linear", include_str!("../../specs/linear.json")).unwrap();
-        let mut claim = Claim::for_tests(spec, [3.0, 3.0]);
+        let mut claim = TriedClaim::for_tests(spec, [3.0, 3.0]);
         claim.initial = [2.0, 0.5, 7.0];
         let mut random = Random::new(3, 4);
         let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).unwrap();

@@ -1,7 +1,7 @@
 //! One plant, one initial condition, one number of oscillators: simulated and checked.
 
 use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
-use super::claim::Claim;
+use super::claim::TriedClaim;
 use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, TriedPlant};
 use super::frame::{ABOVE, OwnPlant};
 use super::random::Random;
@@ -26,7 +26,7 @@ const SAMPLES: usize = 4096;
 /// Runs the trials, in parallel; what they find does not depend on how many at a time. None is run where no plant with a
 /// state satisfies data that speak of one.
 #[must_use]
-pub fn falsify(claim: &Claim, settings: TrialSettings, progress: &dyn Progress) -> Falsification {
+pub fn falsify(claim: &TriedClaim, settings: TrialSettings, progress: &dyn Progress) -> Falsification {
     let no_plant = |data: &Data<'_>, reach| if claim.own.is_none() { no_plant(data, reach) } else { None };
     if let Some(reason) = no_plant(&Data::new(&claim.spec, DEFAULT_PRECISION), Some(&claim.reach)) {
         // A plant without x would show nothing about such data.
@@ -45,7 +45,7 @@ pub fn falsify(claim: &Claim, settings: TrialSettings, progress: &dyn Progress) 
     Falsification { settings, findings }
 }
 
-fn run_trial(claim: &Claim, seed: u64, number: u64) -> Finding {
+fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let mut random = Random::new(seed, number);
     if let Some(sampled) = &claim.sampled {
         return sampled_trial::run(claim, sampled, random, number);
@@ -70,7 +70,7 @@ fn run_trial(claim: &Claim, seed: u64, number: u64) -> Finding {
 }
 
 /// A trial of the plant that the claim is about.
-fn run_own(claim: &Claim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
+fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
     let sigma = claim.sigma * OwnPlant::gain(number);
     let regulator = regulator(claim, sigma, n_o);
@@ -83,7 +83,7 @@ fn run_own(claim: &Claim, own: &OwnPlant, mut random: Random, number: u64) -> Fi
     check(claim, Trial { number, plant, sigma, n_o, start, phase: None }, &closed_loop)
 }
 
-pub(super) fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
+pub(super) fn check(claim: &TriedClaim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
     let steady = match periodic_solution(claim, &trial, closed_loop) {
         Ok(steady) => steady,
         // That no periodic solution is found says nothing about the claim; the run itself may.
@@ -114,7 +114,11 @@ pub(super) fn check(claim: &Claim, trial: Trial, closed_loop: &ClosedLoop) -> Fi
 
 /// The periodic solution that the run of a trial approaches; where none is found, of the plant of the claim the one near its
 /// orbit, which is in every initial set.
-fn periodic_solution(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop) -> Result<SteadyState, SteadyStateError> {
+fn periodic_solution(
+    claim: &TriedClaim,
+    trial: &Trial,
+    closed_loop: &ClosedLoop,
+) -> Result<SteadyState, SteadyStateError> {
     let found = steady_state(closed_loop, &trial.start, &Silent);
     match (found, &claim.own) {
         (Err(error @ SteadyStateError::Newton { .. }), Some(own)) => {
@@ -126,7 +130,7 @@ fn periodic_solution(claim: &Claim, trial: &Trial, closed_loop: &ClosedLoop) -> 
 }
 
 fn check_orbit(
-    claim: &Claim,
+    claim: &TriedClaim,
     trial: &Trial,
     closed_loop: &ClosedLoop,
     steady: &SteadyState,
@@ -172,7 +176,7 @@ fn check_orbit(
 /// # Errors
 /// An integration that did not come to its end.
 fn check_approach(
-    claim: &Claim,
+    claim: &TriedClaim,
     trial: &Trial,
     closed_loop: &ClosedLoop,
     orbit: &Orbit,

@@ -5,7 +5,7 @@ use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::specification::specification;
-use crate::bounds::{Engine, FloatOrbit, FloatSuprema, Region};
+use crate::bounds::{Engine, FloatCurve, FloatSuprema, Region};
 use crate::data::Data;
 use crate::orbit::{
     self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
@@ -296,7 +296,7 @@ pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, Float
     let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone(), rate: f64::NAN };
     let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius), second.cloned())?;
     let rows = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-    let samples = FloatSuprema::new(plant, FloatOrbit::from(&orbit.approximation), rows, [Some(matrix), second]);
+    let samples = FloatSuprema::new(plant, FloatCurve::from(&orbit.approximation), rows, [Some(matrix), second]);
     Ok((engine, samples))
 }
 

@@ -3,7 +3,7 @@
 use super::coordinates::Density;
 use super::entries::kind;
 use super::grid::{KINDS, RATE, Source, Values};
-use crate::bounds::{FloatOrbit, FloatSuprema};
+use crate::bounds::{FloatCurve, FloatSuprema};
 use crate::number::{Direction, round_f64};
 use crate::orbit::lower_triangular;
 use crate::plant::Plant;
@@ -57,7 +57,7 @@ impl<'a> Sampling<'a> {
             (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
         };
         let identity = identity(l.nrows());
-        FloatSuprema::new(self.plant, FloatOrbit::from(self.curve), rows(l), [Some(p.unwrap_or(&identity)), second])
+        FloatSuprema::new(self.plant, FloatCurve::from(self.curve), rows(l), [Some(p.unwrap_or(&identity)), second])
     }
 
     /// The same as a function of (X, E).

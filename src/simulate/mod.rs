@@ -39,8 +39,8 @@ pub use run::{
     Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SimulationSettings, SteadyFigures, noisy_run, simulate,
 };
 pub use sampled::{
-    Converters, PeriodSums, Piece, SampledLongRun, SampledLoop, SampledReport, SampledRun, SampledSettings,
-    SampledSimulation, SampledSteady, SampledSteadyError, period_derivative, sampled_csv, sampled_figures,
+    Converters, PeriodSums, Piece, SampledLongRun, SampledLoop, SampledRun, SampledSettings, SampledSimulation,
+    SampledSimulationReport, SampledSteady, SampledSteadyError, period_derivative, sampled_csv, sampled_figures,
     sampled_periodic_solution, sampled_steady_state, simulate_sampled,
 };
 pub use steady::{SteadyState, SteadyStateError, steady_state};

@@ -12,7 +12,7 @@ const VERDICTS: [Verdict; 4] = [Verdict::Certified, Verdict::Refuted, Verdict::B
 
 /// What is certified, in the numbers of a certificate.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Claim {
+pub struct RowClaim {
     /// The gain: of the regulator in continuous time the smallest one that was found, from which on the claim holds; of the
     /// one at samples the only one that it is about.
     pub sigma_star: String,
@@ -26,11 +26,11 @@ pub struct Claim {
     pub no_plant: bool,
 }
 
-impl Claim {
+impl RowClaim {
     /// The claim of a run.
-    pub(super) fn new(certified: &Certified<'_>) -> Claim {
+    pub(super) fn new(certified: &Certified<'_>) -> RowClaim {
         let set = certified.set;
-        Claim {
+        RowClaim {
             sigma_star: write_exact(certified.sigma),
             sampling_period: certified.sampling.map(Sampling::text),
             initial_set: [&set.x0, &set.e0, &set.z0].map(write_exact),
@@ -63,7 +63,7 @@ pub struct Row {
     /// The verdict.
     pub verdict: Verdict,
     /// What is certified.
-    pub claim: Option<Claim>,
+    pub claim: Option<RowClaim>,
     /// Why nothing is claimed, in a sentence.
     pub reason: Option<String>,
     /// What is wrong with the document.
@@ -160,14 +160,14 @@ fn read(mut object: Object<'_>, errors: &mut Errors) -> Result<Row, Reported> {
     Ok(Row { index: index?, values: values?, sha256: sha256?, verdict, claim, reason: reason?, errors: refused? })
 }
 
-fn claim(object: &mut Object<'_>, errors: &mut Errors) -> Result<Claim, Reported> {
+fn claim(object: &mut Object<'_>, errors: &mut Errors) -> Result<RowClaim, Reported> {
     let sigma_star = object.required("sigma_star", errors).and_then(|value| text(&value, errors));
     let sampling_period = object.optional("sampling_period").map(|value| text(&value, errors)).transpose();
     let set = object.required("initial_set", errors).and_then(|value| texts(&value, ["X0", "E0", "Z0"], errors));
     let periodic =
         object.required("periodic_solution", errors).and_then(|value| texts(&value, ["x", "e", "zeta", "z"], errors));
     let no_plant = object.required("no_plant", errors).and_then(|value| value.boolean(errors));
-    Ok(Claim {
+    Ok(RowClaim {
         sigma_star: sigma_star?,
         sampling_period: sampling_period?,
         initial_set: set?,

@@ -1,7 +1,7 @@
 //! Certifying the cases: each as `certify` does, in parallel over the cases.
 
 use super::cases::{Case, Sweep};
-use super::row::{Claim, Row, RowError};
+use super::row::{Row, RowClaim, RowError};
 use crate::certify::{Derivation, Options, Verdict, verdict_of_errors};
 use crate::progress::Progress;
 use crate::reduction::{Prepared, Subject};
@@ -46,7 +46,7 @@ fn attempt(case: &Case, derivation: Derivation) -> Result<Row, Vec<SpecErrors>> 
     let subject = Subject::read(&case.document).map_err(|errors| vec![errors])?;
     let prepared = Prepared::new(subject, None)?;
     let run = prepared.certify(options)?;
-    let claim = run.certified().map(|certified| Claim::new(&certified));
+    let claim = run.certified().map(|certified| RowClaim::new(&certified));
     let verdict = if claim.is_some() { run.verdict() } else { run.verdict().without_claim() };
     let reason = claim.is_none().then(|| run_sentence(&run));
     Ok(Row { verdict, claim, reason, ..empty(errors(&run.unproved())) })

@@ -4,7 +4,7 @@ use crate::support::{EXAMPLE_TEXT, every, json, program};
 use serde_json::Value;
 use sigmastar::certificate::sampled_certificate_json;
 use sigmastar::certify::{Ladder, certify_sampled};
-use sigmastar::falsify::{Claim, Falsification, Finding, TrialSettings, falsify};
+use sigmastar::falsify::{Falsification, Finding, TrialSettings, TriedClaim, falsify};
 use sigmastar::number::parse_decimal;
 use sigmastar::progress::Silent;
 use sigmastar::spec::{Document, Specification};
@@ -24,8 +24,8 @@ pub static CERTIFICATE: LazyLock<Value> = LazyLock::new(|| {
     sampled_certificate_json(&run).expect("certified")
 });
 
-fn claim(certificate: &Value) -> Claim {
-    Claim::from_document(&Document::parse("certificate", &certificate.to_string()).unwrap()).unwrap()
+fn claim(certificate: &Value) -> TriedClaim {
+    TriedClaim::from_document(&Document::parse("certificate", &certificate.to_string()).unwrap()).unwrap()
 }
 
 fn tried(certificate: &Value, trials: u64) -> Falsification {

@@ -55,7 +55,7 @@ fn decide(engine: &Engine, kind: Kind, [x, e]: [&str; 2], value: f64, effort: us
 fn examine(plant: &Plant, orbit: TrigonometricVector, kind: Kind, what: &str, also_above: bool) -> bool {
     let unit = vec![vec![1.0, 0.0], vec![0.0, 1.0]];
     let p = identity(2);
-    let samples = FloatSuprema::new(plant, FloatOrbit::from(&orbit), unit, [Some(&p), Some(&p)]);
+    let samples = FloatSuprema::new(plant, FloatCurve::from(&orbit), unit, [Some(&p), Some(&p)]);
     let region = Region::new(p.mean.clone(), orbit, Rational::new()).unwrap();
     let engine = Engine::new(plant, region, Some(p.clone()), Some(p)).unwrap();
     let set = ["0.998", "1"];

@@ -11,7 +11,7 @@ mod words;
 
 pub use derivative::period_derivative;
 pub use figures::{sampled_csv, sampled_figures};
-pub use report::SampledReport;
+pub use report::SampledSimulationReport;
 pub use run::{PeriodSums, SampledLongRun, SampledSettings, SampledSimulation, simulate_sampled};
 pub use sampled_loop::{Converters, Piece, SampledLoop, SampledRun};
 pub use steady::{SampledSteady, SampledSteadyError, sampled_periodic_solution, sampled_steady_state};

@@ -16,7 +16,7 @@ const UNSTABLE_HELP: &str =
     "the samples (--csv) show how it leaves; take a shorter sampling time, a shorter delay, or other gains";
 
 /// The report on a simulation at samples.
-pub struct SampledReport<'r> {
+pub struct SampledSimulationReport<'r> {
     /// What was simulated.
     pub plant: &'r Plant,
     /// With which regulator.
@@ -25,9 +25,9 @@ pub struct SampledReport<'r> {
     pub simulation: &'r SampledSimulation,
 }
 
-impl Readable for SampledReport<'_> {
+impl Readable for SampledSimulationReport<'_> {
     fn blocks(&self) -> Vec<Block> {
-        let SampledReport { plant, sampled, simulation } = self;
+        let SampledSimulationReport { plant, sampled, simulation } = self;
         let mut about =
             vec![format!("Floating point, no claim. {}; period {}", loop_words(sampled), number(sampled.period()))];
         about.push(match sampled.samples() {
@@ -60,7 +60,7 @@ impl Readable for SampledReport<'_> {
 
     /// As JSON: `{"format": "sigmastar/simulation", "version": 1, ...}` with `sampled`; floating-point numbers as such.
     fn json(&self) -> Value {
-        let SampledReport { plant, sampled, simulation } = self;
+        let SampledSimulationReport { plant, sampled, simulation } = self;
         let regulator = &sampled.regulator;
         let steady = match &simulation.steady {
             Ok((steady, sums)) => json!({

@@ -13,7 +13,7 @@ use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::{Float, Rational};
 use serde_json::{Value, json};
-use sigmastar::bounds::{Engine, FloatOrbit, FloatSuprema, Kind, Region};
+use sigmastar::bounds::{Engine, FloatCurve, FloatSuprema, Kind, Region};
 use sigmastar::number::{parse_decimal, write_exact};
 use sigmastar::orbit::{Coordinates, OrbitProof};
 use sigmastar::plant::Plant;
@@ -281,7 +281,7 @@ fn defect() -> Rational {
 
 fn samples(plant: &Plant, l: &[Vec<Rational>], orbit: &TrigonometricVector, p: &[PeriodicMatrix; 2]) -> FloatSuprema {
     let doubles = l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-    FloatSuprema::new(plant, FloatOrbit::from(orbit), doubles, [Some(&p[0]), Some(&p[1])])
+    FloatSuprema::new(plant, FloatCurve::from(orbit), doubles, [Some(&p[0]), Some(&p[1])])
 }
 
 /// With so much damping that both P have a rate near the orbit.
