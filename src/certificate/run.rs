@@ -18,16 +18,23 @@ pub fn certificate_of(run: &Run<'_>) -> Option<Value> {
     }
 }
 
+/// Reads the free numbers of a certificate about either regulator.
+///
+/// # Errors
+/// Every field that is missing, unknown or not exact, with its place.
+pub fn read_numbers(document: &Document) -> Result<Numbers, SpecErrors> {
+    if is_sampled(document) {
+        return read_sampled_witness(document).map(|witness| Numbers::Sampled(Box::new(witness)));
+    }
+    read_witness(document).map(Numbers::Continuous)
+}
+
 /// Reads the witness of a certificate, to be tried on a subject: the free numbers, and the data that the subject does not give.
 ///
 /// # Errors
 /// Every field that is missing, unknown or not exact, with its place.
 pub fn read_for(document: &Document, subject: &Subject) -> Result<Witness, SpecErrors> {
-    let numbers = if is_sampled(document) {
-        Numbers::Sampled(Box::new(read_sampled_witness(document)?))
-    } else {
-        Numbers::Continuous(read_witness(document)?)
-    };
+    let numbers = read_numbers(document)?;
     let (digest, data) = match subject {
         Subject::Plant(_) => {
             let (_, of_plant, values) = read_plant_witness(document)?;

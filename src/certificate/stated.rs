@@ -1,47 +1,33 @@
 //! What a certificate states: its specification, its witness, and its bounds of the periodic solution.
 
-use super::read::{read_lyapunov, read_witness};
+use super::read::read_lyapunov;
 use super::read_plant::read_plant_witness;
-use super::read_sampled::read_sampled_witness;
-use crate::certify::{GivenWitness, resolve_with};
-use crate::derivation::sampled::SampledWitness;
+use super::run::read_numbers;
+use crate::certify::resolve_with;
 use crate::plant::Plant;
-use crate::reduction::{PlantRefusal, specification};
+use crate::reduction::{Numbers, PlantRefusal, specification};
 use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
 
 /// The statement of a certificate, for whoever holds it against something else.
-///
-/// The witness is a [`GivenWitness`] of the regulator in continuous time, or a [`SampledWitness`] of the one at samples.
 #[derive(Clone, Debug)]
-pub struct StatedClaim<W = GivenWitness> {
+pub struct StatedClaim {
     /// The specification inside the certificate, with its triple where that is proved by the witness.
     pub spec: Specification,
     /// The free numbers.
-    pub witness: W,
+    pub witness: Numbers,
     /// The stated bounds of sup|x|, sup|e|, sup|zeta|_N and sup|z|_N along the periodic solution; infinite where there is none.
     pub periodic: [f64; 4],
     /// The plant, where the certificate is of one.
     pub plant: Option<Plant>,
 }
 
-/// Reads the claim, the witness and the specification of a certificate. What a falsified certificate says is taken as it
-/// is; only a triple for a Jacobian is proved again.
+/// Reads the claim, the witness and the specification of a certificate about either regulator. What a falsified certificate says is
+/// taken as it is; only a triple for a Jacobian is proved again.
 ///
 /// # Errors
 /// What cannot be read, in its place, and a triple that is not proved.
 pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
-    stated(document, read_witness(document)?)
-}
-
-/// The same of a certificate about the regulator at samples ([`is_sampled`](super::is_sampled)).
-///
-/// # Errors
-/// Those of [`read_claim`].
-pub fn read_sampled_claim(document: &Document) -> Result<StatedClaim<SampledWitness>, SpecErrors> {
-    stated(document, read_sampled_witness(document)?)
-}
-
-fn stated<W>(document: &Document, witness: W) -> Result<StatedClaim<W>, SpecErrors> {
+    let witness = read_numbers(document)?;
     let root = document.root();
     let refused = |error| {
         let mut errors = Errors::new();

@@ -51,9 +51,9 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         Some(certificate) => {
             let witness = read_for(certificate, &subject)?;
             if witness.of_another && !args.quiet {
-                let subject = if of_plant { "plant" } else { "specification" };
+                let kind = subject.kind();
                 output::remark(&format!(
-                    "the certificate was made for another {subject}; its witness is tried on this one"
+                    "the certificate was made for another {kind}; its witness is tried on this one"
                 ));
             }
             Prepared::again(&subject, witness)

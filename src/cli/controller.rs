@@ -7,6 +7,7 @@ use super::files::{Input, OutputFile, write_together};
 use super::format::Format;
 use super::input;
 use super::output::{self, shown};
+use sigmastar::reduction::Subject;
 use sigmastar::regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};
 use sigmastar::regulator::{Convergence, Design, Discrete};
 use sigmastar::report::document::clean;
@@ -32,7 +33,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
     let saturation = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
     let other = args.certificate.as_deref().map(|path| Given::read(&input::written(path)?)).transpose()?;
-    let (source, own) = controller_source::read(&input::document(&args.spec)?)?;
+    let (subject, own) = controller_source::read(&input::document(&args.spec)?)?;
     if own.is_some() && other.is_some() {
         return Err(Failure::call("two certificates are given", "leave --certificate out"));
     }
@@ -43,9 +44,9 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     })?;
 
     let step = step.or_else(|| given.as_ref().and_then(Given::step).cloned());
-    let design = Design::new(&source.model, &sigma, args.n_o);
-    let asked = Asked { model: &source.model, sigma: &sigma, step: step.as_ref(), n_o: args.n_o };
-    let certificate = provenance(given.as_ref(), &source, &asked);
+    let design = Design::new(subject.internal_model(), &sigma, args.n_o);
+    let asked = Asked { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), n_o: args.n_o };
+    let certificate = provenance(given.as_ref(), &subject, &asked);
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
     let regulator = design.regulator();
     let beyond = || {
@@ -69,7 +70,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
         }
     };
     let export =
-        Export { name: &clean(&source.name), regulator: &regulator, discrete, certificate: certificate.as_ref() };
+        Export { name: &clean(subject.name()), regulator: &regulator, discrete, certificate: certificate.as_ref() };
     let text = match args.format {
         RegulatorForm::Json => output::json_text(&export::json(&export)),
         RegulatorForm::Matlab => export::matlab(&export),
@@ -86,9 +87,9 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
 }
 
 /// What the certificate has to do with this regulator; one that is about something else is told and left out.
-fn provenance(given: Option<&Given>, source: &controller_source::Source, asked: &Asked<'_>) -> Option<Provenance> {
+fn provenance(given: Option<&Given>, subject: &Subject, asked: &Asked<'_>) -> Option<Provenance> {
     let given = given?;
-    if let Some(what) = given.not_about(source) {
+    if let Some(what) = given.not_about(subject) {
         output::remark(&format!("the certificate was made for another {what}: it says nothing about this regulator"));
         return None;
     }

@@ -1,37 +1,13 @@
 //! Where `controller` takes its regulator from: a specification, a plant, or a certificate of one.
 
 use super::failure::Failure;
-use sigmastar::certificate::{FORMAT as CERTIFICATE, is_sampled, read_sampled_witness, read_witness};
-use sigmastar::derivation::sampled::SampledWitness;
+use rug::Rational;
+use sigmastar::certificate::{FORMAT as CERTIFICATE, read_numbers};
 use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar::number::write_exact;
-use sigmastar::plant::{self, Plant};
+use sigmastar::reduction::{Numbers, Subject};
 use sigmastar::regulator::export::{Provenance, Scope};
-use sigmastar::spec::{Constant, Document, InternalModel, SampledGain, Sampling, Specification, Value};
-
-use rug::Rational;
-
-/// A specification or a plant, as far as its regulator goes.
-pub struct Source {
-    /// Its name.
-    pub name: String,
-    /// The internal model.
-    pub model: InternalModel,
-    kind: &'static str,
-    sha256: String,
-}
-
-impl Source {
-    /// Reads it, by its `format`; what is neither is told as a specification.
-    fn read(value: &Value<'_>, format: Option<&str>) -> Result<Source, Failure> {
-        if format == Some(plant::FORMAT) {
-            let Plant { name, internal_model: model, sha256, .. } = Plant::from_value(value)?;
-            return Ok(Source { name, model, kind: "plant", sha256 });
-        }
-        let Specification { name, internal_model: model, sha256, .. } = Specification::from_value(value)?;
-        Ok(Source { name, model, kind: "specification", sha256 })
-    }
-}
+use sigmastar::spec::{Constant, Document, InternalModel, SampledGain, Sampling};
 
 /// A certificate, as far as a regulator goes. What it says is taken as it is.
 pub struct Given {
@@ -50,11 +26,9 @@ impl Given {
     /// # Errors
     /// What cannot be read, in its place.
     pub fn read(document: &Document) -> Result<Given, Failure> {
-        let (sigma_star, sampled) = if is_sampled(document) {
-            let SampledWitness { sigma, sampling, law, .. } = read_sampled_witness(document)?;
-            (sigma, Some((sampling, law)))
-        } else {
-            (read_witness(document)?.sigma().clone(), None)
+        let (sigma_star, sampled) = match read_numbers(document)? {
+            Numbers::Sampled(witness) => (witness.sigma, Some((witness.sampling, witness.law))),
+            Numbers::Continuous(witness) => (witness.sigma().clone(), None),
         };
         let text = |pointer: &str| document.at(pointer).and_then(|value| value.text().map(str::to_owned));
         let statement = text("/claim/statement").ok_or_else(|| {
@@ -89,9 +63,9 @@ impl Given {
     }
 
     /// What it is called where it was made for something else.
-    pub fn not_about(&self, source: &Source) -> Option<&'static str> {
-        let same = self.made_for.iter().flatten().any(|digest| *digest == source.sha256);
-        (!same).then_some(source.kind)
+    pub fn not_about(&self, subject: &Subject) -> Option<&'static str> {
+        let same = self.made_for.iter().flatten().any(|digest| *digest == subject.sha256());
+        (!same).then_some(subject.kind())
     }
 
     /// Its part in the export of a regulator.
@@ -134,10 +108,9 @@ pub struct Asked<'a> {
 ///
 /// # Errors
 /// What is wrong with the document.
-pub fn read(document: &Document) -> Result<(Source, Option<Given>), Failure> {
-    let format = |pointer: &str| document.at(pointer).and_then(|value| value.text());
-    if format("/format") != Some(CERTIFICATE) {
-        return Ok((Source::read(&document.root(), format("/format"))?, None));
+pub fn read(document: &Document) -> Result<(Subject, Option<Given>), Failure> {
+    if document.at("/format").is_none_or(|format| format.text() != Some(CERTIFICATE)) {
+        return Ok((Subject::read(document)?, None));
     }
     let given = Given::read(document)?;
     let embedded = ["/plant", "/specification"].into_iter().find_map(|pointer| document.at(pointer));
@@ -145,10 +118,10 @@ pub fn read(document: &Document) -> Result<(Source, Option<Given>), Failure> {
         let help = "take a certificate that `certify -o` wrote";
         Failure::call("the certificate embeds neither a specification nor a plant", help)
     })?;
-    let source = Source::read(&embedded, format(&format!("{}/format", embedded.pointer())))?;
-    if given.not_about(&source).is_some() {
-        let message = format!("the {} in the certificate is not the one that its digest is of", source.kind);
+    let subject = Subject::from_value(&embedded)?;
+    if let Some(kind) = given.not_about(&subject) {
+        let message = format!("the {kind} in the certificate is not the one that its digest is of");
         return Err(Failure::call(message, "the file was changed; `sigmastar check` says more"));
     }
-    Ok((source, Some(given)))
+    Ok((subject, Some(given)))
 }

@@ -2,14 +2,14 @@
 
 use super::frame::OwnPlant;
 use super::sampled_claim::SampledClaim;
-use crate::certificate::{StatedClaim, is_sampled, read_claim, read_sampled_claim};
+use crate::certificate::{StatedClaim, read_claim};
 use crate::certify::{Derivation, GivenWitness};
 use crate::data::Data;
 use crate::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds};
 use crate::derivation::existence::PeriodicBounds;
-use crate::derivation::sampled::SampledWitness;
 use crate::derivation::sharp::SharpEvaluation;
 use crate::enclosure::DEFAULT_PRECISION;
+use crate::reduction::Numbers;
 use crate::spec::{Constant, Document, SpecErrors, Specification};
 use rug::Rational;
 
@@ -52,30 +52,50 @@ impl TriedClaim {
     /// # Errors
     /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<TriedClaim, SpecErrors> {
-        if is_sampled(document) {
-            return read_sampled_claim(document).map(TriedClaim::at_samples);
-        }
-        read_claim(document).map(TriedClaim::new)
-    }
-
-    /// The claim about the law at samples.
-    fn at_samples(stated: StatedClaim<SampledWitness>) -> TriedClaim {
-        let own = stated.plant.as_ref().zip(stated.spec.plant());
-        let own = own.and_then(|(plant, proved)| OwnPlant::new(plant.clone(), proved));
-        let StatedClaim { spec, witness, periodic: [x, e, zeta, z], .. } = stated;
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], plant } = read_claim(document)?;
+        let own = plant.zip(spec.plant()).and_then(|(plant, proved)| OwnPlant::new(plant, proved));
         let data = Data::new(&spec, DEFAULT_PRECISION);
-        let w_x = witness.w_x.to_f64();
-        let lyapunov = Some([w_x * data.p_low.lower_f64(), w_x * data.p_up.upper_f64(), witness.eta.to_f64()]);
-        let (x_p, e_p) = (&witness.x_p, &witness.e_p);
-        let error_box = [witness.d_x.to_f64(), witness.d_e.to_f64()];
+        let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
+        let quadratic = |w_x: &Rational, h: &Rational| Some([w_x.to_f64() * p_low, w_x.to_f64() * p_up, h.to_f64()]);
+        let error_box = |w: [&Rational; 2]| w.map(Rational::to_f64);
+        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
+            Numbers::Continuous(GivenWitness::Sharp { witness: w, .. }) => {
+                let lyapunov = quadratic(&w.w_x, &w.h);
+                (Derivation::Sharp, &w.sigma, &w.set, [&w.x_p, &w.e_p], error_box([&w.d_x, &w.d_e]), lyapunov)
+            }
+            Numbers::Continuous(GivenWitness::Repaired { witness: w }) => {
+                let level = w.level.to_f64();
+                let radii = [(level / p_low).sqrt(), level.sqrt()];
+                (Derivation::Repaired, &w.sigma, &w.set, [&w.x, &w.e], radii, None)
+            }
+            Numbers::Sampled(w) => {
+                let lyapunov = quadratic(&w.w_x, &w.eta);
+                (Derivation::Sharp, &w.sigma, &w.set, [&w.x_p, &w.e_p], error_box([&w.d_x, &w.d_e]), lyapunov)
+            }
+        };
         let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
-        let set = &witness.set;
-        let (initial, sigma) = ([&set.x0, &set.e0, &set.z0].map(Rational::to_f64), witness.sigma.to_f64());
+        let initial = [&set.x0, &set.e0, &set.z0].map(Rational::to_f64);
         let reach = reach(&spec, periodic, [x_p, e_p], error_box);
-        let sampled = Some(SampledClaim::new(&witness));
-        let (derivation, periodic_z) = (Derivation::Sharp, z);
-        let (psi, drive) = (None, None);
-        TriedClaim {
+        let excitation = match &witness {
+            Numbers::Continuous(GivenWitness::Sharp { witness, .. }) => {
+                Some(SharpEvaluation::new(&data, witness).excitation)
+            }
+            Numbers::Continuous(GivenWitness::Repaired { .. }) => {
+                let bounds = PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p));
+                Some(Excitation::by_contraction(&data, &bounds))
+            }
+            Numbers::Sampled(_) => None,
+        };
+        let psi = excitation.as_ref().map(|excitation| {
+            let psi = Psi::new(&data, excitation);
+            [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]
+        });
+        let sampled = match &witness {
+            Numbers::Sampled(witness) => Some(SampledClaim::new(witness)),
+            Numbers::Continuous(_) => None,
+        };
+        let (sigma, drive) = (sigma.to_f64(), excitation.map(|excitation| (excitation, e_p.clone())));
+        Ok(TriedClaim {
             spec,
             derivation,
             sigma,
@@ -89,57 +109,7 @@ impl TriedClaim {
             drive,
             own,
             sampled,
-        }
-    }
-
-    fn new(stated: StatedClaim) -> TriedClaim {
-        let own = stated.plant.as_ref().zip(stated.spec.plant());
-        let own = own.and_then(|(plant, proved)| OwnPlant::new(plant.clone(), proved));
-        let StatedClaim { spec, witness, periodic: [x, e, zeta, z], .. } = stated;
-        let data = Data::new(&spec, DEFAULT_PRECISION);
-        let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
-        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
-            GivenWitness::Sharp { witness, .. } => {
-                let radii = [witness.d_x.to_f64(), witness.d_e.to_f64()];
-                let w_x = witness.w_x.to_f64();
-                let lyapunov = Some([w_x * p_low, w_x * p_up, witness.h.to_f64()]);
-                let periodic = [&witness.x_p, &witness.e_p];
-                (Derivation::Sharp, &witness.sigma, &witness.set, periodic, radii, lyapunov)
-            }
-            GivenWitness::Repaired { witness } => {
-                let level = witness.level.to_f64();
-                let radii = [(level / p_low).sqrt(), level.sqrt()];
-                let periodic = [&witness.x, &witness.e];
-                (Derivation::Repaired, &witness.sigma, &witness.set, periodic, radii, None)
-            }
-        };
-        let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
-        let initial = [set.x0.to_f64(), set.e0.to_f64(), set.z0.to_f64()];
-        let reach = reach(&spec, periodic, [x_p, e_p], error_box);
-        let excitation = match &witness {
-            GivenWitness::Sharp { witness, .. } => SharpEvaluation::new(&data, witness).excitation,
-            GivenWitness::Repaired { .. } => {
-                Excitation::by_contraction(&data, &PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p)))
-            }
-        };
-        let psi = Psi::new(&data, &excitation);
-        let psi = Some([psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]);
-        let (sigma, drive) = (sigma.to_f64(), Some((excitation, e_p.clone())));
-        TriedClaim {
-            spec,
-            derivation,
-            sigma,
-            initial,
-            periodic,
-            periodic_z: z,
-            error_box,
-            lyapunov,
-            psi,
-            reach,
-            drive,
-            own,
-            sampled: None,
-        }
+        })
     }
 
     /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*, for a matched base frequency.

@@ -4,7 +4,7 @@ use super::{reduce, reduce_sampled};
 use crate::certify::with_triple;
 use crate::plant::{self, Plant};
 use crate::search::{SampledProposal, SharpProposal};
-use crate::spec::{Constant, Document, ErrorKind, InternalModel, Sampling, SpecErrors, Specification};
+use crate::spec::{Constant, Document, ErrorKind, InternalModel, Sampling, SpecErrors, Specification, Value};
 use rug::Rational;
 
 /// The document with another sampling period, which is called `name` in the label of the errors; itself where it has no internal
@@ -37,11 +37,27 @@ impl Subject {
     /// # Errors
     /// What is wrong with it.
     pub fn read(document: &Document) -> Result<Subject, SpecErrors> {
-        let root = document.root();
-        if document.at("/format").is_some_and(|format| format.text() == Some(plant::FORMAT)) {
-            return Ok(Subject::Plant(Box::new(Plant::from_value(&root)?)));
+        Subject::from_value(&document.root())
+    }
+
+    /// The same of a value of a document, such as the copy in a certificate.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn from_value(value: &Value<'_>) -> Result<Subject, SpecErrors> {
+        if value.member("format").is_some_and(|format| format.text() == Some(plant::FORMAT)) {
+            return Ok(Subject::Plant(Box::new(Plant::from_value(value)?)));
         }
-        Ok(Subject::Specification(Box::new(Specification::from_value(&root)?)))
+        Ok(Subject::Specification(Box::new(Specification::from_value(value)?)))
+    }
+
+    /// What it is called: `specification` or `plant`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Subject::Specification(_) => "specification",
+            Subject::Plant(_) => "plant",
+        }
     }
 
     /// Its name.

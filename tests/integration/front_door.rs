@@ -36,6 +36,15 @@ fn example() -> Specification {
 }
 
 /// The optional data of the builder are those of a file.
+/// The package outside of the workspace, with this package's features.
+#[path = "../../examples/outside/src/main.rs"]
+mod outside;
+
+#[test]
+fn the_package_outside_certifies_and_checks() {
+    outside::main().unwrap();
+}
+
 #[test]
 fn optional_data_lower_the_gain() {
     let sigma = |builder: SpecificationBuilder| {

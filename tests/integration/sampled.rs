@@ -3,13 +3,14 @@
 use crate::support::{files, json, program, stem, utf8};
 use rug::Rational;
 use serde_json::{Value, json as object};
-use sigmastar::certificate::{is_sampled, read_claim, read_sampled_claim, sampled_certificate_json};
+use sigmastar::certificate::{StatedClaim, is_sampled, read_claim, read_witness, sampled_certificate_json};
 use sigmastar::certify::{
     Ladder, Options, SampledCertification, Verdict, certify, certify_at, certify_sampled, recheck_sampled, with_triple,
 };
 use sigmastar::derivation::condition::Condition;
 use sigmastar::derivation::sampled::SampledWitness;
 use sigmastar::number::{Direction, parse_decimal, round_rational, write_exact};
+use sigmastar::reduction::Numbers;
 use sigmastar::spec::{Document, ErrorKind, Sampling, Specification};
 
 const AT_REST: &str = "specs/paper-example-rms-at-rest.json";
@@ -20,6 +21,14 @@ fn document(field: &str, value: Value) -> String {
     let mut document: Value = serde_json::from_str(AT_REST_TEXT).unwrap();
     document["internal_model"][field] = value;
     document.to_string()
+}
+
+/// The witness of a certificate about the regulator at samples.
+pub fn at_samples(stated: &StatedClaim) -> &SampledWitness {
+    match &stated.witness {
+        Numbers::Sampled(witness) => witness,
+        Numbers::Continuous(_) => panic!("about the regulator in continuous time"),
+    }
 }
 
 fn sampled(step: &str) -> Specification {
@@ -70,7 +79,7 @@ fn an_irrational_period_has_samples_too() {
     let certificate = sampled_certificate_json(&run).unwrap();
     assert_eq!(certificate["claim"]["sampling_period"], object!("pi/400"));
     let certificate = Document::parse("certificate", &certificate.to_string()).unwrap();
-    assert_eq!(read_sampled_claim(&certificate).unwrap().witness.sampling.samples, 800);
+    assert_eq!(at_samples(&read_claim(&certificate).unwrap()).sampling.samples, 800);
 }
 
 #[test]
@@ -198,18 +207,16 @@ fn a_certificate_is_read_back_as_it_was_written() {
     let file = sampled_certificate_json(&run).unwrap();
     let document = Document::parse("certificate", &file.to_string()).unwrap();
     assert!(is_sampled(&document));
-    let read = read_sampled_claim(&document).unwrap();
+    let stated = read_claim(&document).unwrap();
+    let read = at_samples(&stated);
     let witness = &run.claim().unwrap().witness;
-    assert_eq!(
-        (&read.witness.sigma, &read.witness.law, &read.witness.set),
-        (&witness.sigma, &witness.law, &witness.set)
-    );
-    assert_eq!((&read.witness.x_p, &read.witness.eta, &read.witness.k1), (&witness.x_p, &witness.eta, &witness.k1));
-    assert!(read.periodic.iter().all(|bound| *bound > 0.0 && bound.is_finite()));
-    let again = recheck_sampled(&spec, &read.witness, Ladder::default()).unwrap();
+    assert_eq!((&read.sigma, &read.law, &read.set), (&witness.sigma, &witness.law, &witness.set));
+    assert_eq!((&read.x_p, &read.eta, &read.k1), (&witness.x_p, &witness.eta, &witness.k1));
+    assert!(stated.periodic.iter().all(|bound| *bound > 0.0 && bound.is_finite()));
+    let again = recheck_sampled(&spec, read, Ladder::default()).unwrap();
     assert_eq!(sampled_certificate_json(&again).unwrap(), file);
     // What is about continuous time refuses it, at its place.
-    let errors = read_claim(&document).unwrap_err();
+    let errors = read_witness(&document).unwrap_err();
     assert_eq!(errors.errors()[0].pointer, "/claim/regulator", "{errors}");
     // K is the double that is exported.
     assert_eq!(spec.internal_model.sampled_gain(&witness.sampling.step).as_ref(), Some(&witness.law));
@@ -224,7 +231,7 @@ fn other_words_and_fields_in_a_certificate_are_errors() {
         let mut file = file.clone();
         file.pointer_mut(pointer).unwrap()[name] = value;
         let document = Document::parse("certificate", &file.to_string()).unwrap();
-        read_sampled_claim(&document).map(drop).unwrap_err().errors()[0].pointer.clone()
+        read_claim(&document).map(drop).unwrap_err().errors()[0].pointer.clone()
     };
     assert_eq!(errors("/claim", "regulator", "analogue".into()), "/claim/regulator");
     assert_eq!(errors("/claim", "derivation", "repaired".into()), "/claim/derivation");

@@ -2,9 +2,10 @@
 //! samples: from the boundary of the certified set every bound of the claim holds, for few and for the most oscillators.
 
 use crate::controller::installed;
+use crate::sampled::at_samples;
 use crate::sampled_falsify::{CERTIFICATE, SAMPLES};
 use crate::support::{PLANT_TEXT, program};
-use sigmastar::certificate::read_sampled_claim;
+use sigmastar::certificate::read_claim;
 use sigmastar::data::Data;
 use sigmastar::plant::Plant;
 use sigmastar::progress::Silent;
@@ -180,8 +181,8 @@ fn the_exported_c_keeps_every_bound_of_the_claim() {
     let folder = tempfile::tempdir().unwrap();
     let certificate = folder.path().join("certificate.json");
     std::fs::write(&certificate, CERTIFICATE.to_string()).unwrap();
-    let claim = read_sampled_claim(&Document::parse("certificate", &CERTIFICATE.to_string()).unwrap()).unwrap();
-    let (witness, plant) = (&claim.witness, Plant::from_json("paper-example", PLANT_TEXT).unwrap());
+    let claim = read_claim(&Document::parse("certificate", &CERTIFICATE.to_string()).unwrap()).unwrap();
+    let (witness, plant) = (at_samples(&claim), Plant::from_json("paper-example", PLANT_TEXT).unwrap());
     let data = Data::new(&claim.spec, 128);
     let (w_x, eta) = (witness.w_x.to_f64(), witness.eta.to_f64());
     let [low, up] = [w_x * data.p_low.lower_f64(), w_x * data.p_up.upper_f64()];

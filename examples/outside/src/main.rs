@@ -2,7 +2,11 @@
 
 use sigmastar::{BoundingFunction as Bound, CertifyOptions, Error, Specification, certify, check_against};
 
-fn main() -> Result<(), Error> {
+/// Certifies it, and prints the statement and what the checker says.
+///
+/// # Errors
+/// Those of the front door.
+pub fn main() -> Result<(), Error> {
     let specification = Specification::builder("linear zero dynamics")
         .period("1")
         .lyapunov("1", "1.5512", "0.58")
