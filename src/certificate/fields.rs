@@ -18,7 +18,7 @@ use rug::Rational;
 pub(super) const PLANT_FIELDS: [&str; 4] = ["coordinates", "orbit", "forcing", "bounds"];
 
 /// A part of a certificate that consists of exact rational numbers, each with a name.
-pub trait Numbers: Sized {
+pub trait NumberFields: Sized {
     /// What it holds beside the numbers, which stands elsewhere in the file.
     type Other;
 
@@ -46,7 +46,7 @@ pub trait Numbers: Sized {
 
 macro_rules! numbers {
     ($part:ident { $($field:ident: $name:literal),+ } and ($($other:ident: $type:ty),*)) => {
-        impl Numbers for $part {
+        impl NumberFields for $part {
             type Other = ($($type,)*);
 
             const NAMES: &'static [&'static str] = &[$($name),+];

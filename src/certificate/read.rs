@@ -1,6 +1,6 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
-use super::fields::{Numbers, PLANT_FIELDS, RefinedSquares, exact_rational, rational};
+use super::fields::{NumberFields, PLANT_FIELDS, RefinedSquares, exact_rational, rational};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
 use crate::certify::GivenWitness;
@@ -199,7 +199,7 @@ fn read_sharp(
 }
 
 /// An object that holds numbers and nothing else.
-fn read_numbers<N: Numbers<Other = ()>>(value: &Value<'_>, errors: &mut Errors) -> Result<N, Reported> {
+fn read_numbers<N: NumberFields<Other = ()>>(value: &Value<'_>, errors: &mut Errors) -> Result<N, Reported> {
     let mut fields = value.object(errors)?;
     let numbers = N::read(&mut fields, errors, |_, _| Ok(()));
     fields.finish(errors);

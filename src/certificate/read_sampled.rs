@@ -1,6 +1,6 @@
 //! Reading the claim and the witness of a certificate of the regulator at samples.
 
-use super::fields::{Numbers, PLANT_FIELDS, rational};
+use super::fields::{NumberFields, PLANT_FIELDS, rational};
 use super::read::{COMMON, read_set, small_integer};
 use super::sampled::{REGULATOR, SAMPLED};
 use super::triple::{EXISTENCE, STABILITY};

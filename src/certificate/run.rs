@@ -5,7 +5,7 @@ use super::read_plant::read_plant_witness;
 use super::read_sampled::{is_sampled, read_sampled_witness};
 use super::sampled::sampled_certificate_json;
 use super::write::certificate_json;
-use crate::reduction::{Numbers, Run, Subject, Witness, WitnessData};
+use crate::reduction::{FreeNumbers, Run, Subject, Witness, WitnessData};
 use crate::spec::{Document, SpecErrors};
 use serde_json::Value;
 
@@ -22,11 +22,11 @@ pub fn certificate_of(run: &Run<'_>) -> Option<Value> {
 ///
 /// # Errors
 /// Every field that is missing, unknown or not exact, with its place.
-pub fn read_numbers(document: &Document) -> Result<Numbers, SpecErrors> {
+pub fn read_numbers(document: &Document) -> Result<FreeNumbers, SpecErrors> {
     if is_sampled(document) {
-        return read_sampled_witness(document).map(|witness| Numbers::Sampled(Box::new(witness)));
+        return read_sampled_witness(document).map(|witness| FreeNumbers::Sampled(Box::new(witness)));
     }
-    read_witness(document).map(Numbers::Continuous)
+    read_witness(document).map(FreeNumbers::Continuous)
 }
 
 /// Reads the witness of a certificate, to be tried on a subject: the free numbers, and the data that the subject does not give.

@@ -1,6 +1,6 @@
 //! The certificate of the regulator at samples: a claim about exactly one gain and one sampling period.
 
-use super::fields::Numbers;
+use super::fields::NumberFields;
 use super::of_plant::plant_parts;
 use super::triple::lyapunov_parts;
 use super::write::{FORMAT, VERSION, conclusion, conditions_json, exact, object, set_json, text, upper_end};

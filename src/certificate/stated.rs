@@ -5,7 +5,7 @@ use super::read_plant::read_plant_witness;
 use super::run::read_numbers;
 use crate::certify::resolve_with;
 use crate::plant::Plant;
-use crate::reduction::{Numbers, PlantRefusal, specification};
+use crate::reduction::{FreeNumbers, PlantRefusal, specification};
 use crate::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant};
 
 /// The statement of a certificate, for whoever holds it against something else.
@@ -14,7 +14,7 @@ pub struct StatedClaim {
     /// The specification inside the certificate, with its triple where that is proved by the witness.
     pub spec: Specification,
     /// The free numbers.
-    pub witness: Numbers,
+    pub witness: FreeNumbers,
     /// The stated bounds of sup|x|, sup|e|, sup|zeta|_N and sup|z|_N along the periodic solution; infinite where there is none.
     pub periodic: [f64; 4],
     /// The plant, where the certificate is of one.

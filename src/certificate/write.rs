@@ -1,6 +1,6 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
-use super::fields::Numbers;
+use super::fields::NumberFields;
 use super::of_plant::plant_parts;
 use super::triple::{lyapunov_parts, rows};
 use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness, claimed_ball};
@@ -281,7 +281,7 @@ fn transfer_json(proof: &TransferProof) -> Value {
 }
 
 /// A proof with its witness as JSON: the numbers, the transfer proof, and further parts.
-fn with_witness<W: Witness + Numbers>(
+fn with_witness<W: Witness + NumberFields>(
     proof: &Proof<W>,
     parts: impl IntoIterator<Item = (&'static str, Value)>,
 ) -> (Decided<'_>, Value) {

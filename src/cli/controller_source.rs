@@ -5,7 +5,7 @@ use rug::Rational;
 use sigmastar::certificate::{FORMAT as CERTIFICATE, read_numbers};
 use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar::number::write_exact;
-use sigmastar::reduction::{Numbers, Subject};
+use sigmastar::reduction::{FreeNumbers, Subject};
 use sigmastar::regulator::export::{Provenance, Scope};
 use sigmastar::spec::{Constant, Document, InternalModel, SampledGain, Sampling};
 
@@ -27,8 +27,8 @@ impl Given {
     /// What cannot be read, in its place.
     pub fn read(document: &Document) -> Result<Given, Failure> {
         let (sigma_star, sampled) = match read_numbers(document)? {
-            Numbers::Sampled(witness) => (witness.sigma, Some((witness.sampling, witness.law))),
-            Numbers::Continuous(witness) => (witness.sigma().clone(), None),
+            FreeNumbers::Sampled(witness) => (witness.sigma, Some((witness.sampling, witness.law))),
+            FreeNumbers::Continuous(witness) => (witness.sigma().clone(), None),
         };
         let text = |pointer: &str| document.at(pointer).and_then(|value| value.text().map(str::to_owned));
         let statement = text("/claim/statement").ok_or_else(|| {

@@ -216,7 +216,7 @@ pub struct Response<R> {
     pub rate_rms: R,
 }
 
-/// What a regulator makes of a periodic input q, for every n_o.
+/// What a regulator makes of a periodic input q, for every n_o (derivation, 10.3; at samples 12.1 and 12.2).
 pub trait Gains<R: Real> {
     /// Bounds of the error, from those of q.
     fn response(&self, origin: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R>;

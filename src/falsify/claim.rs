@@ -9,7 +9,7 @@ use crate::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds
 use crate::derivation::existence::PeriodicBounds;
 use crate::derivation::sharp::SharpEvaluation;
 use crate::enclosure::DEFAULT_PRECISION;
-use crate::reduction::Numbers;
+use crate::reduction::FreeNumbers;
 use crate::spec::{Constant, Document, SpecErrors, Specification};
 use rug::Rational;
 
@@ -59,16 +59,16 @@ impl TriedClaim {
         let quadratic = |w_x: &Rational, h: &Rational| Some([w_x.to_f64() * p_low, w_x.to_f64() * p_up, h.to_f64()]);
         let error_box = |w: [&Rational; 2]| w.map(Rational::to_f64);
         let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
-            Numbers::Continuous(GivenWitness::Sharp { witness: w, .. }) => {
+            FreeNumbers::Continuous(GivenWitness::Sharp { witness: w, .. }) => {
                 let lyapunov = quadratic(&w.w_x, &w.h);
                 (Derivation::Sharp, &w.sigma, &w.set, [&w.x_p, &w.e_p], error_box([&w.d_x, &w.d_e]), lyapunov)
             }
-            Numbers::Continuous(GivenWitness::Repaired { witness: w }) => {
+            FreeNumbers::Continuous(GivenWitness::Repaired { witness: w }) => {
                 let level = w.level.to_f64();
                 let radii = [(level / p_low).sqrt(), level.sqrt()];
                 (Derivation::Repaired, &w.sigma, &w.set, [&w.x, &w.e], radii, None)
             }
-            Numbers::Sampled(w) => {
+            FreeNumbers::Sampled(w) => {
                 let lyapunov = quadratic(&w.w_x, &w.eta);
                 (Derivation::Sharp, &w.sigma, &w.set, [&w.x_p, &w.e_p], error_box([&w.d_x, &w.d_e]), lyapunov)
             }
@@ -77,22 +77,22 @@ impl TriedClaim {
         let initial = [&set.x0, &set.e0, &set.z0].map(Rational::to_f64);
         let reach = reach(&spec, periodic, [x_p, e_p], error_box);
         let excitation = match &witness {
-            Numbers::Continuous(GivenWitness::Sharp { witness, .. }) => {
+            FreeNumbers::Continuous(GivenWitness::Sharp { witness, .. }) => {
                 Some(SharpEvaluation::new(&data, witness).excitation)
             }
-            Numbers::Continuous(GivenWitness::Repaired { .. }) => {
+            FreeNumbers::Continuous(GivenWitness::Repaired { .. }) => {
                 let bounds = PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p));
                 Some(Excitation::by_contraction(&data, &bounds))
             }
-            Numbers::Sampled(_) => None,
+            FreeNumbers::Sampled(_) => None,
         };
         let psi = excitation.as_ref().map(|excitation| {
             let psi = Psi::new(&data, excitation);
             [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]
         });
         let sampled = match &witness {
-            Numbers::Sampled(witness) => Some(SampledClaim::new(witness)),
-            Numbers::Continuous(_) => None,
+            FreeNumbers::Sampled(witness) => Some(SampledClaim::new(witness)),
+            FreeNumbers::Continuous(_) => None,
         };
         let (sigma, drive) = (sigma.to_f64(), excitation.map(|excitation| (excitation, e_p.clone())));
         Ok(TriedClaim {

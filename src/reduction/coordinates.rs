@@ -122,7 +122,7 @@ impl CoordinateSearch<'_> {
         (self.frame)(l, &model)
     }
 
-    /// The best of the candidates, improved by a local search.
+    /// The best of some candidates, each improved by a local search: the smallest gain at many samples.
     ///
     /// # Errors
     /// The obstacle of the candidate that came closest.

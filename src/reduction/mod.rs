@@ -27,4 +27,4 @@ pub use sampled::{ReducedSampled, SampledPairs, reduce_sampled, with_sampled_pai
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
 pub use subject::{Subject, at_samples};
-pub use witness::{Numbers, Witness, WitnessData};
+pub use witness::{FreeNumbers, Witness, WitnessData};

@@ -1,6 +1,6 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
-use super::{Numbers, Subject, Witness};
+use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
     Certification, Options, Refusal, SampledCertification, Verdict, certify_at, certify_near, certify_sampled, recheck,
     recheck_sampled,
@@ -17,7 +17,7 @@ use rug::Rational;
 enum Start {
     Continuous(Option<SharpProposal>),
     Sampled(Box<Sampling>, Option<SampledProposal>),
-    Given(Numbers),
+    Given(FreeNumbers),
 }
 
 /// A subject whose data are proved, for one question.
@@ -92,10 +92,10 @@ impl Prepared {
             .map(|run| Run::Continuous(Box::new(run))),
             Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
                 .map(|run| Run::Sampled(Box::new(run))),
-            Start::Given(Numbers::Continuous(witness)) => {
+            Start::Given(FreeNumbers::Continuous(witness)) => {
                 recheck(spec, witness, options).map(|run| Run::Continuous(Box::new(run)))
             }
-            Start::Given(Numbers::Sampled(witness)) => {
+            Start::Given(FreeNumbers::Sampled(witness)) => {
                 recheck_sampled(spec, witness, options.ladder).map(|run| Run::Sampled(Box::new(run)))
             }
         };

@@ -17,9 +17,17 @@ const NOTHING: f64 = 1e-5;
 #[test]
 fn values_are_above_random_points_and_near_them() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("specs/plants");
-    for name in
-        ["chain", "duffing", "linear", "motor-axis", "paper-example-ball", "pendulum", "relative-degree-2-domain"]
-    {
+    for name in [
+        "chain",
+        "converter",
+        "duffing",
+        "linear",
+        "motor-axis",
+        "paper-example",
+        "paper-example-ball",
+        "pendulum",
+        "relative-degree-2-domain",
+    ] {
         let plant = Plant::load(&folder.join(name).with_extension("json")).unwrap();
         let reduced = reduce(&plant).unwrap();
         let (_, samples) = bounds_around(&plant, reduced.spec.plant().unwrap()).unwrap();

@@ -10,7 +10,7 @@ use crate::spec::{ErrorKind, OfPlant, ProvedValues, Sampling, SpecErrors, Specif
 #[derive(Clone, Debug)]
 pub struct Witness {
     /// The free numbers of the claim.
-    pub numbers: Numbers,
+    pub numbers: FreeNumbers,
     /// What it says of the data of the subject that it is tried on.
     pub data: WitnessData,
     /// Whether it was made for another subject than that.
@@ -19,7 +19,7 @@ pub struct Witness {
 
 /// The free numbers, of either regulator.
 #[derive(Clone, Debug)]
-pub enum Numbers {
+pub enum FreeNumbers {
     /// Of the regulator in continuous time.
     Continuous(GivenWitness),
     /// Of the regulator at samples.
@@ -45,13 +45,13 @@ impl Witness {
     pub(super) fn proved(&self, subject: &Subject) -> Result<Specification, Vec<SpecErrors>> {
         let step = "/internal_model/sampling_period";
         match (&self.numbers, subject.sampling()) {
-            (Numbers::Continuous(_), None) => {}
-            (Numbers::Continuous(_), Some(_)) => {
+            (FreeNumbers::Continuous(_), None) => {}
+            (FreeNumbers::Continuous(_), Some(_)) => {
                 let message =
                     "the regulator at samples is asked for, and the certificate is about the one in continuous time";
                 return Err(told(subject, step, message.to_owned(), "leave the sampling period out"));
             }
-            (Numbers::Sampled(witness), asked) => same_samples(subject, &witness.sampling, asked)?,
+            (FreeNumbers::Sampled(witness), asked) => same_samples(subject, &witness.sampling, asked)?,
         }
         match (subject, &self.data) {
             (Subject::Plant(plant), WitnessData::OfPlant(parts)) => {
@@ -68,6 +68,11 @@ impl Witness {
             (Subject::Specification(spec), data) => {
                 let triples = match data {
                     WitnessData::Triples(triples) => Some(triples.as_ref()),
+                    // Without it one would be searched for.
+                    WitnessData::Given | WitnessData::OfPlant(_) if spec.lyapunov.triple().is_none() => {
+                        let message = "the certificate says nothing of the triple of a Jacobian".to_owned();
+                        return Err(told(subject, "/lyapunov", message, "give a certificate of this specification"));
+                    }
                     WitnessData::Given | WitnessData::OfPlant(_) => None,
                 };
                 let proved = with_triple(spec, triples).map_err(|refusal| refusal.errors(spec))?;

@@ -2,7 +2,7 @@
 
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use super::{plant, specification};
-use crate::certificate::{FORMAT, Numbers, RefinedSquares, VERSION};
+use crate::certificate::{FORMAT, NumberFields, RefinedSquares, VERSION};
 use crate::derivation::exact_regulation::ExactWitness;
 use crate::derivation::repaired::RepairedWitness;
 use crate::derivation::sampled::SampledWitness;

@@ -38,11 +38,14 @@ fn example() -> Specification {
 /// The optional data of the builder are those of a file.
 /// The package outside of the workspace, with this package's features.
 #[path = "../../examples/outside/src/main.rs"]
+#[allow(dead_code, reason = "its `main` prints")]
 mod outside;
 
 #[test]
 fn the_package_outside_certifies_and_checks() {
-    outside::main().unwrap();
+    let (certificate, answer) = outside::certified_and_checked().unwrap();
+    assert_eq!(certificate.claim().sigma_star(), "1.32369");
+    assert!(answer.is_valid(), "{}", answer.text());
 }
 
 #[test]

@@ -10,7 +10,7 @@ use sigmastar::certify::{
 use sigmastar::derivation::condition::Condition;
 use sigmastar::derivation::sampled::SampledWitness;
 use sigmastar::number::{Direction, parse_decimal, round_rational, write_exact};
-use sigmastar::reduction::Numbers;
+use sigmastar::reduction::FreeNumbers;
 use sigmastar::spec::{Document, ErrorKind, Sampling, Specification};
 
 const AT_REST: &str = "specs/paper-example-rms-at-rest.json";
@@ -26,8 +26,8 @@ fn document(field: &str, value: Value) -> String {
 /// The witness of a certificate about the regulator at samples.
 pub fn at_samples(stated: &StatedClaim) -> &SampledWitness {
     match &stated.witness {
-        Numbers::Sampled(witness) => witness,
-        Numbers::Continuous(_) => panic!("about the regulator in continuous time"),
+        FreeNumbers::Sampled(witness) => witness,
+        FreeNumbers::Continuous(_) => panic!("about the regulator in continuous time"),
     }
 }
 

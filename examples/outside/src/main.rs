@@ -1,12 +1,21 @@
 //! A user of the library: builds a specification, certifies it and has the certificate checked.
 
-use sigmastar::{BoundingFunction as Bound, CertifyOptions, Error, Specification, certify, check_against};
+use sigmastar::{
+    BoundingFunction as Bound, Certificate, CertifyOptions, CheckReport, Error, Specification, certify, check_against,
+};
 
-/// Certifies it, and prints the statement and what the checker says.
+fn main() -> Result<(), Error> {
+    let (certificate, answer) = certified_and_checked()?;
+    println!("{}", certificate.claim().statement());
+    print!("{}", answer.text());
+    Ok(())
+}
+
+/// The certificate, and what the checker says of it.
 ///
 /// # Errors
 /// Those of the front door.
-pub fn main() -> Result<(), Error> {
+pub fn certified_and_checked() -> Result<(Certificate, CheckReport), Error> {
     let specification = Specification::builder("linear zero dynamics")
         .period("1")
         .lyapunov("1", "1.5512", "0.58")
@@ -24,7 +33,6 @@ pub fn main() -> Result<(), Error> {
         .initial_set_of_the_paper()
         .build()?;
     let certificate = certify(&specification, &CertifyOptions::new())?;
-    println!("{}", certificate.claim().statement());
-    print!("{}", check_against(certificate.to_json(), &specification).text());
-    Ok(())
+    let answer = check_against(certificate.to_json(), &specification);
+    Ok((certificate, answer))
 }
