@@ -382,6 +382,21 @@ mod tests {
     }
 
     #[test]
+    fn a_singular_matrix_is_undecided() {
+        let definite = |more: Rational| {
+            let entry = |i: usize, j: usize| match i == j {
+                true => Rational::from((2, 3)) + &more,
+                false => Rational::from((-1, 3)),
+            };
+            let matrix = ScaledMatrix::from_enclosures(3, |i, j| Enclosure::from_rational(&entry(i, j), 128));
+            matrix.expect("finite").is_positive_definite()
+        };
+        // 2/3 - 2/3 = 0 is the least eigenvalue.
+        assert_eq!(definite(Rational::new()), Truth::Undecided);
+        assert_eq!(definite(Rational::from((1, 1_000_000))), Truth::True);
+    }
+
+    #[test]
     fn dominance_counts_both_triangles() {
         for (lower, yes) in [
             (&[1, 1, 1][..], true),
