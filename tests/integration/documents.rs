@@ -194,3 +194,16 @@ fn formulas_are_typeset_everywhere() {
     assert_eq!(bad_formulas("| a |\n|---|\n| $`\\vert x \\vert`$ |"), Vec::<String>::new());
     assert_eq!(bad_formulas("| a |\n|---|\n| $`\\|x\\|`$ |"), ["|x|"]);
 }
+
+/// Where m4 is missing GMP is built without it, as the README says: by a setting that a build from the cache does not need and
+/// nobody would miss before a new machine does.
+#[test]
+fn the_build_without_m4_is_set_up() {
+    let folder = Path::new(ROOT).join(".cargo");
+    let text = std::fs::read_to_string(folder.join("config.toml")).unwrap();
+    let config: toml::Table = text.parse().unwrap();
+    let setting = &config["env"]["CONFIG_SITE"];
+    assert_eq!(setting["relative"].as_bool(), Some(true));
+    let script = Path::new(ROOT).join(setting["value"].as_str().unwrap());
+    assert!(std::fs::read_to_string(script).unwrap().contains("gmp_cv_prog_m4"));
+}
