@@ -6,11 +6,11 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rug::Rational;
-use sigmastar::certify::{GivenWitness, Ladder, Options, certify, decide, recheck};
-use sigmastar::data::Data;
-use sigmastar::enclosure::Enclosure;
-use sigmastar::expr::{Expr, ProofSettings, Variables, prove_bounding};
-use sigmastar::spec::Specification;
+use sigmastar_prove::certify::{GivenWitness, Ladder, Options, certify, decide, recheck};
+use sigmastar_theory::data::Data;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::{Expr, ProofSettings, Variables, prove_bounding};
+use sigmastar_lang::spec::Specification;
 use std::hint::black_box;
 use std::path::Path;
 

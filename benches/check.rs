@@ -5,9 +5,9 @@
 #![allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use sigmastar::certificate::certificate_json;
-use sigmastar::certify::{Derivation, Options, TransferChoice, certify};
-use sigmastar::spec::Specification;
+use sigmastar_prove::certificate::certificate_json;
+use sigmastar_prove::certify::{Derivation, Options, TransferChoice, certify};
+use sigmastar_lang::spec::Specification;
 use std::hint::black_box;
 use std::path::Path;
 

@@ -4,8 +4,8 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::Mat;
-use sigmastar::enclosure::Truth;
-use sigmastar::matrix::ScaledMatrix;
+use sigmastar_exact::enclosure::Truth;
+use sigmastar_matrix::ScaledMatrix;
 use std::hint::black_box;
 
 /// Q diag(values) Q' with a Householder reflection Q, so that the spectrum is known.

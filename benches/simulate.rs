@@ -7,9 +7,9 @@
 
 use cpu_time::ProcessTime;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use sigmastar::plant::Plant;
-use sigmastar::regulator::Regulator;
-use sigmastar::simulate::{ClosedLoop, Disturbance, FixedStep};
+use sigmastar_lang::plant::Plant;
+use sigmastar_regulator::Regulator;
+use sigmastar_lab::simulate::{ClosedLoop, Disturbance, FixedStep};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::process::Command;

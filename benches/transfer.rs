@@ -6,10 +6,10 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use rug::Rational;
-use sigmastar::data::Data;
-use sigmastar::enclosure::Enclosure;
-use sigmastar::spec::Specification;
-use sigmastar::transfer::{BoxProof, OscillatorCount, PoleSums, internal_model_poles, smallest_k1};
+use sigmastar_theory::data::Data;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::transfer::{BoxProof, OscillatorCount, PoleSums, internal_model_poles, smallest_k1};
 use std::hint::black_box;
 use std::path::Path;
 

@@ -4,15 +4,15 @@ use super::condition::Condition;
 use super::report::Report;
 use super::subject::Subject;
 use super::{json_text, nearest, rounded_down, rounded_up};
-use crate::certificate::{certificate_of, sampled_statement, statement};
-use crate::certify::claimed_ball;
-use crate::derivation::initial_set::ClaimedSet;
-use crate::enclosure::Enclosure;
-use crate::number::write_exact;
-use crate::reduction::Run;
-use crate::report::run_remarks;
-use crate::spec::Specification;
 use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certificate::{certificate_of, sampled_statement, statement};
+use sigmastar_prove::certify::claimed_ball;
+use sigmastar_prove::reduction::Run;
+use sigmastar_report::run_remarks;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
 /// A certified claim, the conditions that prove it, and the file from which both can be checked again.
 #[derive(Clone, Debug)]

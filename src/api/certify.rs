@@ -6,8 +6,8 @@ use super::error::Error;
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
-use crate::reduction::{Prepared, Run, Subject as Read, at_samples};
-use crate::report::run_sentence;
+use sigmastar_prove::reduction::{Prepared, Run, Subject as Read, at_samples};
+use sigmastar_report::run_sentence;
 
 /// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
 /// small gain, and the rigorous decision of every condition.

@@ -2,9 +2,9 @@
 
 use super::report::Report as Rendered;
 use super::subject::Subject;
-use crate::report::document::{Block, Made};
 use proofs_check::Report;
 use proofs_check::verdict::Verdict;
+use sigmastar_document::{Block, Made};
 
 /// The answer of the independent checker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

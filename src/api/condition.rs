@@ -1,8 +1,8 @@
 //! The conditions that prove a claim.
 
-use crate::derivation::condition;
-use crate::enclosure::{Enclosure, Truth};
-use crate::reduction::Run;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_prove::reduction::Run;
+use sigmastar_theory::derivation::condition;
 
 /// A condition: a comparison of two real numbers, each known between two doubles.
 #[derive(Clone, Debug, PartialEq)]

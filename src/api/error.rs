@@ -2,8 +2,8 @@
 
 use super::condition::Condition;
 use super::report::Report;
-use crate::certify::{Misfit, Verdict, verdict_of_errors};
-use crate::spec::{self, SpecError, SpecErrors};
+use sigmastar_lang::spec::{self, SpecError, SpecErrors};
+use sigmastar_prove::certify::{Misfit, Verdict, verdict_of_errors};
 use std::fmt;
 
 /// What kind of error an [`Error`] is.

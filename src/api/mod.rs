@@ -17,8 +17,6 @@ mod study;
 mod subject;
 mod transfer;
 
-pub use crate::certify::{TransferChoice, Verdict};
-pub use crate::spec::Bound as BoundingFunction;
 pub use certificate::{Certificate, Claim, InitialSet, PeriodicSolution, Samples};
 pub use certify::certify;
 pub use check::{CheckReport, CheckVerdict, check, check_against};
@@ -28,6 +26,8 @@ pub use options::{CertifyOptions, Derivation};
 pub use rate::{Rate, RateMethod, Rates, rates};
 pub use regulator::{RegulatorMatrices, SampledRegulator, regulator_matrices, sampled_regulator};
 pub use report::{Report, ReportFormat};
+pub use sigmastar_lang::spec::Bound as BoundingFunction;
+pub use sigmastar_prove::certify::{TransferChoice, Verdict};
 pub use specification::{JacobianEntry, Specification, SpecificationBuilder};
 pub use study::{Study, StudyCase};
 pub use subject::Subject;
@@ -36,9 +36,9 @@ pub use transfer::{OscillatorShare, TransferBound, TransferOptions, TransferStud
 /// The version of this library, which certificates and results name.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-use crate::enclosure::{DEFAULT_PRECISION, Enclosure};
-use crate::spec::{Constant, Document, Errors, positive_constant};
 use rug::Rational;
+use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
+use sigmastar_lang::spec::{Constant, Document, Errors, positive_constant};
 
 /// The smallest double that is not below an exact number.
 fn rounded_up(value: &Rational) -> f64 {

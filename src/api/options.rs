@@ -2,10 +2,10 @@
 
 use super::error::{Error, ErrorKind};
 use super::{positive, rational};
-use crate::certify::{self, Ladder, Options, TransferChoice};
-use crate::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
-use crate::spec::Constant;
 use rug::Rational;
+use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use sigmastar_lang::spec::Constant;
+use sigmastar_prove::certify::{self, Ladder, Options, TransferChoice};
 
 /// The derivation on which a claim rests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -18,7 +18,7 @@ pub enum Derivation {
     Repaired,
 }
 
-/// What a run of [`certify`](crate::certify) does. The defaults are those of the command `sigmastar certify`.
+/// What a run of [`certify`](sigmastar_prove::certify) does. The defaults are those of the command `sigmastar certify`.
 ///
 /// ```
 /// use sigmastar::{CertifyOptions, Derivation};

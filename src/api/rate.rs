@@ -5,12 +5,12 @@ use super::error::{Error, ErrorKind};
 use super::report::Report;
 use super::subject::Subject;
 use super::{rational, rounded_down};
-use crate::certify::{Options, Verdict, certify_near};
-use crate::number::write_exact;
-use crate::rate::{self, MAX_OSCILLATORS, Method, NoRates, certified_rates};
-use crate::reduction::Run;
-use crate::report::RateReport;
 use rug::Rational;
+use sigmastar_exact::number::write_exact;
+use sigmastar_prove::certify::{Options, Verdict, certify_near};
+use sigmastar_prove::reduction::Run;
+use sigmastar_report::RateReport;
+use sigmastar_studies::rate::{self, MAX_OSCILLATORS, Method, NoRates, certified_rates};
 
 /// Rates of convergence at one gain, for several numbers of oscillators. They are no part of a certificate, and no independent
 /// program checks them.
@@ -137,7 +137,7 @@ impl Rate {
 /// exact rational number of at least sigma*, or at sigma* itself.
 ///
 /// # Errors
-/// Those of [`certify`](crate::certify); [`Range`](ErrorKind::Range) for a gain below sigma* and beyond
+/// Those of [`certify`](sigmastar_prove::certify); [`Range`](ErrorKind::Range) for a gain below sigma* and beyond
 /// [`Rates::MAX_OSCILLATORS`]; [`Undecided`](ErrorKind::Undecided) where no plant with a state has these data.
 pub fn rates(subject: impl Into<Subject>, sigma: Option<&str>, n_o: &[u32]) -> Result<Rates, Error> {
     found(subject.into(), sigma, n_o)

@@ -3,8 +3,8 @@
 use super::error::{Error, ErrorKind};
 use super::positive;
 use super::subject::Subject;
-use crate::regulator::{Convergence, Design, Discrete, MAX_EXPORTED_OSCILLATORS, Regulator};
-use crate::spec::Constant;
+use sigmastar_lang::spec::Constant;
+use sigmastar_regulator::{Convergence, Design, Discrete, MAX_EXPORTED_OSCILLATORS, Regulator};
 
 /// The regulator `z' = Phi z + Gamma e`, `u = -sigma e + mu M'N(z - M e)` in double precision. Each number is the exact one
 /// of the specification, rounded once to nearest; no claim is made of them.

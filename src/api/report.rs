@@ -1,8 +1,8 @@
 //! Reports in the formats of the program.
 
-use crate::reduction::Run;
-use crate::report::RunReport;
-use crate::report::document::{Extent, Made, Readable};
+use sigmastar_document::{Extent, Made, Readable};
+use sigmastar_prove::reduction::Run;
+use sigmastar_report::RunReport;
 use std::fmt;
 
 /// The form of a report. The content is the same in each.

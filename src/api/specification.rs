@@ -1,9 +1,9 @@
-//! Specifications: from JSON, or built in Rust. Either way the strict reader of [`crate::spec`] reads the document.
+//! Specifications: from JSON, or built in Rust. Either way the strict reader of [`sigmastar_lang::spec`] reads the document.
 
 use super::error::Error;
 use super::json_text;
-use crate::spec::{self, Bound as BoundingFunction};
 use serde_json::{Map, Value};
+use sigmastar_lang::spec::{self, Bound as BoundingFunction};
 
 /// What errors call the document.
 const LABEL: &str = "specification";
@@ -11,7 +11,7 @@ const LABEL: &str = "specification";
 /// A bounding specification that was read: every number is exact or enclosed, and proved to lie in its range; the weights
 /// are proved to satisfy W1 to W3; a matched base frequency, where asserted, is proved.
 ///
-/// That the bounding functions are finite and nondecreasing is proved by [`certify`](crate::certify). That they bound the
+/// That the bounding functions are finite and nondecreasing is proved by [`certify`](sigmastar_prove::certify). That they bound the
 /// plant is the user's part.
 #[derive(Clone, Debug)]
 pub struct Specification {
@@ -122,7 +122,7 @@ impl SpecificationBuilder {
         self.with("lyapunov", triple.into())
     }
 
-    /// The Jacobian `df/dx(t,0,0)`, row by row, for which [`certify`](crate::certify) finds and proves a Lyapunov triple. It
+    /// The Jacobian `df/dx(t,0,0)`, row by row, for which [`certify`](sigmastar_prove::certify) finds and proves a Lyapunov triple. It
     /// takes the place of a triple.
     ///
     /// ```

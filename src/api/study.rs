@@ -2,8 +2,8 @@
 
 use super::error::{Error, ErrorKind};
 use super::json_text;
-use crate::spec::{self, Document};
-use crate::sweep::{self, Case, Results, ResultsError, SubjectSource, Sweep, solve};
+use sigmastar_lang::spec::{self, Document};
+use sigmastar_sweep::sweep::{self, Case, Results, ResultsError, SubjectSource, Sweep, solve};
 
 /// A study with its subject (`docs/formats.md`): what values go where. Its cases can be run in any order and in different
 /// processes; the joined results are the bytes of `sigmastar sweep STUDY -o FILE`.
@@ -31,7 +31,7 @@ pub struct StudyCase {
     pub index: u64,
     /// The names of the parameters and their values, exactly.
     pub values: Vec<(String, String)>,
-    /// The document with the values in it, which [`certify`](crate::certify) takes.
+    /// The document with the values in it, which [`certify`](sigmastar_prove::certify) takes.
     pub json: String,
     /// SHA-256 of the document.
     pub sha256: String,

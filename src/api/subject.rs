@@ -3,15 +3,15 @@
 use super::error::Error;
 use super::json_text;
 use super::specification::Specification;
-use crate::reduction::Subject as Read;
-use crate::spec::{Document, MAX_BYTES};
+use sigmastar_lang::spec::{Document, MAX_BYTES};
+use sigmastar_prove::reduction::Subject as Read;
 
 /// What errors call a document without a name of its own.
 const LABEL: &str = "document";
 
 /// A bounding specification or a plant, as it was read. Which of both a document is says its `format`.
 ///
-/// Of a plant nothing is left to the user: [`certify`](crate::certify) finds and proves its orbit and every bound that the
+/// Of a plant nothing is left to the user: [`certify`](sigmastar_prove::certify) finds and proves its orbit and every bound that the
 /// claim needs.
 ///
 /// ```no_run

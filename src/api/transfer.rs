@@ -4,12 +4,15 @@ use super::error::{Error, ErrorKind};
 use super::report::Report;
 use super::subject::Subject;
 use super::{positive, rounded_up};
-use crate::data::Data;
-use crate::enclosure::DEFAULT_PRECISION;
-use crate::number::write_exact;
-use crate::reduction::Subject as Read;
-use crate::spec::Specification;
-use crate::transfer::{self, CertifiedPair, OscillatorCount, PairChoice, PairError, rational_k0, smallest_k1};
+use sigmastar_exact::enclosure::DEFAULT_PRECISION;
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::reduction::Subject as Read;
+use sigmastar_report::TransferReport;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::transfer::{
+    self, CertifiedPair, OscillatorCount, PairChoice, PairError, rational_k0, smallest_k1,
+};
 
 /// A proved bound `T_N(x) <= k0 + k1 x^2` of the internal model, for every number of oscillators N >= 0 and every
 /// `x = omega/w >= 0`.
@@ -223,7 +226,7 @@ pub fn transfer_study(subject: impl Into<Subject>, options: &TransferOptions) ->
     Ok(TransferStudy {
         bound: TransferBound::new(&study.data, &study.pair),
         shares: study.uniformity.iter().map(share).collect(),
-        report: Report::of(&study),
+        report: Report::of(&TransferReport(&study)),
     })
 }
 

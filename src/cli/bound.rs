@@ -6,10 +6,10 @@ use super::files::Input;
 use super::progress::{Audience, Working};
 use super::{input, output};
 use rug::Rational;
-use sigmastar::bounding::bounding_specification;
-use sigmastar::number::write_exact;
-use sigmastar::plant::Plant;
-use sigmastar::reduction::reduce;
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::plant::Plant;
+use sigmastar_prove::reduction::reduce;
+use sigmastar_studies::bounding::bounding_specification;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &BoundArgs) -> u8 {
@@ -22,7 +22,7 @@ fn attempt(args: &BoundArgs) -> Result<u8, Failure> {
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
     let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };
     let working = Working::new("finding the orbit and proving the plant's bounds", audience);
-    let refused = |refusal: sigmastar::reduction::PlantRefusal| Failure::Documents(refusal.errors(&plant));
+    let refused = |refusal: sigmastar_prove::reduction::PlantRefusal| Failure::Documents(refusal.errors(&plant));
     let reduced = reduce(&plant).map_err(refused)?;
     let bounded = bounding_specification(&plant, &reduced.spec, asked).map_err(refused)?;
     drop(working);

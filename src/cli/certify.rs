@@ -8,10 +8,10 @@ use super::output::Shortened;
 use super::progress::{Audience, Working};
 use super::subject::{Subject, proving, with_sampling_period};
 use super::{input, output};
-use sigmastar::certificate::{certificate_of, is_sampled, read_for};
-use sigmastar::derivation::targets::{Target, TargetKind};
-use sigmastar::reduction::{Prepared, Run};
-use sigmastar::report::RunReport;
+use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
+use sigmastar_prove::reduction::{Prepared, Run};
+use sigmastar_report::RunReport;
+use sigmastar_theory::derivation::targets::{Target, TargetKind};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &CertifyArgs) -> u8 {

@@ -7,11 +7,11 @@ use super::files::{Input, OutputFile, write_together};
 use super::format::Format;
 use super::input;
 use super::output::{self, shown};
-use sigmastar::reduction::Subject;
-use sigmastar::regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};
-use sigmastar::regulator::{Convergence, Design, Discrete};
-use sigmastar::report::document::clean;
-use sigmastar::spec::Constant;
+use sigmastar_document::clean;
+use sigmastar_lang::spec::Constant;
+use sigmastar_prove::reduction::Subject;
+use sigmastar_regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};
+use sigmastar_regulator::{Convergence, Design, Discrete};
 use std::path::{Path, PathBuf};
 
 /// Runs the command and returns the exit code.

@@ -2,12 +2,12 @@
 
 use super::failure::Failure;
 use rug::Rational;
-use sigmastar::certificate::{FORMAT as CERTIFICATE, read_numbers};
-use sigmastar::enclosure::{DEFAULT_PRECISION, Enclosure};
-use sigmastar::number::write_exact;
-use sigmastar::reduction::{FreeNumbers, Subject};
-use sigmastar::regulator::export::{Provenance, Scope};
-use sigmastar::spec::{Constant, Document, InternalModel, SampledGain, Sampling};
+use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::{Constant, Document, InternalModel, SampledGain, Sampling};
+use sigmastar_prove::certificate::{FORMAT as CERTIFICATE, read_numbers};
+use sigmastar_prove::reduction::{FreeNumbers, Subject};
+use sigmastar_regulator::export::{Provenance, Scope};
 
 /// A certificate, as far as a regulator goes. What it says is taken as it is.
 pub struct Given {

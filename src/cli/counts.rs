@@ -1,7 +1,7 @@
 //! Numbers of oscillators on the command line: `0,1,5..10,20..100/10,inf`, the same in every `--n-o`.
 
 use super::failure::Failure;
-use sigmastar::transfer::OscillatorCount;
+use sigmastar_theory::transfer::OscillatorCount;
 
 /// The most numbers of oscillators that one call looks at.
 const MOST: usize = 10_000;

@@ -3,8 +3,8 @@
 use super::args::ErrataArgs;
 use super::failure::Failure;
 use super::{input, output};
-use sigmastar::report::ErrataReport;
-use sigmastar::spec::Specification;
+use sigmastar_lang::spec::Specification;
+use sigmastar_paper::errata::ErrataReport;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &ErrataArgs) -> u8 {

@@ -2,9 +2,9 @@
 
 use super::format::Format;
 use super::output;
-use sigmastar::certify::{Misfit, Verdict, verdict_of_errors};
-use sigmastar::report::{call_failure_json, failure_json};
-use sigmastar::spec::SpecErrors;
+use sigmastar_lang::spec::SpecErrors;
+use sigmastar_prove::certify::{Misfit, Verdict, verdict_of_errors};
+use sigmastar_report::{call_failure_json, failure_json};
 
 /// Why a command came to no claim.
 #[derive(Debug)]

@@ -6,11 +6,11 @@ use super::files::Input;
 use super::output::Shortened;
 use super::progress::Bar;
 use super::{input, output};
-use sigmastar::certify::Verdict;
-use sigmastar::falsify::{
+use sigmastar_lab::falsify::{
     Falsification, FalsificationReport, Finding, FrequencyError, TrialSettings, TriedClaim, counterexample_plant,
     falsify, flags, with_base_frequency,
 };
+use sigmastar_prove::certify::Verdict;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &FalsifyArgs) -> u8 {

@@ -4,7 +4,7 @@ use super::args::Replace;
 use super::failure::Failure;
 use super::output::{reason, shown};
 use super::temporary::{Temporary, place};
-use sigmastar::plot::Figure;
+use sigmastar_document::plot::Figure;
 use std::io;
 use std::path::{Path, PathBuf};
 

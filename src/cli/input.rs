@@ -3,11 +3,11 @@
 use super::failure::Failure;
 use super::output::{reason, shown};
 use rug::Rational;
-use sigmastar::derivation::targets::{Target, TargetKind};
-use sigmastar::spec::model::Constant;
-use sigmastar::spec::{
+use sigmastar_lang::spec::model::Constant;
+use sigmastar_lang::spec::{
     Document, Errors, MAX_BYTES, Notation, Reported, Value, nonnegative_constant, positive_constant,
 };
+use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;

@@ -5,10 +5,10 @@ use super::failure::Failure;
 use super::input;
 use super::output::Shortened;
 use super::subject::{Subject, seeking_triple};
-use sigmastar::certify::{Refusal, resolve};
-use sigmastar::plant::Plant;
-use sigmastar::reduction::study;
-use sigmastar::report::{LyapunovReport, OrbitReport};
+use sigmastar_lang::plant::Plant;
+use sigmastar_prove::certify::{Refusal, resolve};
+use sigmastar_prove::reduction::study;
+use sigmastar_report::{LyapunovReport, OrbitReport};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &LyapunovArgs) -> u8 {

@@ -6,8 +6,8 @@ use super::files::Input;
 use super::format::Format;
 use super::output::{self, shown};
 use super::sweep::{existing, unreadable};
-use sigmastar::certify::Verdict;
-use sigmastar::sweep::{Merge, Results, summary};
+use sigmastar_prove::certify::Verdict;
+use sigmastar_sweep::sweep::{Merge, Results, summary};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.

@@ -33,7 +33,7 @@ mod write_files;
 
 use args::{Cli, Command, command};
 use clap::FromArgMatches;
-use sigmastar::certify::Verdict;
+use sigmastar_prove::certify::Verdict;
 use std::process::ExitCode;
 
 /// Runs the command of the process's arguments and returns its exit code.

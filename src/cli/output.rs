@@ -2,9 +2,9 @@
 
 use super::colour;
 use super::format::Format;
-use sigmastar::certify::Verdict;
-use sigmastar::report::document::{Extent, Made, Readable};
-use sigmastar::spec::SpecErrors;
+use sigmastar_document::{Extent, Made, Readable};
+use sigmastar_lang::spec::SpecErrors;
+use sigmastar_prove::certify::Verdict;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 

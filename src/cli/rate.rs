@@ -5,10 +5,10 @@ use super::counts::finite_counts;
 use super::failure::Failure;
 use super::subject::{Subject, proved};
 use super::{input, output};
-use sigmastar::certify::{Options, Verdict, certify_near};
-use sigmastar::number::write_exact;
-use sigmastar::rate::{MAX_OSCILLATORS, NoRates, certified_rates};
-use sigmastar::report::RateReport;
+use sigmastar_exact::number::write_exact;
+use sigmastar_prove::certify::{Options, Verdict, certify_near};
+use sigmastar_report::RateReport;
+use sigmastar_studies::rate::{MAX_OSCILLATORS, NoRates, certified_rates};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &RateArgs) -> u8 {

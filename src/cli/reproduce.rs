@@ -6,8 +6,8 @@ use super::files::Input;
 use super::format::Format;
 use super::output;
 use super::progress::Bar;
-use sigmastar::report::document::{Extent, Readable};
-use sigmastar::reproduce::{FIGURE_FILES, Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
+use sigmastar_document::{Extent, Readable};
+use sigmastar_paper::reproduce::{FIGURE_FILES, Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &ReproduceArgs) -> u8 {

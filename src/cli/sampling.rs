@@ -8,11 +8,11 @@ use super::subject::{Subject, proved};
 use super::transfer::svg_file;
 use super::{input, output};
 use rug::Rational;
-use sigmastar::certify::Verdict;
-use sigmastar::reduction::with_sampled_pairs;
-use sigmastar::report::{SamplingReport, sampling_figure};
-use sigmastar::sampling::{OfPlant, OfSpecification, SamplingStudy};
-use sigmastar::spec::{Constant, MAX_SAMPLES, Sampling};
+use sigmastar_lang::spec::{Constant, MAX_SAMPLES, Sampling};
+use sigmastar_prove::certify::Verdict;
+use sigmastar_prove::reduction::with_sampled_pairs;
+use sigmastar_report::{SamplingReport, sampling_figure};
+use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingStudy};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SamplingArgs) -> u8 {

@@ -7,13 +7,13 @@ use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
 use super::simulate_sampled;
-use sigmastar::certify::Verdict;
-use sigmastar::plant::Plant;
-use sigmastar::regulator::{Design, Regulator, read_regulator};
-use sigmastar::simulate::{
+use sigmastar_lab::simulate::{
     ClosedLoop, FIGURE_FILES, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures,
     simulate,
 };
+use sigmastar_lang::plant::Plant;
+use sigmastar_prove::certify::Verdict;
+use sigmastar_regulator::{Design, Regulator, read_regulator};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SimulateArgs) -> u8 {

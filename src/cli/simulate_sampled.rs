@@ -6,14 +6,14 @@ use super::files::Input;
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
-use sigmastar::certify::Verdict;
-use sigmastar::plant::{Initial, Plant};
-use sigmastar::regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
-use sigmastar::simulate::{
+use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
 };
-use sigmastar::spec::Constant;
+use sigmastar_lang::plant::{Initial, Plant};
+use sigmastar_lang::spec::Constant;
+use sigmastar_prove::certify::Verdict;
+use sigmastar_regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
 
 /// Runs the command with this sampling time and returns the exit code.
 ///

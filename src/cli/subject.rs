@@ -3,11 +3,11 @@
 use super::failure::Failure;
 use super::input;
 use super::progress::{Audience, Working};
-use sigmastar::reduction::at_samples;
-use sigmastar::search::SharpProposal;
-use sigmastar::spec::{Document, Specification};
+use sigmastar_lang::spec::{Document, Specification};
+use sigmastar_prove::reduction::at_samples;
+use sigmastar_prove::search::SharpProposal;
 
-pub use sigmastar::reduction::Subject;
+pub use sigmastar_prove::reduction::Subject;
 
 /// [`Subject::proved`], with a word to whoever waits.
 ///

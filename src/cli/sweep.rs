@@ -7,9 +7,9 @@ use super::format::Format;
 use super::output::{reason, shown};
 use super::progress::Bar;
 use super::{input, output};
-use sigmastar::certify::Verdict;
-use sigmastar::spec::SpecErrors;
-use sigmastar::sweep::{
+use sigmastar_lang::spec::SpecErrors;
+use sigmastar_prove::certify::Verdict;
+use sigmastar_sweep::sweep::{
     FigureError, Header, Results, ResultsError, Row, Shard, Study, SubjectSource, Sweep, best, csv,
     run as certify_cases, summary, sweep_figure,
 };
@@ -224,7 +224,7 @@ fn draw(sweep: &Sweep, results: &Results, file: &OutputFile) -> Result<(), Failu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sigmastar::spec::Document;
+    use sigmastar_lang::spec::Document;
 
     #[test]
     fn a_subject_is_beside_its_study() {

@@ -9,11 +9,11 @@ use super::output::Shortened;
 use super::progress::Bar;
 use super::subject::{Subject, proved};
 use super::{input, output};
-use sigmastar::certify::Verdict;
-use sigmastar::enclosure::DEFAULT_PRECISION;
-use sigmastar::progress::Progress;
-use sigmastar::report::{pair_failure_json, transfer_figure};
-use sigmastar::transfer::{PairChoice, PairError, TransferStudy};
+use sigmastar_document::progress::Progress;
+use sigmastar_exact::enclosure::DEFAULT_PRECISION;
+use sigmastar_prove::certify::Verdict;
+use sigmastar_report::{TransferReport, pair_failure_json, transfer_figure};
+use sigmastar_theory::transfer::{PairChoice, PairError, TransferStudy};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
@@ -57,7 +57,7 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
             output::remark(&format!("the plot is in `{}`", file.name()));
         }
     }
-    Ok(Shortened::new(&study, args.format, args.full)
+    Ok(Shortened::new(&TransferReport(&study), args.format, args.full)
         .show(args.quiet)
         .map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
 }

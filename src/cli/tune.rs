@@ -7,9 +7,9 @@ use super::output::shown;
 use super::progress::Bar;
 use super::subject::Subject;
 use super::{input, output};
-use sigmastar::certify::Verdict;
-use sigmastar::spec::Notation;
-use sigmastar::tune::{Goal, Settings, TuneError, TuningReport, parameters, tune};
+use sigmastar_lang::spec::Notation;
+use sigmastar_prove::certify::Verdict;
+use sigmastar_sweep::tune::{Goal, Settings, TuneError, TuningReport, parameters, tune};
 
 /// The number of oscillators for which the error is told where the call names none.
 const N_O: u32 = 5;

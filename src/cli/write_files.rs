@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::format::Format;
 use super::{input, output};
-use sigmastar::spec::Notation;
+use sigmastar_lang::spec::Notation;
 use std::path::Path;
 
 /// Writes a JSON Schema to standard output; returns the exit code.

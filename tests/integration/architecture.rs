@@ -1,36 +1,34 @@
-//! The table of imports in `docs/architecture.md` is what the sources import.
+//! The table of crates in `docs/architecture.md` is what their manifests say, and neither folders nor files go in circles.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 type Imports = BTreeMap<String, BTreeSet<String>>;
 
-/// The names in backticks of a cell: folders, and files without their ending.
-fn names(cell: &str) -> BTreeSet<String> {
-    let quoted = cell.split('`').skip(1).step_by(2);
-    quoted.map(|name| name.trim_end_matches('/').trim_end_matches(".rs").to_owned()).collect()
-}
-
-/// The rows of the tables below a heading, as what each folder may import: what is named, and with "and below" all that those
-/// may import.
-fn table(heading: &str) -> (Imports, Imports) {
+/// The rows of the table below a heading: a name, and the names in backticks of what it imports.
+fn table(heading: &str) -> Imports {
     let text = std::fs::read_to_string("docs/architecture.md").unwrap();
     let (_, section) = text.split_once(&format!("\n## {heading}\n")).unwrap();
     let section = section.split("\n## ").next().unwrap();
-    let (mut named, mut allowed) = (Imports::new(), Imports::new());
-    for row in section.lines().filter(|line| line.starts_with("| `")) {
-        let cells: Vec<&str> = row.split('|').collect();
-        let imports = names(cells[3]);
-        let mut all = imports.clone();
-        if cells[3].contains("and below") {
-            all.extend(imports.iter().filter_map(|name| allowed.get(name)).flatten().cloned().collect::<Vec<_>>());
-        }
-        for folder in names(cells[1]) {
-            named.insert(folder.clone(), imports.clone());
-            allowed.insert(folder, all.clone());
-        }
-    }
-    (named, allowed)
+    let names = |cell: &str| -> BTreeSet<String> { cell.split('`').skip(1).step_by(2).map(str::to_owned).collect() };
+    let cells = section.lines().filter(|line| line.starts_with("| `")).map(|row| row.split('|').collect::<Vec<_>>());
+    cells.map(|cells| (names(cells[1]).into_iter().collect::<String>(), names(cells[3]))).collect()
+}
+
+/// A package's folder, under the name that it has in the table.
+fn packages() -> Vec<(String, PathBuf)> {
+    let crates = std::fs::read_dir("crates").unwrap().map(|entry| entry.unwrap().path());
+    let named = crates.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), path));
+    named.filter(|(name, _)| name != "lapack-faer").chain([("sigmastar".to_owned(), PathBuf::from("."))]).collect()
+}
+
+/// The packages of this project that a manifest names as dependencies, those of tests aside.
+fn dependencies(manifest: &str) -> BTreeSet<String> {
+    let (_, section) = manifest.split_once("\n[dependencies]\n").unwrap();
+    let section = section.split("\n[").next().unwrap();
+    let names = section.lines().filter_map(|line| line.split_once(" = ").map(|(name, _)| name));
+    let own = |name: &str| name.starts_with("sigmastar-") || ["proofs-check", "lapack-faer"].contains(&name);
+    names.filter(|name| own(name)).map(|name| name.trim_start_matches("sigmastar-").to_owned()).collect()
 }
 
 /// Every source of a folder that is no test.
@@ -90,44 +88,6 @@ fn code(path: &Path) -> String {
     let text = std::fs::read_to_string(path).unwrap();
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap();
     code.lines().filter(|line| !line.trim_start().starts_with("//")).map(|line| format!("{line}\n")).collect()
-}
-
-/// What each folder or file at the top of `src` imports of the others, its tests aside.
-fn found(src: &str) -> Imports {
-    let mut found = Imports::new();
-    for path in sources(Path::new(src)) {
-        let top = path.strip_prefix(src).unwrap().components().next().unwrap();
-        let top = Path::new(&top).file_stem().unwrap().to_str().unwrap().to_owned();
-        found.entry(top).or_default().extend(imported(&code(&path), "crate::"));
-    }
-    let tops: BTreeSet<String> = found.keys().cloned().collect();
-    for (top, imports) in &mut found {
-        imports.retain(|name| name != top && tops.contains(name));
-    }
-    found
-}
-
-/// Each complaint about a table, held against what was found.
-fn complaints(heading: &str, src: &str, roots: &[&str]) -> Vec<String> {
-    let (named, allowed) = table(heading);
-    let found = found(src);
-    let mut complaints = Vec::new();
-    for (folder, imports) in found.iter().filter(|(folder, _)| !roots.contains(&folder.as_str())) {
-        let Some(allowed) = allowed.get(folder) else {
-            complaints.push(format!("{src}/{folder} has no row"));
-            continue;
-        };
-        complaints.extend(imports.difference(allowed).map(|name| format!("{src}/{folder} imports {name}")));
-    }
-    for (folder, imports) in named.iter().filter(|(folder, _)| !roots.contains(&folder.as_str())) {
-        let Some(found) = found.get(folder) else {
-            complaints.push(format!("{src}/{folder} is no more"));
-            continue;
-        };
-        let idle = imports.difference(found).filter(|name| *name != "proofs_check");
-        complaints.extend(idle.map(|name| format!("{src}/{folder} does not import {name}")));
-    }
-    complaints
 }
 
 /// The names that a `mod.rs` makes public under its own path, with the files that they come from.
@@ -197,15 +157,28 @@ fn all_circles(folder: &Path, path: &str) -> Vec<String> {
 
 #[test]
 fn no_files_import_each_other() {
-    assert_eq!(all_circles(Path::new("src"), "crate::"), Vec::<String>::new());
+    for (name, folder) in packages() {
+        assert_eq!(all_circles(&folder.join("src"), "crate::"), Vec::<String>::new(), "{name}");
+    }
     // A specification may carry a plant, and a plant is read with the parts that both have.
     assert_eq!(all_circles(Path::new("proofs-check/src"), "crate::"), ["crate::plant", "crate::spec"]);
 }
 
+/// The compiler holds a crate to its manifest; the page says what is in it, and nothing is in it that is not imported.
 #[test]
-fn folders_import_what_the_table_says() {
-    assert_eq!(complaints("The folders of src", "src", &["lib", "main", "cli"]), Vec::<String>::new());
-    assert_eq!(complaints("proofs-check/src", "proofs-check/src", &["lib", "main"]), Vec::<String>::new());
+fn crates_import_what_the_table_says() {
+    let mut table = table("The crates");
+    for (name, folder) in packages() {
+        let dependencies = dependencies(&std::fs::read_to_string(folder.join("Cargo.toml")).unwrap());
+        assert_eq!(table.remove(&name).as_ref(), Some(&dependencies), "{name}");
+        let text: String = sources(&folder.join("src")).iter().map(|path| code(path)).collect();
+        for other in dependencies {
+            let module = other.replace('-', "_");
+            let used = [format!("sigmastar_{module}::"), format!("{module}::"), format!("crate {module} ")];
+            assert!(used.iter().any(|used| text.contains(used)), "{name} does not use {other}");
+        }
+    }
+    assert_eq!(table, Imports::new());
 }
 
 #[test]

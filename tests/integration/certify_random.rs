@@ -3,10 +3,10 @@
 
 use crate::support::count;
 use proptest::prelude::*;
-use sigmastar::certificate::certificate_json;
-use sigmastar::certify::{Derivation, Options, Verdict, certify};
-use sigmastar::lmi::{CrossCheck, CrossCheckError};
-use sigmastar::spec::Specification;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certificate::certificate_json;
+use sigmastar_prove::certify::{Derivation, Options, Verdict, certify};
+use sigmastar_prove::lmi::{CrossCheck, CrossCheckError};
 
 /// A decimal with a random exponent: the orders of magnitude are what is tested.
 fn magnitude(span: i32) -> impl Strategy<Value = String> {

@@ -3,9 +3,9 @@
 use crate::support::{program, specification, specification_text};
 use predicates::prelude::*;
 use predicates::str::{contains, ends_with, is_empty, starts_with};
-use sigmastar::certificate::certificate_json;
-use sigmastar::certify::{Derivation, Options, TransferChoice, certify};
-use sigmastar::spec::Specification;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certificate::certificate_json;
+use sigmastar_prove::certify::{Derivation, Options, TransferChoice, certify};
 
 /// The certificate of a shipped specification.
 fn certificate(name: &str, options: Options) -> String {

@@ -4,8 +4,8 @@ use crate::support::{json, program, specification, utf8};
 use assert_cmd::Command;
 use faer::{Col, Mat, Scale};
 use predicates::prelude::*;
-use sigmastar::regulator::{Design, Stepper};
-use sigmastar::spec::{Constant, Document, Errors, Specification, positive_constant};
+use sigmastar_lang::spec::{Constant, Document, Errors, Specification, positive_constant};
+use sigmastar_regulator::{Design, Stepper};
 use std::io::Read as _;
 use std::process::Command as Process;
 

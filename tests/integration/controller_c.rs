@@ -2,7 +2,7 @@
 
 use crate::controller::{constant, controller, example, installed, signal};
 use crate::support::{ROOT, process, utf8};
-use sigmastar::regulator::{Design, Stepper};
+use sigmastar_regulator::{Design, Stepper};
 use std::path::{Path, PathBuf};
 use std::process::Command as Process;
 

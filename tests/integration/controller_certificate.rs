@@ -3,7 +3,7 @@
 use crate::controller::controller;
 use crate::support::{json, program, specification, utf8};
 use predicates::prelude::*;
-use sigmastar::spec::Document;
+use sigmastar_lang::spec::Document;
 use std::path::{Path, PathBuf};
 
 fn certificate(folder: &Path, spec: &str) -> PathBuf {
@@ -31,7 +31,7 @@ fn a_certificate_says_everything_but_the_oscillators() {
     }
     // The gain is sigma* or the next double above.
     let sigma = rug::Rational::from_f64(export["sigma"].as_f64().unwrap()).unwrap();
-    let star = sigmastar::number::parse_decimal(held["claim"]["sigma_star"].as_str().unwrap()).unwrap();
+    let star = sigmastar_exact::number::parse_decimal(held["claim"]["sigma_star"].as_str().unwrap()).unwrap();
     assert!(sigma >= star && rug::Rational::from(&sigma - &star) < rug::Rational::from((1, 1_u64 << 50)));
     // The same regulator as from the specification.
     let from_spec =

@@ -3,18 +3,18 @@
 use crate::support::{EXAMPLE_TEXT, PLANT_TEXT, every, program};
 use rug::Rational;
 use serde_json::{Value, json};
-use sigmastar::certify::{MAX_SEARCHES, Outcome, certify, prove_up_to, resolve};
-use sigmastar::enclosure::{Enclosure, MAX_EXACT_EXPONENT};
-use sigmastar::expr::{BoundingFailure, Expr, ProofSettings, Reason, Variables, prove_bounding};
-use sigmastar::lyapunov::MAX_PROGRAM_COST;
-use sigmastar::plant::Plant;
-use sigmastar::progress::Silent;
-use sigmastar::regulator::Design;
-use sigmastar::search::{Failing, Obstacle};
-use sigmastar::simulate::{
+use sigmastar_document::progress::Silent;
+use sigmastar_exact::enclosure::{Enclosure, MAX_EXACT_EXPONENT};
+use sigmastar_lab::simulate::{
     ClosedLoop, IntegrationFailure, MAX_NUMBERS, MAX_OPERATIONS, SteadyStateError, steady_state,
 };
-use sigmastar::spec::{Document, MAX_UNKNOWN, Specification, any_constant};
+use sigmastar_lang::expr::{BoundingFailure, Expr, ProofSettings, Reason, Variables, prove_bounding};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Document, MAX_UNKNOWN, Specification, any_constant};
+use sigmastar_plants::lyapunov::MAX_PROGRAM_COST;
+use sigmastar_prove::certify::{MAX_SEARCHES, Outcome, certify, prove_up_to, resolve};
+use sigmastar_prove::search::{Failing, Obstacle};
+use sigmastar_regulator::Design;
 
 fn with(pointer: &str, value: Value) -> Value {
     let mut document: Value = serde_json::from_str(EXAMPLE_TEXT).unwrap();
@@ -169,7 +169,7 @@ fn large_plant(n: usize) -> String {
 fn simulated(text: &str, n_o: u32) -> (ClosedLoop, Vec<f64>) {
     let plant = Plant::from_json("large", text).unwrap();
     let document = Document::parse("sigma", "50").unwrap();
-    let mut errors = sigmastar::spec::Errors::new();
+    let mut errors = sigmastar_lang::spec::Errors::new();
     let read = any_constant(&document.root(), &mut errors);
     let sigma = errors.conclude(&document, read).unwrap();
     let closed_loop = ClosedLoop::new(&plant, Design::new(&plant.internal_model, &sigma, n_o).regulator());

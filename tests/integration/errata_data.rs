@@ -2,8 +2,8 @@
 
 use crate::support::specification_text;
 use rug::Rational;
-use sigmastar::errata::{Bearing, Erratum, ForData, Side, errata};
-use sigmastar::spec::Specification;
+use sigmastar_lang::spec::Specification;
+use sigmastar_paper::errata::{Bearing, Erratum, ForData, Side, errata};
 
 fn list(text: &str) -> Vec<Erratum> {
     errata(Some(&Specification::from_json("test", text).unwrap()))

@@ -1,11 +1,11 @@
 //! The list of errata: complete, in order, proved where it says so, and to the digits that are quoted for it.
 
 use rug::Rational;
-use sigmastar::enclosure::Truth;
-use sigmastar::errata::{Class, Erratum, Evidence, Kind, Relation, Side, errata};
-use sigmastar::number::parse_decimal;
-use sigmastar::report::ErrataReport;
-use sigmastar::report::document::{Block, Readable};
+use sigmastar_document::{Block, Readable};
+use sigmastar_exact::enclosure::Truth;
+use sigmastar_exact::number::parse_decimal;
+use sigmastar_paper::errata::ErrataReport;
+use sigmastar_paper::errata::{Class, Erratum, Evidence, Kind, Relation, Side, errata};
 
 /// The only evidence of an item whose statement contains the fragment.
 fn find<'l>(list: &'l [Erratum], id: &str, fragment: &str) -> &'l Evidence {

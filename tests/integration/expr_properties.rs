@@ -3,8 +3,10 @@
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rug::Rational;
-use sigmastar::enclosure::Enclosure;
-use sigmastar::expr::{BoundingFailure, Counterexample, Expr, ExprErrorKind, ProofSettings, Variables, prove_bounding};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::{
+    BoundingFailure, Counterexample, Expr, ExprErrorKind, ProofSettings, Variables, prove_bounding,
+};
 
 /// A random expression; `None` where it has a constant exponent beyond the limit.
 fn parse(text: &str) -> Option<Expr> {

@@ -1,10 +1,10 @@
 //! Proofs and refutations of bounding functions, through the public interface.
 
 use rug::Rational;
-use sigmastar::expr::{
+use sigmastar_exact::number::parse_decimal;
+use sigmastar_lang::expr::{
     BoundingFailure, Counterexample, Expr, ProofSettings, Property, Reason, Variables, prove_bounding,
 };
-use sigmastar::number::parse_decimal;
 
 fn prove(text: &str, x_max: &str, e_max: &str) -> Result<(), BoundingFailure> {
     let expr = Expr::parse(text, Variables::XAndE).unwrap();

@@ -3,12 +3,12 @@
 
 use assert_cmd::Command;
 use serde_json::{Map, Value, json};
-use sigmastar::certificate::{certificate_json, sampled_certificate_json};
-use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice, certify, certify_sampled, resolve};
-use sigmastar::plant::Plant;
-use sigmastar::regulator::read_regulator;
-use sigmastar::spec::{Document, SpecErrors, Specification};
-use sigmastar::sweep::Study;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Document, SpecErrors, Specification};
+use sigmastar_prove::certificate::{certificate_json, sampled_certificate_json};
+use sigmastar_prove::certify::{Derivation, Ladder, Options, TransferChoice, certify, certify_sampled, resolve};
+use sigmastar_regulator::read_regulator;
+use sigmastar_sweep::sweep::Study;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 

@@ -3,8 +3,10 @@
 use proptest::prelude::*;
 use rug::Rational;
 use rug::ops::Pow;
-use sigmastar::lmi::{DecayData, DecayProposal, propose_multipliers, propose_sigma, two_sided_threshold, verify_decay};
-use sigmastar::semidefinite::SolverFailure;
+use sigmastar_matrix::semidefinite::SolverFailure;
+use sigmastar_prove::lmi::{
+    DecayData, DecayProposal, propose_multipliers, propose_sigma, two_sided_threshold, verify_decay,
+};
 
 /// The closed form of C5, exactly: `D^2/(4 ht) + (w_x p k_f + k_x D/2)^2/(4A - ht k_x^2)` with
 /// D = max{|1 + ht m|, |1 - ht k_l|}; also ht, D and the worst xi for et = 1.

@@ -2,9 +2,9 @@
 
 use crate::support::{Shipped, certified};
 use rug::Rational;
-use sigmastar::data::Data;
-use sigmastar::derivation::sharp::SharpWitness;
-use sigmastar::lmi::cross_check;
+use sigmastar_prove::lmi::cross_check;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::sharp::SharpWitness;
 
 #[test]
 fn the_matrix_inequality_confirms_every_certificate() {

@@ -2,9 +2,9 @@
 
 use crate::support::count;
 use proptest::prelude::*;
-use sigmastar::expr::{Expr, Variables};
-use sigmastar::lyapunov::{Candidates, LyapunovFailure, candidates, floquet_exponents};
-use sigmastar::spec::model::{Constant, Jacobian, JacobianEntry};
+use sigmastar_lang::expr::{Expr, Variables};
+use sigmastar_lang::spec::model::{Constant, Jacobian, JacobianEntry};
+use sigmastar_plants::lyapunov::{Candidates, LyapunovFailure, candidates, floquet_exponents};
 
 fn constant(text: &str) -> Constant {
     let expr = Expr::parse(text, Variables::None).expect("a constant");

@@ -2,9 +2,9 @@
 
 use crate::mutants;
 use crate::support::cases;
-use sigmastar::certificate::certificate_json;
-use sigmastar::certify::{Derivation, Options, TransferChoice, certify, resolve};
-use sigmastar::spec::Specification;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certificate::certificate_json;
+use sigmastar_prove::certify::{Derivation, Options, TransferChoice, certify, resolve};
 
 /// Seeds of an ordinary run, and of a night; `SIGMASTAR_CASES=0..3000 cargo test --release --test integration mutated` takes
 /// others.

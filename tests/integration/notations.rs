@@ -6,9 +6,11 @@ use predicates::str::{contains, is_empty};
 use proptest::prelude::*;
 use rug::Rational;
 use serde_json::Value;
-use sigmastar::plant::Plant;
-use sigmastar::spec::{Document, ErrorKind, Errors, MAX_NESTING, MAX_VALUES, Notation, Specification, any_constant};
-use sigmastar::sweep::{Study, Sweep};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{
+    Document, ErrorKind, Errors, MAX_NESTING, MAX_VALUES, Notation, Specification, any_constant,
+};
+use sigmastar_sweep::sweep::{Study, Sweep};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -474,7 +476,7 @@ fn templates_certify_as_they_stand() {
         let text = text.replace("// \"$schema\"", "\"$schema\"");
         let document = read(&text, Notation::JsonWithComments).root().to_json();
         let schema =
-            if kind == "spec" { sigmastar::schema::Schema::Specification } else { sigmastar::schema::Schema::Plant };
+            if kind == "spec" { sigmastar_schema::Schema::Specification } else { sigmastar_schema::Schema::Plant };
         assert!(crate::validator::Validator::new(&schema.json()).is_valid(&document), "{kind}");
         assert!(document["$schema"].is_string());
     }

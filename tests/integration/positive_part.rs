@@ -1,11 +1,11 @@
 //! A bounding function enters by its positive part: a sign that rounding hides is no obstacle, a negative value is one.
 
-use sigmastar::certify::{Options, Refusal, Verdict, certify};
-use sigmastar::data::{Bound, Data, Problem};
-use sigmastar::expr::{BoundingFailure, Property};
-use sigmastar::search::FloatModel;
-use sigmastar::spec::Specification;
-use sigmastar::transfer::TradeOff;
+use sigmastar_lang::expr::{BoundingFailure, Property};
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certify::{Options, Refusal, Verdict, certify};
+use sigmastar_prove::search::FloatModel;
+use sigmastar_theory::data::{Bound, Data, Problem};
+use sigmastar_theory::transfer::TradeOff;
 
 fn spec(f: &str, f_e: &str) -> Specification {
     let text = format!(

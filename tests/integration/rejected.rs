@@ -1,17 +1,17 @@
 //! Each condition refused by itself: a witness with room in every condition, and one number changed.
 
 use rug::Rational;
-use sigmastar::certify::{Ladder, decide, decide_exact};
-use sigmastar::data::Data;
-use sigmastar::derivation::consequences::{Psi, error_bounds, smallest_n_o};
-use sigmastar::derivation::exact_regulation::ExactWitness;
-use sigmastar::derivation::initial_set::ClaimedSet;
-use sigmastar::derivation::mean_squares::MeanSquares;
-use sigmastar::derivation::repaired::RepairedWitness;
-use sigmastar::derivation::sharp::SharpWitness;
-use sigmastar::enclosure::{Enclosure, Truth};
-use sigmastar::spec::Specification;
-use sigmastar::transfer::TransferProof;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certify::{Ladder, decide, decide_exact};
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::consequences::{Psi, error_bounds, smallest_n_o};
+use sigmastar_theory::derivation::exact_regulation::ExactWitness;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::mean_squares::MeanSquares;
+use sigmastar_theory::derivation::repaired::RepairedWitness;
+use sigmastar_theory::derivation::sharp::SharpWitness;
+use sigmastar_theory::transfer::TransferProof;
 use std::collections::BTreeSet;
 
 const TEXT: &str = r#"{"format": "sigmastar/bounding-spec", "version": 1, "name": "roomy", "period": "1",

@@ -3,15 +3,15 @@
 use crate::support::{files, json, program, stem, utf8};
 use rug::Rational;
 use serde_json::{Value, json as object};
-use sigmastar::certificate::{StatedClaim, is_sampled, read_claim, read_witness, sampled_certificate_json};
-use sigmastar::certify::{
+use sigmastar_exact::number::{Direction, parse_decimal, round_rational, write_exact};
+use sigmastar_lang::spec::{Document, ErrorKind, Sampling, Specification};
+use sigmastar_prove::certificate::{StatedClaim, is_sampled, read_claim, read_witness, sampled_certificate_json};
+use sigmastar_prove::certify::{
     Ladder, Options, SampledCertification, Verdict, certify, certify_at, certify_sampled, recheck_sampled, with_triple,
 };
-use sigmastar::derivation::condition::Condition;
-use sigmastar::derivation::sampled::SampledWitness;
-use sigmastar::number::{Direction, parse_decimal, round_rational, write_exact};
-use sigmastar::reduction::FreeNumbers;
-use sigmastar::spec::{Document, ErrorKind, Sampling, Specification};
+use sigmastar_prove::reduction::FreeNumbers;
+use sigmastar_theory::derivation::condition::Condition;
+use sigmastar_theory::derivation::sampled::SampledWitness;
 
 const AT_REST: &str = "specs/paper-example-rms-at-rest.json";
 const AT_REST_TEXT: &str = include_str!("../../specs/paper-example-rms-at-rest.json");

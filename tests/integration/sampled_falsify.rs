@@ -2,12 +2,12 @@
 
 use crate::support::{EXAMPLE_TEXT, every, json, program};
 use serde_json::Value;
-use sigmastar::certificate::sampled_certificate_json;
-use sigmastar::certify::{Ladder, certify_sampled};
-use sigmastar::falsify::{Falsification, Finding, TrialSettings, TriedClaim, falsify};
-use sigmastar::number::parse_decimal;
-use sigmastar::progress::Silent;
-use sigmastar::spec::{Document, Specification};
+use sigmastar_document::progress::Silent;
+use sigmastar_exact::number::parse_decimal;
+use sigmastar_lab::falsify::{Falsification, Finding, TrialSettings, TriedClaim, falsify};
+use sigmastar_lang::spec::{Document, Specification};
+use sigmastar_prove::certificate::sampled_certificate_json;
+use sigmastar_prove::certify::{Ladder, certify_sampled};
 use std::sync::LazyLock;
 
 /// The samples of a period of the certificate, which the paper's example has at this gain.

@@ -5,8 +5,8 @@ use crate::controller::{constant, example};
 use crate::support::every;
 use faer::Mat;
 use proptest::prelude::*;
-use sigmastar::regulator::{Convergence, Design, Discrete, Regulator, Stepper, spectral_radius};
-use sigmastar::spec::{Constant, InternalModel};
+use sigmastar_lang::spec::{Constant, InternalModel};
+use sigmastar_regulator::{Convergence, Design, Discrete, Regulator, Stepper, spectral_radius};
 
 /// The internal model of the paper's example with another mu; T = 1.
 fn model(mu: &str) -> InternalModel {

@@ -3,13 +3,13 @@
 use crate::controller::constant;
 use crate::support::PLANT_TEXT;
 use nalgebra::{DMatrix, DVector};
-use sigmastar::plant::Plant;
-use sigmastar::progress::Silent;
-use sigmastar::regulator::{Design, Stepper};
-use sigmastar::simulate::{
+use sigmastar_document::progress::Silent;
+use sigmastar_lab::simulate::{
     ClosedLoop, Converters, SampledLoop, SampledRun, SampledSettings, SampledSteadyError, SteadyFigures, Tolerance,
     period_derivative, sampled_steady_state, simulate_sampled, steady_state,
 };
+use sigmastar_lang::plant::Plant;
+use sigmastar_regulator::{Design, Stepper};
 use std::f64::consts::TAU;
 
 /// The loop of a plant with its own internal model.

@@ -5,11 +5,11 @@ use crate::no_plant::{JACOBIAN, write};
 use crate::support::{ROOT, certify_all, files, program, stem, utf8};
 use crate::validator::Validator;
 use serde_json::{Map, Value, json};
-use sigmastar::certify::Derivation;
-use sigmastar::plant::Plant;
-use sigmastar::schema::Schema;
-use sigmastar::spec::{Document, SpecErrors, Specification};
-use sigmastar::sweep::Study;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Document, SpecErrors, Specification};
+use sigmastar_prove::certify::Derivation;
+use sigmastar_schema::Schema;
+use sigmastar_sweep::sweep::Study;
 use std::collections::BTreeSet;
 use std::path::Path;
 

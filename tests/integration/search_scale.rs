@@ -3,8 +3,8 @@
 use crate::mutants;
 use crate::support::{EXAMPLE_TEXT, every};
 use rug::Rational;
-use sigmastar::certify::{Derivation, Options, TransferChoice, certify};
-use sigmastar::spec::Specification;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certify::{Derivation, Options, TransferChoice, certify};
 
 /// A specification with a matched base frequency, or with the one given.
 fn spec(period: &str, mu: &str, q: &str, frequency: Option<&str>) -> Specification {

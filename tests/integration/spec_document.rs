@@ -2,7 +2,9 @@
 
 use crate::support::EXAMPLE_TEXT;
 use proptest::prelude::*;
-use sigmastar::spec::{Document, ErrorKind, Errors, MAX_BYTES, MAX_NESTING, MAX_VALUES, SpecErrors, Specification};
+use sigmastar_lang::spec::{
+    Document, ErrorKind, Errors, MAX_BYTES, MAX_NESTING, MAX_VALUES, SpecErrors, Specification,
+};
 
 fn refused(text: &str) -> SpecErrors {
     Document::parse("test.json", text).expect_err(text)

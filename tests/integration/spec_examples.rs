@@ -1,7 +1,7 @@
 //! The shipped specifications: the valid ones are read, the invalid ones are refused in the right place.
 
 use crate::support::{files, stem};
-use sigmastar::spec::{ErrorKind, Specification};
+use sigmastar_lang::spec::{ErrorKind, Specification};
 
 #[test]
 fn valid_examples_are_read() {

@@ -2,8 +2,8 @@
 
 use crate::support::EXAMPLE_TEXT;
 use rug::Rational;
-use sigmastar::number::parse_decimal;
-use sigmastar::spec::{Bound, Document, ErrorKind, InitialSet, SpecErrors, Specification, Weights};
+use sigmastar_exact::number::parse_decimal;
+use sigmastar_lang::spec::{Bound, Document, ErrorKind, InitialSet, SpecErrors, Specification, Weights};
 
 /// The example with one piece of its text replaced.
 fn with(old: &str, new: &str) -> Result<Specification, SpecErrors> {
@@ -192,7 +192,7 @@ fn initial_sets_have_their_own_fields() {
 fn relative_degree_takes_one_to_twenty_rationals() {
     let degree = |list: &str| format!("{SET}, \"relative_degree\": {{ \"a\": {list} }}");
     let a = read(SET, &degree("[\"1/3\", -2, \"sqrt(4)\"]")).relative_degree.expect("given").a;
-    let values: Vec<f64> = a.iter().map(sigmastar::spec::Constant::to_f64).collect();
+    let values: Vec<f64> = a.iter().map(sigmastar_lang::spec::Constant::to_f64).collect();
     assert_eq!(values, [1.0 / 3.0, -2.0, 2.0]);
     let list = |count: usize| format!("[{}]", vec!["1"; count].join(","));
     read(SET, &degree(&list(20)));

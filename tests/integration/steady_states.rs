@@ -1,13 +1,13 @@
 //! Steady states of the paper's example against an independent simulator and against long simulations.
 
 use crate::support::PLANT_TEXT;
-use sigmastar::plant::Plant;
-use sigmastar::progress::Silent;
-use sigmastar::regulator::Regulator;
-use sigmastar::simulate::{
+use sigmastar_document::progress::Silent;
+use sigmastar_lab::simulate::{
     ClosedLoop, Disturbance, FixedStep, SteadyFigures, SteadyState, SteadyStateError, Tolerance, flow, steady_state,
     trajectory,
 };
+use sigmastar_lang::plant::Plant;
+use sigmastar_regulator::Regulator;
 use std::f64::consts::TAU;
 
 fn example() -> Plant {

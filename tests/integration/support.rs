@@ -3,9 +3,9 @@
 use assert_cmd::Command;
 use rayon::prelude::*;
 use serde_json::Value;
-use sigmastar::certificate::certificate_json;
-use sigmastar::certify::{Certification, Derivation, Options, certify, resolve};
-use sigmastar::spec::Specification;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certificate::certificate_json;
+use sigmastar_prove::certify::{Certification, Derivation, Options, certify, resolve};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};

@@ -3,8 +3,8 @@
 use crate::support::{ROOT, program, utf8};
 use predicates::str::contains;
 use serde_json::{Value, json};
-use sigmastar::spec::{Document, ErrorKind};
-use sigmastar::sweep::{Results, Study, Sweep};
+use sigmastar_lang::spec::{Document, ErrorKind};
+use sigmastar_sweep::sweep::{Results, Study, Sweep};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;

@@ -2,11 +2,11 @@
 
 use rug::ops::Pow;
 use rug::{Float, Rational};
-use sigmastar::data::Data;
-use sigmastar::enclosure::Truth;
-use sigmastar::number::{Direction, round_rational};
-use sigmastar::spec::Specification;
-use sigmastar::transfer::{BoxProof, TradeOff, TransferProof, closed_form_pair, decide};
+use sigmastar_exact::enclosure::Truth;
+use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::transfer::{BoxProof, TradeOff, TransferProof, closed_form_pair, decide};
 
 const BITS: u32 = 200;
 
@@ -75,7 +75,7 @@ fn transfer(n: &dyn Fn(u32) -> Float, poles: u32, x: &Float, nu: &Float) -> Floa
     slope / (scaled + 1u32)
 }
 
-fn up(value: &sigmastar::enclosure::Enclosure) -> Rational {
+fn up(value: &sigmastar_exact::enclosure::Enclosure) -> Rational {
     round_rational(&value.upper_rational().unwrap(), 8, Direction::Up)
 }
 

@@ -3,11 +3,11 @@
 use rug::float::Constant;
 use rug::ops::Pow;
 use rug::{Float, Rational};
-use sigmastar::data::Data;
-use sigmastar::enclosure::Enclosure;
-use sigmastar::number::parse_decimal;
-use sigmastar::spec::Specification;
-use sigmastar::transfer::{
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::parse_decimal;
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::transfer::{
     MAX_DIRECT_POLES, MAX_POLE_OSCILLATORS, OscillatorCount, PoleSums, PolesError, internal_model_poles, slowest_decay,
     transfer_from_poles,
 };

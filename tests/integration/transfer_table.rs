@@ -5,10 +5,10 @@ use rand::{Rng, SeedableRng};
 use rayon::prelude::*;
 use rug::ops::Pow;
 use rug::{Float, Rational};
-use sigmastar::data::Data;
-use sigmastar::enclosure::Truth;
-use sigmastar::spec::Specification;
-use sigmastar::transfer::{BoxProof, CertifiedPair, PairStatus, pair_status, smallest_k1};
+use sigmastar_exact::enclosure::Truth;
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::transfer::{BoxProof, CertifiedPair, PairStatus, pair_status, smallest_k1};
 
 const BITS: u32 = 200;
 

@@ -5,10 +5,10 @@ use crate::support::{Shipped, certificate, certified, certify_all, options, spec
 use rayon::prelude::*;
 use rug::{Float, Rational};
 use serde_json::Value;
-use sigmastar::certificate::{certificate_json, read_witness};
-use sigmastar::certify::{Certification, Derivation, Options, TransferChoice, Verdict, certify, recheck};
-use sigmastar::derivation::condition::Condition;
-use sigmastar::spec::{Document, Specification};
+use sigmastar_lang::spec::{Document, Specification};
+use sigmastar_prove::certificate::{certificate_json, read_witness};
+use sigmastar_prove::certify::{Certification, Derivation, Options, TransferChoice, Verdict, certify, recheck};
+use sigmastar_theory::derivation::condition::Condition;
 use std::sync::LazyLock;
 
 const SPECS: [&str; 13] = [
@@ -115,7 +115,7 @@ fn swapped(certificate: &Value) -> Vec<(String, Value)> {
 
 /// The enclosure of a side contains the plain value, up to the rounding of the latter.
 fn encloses(condition: &Condition, plain: &Plain) -> bool {
-    let near = |side: &sigmastar::enclosure::Enclosure, value: &R| {
+    let near = |side: &sigmastar_exact::enclosure::Enclosure, value: &R| {
         if !side.is_defined() {
             return true;
         }

@@ -3,8 +3,8 @@
 use super::Replace;
 use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
-use sigmastar::certify::{Derivation, Ladder, Options, TransferChoice};
-use sigmastar::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use sigmastar_prove::certify::{Derivation, Ladder, Options, TransferChoice};
 use std::path::PathBuf;
 
 /// The flags of `certify`.

@@ -2,7 +2,7 @@
 
 use super::Replace;
 use clap::{Args, ValueEnum, ValueHint};
-use sigmastar::schema::Schema;
+use sigmastar_schema::Schema;
 use std::path::PathBuf;
 
 /// The flags of `schema`.

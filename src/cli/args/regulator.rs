@@ -4,8 +4,8 @@ use super::Replace;
 use crate::cli::counts::one_count;
 use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
-use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
-use sigmastar::simulate::MAX_FIXED_STEPS;
+use sigmastar_lab::simulate::MAX_FIXED_STEPS;
+use sigmastar_regulator::MAX_EXPORTED_OSCILLATORS;
 use std::path::PathBuf;
 
 /// The most oscillators of a simulation.

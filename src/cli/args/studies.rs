@@ -4,8 +4,8 @@ use super::Replace;
 use crate::cli::counts::one_count;
 use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
-use sigmastar::regulator::MAX_EXPORTED_OSCILLATORS;
-use sigmastar::tune::MAX_TRIES;
+use sigmastar_regulator::MAX_EXPORTED_OSCILLATORS;
+use sigmastar_sweep::tune::MAX_TRIES;
 use std::path::PathBuf;
 
 /// The flags of `sweep`.

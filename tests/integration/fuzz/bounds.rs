@@ -5,7 +5,7 @@ use super::{cases, random};
 use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::Rational;
-use sigmastar::bounds::{Entry, FloatSuprema, Kind};
+use sigmastar_plants::bounds::{Entry, FloatSuprema, Kind};
 
 /// Below a value that is met, and well above what is sampled.
 const BELOW: f64 = -0.001;

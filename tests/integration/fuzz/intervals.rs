@@ -8,7 +8,7 @@ use rand::rngs::StdRng;
 use rug::float::{Constant, Round, Special};
 use rug::ops::Pow;
 use rug::{Float, Integer};
-use sigmastar::enclosure::Enclosure;
+use sigmastar_exact::enclosure::Enclosure;
 
 /// Bits of the reference values.
 const REFERENCE: u32 = 400;

@@ -5,8 +5,8 @@ use proofs_check::expr::ARGUMENTS;
 use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::Rational;
-use sigmastar::enclosure::Enclosure;
-use sigmastar::expr::{Expr, ProofSettings, Variables, prove_bounding};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::{Expr, ProofSettings, Variables, prove_bounding};
 
 /// Bits of the values that are compared.
 const PRECISION: u32 = 300;

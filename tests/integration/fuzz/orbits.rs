@@ -5,11 +5,11 @@ use super::plants::{Drawn, rational};
 use super::{cases, random};
 use rand::RngExt;
 use rug::Rational;
-use sigmastar::enclosure::Enclosure;
-use sigmastar::expr::{Enclosing, Formulas, PlantExpr};
-use sigmastar::matrix::inverse;
-use sigmastar::orbit::{OrbitProof, decide_forcing, decide_orbit};
-use sigmastar::spec::{ProvedForcing, TrigonometricVector};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::{Enclosing, Formulas, PlantExpr};
+use sigmastar_lang::spec::{ProvedForcing, TrigonometricVector};
+use sigmastar_matrix::inverse;
+use sigmastar_plants::orbit::{OrbitProof, decide_forcing, decide_orbit};
 
 const PRECISION: u32 = 128;
 

@@ -6,8 +6,8 @@ use proofs_check::json::{Field, Json};
 use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::Rational;
-use sigmastar::enclosure::Enclosure;
-use sigmastar::expr::{Enclosing, Expr, Formulas, PlantExpr, PlantNames, Variables};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::{Enclosing, Expr, Formulas, PlantExpr, PlantNames, Variables};
 
 const PRECISION: u32 = 200;
 

@@ -13,11 +13,11 @@ use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::{Float, Rational};
 use serde_json::{Value, json};
-use sigmastar::bounds::{Engine, FloatCurve, FloatSuprema, Kind, Region};
-use sigmastar::number::{parse_decimal, write_exact};
-use sigmastar::orbit::{Coordinates, OrbitProof};
-use sigmastar::plant::Plant;
-use sigmastar::spec::{PeriodicMatrix, TrigonometricVector};
+use sigmastar_exact::number::{parse_decimal, write_exact};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
+use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Kind, Region};
+use sigmastar_plants::orbit::{Coordinates, OrbitProof};
 
 /// Bounds of the P(t) that are drawn, and the sizes of their parts.
 const BETWEEN: [&str; 2] = ["0.65", "1.35"];

@@ -8,9 +8,9 @@ pub use number::{BITS, R, r};
 use rug::ops::Pow;
 use rug::{Float, Rational};
 use serde_json::Value;
-use sigmastar::enclosure::Enclosure;
-use sigmastar::expr::Expr;
-use sigmastar::spec::{Bound, Constant, InitialSet, Specification, Weights};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::Expr;
+use sigmastar_lang::spec::{Bound, Constant, InitialSet, Specification, Weights};
 
 /// One condition: its identifier, both sides, and whether it holds.
 pub struct Plain {

@@ -1,0 +1,187 @@
+//! Blocks as HTML. Whatever is text is escaped by the template library; only figures are markup already.
+
+use super::parts::Anchors;
+use crate::block::{Align, Block, Column, Table};
+use crate::plot::PlotError;
+use crate::text::RELATIONS;
+use maud::{Markup, PreEscaped, Render, html};
+
+/// The end of a line, so that the file can be read as text too.
+pub(super) const LINE: PreEscaped<&str> = PreEscaped("\n");
+
+/// The blocks of a part, without what starts parts.
+pub(super) fn body(blocks: &[Block], anchors: &mut Anchors) -> Markup {
+    html! { @for block in blocks { (one(block, anchors)) (LINE) } }
+}
+
+fn one(block: &Block, anchors: &mut Anchors) -> Markup {
+    match block {
+        Block::Title(title) | Block::Heading(title) | Block::Aside(title) | Block::Subheading(title) => {
+            let anchor = anchors.name(title);
+            html! { h3 id=(anchor) { (title) (link(title, &anchor)) } }
+        }
+        Block::Verdict(text) => html! { p .verdict { (Inline(text)) } },
+        Block::Paragraph(text) => html! { p { (Inline(text)) } },
+        Block::List(_) | Block::Figures(_) => {
+            html! { ul { @for item in block.items() { (LINE) li { (Inline(&item)) } } } }
+        }
+        Block::Facts(facts) => html! {
+            dl { @for (name, said) in facts { (LINE) dt { (Inline(name)) } dd { (Inline(said)) } } }
+        },
+        Block::Table(table) => grid(table),
+        Block::Drawing(figure) => drawing(&figure.title, figure.svg()),
+        Block::Bars(bars) => drawing(&bars.title, bars.svg()),
+        Block::Detail => html! {},
+        Block::Code(lines) => html! { pre tabindex="0" { (lines.trim_end()) } },
+    }
+}
+
+/// The link of a title to itself.
+pub(super) fn link(title: &str, anchor: &str) -> Markup {
+    html! { a .anchor href={ "#" (anchor) } aria-label={ "Link to: " (title) } { "#" } }
+}
+
+/// A table that scrolls in itself where it is too wide.
+fn grid(table: &Table) -> Markup {
+    let place = |column: &Column| match column.align {
+        Align::Left => None,
+        Align::Right => Some("number"),
+    };
+    html! {
+        div .scroll tabindex="0" role="group" aria-label="Table" { table {
+            thead { tr { @for column in &table.columns {
+                @if column.title.is_empty() { td {} }
+                @else { th scope="col" class=[place(column)] { (Inline(&column.title)) } }
+            } } }
+            tbody { @for row in &table.shown() { (LINE) tr {
+                @for (at, (cell, column)) in row.iter().zip(&table.columns).enumerate() {
+                    // A first column of words says what its row is.
+                    @if at == 0 && column.align == Align::Left && !cell.is_empty() { th scope="row" { (Inline(cell)) } }
+                    @else { td class=[place(column)] { (Inline(cell)) } }
+                }
+            } } }
+        } }
+    }
+}
+
+/// A figure within the page, or why there is none.
+fn drawing(title: &str, svg: Result<String, PlotError>) -> Markup {
+    match svg {
+        Ok(svg) => html! { figure tabindex="0" role="img" aria-label=(title) { (PreEscaped(inline(&svg))) } },
+        Err(error) => html! { p { "No figure: " (error.to_string()) "." } },
+    }
+}
+
+/// A file of SVG as a part of a page: there its name space is known.
+fn inline(svg: &str) -> String {
+    svg.trim().replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)
+}
+
+/// A text in which what stands between backticks is code (strangers' texts have no backticks, see `clean`).
+struct Inline<'t>(&'t str);
+
+impl Render for Inline<'_> {
+    fn render(&self) -> Markup {
+        let mut rest = self.0;
+        let mut pieces = Vec::new();
+        while let Some((text, code, after)) = next_code(rest) {
+            pieces.push((text, code));
+            rest = after;
+        }
+        html! { @for (text, code) in pieces { (kept(text)) code { (code) } } (kept(rest)) }
+    }
+}
+
+/// A text whose relations are not parted from their sides at the end of a line.
+fn kept(text: &str) -> String {
+    RELATIONS.iter().fold(text.to_owned(), |text, relation| {
+        // A line may end behind a bar even before such a space.
+        let text = text.replace(&format!("| {relation} "), &format!("|\u{2060} {relation} "));
+        text.replace(&format!(" {relation} "), &format!("\u{a0}{relation}\u{a0}"))
+    })
+}
+
+/// The text before the first code, that code, and the text after it.
+fn next_code(text: &str) -> Option<(&str, &str, &str)> {
+    let (before, rest) = text.split_once('`')?;
+    let (code, after) = rest.split_once('`')?;
+    Some((before, code, after))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::{Curve, Figure, Scale, Style};
+
+    fn written(blocks: &[Block]) -> String {
+        body(blocks, &mut Anchors::default()).into_string()
+    }
+
+    #[test]
+    fn text_is_no_markup() {
+        let hostile = "<script>\"&'</script>";
+        let escaped = "&lt;script&gt;&quot;&amp;'&lt;/script&gt;";
+        let mut table = Table::new(&["<", &format!("<{hostile}")]);
+        table.push([hostile, hostile].map(str::to_owned));
+        let code = format!("`{hostile}`");
+        for (block, times) in [
+            (Block::Title(hostile.to_owned()), 2),
+            (Block::Subheading(hostile.to_owned()), 2),
+            (Block::Verdict(hostile.to_owned()), 1),
+            (Block::says(hostile), 1),
+            (Block::says(code), 1),
+            (Block::List(vec![hostile.to_owned()]), 1),
+            (Block::Figures(vec![hostile.to_owned()]), 1),
+            (Block::facts([(hostile, hostile.to_owned())]), 2),
+            (Block::Table(table), 3),
+            (Block::Code(hostile.to_owned()), 1),
+        ] {
+            let text = written(&[block]);
+            assert_eq!((text.matches(escaped).count(), text.contains("<script")), (times, false), "{text}");
+        }
+    }
+
+    #[test]
+    fn backticks_are_code_in_pairs() {
+        assert_eq!(written(&[Block::says("a `b` c `d`")]), "<p>a <code>b</code> c <code>d</code></p>\n");
+        assert_eq!(written(&[Block::says("a ` b")]), "<p>a ` b</p>\n");
+    }
+
+    #[test]
+    fn relations_stay_with_their_sides() {
+        let text = written(&[Block::says("from |x| <= 1, a = b `c = d`")]);
+        assert_eq!(text, "<p>from |x|\u{2060}\u{a0}&lt;=\u{a0}1, a\u{a0}=\u{a0}b <code>c = d</code></p>\n");
+    }
+
+    #[test]
+    fn tables_know_their_edges() {
+        let mut table = Table::new(&["<name", "value"]);
+        table.push(["a", "1"].map(str::to_owned));
+        let text = written(&[Block::Table(table)]);
+        assert!(text.contains("<th scope=\"col\">name</th><th scope=\"col\" class=\"number\">value</th>"), "{text}");
+        assert!(text.contains("<tr><th scope=\"row\">a</th><td class=\"number\">1</td></tr>"), "{text}");
+    }
+
+    #[test]
+    fn figures_are_in_the_page_or_said_to_be_missing() {
+        let figure = |y: f64| {
+            let curves = vec![Curve { label: "<b>".to_owned(), points: vec![(0.0, y), (1.0, y)], style: Style::Line }];
+            let text = |text: &str| text.to_owned();
+            Block::Drawing(Figure {
+                title: text("<i>"),
+                x: text("x"),
+                y: text("y"),
+                scale: Scale::Linear,
+                floor: 0.0,
+                curves,
+            })
+        };
+        let text = written(&[figure(1.0)]);
+        assert!(
+            text.contains("aria-label=\"&lt;i&gt;\"><svg width=\"820\"") && text.ends_with("</svg></figure>\n"),
+            "{text}"
+        );
+        assert!(text.contains("&lt;b&gt;") && !text.contains("<b>") && !text.contains("http"), "{text}");
+        assert_eq!(written(&[figure(f64::NAN)]), "<p>No figure: the figure `&lt;i&gt;` has no finite points.</p>\n");
+    }
+}

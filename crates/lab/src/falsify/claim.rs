@@ -1,0 +1,168 @@
+//! What a certificate claims, as a simulation can check it.
+
+use super::frame::OwnPlant;
+use super::sampled_claim::SampledClaim;
+use rug::Rational;
+use sigmastar_exact::enclosure::DEFAULT_PRECISION;
+use sigmastar_lang::spec::{Constant, Document, SpecErrors, Specification};
+use sigmastar_prove::certificate::{StatedClaim, read_claim};
+use sigmastar_prove::certify::{Derivation, GivenWitness};
+use sigmastar_prove::reduction::FreeNumbers;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds};
+use sigmastar_theory::derivation::existence::PeriodicBounds;
+use sigmastar_theory::derivation::sharp::SharpEvaluation;
+
+/// The claim of a certificate in double precision.
+#[derive(Clone, Debug)]
+pub struct TriedClaim {
+    /// The specification inside the certificate, with its triple where that is proved by the witness.
+    pub spec: Specification,
+    /// The derivation that the claim rests on.
+    pub derivation: Derivation,
+    /// sigma*.
+    pub sigma: f64,
+    /// X0, E0, Z0: the initial set.
+    pub initial: [f64; 3],
+    /// Bounds of sup|x|, sup|e| and sup|zeta|_N along the periodic solution: the smaller of the claim's and the
+    /// witness's.
+    pub periodic: [f64; 3],
+    /// The bound of sup|z|_N along the periodic solution.
+    pub periodic_z: f64,
+    /// D_x, D_e: the error box.
+    pub error_box: [f64; 2],
+    /// w_x P_low, w_x P_up and h of the Lyapunov function w_x x'P_x x + e^2 + h z'N z in error coordinates, where the
+    /// derivation has one of this form.
+    pub lyapunov: Option<[f64; 3]>,
+    /// psi_1 and psi_x: sup|e| <= psi_1/sigma and sup|x| <= psi_x/sigma, in continuous time.
+    pub psi: Option<[f64; 2]>,
+    /// The arguments up to which plants lie within the bounding functions: the domain, or what the claim rests on.
+    pub reach: [Rational; 2],
+    /// What drives the periodic error, and E_p.
+    drive: Option<(Excitation, Rational)>,
+    /// The plant that the claim is about, where it is about one; it is tried in the place of drawn ones.
+    pub own: Option<OwnPlant>,
+    /// The law at samples, where the claim is about it: then it is about exactly its gain.
+    pub sampled: Option<SampledClaim>,
+}
+
+impl TriedClaim {
+    /// The claim of a certificate, as [`read_claim`] reads it; the matrices that are drawn rest on its proved triple.
+    ///
+    /// # Errors
+    /// Those of [`read_claim`].
+    pub fn from_document(document: &Document) -> Result<TriedClaim, SpecErrors> {
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], plant } = read_claim(document)?;
+        let own = plant.zip(spec.plant()).and_then(|(plant, proved)| OwnPlant::new(plant, proved));
+        let data = Data::new(&spec, DEFAULT_PRECISION);
+        let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
+        let quadratic = |w_x: &Rational, h: &Rational| Some([w_x.to_f64() * p_low, w_x.to_f64() * p_up, h.to_f64()]);
+        let error_box = |w: [&Rational; 2]| w.map(Rational::to_f64);
+        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
+            FreeNumbers::Continuous(GivenWitness::Sharp { witness: w, .. }) => {
+                let lyapunov = quadratic(&w.w_x, &w.h);
+                (Derivation::Sharp, &w.sigma, &w.set, [&w.x_p, &w.e_p], error_box([&w.d_x, &w.d_e]), lyapunov)
+            }
+            FreeNumbers::Continuous(GivenWitness::Repaired { witness: w }) => {
+                let level = w.level.to_f64();
+                let radii = [(level / p_low).sqrt(), level.sqrt()];
+                (Derivation::Repaired, &w.sigma, &w.set, [&w.x, &w.e], radii, None)
+            }
+            FreeNumbers::Sampled(w) => {
+                let lyapunov = quadratic(&w.w_x, &w.eta);
+                (Derivation::Sharp, &w.sigma, &w.set, [&w.x_p, &w.e_p], error_box([&w.d_x, &w.d_e]), lyapunov)
+            }
+        };
+        let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
+        let initial = [&set.x0, &set.e0, &set.z0].map(Rational::to_f64);
+        let reach = reach(&spec, periodic, [x_p, e_p], error_box);
+        let excitation = match &witness {
+            FreeNumbers::Continuous(GivenWitness::Sharp { witness, .. }) => {
+                Some(SharpEvaluation::new(&data, witness).excitation)
+            }
+            FreeNumbers::Continuous(GivenWitness::Repaired { .. }) => {
+                let bounds = PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p));
+                Some(Excitation::by_contraction(&data, &bounds))
+            }
+            FreeNumbers::Sampled(_) => None,
+        };
+        let psi = excitation.as_ref().map(|excitation| {
+            let psi = Psi::new(&data, excitation);
+            [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]
+        });
+        let sampled = match &witness {
+            FreeNumbers::Sampled(witness) => Some(SampledClaim::new(witness)),
+            FreeNumbers::Continuous(_) => None,
+        };
+        let (sigma, drive) = (sigma.to_f64(), excitation.map(|excitation| (excitation, e_p.clone())));
+        Ok(TriedClaim {
+            spec,
+            derivation,
+            sigma,
+            initial,
+            periodic,
+            periodic_z,
+            error_box,
+            lyapunov,
+            psi,
+            reach,
+            drive,
+            own,
+            sampled,
+        })
+    }
+
+    /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*, for a matched base frequency.
+    #[must_use]
+    pub fn matched_bounds(&self, sigma: f64, n_o: u32) -> Option<[f64; 2]> {
+        if !self.spec.internal_model.matched {
+            return None;
+        }
+        let data = Data::new(&self.spec, DEFAULT_PRECISION);
+        let (excitation, e_p) = self.drive.as_ref()?;
+        let sigma = data.rational(&Rational::from_f64(sigma)?);
+        let ErrorBounds { rms, sup } = error_bounds(&data, excitation, &sigma, &data.rational(e_p), u64::from(n_o));
+        Some([rms.upper_f64(), sup.upper_f64()])
+    }
+
+    /// A claim about a specification that claims nothing, for tests of what is drawn.
+    #[cfg(test)]
+    pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> TriedClaim {
+        let reach = reach.map(|end| Rational::from_f64(end).unwrap());
+        let (drive, own) = (None, None);
+        let (initial, periodic, error_box) = ([0.0; 3], [0.0; 3], [0.0; 2]);
+        let (periodic_z, lyapunov, psi, sampled) = (0.0, None, None, None);
+        let derivation = Derivation::Sharp;
+        TriedClaim {
+            spec,
+            derivation,
+            sigma: 1.0,
+            initial,
+            periodic,
+            periodic_z,
+            error_box,
+            lyapunov,
+            psi,
+            reach,
+            drive,
+            own,
+            sampled,
+        }
+    }
+}
+
+/// The arguments up to which plants are to lie within the bounding functions.
+fn reach(spec: &Specification, periodic: [f64; 3], [x_p, e_p]: [&Rational; 2], error_box: [f64; 2]) -> [Rational; 2] {
+    match &spec.domain {
+        Some(domain) => [&domain.x, &domain.e].map(data_end),
+        // Rounded up: plants within the bounding functions on a larger box are within them on a smaller one.
+        None => [(periodic[0], x_p, error_box[0]), (periodic[1], e_p, error_box[1])].map(|(per, p, radius)| {
+            Rational::from_f64((per + radius).max(p.to_f64()) * 1.001).unwrap_or_else(|| Rational::from(1))
+        }),
+    }
+}
+
+/// The end of the domain, which the reader has seen to be positive and bounded.
+fn data_end(constant: &Constant) -> Rational {
+    constant.enclose(DEFAULT_PRECISION).upper_rational().unwrap_or_else(|| Rational::from(1))
+}

@@ -1,0 +1,48 @@
+//! The plant of a trial as a plant file, which anyone can simulate again.
+
+use super::claim::TriedClaim;
+use super::finding::{Trial, Violation};
+use serde_json::json;
+use sigmastar_document::clean;
+use sigmastar_lang::plant;
+use sigmastar_lang::spec::{Document, SpecErrors};
+
+/// The flags with which `simulate` shows a trial.
+#[must_use]
+pub fn flags(claim: &TriedClaim, trial: &Trial) -> String {
+    let plain = format!("--sigma {:?} --n-o {}", trial.sigma, trial.n_o);
+    match claim.sampled.as_ref().zip(trial.phase) {
+        None => plain,
+        Some((sampled, phase)) => format!("{plain} --sampled \"{}\" --phase {phase:?}", sampled.step.text),
+    }
+}
+
+/// The plant of a trial as a plant file with its initial condition, as a document.
+///
+/// # Errors
+/// None is known: the text is made here.
+pub fn counterexample_plant(
+    claim: &TriedClaim,
+    trial: &Trial,
+    violation: Option<&Violation>,
+) -> Result<Document, SpecErrors> {
+    let ((f, q), names) = (trial.plant.texts(), trial.plant.names());
+    let states = f.len();
+    let (x, rest) = trial.start.split_at(states);
+    let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
+    let found = violation.map_or_else(String::new, |violation| {
+        let Violation { quantity, bound, found } = violation;
+        format!("Counterexample: {quantity} is {found} where at most {bound} is claimed. ")
+    });
+    let description = format!("{found}Simulate it with {}.", flags(claim, trial));
+    let file = json!({
+        "format": plant::FORMAT, "version": 1,
+        "name": format!("Trial {} for {}", trial.number, clean(&claim.spec.name)),
+        "description": description,
+        "period": claim.spec.period.text,
+        "states": names, "f": f, "q": q,
+        "initial": { "x": x, "e": e, "z": z },
+        "internal_model": claim.spec.document["internal_model"],
+    });
+    Document::parse("trial", &format!("{file:#}\n"))
+}

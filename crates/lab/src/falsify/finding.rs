@@ -1,0 +1,160 @@
+//! What a trial is about, and what became of it.
+
+use super::family::DrawnPlant;
+use sigmastar_lang::plant::Plant;
+
+/// Which trials, from which seed.
+#[derive(Clone, Copy, Debug)]
+pub struct TrialSettings {
+    /// The number of trials.
+    pub trials: u64,
+    /// The seed; trial k uses it and k only.
+    pub seed: u64,
+    /// The only trial that is run, where it is not all of them.
+    pub only: Option<u64>,
+}
+
+impl TrialSettings {
+    /// The numbers of the trials that are run, from 1.
+    pub(super) fn numbers(self) -> Vec<u64> {
+        self.only.map_or_else(|| (1..=self.trials).collect(), |only| vec![only])
+    }
+}
+
+/// The plant of a trial.
+#[derive(Clone, Debug)]
+pub enum TriedPlant {
+    /// Drawn within the families of a claim.
+    Drawn(Box<DrawnPlant>),
+    /// The plant that the claim is about.
+    Own(Box<Plant>),
+}
+
+impl TriedPlant {
+    /// The names of the states.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        match self {
+            TriedPlant::Drawn(plant) => (1..=plant.family.states()).map(|i| format!("x{i}")).collect(),
+            TriedPlant::Own(plant) => plant.names.states().to_vec(),
+        }
+    }
+
+    /// f and q as expressions.
+    #[must_use]
+    pub fn texts(&self) -> (Vec<String>, String) {
+        match self {
+            TriedPlant::Drawn(plant) => plant.family.texts(),
+            TriedPlant::Own(plant) => (plant.f.iter().map(ToString::to_string).collect(), plant.q.to_string()),
+        }
+    }
+}
+
+/// What a trial is about.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// Its number, from 1.
+    pub number: u64,
+    /// The plant.
+    pub plant: TriedPlant,
+    /// sigma, a little above sigma*; of the law at samples exactly the claimed one.
+    pub sigma: f64,
+    /// n_o.
+    pub n_o: u32,
+    /// x, e, z at the start, on the boundary of the initial set.
+    pub start: Vec<f64>,
+    /// With the law at samples the time of the first sample, where the trial starts: the phase of the sampling grid.
+    pub phase: Option<f64>,
+}
+
+/// A bound that does not hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Violation {
+    /// What was bounded.
+    pub quantity: &'static str,
+    /// By what.
+    pub bound: f64,
+    /// What it is.
+    pub found: f64,
+}
+
+/// What became of a trial.
+#[derive(Clone, Debug)]
+pub enum Finding {
+    /// Every bound holds.
+    Holds {
+        /// What was tried.
+        trial: Box<Trial>,
+        /// For each quantity the found value over the bound.
+        shares: Vec<(&'static str, f64)>,
+    },
+    /// A bound does not hold.
+    Violated(Box<Trial>, Violation),
+    /// No plant fits, or the simulation could not be finished for a reason that is no violation.
+    Unfinished(String),
+}
+
+/// The quantity that is below 1 where the periodic solution is stable.
+pub(super) const MULTIPLIER: &str = "largest Floquet multiplier";
+
+/// The quantity that is 1 at the start where P_low = P_up.
+pub(super) const LYAPUNOV: &str = "Lyapunov function on the way, against its start";
+
+/// The trial that came closest to a bound, of those in which every bound holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Closest<'f> {
+    /// What is bounded.
+    pub quantity: &'static str,
+    /// The found value over the bound.
+    pub share: f64,
+    /// The first trial with this share.
+    pub trial: &'f Trial,
+    /// All shares of that trial.
+    pub shares: &'f [(&'static str, f64)],
+}
+
+/// What became of all trials, in their order.
+#[derive(Clone, Debug)]
+pub struct Falsification {
+    /// What was asked for.
+    pub settings: TrialSettings,
+    /// One finding for each trial.
+    pub findings: Vec<Finding>,
+}
+
+impl Falsification {
+    /// For each quantity the trial that came closest to its bound, in the order in which quantities are checked.
+    #[must_use]
+    pub fn closest(&self) -> Vec<Closest<'_>> {
+        let mut all: Vec<Closest<'_>> = Vec::new();
+        for finding in &self.findings {
+            let Finding::Holds { trial, shares } = finding else { continue };
+            for &(quantity, share) in shares {
+                let here = Closest { quantity, share, trial, shares };
+                match all.iter_mut().find(|closest| closest.quantity == quantity) {
+                    Some(closest) if closest.share < share => *closest = here,
+                    Some(_) => {}
+                    None => all.push(here),
+                }
+            }
+        }
+        all
+    }
+
+    /// The trial that came closest to a bound of a size: the worst plant that was found. The multiplier, which tends to 1
+    /// with n_o, and the Lyapunov function, which starts at its bound, are close to theirs with any plant.
+    #[must_use]
+    pub fn worst(&self) -> Option<Closest<'_>> {
+        let sizes = self.closest().into_iter().filter(|closest| ![MULTIPLIER, LYAPUNOV].contains(&closest.quantity));
+        sizes.reduce(|a, b| if a.share < b.share { b } else { a })
+    }
+
+    /// The first violation.
+    #[must_use]
+    pub fn counterexample(&self) -> Option<(&Trial, &Violation)> {
+        self.findings.iter().find_map(|finding| match finding {
+            Finding::Violated(trial, violation) => Some((&**trial, violation)),
+            _ => None,
+        })
+    }
+}

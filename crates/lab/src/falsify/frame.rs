@@ -1,0 +1,78 @@
+//! The norm of a claim about one plant: deviations `y = L^-1 (x - x_0(t))` (derivation, 11).
+
+use nalgebra::{DMatrix, DVector};
+use rug::Rational;
+use sigmastar_exact::number::Portable;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{OfPlant, TrigonometricVector};
+use std::f64::consts::TAU;
+
+/// How far above sigma* a trial is.
+pub(super) const ABOVE: f64 = 1.0 + 1e-6;
+
+/// A plant of its own, and the coordinates of the claim about it.
+#[derive(Clone, Debug)]
+pub struct OwnPlant {
+    /// The plant.
+    pub plant: Plant,
+    coordinates: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+    mean: DVector<f64>,
+    harmonics: Vec<[DVector<f64>; 2]>,
+    /// How far x_0 may be from the approximation, in the norm of y.
+    radius: f64,
+}
+
+impl OwnPlant {
+    /// The plant of a certificate; `None` where its L is singular in floating point.
+    #[must_use]
+    pub fn new(plant: Plant, proved: &OfPlant) -> Option<OwnPlant> {
+        let n = proved.states();
+        let coordinates = DMatrix::from_fn(n, n, |i, j| proved.coordinates[i][j].to_f64());
+        let inverse = if n == 0 { coordinates.clone() } else { coordinates.clone().try_inverse()? };
+        let vector = |values: &[Rational]| DVector::from_iterator(n, values.iter().map(Rational::to_f64));
+        let TrigonometricVector { mean, harmonics } = &proved.orbit.approximation;
+        let harmonics = harmonics.iter().map(|pair| pair.each_ref().map(|part| vector(part))).collect();
+        let radius = proved.orbit.radius.to_f64();
+        Some(OwnPlant { plant, coordinates, inverse, mean: vector(mean), harmonics, radius })
+    }
+
+    /// xb at t = s T.
+    fn orbit(&self, s: f64) -> DVector<f64> {
+        let mut x = self.mean.clone();
+        for (k, [cos, sin]) in (1..).zip(&self.harmonics) {
+            let (sine, cosine) = libm::sincos(TAU * (f64::from(k) * s).fract());
+            x += cos * cosine + sin * sine;
+        }
+        x
+    }
+
+    /// The state with this deviation at t = s T.
+    pub(super) fn state(&self, s: f64, y: &[f64]) -> Vec<f64> {
+        (self.orbit(s) + &self.coordinates * DVector::from_column_slice(y)).as_slice().to_vec()
+    }
+
+    /// |y| of a state at t = s T, at least: the approximation of the orbit is taken, and what it may be away from x_0 left out.
+    pub(super) fn distance(&self, s: f64, x: &[f64]) -> f64 {
+        (self.norm((DVector::from_column_slice(x) - self.orbit(s)).as_slice()) - self.radius).max(0.0)
+    }
+
+    /// The largest |y| of a difference of two states whose components are at most 1.
+    pub(super) fn spread(&self) -> f64 {
+        self.inverse.row_iter().map(|row| row.abs().sum().portable_powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// |y| of a difference of two states.
+    pub(super) fn norm(&self, difference: &[f64]) -> f64 {
+        (&self.inverse * DVector::from_column_slice(difference)).norm()
+    }
+
+    /// Gains of the trials, as multiples of sigma*: just above it, and well above it.
+    pub(super) fn gain(trial: u64) -> f64 {
+        match trial % 3 {
+            1 => ABOVE,
+            2 => 1.5,
+            _ => 10f64.portable_pow(0.75),
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! What is said about the trials.
+
+use super::claim::TriedClaim;
+use super::counterexample::counterexample_plant;
+use super::finding::{Closest, Falsification, Finding, Trial};
+use serde_json::{Value, json};
+use sigmastar_document::plot::Bars;
+use sigmastar_document::{Block, Readable, Table, clean};
+use sigmastar_exact::number::{Direction, round_f64, told_apart, write_exact};
+
+/// The report on the trials of a certificate, and of those at other base frequencies.
+pub struct FalsificationReport<'r> {
+    /// The claims that were tried, the certificate's own first.
+    pub tried: &'r [(TriedClaim, Falsification)],
+}
+
+impl Readable for FalsificationReport<'_> {
+    fn blocks(&self) -> Vec<Block> {
+        self.tried.iter().flat_map(|(claim, outcome)| blocks(claim, outcome)).collect()
+    }
+
+    /// As JSON: `{"format": "sigmastar/falsification", "version": 1, ...}`, with the reports on other base frequencies in
+    /// a field of their own.
+    fn json(&self) -> Value {
+        let mut reports = self.tried.iter().map(|(claim, outcome)| json(claim, outcome));
+        let mut first = reports.next().unwrap_or_default();
+        let others: Vec<Value> = reports.collect();
+        if !others.is_empty() {
+            first["other_base_frequencies"] = others.into();
+        }
+        first
+    }
+}
+
+fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
+    let mut blocks = vec![Block::Title(format!("{}: falsification", clean(&claim.spec.name)))];
+    let (mut held, mut unfinished) = (0, Vec::new());
+    for finding in &outcome.findings {
+        match finding {
+            Finding::Holds { .. } => held += 1,
+            Finding::Unfinished(why) => unfinished.push(why.as_str()),
+            Finding::Violated(..) => {}
+        }
+    }
+    let violated = outcome.findings.len() - held - unfinished.len();
+    let gains = match (&claim.sampled, &claim.own) {
+        (Some(sampled), own) => {
+            let of = if own.is_some() { "of the plant itself with" } else { "with" };
+            format!(
+                "{of} the law at samples, exactly h = {} ({} samples a period) and K = {:?}, at different phases of the \
+                 sampling grid,",
+                sampled.step.text,
+                sampled.samples,
+                sampled.law.gain.to_f64()
+            )
+        }
+        (None, Some(_)) => "of the plant itself at sigma* and above,".to_owned(),
+        (None, None) => "at 1.000001 sigma*,".to_owned(),
+    };
+    let name = if claim.sampled.is_some() { "sigma" } else { "sigma*" };
+    blocks.push(Block::says(format!(
+        "{} trials {gains} {name} = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
+         does not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
+         proof.",
+        outcome.findings.len(),
+        round_f64(claim.sigma, 9, Direction::Nearest).map_or_else(|| claim.sigma.to_string(), |sigma| write_exact(&sigma)),
+        claim.spec.internal_model.base_frequency.text,
+        outcome.settings.seed,
+        unfinished.len()
+    )));
+    if let Some((trial, violation)) = outcome.counterexample() {
+        blocks.push(Block::heading("Counterexample"));
+        let [found, bound] = told_apart([violation.found, violation.bound]);
+        blocks.push(Block::says(format!(
+            "Trial {}, n_o = {}: {} is about {found}, and the claim allows about {bound}.",
+            trial.number, trial.n_o, violation.quantity
+        )));
+    }
+    if let Some(worst) = outcome.worst() {
+        blocks.push(Block::heading("How much of each bound was used, at most"));
+        let number = worst.trial.number;
+        let mut table = Table::new(&["<quantity", "found/bound", "in trial", &format!("trial {number}")]);
+        for Closest { quantity, share, trial, .. } in shown(claim, outcome) {
+            let of_worst = worst.shares.iter().find(|(name, _)| *name == quantity);
+            let of_worst = of_worst.map_or_else(String::new, |(_, share)| format!("{share:.3}"));
+            table.push([quantity.to_owned(), format!("{share:.3}"), trial.number.to_string(), of_worst]);
+        }
+        blocks.push(Block::Table(table));
+        blocks.push(Block::Bars(used(claim, outcome)));
+    }
+    unfinished.sort_unstable();
+    unfinished.dedup();
+    if !unfinished.is_empty() {
+        blocks.push(Block::heading("Not finished"));
+        blocks.push(Block::List(unfinished.into_iter().map(str::to_owned).collect()));
+    }
+    if let Some(worst) = outcome.worst() {
+        blocks.extend(plant_blocks(&worst, outcome.settings.seed));
+    }
+    blocks
+}
+
+/// What came closest to each bound; of a plant without states, without those of a state.
+fn shown<'o>(claim: &TriedClaim, outcome: &'o Falsification) -> Vec<Closest<'o>> {
+    let stateless = claim.spec.state_name().is_none();
+    outcome.closest().into_iter().filter(|closest| !(stateless && closest.quantity.contains("|x"))).collect()
+}
+
+/// How much of each bound was used.
+fn used(claim: &TriedClaim, outcome: &Falsification) -> Bars {
+    let entry = |closest: Closest<'_>| (closest.quantity.to_owned(), closest.share, format!("{:.3}", closest.share));
+    Bars {
+        title: "Found, as a share of the bound".to_owned(),
+        entries: shown(claim, outcome).into_iter().map(entry).collect(),
+    }
+}
+
+/// The worst plant, and how to simulate it and the others again.
+fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
+    let Closest { quantity, share, trial, .. } = worst;
+    let ((f, q), names) = (trial.plant.texts(), trial.plant.names());
+    let (x, rest) = trial.start.split_at(f.len());
+    let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
+    let mut facts: Vec<(String, String)> =
+        f.into_iter().zip(names).map(|(text, name)| (format!("d{name}/dt"), text)).collect();
+    facts.push(("de/dt - u".to_owned(), q));
+    let of_state = if x.is_empty() { String::new() } else { format!("x = {x:?}, ") };
+    facts.push(("start".to_owned(), format!("{of_state}e = {e:?}, z = {z:?}")));
+    vec![
+        Block::heading("The worst plant"),
+        Block::says(format!(
+            "Trial {}, sigma = {:?}, n_o = {}{}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
+             (The multiplier and the Lyapunov function are close to theirs with any plant.) `sigmastar falsify` with \
+             `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description; so \
+             for any other trial.",
+            trial.number,
+            trial.sigma,
+            trial.n_o,
+            trial.phase.map_or_else(String::new, |phase| format!(", first sample at t = {phase:?}")),
+            trial.number
+        )),
+        Block::Detail,
+        Block::facts(facts),
+    ]
+}
+
+/// The worst plant as JSON, with the plant file.
+fn worst_json(claim: &TriedClaim, worst: &Closest<'_>) -> Value {
+    let Closest { quantity, share, trial, .. } = worst;
+    let Trial { number, sigma, n_o, phase, .. } = trial;
+    let plant = counterexample_plant(claim, trial, None).map_or(Value::Null, |document| document.root().to_json());
+    let mut worst = json!({ "trial": number, "quantity": quantity, "share": share, "sigma": sigma, "n_o": n_o });
+    if let Some(phase) = phase {
+        worst["phase"] = json!(phase);
+    }
+    worst["plant"] = plant;
+    worst
+}
+
+fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
+    let trials: Vec<Value> = outcome
+        .findings
+        .iter()
+        .map(|finding| match finding {
+            Finding::Holds { trial, shares } => {
+                let shares: Vec<Value> =
+                    shares.iter().map(|(quantity, share)| json!({ "quantity": quantity, "share": share })).collect();
+                with_phase(json!({ "finding": "holds", "n_o": trial.n_o, "shares": shares }), trial)
+            }
+            Finding::Violated(trial, violation) => {
+                let finding = json!({
+                    "finding": "violated", "n_o": trial.n_o, "quantity": violation.quantity,
+                    "found": violation.found, "bound": violation.bound,
+                });
+                with_phase(finding, trial)
+            }
+            Finding::Unfinished(why) => json!({ "finding": "unfinished", "reason": why }),
+        })
+        .collect();
+    let closest: Vec<Value> = outcome
+        .closest()
+        .iter()
+        .map(|Closest { quantity, share, trial, .. }| {
+            json!({ "quantity": quantity, "share": share, "trial": trial.number })
+        })
+        .collect();
+    let gain = if claim.sampled.is_some() { "sigma" } else { "sigma_star" };
+    let mut report = json!({
+        "format": "sigmastar/falsification", "version": 1, "name": clean(&claim.spec.name), gain: claim.sigma,
+        "base_frequency": claim.spec.internal_model.base_frequency.text,
+        "seed": outcome.settings.seed, "trials": trials, "closest": closest,
+        "worst": outcome.worst().map(|worst| worst_json(claim, &worst)), "refuted": outcome.counterexample().is_some(),
+    });
+    if let Some(sampled) = &claim.sampled {
+        report["sampled"] = json!({
+            "sampling_period": sampled.step.text, "samples": sampled.samples, "K": sampled.law.gain.to_f64(),
+        });
+    }
+    report
+}
+
+/// A trial of the law at samples with the time of its first sample.
+fn with_phase(mut finding: Value, trial: &Trial) -> Value {
+    if let Some(phase) = trial.phase {
+        finding["phase"] = json!(phase);
+    }
+    finding
+}

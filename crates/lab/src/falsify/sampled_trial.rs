@@ -1,0 +1,211 @@
+//! A trial of a claim about the law at samples: exactly its gain, its sampling time and its K, at some phase of the grid.
+
+use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
+use super::claim::TriedClaim;
+use super::finding::{Finding, LYAPUNOV, MULTIPLIER, Trial, TriedPlant};
+use super::random::Random;
+use super::run::{self, Largest};
+use super::sampled_claim::SampledClaim;
+use super::start::{boundary, drawn_plant, file, no_member};
+use crate::simulate::{
+    IntegrationFailure, Piece, SampledLoop, SampledRun, SampledSteady, SampledSteadyError, Tolerance,
+    sampled_periodic_solution,
+};
+use sigmastar_document::progress::Silent;
+use sigmastar_exact::number::Portable;
+
+/// States of a period that are looked at, at least, and in a sampling interval.
+const STATES: usize = 1024;
+const BETWEEN: usize = 2;
+
+/// Runs a trial.
+pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, number: u64) -> Finding {
+    let tried = law.tried_n_o();
+    // From the first trial on, so that the ends are tried whatever the number of trials is.
+    let n_o = tried.get((number.saturating_sub(1) % tried.len().max(1) as u64) as usize).copied().unwrap_or(0);
+    let Some((regulator, discrete)) = law.regulator(&claim.spec.internal_model, n_o) else {
+        return Finding::Unfinished("a number of the law at samples is beyond double precision".to_owned());
+    };
+    // On the grid itself, then anywhere: a claim is about every phase.
+    let phase = if number == 1 { 0.0 } else { random.uniform() * claim.spec.period.to_f64() };
+    let (plant, mut start) = match &claim.own {
+        Some(own) => {
+            let n = own.plant.states();
+            let mut start = boundary(claim, n, &regulator, &mut random);
+            let x = own.state(phase / claim.spec.period.to_f64(), &start[..n]);
+            start[..n].copy_from_slice(&x);
+            (TriedPlant::Own(Box::new(own.plant.clone())), start)
+        }
+        None => {
+            let Some(plant) = drawn_plant(claim, number, &mut random) else {
+                return Finding::Unfinished(no_member(claim).to_owned());
+            };
+            let start = boundary(claim, plant.family.states(), &regulator, &mut random);
+            (TriedPlant::Drawn(Box::new(plant)), start)
+        }
+    };
+    start.shrink_to_fit();
+    let trial = Trial { number, plant, sigma: law.sigma.to_f64(), n_o, start, phase: Some(phase) };
+    let mut sampled = match &claim.own {
+        Some(own) => SampledLoop::new(&own.plant, regulator, discrete),
+        None => match file(claim, &trial) {
+            Ok(file) => SampledLoop::new(&file, regulator, discrete),
+            Err(unfinished) => return unfinished,
+        },
+    };
+    sampled.phase = phase;
+    if sampled.samples() != Some(law.samples as usize) {
+        // A certificate that was tampered with: its samples are not those of its period.
+        return Finding::Unfinished(format!("{} samples of the claimed length are not a period", law.samples));
+    }
+    check(claim, trial, &sampled)
+}
+
+/// A period of the loop: for each sampling interval zeta and z at its start, and the plant on it.
+struct Interval {
+    zeta: Vec<f64>,
+    z: Vec<f64>,
+    pieces: Vec<Piece>,
+}
+
+fn period(
+    sampled: &SampledLoop,
+    run: &mut SampledRun<'_>,
+    tolerance: Tolerance,
+) -> Result<Vec<Interval>, IntegrationFailure> {
+    let samples = sampled.samples_rounded_up();
+    let each = STATES.div_ceil(samples).max(BETWEEN);
+    let m = sampled.regulator.m();
+    let mut intervals = Vec::with_capacity(samples);
+    for _ in 0..samples {
+        let e = run.plant_state().last().copied().unwrap_or_default();
+        let z = run.regulator_state().to_vec();
+        let zeta = z.iter().zip(&m).map(|(z, m)| z - m * e).collect();
+        intervals.push(Interval { zeta, z, pieces: run.advance(each, tolerance)? });
+    }
+    Ok(intervals)
+}
+
+fn check(claim: &TriedClaim, trial: Trial, sampled: &SampledLoop) -> Finding {
+    let steady = match sampled_periodic_solution(sampled, &trial.start, &Silent) {
+        Ok(steady) => steady,
+        // That no periodic solution is found says nothing about the claim; the run itself may.
+        Err(SampledSteadyError::Search(error)) => return alone(claim, trial, sampled, why_none(&error)),
+        Err(error) => return Finding::Unfinished(error.to_string()),
+    };
+    let orbit = SampledRun::new(sampled, 0, &steady.start).map(|mut run| period(sampled, &mut run, Tolerance::TIGHT));
+    let orbit = match orbit {
+        Some(Ok(orbit)) => orbit,
+        Some(Err(failure)) => return unfinished(&failure),
+        None => return Finding::Unfinished("the periodic solution has another dimension".to_owned()),
+    };
+    let multiplier = steady.largest_multiplier().unwrap_or(0.0);
+    let mut checks = Checks::around(claim, &steady.start, steady.residual, multiplier);
+    check_orbit(claim, sampled, &steady, &orbit, &mut checks);
+    if checks.are_broken() && !run::comes_to(&trial, &steady.start, |_, y| passed(sampled, y)) {
+        return alone(claim, trial, sampled, run::ELSEWHERE.to_owned());
+    }
+    match check_approach(claim, &trial, sampled, &orbit, &mut checks) {
+        Ok(()) => checks.finding(trial),
+        Err(failure @ IntegrationFailure::Escaped { .. }) => alone(claim, trial, sampled, failure.to_string()),
+        Err(failure) => unfinished(&failure),
+    }
+}
+
+/// The state after a period from one at its start.
+fn passed(sampled: &SampledLoop, y: &[f64]) -> Result<Vec<f64>, IntegrationFailure> {
+    let mut run = SampledRun::new(sampled, 0, y).ok_or(IntegrationFailure::TooMuchWork { t: sampled.time(0) })?;
+    for _ in 0..sampled.samples_rounded_up() {
+        run.advance(1, Tolerance::ORDINARY)?;
+    }
+    Ok(run.whole_state())
+}
+
+/// The finding of a trial for which there is no periodic solution to compare with.
+fn alone(claim: &TriedClaim, trial: Trial, sampled: &SampledLoop, why: String) -> Finding {
+    let mut largest = Largest::default();
+    if let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) {
+        // What happens within a sample after which it has escaped is not looked at.
+        let intervals =
+            (0..PERIODS * sampled.samples_rounded_up()).map_while(|_| run.advance(BETWEEN, Tolerance::ORDINARY).ok());
+        for piece in intervals.flatten() {
+            for (at, state) in piece.states.iter().enumerate() {
+                largest.take(claim, (piece.t + piece.unit * at as f64) / sampled.period(), state);
+            }
+        }
+    }
+    largest.finding(claim, trial, why)
+}
+
+fn check_orbit(
+    claim: &TriedClaim,
+    sampled: &SampledLoop,
+    steady: &SampledSteady,
+    orbit: &[Interval],
+    checks: &mut Checks,
+) {
+    let n = sampled.states();
+    let (mut x, mut e, mut zeta, mut z) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+    for interval in orbit {
+        zeta = zeta.max(sampled.regulator.weighted_norm(&interval.zeta));
+        z = z.max(sampled.regulator.weighted_norm(&interval.z));
+        for piece in &interval.pieces {
+            for (at, state) in piece.states.iter().enumerate() {
+                let s = (piece.t + piece.unit * at as f64) / sampled.period();
+                x = x.max(claim.own.as_ref().map_or_else(|| norm(&state[..n]), |own| own.distance(s, &state[..n])));
+                e = e.max(state[n].abs());
+            }
+        }
+    }
+    checks.at_most(MULTIPLIER, steady.largest_multiplier().unwrap_or(0.0), 1.0);
+    checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
+    checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
+    checks.at_most("sup|zeta|_N of the periodic solution, at samples", zeta, claim.periodic[2]);
+    checks.at_most("sup|z|_N of the periodic solution, at samples", z, claim.periodic_z);
+}
+
+/// The first periods from the initial condition: within the error box around the periodic solution all the time, and the
+/// Lyapunov function never above its start; between samples what it has of x and e. P_x is not known here, so at the start its
+/// upper bound counts, later the lower.
+///
+/// # Errors
+/// An integration that did not come to its end.
+fn check_approach(
+    claim: &TriedClaim,
+    trial: &Trial,
+    sampled: &SampledLoop,
+    orbit: &[Interval],
+    checks: &mut Checks,
+) -> Result<(), IntegrationFailure> {
+    let n = sampled.states();
+    let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) else { return Ok(()) };
+    let (mut away, mut level) = ([0.0_f64; 2], [0.0_f64; 2]);
+    let [low, up, eta] = claim.lyapunov.unwrap_or_default();
+    for index in 0..PERIODS {
+        let intervals = period(sampled, &mut run, Tolerance::ORDINARY)?;
+        for (sample, (interval, of_orbit)) in intervals.iter().zip(orbit).enumerate() {
+            let difference: Vec<f64> = interval.zeta.iter().zip(&of_orbit.zeta).map(|(a, b)| a - b).collect();
+            let zeta = eta * sampled.regulator.weighted_norm(&difference).portable_powi(2);
+            for (piece, point) in interval.pieces.iter().zip(&of_orbit.pieces) {
+                for (at, (state, point)) in piece.states.iter().zip(&point.states).enumerate() {
+                    let difference: Vec<f64> = state.iter().zip(point).map(|(a, b)| a - b).collect();
+                    let own = claim.own.as_ref();
+                    let x = own.map_or_else(|| norm(&difference[..n]), |own| own.norm(&difference[..n]));
+                    let e = difference[n];
+                    away = [away[0].max(x), away[1].max(e.abs())];
+                    // Between samples z is not that of this moment, and its part of the function is at least 0.
+                    let rest = e * e + if at == 0 { zeta } else { 0.0 };
+                    if index + sample + at == 0 {
+                        level[0] = up * x * x + rest;
+                    }
+                    level[1] = level[1].max(low * x * x + rest);
+                }
+            }
+        }
+    }
+    let [d_x, d_e] = claim.error_box;
+    checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
+    checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    checks.at_most(LYAPUNOV, level[1], level[0]);
+    Ok(())
+}

@@ -1,0 +1,215 @@
+//! One plant, one initial condition, one number of oscillators: simulated and checked.
+
+use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
+use super::claim::TriedClaim;
+use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, TriedPlant};
+use super::frame::{ABOVE, OwnPlant};
+use super::random::Random;
+use super::start::{boundary, drawn_plant, file, no_member, regulator};
+use super::{run, sampled_trial};
+use crate::simulate::{
+    ClosedLoop, IntegrationFailure, Orbit, SteadyState, SteadyStateError, Tolerance, flow, rms, steady_state, sup,
+    trajectory,
+};
+use rayon::prelude::*;
+use sigmastar_document::progress::{Progress, Silent};
+use sigmastar_exact::enclosure::DEFAULT_PRECISION;
+use sigmastar_exact::number::Portable;
+use sigmastar_prove::certify::no_plant;
+use sigmastar_theory::data::Data;
+
+/// The numbers of oscillators that are tried.
+const TRIED_N_O: [u32; 6] = [0, 1, 2, 3, 5, 8];
+/// Samples of a period in that comparison.
+const SAMPLES: usize = 4096;
+
+/// Runs the trials, in parallel; what they find does not depend on how many at a time. None is run where no plant with a
+/// state satisfies data that speak of one.
+#[must_use]
+pub fn falsify(claim: &TriedClaim, settings: TrialSettings, progress: &dyn Progress) -> Falsification {
+    let no_plant = |data: &Data<'_>, reach| if claim.own.is_none() { no_plant(data, reach) } else { None };
+    if let Some(reason) = no_plant(&Data::new(&claim.spec, DEFAULT_PRECISION), Some(&claim.reach)) {
+        // A plant without x would show nothing about such data.
+        let findings = settings.numbers().iter().map(|_| Finding::Unfinished(reason.to_string())).collect();
+        return Falsification { settings, findings };
+    }
+    let findings = settings
+        .numbers()
+        .into_par_iter()
+        .map(|number| {
+            let finding = run_trial(claim, settings.seed, number);
+            progress.advance();
+            finding
+        })
+        .collect();
+    Falsification { settings, findings }
+}
+
+fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
+    let mut random = Random::new(seed, number);
+    if let Some(sampled) = &claim.sampled {
+        return sampled_trial::run(claim, sampled, random, number);
+    }
+    if let Some(own) = &claim.own {
+        return run_own(claim, own, random, number);
+    }
+    let Some(plant) = drawn_plant(claim, number, &mut random) else {
+        return Finding::Unfinished(no_member(claim).to_owned());
+    };
+    let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
+    let sigma = claim.sigma * ABOVE;
+    let regulator = regulator(claim, sigma, n_o);
+    let start = boundary(claim, plant.family.states(), &regulator, &mut random);
+    let trial = Trial { number, plant: TriedPlant::Drawn(Box::new(plant)), sigma, n_o, start, phase: None };
+    let file = match file(claim, &trial) {
+        Ok(file) => file,
+        Err(unfinished) => return unfinished,
+    };
+    let closed_loop = ClosedLoop::new(&file, regulator);
+    check(claim, trial, &closed_loop)
+}
+
+/// A trial of the plant that the claim is about.
+fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
+    let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
+    let sigma = claim.sigma * OwnPlant::gain(number);
+    let regulator = regulator(claim, sigma, n_o);
+    let n = own.plant.states();
+    let mut start = boundary(claim, n, &regulator, &mut random);
+    let x = own.state(0.0, &start[..n]);
+    start[..n].copy_from_slice(&x);
+    let closed_loop = ClosedLoop::new(&own.plant, regulator);
+    let plant = TriedPlant::Own(Box::new(own.plant.clone()));
+    check(claim, Trial { number, plant, sigma, n_o, start, phase: None }, &closed_loop)
+}
+
+pub(super) fn check(claim: &TriedClaim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
+    let steady = match periodic_solution(claim, &trial, closed_loop) {
+        Ok(steady) => steady,
+        // That no periodic solution is found says nothing about the claim; the run itself may.
+        Err(error) => return run::alone(claim, trial, closed_loop, why_none(&error)),
+    };
+    let orbit = match Orbit::new(closed_loop, &steady) {
+        Ok(orbit) => orbit,
+        Err(failure) => return unfinished(&failure),
+    };
+    let multiplier = steady.multipliers.first().copied().unwrap_or(0.0);
+    let mut checks = Checks::around(claim, &steady.start, steady.residual, multiplier);
+    check_orbit(claim, &trial, closed_loop, &steady, &orbit, &mut checks);
+    if checks.are_broken() {
+        closed_loop.renew_effort();
+        let pass = |index: usize, y: &[f64]| {
+            flow(closed_loop, index as f64 * closed_loop.period, closed_loop.period, y, Tolerance::ORDINARY)
+        };
+        if !run::comes_to(&trial, &steady.start, pass) {
+            return run::alone(claim, trial, closed_loop, run::ELSEWHERE.to_owned());
+        }
+    }
+    match check_approach(claim, &trial, closed_loop, &orbit, &mut checks) {
+        Ok(()) => checks.finding(trial),
+        Err(failure @ IntegrationFailure::Escaped { .. }) => run::alone(claim, trial, closed_loop, failure.to_string()),
+        Err(failure) => unfinished(&failure),
+    }
+}
+
+/// The periodic solution that the run of a trial approaches; where none is found, of the plant of the claim the one near its
+/// orbit, which is in every initial set.
+fn periodic_solution(
+    claim: &TriedClaim,
+    trial: &Trial,
+    closed_loop: &ClosedLoop,
+) -> Result<SteadyState, SteadyStateError> {
+    let found = steady_state(closed_loop, &trial.start, &Silent);
+    match (found, &claim.own) {
+        (Err(error @ SteadyStateError::Newton { .. }), Some(own)) => {
+            let on_the_orbit = closed_loop.start(&own.state(0.0, &vec![0.0; own.plant.states()]), 0.0);
+            steady_state(closed_loop, &on_the_orbit, &Silent).map_err(|_| error)
+        }
+        (found, _) => found,
+    }
+}
+
+fn check_orbit(
+    claim: &TriedClaim,
+    trial: &Trial,
+    closed_loop: &ClosedLoop,
+    steady: &SteadyState,
+    orbit: &Orbit,
+    checks: &mut Checks,
+) {
+    let n = closed_loop.states();
+    let largest = |of: &dyn Fn(&[f64]) -> f64| orbit.samples.iter().fold(0.0_f64, |size, y| size.max(of(y)));
+    let count = orbit.samples.len() as f64;
+    let x = match &claim.own {
+        None => largest(&|y| norm(&y[..n])),
+        Some(own) => {
+            let distances = orbit.samples.iter().enumerate().map(|(at, y)| own.distance(at as f64 / count, &y[..n]));
+            distances.fold(0.0, f64::max)
+        }
+    };
+    let error = orbit.error();
+    let e = sup(&error);
+    let m = closed_loop.regulator.m();
+    let zeta = largest(&|y| {
+        let zeta: Vec<f64> = y[n + 1..].iter().zip(&m).map(|(z, m)| z - m * y[n]).collect();
+        closed_loop.regulator.weighted_norm(&zeta)
+    });
+    checks.at_most(MULTIPLIER, steady.multipliers.first().copied().unwrap_or(0.0), 1.0);
+    checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
+    checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
+    checks.at_most("sup|zeta|_N of the periodic solution", zeta, claim.periodic[2]);
+    let z = largest(&|y| closed_loop.regulator.weighted_norm(&y[n + 1..]));
+    checks.at_most("sup|z|_N of the periodic solution", z, claim.periodic_z);
+    if let Some(psi) = claim.psi {
+        checks.at_most("sup|e| against psi_1/sigma", e, psi[0] / trial.sigma);
+        checks.at_most("sup|x| against psi_x/sigma", x, psi[1] / trial.sigma);
+    }
+    if let Some([by_rms, by_sup]) = claim.matched_bounds(trial.sigma, trial.n_o) {
+        checks.at_most("rms(e) against its bound for this n_o", rms(&error), by_rms);
+        checks.at_most("sup|e| against its bound for this n_o", e, by_sup);
+    }
+}
+
+/// The first periods from the initial condition: within the error box around the periodic solution, and the Lyapunov
+/// function never above its start. P_x is not known here, so at the start its upper bound counts, later the lower.
+///
+/// # Errors
+/// An integration that did not come to its end.
+fn check_approach(
+    claim: &TriedClaim,
+    trial: &Trial,
+    closed_loop: &ClosedLoop,
+    orbit: &Orbit,
+    checks: &mut Checks,
+) -> Result<(), IntegrationFailure> {
+    let n = closed_loop.states();
+    let m = closed_loop.regulator.m();
+    let (mut y, mut away, mut level) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2]);
+    let period = closed_loop.period;
+    for index in 0..PERIODS {
+        let t = index as f64 * period;
+        let samples = trajectory(closed_loop, t, period, SAMPLES, &y, Tolerance::ORDINARY)?;
+        for (at, (sample, point)) in samples.iter().zip(&orbit.samples).enumerate() {
+            let difference: Vec<f64> = sample.iter().zip(point).map(|(a, b)| a - b).collect();
+            let own = |own: &OwnPlant| own.norm(&difference[..n]);
+            let (x, e) = (claim.own.as_ref().map_or_else(|| norm(&difference[..n]), own), difference[n]);
+            away = [away[0].max(x), away[1].max(e.abs())];
+            if let Some([low, up, h]) = claim.lyapunov {
+                let zeta: Vec<f64> = difference[n + 1..].iter().zip(&m).map(|(z, m)| z - m * e).collect();
+                let rest = e * e + h * closed_loop.regulator.weighted_norm(&zeta).portable_powi(2);
+                if index == 0 && at == 0 {
+                    level[0] = up * x * x + rest;
+                }
+                level[1] = level[1].max(low * x * x + rest);
+            }
+        }
+        y = samples.last().cloned().unwrap_or(y);
+    }
+    let [d_x, d_e] = claim.error_box;
+    checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
+    checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    if claim.lyapunov.is_some() {
+        checks.at_most(LYAPUNOV, level[1], level[0]);
+    }
+    Ok(())
+}

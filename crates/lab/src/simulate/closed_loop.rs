@@ -1,0 +1,296 @@
+//! The plant with its regulator.
+
+use super::limits::Effort;
+use sigmastar_lang::expr::{Evaluator, Program};
+use sigmastar_lang::plant::{Initial, Plant};
+use sigmastar_regulator::Regulator;
+use std::sync::Arc;
+
+/// Where measurement noise v enters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Noise {
+    /// As the paper prints it: z' = Phi z + Gamma (e + v), u = -sigma e + mu M'N(z - M(e + v)); for the high-gain
+    /// feedback u = -sigma (e + v).
+    Printed,
+    /// In everything that is fed back: as printed with u = -sigma (e + v) + mu M'N(z - M(e + v)) (erratum E22).
+    Everywhere,
+}
+
+/// The noise at one moment, as it enters.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Disturbance {
+    /// What is added to e in the internal model.
+    pub model: f64,
+    /// What is added to e in -sigma e.
+    pub feedback: f64,
+}
+
+impl Noise {
+    /// How the value v of the noise enters a loop with this regulator.
+    #[must_use]
+    pub fn enters(self, regulator: &Regulator, v: f64) -> Disturbance {
+        let fed_back = self == Noise::Everywhere || regulator.oscillators().is_none();
+        Disturbance { model: v, feedback: if fed_back { v } else { 0.0 } }
+    }
+}
+
+/// The closed loop with the state y = (x, e, z): x' = f(t, x, e), e' = q(t, x, e) + u, z' = Phi z + Gamma e,
+/// u = -sigma e + mu M'N(z - M e).
+#[derive(Clone, Debug)]
+pub struct ClosedLoop {
+    /// The regulator.
+    pub regulator: Regulator,
+    /// The period T.
+    pub period: f64,
+    states: usize,
+    values: Arc<Program>,
+    derivatives: Arc<Program>,
+    pub(super) effort: Arc<Effort>,
+    /// A constant that is added to the control: what a computer holds between samples. 0 in continuous time.
+    held: f64,
+}
+
+impl ClosedLoop {
+    /// Joins a plant and a regulator.
+    #[must_use]
+    pub fn new(plant: &Plant, regulator: Regulator) -> ClosedLoop {
+        ClosedLoop {
+            regulator,
+            period: plant.period.to_f64(),
+            states: plant.states(),
+            values: Arc::new(plant.program()),
+            derivatives: Arc::new(plant.program_with_derivatives()),
+            effort: Arc::default(),
+            held: 0.0,
+        }
+    }
+
+    /// The plant with a control that is held: x' = f(t, x, e), e' = q(t, x, e) + u, with u = 0 at first.
+    #[must_use]
+    pub fn held(plant: &Plant) -> ClosedLoop {
+        ClosedLoop::new(plant, Regulator::high_gain(0.0))
+    }
+
+    /// Holds another control from now on.
+    pub fn hold(&mut self, u: f64) {
+        self.held = u;
+    }
+
+    /// What is held.
+    pub(super) fn held_control(&self) -> f64 {
+        self.held
+    }
+
+    /// The number of states of the plant without e; y[states()] is e.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.states
+    }
+
+    /// The dimension of y.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.states + 1 + self.regulator.dimension()
+    }
+
+    /// (x(0), e(0), 0).
+    #[must_use]
+    pub fn start(&self, x: &[f64], e: f64) -> Vec<f64> {
+        let mut y = x.to_vec();
+        y.push(e);
+        y.resize(self.dimension(), 0.0);
+        y
+    }
+
+    /// (x(0), e(0), z(0)) of a plant's initial condition; `None` where its z has another dimension than the regulator.
+    #[must_use]
+    pub fn start_of(&self, initial: &Initial) -> Option<Vec<f64>> {
+        let mut y = self.start(&initial.x, initial.e);
+        if !initial.z.is_empty() {
+            let z = y.get_mut(self.states + 1..).filter(|z| z.len() == initial.z.len())?;
+            z.copy_from_slice(&initial.z);
+        }
+        Some(y)
+    }
+
+    /// An evaluator of f and q.
+    #[must_use]
+    pub fn evaluator(&self) -> Evaluator {
+        Evaluator::new(self.values.clone())
+    }
+
+    /// An evaluator of f and q with their derivatives.
+    #[must_use]
+    pub fn derivative_evaluator(&self) -> Evaluator {
+        Evaluator::new(self.derivatives.clone())
+    }
+
+    /// The number of values that depend on the time alone.
+    #[must_use]
+    pub fn time_values(&self) -> usize {
+        self.values.time_values()
+    }
+
+    /// The operations of one evaluation of f and q, or of them with their derivatives.
+    pub(super) fn operations(&self, derivatives: bool) -> u64 {
+        let program = if derivatives { &self.derivatives } else { &self.values };
+        program.operations() as u64
+    }
+
+    /// The control u for a state.
+    #[must_use]
+    pub fn control(&self, y: &[f64], noise: Disturbance) -> f64 {
+        let e = y[self.states];
+        let sum = self.regulator.internal_model_output(&y[self.states + 1..], e + noise.model);
+        self.held + self.regulator.mu * sum - self.regulator.sigma * (e + noise.feedback)
+    }
+
+    /// y' at the time that the evaluator (of [`ClosedLoop::evaluator`]) was set to.
+    #[inline]
+    pub fn right_side(&self, evaluator: &mut Evaluator, y: &[f64], noise: Disturbance, dy: &mut [f64]) {
+        let n = self.states;
+        let (plant, dz) = dy.split_at_mut(n + 1);
+        evaluator.evaluate(&y[..n], y[n], plant);
+        self.add_regulator(y, noise, &mut plant[n], dz);
+    }
+
+    /// Adds u to e' and sets z'.
+    #[inline]
+    fn add_regulator(&self, y: &[f64], noise: Disturbance, de: &mut f64, dz: &mut [f64]) {
+        let Regulator { sigma, mu, frequencies, weights } = &self.regulator;
+        let (e, z) = (y[self.states], &y[self.states + 1..]);
+        *de -= sigma * (e + noise.feedback);
+        *de += self.held;
+        let (Some((n_0, weights)), Some((z_0, z)), Some((dz_0, dz))) =
+            (weights.split_first(), z.split_first(), dz.split_first_mut())
+        else {
+            return;
+        };
+        let measured = e + noise.model;
+        let mut sum = n_0 * (z_0 - measured);
+        *dz_0 = -sigma * measured;
+        let blocks = z.chunks_exact(2).zip(dz.chunks_exact_mut(2));
+        for ((z, dz), (n_l, frequency)) in blocks.zip(weights.iter().zip(frequencies)) {
+            sum += n_l * (z[0] - measured);
+            dz[0] = frequency * z[1] - sigma * measured;
+            dz[1] = frequency * (measured - z[0]);
+        }
+        *de += mu * sum;
+    }
+
+    /// The derivatives of (f, q) by x and e at a time and state, column by column. `evaluator` is one of
+    /// [`ClosedLoop::derivative_evaluator`].
+    pub(super) fn plant_jacobian(&self, evaluator: &mut Evaluator, t: f64, y: &[f64]) -> Vec<f64> {
+        let n = self.states;
+        let mut outputs = vec![0.0; (n + 1) * (n + 2)];
+        evaluator.set_time(t);
+        evaluator.evaluate(&y[..n], y[n], &mut outputs);
+        outputs.split_off(n + 1)
+    }
+
+    /// The size of a component of y beside those of x and z, by which absolute tolerances are multiplied: e is what a
+    /// control of ordinary size leaves over, u/sigma.
+    pub(super) fn natural_sizes(&self) -> Vec<f64> {
+        let mut sizes = vec![1.0; self.dimension()];
+        sizes[self.states] = 1.0 / (self.period * self.regulator.sigma).max(1.0);
+        sizes
+    }
+
+    /// y' and the Jacobian dy'/dy, row by row, at a time and without noise. `evaluator` is one of
+    /// [`ClosedLoop::derivative_evaluator`].
+    #[must_use]
+    pub fn linearise(&self, evaluator: &mut Evaluator, t: f64, y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (n, d) = (self.states, self.dimension());
+        let mut outputs = vec![0.0; (n + 1) * (n + 2)];
+        evaluator.set_time(t);
+        evaluator.evaluate(&y[..n], y[n], &mut outputs);
+        let mut dy = vec![0.0; d];
+        let (plant, dz) = dy.split_at_mut(n + 1);
+        plant.copy_from_slice(&outputs[..=n]);
+        self.add_regulator(y, Disturbance::default(), &mut plant[n], dz);
+
+        let mut jacobian = vec![0.0; d * d];
+        for (variable, block) in outputs[n + 1..].chunks_exact(n + 1).enumerate() {
+            for (row, derivative) in block.iter().enumerate() {
+                jacobian[row * d + variable] = *derivative;
+            }
+        }
+        let Regulator { sigma, mu, frequencies, weights } = &self.regulator;
+        jacobian[n * d + n] -= sigma + mu * weights.iter().sum::<f64>();
+        for (l, weight) in weights.iter().enumerate() {
+            // z_0, z_11, z_21, ... follow e.
+            let first = if l == 0 { n + 1 } else { n + 2 * l };
+            jacobian[n * d + first] = mu * weight;
+            jacobian[first * d + n] = -sigma;
+            if l > 0 {
+                let frequency = frequencies[l - 1];
+                jacobian[first * d + first + 1] = frequency;
+                jacobian[(first + 1) * d + first] = -frequency;
+                jacobian[(first + 1) * d + n] = frequency;
+            }
+        }
+        (dy, jacobian)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_jacobian_is_that_of_the_right_side() {
+        let text = include_str!("../../../../specs/plants/paper-example.json");
+        let plant = Plant::from_json("paper-example", text).unwrap();
+        for regulator in [Regulator::high_gain(3.0), Regulator::new(3.0, 1.5, 2.0, vec![2.0, 1.0, 0.4])] {
+            let closed_loop = ClosedLoop::new(&plant, regulator);
+            let d = closed_loop.dimension();
+            let y: Vec<f64> = (0..d).map(|i| (1.3 * i as f64).sin()).collect();
+            let (dy, jacobian) = closed_loop.linearise(&mut closed_loop.derivative_evaluator(), 0.2, &y);
+            let at = |y: &[f64]| {
+                let (mut evaluator, mut dy) = (closed_loop.evaluator(), vec![0.0; d]);
+                evaluator.set_time(0.2);
+                closed_loop.right_side(&mut evaluator, y, Disturbance::default(), &mut dy);
+                dy
+            };
+            assert_eq!(dy, at(&y));
+            for column in 0..d {
+                let shifted = |by: f64| {
+                    let mut y = y.clone();
+                    y[column] += by;
+                    at(&y)
+                };
+                let (up, down) = (shifted(1e-6), shifted(-1e-6));
+                for row in 0..d {
+                    let quotient = (up[row] - down[row]) / 2e-6;
+                    assert!((jacobian[row * d + column] - quotient).abs() < 1e-7, "{row} {column}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_right_side_is_that_of_the_matrices() {
+        let text = include_str!("../../../../specs/plants/linear.json");
+        let plant = Plant::from_json("linear", text).unwrap();
+        let regulator = Regulator::new(3.0, 1.5, 2.0, vec![2.0, 1.0, 0.4]);
+        let closed_loop = ClosedLoop::new(&plant, regulator.clone());
+        let y = [0.3, -1.0, 0.5, 0.25, 2.0, -0.7];
+        let noise = Disturbance { model: 0.2, feedback: -0.1 };
+        let mut evaluator = closed_loop.evaluator();
+        evaluator.set_time(0.25);
+        let mut dy = vec![0.0; 6];
+        closed_loop.right_side(&mut evaluator, &y, noise, &mut dy);
+        let (m, n, gamma, phi) = (regulator.m(), regulator.n_diagonal(), regulator.gamma(), regulator.phi());
+        let z = &y[1..];
+        let measured = 0.3 + 0.2;
+        let expected = (0..5).map(|i| (0..5).map(|j| phi[(i, j)] * z[j]).sum::<f64>() + measured * gamma[i]);
+        let s: f64 = (0..5).map(|i| m[i] * n[i] * (z[i] - measured * m[i])).sum();
+        let u = -3.0 * (0.3 - 0.1) + 1.5 * s;
+        assert!((dy[0] - (1.0 + 3.0_f64.tanh() + u)).abs() < 1e-14);
+        assert!((closed_loop.control(&y, noise) - u).abs() < 1e-14);
+        dy[1..].iter().zip(expected).for_each(|(a, b)| assert!((a - b).abs() < 1e-14));
+        assert_eq!(Noise::Printed.enters(&regulator, 1.0), Disturbance { model: 1.0, feedback: 0.0 });
+        assert_eq!(Noise::Everywhere.enters(&regulator, 1.0), Disturbance { model: 1.0, feedback: 1.0 });
+        assert_eq!(Noise::Printed.enters(&Regulator::high_gain(1.0), 1.0).feedback, 1.0);
+    }
+}

@@ -1,0 +1,104 @@
+//! The bounding functions of a specification.
+
+use super::bound::{Bound, Role, TABLE};
+use super::proved_values::ProvedValues;
+use crate::expr::Expr;
+use sigmastar_exact::enclosure::Enclosure;
+
+/// The bounding functions of a specification: expressions, or values that were proved from a plant's formulas.
+#[derive(Clone, Debug)]
+pub struct Bounds {
+    /// In the order of [`TABLE`]; every required one is there, or none.
+    given: Vec<Option<Expr>>,
+    /// Those of a plant.
+    proved: ProvedValues,
+}
+
+impl Bounds {
+    /// Those of a plant, known at the arguments where they were proved.
+    #[must_use]
+    pub fn proved(values: ProvedValues) -> Bounds {
+        Bounds { given: vec![None; TABLE.len()], proved: values }
+    }
+
+    /// The values that were proved from a plant's formulas; empty where the bounding functions are expressions.
+    #[must_use]
+    pub fn proved_values(&self) -> &ProvedValues {
+        &self.proved
+    }
+
+    /// Whether a bounding function itself is known, as an expression or by proved values.
+    #[must_use]
+    pub fn is_given(&self, which: Bound) -> bool {
+        self.own(which).is_some() || self.proved.has(which)
+    }
+
+    /// A bounding function, or what serves in its place, at (X, E); undefined where it is not known.
+    #[must_use]
+    pub fn at(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
+        if let Some(expr) = self.own(which) {
+            return expr.enclose(x, e);
+        }
+        if self.proved.has(which) {
+            return self.proved.at(which, x, e);
+        }
+        match which.replacement() {
+            Some(other) => self.at(other, x, e),
+            None => Enclosure::undefined(x.precision().max(e.precision())),
+        }
+    }
+
+    /// Reads those of the section `bounds` one by one, all of them before an error is returned.
+    ///
+    /// # Errors
+    /// The first of those that `required` and `optional` return.
+    pub(super) fn read<C, E>(
+        context: &mut C,
+        required: impl Fn(&mut C, &'static str) -> Result<Expr, E>,
+        optional: impl Fn(&mut C, &'static str) -> Result<Option<Expr>, E>,
+    ) -> Result<Bounds, E> {
+        let read = |bound: Bound| match bound.role() {
+            Role::Required => required(context, bound.field()).map(Some),
+            Role::Rate | Role::ProvedRate => Ok(None),
+            Role::Sharper(_) | Role::OneSided(_) | Role::Optional => optional(context, bound.field()),
+        };
+        let all: Vec<_> = Bound::ALL.into_iter().map(read).collect();
+        Ok(Bounds { given: all.into_iter().collect::<Result<_, _>>()?, proved: ProvedValues::default() })
+    }
+
+    /// The same with the contraction rate of the section `lyapunov`.
+    pub(super) fn with_rate(mut self, rate: Option<Expr>) -> Bounds {
+        self.given[Bound::Rate as usize] = rate;
+        self
+    }
+
+    /// The one that is given for a bounding function itself.
+    #[must_use]
+    pub fn own(&self, which: Bound) -> Option<&Expr> {
+        self.given[which as usize].as_ref()
+    }
+
+    /// The expression for a bounding function, or for what serves in its place.
+    #[must_use]
+    pub fn get(&self, which: Bound) -> Option<&Expr> {
+        self.own(which).or_else(|| which.replacement().and_then(|other| self.own(other)))
+    }
+
+    /// The bounding functions that are given.
+    pub fn named(&self) -> impl Iterator<Item = (Bound, &Expr)> {
+        Bound::ALL.into_iter().zip(&self.given).filter_map(|(bound, expr)| Some((bound, expr.as_ref()?)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_in_the_order_of_declaration() {
+        for (index, (bound, ..)) in TABLE.into_iter().enumerate() {
+            assert_eq!(bound as usize, index);
+            assert!(bound.replacement().is_none_or(Bound::is_required));
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Constants of a document, and the proof of their sign.
+
+use super::document::Value;
+use super::error::{ErrorKind, Errors, Reported};
+use super::parts::Constant;
+use super::quantity::{Quantity, decide};
+use crate::expr::{Expr, Variables};
+use sigmastar_exact::enclosure::{MAX_PRECISION, Truth};
+
+/// Reads a constant: a JSON number, taken as the decimal that is written, or a string with a constant expression.
+///
+/// Guarantee: the constant is a real number, shown by its exact form or by a bounded enclosure.
+///
+/// # Errors
+/// Reports another type, an expression that cannot be read, and one that has no value (as `1/0`) or none that can
+/// be enclosed.
+pub fn any_constant(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
+    let expr = expression(value, Variables::None, "a number or a string with a constant expression", errors)?;
+    let exact = expr.exact();
+    let constant = Constant { text: expr.text().to_owned(), expr, exact };
+    let real = decide(|precision| match constant.enclose(precision).is_bounded() {
+        true => Truth::True,
+        false => Truth::Undecided,
+    });
+    if real.is_true() {
+        return Ok(constant);
+    }
+    let message = "this constant has no value that can be enclosed";
+    let help = "a division by 0, the root or logarithm of a negative number, or a number too large or too close to \
+                such a place";
+    Err(errors.report(whole(value, ErrorKind::Expression, message).help(help)))
+}
+
+/// Reads a constant that is proved to be positive.
+///
+/// # Errors
+/// Those of [`any_constant`]; reports a number that is not positive, and one whose sign cannot be decided.
+pub fn positive_constant(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
+    let constant = any_constant(value, errors)?;
+    let positive = Quantity::rational(0).lt(&Quantity::constant(&constant));
+    in_range(value, constant, positive, "positive", errors)
+}
+
+/// Reads a constant that is proved to be nonnegative.
+///
+/// # Errors
+/// Those of [`any_constant`]; reports a negative number, and one whose sign cannot be decided.
+pub fn nonnegative_constant(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
+    let constant = any_constant(value, errors)?;
+    let nonnegative = Quantity::rational(0).le(&Quantity::constant(&constant));
+    in_range(value, constant, nonnegative, "nonnegative", errors)
+}
+
+/// Reads an expression from a JSON number or a string.
+///
+/// # Errors
+/// Reports another type (as "expected `expected`") and an expression that cannot be read, in its place.
+pub(super) fn expression(
+    value: &Value<'_>,
+    variables: Variables,
+    expected: &str,
+    errors: &mut Errors,
+) -> Result<Expr, Reported> {
+    let Some(text) = value.numeral().or_else(|| value.text()) else {
+        return Err(value.wrong_type(expected, errors));
+    };
+    Expr::parse(text, variables).map_err(|error| errors.report(value.expression_error(&error)))
+}
+
+/// An error that points at the whole text of a constant, without the quotes.
+pub(super) fn whole(value: &Value<'_>, kind: ErrorKind, message: impl Into<String>) -> super::SpecError {
+    let length = value.text().or_else(|| value.numeral()).map_or(0, str::len);
+    value.error_in(kind, &(0..length), message)
+}
+
+/// The constant if the range is proved, else an error that says which of the two other answers it is.
+fn in_range(
+    value: &Value<'_>,
+    constant: Constant,
+    holds: Truth,
+    range: &str,
+    errors: &mut Errors,
+) -> Result<Constant, Reported> {
+    let name = value.name();
+    let error = match holds {
+        Truth::True => return Ok(constant),
+        Truth::False => {
+            let shown = Quantity::constant(&constant).shown();
+            whole(value, ErrorKind::Range, format!("{name} must be {range}, but it is {shown}"))
+        }
+        Truth::Undecided => {
+            let message = format!("cannot be decided at {MAX_PRECISION} bits whether {name} is {range}");
+            whole(value, ErrorKind::Undecided, message).help("write the number in a simpler way")
+        }
+    };
+    Err(errors.report(error.expected(format!("expected a {range} number"))))
+}

@@ -1,0 +1,465 @@
+//! A document and its values, each with its place.
+
+use super::error::{ErrorKind, Errors, Reported, SpecError, SpecErrors};
+use super::json::{self, Content, Member, Node};
+use super::limits::{self, MAX_BYTES};
+use super::notation::Notation;
+use super::source::Source;
+use crate::expr::ExprError;
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
+use std::io::Read;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The name of the document that a flag of the command line is.
+pub(super) const COMMAND_LINE: &str = "<command line>";
+
+/// The field with which a document names its schema for editors.
+const SCHEMA: &str = "$schema";
+
+/// A document that was read strictly: RFC 8259, or another [`Notation`] of the same values, no duplicate keys, within the
+/// limits of this module ([`MAX_BYTES`], [`MAX_NESTING`](super::MAX_NESTING), [`MAX_VALUES`](super::MAX_VALUES)), with
+/// numbers kept as written. Specifications, certificates and witness files are all read through it. Cheap to clone.
+#[derive(Clone, Debug)]
+pub struct Document {
+    source: Arc<Source>,
+    notation: Notation,
+    root: Arc<Node>,
+}
+
+impl Document {
+    /// Reads a document from its text in JSON; `label` is what errors call it, usually its path. A byte order mark in front
+    /// is no part of the text (RFC 8259, section 8.1): places are counted, and digests formed, without it.
+    ///
+    /// # Errors
+    /// What is wrong with the text as JSON: a limit exceeded, a syntax error, a duplicate key.
+    pub fn parse(label: &str, text: &str) -> Result<Document, SpecErrors> {
+        Document::parse_as(label, text, Notation::Json)
+    }
+
+    /// The same in another notation.
+    ///
+    /// # Errors
+    /// What is wrong with the text in this notation.
+    pub fn parse_as(label: &str, text: &str, notation: Notation) -> Result<Document, SpecErrors> {
+        if text.len() > MAX_BYTES {
+            return Err(SpecErrors::single(source(label, ""), limits::too_large()));
+        }
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let source = source(label, text);
+        match notation.parse(text) {
+            Ok(root) => Ok(Document { source, notation, root: Arc::new(root) }),
+            Err(error) => Err(SpecErrors::single(source, error)),
+        }
+    }
+
+    /// The value of a command-line flag, as an object whose only field has the name of the flag. Errors show the flag and
+    /// its value as they are typed.
+    #[must_use]
+    pub fn flag(flag: &str, value: &str) -> Document {
+        let text = format!("{flag} {value}");
+        // The text of a number is taken as it is, unlike that of a string, which has quotes and escapes.
+        let number = Node { span: text.len() - value.len()..text.len(), content: Content::Number(value.to_owned()) };
+        let member = json::Member { key: flag.to_owned(), key_span: 0..flag.len(), value: number };
+        let root = Node { span: 0..text.len(), content: Content::Object(vec![member]) };
+        Document { source: source(COMMAND_LINE, &text), notation: Notation::Json, root: Arc::new(root) }
+    }
+
+    /// Reads a document in JSON from bytes.
+    ///
+    /// # Errors
+    /// Those of [`Document::from_bytes_as`].
+    pub fn from_bytes(label: &str, bytes: &[u8]) -> Result<Document, SpecErrors> {
+        Document::from_bytes_as(label, bytes, Notation::Json)
+    }
+
+    /// Reads a document from bytes.
+    ///
+    /// # Errors
+    /// Bytes that are not UTF-8, and those of [`Document::parse_as`].
+    pub fn from_bytes_as(label: &str, bytes: &[u8], notation: Notation) -> Result<Document, SpecErrors> {
+        if bytes.len() > MAX_BYTES {
+            return Err(SpecErrors::single(source(label, ""), limits::too_large()));
+        }
+        match std::str::from_utf8(bytes) {
+            Ok(text) => Document::parse_as(label, text, notation),
+            Err(error) => {
+                let at = error.valid_up_to();
+                // The valid part serves to show where the trouble starts.
+                let valid = String::from_utf8_lossy(&bytes[..at]);
+                let utf_16 = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]);
+                let (message, help) = if utf_16 {
+                    (
+                        "the file is UTF-16, not UTF-8".to_owned(),
+                        "save it as UTF-8; in PowerShell: `Set-Content -Encoding utf8`",
+                    )
+                } else {
+                    (format!("byte {at} (0x{:02x}) is not UTF-8", bytes[at]), "save the file as UTF-8")
+                };
+                let error = SpecError::new(ErrorKind::Encoding, "", at..at, message).help(help);
+                Err(SpecErrors::single(source(label, &valid), error))
+            }
+        }
+    }
+
+    /// Reads a document from a file, in the notation of its name, of which never more than [`MAX_BYTES`] and one bytes are
+    /// read.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and those of [`Document::from_bytes_as`].
+    pub fn load(path: &Path) -> Result<Document, SpecErrors> {
+        let (label, notation) = (path.display().to_string(), Notation::of(path));
+        let mut bytes = Vec::new();
+        let read = std::fs::File::open(path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes));
+        match read {
+            Ok(_) => Document::from_bytes_as(&label, &bytes, notation),
+            Err(error) => {
+                let error = SpecError::new(ErrorKind::Unreadable, "", 0..0, format!("cannot be read: {error}"));
+                Err(SpecErrors::single(source(&label, ""), error))
+            }
+        }
+    }
+
+    /// The name under which errors show the document.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        &self.source.label
+    }
+
+    /// The text of the document.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    /// How the text is written.
+    #[must_use]
+    pub fn notation(&self) -> Notation {
+        self.notation
+    }
+
+    /// The value that is the whole document.
+    #[must_use]
+    pub fn root(&self) -> Value<'_> {
+        Value { document: self, node: &self.root, pointer: String::new(), key: None }
+    }
+
+    /// The value at a JSON pointer (RFC 6901), if there is one.
+    #[must_use]
+    pub fn at(&self, pointer: &str) -> Option<Value<'_>> {
+        let mut value = self.root();
+        if pointer.is_empty() {
+            return Some(value);
+        }
+        for step in pointer.strip_prefix('/')?.split('/') {
+            let step = step.replace("~1", "/").replace("~0", "~");
+            value = match &value.node.content {
+                Content::Object(_) => value.member(&step)?,
+                Content::Array(_) => value.element(step.parse().ok()?)?,
+                _ => return None,
+            };
+        }
+        Some(value)
+    }
+
+    pub(super) fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    /// An error that is found after reading, in the string at a pointer; `part` are the bytes of the decoded text at fault.
+    #[must_use]
+    pub fn errors_at(
+        &self,
+        pointer: &str,
+        part: &Range<usize>,
+        kind: ErrorKind,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SpecErrors {
+        let value = self.at(pointer).unwrap_or_else(|| self.root());
+        let mut error = value.error_in(kind, part, message);
+        error.help = help;
+        SpecErrors::single(self.source.clone(), error)
+    }
+}
+
+fn source(label: &str, text: &str) -> Arc<Source> {
+    Arc::new(Source { label: label.to_owned(), text: text.to_owned() })
+}
+
+impl Errors {
+    /// The outcome of reading `document`: the value if nothing was reported.
+    ///
+    /// # Errors
+    /// Everything that was reported, in file order.
+    pub fn conclude<T>(mut self, document: &Document, outcome: Result<T, Reported>) -> Result<T, SpecErrors> {
+        match outcome {
+            Ok(value) if self.list.is_empty() => Ok(value),
+            // `Err` carries a `Reported`, so the list is not empty here either.
+            _ => {
+                self.list.sort_by_key(|error| (error.span.start, error.span.end));
+                Err(SpecErrors {
+                    origin: document.source().clone(),
+                    errors: self.list,
+                    omitted: self.omitted,
+                    in_full: None,
+                })
+            }
+        }
+    }
+}
+
+/// A value in a document: it knows its JSON pointer and its place.
+#[derive(Clone, Debug)]
+pub struct Value<'d> {
+    document: &'d Document,
+    pub(super) node: &'d Node,
+    pointer: String,
+    key: Option<Range<usize>>,
+}
+
+impl<'d> Value<'d> {
+    /// The JSON pointer (RFC 6901) of the value.
+    #[must_use]
+    pub fn pointer(&self) -> &str {
+        &self.pointer
+    }
+
+    /// The bytes of the document that the value takes, quotes and brackets included.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.node.span.clone()
+    }
+
+    /// The document that the value stands in.
+    #[must_use]
+    pub fn document(&self) -> &'d Document {
+        self.document
+    }
+
+    /// The text of a JSON number, as written; `None` for other values.
+    #[must_use]
+    pub fn numeral(&self) -> Option<&'d str> {
+        match &self.node.content {
+            Content::Number(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The decoded text of a JSON string; `None` for other values.
+    #[must_use]
+    pub fn text(&self) -> Option<&'d str> {
+        match &self.node.content {
+            Content::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// An error about this value; it points at the value, or at the opening bracket of an array or object.
+    #[must_use]
+    pub fn error(&self, kind: ErrorKind, message: impl Into<String>) -> SpecError {
+        SpecError::new(kind, self.pointer.clone(), self.anchor(), message)
+    }
+
+    /// An error about a part of the text in this value: `part` is in bytes of the decoded string or of the numeral,
+    /// and is mapped back through the escapes of the literal.
+    #[must_use]
+    pub fn error_in(&self, kind: ErrorKind, part: &Range<usize>, message: impl Into<String>) -> SpecError {
+        let span = match &self.node.content {
+            Content::Text(_) => self.document.notation.locate(&self.document.source.text, &self.node.span, part),
+            Content::Number(_) => {
+                let within = |offset: usize| self.node.span.start.saturating_add(offset).min(self.node.span.end);
+                within(part.start)..within(part.end.max(part.start))
+            }
+            _ => self.anchor(),
+        };
+        SpecError::new(kind, self.pointer.clone(), span, message)
+    }
+
+    /// The error of an expression in this value, in its place.
+    #[must_use]
+    pub fn expression_error(&self, error: &ExprError) -> SpecError {
+        let located = self.error_in(ErrorKind::Expression, &error.span, error.to_string());
+        let located = match &error.expected {
+            Some(expected) => located.expected(format!("expected {expected}")),
+            None => located,
+        };
+        match &error.help {
+            Some(help) => located.help(help),
+            None => located,
+        }
+    }
+
+    /// What the value is, for messages.
+    #[must_use]
+    pub fn type_name(&self) -> &'static str {
+        match self.node.content {
+            Content::Null => "null",
+            Content::Boolean(_) => "a boolean",
+            Content::Number(_) => "a number",
+            Content::Text(_) => "a string",
+            Content::Array(_) => "an array",
+            Content::Object(_) => "an object",
+        }
+    }
+
+    /// Reports that the value has the wrong JSON type.
+    pub fn wrong_type(&self, expected: &str, errors: &mut Errors) -> Reported {
+        let message = format!("{} is {}", self.name(), self.type_name());
+        errors.report(self.error(ErrorKind::Type, message).expected(format!("expected {expected}")))
+    }
+
+    /// The elements of an array.
+    ///
+    /// # Errors
+    /// Reports a value that is not an array.
+    pub fn array(&self, errors: &mut Errors) -> Result<Vec<Value<'d>>, Reported> {
+        match self.node.content {
+            Content::Array(_) => Ok(self.elements()),
+            _ => Err(self.wrong_type("an array", errors)),
+        }
+    }
+
+    /// The text of a string.
+    ///
+    /// # Errors
+    /// Reports a value that is not a string.
+    pub fn string(&self, errors: &mut Errors) -> Result<&'d str, Reported> {
+        self.text().ok_or_else(|| self.wrong_type("a string", errors))
+    }
+
+    /// A boolean.
+    ///
+    /// # Errors
+    /// Reports a value that is neither `true` nor `false`.
+    pub fn boolean(&self, errors: &mut Errors) -> Result<bool, Reported> {
+        match self.node.content {
+            Content::Boolean(value) => Ok(value),
+            _ => Err(self.wrong_type("true or false", errors)),
+        }
+    }
+
+    /// A whole number of at least 0 that is written with digits only.
+    ///
+    /// # Errors
+    /// Reports anything else, and numbers beyond `u64`.
+    pub fn integer(&self, errors: &mut Errors) -> Result<u64, Reported> {
+        self.numeral().and_then(|numeral| numeral.parse().ok()).ok_or_else(|| self.wrong_type("a whole number", errors))
+    }
+
+    /// The canonical form: keys sorted by their UTF-8 bytes, no white space, numbers as written, strings with the
+    /// escapes `\"`, `\\`, `\b`, `\t`, `\n`, `\f`, `\r` and lower-case `\u00xx` for the other characters below
+    /// U+0020 and nothing else escaped (as `serde_json` writes them).
+    #[must_use]
+    pub fn canonical(&self) -> String {
+        let mut output = String::new();
+        self.node.write_canonical(&mut output);
+        output
+    }
+
+    /// SHA-256 of the [canonical form](Value::canonical), in lower-case hexadecimal.
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        Sha256::digest(self.canonical()).iter().fold(String::with_capacity(64), |mut hex, byte| {
+            // Writing to a string cannot fail.
+            let _ = write!(hex, "{byte:02x}");
+            hex
+        })
+    }
+
+    /// The value for `serde_json`, with key order and the text of numbers as in the document.
+    ///
+    /// Writing it gives the numbers as written. Converting it once more (`serde_json::to_value`, `json!`) does not:
+    /// `serde_json` then rewrites exponents, and the digest of what comes out may differ. Move it instead.
+    #[must_use]
+    pub fn to_json(&self) -> serde_json::Value {
+        self.node.to_json()
+    }
+
+    /// The value as a certificate embeds it, and the digest of that: without the `$schema` that a whole document may have,
+    /// which is for editors and holds no data.
+    #[must_use]
+    pub fn embedded(&self) -> (serde_json::Value, String) {
+        let data = match &self.node.content {
+            Content::Object(members) if self.pointer.is_empty() => {
+                let members = members.iter().filter(|member| member.key != SCHEMA).cloned().collect();
+                Node { span: self.node.span.clone(), content: Content::Object(members) }
+            }
+            _ => self.node.clone(),
+        };
+        (data.to_json(), Value { node: &data, ..self.clone() }.sha256())
+    }
+
+    /// The member of an object, if the value is one and has it.
+    pub fn member(&self, name: &str) -> Option<Value<'d>> {
+        self.raw_members().iter().find(|member| member.key == name).map(|member| self.of_member(member))
+    }
+
+    /// The element of an array, if the value is one and has it.
+    pub(super) fn element(&self, index: usize) -> Option<Value<'d>> {
+        self.elements().into_iter().nth(index)
+    }
+
+    /// The members of an object in the order of the document; none for other values.
+    pub(super) fn members(&self) -> impl Iterator<Item = (&'d str, Value<'d>)> + '_ {
+        self.raw_members().iter().map(|member| (member.key.as_str(), self.of_member(member)))
+    }
+
+    fn raw_members(&self) -> &'d [Member] {
+        match &self.node.content {
+            Content::Object(members) => members.as_slice(),
+            _ => &[],
+        }
+    }
+
+    fn of_member(&self, member: &'d Member) -> Value<'d> {
+        Value {
+            document: self.document,
+            node: &member.value,
+            pointer: format!("{}/{}", self.pointer, json::escape_pointer(&member.key)),
+            key: Some(member.key_span.clone()),
+        }
+    }
+
+    /// Where an error about a field that this object lacks should point: at its key, or its opening bracket.
+    pub(super) fn key_span(&self) -> Range<usize> {
+        self.key.clone().unwrap_or_else(|| self.anchor())
+    }
+
+    /// What messages call the value: its last key or index, or "the document".
+    pub(super) fn name(&self) -> String {
+        match self.pointer.rsplit('/').next() {
+            None | Some("") => "the document".to_owned(),
+            Some(name) => format!("`{}`", super::error::shown(name)),
+        }
+    }
+
+    fn elements(&self) -> Vec<Value<'d>> {
+        let elements = match &self.node.content {
+            Content::Array(elements) => elements.as_slice(),
+            _ => &[],
+        };
+        elements
+            .iter()
+            .enumerate()
+            .map(|(index, node)| Value {
+                document: self.document,
+                node,
+                pointer: format!("{}/{index}", self.pointer),
+                key: None,
+            })
+            .collect()
+    }
+
+    fn anchor(&self) -> Range<usize> {
+        match self.node.content {
+            // A document in TOML has no bracket, and may have no byte.
+            Content::Array(_) | Content::Object(_) => {
+                self.node.span.start..self.node.span.end.min(self.node.span.start + 1)
+            }
+            _ => self.node.span.clone(),
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! The initial set in a document.
+
+use super::constant::nonnegative_constant;
+use super::document::Value;
+use super::error::{ErrorKind, Errors, Reported};
+use super::object::{Object, choose};
+use super::parts::{Constant, InitialSet};
+
+/// Reads `initial_set`: `paper` has no other field, `at-rest` may have X0 and E0, `box` has X0, E0 and Z0.
+///
+/// # Errors
+/// Reports an unknown kind, fields that are missing or do not belong to the kind, and numbers that are negative.
+pub(super) fn read(value: &Value<'_>, errors: &mut Errors) -> Result<InitialSet, Reported> {
+    read_kinds(value, false, errors).map(|(set, _)| set)
+}
+
+/// Reads `initial_set` of a plant, where `ball` may stand for X0: the radius of a ball that the set contains. Then X0 of the
+/// set is that radius until the norm in which X0 is meant is known.
+///
+/// # Errors
+/// Those of a specification's; and both of `X0` and `ball`.
+pub fn read_with_ball(value: &Value<'_>, errors: &mut Errors) -> Result<(InitialSet, Option<Constant>), Reported> {
+    read_kinds(value, true, errors)
+}
+
+fn read_kinds(value: &Value<'_>, balls: bool, errors: &mut Errors) -> Result<(InitialSet, Option<Constant>), Reported> {
+    let mut object = value.object(errors)?;
+    let kind = object.required("kind", errors);
+    // Without a kind the other fields have no meaning to check.
+    let kind = kind.and_then(|value| choose(&value, "kind of initial set", &["paper", "at-rest", "box"], errors))?;
+    let ball = if balls && kind != "paper" { optional(&mut object, "ball", errors)? } else { None };
+    if let (Some(_), Some(x0)) = (&ball, value.member("X0")) {
+        let error = x0.error(ErrorKind::UnknownField, "`X0` and `ball` both say how far x may be from its orbit");
+        return Err(errors.report(error.help("leave one of them out")));
+    }
+    let set = match kind {
+        "paper" => {
+            object.finish_as("for the kind `paper`", errors);
+            InitialSet::Paper
+        }
+        "at-rest" => {
+            let x0 = optional(&mut object, "X0", errors);
+            let e0 = optional(&mut object, "E0", errors);
+            object.finish_as("for the kind `at-rest`", errors);
+            InitialSet::AtRest { x0: ball.clone().or(x0?), e0: e0? }
+        }
+        _ => {
+            let mut number =
+                |name| object.required(name, errors).and_then(|value| nonnegative_constant(&value, errors));
+            let x0 = match &ball {
+                Some(ball) => Ok(ball.clone()),
+                None => number("X0"),
+            };
+            let (e0, z0) = (number("E0"), number("Z0"));
+            object.finish_as("for the kind `box`", errors);
+            InitialSet::Box { x0: x0?, e0: e0?, z0: z0? }
+        }
+    };
+    Ok((set, ball))
+}
+
+fn optional(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Option<Constant>, Reported> {
+    object.optional(name).map(|value| nonnegative_constant(&value, errors)).transpose()
+}

@@ -1,0 +1,61 @@
+//! Bounding specifications: reading them strictly, and the numbers in them.
+//!
+//! A document comes from a stranger, and a claim rests on every number in it. So nothing is guessed and nothing is
+//! rounded: [`Document`] reads JSON (or TOML) strictly and keeps numbers as written, [`Object`] refuses unknown fields,
+//! constants become exact numbers or enclosures, ranges and the conditions on the [`Weights`] are proved, and every
+//! error names its place ([`SpecError`]). What cannot be decided at the highest precision is an error of its own kind
+//! and no answer. [`Specification::from_json`] does all of it; the reader of documents serves certificates and
+//! witness files as well.
+
+mod bound;
+mod bounding;
+mod comments;
+mod constant;
+mod document;
+mod error;
+mod initial_set;
+mod jacobian;
+mod json;
+mod limits;
+pub mod model;
+mod notation;
+mod object;
+mod of_plant;
+mod parts;
+mod power_tail;
+mod proved_values;
+mod quantity;
+mod read;
+mod render;
+mod sampling;
+mod source;
+mod toml;
+mod visible;
+pub mod weights;
+mod weights_proof;
+mod weights_read;
+
+pub use bound::Bound;
+pub use bounding::Bounds;
+pub use constant::{any_constant, nonnegative_constant, positive_constant};
+pub use document::{Document, Value};
+pub use error::nearest;
+pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
+pub use initial_set::read_with_ball;
+pub use jacobian::MAX_STATES;
+pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
+pub use model::{
+    Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
+    RelativeDegree, Specification, TrigonometricVector,
+};
+pub use notation::Notation;
+pub use object::choose;
+pub use object::{MAX_UNKNOWN, Object};
+pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit};
+pub use power_tail::power_tail;
+pub use proved_values::{ProvedValue, ProvedValues};
+pub use read::read_internal_model;
+pub use read::{FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
+pub use sampling::{MAX_SAMPLES, SampledGain, Sampling};
+pub use weights::Weights;
+pub use weights_read::MAX_WEIGHTS;

@@ -1,0 +1,181 @@
+//! Strict objects: every field is known, required ones are there, and the header says what the file is.
+
+use super::document::Value;
+use super::error::{ErrorKind, Errors, Reported, SpecError, list, nearest, shown};
+use super::json::Content;
+
+/// The most unknown fields of one object that are reported one by one: a suggestion compares a name with every known
+/// one, and nobody reads thousands.
+pub const MAX_UNKNOWN: usize = 5;
+
+/// An object that is read field by field. Every field that is asked for counts as known; [`Object::finish`] refuses
+/// the others, so a misspelt field can never be silently ignored.
+///
+/// ```
+/// use crate::spec::{Document, Errors, SpecErrors, positive_constant};
+///
+/// let text = r#"{ "format": "sigmastar/witness", "version": 1, "sigma_star": "97/2" }"#;
+/// let document = Document::parse("witness.json", text)?;
+/// let mut errors = Errors::new();
+/// let outcome = document.root().object(&mut errors).and_then(|mut object| {
+///     object.header("sigmastar/witness", &[1], &mut errors)?;
+///     let sigma = object.required("sigma_star", &mut errors).and_then(|value| positive_constant(&value, &mut errors));
+///     object.finish(&mut errors);
+///     sigma
+/// });
+/// assert_eq!(errors.conclude(&document, outcome)?.to_f64(), 48.5);
+/// # Ok::<(), SpecErrors>(())
+/// ```
+#[derive(Debug)]
+#[must_use = "`finish` refuses unknown fields"]
+pub struct Object<'d> {
+    value: Value<'d>,
+    known: Vec<&'static str>,
+}
+
+impl<'d> Value<'d> {
+    /// The members of an object, to be read field by field.
+    ///
+    /// # Errors
+    /// Reports a value that is not an object.
+    pub fn object(&self, errors: &mut Errors) -> Result<Object<'d>, Reported> {
+        match self.node.content {
+            Content::Object(_) => Ok(Object::new(self.clone())),
+            _ => Err(self.wrong_type("an object", errors)),
+        }
+    }
+}
+
+impl<'d> Object<'d> {
+    fn new(value: Value<'d>) -> Object<'d> {
+        Object { value, known: Vec::new() }
+    }
+
+    /// The object as a value.
+    #[must_use]
+    pub fn value(&self) -> &Value<'d> {
+        &self.value
+    }
+
+    /// A field that may be absent.
+    pub fn optional(&mut self, name: &'static str) -> Option<Value<'d>> {
+        self.known.push(name);
+        self.value.member(name)
+    }
+
+    /// A field that must be there.
+    ///
+    /// # Errors
+    /// Reports a missing field.
+    pub fn required(&mut self, name: &'static str, errors: &mut Errors) -> Result<Value<'d>, Reported> {
+        self.optional(name).ok_or_else(|| {
+            errors.report(
+                SpecError::new(
+                    ErrorKind::MissingField,
+                    format!("{}/{name}", self.value.pointer()),
+                    self.value.key_span(),
+                    format!("the field `{name}` is missing"),
+                )
+                .expected(format!("expected `{name}` in this object")),
+            )
+        })
+    }
+
+    /// Reads `$schema`, by which the editor of a whole document knows its fields: a text that is ignored.
+    ///
+    /// # Errors
+    /// Reports a value that is no text.
+    pub fn schema_reference(&mut self, errors: &mut Errors) -> Result<(), Reported> {
+        // Inside of another document it is unknown: nobody would look at it there.
+        if !self.value.pointer().is_empty() {
+            return Ok(());
+        }
+        self.optional("$schema").map_or(Ok(()), |value| value.string(errors).map(drop))
+    }
+
+    /// Reads `format` and `version`, which open every file of the tool.
+    ///
+    /// # Errors
+    /// Reports a missing field, another format, and a version that is not in `versions`. A caller stops at that:
+    /// what follows in a file of another kind means something else.
+    pub fn header(&mut self, format: &str, versions: &[u64], errors: &mut Errors) -> Result<u64, Reported> {
+        let found = self.required("format", errors).and_then(|value| {
+            let found = value.string(errors)?;
+            if found == format {
+                return Ok(());
+            }
+            let message = format!("this is a file of format `{}`", shown(found));
+            let error = value.error(ErrorKind::Format, message).expected(format!("expected `{format}`"));
+            // What is to be certified, in the place of what was.
+            let what = match (found, format) {
+                ("sigmastar/plant", "sigmastar/certificate") => "a plant",
+                ("sigmastar/bounding-spec", "sigmastar/certificate") => "a specification",
+                _ => return Err(errors.report(error)),
+            };
+            Err(errors.report(error.help(format!(
+                "{what} is to be certified first: `sigmastar certify FILE -o CERTIFICATE`; this command reads the CERTIFICATE"
+            ))))
+        });
+        let version = self.required("version", errors).and_then(|value| {
+            let version = value.integer(errors)?;
+            if versions.contains(&version) {
+                return Ok(version);
+            }
+            let read: Vec<String> = versions.iter().map(u64::to_string).collect();
+            let read: Vec<&str> = read.iter().map(String::as_str).collect();
+            let plural = if read.len() == 1 { "version" } else { "versions" };
+            let error = value
+                .error(ErrorKind::Version, format!("version {version} of `{format}` is not read"))
+                .expected(format!("{plural} {} can be read", list(&read)));
+            Err(errors.report(error))
+        });
+        found.and(version)
+    }
+
+    /// Refuses the fields that were not asked for: the first [`MAX_UNKNOWN`] each with its nearest known neighbour, the
+    /// others by their number.
+    pub fn finish(self, errors: &mut Errors) {
+        self.finish_as("here", errors);
+    }
+
+    /// The same, where the known fields depend on something: `place` completes "the fields known ...".
+    pub fn finish_as(self, place: &str, errors: &mut Errors) {
+        let mut unknown = self.value.members().filter(|(key, _)| !self.known.contains(key));
+        // A field that is there already is less likely to be what was meant.
+        let absent: Vec<&str> = self.known.iter().copied().filter(|name| self.value.member(name).is_none()).collect();
+        for (key, value) in unknown.by_ref().take(MAX_UNKNOWN) {
+            let error = SpecError::new(
+                ErrorKind::UnknownField,
+                value.pointer(),
+                value.key_span(),
+                format!("unknown field `{}`", shown(key)),
+            );
+            let near = nearest(key, absent.iter().copied()).or_else(|| nearest(key, self.known.iter().copied()));
+            errors.report(match near {
+                Some(name) => error.expected(format!("did you mean `{name}`?")),
+                None => error.help(format!("the fields known {place} are {}", list(&self.known))),
+            });
+        }
+        errors.count(unknown.count());
+    }
+}
+
+/// The name of a kind or family, out of those that are known.
+///
+/// # Errors
+/// Reports any other name with the nearest that is known.
+pub fn choose(
+    value: &Value<'_>,
+    what: &str,
+    known: &[&'static str],
+    errors: &mut Errors,
+) -> Result<&'static str, Reported> {
+    let name = value.string(errors)?;
+    known.iter().copied().find(|candidate| *candidate == name).ok_or_else(|| {
+        let error = value.error(ErrorKind::UnknownName, format!("unknown {what} `{}`", shown(name)));
+        errors.report(match nearest(name, known.iter().copied()) {
+            Some(near) => error.expected(format!("did you mean `{near}`?")),
+            None => error.help(format!("the known ones are {}", list(known))),
+        })
+    })
+}

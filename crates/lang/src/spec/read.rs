@@ -1,0 +1,297 @@
+//! From a document to a specification.
+
+use super::bound::Bound;
+use super::bounding::Bounds;
+use super::constant::{any_constant, expression, nonnegative_constant, positive_constant, whole};
+use super::document::{Document, Value};
+use super::error::{ErrorKind, Errors, Reported, SpecErrors};
+use super::initial_set;
+use super::model::{InternalModel, LyapunovSource, Specification};
+use super::object::Object;
+use super::parts::{Constant, Domain, KnownForcing, Lyapunov, RelativeDegree};
+use super::quantity::Quantity;
+use super::{sampling, weights_read};
+use crate::expr::Monomial;
+use crate::expr::{Expr, Variables};
+use rug::Rational;
+use sigmastar_exact::enclosure::{MAX_PRECISION, Truth};
+use sigmastar_exact::number::write_exact;
+use std::ops::Range;
+use std::path::Path;
+
+/// The `format` of a specification.
+pub const FORMAT: &str = "sigmastar/bounding-spec";
+
+/// The versions of it that are read.
+pub const VERSIONS: [u64; 1] = [1];
+
+/// The most coefficients that `relative_degree` may list.
+pub const MAX_RELATIVE_DEGREE_COEFFICIENTS: usize = 20;
+
+/// The most harmonics that `q_0` may list.
+pub const MAX_HARMONICS: usize = 200;
+
+impl Specification {
+    /// Reads a specification from the text of its file; `label` is what errors call it, usually its path.
+    ///
+    /// Guarantee: every number is exact or can be enclosed, and is proved to lie in its range; the weights are proved
+    /// to satisfy W1-W3; `matched`, where asserted, is proved. Nothing is said about the bounding functions beyond
+    /// that they can be read. Never panics, whatever the text.
+    ///
+    /// # Errors
+    /// Everything that was found wrong, in file order. Where nothing is wrong but something could not be decided,
+    /// [`SpecErrors::is_undecided`] holds.
+    pub fn from_json(label: &str, text: &str) -> Result<Specification, SpecErrors> {
+        Document::parse(label, text).and_then(|document| Specification::from_value(&document.root()))
+    }
+
+    /// Reads a specification from its file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and those of [`Specification::from_json`].
+    pub fn load(path: &Path) -> Result<Specification, SpecErrors> {
+        Document::load(path).and_then(|document| Specification::from_value(&document.root()))
+    }
+
+    /// Reads a specification that is a value of a document, such as the copy in a certificate; pointers and places
+    /// are those of the whole document, the digest is that of the value.
+    ///
+    /// # Errors
+    /// Those of [`Specification::from_json`].
+    pub fn from_value(value: &Value<'_>) -> Result<Specification, SpecErrors> {
+        let mut errors = Errors::new();
+        let outcome = read(value, &mut errors);
+        errors.conclude(value.document(), outcome)
+    }
+
+    /// Errors found after reading, in a string of the specification: `field` is its pointer inside the specification
+    /// (`/bounds/q`), `part` the bytes of the decoded text at fault.
+    #[must_use]
+    pub fn errors_at(
+        &self,
+        field: &str,
+        part: &Range<usize>,
+        kind: ErrorKind,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SpecErrors {
+        self.source.errors_at(&format!("{}{field}", self.pointer), part, kind, message, help)
+    }
+}
+
+fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reported> {
+    let mut object = value.object(errors)?;
+    object.header(FORMAT, &VERSIONS, errors)?;
+    let schema = object.schema_reference(errors);
+    let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
+    let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
+    let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
+    let lyapunov =
+        object.required("lyapunov", errors).and_then(|value| read_lyapunov(&value, period.as_ref().ok(), errors));
+    let bounds = object.required("bounds", errors).and_then(|value| read_bounds(&value, errors));
+    let q_0 = object.optional("q_0").map(|value| read_forcing(&value, errors)).transpose();
+    let domain = object.optional("domain").map(|value| read_domain(&value, errors)).transpose();
+    let internal_model = object
+        .required("internal_model", errors)
+        .and_then(|value| read_internal_model(&value, period.as_ref().ok(), errors));
+    let initial_set = object.required("initial_set", errors).and_then(|value| initial_set::read(&value, errors));
+    let relative_degree =
+        object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
+    object.finish(errors);
+    schema?;
+    let (lyapunov, rate) = lyapunov?;
+    let (document, sha256) = value.embedded();
+    Ok(Specification {
+        name: name?,
+        description: description?,
+        period: period?,
+        lyapunov,
+        bounds: bounds?.with_rate(rate),
+        q_0: q_0?,
+        domain: domain?,
+        internal_model: internal_model?,
+        initial_set: initial_set?,
+        relative_degree: relative_degree?,
+        document,
+        sha256,
+        source: value.document().clone(),
+        pointer: value.pointer().to_owned(),
+    })
+}
+
+/// The triple or the Jacobian, and the contraction rate that may stand next to a triple.
+fn read_lyapunov(
+    value: &Value<'_>,
+    period: Option<&Constant>,
+    errors: &mut Errors,
+) -> Result<(LyapunovSource, Option<Expr>), Reported> {
+    let mut object = value.object(errors)?;
+    if value.member("jacobian").is_some() {
+        let jacobian =
+            object.required("jacobian", errors).and_then(|value| super::jacobian::read(&value, period, errors));
+        object.finish_as("next to a Jacobian", errors);
+        return jacobian.map(|jacobian| (LyapunovSource::Wanted(jacobian), None));
+    }
+    let p_low = positive_field(&mut object, "p_low", errors);
+    let p_up = object.required("p_up", errors).and_then(|value| {
+        let p_up = positive_constant(&value, errors)?;
+        if let Ok(p_low) = &p_low {
+            in_order(p_low, &p_up, &value, errors)?;
+        }
+        Ok(p_up)
+    });
+    let alpha = positive_field(&mut object, "alpha", errors);
+    let rate = object.optional(Bound::Rate.field()).map(|value| bounding_function(&value, errors)).transpose();
+    object.finish(errors);
+    Ok((LyapunovSource::Given(Lyapunov { p_low: p_low?, p_up: p_up?, alpha: alpha? }), rate?))
+}
+
+fn in_order(p_low: &Constant, p_up: &Constant, value: &Value<'_>, errors: &mut Errors) -> Result<(), Reported> {
+    let (low, up) = (Quantity::constant(p_low), Quantity::constant(p_up));
+    let (kind, message) = match low.le(&up) {
+        Truth::True => return Ok(()),
+        Truth::False => {
+            let (low, up) = low.shown_apart(&up);
+            (ErrorKind::Range, format!("p_low <= p_up fails: p_low = {low} and p_up = {up}"))
+        }
+        Truth::Undecided => {
+            (ErrorKind::Undecided, format!("cannot be decided at {MAX_PRECISION} bits whether p_low <= p_up"))
+        }
+    };
+    let error = whole(value, kind, message).expected(format!("expected at least {}", low.shown()));
+    Err(errors.report(error))
+}
+
+fn read_bounds(value: &Value<'_>, errors: &mut Errors) -> Result<Bounds, Reported> {
+    let mut object = value.object(errors)?;
+    let bounds = Bounds::read(
+        &mut (&mut object, &mut *errors),
+        |(object, errors), field| object.required(field, errors).and_then(|value| bounding_function(&value, errors)),
+        |(object, errors), field| object.optional(field).map(|value| bounding_function(&value, errors)).transpose(),
+    );
+    object.finish(errors);
+    bounds
+}
+
+fn bounding_function(value: &Value<'_>, errors: &mut Errors) -> Result<Expr, Reported> {
+    expression(value, Variables::XAndE, "a number or a string with an expression in X and E", errors)
+}
+
+fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<KnownForcing, Reported> {
+    let mut object = value.object(errors)?;
+    let harmonics = object.required("harmonics", errors).and_then(|value| {
+        let elements = value.array(errors)?;
+        if elements.is_empty() || elements.len() > MAX_HARMONICS {
+            let message = format!("`harmonics` lists {} bounds", elements.len());
+            let expected = format!("expected 1 to {MAX_HARMONICS} bounds of |c_0|, |c_1|, ...");
+            return Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)));
+        }
+        let read: Vec<Result<_, Reported>> = elements.iter().map(|value| nonnegative_constant(value, errors)).collect();
+        read.into_iter().collect()
+    });
+    let rest_rms = object.required("rest_rms", errors).and_then(|value| nonnegative_constant(&value, errors));
+    let rest_t_rms = object.optional("rest_t_rms").map(|value| nonnegative_constant(&value, errors)).transpose();
+    object.finish(errors);
+    Ok(KnownForcing { harmonics: harmonics?, rest_rms: rest_rms?, rest_t_rms: rest_t_rms? })
+}
+
+fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reported> {
+    let mut object = value.object(errors)?;
+    let x = positive_field(&mut object, "X", errors);
+    let e = positive_field(&mut object, "E", errors);
+    object.finish(errors);
+    Ok(Domain { x: x?, e: e? })
+}
+
+/// The regulator's part of a specification or a plant; `period`, where it was read, is held against the base frequency.
+///
+/// # Errors
+/// Reports fields that are missing or unknown and numbers that are out of range.
+pub fn read_internal_model(
+    value: &Value<'_>,
+    period: Option<&Constant>,
+    errors: &mut Errors,
+) -> Result<InternalModel, Reported> {
+    let mut object = value.object(errors)?;
+    let mu = positive_field(&mut object, "mu", errors);
+    let frequency_value = object.required("base_frequency", errors);
+    let base_frequency = frequency_value.clone().and_then(|value| positive_constant(&value, errors));
+    let matched = match object.optional("matched") {
+        Some(value) => value.boolean(errors),
+        None => Ok(false),
+    };
+    let weights = object.required("weights", errors).and_then(|value| weights_read::read(&value, errors));
+    let step = object.optional("sampling_period");
+    object.finish(errors);
+    if let (Ok(true), Some(period), Ok(value), Ok(frequency)) = (matched, period, &frequency_value, &base_frequency) {
+        prove_matched(period, frequency, value, errors)?;
+    }
+    let sampling = match (step, period) {
+        (Some(step), Some(period)) => Some(sampling::read(&step, period, matched, errors)?),
+        _ => None,
+    };
+    Ok(InternalModel { mu: mu?, base_frequency: base_frequency?, matched: matched?, weights: weights?, sampling })
+}
+
+/// Proves base_frequency * period = 2 pi. Close is not enough: the consequences of a matched frequency (vanishing
+/// harmonics, exact regulation) fail for every other one.
+fn prove_matched(
+    period: &Constant,
+    frequency: &Constant,
+    value: &Value<'_>,
+    errors: &mut Errors,
+) -> Result<(), Reported> {
+    let product = Quantity::constant(frequency).times(Quantity::constant(period));
+    let two_pi = Quantity::exact(Monomial::pi()).times(Quantity::rational(2));
+    let right = match period.as_rational().map(|period| Rational::from(2) / period) {
+        Some(ratio) if ratio == 1 => "pi".to_owned(),
+        Some(ratio) => format!("{}*pi", write_exact(&ratio)),
+        None => format!("2*pi/({})", period.text),
+    };
+    let error = match product.equals(&two_pi) {
+        Truth::True => return Ok(()),
+        Truth::False => {
+            let (product, two_pi) = product.shown_apart(&two_pi);
+            let message = format!(
+                "`matched` asserts base_frequency = 2 pi / period, but base_frequency * period = {product} and \
+                 2 pi = {two_pi}"
+            );
+            whole(value, ErrorKind::Matched, message).expected(format!("`{right}` would be right"))
+        }
+        Truth::Undecided => {
+            let message = "`matched` asserts base_frequency = 2 pi / period, which cannot be proved exactly";
+            whole(value, ErrorKind::Undecided, message).expected(format!("write it in multiples of pi, as `{right}`"))
+        }
+    };
+    Err(errors.report(error.help("or set `matched` to false: the gain does not need it")))
+}
+
+fn read_relative_degree(value: &Value<'_>, errors: &mut Errors) -> Result<RelativeDegree, Reported> {
+    let mut object = value.object(errors)?;
+    let a = object.required("a", errors).and_then(|value| {
+        let elements = value.array(errors)?;
+        if elements.is_empty() || elements.len() > MAX_RELATIVE_DEGREE_COEFFICIENTS {
+            let message = format!("`a` lists {} coefficients", elements.len());
+            let expected = format!("expected 1 to {MAX_RELATIVE_DEGREE_COEFFICIENTS} coefficients a_1, ..., a_(r-1)");
+            return Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)));
+        }
+        let read: Vec<Result<_, Reported>> = elements.iter().map(|value| rational(value, errors)).collect();
+        read.into_iter().collect()
+    });
+    object.finish(errors);
+    Ok(RelativeDegree { a: a? })
+}
+
+fn rational(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
+    let constant = any_constant(value, errors)?;
+    if constant.as_rational().is_some() {
+        return Ok(constant);
+    }
+    let error = whole(value, ErrorKind::Range, "this coefficient is not known to be rational")
+        .expected("expected a rational number, as in \"3/7\" or 0.5");
+    Err(errors.report(error))
+}
+
+fn positive_field(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Constant, Reported> {
+    object.required(name, errors).and_then(|value| positive_constant(&value, errors))
+}

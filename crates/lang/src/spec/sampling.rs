@@ -1,0 +1,155 @@
+//! The samples of a computer that runs the regulator (derivation, 12): a whole number of them in a period, proved.
+
+use super::constant::{positive_constant, whole};
+use super::document::Value;
+use super::error::{ErrorKind, Errors, Reported};
+use super::parts::Constant;
+use super::quantity::Quantity;
+use rug::{Float, Rational};
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::number::write_exact;
+
+/// The most samples in a period that are read: every harmonic of them is looked at one by one.
+pub const MAX_SAMPLES: u32 = 1 << 16;
+
+/// Bits at which K and Nb2 are enclosed before they are rounded.
+pub(super) const PRECISION: u32 = 512;
+
+/// The sampling period h, with T/h samples in a period T.
+#[derive(Clone, Debug)]
+pub struct Sampling {
+    /// h > 0, a time.
+    pub step: Constant,
+    /// T/h, proved: at least 2, at most [`MAX_SAMPLES`].
+    pub samples: u32,
+}
+
+/// K and Nb2 of the law at samples, both doubles, exactly: what an exported regulator runs with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SampledGain {
+    /// K, near mu/(1 + theta) with theta = h mu Nbar^2/2.
+    pub gain: Rational,
+    /// Nb2, not below the sum of all weights.
+    pub weight_sum: Rational,
+}
+
+/// Reads h and proves that T/h is a whole number of at least 2; `matched` says whether the base frequency is 2 pi/T.
+///
+/// # Errors
+/// A constant that is not positive; a base frequency that is not matched; a number of samples that is not whole, below 2, above
+/// [`MAX_SAMPLES`], or not known exactly.
+pub(super) fn read(
+    value: &Value<'_>,
+    period: &Constant,
+    matched: Result<bool, Reported>,
+    errors: &mut Errors,
+) -> Result<Sampling, Reported> {
+    let step = positive_constant(value, errors)?;
+    if !matched? {
+        let message = "the regulator at samples needs a base frequency of 2 pi / period";
+        let error = whole(value, ErrorKind::Matched, message).expected("expected `\"matched\": true` beside it");
+        return Err(
+            errors.report(error.help("or leave `sampling_period` out: the continuous-time regulator does without"))
+        );
+    }
+    match samples(period, &step) {
+        Ok(samples) => Ok(Sampling { step, samples }),
+        Err(problem) => {
+            let (kind, message) = problem.describe(period);
+            let expected = format!("expected period / sampling_period to be a whole number from 2 to {MAX_SAMPLES}");
+            Err(errors.report(whole(value, kind, message).expected(expected).help(problem.way_out(period))))
+        }
+    }
+}
+
+/// Why there is no whole number of samples in a period.
+enum Problem {
+    /// It is this number.
+    NotWhole(String, Option<u32>),
+    /// It is whole, and out of range.
+    Range(String),
+    /// It is not known exactly.
+    Undecided,
+}
+
+impl Problem {
+    fn describe(&self, period: &Constant) -> (ErrorKind, String) {
+        let ratio = format!("period / sampling_period, with the period {},", period.text);
+        match self {
+            Problem::NotWhole(shown, _) => (ErrorKind::Range, format!("{ratio} is {shown}, not a whole number")),
+            Problem::Range(shown) => (ErrorKind::Range, format!("{ratio} is {shown}")),
+            Problem::Undecided => (ErrorKind::Undecided, format!("{ratio} is not known exactly")),
+        }
+    }
+
+    fn way_out(&self, period: &Constant) -> String {
+        let share = |count: u32| period.divided_by(count).map_or_else(String::new, |share| share.text);
+        match self {
+            Problem::NotWhole(_, Some(near)) => format!("such as `{}`", share(*near)),
+            Problem::NotWhole(_, None) | Problem::Range(_) => "take another sampling period".to_owned(),
+            Problem::Undecided => format!("write it as a fraction of the period, as `{}`", share(100)),
+        }
+    }
+}
+
+/// T/h, decided exactly.
+fn samples(period: &Constant, step: &Constant) -> Result<u32, Problem> {
+    let ratio = period.exact.as_ref().zip(step.exact.as_ref()).and_then(|(period, step)| period.div(step));
+    let near = |value: f64| {
+        let rounded = value.round();
+        (rounded >= 2.0 && rounded <= f64::from(MAX_SAMPLES)).then_some(rounded as u32)
+    };
+    let Some(ratio) = ratio else {
+        // Without exact forms two numbers can be told apart, and not be proved equal.
+        let ratio = period.enclose(PRECISION) / step.enclose(PRECISION);
+        let nearest = Rational::try_from(Float::with_val(PRECISION, ratio.lower()).ceil());
+        return Err(match nearest {
+            Ok(nearest) if !ratio.contains(&nearest) && ratio.is_bounded() => {
+                let value = ratio.midpoint_f64();
+                Problem::NotWhole(format!("about {value:.6}"), near(value))
+            }
+            _ => Problem::Undecided,
+        });
+    };
+    let shown = Quantity::exact(ratio.clone()).shown();
+    match ratio.as_rational() {
+        Some(whole) if *whole.denom() == 1 => match whole.numer().to_u32() {
+            Some(samples) if (2..=MAX_SAMPLES).contains(&samples) => Ok(samples),
+            _ => Err(Problem::Range(shown)),
+        },
+        _ => Err(Problem::NotWhole(shown, near(ratio.enclose(PRECISION).midpoint_f64()))),
+    }
+}
+
+impl Sampling {
+    /// The samples h apart in a period, where there is a whole number of them in range.
+    #[must_use]
+    pub fn new(period: &Constant, step: Constant) -> Option<Sampling> {
+        samples(period, &step).ok().map(|samples| Sampling { step, samples })
+    }
+
+    /// Whether two sampling periods are the same number, as far as that is known exactly.
+    #[must_use]
+    pub fn is(&self, step: &Constant) -> bool {
+        let exact = self.step.exact.as_ref().zip(step.exact.as_ref());
+        exact.is_some_and(|(own, other)| own.equals(other).is_true())
+    }
+
+    /// h as a certificate writes it: the rational number, else the text of the file.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.step.as_rational().map_or_else(|| self.step.text.clone(), write_exact)
+    }
+
+    /// Whether h sigma <= 1, exactly where h is rational.
+    #[must_use]
+    pub fn fits(&self, sigma: &Rational) -> Truth {
+        match self.step.as_rational() {
+            Some(step) => Truth::exact(Rational::from(step * sigma) <= 1),
+            None => {
+                let product = Enclosure::from_rational(sigma, PRECISION) * self.step.enclose(PRECISION);
+                product.le(&Enclosure::one(PRECISION))
+            }
+        }
+    }
+}

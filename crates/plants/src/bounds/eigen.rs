@@ -1,0 +1,137 @@
+//! Eigenvalues of small symmetric matrices in doubles, by Jacobi's rotations. They propose; nothing rests on them.
+
+use sigmastar_exact::number::Portable;
+
+/// Sweeps after which the rotations end; convergence is quadratic.
+const SWEEPS: usize = 12;
+
+/// The eigenvalues of a symmetric matrix, and the eigenvectors as columns. Of the entries both triangles are read.
+pub(super) fn eigen(mut matrix: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let order = matrix.len();
+    let mut vectors: Vec<Vec<f64>> = (0..order).map(|i| (0..order).map(|j| f64::from(i == j)).collect()).collect();
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for p in 0..order {
+            for q in p + 1..order {
+                let off = matrix[p][q];
+                let size = matrix[p][p].abs() + matrix[q][q].abs();
+                // A NaN ends it as well.
+                if off == 0.0 || off.abs() <= size * 1e-15 || !off.is_finite() {
+                    continue;
+                }
+                rotated = true;
+                let theta = (matrix[q][q] - matrix[p][p]) / (2.0 * off);
+                let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
+                let sine = tangent * cosine;
+                for row in &mut matrix {
+                    let (a, b) = (row[p], row[q]);
+                    (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+                // p < q.
+                let (above, below) = matrix.split_at_mut(q);
+                for (upper, lower) in above[p].iter_mut().zip(&mut below[0]) {
+                    (*upper, *lower) = (cosine * *upper - sine * *lower, sine * *upper + cosine * *lower);
+                }
+                for row in &mut vectors {
+                    let (a, b) = (row[p], row[q]);
+                    (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    ((0..order).map(|i| matrix[i][i]).collect(), vectors)
+}
+
+/// The largest eigenvalue of a symmetric matrix; of order 0, negative infinity.
+pub(super) fn largest(matrix: Vec<Vec<f64>>) -> f64 {
+    if let [[a, b], [_, d]] = matrix.iter().map(Vec::as_slice).collect::<Vec<_>>()[..] {
+        return (a + d) / 2.0 + ((a - d).portable_powi(2) / 4.0 + b * b).sqrt();
+    }
+    eigen(matrix).0.into_iter().fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The same of a matrix by rows, which is used as working memory.
+pub(super) fn largest_of(matrix: &mut [f64], order: usize) -> f64 {
+    match (order, &*matrix) {
+        (1, [a]) => return *a,
+        (2, [a, b, _, d]) => return (a + d) / 2.0 + ((a - d).portable_powi(2) / 4.0 + b * b).sqrt(),
+        (3, [a, b, c, _, d, e, _, _, f]) => return largest_of_three([*a, *d, *f], [*b, *c, *e]),
+        _ => {}
+    }
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for p in 0..order {
+            for q in p + 1..order {
+                let off = matrix[p * order + q];
+                let (at_p, at_q) = (matrix[p * order + p], matrix[q * order + q]);
+                if off == 0.0 || off.abs() <= (at_p.abs() + at_q.abs()) * 1e-15 || !off.is_finite() {
+                    continue;
+                }
+                rotated = true;
+                let theta = (at_q - at_p) / (2.0 * off);
+                let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
+                let sine = tangent * cosine;
+                for row in matrix.chunks_mut(order) {
+                    let (a, b) = (row[p], row[q]);
+                    (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+                for k in 0..order {
+                    let (a, b) = (matrix[p * order + k], matrix[q * order + k]);
+                    (matrix[p * order + k], matrix[q * order + k]) = (cosine * a - sine * b, sine * a + cosine * b);
+                }
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    (0..order).map(|i| matrix[i * order + i]).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The largest root of the characteristic polynomial, by cosines; from the diagonal and (1,2), (1,3), (2,3).
+fn largest_of_three([a, d, f]: [f64; 3], [b, c, e]: [f64; 3]) -> f64 {
+    let mean = (a + d + f) / 3.0;
+    let off = b * b + c * c + e * e;
+    let [a, d, f] = [a - mean, d - mean, f - mean];
+    let size = ((a * a + d * d + f * f + 2.0 * off) / 6.0).sqrt();
+    if size == 0.0 {
+        return mean;
+    }
+    let determinant = a * (d * f - e * e) - b * (b * f - e * c) + c * (b * e - d * c);
+    let cosine = (determinant / (2.0 * size.portable_powi(3))).clamp(-1.0, 1.0);
+    mean + 2.0 * size * libm::cos(libm::acos(cosine) / 3.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_find_the_same_largest_one() {
+        for order in 1..=6 {
+            let entry = |i: usize, j: usize| libm::sin((3 * i.min(j) + 7 * i.max(j) + order) as f64);
+            let rows: Vec<Vec<f64>> = (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect();
+            assert!((largest_of(&mut rows.concat(), order) - largest(rows)).abs() < 1e-12, "{order}");
+        }
+    }
+
+    #[test]
+    fn eigenvalues_by_hand() {
+        let matrix = vec![vec![2.0, 1.0, 0.0], vec![1.0, 2.0, 0.0], vec![0.0, 0.0, -5.0]];
+        let (mut values, vectors) = eigen(matrix.clone());
+        for (k, value) in values.iter().enumerate() {
+            for row in 0..3 {
+                let image: f64 = (0..3).map(|j| matrix[row][j] * vectors[j][k]).sum();
+                assert!((image - value * vectors[row][k]).abs() < 1e-12);
+            }
+        }
+        values.sort_by(f64::total_cmp);
+        assert!(values.iter().zip([-5.0, 1.0, 3.0]).all(|(a, b)| (a - b).abs() < 1e-12));
+        assert!((largest(vec![vec![2.0, 1.0], vec![1.0, 2.0]]) - 3.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,181 @@
+//! What the decisions share: formulas with their derivatives, and what depends on t alone.
+
+use super::PRECISION;
+use super::centred::{Centred, Frame, OnBox};
+use super::entry::Kind;
+use super::extent::extent;
+use super::quantity::Quantity;
+use super::region::{Region, RegionError};
+use super::requirement::Requirement;
+use super::side::Side;
+use super::time_cell::{TimeCell, Waves};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::{Formulas, Walk};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Constant, PeriodicMatrix};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// The parts of the period of which is remembered what depends on t alone; more are computed again each time.
+const REMEMBERED: usize = 1 << 14;
+
+/// Decides bounds of one plant on tubes of one region.
+///
+/// Every answer holds for all t if f and q have the period, which is for [`Plant::prove_periodic`] to prove.
+#[derive(Debug)]
+pub struct Engine {
+    pub(super) region: Region,
+    pub(super) period: Constant,
+    quantities: [Quantity; Kind::ALL.len()],
+    pub(super) requirements: Vec<Requirement>,
+    /// f.
+    velocity: Walk,
+    /// The P of the rate and that of the rate of existence.
+    matrices: [Option<PeriodicMatrix>; 2],
+    cells: Mutex<HashMap<Side, Arc<TimeCell>>>,
+    extents: Vec<OnceLock<[Rational; 2]>>,
+}
+
+impl Engine {
+    /// The bounds of a plant around an orbit. Without a P its rate is never proved.
+    ///
+    /// # Errors
+    /// A region of another number of states, and a P that is not symmetric of their order.
+    pub fn new(
+        plant: &Plant,
+        region: Region,
+        matrix: Option<PeriodicMatrix>,
+        existence: Option<PeriodicMatrix>,
+    ) -> Result<Engine, RegionError> {
+        let order = plant.states();
+        let fits = |matrix: &PeriodicMatrix| {
+            std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten()).all(|rows| is_symmetric(rows, order))
+        };
+        let matrices = [matrix, existence];
+        if region.states() != order || !matrices.iter().flatten().all(fits) {
+            return Err(RegionError::Shape);
+        }
+        let mut formulas = Formulas::new();
+        let (mut sides, mut requirements) = (Vec::new(), Vec::new());
+        for (index, expr) in plant.f.iter().chain([&plant.q]).enumerate() {
+            let (formula, demands) = formulas.insert_with_demands(expr);
+            sides.push(formula);
+            requirements.extend(demands.into_iter().map(|demand| Requirement::new(index, expr, demand, &formulas)));
+        }
+        // There is one right side at least, that of q.
+        let (f, q) = sides.split_at(order);
+        let quantity = |kind: Kind, formulas: &mut Formulas| {
+            let moves = matrices[usize::from(kind == Kind::RateExistence)].as_ref();
+            let moves = moves.is_some_and(|matrix| !matrix.harmonics.is_empty());
+            Quantity::new(formulas, f, q[0], kind, moves)
+        };
+        let quantities = Kind::ALL.map(|kind| quantity(kind, &mut formulas));
+        let velocity = formulas.walk(f);
+        let extents = (0..order).map(|_| OnceLock::new()).collect();
+        let period = plant.period.clone();
+        let cells = Mutex::new(HashMap::new());
+        Ok(Engine { region, period, quantities, requirements, velocity, matrices, cells, extents })
+    }
+
+    /// The number of states.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.region.states()
+    }
+
+    /// The radius r of the tube in doubles.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.region.radius().to_f64()
+    }
+
+    pub(super) fn quantity(&self, kind: Kind) -> &Quantity {
+        &self.quantities[kind.index()]
+    }
+
+    /// Whether there is a P for a rate.
+    #[must_use]
+    pub fn has_matrix(&self, kind: Kind) -> bool {
+        self.matrices[usize::from(kind == Kind::RateExistence)].is_some()
+    }
+
+    /// T.
+    pub(super) fn period(&self) -> Enclosure {
+        self.period.enclose(PRECISION)
+    }
+
+    /// An interval that contains a component of xb at all t.
+    pub(super) fn extent(&self, index: usize) -> [Rational; 2] {
+        self.extents[index].get_or_init(|| extent(self.region.orbit(), index)).clone()
+    }
+
+    /// What depends on t alone on a part of the period.
+    pub(super) fn time_cell(&self, side: Side) -> Arc<TimeCell> {
+        // Whoever panics while he holds the lock has changed nothing but whole entries.
+        let lock = || self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(cell) = lock().get(&side) {
+            return cell.clone();
+        }
+        let cell = Arc::new(self.new_cell(side));
+        let mut cells = lock();
+        if cells.len() < REMEMBERED {
+            cells.insert(side, cell.clone());
+        }
+        cell
+    }
+
+    fn new_cell(&self, side: Side) -> TimeCell {
+        let orbit = self.region.orbit();
+        let degrees = self.matrices.iter().flatten().map(|matrix| matrix.harmonics.len());
+        let waves = Waves::new(side, degrees.chain([orbit.harmonics.len()]).max().unwrap_or(0));
+        let order = self.region.states();
+        let orbit: Vec<Centred> = (0..order)
+            .map(|i| {
+                let coefficients = orbit.harmonics.iter().map(move |[a, b]| [&a[i], &b[i]]);
+                waves.polynomial(&orbit.mean[i], coefficients, false)
+            })
+            .collect();
+        let frame = Frame { halves: vec![Enclosure::from_rational(&side.half(), PRECISION)], precision: PRECISION };
+        let period = self.period();
+        let matrices = self.matrices.each_ref().map(|matrix| {
+            matrix.as_ref().map(|matrix| {
+                [false, true].map(|derivative| {
+                    let entry = |i: usize, j: usize| {
+                        let coefficients = matrix.harmonics.iter().map(move |[a, b]| [&a[i][j], &b[i][j]]);
+                        let value = waves.polynomial(&matrix.mean[i][j], coefficients, derivative);
+                        // d/dt is d/ds over T.
+                        if derivative { frame.scale(&value, &period.recip()) } else { value }
+                    };
+                    (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect()
+                })
+            })
+        });
+        let radius = self.region.radius();
+        let x: Vec<Centred> = orbit
+            .iter()
+            .zip(self.region.matrix())
+            .map(|(value, row)| {
+                // (L v)_i for |v| <= r: the same for all t, and unknown.
+                let reach = super::chart::norm_above(row) * radius;
+                let deviation = Enclosure::between(&Rational::from(-&reach), &reach, PRECISION);
+                frame.add(value, &frame.constant(deviation))
+            })
+            .collect();
+        let [low, middle, high] = side.unit();
+        let t = Centred {
+            centre: Enclosure::from_rational(&middle, PRECISION) * &period,
+            range: Enclosure::between(&low, &high, PRECISION) * &period,
+            slopes: vec![Some(period)],
+        };
+        let e = frame.constant(Enclosure::zero(PRECISION));
+        let velocity = self.velocity.evaluate(&mut OnBox { frame: &frame, t: &t, x: &x, e: &e });
+        TimeCell { orbit, velocity, matrices }
+    }
+}
+
+fn is_symmetric(rows: &[Vec<Rational>], order: usize) -> bool {
+    rows.len() == order
+        && rows.iter().all(|row| row.len() == order)
+        && (0..order).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]))
+}

@@ -1,0 +1,45 @@
+//! Bounds of a plant's formulas on a tube around an orbit (derivation, 11.1 and 11.3): proposed in doubles, decided with
+//! enclosures.
+//!
+//! - [`Region`]: the coordinates L, the orbit xb(t), the radius r;
+//! - [`Engine`]: decides an [`Entry`] of a table of bounds, and smoothness, by subdivision;
+//! - [`Engine::decide_majorant`]: the same of a [`Majorant`], a polynomial in X and E;
+//! - [`FloatSuprema`]: the same bounds by sampling, for searches;
+//! - [`Engine::prove_value`]: from a sampled supremum, and what boxes show beyond it, to a decided bound a little above.
+//!
+//! Within: `chart` (coordinates of boxes), `time_cell` (what depends on t alone), `centred` (values with slopes about the
+//! middle of a box), `quantity` (the formulas of each bound), `definite` (semidefiniteness on a box).
+
+mod centred;
+mod chart;
+mod decide;
+mod definite;
+mod eigen;
+mod engine;
+mod entry;
+mod explore;
+mod extent;
+mod majorant;
+mod pointwise;
+mod prove_value;
+mod quantity;
+mod region;
+mod requirement;
+mod side;
+mod smooth;
+mod suprema;
+#[cfg(test)]
+mod tests;
+mod time_cell;
+
+pub use decide::Decision;
+pub use engine::Engine;
+pub use entry::{Entry, Kind};
+pub use majorant::{Majorant, Term};
+pub use prove_value::ProvedValue;
+pub use region::{Region, RegionError};
+pub use smooth::SmoothnessFailure;
+pub use suprema::{FloatCurve, FloatSuprema};
+
+/// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.
+const PRECISION: u32 = 64;

@@ -1,0 +1,196 @@
+//! All bounds at one point in doubles: norms of derivatives in the coordinates y. They propose; nothing rests on them.
+
+use super::eigen::{eigen, largest, largest_of};
+use super::entry::Kind;
+use sigmastar_exact::number::Portable;
+use std::sync::Arc;
+
+/// Where the outputs of the program of derivatives begin: f_x (rows) at 0, then f_e, q_x, q_e, q_tx, q_te, q_xx (rows), q_xe.
+#[derive(Clone, Copy, Debug)]
+struct Blocks {
+    f_e: usize,
+    q_x: usize,
+    q_e: usize,
+    q_tx: usize,
+    q_te: usize,
+    q_xx: usize,
+    q_xe: usize,
+}
+
+impl Blocks {
+    fn new(n: usize) -> Blocks {
+        let f_e = n * n;
+        let (q_x, q_e) = (f_e + n, f_e + 2 * n);
+        let (q_tx, q_te) = (q_e + 1, q_e + 1 + n);
+        Blocks { f_e, q_x, q_e, q_tx, q_te, q_xx: q_te + 1, q_xe: q_te + 1 + n * n }
+    }
+}
+
+/// P at one time, as it is used.
+#[derive(Clone, Debug)]
+pub(super) enum MatrixAt {
+    /// There is none.
+    Missing,
+    /// The identity.
+    Identity,
+    /// A constant one: its symmetric root and the inverse of that, by rows.
+    Constant(Arc<[Vec<f64>; 2]>),
+    /// P(t) and its derivative.
+    Moving([Vec<Vec<f64>>; 2]),
+}
+
+/// The coordinates, with the memory that an evaluation works in.
+#[derive(Clone, Debug)]
+pub(super) struct Pointwise {
+    order: usize,
+    blocks: Blocks,
+    matrix: Vec<f64>,
+    inverse: Vec<f64>,
+    /// f_x L, then L^-1 f_x L.
+    product: Vec<f64>,
+    jacobian: Vec<f64>,
+    square: Vec<f64>,
+}
+
+impl Pointwise {
+    pub(super) fn new(matrix: &[Vec<f64>], inverse: &[Vec<f64>]) -> Pointwise {
+        let n = matrix.len();
+        let room = vec![0.0; n * n];
+        Pointwise {
+            order: n,
+            blocks: Blocks::new(n),
+            matrix: matrix.concat(),
+            inverse: inverse.concat(),
+            product: room.clone(),
+            jacobian: room.clone(),
+            square: room,
+        }
+    }
+
+    /// What is to be bounded from above, in the order of [`Kind::TABLE`]: norms, q_e, the negatives of the local rates; NaN where
+    /// there is no P.
+    pub(super) fn all(
+        &mut self,
+        outputs: &[f64],
+        velocity: &[f64],
+        matrices: &[MatrixAt; 2],
+    ) -> [f64; Kind::TABLE.len()] {
+        let (n, blocks) = (self.order, self.blocks);
+        self.transform(outputs);
+        let column = &outputs[blocks.f_e..blocks.f_e + n];
+        let f_e = (0..n).map(|i| dot(&self.inverse[i * n..(i + 1) * n], column).portable_powi(2)).sum::<f64>().sqrt();
+        let q_x = self.row_norm(|i| outputs[blocks.q_x + i]);
+        let q_e = outputs[blocks.q_e];
+        let q_tx = self.row_norm(|i| {
+            let along = &outputs[blocks.q_xx + i * n..blocks.q_xx + (i + 1) * n];
+            outputs[blocks.q_tx + i] + dot(along, velocity)
+        });
+        let q_te = (outputs[blocks.q_te] + dot(&outputs[blocks.q_xe..blocks.q_xe + n], velocity)).abs();
+        let f_x = self.spectral_norm();
+        let [rate, existence] = [0, 1].map(|which| self.growth(&matrices[which]));
+        [f_x, f_e, q_x, q_e.abs(), q_e, q_tx, q_te, rate, existence]
+    }
+
+    /// L^-1 f_x L.
+    fn transform(&mut self, outputs: &[f64]) {
+        let n = self.order;
+        for i in 0..n {
+            for j in 0..n {
+                self.product[i * n + j] = (0..n).map(|k| outputs[i * n + k] * self.matrix[k * n + j]).sum();
+            }
+        }
+        for i in 0..n {
+            for j in 0..n {
+                self.jacobian[i * n + j] = (0..n).map(|k| self.inverse[i * n + k] * self.product[k * n + j]).sum();
+            }
+        }
+    }
+
+    /// |row L|.
+    fn row_norm(&self, row: impl Fn(usize) -> f64) -> f64 {
+        let n = self.order;
+        let entry = |j: usize| (0..n).map(|i| row(i) * self.matrix[i * n + j]).sum::<f64>();
+        (0..n).map(|j| entry(j).portable_powi(2)).sum::<f64>().sqrt()
+    }
+
+    fn spectral_norm(&mut self) -> f64 {
+        let n = self.order;
+        if n == 0 {
+            return 0.0;
+        }
+        for i in 0..n {
+            for j in 0..n {
+                self.square[i * n + j] = (0..n).map(|k| self.jacobian[k * n + i] * self.jacobian[k * n + j]).sum();
+            }
+        }
+        largest_of(&mut self.square, n).max(0.0).sqrt()
+    }
+
+    /// The least g with `P' + P J + J^T P <= 2 g P`.
+    fn growth(&mut self, matrix: &MatrixAt) -> f64 {
+        let n = self.order;
+        match matrix {
+            MatrixAt::Missing => f64::NAN,
+            MatrixAt::Constant(roots) => {
+                // With P = R R: half of R J R^-1 and of its transpose.
+                let [root, inverse] = &**roots;
+                for i in 0..n {
+                    for j in 0..n {
+                        self.product[i * n + j] = (0..n).map(|k| root[i * n + k] * self.jacobian[k * n + j]).sum();
+                    }
+                }
+                let entry =
+                    |i: usize, j: usize| -> f64 { (0..n).map(|k| self.product[i * n + k] * inverse[k * n + j]).sum() };
+                for i in 0..n {
+                    for j in 0..n {
+                        self.square[i * n + j] = (entry(i, j) + entry(j, i)) / 2.0;
+                    }
+                }
+                largest_of(&mut self.square, n)
+            }
+            MatrixAt::Moving([p, derivative]) => {
+                let rows: Vec<Vec<f64>> = self.jacobian.chunks(n.max(1)).map(<[f64]>::to_vec).collect();
+                growth(p, derivative, &rows)
+            }
+            MatrixAt::Identity => {
+                for i in 0..n {
+                    for j in 0..n {
+                        self.square[i * n + j] = (self.jacobian[i * n + j] + self.jacobian[j * n + i]) / 2.0;
+                    }
+                }
+                largest_of(&mut self.square, n)
+            }
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+pub(super) fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let columns = b.first().map_or(0, Vec::len);
+    let entry = |row: &Vec<f64>, j: usize| row.iter().zip(b).map(|(x, row)| x * row[j]).sum();
+    a.iter().map(|row| (0..columns).map(|j| entry(row, j)).collect()).collect()
+}
+
+/// The symmetric root of P, and its inverse.
+pub(super) fn roots(p: &[Vec<f64>]) -> [Vec<Vec<f64>>; 2] {
+    let n = p.len();
+    let (values, vectors) = eigen(p.to_vec());
+    [1.0, -1.0].map(|sign| {
+        let weight = |k: usize| if sign > 0.0 { values[k].sqrt() } else { values[k].sqrt().recip() };
+        let entry = |i: usize, j: usize| (0..n).map(|k| vectors[i][k] * vectors[j][k] * weight(k)).sum();
+        (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    })
+}
+
+/// The largest eigenvalue of half of `P' + P J + J^T P` between roots of P.
+fn growth(p: &[Vec<f64>], derivative: &[Vec<f64>], jacobian: &[Vec<f64>]) -> f64 {
+    let n = p.len();
+    let [_, root] = roots(p);
+    let moved = product(p, jacobian);
+    let form: Vec<Vec<f64>> =
+        (0..n).map(|i| (0..n).map(|j| (derivative[i][j] + moved[i][j] + moved[j][i]) / 2.0).collect()).collect();
+    largest(product(&root, &product(&form, &root)))
+}

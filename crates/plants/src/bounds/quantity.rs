@@ -1,0 +1,110 @@
+//! The formulas of each bound.
+
+use super::chart::Active;
+use super::entry::Kind;
+use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
+
+/// The matrix `A (plain + sum_l along_l x_0'_l) B` of which a bound speaks; A is the inverse of L or 1, B is L or 1.
+#[derive(Clone, Debug)]
+pub(super) struct Quantity {
+    pub(super) walk: Walk,
+    /// Rows of outputs of the walk.
+    pub(super) plain: Vec<Vec<usize>>,
+    /// Rows of outputs that are multiplied with x_0'_1, x_0'_2, ...; those that are 0 are left out.
+    pub(super) along: Vec<Vec<Vec<(usize, usize)>>>,
+    /// Whether the inverse of L stands on the left.
+    pub(super) inverse: bool,
+    /// What stands on the right.
+    pub(super) right: Right,
+    /// The variables that matter.
+    pub(super) active: Active,
+}
+
+/// The factor on the right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Right {
+    /// 1.
+    One,
+    /// L.
+    Matrix,
+    /// L for each of the two indices that the columns stand for.
+    Pair,
+}
+
+impl Quantity {
+    /// The formulas of a bound, from those of f and q. `moves` says whether P depends on t.
+    pub(super) fn new(formulas: &mut Formulas, f: &[Formula], q: Formula, kind: Kind, moves: bool) -> Quantity {
+        let order = f.len();
+        let states: Vec<PlantVariable> = (0..order).map(PlantVariable::State).collect();
+        let columns = |formulas: &mut Formulas, of: &[Formula]| -> Vec<Vec<Formula>> {
+            let columns: Vec<Vec<Formula>> = states.iter().map(|x| formulas.derivatives(of, *x)).collect();
+            (0..of.len()).map(|row| columns.iter().map(|column| column[row]).collect()).collect()
+        };
+        let (plain, along) = match kind {
+            Kind::FX | Kind::Rate | Kind::RateExistence => (columns(formulas, f), Vec::new()),
+            Kind::FE => {
+                let column = formulas.derivatives(f, PlantVariable::Error);
+                (column.into_iter().map(|entry| vec![entry]).collect(), Vec::new())
+            }
+            Kind::QX => (columns(formulas, &[q]), Vec::new()),
+            Kind::Q => (vec![vec![q]], Vec::new()),
+            Kind::QT => {
+                let gradient = columns(formulas, &[q]).concat();
+                (vec![formulas.derivatives(&[q], PlantVariable::Time)], vec![vec![gradient]])
+            }
+            Kind::FXX => {
+                let jacobian = columns(formulas, f).concat();
+                let rows = columns(formulas, &jacobian);
+                (rows.chunks(order.max(1)).map(<[Vec<Formula>]>::concat).collect(), Vec::new())
+            }
+            Kind::FEX => {
+                let column = formulas.derivatives(f, PlantVariable::Error);
+                (columns(formulas, &column), Vec::new())
+            }
+            Kind::QE | Kind::QEMax => (vec![formulas.derivatives(&[q], PlantVariable::Error)], Vec::new()),
+            Kind::QTX => {
+                let gradient = columns(formulas, &[q]).concat();
+                let plain = formulas.derivatives(&gradient, PlantVariable::Time);
+                let along = columns(formulas, &gradient);
+                (vec![plain], vec![along])
+            }
+            Kind::QTE => {
+                let slope = formulas.derivatives(&[q], PlantVariable::Error);
+                let plain = formulas.derivatives(&slope, PlantVariable::Time);
+                let along = columns(formulas, &slope);
+                (vec![plain], vec![along])
+            }
+        };
+        let mut outputs: Vec<Formula> = Vec::new();
+        let mut output = |formula: Formula| {
+            outputs.push(formula);
+            outputs.len() - 1
+        };
+        let plain: Vec<Vec<usize>> = plain.iter().map(|row| row.iter().map(|entry| output(*entry)).collect()).collect();
+        let along: Vec<Vec<Vec<(usize, usize)>>> = along
+            .iter()
+            .map(|row| {
+                let entry = |terms: &Vec<Formula>| {
+                    let kept = terms.iter().enumerate().filter(|(_, term)| !formulas.is_zero(**term));
+                    kept.map(|(state, term)| (output(*term), state)).collect()
+                };
+                row.iter().map(entry).collect()
+            })
+            .collect();
+        let walk = formulas.walk(&outputs);
+        let carried = along.iter().flatten().any(|terms: &Vec<(usize, usize)>| !terms.is_empty());
+        let variables = walk.all_variables();
+        let active = Active {
+            time: variables.has(PlantVariable::Time) || carried || (moves && kind.is_rate()),
+            states: (0..order).filter(|&index| variables.has(PlantVariable::State(index))).collect(),
+            error: variables.has(PlantVariable::Error),
+        };
+        let inverse = matches!(kind, Kind::FX | Kind::FE | Kind::Rate | Kind::RateExistence | Kind::FXX | Kind::FEX);
+        let right = match kind {
+            Kind::FX | Kind::QX | Kind::QTX | Kind::Rate | Kind::RateExistence | Kind::FEX => Right::Matrix,
+            Kind::FXX => Right::Pair,
+            Kind::FE | Kind::QE | Kind::QEMax | Kind::QTE | Kind::Q | Kind::QT => Right::One,
+        };
+        Quantity { walk, plain, along, inverse, right, active }
+    }
+}

@@ -1,0 +1,451 @@
+//! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
+
+use super::entry::Kind;
+use super::pointwise::{MatrixAt, Pointwise, roots};
+use rug::Rational;
+use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
+use std::sync::Arc;
+
+/// Points of a period.
+const TIMES: usize = 64;
+
+/// Steps of the local search for the largest value, and how often its step is halved: roughly, and for a proof.
+const ROUGH: u32 = 3;
+const FINE: u32 = 14;
+
+/// Moves with the same step, at most.
+const MOVES: u32 = 4;
+
+/// The first step of the local search, in coordinates of the cube.
+const FIRST_STEP: f64 = 0.15;
+
+/// The best points from which a fine local search starts.
+const STARTS: usize = 6;
+
+/// `mean + sum_k (a_k cos(k w t) + b_k sin(k w t))` in doubles.
+#[derive(Clone, Debug)]
+pub struct FloatCurve {
+    /// The mean.
+    pub mean: Vec<f64>,
+    /// (a_k, b_k) for k = 1, 2, ...
+    pub harmonics: Vec<[Vec<f64>; 2]>,
+}
+
+impl From<&TrigonometricVector> for FloatCurve {
+    fn from(orbit: &TrigonometricVector) -> FloatCurve {
+        let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect::<Vec<f64>>();
+        let harmonics = orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
+        FloatCurve { mean: doubles(&orbit.mean), harmonics }
+    }
+}
+
+/// A sampled supremum.
+#[derive(Clone, Copy, Debug)]
+pub struct Sampled {
+    /// The supremum; for a rate the infimum.
+    pub value: f64,
+    /// The difference between the largest and the smallest value that was met.
+    pub spread: f64,
+}
+
+/// What depends on t alone at one time.
+#[derive(Clone, Debug)]
+struct Moment {
+    time: f64,
+    orbit: Vec<f64>,
+    /// f(t, xb, 0).
+    velocity: Vec<f64>,
+    /// What the program computes from t alone.
+    kept: Vec<f64>,
+}
+
+/// The suprema of all bounds by sampling, for one plant, orbit and L.
+#[derive(Debug)]
+pub struct FloatSuprema {
+    order: usize,
+    period: f64,
+    orbit: FloatCurve,
+    matrix: Vec<Vec<f64>>,
+    inverse: Vec<Vec<f64>>,
+    matrices: [Option<FloatMatrix>; 2],
+    program: Arc<Program>,
+    moments: Vec<Moment>,
+    /// Points of the unit ball.
+    ball: Vec<Vec<f64>>,
+    /// Whether anything depends on e.
+    by_error: bool,
+    velocity: Arc<Program>,
+}
+
+/// P(t).
+#[derive(Clone, Debug)]
+struct FloatMatrix {
+    mean: Vec<Vec<f64>>,
+    harmonics: Vec<[Vec<Vec<f64>>; 2]>,
+    /// What serves at every time, where P is constant.
+    steady: Option<MatrixAt>,
+}
+
+/// A point of the cube: t/T, y and e/E.
+#[derive(Clone, Debug)]
+struct Point {
+    time: f64,
+    y: Vec<f64>,
+    e: f64,
+}
+
+impl FloatSuprema {
+    /// Prepares sampling; `matrix` is L, and `lyapunov` the P of the rate and that of the rate of existence.
+    #[must_use]
+    pub fn new(
+        plant: &Plant,
+        orbit: FloatCurve,
+        matrix: Vec<Vec<f64>>,
+        lyapunov: [Option<&PeriodicMatrix>; 2],
+    ) -> FloatSuprema {
+        let n = plant.states();
+        let (mut formulas, sides) = plant.formulas();
+        let (f, q) = sides.split_at(n);
+        let states: Vec<PlantVariable> = (0..n).map(PlantVariable::State).collect();
+        let rows = |formulas: &mut Formulas, of: &[sigmastar_lang::expr::Formula]| {
+            let columns: Vec<Vec<_>> = states.iter().map(|x| formulas.derivatives(of, *x)).collect();
+            (0..of.len()).flat_map(|row| columns.iter().map(move |column| column[row]).collect::<Vec<_>>()).collect()
+        };
+        let mut outputs: Vec<sigmastar_lang::expr::Formula> = rows(&mut formulas, f);
+        outputs.extend(formulas.derivatives(f, PlantVariable::Error));
+        let q_x: Vec<_> = rows(&mut formulas, q);
+        let q_e = formulas.derivatives(q, PlantVariable::Error);
+        outputs.extend(q_x.iter().chain(&q_e));
+        outputs.extend(formulas.derivatives(&q_x, PlantVariable::Time));
+        outputs.extend(formulas.derivatives(&q_e, PlantVariable::Time));
+        outputs.extend(rows(&mut formulas, &q_x));
+        outputs.extend(rows(&mut formulas, &q_e));
+        let program = Arc::new(Program::of_formulas(&formulas, &outputs, n));
+        // What depends on nothing need not be looked at in more than one place: a linear plant has one matrix.
+        let variables = formulas.walk(&outputs).all_variables();
+        let by_states = states.iter().any(|state| variables.has(*state));
+        let by_error = variables.has(PlantVariable::Error);
+        let matrices = lyapunov.map(|matrix| matrix.map(FloatMatrix::new));
+        let steady = matrices.iter().flatten().all(|matrix| matrix.steady.is_some());
+        let times = if by_states || by_error || !steady || variables.has(PlantVariable::Time) { TIMES } else { 1 };
+        let velocity = Arc::new(Program::of_formulas(&formulas, f, n));
+        let mut suprema = FloatSuprema {
+            order: n,
+            period: plant.period.to_f64(),
+            orbit,
+            inverse: inverse(&matrix),
+            matrix,
+            matrices,
+            program,
+            moments: Vec::new(),
+            ball: if by_states { ball_points(n) } else { vec![vec![0.0; n]] },
+            by_error,
+            velocity,
+        };
+        let mut evaluator = Evaluator::new(suprema.program.clone());
+        let mut slow = Evaluator::new(suprema.velocity.clone());
+        suprema.moments =
+            (0..times).map(|i| suprema.moment((i as f64 + 0.5) / TIMES as f64, &mut evaluator, &mut slow)).collect();
+        suprema
+    }
+
+    fn moment(&self, time: f64, evaluator: &mut Evaluator, slow: &mut Evaluator) -> Moment {
+        let orbit = self.orbit.at(time);
+        let mut velocity = vec![0.0; self.order];
+        slow.set_time(time * self.period);
+        slow.evaluate(&orbit, 0.0, &mut velocity);
+        evaluator.set_time(time * self.period);
+        let mut kept = Vec::new();
+        evaluator.time_values(&mut kept);
+        Moment { time, orbit, velocity, kept }
+    }
+
+    /// The supremum of one bound, roughly; for a rate the infimum. `reach` is X + r.
+    #[must_use]
+    pub fn at(&self, kind: Kind, reach: f64, e: f64) -> f64 {
+        self.search(kind, reach, e, ROUGH, 1).value
+    }
+
+    /// The suprema of all bounds, in the order of [`Kind::TABLE`], at the points of the grid: every `stride`-th time only, and
+    /// with a stride above 1 fewer points at each time.
+    #[must_use]
+    pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; Kind::TABLE.len()] {
+        let mut largest = [f64::NEG_INFINITY; Kind::TABLE.len()];
+        let errors: &[f64] = match stride {
+            _ if e == 0.0 || !self.by_error => &[0.0],
+            1 => &[-1.0, 0.0, 1.0],
+            _ => &[-1.0, 1.0],
+        };
+        let sparse = if stride > 1 && self.order > 2 { 3 } else { 1 };
+        self.at_points(reach, e, ([stride, sparse], errors), |_, values| {
+            for (largest, value) in largest.iter_mut().zip(values) {
+                // Where a value is undefined, so is the supremum.
+                *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
+            }
+        });
+        std::array::from_fn(|index| if Kind::TABLE[index].is_rate() { -largest[index] } else { largest[index] })
+    }
+
+    /// Calls `see` with the place and the values of every point of the grid.
+    fn at_points(
+        &self,
+        reach: f64,
+        e: f64,
+        (strides, errors): ([usize; 2], &[f64]),
+        mut see: impl FnMut([usize; 3], [f64; Kind::TABLE.len()]),
+    ) {
+        let mut evaluator = Evaluator::new(self.program.clone());
+        let mut outputs = vec![0.0; self.program.outputs()];
+        let mut x = vec![0.0; self.order];
+        let mut pointwise = self.pointwise();
+        for (i, moment) in self.moments.iter().enumerate().step_by(strides[0]) {
+            evaluator.load_time_values(&moment.kept);
+            let matrices = self.matrices_at(moment.time);
+            for (j, y) in self.ball.iter().enumerate().step_by(strides[1]) {
+                self.place(&moment.orbit, y, reach, &mut x);
+                for (k, error) in errors.iter().enumerate() {
+                    evaluator.evaluate(&x, error * e, &mut outputs);
+                    see([i, j, k], pointwise.all(&outputs, &moment.velocity, &matrices));
+                }
+            }
+        }
+    }
+
+    fn pointwise(&self) -> Pointwise {
+        Pointwise::new(&self.matrix, &self.inverse)
+    }
+
+    /// The supremum of one bound by a longer search.
+    #[must_use]
+    pub fn refined(&self, kind: Kind, reach: f64, e: f64) -> Sampled {
+        self.search(kind, reach, e, FINE, STARTS)
+    }
+
+    /// The largest value at these points: t/T, y in the unit ball, e/E; of a rate the negative.
+    #[must_use]
+    pub fn largest_at(&self, kind: Kind, [reach, e]: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
+        let mut evaluator = Evaluator::new(self.program.clone());
+        let mut slow = Evaluator::new(self.velocity.clone());
+        let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
+        let mut pointwise = self.pointwise();
+        let value = |(time, y, part): &(f64, Vec<f64>, f64)| {
+            let moment = self.moment(*time, &mut evaluator, &mut slow);
+            evaluator.load_time_values(&moment.kept);
+            self.place(&moment.orbit, y, reach, &mut x);
+            evaluator.evaluate(&x, part * e, &mut outputs);
+            kind.of(&pointwise.all(&outputs, &moment.velocity, &self.matrices_at(*time)))
+        };
+        points.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The largest value at the points of the grid, and a local search from the best of them.
+    fn search(&self, kind: Kind, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
+        let errors: &[f64] = if e == 0.0 || !self.by_error { &[0.0] } else { &[-1.0, 0.0, 1.0] };
+        // The best values with their points, and the least value.
+        let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
+        self.at_points(reach, e, ([1, 1], errors), |at, values| {
+            let value = kind.of(&values);
+            least = least.min(value);
+            keep(&mut best, starts, value, at);
+        });
+        let mut evaluator = Evaluator::new(self.program.clone());
+        let mut slow = Evaluator::new(self.velocity.clone());
+        let mut outputs = vec![0.0; self.program.outputs()];
+        let mut x = vec![0.0; self.order];
+        let mut pointwise = self.pointwise();
+        // Most steps leave the time as it is.
+        let mut moment = self.moment(0.0, &mut evaluator, &mut slow);
+        let mut value_at = |point: &Point| {
+            if point.time != moment.time {
+                moment = self.moment(point.time, &mut evaluator, &mut slow);
+            }
+            evaluator.load_time_values(&moment.kept);
+            self.place(&moment.orbit, &point.y, reach, &mut x);
+            evaluator.evaluate(&x, point.e * e, &mut outputs);
+            kind.of(&pointwise.all(&outputs, &moment.velocity, &self.matrices_at(moment.time)))
+        };
+        // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
+        let mut largest = f64::NAN;
+        for (value, [i, j, k]) in &best {
+            let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: errors[*k] };
+            largest = largest.max(climb(point, *value, halvings, e != 0.0, &mut value_at));
+        }
+        Sampled { value: if kind.is_rate() { -largest } else { largest }, spread: largest - least }
+    }
+
+    /// xb + (X + r) L y.
+    fn place(&self, orbit: &[f64], y: &[f64], reach: f64, x: &mut [f64]) {
+        for ((x, orbit), row) in x.iter_mut().zip(orbit).zip(&self.matrix) {
+            *x = orbit + reach * row.iter().zip(y).map(|(l, y)| l * y).sum::<f64>();
+        }
+    }
+
+    fn matrices_at(&self, time: f64) -> [MatrixAt; 2] {
+        self.matrices.each_ref().map(|matrix| match matrix {
+            None => MatrixAt::Missing,
+            Some(matrix) => matrix.steady.clone().unwrap_or_else(|| MatrixAt::Moving(matrix.at(time, self.period))),
+        })
+    }
+}
+
+impl FloatCurve {
+    fn at(&self, time: f64) -> Vec<f64> {
+        let mut x = self.mean.clone();
+        for ([a, b], k) in self.harmonics.iter().zip(1..) {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * time * f64::from(k));
+            for ((x, a), b) in x.iter_mut().zip(a).zip(b) {
+                *x += a * cos + b * sin;
+            }
+        }
+        x
+    }
+}
+
+impl FloatMatrix {
+    fn new(matrix: &PeriodicMatrix) -> FloatMatrix {
+        let doubles = |rows: &Vec<Vec<Rational>>| -> Vec<Vec<f64>> {
+            rows.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect()
+        };
+        let unit =
+            |(i, row): (usize, &Vec<Rational>)| row.iter().enumerate().all(|(j, entry)| *entry == i32::from(i == j));
+        let mean = doubles(&matrix.mean);
+        let steady = match matrix.harmonics.is_empty() {
+            false => None,
+            true if matrix.mean.iter().enumerate().all(unit) => Some(MatrixAt::Identity),
+            true => Some(MatrixAt::Constant(Arc::new(roots(&mean).map(|root| root.concat())))),
+        };
+        let harmonics = matrix.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
+        FloatMatrix { mean, harmonics, steady }
+    }
+
+    /// P and dP/dt.
+    fn at(&self, time: f64, period: f64) -> [Vec<Vec<f64>>; 2] {
+        let n = self.mean.len();
+        let (mut value, mut derivative) = (self.mean.clone(), vec![vec![0.0; n]; n]);
+        for ([a, b], k) in self.harmonics.iter().zip(1..) {
+            let frequency = std::f64::consts::TAU * f64::from(k);
+            let (sin, cos) = libm::sincos(frequency * time);
+            for i in 0..n {
+                for j in 0..n {
+                    value[i][j] += a[i][j] * cos + b[i][j] * sin;
+                    derivative[i][j] += (b[i][j] * cos - a[i][j] * sin) * frequency / period;
+                }
+            }
+        }
+        [value, derivative]
+    }
+}
+
+/// Keeps the largest values.
+fn keep(best: &mut Vec<(f64, [usize; 3])>, count: usize, value: f64, at: [usize; 3]) {
+    if value.is_nan() || (best.len() == count && best.last().is_some_and(|(least, _)| value <= *least)) {
+        return;
+    }
+    let place = best.iter().position(|(other, _)| value > *other).unwrap_or(best.len());
+    best.insert(place, (value, at));
+    best.truncate(count);
+}
+
+/// A search along the coordinates with steps that are halved when none of them helps.
+fn climb(
+    mut point: Point,
+    mut value: f64,
+    halvings: u32,
+    errors: bool,
+    mut value_at: impl FnMut(&Point) -> f64,
+) -> f64 {
+    let mut step = FIRST_STEP;
+    for _ in 0..halvings {
+        for _ in 0..MOVES {
+            let mut moved = false;
+            for coordinate in 0..point.y.len() + 2 {
+                for sign in [1.0, -1.0] {
+                    let mut next = point.clone();
+                    match coordinate {
+                        0 => next.time += sign * step / TIME_SCALE,
+                        1 if !errors => continue,
+                        1 => next.e = (next.e + sign * step).clamp(-1.0, 1.0),
+                        _ => {
+                            next.y[coordinate - 2] += sign * step;
+                            let norm = next.y.iter().map(|y| y * y).sum::<f64>().sqrt();
+                            if norm > 1.0 {
+                                next.y.iter_mut().for_each(|y| *y /= norm);
+                            }
+                        }
+                    }
+                    let found = value_at(&next);
+                    if found > value {
+                        (point, value, moved) = (next, found, true);
+                    }
+                }
+            }
+            if !moved {
+                break;
+            }
+        }
+        step /= 2.0;
+    }
+    value
+}
+
+/// A step in time is so much smaller than one in the ball.
+const TIME_SCALE: f64 = 16.0;
+
+/// Points of the unit ball: its centre, the axes and the corners of the cube on the sphere, and points spread evenly.
+fn ball_points(order: usize) -> Vec<Vec<f64>> {
+    match order {
+        0 => vec![Vec::new()],
+        1 => [-1.0, -0.5, 0.0, 0.5, 1.0].map(|y| vec![y]).to_vec(),
+        2 => {
+            let circle = |count: u32, radius: f64| {
+                (0..count).map(move |i| {
+                    let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(count));
+                    vec![radius * cos, radius * sin]
+                })
+            };
+            std::iter::once(vec![0.0, 0.0]).chain(circle(12, 1.0)).chain(circle(6, 0.5)).collect()
+        }
+        _ => {
+            let axis = |i: usize, sign: f64| (0..order).map(|j| if i == j { sign } else { 0.0 }).collect::<Vec<f64>>();
+            let axes = (0..order).flat_map(|i| [axis(i, 1.0), axis(i, -1.0)]);
+            let spread = (1..=SPREAD).map(|k| {
+                // An additive recurrence, as even as square roots of odd numbers make it.
+                let direction: Vec<f64> =
+                    (0..order).map(|j| 2.0 * (f64::from(k) * ((2 * j + 3) as f64).sqrt()).fract() - 1.0).collect();
+                let norm = direction.iter().map(|y| y * y).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+                let radius = if k % 4 == 0 { 0.5 } else { 1.0 };
+                direction.into_iter().map(|y| radius * y / norm).collect()
+            });
+            std::iter::once(vec![0.0; order]).chain(axes).chain(spread).collect()
+        }
+    }
+}
+
+/// Points in other directions than those of the axes, for three states and more.
+const SPREAD: u32 = 24;
+
+/// The inverse in doubles, by Gauss and Jordan with pivots; without one, entries that are not numbers. Rows may be in units of
+/// their own: they are brought to one size first.
+fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let n = matrix.len();
+    let size = |row: &Vec<f64>| row.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
+    let sizes: Vec<f64> = matrix.iter().map(size).collect();
+    let unit = |i: usize| (0..n).map(move |j| f64::from(i == j));
+    let scaled = |(i, row): (usize, &Vec<f64>)| row.iter().map(|entry| entry / sizes[i]).chain(unit(i)).collect();
+    let mut rows: Vec<Vec<f64>> = matrix.iter().enumerate().map(scaled).collect();
+    for column in 0..n {
+        let pivot = (column..n).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()));
+        rows.swap(column, pivot.unwrap_or(column));
+        let divisor = rows[column][column];
+        rows[column].iter_mut().for_each(|entry| *entry /= divisor);
+        let pivot = rows[column].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != column) {
+            let factor = row[column];
+            row.iter_mut().zip(&pivot).for_each(|(entry, by)| *entry -= factor * by);
+        }
+    }
+    let written = |row: Vec<f64>| row.into_iter().skip(n).zip(&sizes).map(|(entry, size)| entry / size).collect();
+    rows.into_iter().map(written).collect()
+}

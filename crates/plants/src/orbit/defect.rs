@@ -1,0 +1,78 @@
+//! The defect `eps` of an approximate orbit (derivation, 11.2): an upper bound of `|L^-1 (f(t,xb,0) - xb')|` for all t.
+
+use super::curve::{Curve, PRECISION};
+use super::failure::OrbitNotProved;
+use super::linear::norm;
+use super::recurrences::combine;
+use super::taylor::{Expansion, Taylor};
+use rayon::prelude::*;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::Walk;
+
+/// The order of the Taylor polynomials in t.
+pub(super) const ORDER: usize = 10;
+
+/// Powers of two that the number of cells runs through.
+pub(super) const CELLS: std::ops::RangeInclusive<u32> = 4..=9;
+
+/// A bound at most this many times a sampled maximum is good enough.
+pub(super) const CLOSE: f64 = 6.0;
+
+/// The power of two from which the number of cells starts: twice the number of harmonics.
+pub(super) fn first_exponent(harmonics: usize) -> u32 {
+    (2 * harmonics).next_power_of_two().trailing_zeros().clamp(*CELLS.start(), *CELLS.end())
+}
+
+/// An upper bound of `|L^-1 (f(t,xb,0) - xb')|` over all cells; `walk` has the components of f, `inverse` is `L^-1`.
+///
+/// Guarantee: if `Ok`, f is smooth near the curve, and the bound holds for every t of the period.
+pub(super) fn bound(curve: &Curve, walk: &Walk, inverse: &[Vec<Enclosure>]) -> Result<Enclosure, OrbitNotProved> {
+    let cells = &curve.cells;
+    let bounds: Vec<Enclosure> = (0..cells.count)
+        .into_par_iter()
+        .map(|cell| {
+            let states = curve.states(cell, ORDER + 1);
+            let f = curve.along(walk, cell, &states, ORDER);
+            let difference = [0, 1].map(|which| -> Vec<Taylor> {
+                let own = f[which].iter().zip(&states[which]);
+                own.map(|(f, x)| combine(f, &slope(x, &curve.period), -1)).collect()
+            });
+            let components = inverse.iter().map(|row| {
+                let [middle, over] = difference.each_ref().map(|terms| weigh(row.iter().zip(terms)));
+                Expansion::new(&middle, &over, ORDER, PRECISION).bound(&cells.half)
+            });
+            norm(components, PRECISION)
+        })
+        .collect();
+    largest(&bounds, cells.count)
+}
+
+/// The largest of the bounds of all cells; the first cell that has none is told.
+pub(super) fn largest(bounds: &[Enclosure], count: usize) -> Result<Enclosure, OrbitNotProved> {
+    if let Some(cell) = bounds.iter().position(|bound| !bound.is_bounded()) {
+        return Err(OrbitNotProved::NotSmooth { s: (cell as f64 + 0.5) / count as f64 });
+    }
+    Ok(bounds.iter().fold(Enclosure::zero(PRECISION), |largest, bound| largest.max(bound)))
+}
+
+/// The series of dx/dt from that of x, whose variable is (t - t_0)/T.
+pub(super) fn slope(x: &[Enclosure], period: &Enclosure) -> Taylor {
+    let mut slope: Taylor = x.iter().zip(0_i64..).skip(1).map(|(c, j)| c * j / period).collect();
+    if slope.is_empty() {
+        slope.push(Enclosure::zero(PRECISION));
+    }
+    slope
+}
+
+/// The sum of series with factors. A factor that is exactly 0 leaves its series out, but never an undefined one: 0 times what
+/// is undefined is undefined.
+pub(super) fn weigh<'a>(terms: impl Iterator<Item = (&'a Enclosure, &'a Taylor)>) -> Taylor {
+    let nothing = |factor: &Enclosure, term: &Taylor| {
+        factor.is_exact() && factor.contains_zero() && term.iter().all(Enclosure::is_defined)
+    };
+    let terms = terms.filter(|(factor, term)| !nothing(factor, term));
+    terms.fold(vec![Enclosure::zero(PRECISION)], |sum, (factor, term)| {
+        let scaled: Taylor = term.iter().map(|c| c * factor).collect();
+        combine(&sum, &scaled, 1)
+    })
+}

@@ -1,0 +1,272 @@
+//! The harmonics of q(t, x_0, 0) (derivation, 11.4): proposed in doubles, the rest proved.
+
+use super::coordinates::Coordinates;
+use super::curve::{MAX_HARMONICS, PRECISION, wave};
+use super::defect::{CELLS, CLOSE, ORDER, first_exponent, largest};
+use super::failure::OrbitNotProved;
+use super::field::Field;
+use super::linear::norm;
+use super::prove::{Around, OrbitProof};
+use super::recurrences::combine;
+use super::round::to_grain;
+use super::sampled::doubles;
+use super::series::FloatSeries;
+use super::taylor::Expansion;
+use rayon::prelude::*;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, Portable, round_f64};
+use sigmastar_lang::expr::{Enclosing, Formula, Formulas, PlantVariable, Walk};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{ProvedForcing, TrigonometricVector};
+use std::f64::consts::TAU;
+
+/// The most harmonics of qb that are proposed, and the points of the transform.
+const PROPOSED_HARMONICS: usize = 128;
+const POINTS: usize = 1024;
+
+/// What is left out and rounded, relative to the root mean square of q(t,x_0,0) and of its derivative.
+const WANTED_REST: f64 = 1e-8;
+
+/// Significant digits of the bounds of the rest.
+const DIGITS: u32 = 6;
+
+/// The least size of the derivative (per period) relative to that of q: what varies less is rounding.
+const LEAST_SLOPE: f64 = 1e-2;
+
+/// The least rest that is looked for, as a share of the size: below it cells are not made smaller for it.
+const NEGLIGIBLE_REST: f64 = 1e-12;
+
+/// qb in doubles, rounded: the harmonics that matter, with short coefficients. `None` where q is not finite.
+fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<[Rational; 2]>)> {
+    let mut field = Field::new(plant);
+    let curve = field.own(&doubles(orbit));
+    let sample = |j: usize| {
+        let s = j as f64 / POINTS as f64;
+        field.set(s, &curve.at(s).0, 0.0);
+        vec![field.q()]
+    };
+    let samples: Vec<Vec<f64>> = (0..POINTS).map(sample).collect();
+    let series = FloatSeries::from_samples(&samples, PROPOSED_HARMONICS);
+    let pairs: Vec<[f64; 2]> = series.harmonics.iter().map(|[a, b]| [a[0], b[0]]).collect();
+    let mean = series.mean[0];
+    let amplitude = |[a, b]: [f64; 2]| libm::hypot(a, b);
+    let square = |weight: &dyn Fn(usize) -> f64| -> f64 {
+        pairs.iter().enumerate().map(|(at, pair)| (weight(at + 1) * amplitude(*pair)).portable_powi(2) / 2.0).sum()
+    };
+    let size = (mean * mean + square(&|_| 1.0)).sqrt();
+    let slope = square(&|k| TAU * k as f64).sqrt().max(LEAST_SLOPE * size);
+    if !(size.is_finite() && slope.is_finite()) {
+        return None;
+    }
+    // From the highest harmonic down, those are left out that do not matter together.
+    let (mut count, mut left_out, mut left_out_slope) = (pairs.len(), 0.0, 0.0);
+    while let Some(pair) = count.checked_sub(1).and_then(|last| pairs.get(last)) {
+        left_out += amplitude(*pair);
+        left_out_slope += TAU * count as f64 * amplitude(*pair);
+        if left_out > WANTED_REST * size || left_out_slope > WANTED_REST * slope {
+            break;
+        }
+        count -= 1;
+    }
+    let number = (2 * count + 1) as f64;
+    let unit = |k: usize| -> f64 {
+        let of_slope = if k == 0 { f64::INFINITY } else { WANTED_REST * slope / (TAU * k as f64) };
+        (WANTED_REST * size).min(of_slope) / number.sqrt()
+    };
+    let round = |value: f64, k: usize| match value == 0.0 {
+        true => Some(Rational::new()),
+        false => to_grain(value, unit(k).max(f64::MIN_POSITIVE)),
+    };
+    let harmonics: Option<Vec<[Rational; 2]>> =
+        pairs[..count].iter().enumerate().map(|(at, [a, b])| Some([round(*a, at + 1)?, round(*b, at + 1)?])).collect();
+    Some((round(mean, 0)?, harmonics?))
+}
+
+/// The harmonics of q(t, x_0, 0) for a proved orbit, with the rest proved.
+///
+/// # Errors
+/// [`OrbitNotProved`]; nothing is claimed then.
+pub fn prove_forcing(
+    plant: &Plant,
+    coordinates: &Coordinates,
+    proved: &OrbitProof,
+) -> Result<ProvedForcing, OrbitNotProved> {
+    let around = Around::new(plant, &proved.orbit, coordinates)?;
+    let none = OrbitNotProved::Shape("q(t,xb,0) is not finite in floating point");
+    let (mean, harmonics) = propose(plant, &proved.orbit).ok_or_else(|| none.clone())?;
+    let mut forcing = ProvedForcing { mean, harmonics, rest: Rational::new(), rest_t: Rational::new() };
+    let sizes = sampled_rests(plant, &proved.orbit, &forcing);
+    let [rest, rest_t] = rests(&around, &forcing, proved, sizes.map(|size| CLOSE * size))?;
+    let up = |bound: &Enclosure| round_f64(bound.upper_f64(), DIGITS, Direction::Up).ok_or_else(|| none.clone());
+    forcing.rest = up(&rest)?;
+    forcing.rest_t = up(&rest_t)?;
+    Ok(forcing)
+}
+
+/// Decides qb and its rests again for a proved orbit, which has to be decided apart.
+///
+/// # Errors
+/// What is not proved; nothing is said about its truth.
+pub fn decide_forcing(
+    plant: &Plant,
+    coordinates: &Coordinates,
+    proved: &OrbitProof,
+    forcing: &ProvedForcing,
+) -> Result<(), OrbitNotProved> {
+    let around = Around::new(plant, &proved.orbit, coordinates)?;
+    let stated = [&forcing.rest, &forcing.rest_t];
+    // Just below, so that rounding does not ask for smaller cells than the bound needs.
+    let found = rests(&around, forcing, proved, stated.map(|stated| stated.to_f64() * (1.0 - f64::EPSILON)))?;
+    for (found, stated) in found.iter().zip(stated) {
+        if !found.le(&Enclosure::from_rational(stated, PRECISION)).is_true() {
+            return Err(OrbitNotProved::Rest { found: found.upper_f64(), stated: stated.to_f64() });
+        }
+    }
+    Ok(())
+}
+
+/// The largest rests at sampled times, in doubles, but no less than what is negligible.
+fn sampled_rests(plant: &Plant, orbit: &TrigonometricVector, forcing: &ProvedForcing) -> [f64; 2] {
+    let mut field = Field::new(plant);
+    let curve = field.own(&doubles(orbit));
+    let vector = |value: &Rational| vec![value.to_f64()];
+    let harmonics = forcing.harmonics.iter().map(|pair| pair.each_ref().map(vector)).collect();
+    let qb = FloatSeries { mean: vector(&forcing.mean), harmonics };
+    let samples = (0..POINTS).map(|j| {
+        let s = (j as f64 + 0.5) / POINTS as f64;
+        field.set(s, &curve.at(s).0, 0.0);
+        (field.q(), qb.at(s).0[0])
+    });
+    let (mut rest, mut rest_t, mut size, mut last) = (0.0_f64, 0.0_f64, 0.0_f64, None);
+    for (q, qb) in samples {
+        let difference = q - qb;
+        rest = rest.max(difference.abs());
+        size = size.max(q.abs());
+        // A quotient of differences is close enough for an estimate.
+        rest_t = rest_t.max(last.map_or(0.0, |last: f64| (difference - last).abs() * POINTS as f64));
+        last = Some(difference);
+    }
+    let period = field.period;
+    let least = NEGLIGIBLE_REST * size;
+    [rest.max(least), rest_t.max(least * TAU) / period]
+}
+
+/// Upper bounds of r_0 and r_1 of 11.4, over more and smaller cells while one of them is above `enough`, and above twice its
+/// terms in r and eps, which smaller cells do not change much; the least of each.
+fn rests(
+    around: &Around<'_>,
+    forcing: &ProvedForcing,
+    proved: &OrbitProof,
+    enough: [f64; 2],
+) -> Result<[Enclosure; 2], OrbitNotProved> {
+    if forcing.harmonics.len() > MAX_HARMONICS {
+        return Err(OrbitNotProved::Shape("too many harmonics"));
+    }
+    let formulas = Rows::new(around.plant);
+    let harmonics = around.harmonics().max(forcing.harmonics.len());
+    let mut best: Result<[Enclosure; 2], OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
+    for exponent in first_exponent(harmonics)..=*CELLS.end() {
+        let (found, of_radius) = match rests_on(around, &formulas, forcing, proved, exponent) {
+            Ok(found) => found,
+            Err(failure) => {
+                best = best.or(Err(failure));
+                continue;
+            }
+        };
+        best = Ok(match best {
+            Ok(best) => {
+                [0, 1].map(|i| if found[i].upper() < best[i].upper() { found[i].clone() } else { best[i].clone() })
+            }
+            Err(_) => found,
+        });
+        let reached = |bounds: &[Enclosure; 2]| {
+            (0..2).all(|i| bounds[i].upper_f64() <= enough[i].max(2.0 * of_radius[i].upper_f64()))
+        };
+        if best.as_ref().is_ok_and(reached) {
+            break;
+        }
+    }
+    best
+}
+
+/// The formulas of 11.4 at e = 0.
+struct Rows {
+    /// q.
+    value: Walk,
+    /// q_x and D_x.
+    derivatives: Walk,
+    /// f and q, to see that both are smooth where the derivatives are taken.
+    smooth: Walk,
+}
+
+impl Rows {
+    fn new(plant: &Plant) -> Rows {
+        let states = || (0..plant.states()).map(PlantVariable::State);
+        let mut formulas = Formulas::new();
+        let mut all: Vec<Formula> = plant.f.iter().map(|f| formulas.insert(f)).collect();
+        let q = formulas.insert(&plant.q);
+        let slope = |formulas: &mut Formulas, of: Formula, variable| formulas.derivatives(&[of], variable)[0];
+        let q_x: Vec<Formula> = states().map(|state| slope(&mut formulas, q, state)).collect();
+        // D = q_t + q_x f.
+        let mut along = slope(&mut formulas, q, PlantVariable::Time);
+        for (q_x, f) in q_x.iter().zip(&all) {
+            let term = formulas.product(*q_x, *f);
+            along = formulas.sum(along, term);
+        }
+        let d_x: Vec<Formula> = states().map(|state| slope(&mut formulas, along, state)).collect();
+        let rows: Vec<Formula> = q_x.into_iter().chain(d_x).collect();
+        all.push(q);
+        Rows { value: formulas.walk(&[q]), derivatives: formulas.walk(&rows), smooth: formulas.walk(&all) }
+    }
+}
+
+/// The two bounds over `2^exponent` cells, and their terms in r and eps.
+fn rests_on(
+    around: &Around<'_>,
+    formulas: &Rows,
+    forcing: &ProvedForcing,
+    proved: &OrbitProof,
+    exponent: u32,
+) -> Result<([Enclosure; 2], [Enclosure; 2]), OrbitNotProved> {
+    let n = around.plant.states();
+    let qb = wave(&forcing.mean, forcing.harmonics.iter().map(|pair| [&pair[0], &pair[1]]));
+    let curve = around.curve(exponent, Some(&qb));
+    let cells = &curve.cells;
+    let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+    let (radius, defect, zero) = (exact(&proved.radius), exact(&proved.defect), Enclosure::zero(PRECISION));
+    let reach: Vec<Enclosure> = around.l.iter().map(|row| norm(row.iter().cloned(), PRECISION) * &radius).collect();
+    // The norm of a row times L.
+    let norm_of = |row: &[Enclosure]| {
+        let column = |j: usize| (0..n).fold(zero.clone(), |sum, i| sum + &row[i] * &around.l[i][j]);
+        norm((0..n).map(column), PRECISION)
+    };
+    let bounds: Vec<[Enclosure; 4]> = (0..cells.count)
+        .into_par_iter()
+        .map(|cell| {
+            let states = curve.states(cell, ORDER + 1);
+            let own = curve.along(&formulas.value, cell, &states, ORDER);
+            let known = cells.expand(&qb, cell, ORDER);
+            let [middle, over] = [0, 1].map(|which| combine(&own[which][0], &known[which], -1));
+            let expansion = Expansion::new(&middle, &over, ORDER, PRECISION);
+            let widened = states[1].iter().zip(&reach).map(|(series, reach)| &series[0] + reach.negate().hull(reach));
+            let tube: Vec<Enclosure> = widened.collect();
+            let [_, time] = cells.time(cell, &curve.period);
+            if !curve.in_box(&formulas.smooth, &time[0], &tube) {
+                return [(); 4].map(|()| Enclosure::undefined(PRECISION));
+            }
+            let mut natural = Enclosing { t: &time[0], x: &tube, e: &zero, precision: PRECISION };
+            let rows = formulas.derivatives.evaluate(&mut natural);
+            let [of_q, of_d] = [norm_of(&rows[..n]), norm_of(&rows[n..])];
+            let [rest, rest_t] = [&radius * &of_q, &radius * of_d + &defect * of_q];
+            let value = expansion.bound(&cells.half) + &rest;
+            let slope = expansion.slope_bound(&cells.half) / &curve.period + &rest_t;
+            [value, slope, rest, rest_t]
+        })
+        .collect();
+    let bound = |which: usize| {
+        let own: Vec<Enclosure> = bounds.iter().map(|all| all[which].clone()).collect();
+        largest(&own, cells.count)
+    };
+    Ok(([bound(0)?, bound(1)?], [bound(2)?, bound(3)?]))
+}

@@ -1,0 +1,43 @@
+//! The T-periodic solution x_0(t) of x' = f(t, x, 0): found in floating point, proved; the harmonics of q(t, x_0, 0); and
+//! coordinates in which the zero dynamics contract (derivation, 11.2, 11.4, 11.5).
+//!
+//! - `balance`, `modes`: units and axes that do not depend on how a plant is written;
+//! - `field`, `series`, `collocation`, `floquet`, `find`: the orbit in doubles;
+//! - `round`, `shape`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
+//! - `recurrences`, `taylor`, `cells`, `curve`: Taylor series of formulas along a curve, over enclosures;
+//! - `defect`, `rate`, `prove`: the orbit, proved;
+//! - `forcing`: the harmonics of q, proposed and proved.
+
+mod balance;
+mod cells;
+mod collocation;
+mod coordinates;
+mod curve;
+mod defect;
+mod failure;
+mod field;
+mod find;
+mod floquet;
+mod forcing;
+mod linear;
+mod modes;
+mod prove;
+mod rate;
+mod recurrences;
+mod round;
+mod sampled;
+mod series;
+mod shape;
+mod taylor;
+#[cfg(test)]
+mod tests;
+
+pub use coordinates::lower_triangular;
+pub use coordinates::{Coordinates, propose_coordinates};
+pub use curve::MAX_HARMONICS;
+pub use failure::{MAX_STATES, OrbitFailure, OrbitNotProved};
+pub use find::{FloatOrbit, find_orbit};
+pub use forcing::{decide_forcing, prove_forcing};
+pub use prove::{OrbitProof, SecondTriple, decide_orbit, decide_second, prove_orbit, prove_second};
+pub use round::round_orbit;
+pub use series::FloatSeries;

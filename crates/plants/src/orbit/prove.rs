@@ -1,0 +1,338 @@
+//! The proof of the orbit (derivation, 11.2).
+
+use super::cells::Wave;
+use super::coordinates::Coordinates;
+use super::curve::{Curve, MAX_HARMONICS, PRECISION, wave, waves};
+use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent};
+use super::failure::OrbitNotProved;
+use super::linear::enclosed;
+use super::rate::Contraction;
+use super::sampled::Sampled;
+use crate::lyapunov::prove_bounds;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
+use sigmastar_matrix::{Symmetric, inverse};
+
+/// Radii of the tube, relative to the size of the orbit in the coordinates y (or to 1, where it is 0), tried in turn.
+const TUBES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-2, 1e-10];
+
+/// What is given up of the sampled rate, tried in turn.
+const GIVEN_UP: [f64; 4] = [1e-3, 1e-2, 0.1, 0.5];
+
+/// What is given up of the sampled bounds of a P that varies.
+const ROOM: [f64; 3] = [1e-6, 1e-4, 1e-2];
+
+/// Significant digits of the numbers of the proof.
+const DIGITS: u32 = 6;
+
+/// The least defect that is stated, so that it is positive.
+const LEAST_DEFECT: f64 = 1e-30;
+
+/// An orbit, proved: x' = f(t,x,0) has exactly one T-periodic solution x_0 with `|L^-1 (x_0 - xb)| <= tube` for all t; it has
+/// `|L^-1 (x_0 - xb)| <= radius`; along it P has the rate `alpha` (derivation, 11.2).
+///
+/// Without states `defect` and `radius` are 0, the others 1 and without meaning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrbitProof {
+    /// xb(t).
+    pub orbit: TrigonometricVector,
+    /// eps.
+    pub defect: Rational,
+    /// rho.
+    pub tube: Rational,
+    /// r.
+    pub radius: Rational,
+    /// The rate of P in the tube, in 1/time.
+    pub alpha: Rational,
+    /// `p_low I <= P(t)`.
+    pub p_low: Rational,
+    /// `P(t) <= p_up I`.
+    pub p_up: Rational,
+}
+
+/// A plant, a curve, and coordinates around it, prepared for the proofs.
+pub(super) struct Around<'a> {
+    pub(super) plant: &'a Plant,
+    waves: Vec<Wave>,
+    f: Walk,
+    f_and_jacobian: Walk,
+    pub(super) l: Vec<Vec<Enclosure>>,
+    inverse: Vec<Vec<Enclosure>>,
+    matrix: &'a PeriodicMatrix,
+    p: Symmetric<Wave>,
+}
+
+impl<'a> Around<'a> {
+    /// Nothing is believed of the parts but their types.
+    pub(super) fn new(
+        plant: &'a Plant,
+        orbit: &TrigonometricVector,
+        coordinates: &'a Coordinates,
+    ) -> Result<Around<'a>, OrbitNotProved> {
+        let n = plant.states();
+        let vectors = || std::iter::once(&orbit.mean).chain(orbit.harmonics.iter().flatten());
+        if vectors().any(|vector| vector.len() != n) {
+            return Err(OrbitNotProved::Shape("a vector of the orbit has another length"));
+        }
+        let matrix = &coordinates.p;
+        if orbit.harmonics.len().max(matrix.harmonics.len()) > MAX_HARMONICS {
+            return Err(OrbitNotProved::Shape("too many harmonics"));
+        }
+        let square = |rows: &Vec<Vec<Rational>>| rows.len() == n && rows.iter().all(|row| row.len() == n);
+        let symmetric = |rows: &Vec<Vec<Rational>>| (0..n).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]));
+        let parts = || std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten());
+        if !parts().all(|rows| square(rows) && symmetric(rows)) {
+            return Err(OrbitNotProved::Shape("P is not symmetric of the order of the plant"));
+        }
+        if !square(&coordinates.l) {
+            return Err(OrbitNotProved::Shape("L is not a square matrix of the order of the plant"));
+        }
+        let inverted = inverse(&coordinates.l).ok_or(OrbitNotProved::Shape("L is singular"))?;
+        let mut formulas = Formulas::new();
+        let f: Vec<Formula> = plant.f.iter().map(|f| formulas.insert(f)).collect();
+        let columns: Vec<Vec<Formula>> = (0..n).map(|j| formulas.derivatives(&f, PlantVariable::State(j))).collect();
+        let jacobian = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
+        let all: Vec<Formula> = f.iter().copied().chain(jacobian).collect();
+        let entry =
+            |i: usize, j: usize| wave(&matrix.mean[i][j], matrix.harmonics.iter().map(|[a, b]| [&a[i][j], &b[i][j]]));
+        Ok(Around {
+            plant,
+            waves: waves(orbit),
+            f: formulas.walk(&f),
+            f_and_jacobian: formulas.walk(&all),
+            l: enclosed(&coordinates.l, PRECISION),
+            inverse: enclosed(&inverted, PRECISION),
+            matrix,
+            p: Symmetric::from_fn(n, entry),
+        })
+    }
+
+    /// The curve over `2^exponent` cells, where another wave may be expanded as well.
+    pub(super) fn curve(&self, exponent: u32, other: Option<&Wave>) -> Curve {
+        Curve::new(&self.waves, other.into_iter(), &self.plant.period, exponent, ORDER + 1)
+    }
+
+    pub(super) fn harmonics(&self) -> usize {
+        self.waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0)
+    }
+
+    /// A bound of the defect, with more cells while it is above `enough`: that of the first number of cells that gives at most
+    /// this, or the least.
+    fn defect(&self, enough: f64) -> Result<Enclosure, OrbitNotProved> {
+        let mut best: Result<Enclosure, OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
+        for exponent in first_exponent(self.harmonics())..=*CELLS.end() {
+            let found = bound(&self.curve(exponent, None), &self.f, &self.inverse);
+            let done = found.as_ref().is_ok_and(|bound| bound.upper_f64() <= enough);
+            best = match (best, found) {
+                (Ok(best), Ok(found)) => Ok(if found.upper() < best.upper() { found } else { best }),
+                (Ok(best), Err(_)) => Ok(best),
+                (Err(_), found) => found,
+            };
+            if done {
+                break;
+            }
+        }
+        best
+    }
+
+    fn prove_rate(&self, alpha: &Rational, tube: &Rational) -> Result<(), OrbitNotProved> {
+        let contraction = Contraction {
+            period: &self.plant.period,
+            waves: &self.waves,
+            walk: &self.f_and_jacobian,
+            l: &self.l,
+            inverse: &self.inverse,
+            p: &self.p,
+        };
+        let [rate, rho] = [alpha, tube].map(|value| Enclosure::from_rational(value, PRECISION));
+        contraction.prove(&rate, &rho).map_err(|reason| OrbitNotProved::Rate {
+            alpha: alpha.to_f64(),
+            tube: tube.to_f64(),
+            reason,
+        })
+    }
+
+    fn prove_bounds(&self, p_low: &Rational, p_up: &Rational) -> Result<(), OrbitNotProved> {
+        if *p_low <= 0 {
+            return Err(OrbitNotProved::Shape("p_low is not positive"));
+        }
+        // Exactly, as no enclosure can where the two are equal.
+        if p_low == p_up && self.matrix.harmonics.is_empty() {
+            let multiple = self.matrix.mean.iter().enumerate().all(|(i, row)| {
+                row.iter().enumerate().all(|(j, entry)| if i == j { entry == p_low } else { entry.is_zero() })
+            });
+            if multiple {
+                return Ok(());
+            }
+        }
+        prove_bounds(self.matrix, p_low, p_up, PRECISION).map_err(|reason| OrbitNotProved::Bounds(reason.to_string()))
+    }
+
+    /// p_low and p_up, proved.
+    fn bounds(&self, sampled: &Sampled) -> Result<[Rational; 2], OrbitNotProved> {
+        let one = || Rational::from(1);
+        let unit = self.prove_bounds(&one(), &one());
+        if unit.is_ok() {
+            return Ok([one(), one()]);
+        }
+        let [least, largest] = sampled.eigenvalues;
+        let mut last = unit;
+        for room in ROOM {
+            let (Some(p_low), Some(p_up)) = (
+                round_f64(least * (1.0 - room), DIGITS + 2, Direction::Down),
+                round_f64(largest * (1.0 + room), DIGITS + 2, Direction::Up),
+            ) else {
+                break;
+            };
+            last = self.prove_bounds(&p_low, &p_up);
+            if last.is_ok() {
+                return Ok([p_low, p_up]);
+            }
+        }
+        Err(last.err().unwrap_or(OrbitNotProved::Shape("P has no finite eigenvalues")))
+    }
+}
+
+/// The proof of an orbit near the curve `orbit`, in these coordinates and with their P.
+///
+/// # Errors
+/// [`OrbitNotProved`]; nothing is claimed then.
+pub fn prove_orbit(
+    plant: &Plant,
+    orbit: &TrigonometricVector,
+    coordinates: &Coordinates,
+) -> Result<OrbitProof, OrbitNotProved> {
+    let around = Around::new(plant, orbit, coordinates)?;
+    if plant.states() == 0 {
+        let one = || Rational::from(1);
+        let none = Rational::new;
+        let orbit = orbit.clone();
+        return Ok(OrbitProof {
+            orbit,
+            defect: none(),
+            tube: one(),
+            radius: none(),
+            alpha: one(),
+            p_low: one(),
+            p_up: one(),
+        });
+    }
+    let sampled = Sampled::new(plant, orbit, coordinates).ok_or(OrbitNotProved::Shape("a number is beyond doubles"))?;
+    let proved = around.defect(CLOSE * sampled.defect)?.upper_f64().max(LEAST_DEFECT);
+    let defect = round_f64(proved, DIGITS, Direction::Up).ok_or(OrbitNotProved::NotSmooth { s: 0.0 })?;
+    let [p_low, p_up] = around.bounds(&sampled)?;
+    let size = if sampled.size > 0.0 { sampled.size } else { 1.0 };
+    let mut failure = None;
+    for given_up in GIVEN_UP {
+        let alpha = round_f64(sampled.rate * (1.0 - given_up), DIGITS, Direction::Down).filter(|alpha| *alpha > 0);
+        let Some(alpha) = alpha else {
+            let reason = "floating point finds none along the curve".to_owned();
+            return Err(OrbitNotProved::Rate { alpha: sampled.rate, tube: 0.0, reason });
+        };
+        let Some(radius) = least_radius(&defect, &alpha, &p_low, &p_up) else { continue };
+        let tubes = TUBES.iter().filter_map(|share| round_f64(share * size, 1, Direction::Up));
+        for tube in tubes.filter(|tube| *tube > radius) {
+            match around.prove_rate(&alpha, &tube) {
+                Ok(()) => {
+                    let orbit = orbit.clone();
+                    return Ok(OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up });
+                }
+                Err(reason) => failure = Some(reason),
+            }
+        }
+        failure = failure.or(Some(OrbitNotProved::DefectTooLarge { defect: proved, radius: radius.to_f64() }));
+    }
+    Err(failure.unwrap_or(OrbitNotProved::DefectTooLarge { defect: proved, radius: f64::INFINITY }))
+}
+
+/// The triple of a second P, proved beside that of the orbit: `P' + P J + J^T P <= -2 alpha P` in the same tube.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SecondTriple {
+    /// The rate of P in the tube, in 1/time.
+    pub alpha: Rational,
+    /// `p_low I <= P(t)`.
+    pub p_low: Rational,
+    /// `P(t) <= p_up I`.
+    pub p_up: Rational,
+}
+
+/// The triple of another P in the same coordinates, for a proved orbit.
+///
+/// # Errors
+/// [`OrbitNotProved`]; nothing is claimed of this P then.
+pub fn prove_second(
+    plant: &Plant,
+    proof: &OrbitProof,
+    coordinates: &Coordinates,
+) -> Result<SecondTriple, OrbitNotProved> {
+    let around = Around::new(plant, &proof.orbit, coordinates)?;
+    let sampled = Sampled::new(plant, &proof.orbit, coordinates);
+    let sampled = sampled.ok_or(OrbitNotProved::Shape("a number is beyond doubles"))?;
+    let [p_low, p_up] = around.bounds(&sampled)?;
+    let mut failure = OrbitNotProved::Rate { alpha: sampled.rate, tube: 0.0, reason: "there is none".to_owned() };
+    for given_up in GIVEN_UP {
+        let alpha = round_f64(sampled.rate * (1.0 - given_up), DIGITS, Direction::Down).filter(|alpha| *alpha > 0);
+        let Some(alpha) = alpha else { break };
+        match around.prove_rate(&alpha, &proof.tube) {
+            Ok(()) => return Ok(SecondTriple { alpha, p_low, p_up }),
+            Err(reason) => failure = reason,
+        }
+    }
+    Err(failure)
+}
+
+/// Decides the triple of a second P again.
+///
+/// # Errors
+/// The first inequality that is not proved.
+pub fn decide_second(
+    plant: &Plant,
+    proof: &OrbitProof,
+    coordinates: &Coordinates,
+    SecondTriple { alpha, p_low, p_up }: &SecondTriple,
+) -> Result<(), OrbitNotProved> {
+    if [alpha, p_low].iter().any(|number| **number <= 0) || p_up < p_low {
+        return Err(OrbitNotProved::Shape("alpha or p_low of existence is not positive, or p_up is below p_low"));
+    }
+    let around = Around::new(plant, &proof.orbit, coordinates)?;
+    around.prove_bounds(p_low, p_up)?;
+    around.prove_rate(alpha, &proof.tube)
+}
+
+/// A short r with `sqrt(p_up/p_low) eps/alpha <= r`.
+fn least_radius(defect: &Rational, alpha: &Rational, p_low: &Rational, p_up: &Rational) -> Option<Rational> {
+    let ratio = Enclosure::from_rational(&Rational::from(p_up / p_low), PRECISION).sqrt();
+    let least = ratio * Enclosure::from_rational(&Rational::from(defect / alpha), PRECISION);
+    Some(round_rational(&least.upper_rational()?, DIGITS, Direction::Up))
+}
+
+/// Decides a proved orbit again, from its numbers alone.
+///
+/// # Errors
+/// The first inequality of 11.2 that is not proved; nothing is said about its truth.
+pub fn decide_orbit(plant: &Plant, coordinates: &Coordinates, proved: &OrbitProof) -> Result<(), OrbitNotProved> {
+    let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = proved;
+    let around = Around::new(plant, orbit, coordinates)?;
+    if plant.states() == 0 {
+        return Ok(());
+    }
+    if [defect, tube, radius, alpha, p_low].iter().any(|number| **number <= 0) || p_up < p_low {
+        return Err(OrbitNotProved::Shape("eps, rho, r, alpha or p_low is not positive, or p_up is below p_low"));
+    }
+    // p_up eps^2 <= p_low (alpha r)^2, exactly.
+    let reached = Rational::from(alpha * radius);
+    let too_large = Rational::from(defect.square_ref()) * p_up > reached.square() * p_low;
+    if too_large || radius >= tube {
+        return Err(OrbitNotProved::DefectTooLarge { defect: defect.to_f64(), radius: radius.to_f64() });
+    }
+    around.prove_bounds(p_low, p_up)?;
+    let found = around.defect(defect.to_f64() * (1.0 - f64::EPSILON))?;
+    if !found.le(&Enclosure::from_rational(defect, PRECISION)).is_true() {
+        return Err(OrbitNotProved::Defect { found: found.upper_f64(), stated: defect.to_f64() });
+    }
+    around.prove_rate(alpha, tube)
+}

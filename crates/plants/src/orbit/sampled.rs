@@ -1,0 +1,74 @@
+//! What sampled times say of a rational curve and its coordinates, in doubles: what to ask of the proofs.
+
+use super::coordinates::Coordinates;
+use super::field::Field;
+use super::series::FloatSeries;
+use super::shape::decay;
+use nalgebra::{DMatrix, DVector};
+use rug::Rational;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
+
+/// Times for each harmonic, and besides.
+const PER_HARMONIC: usize = 8;
+const LEAST: usize = 64;
+
+/// Sizes at sampled times, in the coordinates y.
+pub(super) struct Sampled {
+    /// The largest `|L^-1 (f(t,xb,0) - xb')|`.
+    pub(super) defect: f64,
+    /// The largest `|L^-1 xb|`.
+    pub(super) size: f64,
+    /// The least rate of P.
+    pub(super) rate: f64,
+    /// The least and the largest eigenvalue of P.
+    pub(super) eigenvalues: [f64; 2],
+}
+
+/// The curve in doubles.
+pub(super) fn doubles(vector: &TrigonometricVector) -> FloatSeries {
+    let double = |values: &Vec<Rational>| values.iter().map(Rational::to_f64).collect();
+    let harmonics = vector.harmonics.iter().map(|pair| pair.each_ref().map(double)).collect();
+    FloatSeries { mean: double(&vector.mean), harmonics }
+}
+
+/// A matrix that varies, with its entries as the components of a series, column by column.
+fn entries(matrix: &PeriodicMatrix) -> FloatSeries {
+    let n = matrix.mean.len();
+    let flat = |rows: &Vec<Vec<Rational>>| (0..n * n).map(|at| rows[at % n][at / n].to_f64()).collect();
+    let harmonics = matrix.harmonics.iter().map(|pair| pair.each_ref().map(flat)).collect();
+    FloatSeries { mean: flat(&matrix.mean), harmonics }
+}
+
+impl Sampled {
+    /// `None` where numbers are not finite, or P is not positive definite. The parts fit together.
+    pub(super) fn new(plant: &Plant, orbit: &TrigonometricVector, coordinates: &Coordinates) -> Option<Sampled> {
+        let mut field = Field::new(plant);
+        let n = field.states();
+        let units = field.units().to_vec();
+        let l = DMatrix::from_fn(n, n, |i, j| coordinates.l[i][j].to_f64() / units[i]);
+        let inverse = l.clone().try_inverse()?;
+        let (series, p) = (field.own(&doubles(orbit)), entries(&coordinates.p));
+        let count = LEAST + PER_HARMONIC * (series.harmonics.len() + p.harmonics.len());
+        let mut sampled = Sampled { defect: 0.0, size: 0.0, rate: f64::INFINITY, eigenvalues: [f64::INFINITY, 0.0] };
+        for j in 0..count {
+            let s = j as f64 / count as f64;
+            let ((x, slope), (p, p_slope)) = (series.at(s), p.at(s));
+            field.set(s, &x, 0.0);
+            let difference = field.f() - DVector::from_vec(slope) / field.period;
+            sampled.defect = sampled.defect.max((&inverse * difference).norm());
+            sampled.size = sampled.size.max((&inverse * DVector::from_vec(x)).norm());
+            let [p, p_slope] = [p, p_slope].map(|values| DMatrix::from_vec(n, n, values));
+            let root = p.clone().cholesky()?.l();
+            let root_inverse = root.clone().try_inverse()?;
+            // With P = R R^T: R^-1 (P' + P J + J^T P) R^-T is twice the symmetric part of R^-1 (P'/2 + P J) R^-T.
+            let jacobian = &inverse * field.jacobian() * &l;
+            let half = p_slope / (2.0 * field.period) + &p * jacobian;
+            sampled.rate = sampled.rate.min(decay(&(&root_inverse * half * root_inverse.transpose()))?);
+            let values = p.symmetric_eigenvalues();
+            sampled.eigenvalues = [sampled.eigenvalues[0].min(values.min()), sampled.eigenvalues[1].max(values.max())];
+        }
+        let finite = [sampled.defect, sampled.size, sampled.rate].iter().all(|value| value.is_finite());
+        finite.then_some(sampled)
+    }
+}

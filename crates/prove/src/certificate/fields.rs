@@ -1,0 +1,126 @@
+//! The free numbers of every witness: their names in a certificate, listed once for the writer, the reader and messages.
+//!
+//! A further number of a witness is one line here, beside its field in `derivation`. A part that is nested, or may be
+//! missing, is a list of its own; it is read and written as `exact_regulation` is.
+
+use rug::Rational;
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::{ErrorKind, Errors, Object, Reported, SampledGain, Sampling, Value, any_constant};
+use sigmastar_theory::derivation::exact_regulation::ExactWitness;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::mean_squares::MeanSquares;
+use sigmastar_theory::derivation::repaired::RepairedWitness;
+use sigmastar_theory::derivation::sampled::SampledWitness;
+use sigmastar_theory::derivation::sharp::SharpWitness;
+use sigmastar_theory::transfer::TransferProof;
+
+/// The fields of a witness that only a certificate of a plant has.
+pub(super) const PLANT_FIELDS: [&str; 4] = ["coordinates", "orbit", "forcing", "bounds"];
+
+/// A part of a certificate that consists of exact rational numbers, each with a name.
+pub trait NumberFields: Sized {
+    /// What it holds beside the numbers, which stands elsewhere in the file.
+    type Other;
+
+    /// The names of the numbers, in the order of the file.
+    const NAMES: &'static [&'static str];
+
+    /// The numbers by their names, in the order of the file.
+    fn numbers(&self) -> Vec<(&'static str, &Rational)>;
+
+    /// Reads the numbers, then the rest by `other`.
+    ///
+    /// # Errors
+    /// Every field that is missing or not an exact rational, with its place; and what `other` reports.
+    fn read(
+        fields: &mut Object<'_>,
+        errors: &mut Errors,
+        other: impl FnOnce(&mut Object<'_>, &mut Errors) -> Result<Self::Other, Reported>,
+    ) -> Result<Self, Reported>;
+
+    /// The numbers as fields of JSON.
+    fn json(&self) -> Vec<(&'static str, serde_json::Value)> {
+        self.numbers().into_iter().map(|(name, value)| (name, write_exact(value).into())).collect()
+    }
+}
+
+macro_rules! numbers {
+    ($part:ident { $($field:ident: $name:literal),+ } and ($($other:ident: $type:ty),*)) => {
+        impl NumberFields for $part {
+            type Other = ($($type,)*);
+
+            const NAMES: &'static [&'static str] = &[$($name),+];
+
+            fn numbers(&self) -> Vec<(&'static str, &Rational)> {
+                vec![$(($name, &self.$field)),+]
+            }
+
+            fn read(
+                fields: &mut Object<'_>,
+                errors: &mut Errors,
+                other: impl FnOnce(&mut Object<'_>, &mut Errors) -> Result<Self::Other, Reported>,
+            ) -> Result<$part, Reported> {
+                $(let $field = rational(fields, $name, errors);)+
+                let ($($other,)*) = other(fields, errors)?;
+                Ok($part { $($field: $field?,)+ $($other),* })
+            }
+        }
+    };
+}
+
+numbers!(SharpWitness {
+    x_p: "X_p",
+    e_p: "E_p",
+    r_x: "r_x",
+    r_e: "r_e",
+    r_d: "r_d",
+    kap: "kap",
+    d_x: "D_x",
+    d_e: "D_e",
+    w_x: "w_x",
+    h: "h",
+    k0: "k0",
+    k1: "k1"
+} and (sigma: Rational, set: ClaimedSet, transfer: TransferProof, refined: Option<RefinedSquares>));
+
+/// Mean squares of the periodic solution that are smaller than those of existence.
+pub type RefinedSquares = MeanSquares<Rational>;
+
+numbers!(RefinedSquares { x: "r_x", e: "r_e", e_rate: "r_d" } and ());
+
+numbers!(RepairedWitness { x: "X", e: "E", level: "L", h: "h", p_x: "p_x", p_e: "p_e", k0: "k0", k1: "k1" }
+    and (sigma: Rational, set: ClaimedSet, transfer: TransferProof));
+
+numbers!(SampledWitness {
+    x_p: "X_p",
+    e_p: "E_p",
+    r_x: "r_x",
+    r_e: "r_e",
+    r_d: "r_d",
+    d_x: "D_x",
+    d_e: "D_e",
+    w_x: "w_x",
+    eta: "h",
+    k0: "k0",
+    k1: "k1"
+} and (sigma: Rational, sampling: Sampling, law: SampledGain, set: ClaimedSet));
+
+numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and ());
+
+numbers!(ClaimedSet { x0: "X0", e0: "E0", z0: "Z0" } and ());
+
+/// A field that holds an exact rational number.
+pub(super) fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Rational, Reported> {
+    let value = object.required(name, errors)?;
+    exact_rational(&value, &format!("`{name}`"), errors)
+}
+
+/// A value that is an exact rational number.
+pub(super) fn exact_rational(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Rational, Reported> {
+    let constant = any_constant(value, errors)?;
+    constant.as_rational().cloned().ok_or_else(|| {
+        let message = format!("{what} is not a rational number");
+        let expected = "expected an exact rational, as \"487/10\" or \"48.7\"";
+        errors.report(value.error(ErrorKind::Range, message).expected(expected))
+    })
+}

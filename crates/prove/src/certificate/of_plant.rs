@@ -1,0 +1,62 @@
+//! What a certificate of a plant adds to the witness (derivation, 11).
+
+use super::triple::rows;
+use rug::Rational;
+use serde_json::Value;
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::{OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification};
+
+fn exact(value: &Rational) -> Value {
+    Value::from(write_exact(value))
+}
+
+fn vector(values: &[Rational]) -> Value {
+    values.iter().map(exact).collect()
+}
+
+/// An object from pairs, in their order.
+fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
+    Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+}
+
+/// `coordinates`, `orbit`, `forcing` and `bounds`; none where the data do not come from a plant's formulas.
+#[must_use]
+pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
+    let Some(plant) = spec.plant() else { return Vec::new() };
+    let OfPlant { coordinates, orbit, forcing, .. } = plant;
+    vec![
+        ("coordinates", rows(coordinates)),
+        ("orbit", orbit_json(orbit)),
+        ("forcing", forcing_json(forcing)),
+        ("bounds", values_json(spec.bounds.proved_values())),
+    ]
+}
+
+fn orbit_json(orbit: &ProvedOrbit) -> Value {
+    let harmonic = |[cos, sin]: &[Vec<Rational>; 2]| object([("cos", vector(cos)), ("sin", vector(sin))]);
+    let harmonics: Vec<Value> = orbit.approximation.harmonics.iter().map(harmonic).collect();
+    let listed = (!harmonics.is_empty()).then(|| ("harmonics", Value::Array(harmonics)));
+    let sizes = [("defect", &orbit.defect), ("tube", &orbit.tube), ("radius", &orbit.radius)];
+    let sizes = sizes.map(|(name, value)| (name, exact(value)));
+    object([("mean", vector(&orbit.approximation.mean))].into_iter().chain(listed).chain(sizes))
+}
+
+fn forcing_json(forcing: &ProvedForcing) -> Value {
+    let harmonic = |[cos, sin]: &[Rational; 2]| object([("cos", exact(cos)), ("sin", exact(sin))]);
+    let harmonics: Vec<Value> = forcing.harmonics.iter().map(harmonic).collect();
+    let listed = (!harmonics.is_empty()).then(|| ("harmonics", Value::Array(harmonics)));
+    let rests = [("rest", exact(&forcing.rest)), ("rest_t", exact(&forcing.rest_t))];
+    object([("mean", exact(&forcing.mean))].into_iter().chain(listed).chain(rests))
+}
+
+fn values_json(values: &ProvedValues) -> Value {
+    let one = |entry: &sigmastar_lang::spec::ProvedValue| {
+        object([
+            ("bound", Value::from(entry.bound.field())),
+            ("X", exact(&entry.x)),
+            ("E", exact(&entry.e)),
+            ("value", exact(&entry.value)),
+        ])
+    };
+    values.entries().iter().map(one).collect()
+}

@@ -1,0 +1,207 @@
+//! Reading the witness of a certificate, to decide it again without any search.
+
+use super::fields::{NumberFields, PLANT_FIELDS, RefinedSquares, exact_rational, rational};
+use super::triple::{EXISTENCE, STABILITY};
+use super::write::{FORMAT, VERSION};
+use crate::certify::GivenWitness;
+use rug::Rational;
+use sigmastar_lang::spec::model::PeriodicMatrix;
+use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value};
+use sigmastar_plants::lyapunov::{ProvedTriple, ProvedTriples};
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::repaired::RepairedWitness;
+use sigmastar_theory::derivation::sharp::SharpWitness;
+use sigmastar_theory::transfer::{BoxProof, TransferProof};
+
+/// Reads the claim's numbers and the witness of a certificate file. Everything else in it (the embedded
+/// specification, the printed conditions and constants) is known and not used: it is computed again.
+///
+/// # Errors
+/// Every field that is missing, unknown or not an exact rational, with its place.
+pub fn read_witness(document: &Document) -> Result<GivenWitness, SpecErrors> {
+    let mut errors = Errors::new();
+    let outcome = read(&document.root(), &mut errors);
+    errors.conclude(document, outcome)
+}
+
+/// The fields of every certificate that are computed again.
+pub(super) const COMMON: [&str; 7] =
+    ["tool", "precision_bits", "specification", "specification_sha256", "plant", "plant_sha256", "conditions"];
+
+fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported> {
+    let mut file = root.object(errors)?;
+    file.header(FORMAT, &[VERSION], errors)?;
+    for unused in COMMON.iter().chain(&["no_plant", "comparison", "constants"]) {
+        let _ = file.optional(unused);
+    }
+    let claim = file.required("claim", errors).and_then(|value| claim_part(&value, errors));
+    let witness = file.required("witness", errors);
+    file.finish(errors);
+    let ((repaired, sigma, set), witness) = (claim?, witness?);
+    let mut fields = witness.object(errors)?;
+    if let (false, Some(p_x), None) = (repaired, witness.member("p_x"), witness.member("r_x")) {
+        let message = "this witness proves existence by a contraction, as earlier versions did";
+        let error = p_x.error(ErrorKind::UnknownField, message).expected("expected `r_x`, `r_e`, `r_d`, `kap`");
+        return Err(errors.report(error.help("proofs-check decides it as it is; `certify` writes a new one")));
+    }
+    // Read by `read_lyapunov`, where the specification asks for it.
+    let of_plant: &[&'static str] = if root.member("plant").is_some() { &PLANT_FIELDS } else { &[] };
+    for field in [STABILITY, EXISTENCE].iter().chain(of_plant) {
+        let _ = fields.optional(field);
+    }
+    let result = if repaired {
+        let other = |fields: &mut Object<'_>, errors: &mut Errors| Ok((sigma, set, read_transfer(fields, errors)?));
+        RepairedWitness::read(&mut fields, errors, other)
+            .map(|witness| GivenWitness::Repaired { witness: Box::new(witness) })
+    } else {
+        read_sharp(&mut fields, errors, sigma, set)
+    };
+    fields.finish(errors);
+    result
+}
+
+/// Reads the parts `witness.lyapunov` and `witness.lyapunov_existence` of a certificate: P(t) and the triple of each, for a
+/// specification with a Jacobian.
+///
+/// # Errors
+/// The first part, where it is missing, or fields that are missing, unknown or not exact rationals, with their places.
+pub fn read_lyapunov(document: &Document) -> Result<ProvedTriples, SpecErrors> {
+    let mut errors = Errors::new();
+    let outcome = (|| {
+        let root = document.root();
+        let mut file = root.object(&mut errors)?;
+        let witness = file.required("witness", &mut errors)?;
+        let mut witness = witness.object(&mut errors)?;
+        let stability = witness.required(STABILITY, &mut errors)?;
+        let stability = read_triple(&stability, &mut errors)?;
+        let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, &mut errors)).transpose()?;
+        Ok(ProvedTriples { stability, existence })
+    })();
+    errors.conclude(document, outcome)
+}
+
+pub(super) fn read_triple(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedTriple, Reported> {
+    let mut fields = value.object(errors)?;
+    let mean = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of a matrix", errors));
+    let mut harmonics = Vec::new();
+    if let Some(value) = fields.optional("harmonics") {
+        for pair in value.array(errors)? {
+            let mut pair = pair.object(errors)?;
+            let [cos, sin] = ["cos", "sin"].map(|name| {
+                pair.required(name, errors).and_then(|value| read_rows(&value, "an entry of a matrix", errors))
+            });
+            pair.finish(errors);
+            harmonics.push([cos?, sin?]);
+        }
+    }
+    let [p_low, p_up, alpha] = ["p_low", "p_up", "alpha"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    let matrix = PeriodicMatrix { mean: mean?, harmonics };
+    Ok(ProvedTriple { matrix, p_low: p_low?, p_up: p_up?, alpha: alpha? })
+}
+
+/// Lists of exact rationals.
+pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
+    let mut rows = Vec::new();
+    for row in value.array(errors)? {
+        let mut entries = Vec::new();
+        for entry in row.array(errors)? {
+            entries.push(exact_rational(&entry, what, errors)?);
+        }
+        rows.push(entries);
+    }
+    Ok(rows)
+}
+
+/// What the claim contributes to the witness: whether it is of the repaired derivation, sigma*, and the initial set.
+fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(bool, Rational, ClaimedSet), Reported> {
+    let mut claim = value.object(errors)?;
+    if let Some(regulator) = value.member("regulator") {
+        let message = "this certificate is about the regulator at samples, not about the one in continuous time";
+        let error = regulator.error(ErrorKind::UnknownField, message);
+        return Err(errors.report(error.help("`certify --witness`, `controller` and `check` take it")));
+    }
+    for unused in ["verdict", "n_o", "mu", "periodic_solution", "statement"] {
+        let _ = claim.optional(unused);
+    }
+    let repaired = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {
+        "sharp" => Ok(false),
+        "repaired" => Ok(true),
+        other => {
+            let message = format!("no witness is read for the derivation `{other}`");
+            Err(errors.report(value.error(ErrorKind::UnknownName, message).expected("expected `sharp` or `repaired`")))
+        }
+    });
+    let sigma = rational(&mut claim, "sigma_star", errors);
+    let set = read_set(&mut claim, errors);
+    claim.finish(errors);
+    Ok((repaired?, sigma?, set?))
+}
+
+/// `initial_set` of a claim.
+pub(super) fn read_set(claim: &mut Object<'_>, errors: &mut Errors) -> Result<ClaimedSet, Reported> {
+    let value = claim.required("initial_set", errors)?;
+    let mut set = value.object(errors)?;
+    let _ = (set.optional("kind"), set.optional("ball"));
+    let sizes = ClaimedSet::read(&mut set, errors, |_, _| Ok(()));
+    set.finish(errors);
+    sizes
+}
+
+fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<TransferProof, Reported> {
+    let value = fields.required("transfer", errors)?;
+    let mut transfer = value.object(errors)?;
+    let proof = transfer.required("proof", errors).and_then(|value| match value.string(errors)? {
+        "closed-form" => Ok(TransferProof::ClosedForm),
+        "matched" => Ok(TransferProof::Matched { k: small_integer(&mut transfer, "K", errors)? }),
+        "boxes" => {
+            let (m0, n0) = (small_integer(&mut transfer, "m0", errors), small_integer(&mut transfer, "N0", errors));
+            let breaks =
+                transfer.required("boxes", errors).and_then(|value| read_rows(&value, "a break point", errors));
+            Ok(TransferProof::Boxes(BoxProof { m0: m0?, n0: n0?, breaks: breaks? }))
+        }
+        other => {
+            let message = format!("no transfer proof `{other}` is read");
+            let expected = "expected `closed-form`, `matched` or `boxes`";
+            Err(errors.report(value.error(ErrorKind::UnknownName, message).expected(expected)))
+        }
+    });
+    transfer.finish(errors);
+    proof
+}
+
+/// A field that holds a whole number below 2^32.
+pub(super) fn small_integer(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<u32, Reported> {
+    let value = object.required(name, errors)?;
+    let number = value.integer(errors)?;
+    u32::try_from(number).map_err(|_| {
+        let message = format!("`{name}` is too large");
+        errors.report(value.error(ErrorKind::Range, message).expected("expected a small whole number"))
+    })
+}
+
+fn read_sharp(
+    fields: &mut Object<'_>,
+    errors: &mut Errors,
+    sigma: Rational,
+    set: ClaimedSet,
+) -> Result<GivenWitness, Reported> {
+    let mut exact = Ok(None);
+    let witness = SharpWitness::read(fields, errors, |fields, errors| {
+        let transfer = read_transfer(fields, errors);
+        let _ = fields.optional("lmi");
+        exact = fields.optional("exact_regulation").map(|value| read_numbers(&value, errors)).transpose();
+        let refined =
+            fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
+        Ok((sigma, set, transfer?, refined?))
+    });
+    Ok(GivenWitness::Sharp { witness: Box::new(witness?), exact: exact? })
+}
+
+/// An object that holds numbers and nothing else.
+fn read_numbers<N: NumberFields<Other = ()>>(value: &Value<'_>, errors: &mut Errors) -> Result<N, Reported> {
+    let mut fields = value.object(errors)?;
+    let numbers = N::read(&mut fields, errors, |_, _| Ok(()));
+    fields.finish(errors);
+    numbers
+}

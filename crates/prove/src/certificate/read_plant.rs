@@ -1,0 +1,131 @@
+//! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
+
+use super::fields::{exact_rational, rational};
+use super::read::{read_rows, read_triple};
+use super::triple::{EXISTENCE, STABILITY};
+use rug::Rational;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::model::{Constant, Lyapunov};
+use sigmastar_lang::spec::{
+    Bound, Document, ErrorKind, Errors, Object, OfPlant, ProvedForcing, ProvedOrbit, ProvedValue, ProvedValues,
+    Reported, SpecErrors, TrigonometricVector, Value,
+};
+use sigmastar_plants::lyapunov::ProvedTriple;
+
+/// The plant in a certificate, and what its witness says of it.
+///
+/// # Errors
+/// What is missing, unknown or not exact, in its place.
+pub fn read_plant_witness(document: &Document) -> Result<(Plant, OfPlant, ProvedValues), SpecErrors> {
+    let embedded = document.at("/plant").map_or_else(
+        || {
+            let mut errors = Errors::new();
+            let error = document.root().error(ErrorKind::MissingField, "the field `plant` is missing");
+            let reported = Err(errors.report(error));
+            errors.conclude(document, reported)
+        },
+        |value| Plant::from_value(&value),
+    )?;
+    let mut errors = Errors::new();
+    let outcome = document
+        .root()
+        .object(&mut errors)
+        .and_then(|mut file| file.required("witness", &mut errors))
+        .and_then(|value| value.object(&mut errors))
+        .and_then(|mut witness| parts(&mut witness, &embedded, &mut errors));
+    let (of_plant, values) = errors.conclude(document, outcome)?;
+    Ok((embedded, of_plant, values))
+}
+
+fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result<(OfPlant, ProvedValues), Reported> {
+    let coordinates = witness.required("coordinates", errors)?;
+    let n = plant.states();
+    let rows = read_rows(&coordinates, "an entry of L", errors)?;
+    if rows.len() != n || rows.iter().any(|row| row.len() != n) {
+        let message = format!("a matrix of {n} rows and columns is needed for {n} states");
+        return Err(errors.report(coordinates.error(ErrorKind::Range, message)));
+    }
+    let orbit = witness.required("orbit", errors).and_then(|value| read_orbit(&value, n, errors));
+    let triple = witness.required(STABILITY, errors).and_then(|value| read_triple(&value, errors));
+    let forcing = witness.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
+    let values = witness.required("bounds", errors).and_then(|value| read_values(&value, errors));
+    let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose();
+    let parts = |ProvedTriple { matrix, p_low, p_up, alpha }: ProvedTriple| {
+        let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));
+        (Lyapunov { p_low, p_up, alpha }, matrix)
+    };
+    let (triple, matrix) = parts(triple?);
+    let of_plant = OfPlant {
+        coordinates: rows,
+        orbit: orbit?,
+        triple,
+        matrix,
+        existence: existence?.map(|triple| Box::new(parts(triple))),
+        forcing: forcing?,
+        domain: plant.domain.clone(),
+        ball: plant.ball.clone(),
+    };
+    Ok((of_plant, values?))
+}
+
+fn vector(value: &Value<'_>, length: usize, errors: &mut Errors) -> Result<Vec<Rational>, Reported> {
+    let elements = value.array(errors)?;
+    if elements.len() != length {
+        let message = format!("{} numbers for {length} states", elements.len());
+        return Err(errors.report(value.error(ErrorKind::Range, message)));
+    }
+    elements.iter().map(|element| exact_rational(element, "a coefficient", errors)).collect()
+}
+
+fn read_orbit(value: &Value<'_>, n: usize, errors: &mut Errors) -> Result<ProvedOrbit, Reported> {
+    let mut fields = value.object(errors)?;
+    let mean = fields.required("mean", errors).and_then(|value| vector(&value, n, errors));
+    let mut harmonics = Vec::new();
+    if let Some(value) = fields.optional("harmonics") {
+        for pair in value.array(errors)? {
+            let mut pair = pair.object(errors)?;
+            let [cos, sin] =
+                ["cos", "sin"].map(|name| pair.required(name, errors).and_then(|value| vector(&value, n, errors)));
+            pair.finish(errors);
+            harmonics.push([cos?, sin?]);
+        }
+    }
+    let [defect, tube, radius] = ["defect", "tube", "radius"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    let approximation = TrigonometricVector { mean: mean?, harmonics };
+    Ok(ProvedOrbit { approximation, defect: defect?, tube: tube?, radius: radius? })
+}
+
+fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedForcing, Reported> {
+    let mut fields = value.object(errors)?;
+    let mean = rational(&mut fields, "mean", errors);
+    let mut harmonics = Vec::new();
+    if let Some(value) = fields.optional("harmonics") {
+        for pair in value.array(errors)? {
+            let mut pair = pair.object(errors)?;
+            let [cos, sin] = ["cos", "sin"].map(|name| rational(&mut pair, name, errors));
+            pair.finish(errors);
+            harmonics.push([cos?, sin?]);
+        }
+    }
+    let [rest, rest_t] = ["rest", "rest_t"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    Ok(ProvedForcing { mean: mean?, harmonics, rest: rest?, rest_t: rest_t? })
+}
+
+fn read_values(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedValues, Reported> {
+    let mut entries = Vec::new();
+    for element in value.array(errors)? {
+        let mut fields = element.object(errors)?;
+        let bound = fields.required("bound", errors).and_then(|value| {
+            let name = value.string(errors)?;
+            Bound::ALL.into_iter().find(|bound| bound.field() == name).ok_or_else(|| {
+                errors.report(value.error(ErrorKind::UnknownName, "this is no bounding function of a plant"))
+            })
+        });
+        let [x, e, value] = ["X", "E", "value"].map(|name| rational(&mut fields, name, errors));
+        fields.finish(errors);
+        entries.push(ProvedValue { bound: bound?, x: x?, e: e?, value: value?, sampled: None });
+    }
+    Ok(ProvedValues::new(entries))
+}

@@ -1,0 +1,50 @@
+//! The certificate of a run of either regulator, and the witness of a certificate for a subject of either kind.
+
+use super::read::{read_lyapunov, read_witness};
+use super::read_plant::read_plant_witness;
+use super::read_sampled::{is_sampled, read_sampled_witness};
+use super::sampled::sampled_certificate_json;
+use super::write::certificate_json;
+use crate::reduction::{FreeNumbers, Run, Subject, Witness, WitnessData};
+use serde_json::Value;
+use sigmastar_lang::spec::{Document, SpecErrors};
+
+/// The certificate of a run; `None` where nothing is certified.
+#[must_use]
+pub fn certificate_of(run: &Run<'_>) -> Option<Value> {
+    match run {
+        Run::Continuous(run) => certificate_json(run),
+        Run::Sampled(run) => sampled_certificate_json(run),
+    }
+}
+
+/// Reads the free numbers of a certificate about either regulator.
+///
+/// # Errors
+/// Every field that is missing, unknown or not exact, with its place.
+pub fn read_numbers(document: &Document) -> Result<FreeNumbers, SpecErrors> {
+    if is_sampled(document) {
+        return read_sampled_witness(document).map(|witness| FreeNumbers::Sampled(Box::new(witness)));
+    }
+    read_witness(document).map(FreeNumbers::Continuous)
+}
+
+/// Reads the witness of a certificate, to be tried on a subject: the free numbers, and the data that the subject does not give.
+///
+/// # Errors
+/// Every field that is missing, unknown or not exact, with its place.
+pub fn read_for(document: &Document, subject: &Subject) -> Result<Witness, SpecErrors> {
+    let numbers = read_numbers(document)?;
+    let (digest, data) = match subject {
+        Subject::Plant(_) => {
+            let (_, of_plant, values) = read_plant_witness(document)?;
+            ("/plant_sha256", WitnessData::OfPlant(Box::new((of_plant, values))))
+        }
+        Subject::Specification(spec) if spec.lyapunov.triple().is_none() => {
+            ("/specification_sha256", WitnessData::Triples(Box::new(read_lyapunov(document)?)))
+        }
+        Subject::Specification(_) => ("/specification_sha256", WitnessData::Given),
+    };
+    let of_another = document.at(digest).is_some_and(|digest| digest.text() != Some(subject.sha256()));
+    Ok(Witness { numbers, data, of_another })
+}

@@ -1,0 +1,80 @@
+//! The certificate of the regulator at samples: a claim about exactly one gain and one sampling period.
+
+use super::fields::NumberFields;
+use super::of_plant::plant_parts;
+use super::triple::lyapunov_parts;
+use super::write::{FORMAT, VERSION, conclusion, conditions_json, exact, object, set_json, text, upper_end};
+use crate::certify::SampledCertification;
+use serde_json::Value;
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::derivation::sampled::SampledWitness;
+
+/// The word for the regulator of these claims.
+pub(super) const REGULATOR: &str = "digital";
+
+/// The name of the proof of k0, k1: harmonic by harmonic, of which there are finitely many.
+pub(super) const SAMPLED: &str = "sampled";
+
+/// The certificate of a certified run; `None` when nothing was certified. Self-contained, as
+/// [`certificate_json`](super::certificate_json).
+#[must_use]
+pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value> {
+    let proof = run.claim()?;
+    let (witness, spec) = (&proof.witness, run.spec);
+    let [x, e, zeta, z] = run.periodic_solution()?;
+    let mu = &spec.internal_model.mu;
+    let claim = object([
+        ("verdict", text(run.verdict.to_string())),
+        ("regulator", text(REGULATOR)),
+        ("derivation", text("sharp")),
+        ("sigma", exact(&witness.sigma)),
+        ("sampling_period", text(witness.sampling.text())),
+        ("samples", Value::from(witness.sampling.samples)),
+        ("gain", exact(&witness.law.gain)),
+        ("n_o", text("every n_o < samples/2")),
+        ("mu", text(mu.as_rational().map_or_else(|| mu.text.clone(), write_exact))),
+        ("initial_set", set_json(spec, &witness.set)),
+        (
+            "periodic_solution",
+            object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
+        ),
+        ("statement", text(sampled_statement(spec, witness))),
+    ]);
+    let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
+    let parts = further.into_iter().chain(lyapunov_parts(spec)).chain(plant_parts(spec));
+    let [embedded, digest] = match spec.plant() {
+        Some(_) => ["plant", "plant_sha256"],
+        None => ["specification", "specification_sha256"],
+    };
+    Some(object([
+        ("format", text(FORMAT)),
+        ("version", Value::from(VERSION)),
+        ("tool", object([("name", text("sigmastar")), ("version", text(env!("CARGO_PKG_VERSION")))])),
+        ("precision_bits", Value::from(proof.precision)),
+        (embedded, spec.document.clone()),
+        (digest, text(spec.sha256.clone())),
+        ("claim", claim),
+        ("witness", object(witness.json().into_iter().chain(parts))),
+        ("conditions", conditions_json(&proof.evaluation.conditions)),
+    ]))
+}
+
+/// The claim in words.
+#[must_use]
+pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> String {
+    let model = &spec.internal_model;
+    let samples = witness.sampling.samples;
+    format!(
+        "For the digital regulator with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and \
+         K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid, with period T = {}, \
+         mu = {} and base frequency {}, {}",
+        write_exact(&witness.sigma),
+        witness.sampling.text(),
+        write_exact(&witness.law.gain),
+        spec.period.text,
+        model.mu.text,
+        model.base_frequency.text,
+        conclusion(spec, &witness.set, "at any sampling instant"),
+    )
+}

@@ -1,0 +1,96 @@
+//! What a certificate states: its specification, its witness, and its bounds of the periodic solution.
+
+use super::read::read_lyapunov;
+use super::read_plant::read_plant_witness;
+use super::run::read_numbers;
+use crate::certify::resolve_with;
+use crate::reduction::{FreeNumbers, PlantRefusal, specification};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{
+    Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant,
+};
+
+/// The statement of a certificate, for whoever holds it against something else.
+#[derive(Clone, Debug)]
+pub struct StatedClaim {
+    /// The specification inside the certificate, with its triple where that is proved by the witness.
+    pub spec: Specification,
+    /// The free numbers.
+    pub witness: FreeNumbers,
+    /// The stated bounds of sup|x|, sup|e|, sup|zeta|_N and sup|z|_N along the periodic solution; infinite where there is none.
+    pub periodic: [f64; 4],
+    /// The plant, where the certificate is of one.
+    pub plant: Option<Plant>,
+}
+
+/// Reads the claim, the witness and the specification of a certificate about either regulator. What a falsified certificate says is
+/// taken as it is; only a triple for a Jacobian is proved again.
+///
+/// # Errors
+/// What cannot be read, in its place, and a triple that is not proved.
+pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
+    let witness = read_numbers(document)?;
+    let root = document.root();
+    let refused = |error| {
+        let mut errors = Errors::new();
+        let reported = Err(errors.report(error));
+        errors.conclude(document, reported)
+    };
+    if document.at("/plant").is_some() {
+        let (plant, of_plant, values) = read_plant_witness(document)?;
+        let spec = match specification(&plant, of_plant, values) {
+            Ok(spec) => spec,
+            Err(refusal) => {
+                let (place, message) = match refusal {
+                    PlantRefusal::Forcing => ("/witness/forcing", "these harmonics are too large or too small"),
+                    _ => ("/witness/coordinates", "this matrix is singular, or too nearly so"),
+                };
+                let place = document.at(place).unwrap_or(root.clone());
+                return refused(place.error(ErrorKind::Range, message));
+            }
+        };
+        let periodic = stated_periodic(document)?;
+        return Ok(StatedClaim { spec, witness, periodic, plant: Some(plant) });
+    }
+    let Some(embedded) = document.at("/specification") else {
+        return refused(root.error(ErrorKind::MissingField, "the field `specification` is missing"));
+    };
+    let mut spec = Specification::from_value(&embedded)?;
+    if spec.lyapunov.triple().is_none() {
+        match resolve_with(&spec, &read_lyapunov(document)?) {
+            Some(Ok(proved)) => spec = proved,
+            Some(Err(failure)) => {
+                let place = document.at("/witness/lyapunov").unwrap_or(root.clone());
+                let error = place.error(ErrorKind::Range, format!("this triple is not proved: {failure}"));
+                return refused(error.help("`sigmastar check` decides the certificate"));
+            }
+            None => {}
+        }
+    }
+    let periodic = stated_periodic(document)?;
+    Ok(StatedClaim { spec, witness, periodic, plant: None })
+}
+
+/// The stated bounds of the periodic solution.
+fn stated_periodic(document: &Document) -> Result<[f64; 4], SpecErrors> {
+    let root = document.root();
+    let mut errors = Errors::new();
+    let stated = ["x", "e", "zeta", "z"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
+        Some(value) => bound(&value, &mut errors),
+        None => {
+            let message = format!("the bound `periodic_solution.{name}` is missing");
+            Err(errors.report(root.error(ErrorKind::MissingField, message)))
+        }
+    });
+    let [x, e, zeta, z] = stated;
+    let stated = x.and_then(|x| Ok([x, e?, zeta?, z?]));
+    errors.conclude(document, stated)
+}
+
+/// An upper end of the claim; `inf` where there is none.
+fn bound(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
+    if value.text() == Some("inf") {
+        return Ok(f64::INFINITY);
+    }
+    any_constant(value, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)
+}

@@ -1,0 +1,331 @@
+//! The certificate file: self-contained, the same bytes for the same input.
+
+use super::fields::NumberFields;
+use super::of_plant::plant_parts;
+use super::triple::{lyapunov_parts, rows};
+use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness, claimed_ball};
+use rug::{Integer, Rational};
+use serde_json::{Map, Value};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_rational, write_exact};
+use sigmastar_lang::spec::model::{InitialSet, LyapunovSource};
+use sigmastar_lang::spec::{Bound, OfPlant, Specification};
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::condition::Condition;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::table::{At, Entry, Row, Value as Cell};
+use sigmastar_theory::transfer::{TransferProof, closed_form_pair};
+use std::sync::LazyLock;
+
+/// The format of a certificate file.
+pub const FORMAT: &str = "sigmastar/certificate";
+/// The version that is written and read.
+pub const VERSION: u64 = 1;
+
+/// Significant digits of the upper ends in a claim.
+const CLAIM_DIGITS: u32 = 12;
+
+/// An object from pairs, in their order.
+pub(super) fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
+    Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+}
+
+pub(super) fn text(value: impl Into<String>) -> Value {
+    Value::String(value.into())
+}
+
+pub(super) fn exact(value: &Rational) -> Value {
+    text(write_exact(value))
+}
+
+fn interval(value: &Enclosure) -> Value {
+    Value::Array(value.decimals().into_iter().map(Value::String).collect())
+}
+
+/// An upper end, rounded up; the text "inf" when there is none.
+pub(super) fn upper_end(value: &Enclosure) -> Value {
+    match value.upper_rational() {
+        // A bound of what is smaller still, which no reader of exact numerals need take: `f_e` of exp(-1e12) gives one.
+        Some(upper) if upper > 0 && upper < *LEAST_WRITTEN => exact(&LEAST_WRITTEN),
+        Some(upper) => exact(&round_rational(&upper, CLAIM_DIGITS, Direction::Up)),
+        None => text("inf"),
+    }
+}
+
+/// The least positive upper bound that a claim writes.
+static LEAST_WRITTEN: LazyLock<Rational> =
+    LazyLock::new(|| Rational::from((Integer::from(1), Integer::from(Integer::u_pow_u(10, 1000)))));
+
+/// The certificate of a certified run; `None` when nothing was certified.
+///
+/// It embeds the specification as read, its digest, and the rational witness from which every condition can be decided
+/// again without any search. No time stamps and no paths.
+#[must_use]
+pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
+    let claimed = run.claim()?;
+    let (sigma, set) = (claimed.sigma, claimed.set);
+    let [x, e, zeta, z] = run.periodic_solution()?;
+    let spec = run.spec;
+    let mu = &spec.internal_model.mu;
+    let claim = object([
+        ("verdict", text(run.verdict.to_string())),
+        ("derivation", text(run.options.derivation.name())),
+        ("sigma_star", exact(sigma)),
+        ("n_o", text("every n_o >= 0")),
+        ("mu", text(mu.as_rational().map_or_else(|| mu.text.clone(), write_exact))),
+        ("initial_set", set_json(spec, set)),
+        (
+            "periodic_solution",
+            object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
+        ),
+        ("statement", text(statement(run, sigma, set))),
+    ]);
+    let regulation = run.exact.as_ref().map(|exact| ("exact_regulation", object(exact.witness.json())));
+    let sharp = run.sharp.proved().map(|proof| {
+        let refined = proof.witness.refined.as_ref().map(|refined| ("refined", object(refined.json())));
+        with_witness(proof, refined.into_iter().chain(regulation))
+    });
+    let repaired = run.repaired.proved().map(|proof| with_witness(proof, None));
+    // The free numbers of the other derivation, without which its column of the constants could not be checked.
+    let (main, other): (Vec<_>, Vec<_>) =
+        [sharp, repaired].into_iter().flatten().partition(|(proof, _)| proof.derivation == claimed.derivation);
+    let (_, mut witness) = main.into_iter().next()?;
+    let comparison = other.into_iter().map(|(proof, witness)| {
+        let part =
+            [("sigma_star", exact(proof.sigma)), ("initial_set", object(proof.set.json())), ("witness", witness)];
+        ("comparison".to_owned(), object([(proof.derivation.name(), object(part))]))
+    });
+    let transfer = first_comparison(&Data::new(spec, claimed.precision), &claimed);
+    let conditions: Vec<Condition> = run
+        .conditions()
+        .iter()
+        .map(|condition| if condition.id == "T" { transfer.clone() } else { condition.clone() })
+        .collect();
+    if let Value::Object(fields) = &mut witness {
+        let parts = lyapunov_parts(spec).into_iter().chain(plant_parts(spec));
+        fields.extend(parts.map(|(name, value)| (name.to_owned(), value)));
+        fields.extend(multipliers_json(run).map(|value| ("lmi".to_owned(), value)));
+    }
+    let [embedded, digest] = match spec.plant() {
+        Some(_) => ["plant", "plant_sha256"],
+        None => ["specification", "specification_sha256"],
+    };
+    let mut certificate = object([
+        ("format", text(FORMAT)),
+        ("version", Value::from(VERSION)),
+        ("tool", object([("name", text("sigmastar")), ("version", text(env!("CARGO_PKG_VERSION")))])),
+        ("precision_bits", Value::from(claimed.precision)),
+        (embedded, spec.document.clone()),
+        (digest, text(spec.sha256.clone())),
+        ("claim", claim),
+        ("witness", witness),
+    ]);
+    // The object was made above.
+    if let Value::Object(fields) = &mut certificate {
+        fields.extend(run.no_plant.as_ref().map(|reason| ("no_plant".to_owned(), no_plant_json(reason))));
+        fields.extend(comparison);
+        fields.insert("conditions".to_owned(), conditions_json(&conditions));
+        fields.insert("constants".to_owned(), constants_json(&checkable(&run.constants)));
+    }
+    Some(certificate)
+}
+
+/// Why no plant with a state x satisfies the data: what a checker needs to decide it again.
+#[must_use]
+pub fn no_plant_json(reason: &NoPlant) -> Value {
+    let mut fields = object([("X", exact(&reason.x)), ("rate_at_most", interval(&reason.rate_at_most))]);
+    let more = match &reason.exceeded_by {
+        ExceededBy::Alpha { .. } => vec![("exceeded_by", text("alpha"))],
+        ExceededBy::Rate { .. } => vec![("exceeded_by", text("rate"))],
+        ExceededBy::Jacobian { fraction, column, .. } => {
+            vec![("exceeded_by", text("jacobian")), ("t", exact(fraction)), ("column", Value::from(*column))]
+        }
+    };
+    // The object was made above.
+    if let Value::Object(fields) = &mut fields {
+        fields.extend(more.into_iter().map(|(name, value)| (name.to_owned(), value)));
+    }
+    fields
+}
+
+/// The multipliers with which the matrix inequality of C5 was proved, for a claim of the sharp derivation.
+fn multipliers_json(run: &Certification<'_>) -> Option<Value> {
+    let checks = (run.options.derivation == Derivation::Sharp).then_some(&run.checks)?;
+    let [l_x, l_e, l_f] = checks.decay.iter().flatten().find_map(|check| check.multipliers.as_ref())?;
+    Some(object([("l_x", exact(l_x)), ("l_e", exact(l_e)), ("l_f", exact(l_f))]))
+}
+
+/// The first comparison of a transfer proof: T_N(0) <= k0, or k0 against the closed form.
+///
+/// A certificate shows this one, not the tightest: the two sides of a box are no numbers that a checker with other
+/// enclosures could find again.
+fn first_comparison(data: &Data<'_>, claim: &Decided<'_>) -> Condition {
+    let (proof, [k0, _]) = (claim.transfer, claim.pair);
+    let at_zero = || data.transfer_at_zero();
+    let (what, lhs) = match proof {
+        TransferProof::ClosedForm => ("closed form of k0", closed_form_pair(data).0),
+        TransferProof::Matched { .. } => ("k = 0: 1/(nu^2 n_0) <= k0", at_zero()),
+        TransferProof::Boxes(_) => ("T_N(0) = 1/(nu^2 n_0) <= k0", at_zero()),
+    };
+    Condition::at_most("T", format!("transfer bound, {}: {what}", proof.name()), lhs, data.rational(k0))
+}
+
+/// The rows without the printed figures at the paper's own free numbers. No claim rests on them, and their free numbers
+/// are not in the certificate, so no checker could find them again; the report has them.
+fn checkable(rows: &[Row]) -> Vec<Row> {
+    let keep = |row: &Row| {
+        // What E1 and E2 refute, they refute from the data alone.
+        let from_data = ["P:eq:boundx_bounde_1", "P:thm1", "P:eq:bound_sigma_inf"];
+        let refuted = |entry: &Entry| matches!(entry.value, Cell::Infeasible(_)) && from_data.contains(&entry.source);
+        let printed = row.printed.clone().filter(|entry| row.at != At::Own || refuted(entry));
+        Row { printed, ..row.clone() }
+    };
+    let some = |row: &Row| row.printed.is_some() || row.repaired.is_some() || row.sharp.is_some();
+    rows.iter().map(keep).filter(some).collect()
+}
+
+/// The claim in words: with what it speaks of (period, regulator, data) and what of that is given and not proved.
+#[must_use]
+pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) -> String {
+    let spec = run.spec;
+    let model = &spec.internal_model;
+    let reach = if model.matched { "" } else { " (which need not match the period)" };
+    format!(
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+         frequency {}{reach}, {}",
+        write_exact(sigma),
+        spec.period.text,
+        model.mu.text,
+        model.base_frequency.text,
+        conclusion(spec, set, "at any initial time"),
+    )
+}
+
+/// What converges to what: of all plants of the data, or of the plant whose formulas are in the certificate; `start` says when
+/// a solution may start.
+pub(super) fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) -> String {
+    if let Some(plant) = spec.plant() {
+        return conclusion_of_plant(plant, set, start);
+    }
+    let domain = spec
+        .domain
+        .as_ref()
+        .map_or_else(String::new, |domain| format!(" (for |x| <= {}, |e| <= {})", domain.x.text, domain.e.text));
+    let triple = match &spec.lyapunov {
+        LyapunovSource::Given(triple) => format!(
+            "with the Lyapunov triple p_low = {}, p_up = {}, alpha = {} (given, not proved)",
+            triple.p_low.text, triple.p_up.text, triple.alpha.text
+        ),
+        LyapunovSource::Wanted(_) | LyapunovSource::Proved { .. } | LyapunovSource::Plant(_) => {
+            "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
+        }
+    };
+    let rate =
+        if spec.bounds.own(Bound::Rate).is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
+    let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
+    format!(
+        "every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution of the \
+         closed loop to which every solution from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, {start}, converges exponentially.",
+        write_exact(&set.x0),
+        write_exact(&set.e0),
+        write_exact(&set.z0),
+    )
+}
+
+/// The same about one plant: nothing of it is assumed.
+fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String {
+    let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
+        let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.text) } else { String::new() };
+        format!(" (a model that holds for {of_x}|e| <= {})", domain.e.text)
+    });
+    let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(write_exact);
+    let (state, orbit) = match claimed_ball(plant, &set.x0) {
+        None => (String::new(), String::new()),
+        Some(ball) => (
+            format!("|L^-1 (x - x_0)| <= {x0}, "),
+            format!(
+                "; x_0(t) is the T-periodic solution of x' = f(t,x,0), proved within `radius` of `orbit`; the set contains \
+                 |x - x_0| <= {}",
+                write_exact(&ball)
+            ),
+        ),
+    };
+    format!(
+        "the plant of these formulas{domain} has a T-periodic solution of the closed loop to which every solution from \
+         {state}|e| <= {e0}, sqrt(z'Nz) <= {z0}, {start}, converges exponentially{orbit}."
+    )
+}
+
+pub(super) fn set_json(spec: &Specification, set: &ClaimedSet) -> Value {
+    let kind = match spec.initial_set {
+        InitialSet::Paper => "paper",
+        InitialSet::AtRest { .. } => "at-rest",
+        InitialSet::Box { .. } => "box",
+    };
+    let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
+    let ball = ball.map(|ball| ("ball", exact(&ball)));
+    object([("kind", text(kind))].into_iter().chain(set.json()).chain(ball))
+}
+
+fn transfer_json(proof: &TransferProof) -> Value {
+    match proof {
+        TransferProof::ClosedForm => object([("proof", text(proof.name()))]),
+        TransferProof::Matched { k } => object([("proof", text(proof.name())), ("K", Value::from(*k))]),
+        TransferProof::Boxes(boxes) => object([
+            ("proof", text(proof.name())),
+            ("m0", Value::from(boxes.m0)),
+            ("N0", Value::from(boxes.n0)),
+            ("boxes", rows(&boxes.breaks)),
+        ]),
+    }
+}
+
+/// A proof with its witness as JSON: the numbers, the transfer proof, and further parts.
+fn with_witness<W: Witness + NumberFields>(
+    proof: &Proof<W>,
+    parts: impl IntoIterator<Item = (&'static str, Value)>,
+) -> (Decided<'_>, Value) {
+    let decided = proof.decided();
+    let transfer = ("transfer", transfer_json(decided.transfer));
+    (decided, object(proof.witness.json().into_iter().chain([transfer]).chain(parts)))
+}
+
+/// Conditions with outward-rounded sides, and the margin rounded down.
+#[must_use]
+pub fn conditions_json(conditions: &[Condition]) -> Value {
+    let one = |condition: &Condition| {
+        object([
+            ("id", text(condition.id)),
+            ("what", text(condition.what.clone())),
+            ("relation", text(condition.relation.to_string())),
+            ("lhs", interval(&condition.lhs)),
+            ("rhs", interval(&condition.rhs)),
+            ("margin", text(condition.margin().lower_decimal(sigmastar_exact::enclosure::DIGITS))),
+        ])
+    };
+    Value::Array(conditions.iter().map(one).collect())
+}
+
+/// The table of constants: one object a constant, one entry a derivation.
+#[must_use]
+pub fn constants_json(rows: &[Row]) -> Value {
+    let one = |row: &Row| {
+        let mut fields = Map::new();
+        fields.insert("evaluated_at".to_owned(), text(row.at.name()));
+        for (name, entry) in [("printed", &row.printed), ("repaired", &row.repaired), ("sharp", &row.sharp)] {
+            if let Some(entry) = entry {
+                fields.insert(name.to_owned(), entry_json(entry));
+            }
+        }
+        (row.name.clone(), Value::Object(fields))
+    };
+    Value::Object(rows.iter().map(one).collect())
+}
+
+fn entry_json(entry: &Entry) -> Value {
+    let (name, value) = match &entry.value {
+        Cell::Number(value) | Cell::Span(value) => ("value", interval(value)),
+        Cell::Infeasible(reason) | Cell::Unavailable(reason) => ("reason", text(reason.clone())),
+    };
+    object([(name, value), ("status", text(entry.status.name())), ("source", text(entry.source))])
+}

@@ -1,0 +1,137 @@
+//! What a run found out.
+
+use super::bounding::BoundingProblem;
+use super::matrix_checks::MatrixChecks;
+use super::no_plant::NoPlant;
+use super::options::{Derivation, Options};
+use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
+use super::verdict::Verdict;
+use crate::search::{Binding, Datum, OptionalDatum};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::model::Specification;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::condition::{Condition, all};
+use sigmastar_theory::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::printed::{Infeasible, PrintedEvaluation};
+use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
+use sigmastar_theory::derivation::table::Row;
+
+/// What the printed formulas say about the data; nothing where the data are those of a plant's formulas.
+#[derive(Clone, Debug, Default)]
+pub struct PrintedFigure {
+    /// Why P:eq:boundx_bounde_1 has no solution.
+    pub refutation: Option<Infeasible>,
+    /// The constants at the free numbers that are best without that condition, when there are any.
+    pub evaluation: Option<PrintedEvaluation<Enclosure>>,
+    /// The figure that the other conditions would give: max(sigma_p*, sigma_a*).
+    pub sigma: Option<Enclosure>,
+}
+
+/// The exact-regulation claim.
+#[derive(Clone, Debug)]
+pub struct ExactClaim {
+    /// The free numbers.
+    pub witness: ExactWitness,
+    /// The evaluation.
+    pub evaluation: ExactEvaluation,
+}
+
+/// The gains from e to xi_1 (derivation, section 6): limsup|xi_1| <= k_inf limsup|e| and, over a period,
+/// the integral of xi_1^2 is at most k_2 times that of e^2.
+#[derive(Clone, Debug)]
+pub struct RelativeDegreeGains {
+    /// k_inf, in units of time^(r-1).
+    pub k_inf: Enclosure,
+    /// k_2, in units of time^(2r-2).
+    pub k_2: Enclosure,
+}
+
+/// Everything a run found out.
+#[derive(Clone, Debug)]
+pub struct Certification<'s> {
+    /// The specification.
+    pub spec: &'s Specification,
+    /// The options of the run.
+    pub options: Options,
+    /// The gain that was asked about, where the smallest one was not sought.
+    pub given_gain: Option<Rational>,
+    /// The verdict on the chosen derivation.
+    pub verdict: Verdict,
+    /// The sharp derivation.
+    pub sharp: Outcome<SharpProof>,
+    /// The repaired derivation.
+    pub repaired: Outcome<RepairedProof>,
+    /// The printed derivation.
+    pub printed: PrintedFigure,
+    /// k_inf and k_2, when the specification has a relative degree, or why there are none.
+    pub relative_degree: Option<Result<RelativeDegreeGains, RelativeDegreeError>>,
+    /// Exact regulation, when the base frequency is matched and a claim was proved.
+    pub exact: Option<ExactClaim>,
+    /// The conditions that are not proved of an exact-regulation claim that was given to be decided again.
+    pub exact_failing: Vec<Condition>,
+    /// What the matrix inequalities say; a disagreement keeps the sharp derivation from being certified.
+    pub checks: MatrixChecks,
+    /// That no plant with a state x satisfies the data, where it is proved; the claim then says nothing about any.
+    pub no_plant: Option<NoPlant>,
+    /// Which condition sets sigma*, according to the search.
+    pub binding: Option<Binding>,
+    /// For each optional datum that is given, sigma* without it (an estimate), and none where nothing is found then.
+    pub without_optional: Vec<(OptionalDatum, Option<f64>)>,
+    /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.
+    pub sensitivities: Vec<(Datum, f64)>,
+    /// Bounding functions that were neither proved nor refuted.
+    pub unproved_bounds: Vec<BoundingProblem>,
+    /// Every constant in the three derivations.
+    pub constants: Vec<Row>,
+    /// The working precision of the table.
+    pub precision: u32,
+}
+
+impl Certification<'_> {
+    /// What was decided in the chosen derivation, proved or not; `None` where there was no witness.
+    #[must_use]
+    pub fn attempt(&self) -> Option<Decided<'_>> {
+        match self.options.derivation {
+            Derivation::Sharp => self.sharp.attempt().map(Proof::decided),
+            Derivation::Repaired => self.repaired.attempt().map(Proof::decided),
+            Derivation::Printed => None,
+        }
+    }
+
+    /// The proof of the claim, if certified.
+    #[must_use]
+    pub fn claim(&self) -> Option<Decided<'_>> {
+        // The verdict says so already; a claim is not to rest on one field.
+        self.attempt().filter(|attempt| self.verdict == Verdict::Certified && all(attempt.conditions).is_true())
+    }
+
+    /// The claimed gain of the chosen derivation, if certified.
+    #[must_use]
+    pub fn sigma_star(&self) -> Option<&Rational> {
+        self.claim().map(|claim| claim.sigma)
+    }
+
+    /// The claimed initial set of the chosen derivation, if certified.
+    #[must_use]
+    pub fn claimed_set(&self) -> Option<&ClaimedSet> {
+        self.claim().map(|claim| claim.set)
+    }
+
+    /// The conditions of the chosen derivation, proved or not.
+    #[must_use]
+    pub fn conditions(&self) -> &[Condition] {
+        self.attempt().map_or(&[], |attempt| attempt.conditions)
+    }
+
+    /// Upper bounds of the periodic solution, |x|, |e|, |zeta|_N and |z|_N, of the chosen derivation, if certified.
+    #[must_use]
+    pub fn periodic_solution(&self) -> Option<[Enclosure; 4]> {
+        let claim = self.claim()?;
+        let [x, e, zeta] = claim.periodic.map(Enclosure::clone);
+        let n_bar = Data::new(self.spec, claim.precision).numbers.n_bar;
+        let z = &zeta + n_bar * &e;
+        Some([x, e, zeta, z])
+    }
+}

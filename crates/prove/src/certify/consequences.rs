@@ -1,0 +1,77 @@
+//! What follows from a run beyond its claim: the error for given numbers of oscillators, the arguments that were used, the
+//! error box, the regulated output behind a filter.
+
+use super::certification::{Certification, RelativeDegreeGains};
+use super::options::Derivation;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_theory::data::{Bound, Data, Problem};
+use sigmastar_theory::derivation::consequences::{ErrorBounds, error_bounds};
+use sigmastar_theory::derivation::targets::{Consequences, Target};
+
+impl Certification<'_> {
+    /// Certified bounds of the periodic error, with answers to the targets; `None` without a certified claim.
+    ///
+    /// Guarantee: they hold for every sigma' >= sigma* and the stated n_o, along the periodic solution.
+    #[must_use]
+    pub fn consequences(&self, targets: &[Target]) -> Option<Consequences> {
+        let claim = self.claim()?;
+        let data = Data::new(self.spec, claim.precision);
+        let [_, e_per, _] = claim.periodic;
+        Some(Consequences::new(&data, claim.excitation, &data.rational(claim.sigma), e_per, targets))
+    }
+
+    /// Certified bounds of the periodic error with so many oscillators; `None` without a certified claim, or where the base
+    /// frequency is not matched.
+    ///
+    /// Guarantee: as for [`Certification::consequences`].
+    #[must_use]
+    pub fn error_with(&self, n_o: u64) -> Option<ErrorBounds> {
+        let claim = self.claim().filter(|_| self.spec.internal_model.matched)?;
+        let data = Data::new(self.spec, claim.precision);
+        let [_, e_per, _] = claim.periodic;
+        Some(error_bounds(&data, claim.excitation, &data.rational(claim.sigma), e_per, n_o))
+    }
+
+    /// An upper bound of sigma* + mu Nbar^2, if certified: u = -(sigma + mu (n_0 + ... + n_{n_o})) e + mu M'N z, so this is
+    /// what the law multiplies e by at sigma*, at most, for every n_o.
+    #[must_use]
+    pub fn feedback(&self) -> Option<Enclosure> {
+        let claim = self.claim()?;
+        let data = Data::new(self.spec, claim.precision);
+        Some((data.rational(claim.sigma) + &data.mu * &data.n_bar_squared).ceiling())
+    }
+
+    /// Radii of the error box in x and e of the chosen derivation, if certified.
+    #[must_use]
+    pub fn error_box(&self) -> Option<[Enclosure; 2]> {
+        self.claim().map(|claim| claim.error_box)
+    }
+
+    /// The largest X and E at which the claim for every n_o uses a bounding function; upper bounds.
+    #[must_use]
+    pub fn largest_arguments(&self) -> Option<[Enclosure; 2]> {
+        self.attempt().map(|attempt| attempt.arguments)
+    }
+
+    /// The largest X and E at which exact regulation uses a bounding function; it does so for an error box of its own.
+    #[must_use]
+    pub fn exact_arguments(&self) -> Option<[Enclosure; 2]> {
+        let claim = self.exact.as_ref().filter(|_| self.options.derivation == Derivation::Sharp)?;
+        Some([&claim.witness.d_x, &claim.witness.d_e].map(|radius| Enclosure::from_rational(radius, self.precision)))
+    }
+
+    /// Upper bounds of sup|xi_1| and rms(xi_1) along the periodic solution, for every n_o: k_inf and sqrt(k_2) times the
+    /// certified bound of sup|e|, which also bounds rms(e). `None` without a certified claim.
+    #[must_use]
+    pub fn regulated_output(&self, gains: &RelativeDegreeGains) -> Option<[Enclosure; 2]> {
+        let [_, e, _, _] = self.periodic_solution()?;
+        Some([&gains.k_inf * &e, gains.k_2.sqrt() * e])
+    }
+
+    /// Whether f(0,0) > 0 is proved of the bounding function, although |f(t,0,0)| = 0 for every plant of the family.
+    #[must_use]
+    pub fn has_force_at_origin(&self) -> bool {
+        let data = Data::new(self.spec, self.precision);
+        data.bound(Bound::F, &data.zero(), &data.zero()).is_positive().is_true()
+    }
+}

@@ -1,0 +1,127 @@
+//! What is reported of a proof beside its claim, at a precision at which it is known well.
+
+use super::certification::{ExactClaim, PrintedFigure};
+use super::decide::decide;
+use super::options::Ladder;
+use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof, Witness};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::model::Specification;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::table::{At, Row, TableInput, Value, table};
+
+/// Binary digits that a reported number has, where the precision allows it.
+const DIGITS: u32 = 56;
+
+/// The most bits that are spent on that: a number that is 0, and not exactly so, is never known to any digit.
+const FINEST: u32 = 512;
+
+/// What the table of constants is made from.
+pub(super) struct Columns<'a> {
+    pub(super) sharp: Outcome<SharpProof>,
+    pub(super) repaired: Outcome<RepairedProof>,
+    pub(super) printed: &'a PrintedFigure,
+    pub(super) exact: Option<&'a ExactClaim>,
+}
+
+/// The table of constants, and the precision at which it was evaluated.
+pub(super) struct Table {
+    pub(super) precision: u32,
+    pub(super) rows: Vec<Row>,
+}
+
+impl Columns<'_> {
+    /// The proofs and the table, evaluated again at a doubled precision up to [`FINEST`] while a number is not known to
+    /// [`DIGITS`]: where a bounding function cancels, fewer bits decide a condition than tell its sides.
+    ///
+    /// Guarantee: a proof stays one; an evaluation is replaced only by one of more bits that is proved too.
+    pub(super) fn evaluated(mut self, spec: &Specification, start: u32, ladder: Ladder) -> (Self, Table) {
+        let mut precision = start;
+        let finest = FINEST.min(ladder.limit);
+        loop {
+            let rows = constants(&Data::new(spec, precision), &self);
+            if precision >= finest || !self.is_rough(&rows) {
+                return (self, Table { precision, rows });
+            }
+            precision = (2 * precision).min(finest);
+            let ladder = Ladder { start: precision, ..ladder };
+            raise(&mut self.sharp, spec, ladder);
+            raise(&mut self.repaired, spec, ladder);
+        }
+    }
+
+    fn is_rough(&self, rows: &[Row]) -> bool {
+        // What the printed formulas say at free numbers of their own is evaluated once, and not stored.
+        let printed = |row: &Row| row.printed.clone().filter(|_| row.at != At::Own);
+        let cells = rows.iter().flat_map(|row| [printed(row), row.repaired.clone(), row.sharp.clone()]).flatten();
+        let mut numbers = cells.filter_map(|cell| match cell.value {
+            Value::Number(value) => Some(value),
+            Value::Span(_) | Value::Infeasible(_) | Value::Unavailable(_) => None,
+        });
+        let proofs = [self.sharp.proved().map(Proof::decided), self.repaired.proved().map(Proof::decided)];
+        let unknown = |proof: Decided<'_>| {
+            let [x_per, e_per, _] = proof.periodic;
+            rough(x_per) || rough(e_per) || proof.conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs))
+        };
+        numbers.any(|number| rough(&number)) || proofs.into_iter().flatten().any(unknown)
+    }
+}
+
+/// Decides a proof again where it was decided with fewer bits; it gives way only to one that is proved too.
+fn raise<W: Witness + Clone>(outcome: &mut Outcome<Proof<W>>, spec: &Specification, ladder: Ladder) {
+    if let Outcome::Proved(proof) = outcome
+        && proof.precision < ladder.start
+    {
+        let again = decide(spec, proof.witness.clone(), ladder);
+        if again.truth().is_true() {
+            **proof = again;
+        }
+    }
+}
+
+/// Whether a number that has bounds is known to less than [`DIGITS`].
+fn rough(value: &Enclosure) -> bool {
+    if !value.is_bounded() {
+        return false;
+    }
+    let end = |end: &rug::Float| Enclosure::new(end.clone(), end.clone());
+    let width = end(value.upper()) - end(value.lower());
+    let unit = Enclosure::from_rational(&(Rational::from(1) >> DIGITS), DIGITS);
+    !width.le(&(value.abs().ceiling() * unit)).is_true()
+}
+
+/// The table, at the witness of the sharp derivation or, failing that, of the repaired one.
+fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
+    let (sharp, repaired, printed) = (columns.sharp.proved(), columns.repaired.proved(), columns.printed);
+    let Some(common) = sharp.map(Proof::decided).or(repaired.map(Proof::decided)) else { return Vec::new() };
+    let ([x, e], [k0, k1]) = (common.point, common.pair);
+    let numbers = |set: &ClaimedSet| [set.x0.clone(), set.e0.clone(), set.z0.clone()];
+    let rows = table(&TableInput {
+        data,
+        common: [x.clone(), e.clone(), common.sigma.clone()],
+        sharp_pair: (k0.clone(), k1.clone()),
+        sharp: sharp.map(|proof| &proof.evaluation),
+        sharp_free: sharp.map(|proof| {
+            let w = &proof.witness;
+            [w.h.clone(), w.w_x.clone(), w.d_x.clone(), w.d_e.clone()]
+        }),
+        sets: [repaired.map(|proof| numbers(&proof.witness.set)), sharp.map(|proof| numbers(&proof.witness.set))],
+        repaired: repaired.map(|proof| &proof.evaluation),
+        printed: printed.evaluation.as_ref(),
+        sigmas: [
+            printed.sigma.clone(),
+            repaired.map(|proof| data.rational(&proof.witness.sigma)),
+            sharp.map(|proof| data.rational(&proof.witness.sigma)),
+        ],
+        sigma_exact: columns.exact.map(|claim| claim.witness.sigma.clone()),
+    });
+    if data.spec.plant().is_some() { rows.into_iter().filter_map(of_a_plant).collect() } else { rows }
+}
+
+/// A row without the figures that rest on data which are not computed from a plant's formulas.
+fn of_a_plant(row: Row) -> Option<Row> {
+    let known = |value: &Value| matches!(value, Value::Number(value) | Value::Span(value) if value.is_bounded());
+    let sharp = row.sharp.filter(|entry| known(&entry.value))?;
+    Some(Row { printed: None, repaired: None, sharp: Some(sharp), ..row })
+}

@@ -1,0 +1,299 @@
+//! The whole run: prove the bounding functions, search, round, decide, in each derivation.
+
+use super::best::{Wanted, best_sharp, model};
+use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
+use super::certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
+use super::constants::Columns;
+use super::decide::{decide, decide_exact};
+use super::matrix_checks::MatrixChecks;
+use super::no_plant::no_plant;
+use super::options::{Derivation, Options};
+use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
+use super::refusal::Refusal;
+use super::round::{TransferKind, exact_claim, round_repaired};
+use super::sensitivity::ranked;
+use super::verdict::Verdict;
+use crate::search::{Failing, FloatModel, SharpProposal, search_printed, search_repaired, without_optional_data};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::expr::BoundingFailure;
+use sigmastar_lang::spec::model::Specification;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::condition::Condition;
+use sigmastar_theory::derivation::exact_regulation::ExactWitness;
+use sigmastar_theory::derivation::printed::{PrintedEvaluation, level_condition};
+use sigmastar_theory::derivation::relative_degree::{RelativeDegreeError, k_2, k_infinity};
+use sigmastar_theory::transfer::{TradeOff, printed_transfer};
+
+/// Certifies a specification: search, then rigorous decision.
+///
+/// Guarantee: the verdict is `Certified` only if the bounding functions are proved on every argument used and every
+/// condition of the chosen derivation is proved for the witness.
+///
+/// # Errors
+/// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
+pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Refusal> {
+    certify_near(spec, options, None)
+}
+
+/// The same, where a proposal is known: the search starts there.
+///
+/// # Errors
+/// Those of [`certify`].
+pub fn certify_near<'s>(
+    spec: &'s Specification,
+    options: Options,
+    start: Option<&SharpProposal>,
+) -> Result<Certification<'s>, Refusal> {
+    certify_wanted(spec, options, Wanted { start, gain: None })
+}
+
+/// The same for a gain that is given: the claim, if it is proved, is about this gain and all larger ones. Of the sharp
+/// derivation.
+///
+/// # Errors
+/// Those of [`certify`].
+pub fn certify_at<'s>(
+    spec: &'s Specification,
+    options: Options,
+    start: Option<&SharpProposal>,
+    gain: &Rational,
+) -> Result<Certification<'s>, Refusal> {
+    certify_wanted(spec, Options { derivation: Derivation::Sharp, ..options }, Wanted { start, gain: Some(gain) })
+}
+
+fn certify_wanted<'s>(
+    spec: &'s Specification,
+    options: Options,
+    asked: Wanted<'_>,
+) -> Result<Certification<'s>, Refusal> {
+    if spec.internal_model.sampling.is_some() {
+        return Err(Refusal::Sampled);
+    }
+    let data = Data::new(spec, options.ladder.start.max(53));
+    let mut unproved = undecided_or_error(prove_on_domain(spec))?;
+
+    let paper_model = model(&data, TransferKind::ClosedForm);
+    // From a plant's formulas only the data of the sharp derivation are computed.
+    let others = spec.plant().is_none();
+    let wanted = |derivation| {
+        options.derivation == derivation || (options.compare && (others || derivation == Derivation::Sharp))
+    };
+    let repaired = if wanted(Derivation::Repaired) {
+        match search_repaired(&paper_model) {
+            Err(obstacle) => Outcome::NotFound(obstacle),
+            Ok(proposal) => round_repaired(&data, &paper_model, &proposal, options.ladder).into(),
+        }
+    } else {
+        Outcome::Skipped
+    };
+    let (sharp_model, proposal, sharp) = if wanted(Derivation::Sharp) {
+        let best = best_sharp(&data, options, asked);
+        // Figures about the smallest gain say nothing about one that is given.
+        (best.model, best.proposal.filter(|_| asked.gain.is_none()), best.outcome)
+    } else {
+        (model(&data, TransferKind::ClosedForm), None, Outcome::Skipped)
+    };
+    let chosen = |derivation| options.derivation == derivation;
+    let sharp = proved_up_to_arguments(spec, sharp, chosen(Derivation::Sharp), &mut unproved)?;
+    let repaired = proved_up_to_arguments(spec, repaired, chosen(Derivation::Repaired), &mut unproved)?;
+    let printed = if others { printed_figure(&data, &paper_model) } else { PrintedFigure::default() };
+    let exact = match (&sharp, spec.internal_model.matched) {
+        (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
+            // Its error box has its own size, and may reach beyond the arguments of the other derivations.
+            .filter(|claim| {
+                let ExactWitness { d_x, d_e, .. } = &claim.witness;
+                spec.domain.is_some() || prove_up_to(spec, d_x, d_e).is_ok()
+            }),
+        _ => None,
+    };
+    let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
+    let run = assemble(spec, options, &data, parts, &sharp_model)?;
+    Ok(Certification { given_gain: asked.gain.cloned(), ..run })
+}
+
+/// Decides the witness of a certificate again, without any search.
+///
+/// Guarantee: as for [`certify`]; and a file that claims exact regulation is `Certified` only if that claim is proved too.
+/// The verdict is `Refuted` when a condition is proved not to hold for the witness (another witness may still do).
+///
+/// # Errors
+/// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
+pub fn recheck<'s>(
+    spec: &'s Specification,
+    file: &GivenWitness,
+    options: Options,
+) -> Result<Certification<'s>, Refusal> {
+    if spec.internal_model.sampling.is_some() {
+        return Err(Refusal::Sampled);
+    }
+    let data = Data::new(spec, options.ladder.start.max(53));
+    let (derivation, sharp, repaired, claimed) = match file {
+        GivenWitness::Sharp { witness, exact } => {
+            let decided = decide(spec, witness.as_ref().clone(), options.ladder);
+            let claimed = exact.as_ref().map(|exact| ExactClaim {
+                witness: exact.clone(),
+                evaluation: decide_exact(spec, &witness.set, exact, options.ladder),
+            });
+            (Derivation::Sharp, Some(decided).into(), Outcome::Skipped, claimed)
+        }
+        GivenWitness::Repaired { witness } => {
+            let decided = decide(spec, witness.as_ref().clone(), options.ladder);
+            (Derivation::Repaired, Outcome::Skipped, Some(decided).into(), None)
+        }
+    };
+    let mut unproved = undecided_or_error(prove_on_domain(spec))?;
+    let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved)?;
+    if let (None, Some(claim)) = (&spec.domain, &claimed) {
+        unproved.extend(undecided_or_error(prove_up_to(spec, &claim.witness.d_x, &claim.witness.d_e))?);
+    }
+    let repaired = proved_up_to_arguments(spec, repaired, true, &mut unproved)?;
+    let exact_failing = claimed.as_ref().map_or_else(Vec::new, |claim| failing(&claim.evaluation.conditions));
+    let exact = claimed.filter(|_| exact_failing.is_empty());
+    let refutation = if spec.plant().is_none() { level_condition(&data).err() } else { None };
+    let printed = PrintedFigure { refutation, evaluation: None, sigma: None };
+    let model = FloatModel::new(&data, TradeOff::closed_form(&data));
+    let parts = Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal: None };
+    let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model)?;
+    // A given witness that breaks a condition is refuted; a search that ends with one has merely found nothing.
+    let mut conditions = run.conditions().iter().chain(&run.exact_failing);
+    if run.verdict == Verdict::Undecided && conditions.any(|condition| condition.truth().is_false()) {
+        run.verdict = Verdict::Refuted;
+    }
+    Ok(run)
+}
+
+/// What the stages of a run produced.
+struct Parts {
+    sharp: Outcome<SharpProof>,
+    repaired: Outcome<RepairedProof>,
+    printed: PrintedFigure,
+    exact: Option<ExactClaim>,
+    exact_failing: Vec<Condition>,
+    unproved: Vec<BoundingProblem>,
+    proposal: Option<SharpProposal>,
+}
+
+fn assemble<'s>(
+    spec: &'s Specification,
+    options: Options,
+    data: &Data<'_>,
+    parts: Parts,
+    model: &FloatModel,
+) -> Result<Certification<'s>, Refusal> {
+    let Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal } = parts;
+    let relative_degree = relative_degree_gains(spec, data.precision);
+    if let Some(Err(error @ RelativeDegreeError::NotHurwitz(_))) = relative_degree {
+        return Err(Refusal::Filter(error));
+    }
+    let checks = MatrixChecks::new(spec, sharp.proved(), repaired.proved());
+    let claimed = |proved: bool| {
+        if proved && unproved.is_empty() && exact_failing.is_empty() { Verdict::Certified } else { Verdict::Undecided }
+    };
+    let verdict = match options.derivation {
+        Derivation::Sharp => claimed(sharp.proved().is_some() && !checks.disagree()),
+        Derivation::Repaired => claimed(repaired.proved().is_some()),
+        // Printed can be refuted (E1), never certified.
+        Derivation::Printed if printed.refutation.is_some() => Verdict::Refuted,
+        Derivation::Printed => Verdict::Undecided,
+    };
+    let columns = Columns { sharp, repaired, printed: &printed, exact: exact.as_ref() };
+    let (columns, constants) = columns.evaluated(spec, data.precision, options.ladder);
+    let Columns { sharp, repaired, .. } = columns;
+    let sensitivities = match (&sharp, &proposal) {
+        (Outcome::Proved(proof), Some(proposal)) => ranked(spec, model, proposal, proof),
+        _ => Vec::new(),
+    };
+    // Without a domain, the claim is about the arguments it uses; without a claim, about all.
+    let used = match options.derivation {
+        Derivation::Repaired => reach(&repaired).or_else(|| reach(&sharp)),
+        Derivation::Sharp | Derivation::Printed => reach(&sharp).or_else(|| reach(&repaired)),
+    };
+    let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
+    let without_optional = match (&sharp, &proposal) {
+        (Outcome::Proved(_), Some(_)) if spec.plant().is_none() => without_optional_data(model),
+        _ => Vec::new(),
+    };
+    Ok(Certification {
+        spec,
+        options,
+        verdict,
+        binding: proposal.map(|proposal| proposal.binding),
+        precision: constants.precision,
+        sharp,
+        repaired,
+        printed,
+        relative_degree,
+        exact,
+        exact_failing,
+        checks,
+        no_plant,
+        sensitivities,
+        without_optional,
+        unproved_bounds: unproved,
+        constants: constants.rows,
+        given_gain: None,
+    })
+}
+
+/// k_inf and k_2 of the specification's filter, if it has one.
+fn relative_degree_gains(
+    spec: &Specification,
+    precision: u32,
+) -> Option<Result<RelativeDegreeGains, RelativeDegreeError>> {
+    let filter = spec.relative_degree.as_ref()?;
+    // The reader has refused irrational coefficients.
+    let a: Option<Vec<Rational>> = filter.a.iter().map(|a| a.as_rational().cloned()).collect();
+    let a = a?;
+    Some(k_infinity(&a, precision).and_then(|k_inf| Ok(RelativeDegreeGains { k_inf, k_2: k_2(&a, precision)? })))
+}
+
+/// Splits failures of the bounding functions: refuted ones are errors, undecided ones keep a claim from being made.
+pub(super) fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Result<Vec<BoundingProblem>, Refusal> {
+    let problems = result.err().unwrap_or_default();
+    let (refuted, undecided): (Vec<_>, Vec<_>) =
+        problems.into_iter().partition(|problem| matches!(problem.failure, BoundingFailure::Refuted { .. }));
+    if refuted.is_empty() { Ok(undecided) } else { Err(Refusal::Bounds(refuted)) }
+}
+
+/// Without a domain, the bounding functions are proved up to the arguments that a proof uses; with one they are already.
+///
+/// For the derivation the verdict is about, refuted ones are an error and undecided ones go to `unproved`; for the
+/// other, either takes its proof away.
+fn proved_up_to_arguments<W: Witness>(
+    spec: &Specification,
+    outcome: Outcome<Proof<W>>,
+    chosen: bool,
+    unproved: &mut Vec<BoundingProblem>,
+) -> Result<Outcome<Proof<W>>, Refusal> {
+    let (None, Some(proof)) = (&spec.domain, outcome.attempt()) else { return Ok(outcome) };
+    let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Failing::NotFinite(None).into())) };
+    let result = prove_up_to(spec, &x, &e);
+    if chosen {
+        unproved.extend(undecided_or_error(result)?);
+        return Ok(outcome);
+    }
+    Ok(if result.is_ok() { outcome } else { Outcome::NotFound(Failing::Bounds.into()) })
+}
+
+/// The largest arguments that a proof uses, rounded up.
+fn reach<W: Witness>(outcome: &Outcome<Proof<W>>) -> Option<[Rational; 2]> {
+    outcome.proved().and_then(|proof| proof.decided().reach())
+}
+
+fn printed_figure(data: &Data<'_>, model: &FloatModel) -> PrintedFigure {
+    let refutation = level_condition(data).err();
+    let evaluation = search_printed(data, model).and_then(|proposal| {
+        let short = |value: f64| round_f64(value, 8, Direction::Nearest);
+        let (x_a, e_a) = (short(proposal.x_a)?, round_f64(proposal.e_a, 8, Direction::Down)?);
+        let h = data.rational(&round_f64(proposal.h, 8, Direction::Down)?);
+        let printed = printed_transfer(data);
+        let kappas = [&printed.kappa_0, &printed.kappa_1];
+        Some(PrintedEvaluation::new(data, kappas, &data.rational(&x_a), &data.rational(&e_a), |_| h))
+    });
+    let sigma = evaluation
+        .as_ref()
+        .and_then(|evaluation| Some(evaluation.sigma_p.as_ref().ok()?.max(evaluation.sigma_a.as_ref().ok()?)));
+    PrintedFigure { refutation, evaluation, sigma: sigma.filter(Enclosure::is_bounded) }
+}

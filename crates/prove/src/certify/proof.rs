@@ -1,0 +1,267 @@
+//! A witness with what was decided about it, in either derivation, and one view of both.
+
+use super::options::Derivation;
+use crate::search::{Failing, Obstacle};
+use rug::Rational;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::condition::{self, Condition};
+use sigmastar_theory::derivation::consequences::Excitation;
+use sigmastar_theory::derivation::exact_regulation::ExactWitness;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::repaired::{RepairedEvaluation, RepairedWitness};
+use sigmastar_theory::derivation::sampled::{SampledEvaluation, SampledWitness};
+use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
+use sigmastar_theory::transfer::TransferProof;
+
+/// Free numbers that conditions decide.
+pub trait Decidable: Sized {
+    /// Everything that is computed from them.
+    type Evaluation;
+
+    /// Evaluates all quantities and conditions at the precision of `data`.
+    fn evaluate(&self, data: &Data<'_>) -> Self::Evaluation;
+
+    /// All conditions in order.
+    fn conditions(evaluation: &Self::Evaluation) -> &[Condition];
+}
+
+/// The free numbers of a derivation that can certify the regulator in continuous time.
+pub trait Witness: Decidable {
+    /// What both derivations say.
+    fn decided(proof: &Proof<Self>) -> Decided<'_>;
+}
+
+/// The free numbers of a claim, given to be decided.
+#[derive(Clone, Debug)]
+pub enum GivenWitness {
+    /// Of the sharp derivation, with the exact-regulation part where it is there.
+    Sharp {
+        /// The free numbers.
+        witness: Box<SharpWitness>,
+        /// Exact regulation.
+        exact: Option<ExactWitness>,
+    },
+    /// Of the repaired derivation.
+    Repaired {
+        /// The free numbers.
+        witness: Box<RepairedWitness>,
+    },
+}
+
+impl GivenWitness {
+    /// The gain to be certified.
+    #[must_use]
+    pub fn sigma(&self) -> &Rational {
+        match self {
+            GivenWitness::Sharp { witness, .. } => &witness.sigma,
+            GivenWitness::Repaired { witness } => &witness.sigma,
+        }
+    }
+}
+
+/// A witness and what was decided about it.
+#[derive(Clone, Debug)]
+pub struct Proof<W: Decidable> {
+    /// The free numbers.
+    pub witness: W,
+    /// The evaluation at the precision that decided.
+    pub evaluation: W::Evaluation,
+    /// That precision in bits.
+    pub precision: u32,
+}
+
+/// Of the sharp derivation.
+pub type SharpProof = Proof<SharpWitness>;
+
+/// Of the repaired derivation.
+pub type RepairedProof = Proof<RepairedWitness>;
+
+/// Of the regulator at samples.
+pub type SampledProof = Proof<SampledWitness>;
+
+impl Decidable for SampledWitness {
+    type Evaluation = SampledEvaluation;
+
+    fn evaluate(&self, data: &Data<'_>) -> SampledEvaluation {
+        SampledEvaluation::new(data, self)
+    }
+
+    fn conditions(evaluation: &SampledEvaluation) -> &[Condition] {
+        &evaluation.conditions
+    }
+}
+
+impl<W: Decidable> Proof<W> {
+    /// The truth of all conditions together.
+    #[must_use]
+    pub fn truth(&self) -> Truth {
+        condition::all(W::conditions(&self.evaluation))
+    }
+}
+
+impl<W: Witness> Proof<W> {
+    /// The view that does not depend on the derivation.
+    #[must_use]
+    pub fn decided(&self) -> Decided<'_> {
+        W::decided(self)
+    }
+}
+
+/// What was decided about a witness, whichever derivation it is of.
+#[derive(Clone, Debug)]
+pub struct Decided<'p> {
+    /// The derivation.
+    pub derivation: Derivation,
+    /// The gain.
+    pub sigma: &'p Rational,
+    /// The initial set.
+    pub set: &'p ClaimedSet,
+    /// X_p, E_p (X, E of the repaired derivation).
+    pub point: [&'p Rational; 2],
+    /// k0 and k1.
+    pub pair: [&'p Rational; 2],
+    /// Why T_N(x) <= k0 + k1 x^2.
+    pub transfer: &'p TransferProof,
+    /// All conditions in order, proved or not.
+    pub conditions: &'p [Condition],
+    /// What drives the periodic error.
+    pub excitation: &'p Excitation,
+    /// Upper bounds of sup|x|, sup|e| and sup|zeta|_N along the periodic solution. The repaired conditions imply C1-C3 with X, E
+    /// in place of x_per, e_per.
+    pub periodic: [&'p Enclosure; 3],
+    /// The radii of the error box in x and e.
+    pub error_box: [Enclosure; 2],
+    /// The largest X and E at which a bounding function is used.
+    pub arguments: [Enclosure; 2],
+    /// The precision that decided, in bits.
+    pub precision: u32,
+}
+
+impl Decided<'_> {
+    /// The largest arguments, rounded up; `None` where they are not bounded.
+    #[must_use]
+    pub fn reach(&self) -> Option<[Rational; 2]> {
+        let [x, e] = self.arguments.each_ref().map(Enclosure::upper_rational);
+        Some([x?, e?])
+    }
+}
+
+impl Decidable for SharpWitness {
+    type Evaluation = SharpEvaluation;
+
+    fn evaluate(&self, data: &Data<'_>) -> SharpEvaluation {
+        SharpEvaluation::new(data, self)
+    }
+
+    fn conditions(evaluation: &SharpEvaluation) -> &[Condition] {
+        &evaluation.conditions
+    }
+}
+
+impl Witness for SharpWitness {
+    fn decided(proof: &SharpProof) -> Decided<'_> {
+        let Proof { witness, evaluation, precision } = proof;
+        let SharpEvaluation { bounds, periodic, error_box, .. } = evaluation;
+        Decided {
+            derivation: Derivation::Sharp,
+            sigma: &witness.sigma,
+            set: &witness.set,
+            point: [&witness.x_p, &witness.e_p],
+            pair: [&witness.k0, &witness.k1],
+            transfer: &witness.transfer,
+            conditions: &evaluation.conditions,
+            excitation: &evaluation.excitation,
+            periodic: [&periodic.x_per, &periodic.e_per, &evaluation.z],
+            error_box: [&witness.d_x, &witness.d_e].map(|radius| Enclosure::from_rational(radius, *precision)),
+            arguments: [bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)],
+            precision: *precision,
+        }
+    }
+}
+
+impl Decidable for RepairedWitness {
+    type Evaluation = RepairedEvaluation;
+
+    fn evaluate(&self, data: &Data<'_>) -> RepairedEvaluation {
+        RepairedEvaluation::new(data, self)
+    }
+
+    fn conditions(evaluation: &RepairedEvaluation) -> &[Condition] {
+        &evaluation.conditions
+    }
+}
+
+impl Witness for RepairedWitness {
+    fn decided(proof: &RepairedProof) -> Decided<'_> {
+        let Proof { witness, evaluation, precision } = proof;
+        let RepairedEvaluation { bounds, point, .. } = evaluation;
+        Decided {
+            derivation: Derivation::Repaired,
+            sigma: &witness.sigma,
+            set: &witness.set,
+            point: [&witness.x, &witness.e],
+            pair: [&witness.k0, &witness.k1],
+            transfer: &witness.transfer,
+            conditions: &evaluation.conditions,
+            excitation: &evaluation.excitation,
+            periodic: [&bounds.state.x_p, &bounds.state.e_p, &evaluation.z],
+            error_box: [&point.x_b - &point.x, &point.e_b - &point.e],
+            // X <= X_b and E <= E_b.
+            arguments: [point.x_b.clone(), point.e_b.clone()],
+            precision: *precision,
+        }
+    }
+}
+
+/// One derivation's outcome.
+#[derive(Clone, Debug)]
+pub enum Outcome<P> {
+    /// Proved.
+    Proved(Box<P>),
+    /// A witness was found (or given), and these conditions are not proved.
+    NotProved {
+        /// The witness and its evaluation.
+        proof: Box<P>,
+        /// The conditions that are not proved.
+        failing: Vec<Condition>,
+    },
+    /// No candidate was found.
+    NotFound(Obstacle),
+    /// Not asked for.
+    Skipped,
+}
+
+impl<P> Outcome<P> {
+    /// The proof, if there is one.
+    #[must_use]
+    pub fn proved(&self) -> Option<&P> {
+        match self {
+            Outcome::Proved(proof) => Some(proof),
+            _ => None,
+        }
+    }
+
+    /// The witness that was decided, proved or not.
+    #[must_use]
+    pub fn attempt(&self) -> Option<&P> {
+        match self {
+            Outcome::Proved(proof) | Outcome::NotProved { proof, .. } => Some(proof),
+            Outcome::NotFound(_) | Outcome::Skipped => None,
+        }
+    }
+}
+
+impl<W: Decidable> From<Option<Proof<W>>> for Outcome<Proof<W>> {
+    /// Proved, where every condition is; without a witness, no numbers were finite.
+    fn from(attempt: Option<Proof<W>>) -> Outcome<Proof<W>> {
+        let Some(proof) = attempt.map(Box::new) else { return Outcome::NotFound(Failing::NotFinite(None).into()) };
+        let failing = failing(W::conditions(&proof.evaluation));
+        if failing.is_empty() { Outcome::Proved(proof) } else { Outcome::NotProved { proof, failing } }
+    }
+}
+
+/// The conditions that are not proved.
+pub(super) fn failing(conditions: &[Condition]) -> Vec<Condition> {
+    conditions.iter().filter(|condition| !condition.truth().is_true()).cloned().collect()
+}

@@ -1,0 +1,247 @@
+//! The regulator at samples: search, rounding and decision of a claim about one gain and one sampling period (derivation, 12).
+
+use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
+use super::decide::decide;
+use super::no_plant::{NoPlant, no_plant};
+use super::options::Ladder;
+use super::produce::undecided_or_error;
+use super::proof::{Outcome, SampledProof};
+use super::refusal::Refusal;
+use super::round::{
+    LONG_DIGITS, RoundedBox, SHORT_DIGITS, claimed_set, first_proved, room, rounded_box, rounded_sigma,
+};
+use super::verdict::Verdict;
+use crate::search::{Extreme, Failing, FloatModel, SampledLimit, SampledProposal, SampledSearch};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_lang::spec::model::Specification;
+use sigmastar_lang::spec::{SampledGain, Sampling};
+use sigmastar_theory::data::{Bound, Data, Problem};
+use sigmastar_theory::derivation::condition::{Condition, all};
+use sigmastar_theory::derivation::harmonics::AtOrigin;
+use sigmastar_theory::derivation::mean_squares::{Gains, MeanSquares, PeriodicSize, SetBounds};
+use sigmastar_theory::derivation::sampled::{SampledGains, SampledLaw, SampledWitness, sampled_trade_off};
+
+/// Everything that a run about the regulator at samples found out.
+#[derive(Clone, Debug)]
+pub struct SampledCertification<'s> {
+    /// The specification.
+    pub spec: &'s Specification,
+    /// The sampling period, with the number of samples.
+    pub sampling: Sampling,
+    /// The gain that was asked about, where the smallest one was not sought.
+    pub given_gain: Option<Rational>,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The proof, or what came of it.
+    pub outcome: Outcome<SampledProof>,
+    /// What was found in floating point, and what limits it.
+    pub found: Option<(SampledProposal, SampledLimit)>,
+    /// Bounding functions that were neither proved nor refuted.
+    pub unproved_bounds: Vec<BoundingProblem>,
+    /// That no plant with a state x satisfies the data, where it is proved.
+    pub no_plant: Option<NoPlant>,
+}
+
+impl SampledCertification<'_> {
+    /// The proof of the claim, if certified.
+    #[must_use]
+    pub fn claim(&self) -> Option<&SampledProof> {
+        let proof = self.outcome.proved()?;
+        (self.verdict == Verdict::Certified && all(&proof.evaluation.conditions).is_true()).then_some(proof)
+    }
+
+    /// The conditions, proved or not.
+    #[must_use]
+    pub fn conditions(&self) -> &[Condition] {
+        self.outcome.attempt().map_or(&[], |proof| &proof.evaluation.conditions)
+    }
+
+    /// Upper bounds of sup|x|, sup|e|, sup_k |zeta_k|_N and sup_k |z_k|_N along the periodic solution, if certified.
+    #[must_use]
+    pub fn periodic_solution(&self) -> Option<[Enclosure; 4]> {
+        let proof = self.claim()?;
+        let (size, zeta) = (&proof.evaluation.size, proof.evaluation.z.clone());
+        let n_bar = Data::new(self.spec, proof.precision).numbers.n_bar;
+        // At samples z_k = zeta_k + M e_k.
+        let z = &zeta + n_bar * &size.e_per;
+        Some([size.x_per.clone(), size.e_per.clone(), zeta, z])
+    }
+
+    /// The largest X and E at which a bounding function is used.
+    #[must_use]
+    pub fn largest_arguments(&self) -> Option<[Enclosure; 2]> {
+        self.outcome.attempt().map(arguments)
+    }
+
+    /// Whether f(0,0) > 0 is proved of the bounding function, although |f(t,0,0)| = 0 for every plant of the family.
+    #[must_use]
+    pub fn has_force_at_origin(&self) -> bool {
+        let data = Data::new(self.spec, 128);
+        data.bound(Bound::F, &data.zero(), &data.zero()).is_positive().is_true()
+    }
+}
+
+fn arguments(proof: &SampledProof) -> [Enclosure; 2] {
+    let evaluation = &proof.evaluation;
+    let (bounds, error_box) = (&evaluation.bounds, &evaluation.error_box);
+    [bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)]
+}
+
+/// Certifies the regulator at samples: at the gain that is given, or at the smallest one that is found; near a proposal, where
+/// one is known.
+///
+/// Guarantee: the verdict is `Certified` only if the bounding functions are proved on every argument used and every condition
+/// is proved for the witness.
+///
+/// # Errors
+/// Bounding functions that are *refuted*, with their counterexamples: bad input.
+pub fn certify_sampled<'s>(
+    spec: &'s Specification,
+    sampling: &Sampling,
+    gain: Option<&Rational>,
+    start: Option<&SampledProposal>,
+    ladder: Ladder,
+) -> Result<SampledCertification<'s>, Refusal> {
+    let unproved = undecided_or_error(prove_on_domain(spec))?;
+    let data = Data::new(spec, ladder.start.max(53));
+    let Some(law) = spec.internal_model.sampled_gain(&sampling.step) else {
+        let extreme = Extreme::Number("the sampling period", sampling.step.to_f64());
+        return assemble(spec, sampling, gain, (Outcome::NotFound(Failing::Magnitude(extreme).into()), None), unproved);
+    };
+    if let Some(gain) = gain.filter(|gain| !sampling.fits(gain).is_true()) {
+        let (sigma, largest) = (gain.to_f64(), sampling.step.to_f64().recip());
+        let obstacle = Failing::Hold { sigma, largest, given: true }.into();
+        return assemble(spec, sampling, Some(gain), (Outcome::NotFound(obstacle), None), unproved);
+    }
+    let model = sampled_model(&data, sampling, &law);
+    let search = SampledSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64());
+    let proposal = match (start, gain) {
+        (Some(known), gain) => search.near(known, gain.map(Rational::to_f64)),
+        (None, Some(gain)) => search.at_gain(gain.to_f64()),
+        (None, None) => search.smallest(),
+    };
+    let (outcome, found) = match proposal {
+        Err(obstacle) => (Outcome::NotFound(obstacle), None),
+        Ok(proposal) => {
+            let proof = round(&data, (sampling, &law), (&model, &search), (&proposal, gain), ladder);
+            let limit = search.limit(&proposal);
+            (proof.into(), Some((proposal, limit)))
+        }
+    };
+    assemble(spec, sampling, gain, (outcome, found), unproved)
+}
+
+/// Decides the witness of a certificate again, without any search.
+///
+/// Guarantee: as for [`certify_sampled`]. Hypothesis: the samples of the witness are those of the period of `spec`. The verdict
+/// is `Refuted` when a condition is proved not to hold for the witness.
+///
+/// # Errors
+/// Bounding functions that are *refuted*, with their counterexamples: bad input.
+pub fn recheck_sampled<'s>(
+    spec: &'s Specification,
+    witness: &SampledWitness,
+    ladder: Ladder,
+) -> Result<SampledCertification<'s>, Refusal> {
+    let unproved = undecided_or_error(prove_on_domain(spec))?;
+    let proof = decide(spec, witness.clone(), ladder);
+    let mut run = assemble(spec, &witness.sampling, None, (Some(proof).into(), None), unproved)?;
+    let refuted = run.conditions().iter().any(|condition| condition.truth().is_false());
+    if run.verdict == Verdict::Undecided && refuted {
+        run.verdict = Verdict::Refuted;
+    }
+    Ok(run)
+}
+
+/// The specification in floating point, with the pairs (k0, k1) of the law.
+#[must_use]
+pub fn sampled_model(data: &Data<'_>, sampling: &Sampling, gain: &SampledGain) -> FloatModel {
+    FloatModel::new(data, sampled_trade_off(data, &SampledLaw::new(data, sampling, gain)))
+}
+
+fn assemble<'s>(
+    spec: &'s Specification,
+    sampling: &Sampling,
+    gain: Option<&Rational>,
+    (outcome, found): (Outcome<SampledProof>, Option<(SampledProposal, SampledLimit)>),
+    mut unproved: Vec<BoundingProblem>,
+) -> Result<SampledCertification<'s>, Refusal> {
+    // Without a domain, the bounding functions are proved up to the arguments that are used.
+    let reach = outcome.attempt().map(|proof| arguments(proof).map(|argument| argument.upper_rational()));
+    let reach = match reach {
+        Some([Some(x), Some(e)]) => Some([x, e]),
+        _ => None,
+    };
+    if let (None, Some([x, e])) = (&spec.domain, &reach) {
+        unproved.extend(undecided_or_error(prove_up_to(spec, x, e))?);
+    }
+    let known = spec.domain.is_some() || reach.is_some();
+    let proved = outcome.proved().is_some() && known && unproved.is_empty();
+    let data = Data::new(spec, 128);
+    Ok(SampledCertification {
+        spec,
+        sampling: sampling.clone(),
+        given_gain: gain.cloned(),
+        verdict: if proved { Verdict::Certified } else { Verdict::Undecided },
+        no_plant: no_plant(&data, reach.as_ref().filter(|_| spec.domain.is_none())),
+        outcome,
+        found,
+        unproved_bounds: unproved,
+    })
+}
+
+/// Rounds a proposal and decides it: the first witness that is proved, or the last one.
+fn round(
+    data: &Data<'_>,
+    (sampling, law): (&Sampling, &SampledGain),
+    (model, search): (&FloatModel, &SampledSearch<'_>),
+    (proposal, gain): (&SampledProposal, Option<&Rational>),
+    ladder: Ladder,
+) -> Option<SampledProof> {
+    let enclosed = SampledLaw::new(data, sampling, law);
+    let origin = AtOrigin::new(data);
+    first_proved(data, ladder, |(digits, slack)| {
+        let sigma = match gain {
+            Some(gain) => gain.clone(),
+            None => within(sampling, rounded_sigma(proposal.sigma, slack)?)?,
+        };
+        let near = Some((proposal.rho, proposal.eta));
+        let (found, at) = search.at(sigma.to_f64(), proposal.floors, near, room(digits)).ok()?;
+        let up = |value: f64| round_f64(value, digits, Direction::Up);
+        let MeanSquares { x, e, e_rate } = found.squares;
+        let (x_p, e_p, r_x, r_e, r_d) = (up(found.x_p)?, up(found.e_p)?, up(x)?, up(e)?, up(e_rate)?);
+        let above = |value: f64| round_f64(value * (1.0 + 1e-12), SHORT_DIGITS, Direction::Up);
+        let (k0, k1) = (above(found.pair.0)?, above(found.pair.1)?);
+        let bounds = SetBounds::new(data, data.rational(&x_p), data.rational(&e_p));
+        let squares = MeanSquares { x: &r_x, e: &r_e, e_rate: &r_d }.map(|value| data.rational(value));
+        let gains = SampledGains::new(&enclosed, &data.rational(&sigma), &data.period);
+        let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
+        let z = gains.z_squared(data, &size.forcing, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
+        let set = claimed_set(data, &x_p, &e_p, &z)?;
+        // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.
+        let [dist_x, dist_e, dist_z] =
+            set.distances(data, [&size.x_per, &size.e_per, &z]).map(|distance| distance.upper_f64());
+        let d_x = at.d_x.max(at.rho * model.c * dist_x);
+        let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
+        let RoundedBox { d_x, d_e, w_x, h: eta } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
+        let (sampling, law) = (sampling.clone(), law.clone());
+        Some(SampledWitness { sigma, sampling, law, x_p, e_p, r_x, r_e, r_d, d_x, d_e, w_x, eta, k0, k1, set })
+    })
+}
+
+/// The gain, or the largest one with h sigma <= 1 where it is beyond that.
+fn within(sampling: &Sampling, sigma: Rational) -> Option<Rational> {
+    if sampling.fits(&sigma).is_true() {
+        return Some(sigma);
+    }
+    let largest = match sampling.step.as_rational() {
+        Some(step) => step.clone().recip(),
+        None => {
+            let inverse = sampling.step.enclose(128).recip().lower_rational()?;
+            round_rational(&inverse, LONG_DIGITS, Direction::Down)
+        }
+    };
+    sampling.fits(&largest).is_true().then_some(largest)
+}

@@ -1,0 +1,52 @@
+//! Which datum of the file would lower sigma* most. Floating point: an explanation, not a claim.
+
+use super::best::model as model_of;
+use super::proof::SharpProof;
+use super::round::TransferKind;
+use crate::search::{Datum, FloatModel, SharpProposal, sensitivities};
+use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::model::Constant;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::transfer::TransferProof;
+
+/// The relative change of each datum.
+const STEP: f64 = 0.01;
+
+/// Bits at which what belongs to another mu is enclosed before it is rounded to doubles.
+const PRECISION: u32 = 64;
+
+/// The data that lower sigma* when they are one per cent better, by how much (relatively), the best first. Compared is what
+/// the file states, but for the weights: bounding functions, triple, harmonics, initial set, domain and mu; of a plant the
+/// initial set and mu, with the bounds that are proved.
+pub(super) fn ranked(
+    spec: &Specification,
+    model: &FloatModel,
+    proposal: &SharpProposal,
+    proof: &SharpProof,
+) -> Vec<(Datum, f64)> {
+    let stated = model.data(spec.plant().is_some()).map(|datum| (datum, model.improved(datum, STEP)));
+    let all: Vec<(Datum, FloatModel)> = stated.chain(with_other_mu(spec, model, proof)).collect();
+    let mut found = sensitivities(model, proposal, &all);
+    found.retain(|(_, gain)| *gain > 0.0);
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found
+}
+
+/// The models of a smaller and of a larger mu, with the transfer bound that belongs to it. None where that bound is proved by
+/// boxes, which take long to find.
+fn with_other_mu(spec: &Specification, model: &FloatModel, proof: &SharpProof) -> Vec<(Datum, FloatModel)> {
+    let kind = match proof.witness.transfer {
+        TransferProof::Matched { .. } => TransferKind::Matched,
+        TransferProof::ClosedForm => TransferKind::ClosedForm,
+        TransferProof::Boxes(_) => return Vec::new(),
+    };
+    let with = |larger: bool| {
+        let factor = if larger { 1.0 + STEP } else { 1.0 - STEP };
+        let mu = round_f64(model.mu * factor, 12, Direction::Nearest)?;
+        let mut other = spec.clone();
+        other.internal_model.mu = Constant::rational(&mu);
+        Some((Datum::Mu { larger }, model_of(&Data::new(&other, PRECISION), kind)))
+    };
+    [true, false].into_iter().filter_map(with).collect()
+}

@@ -1,0 +1,129 @@
+//! The arguments at which the sharp derivation uses a bound, and the proof of each value.
+
+use super::refusal::PlantRefusal;
+use crate::search::{AtSigma, PeriodicSet, active_level};
+use rayon::prelude::*;
+use rug::Rational;
+use sigmastar_exact::number::{Direction, Portable, round_f64};
+use sigmastar_lang::spec::{Bound, ProvedValue, ProvedValues};
+use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, Kind};
+
+/// Significant digits of an argument.
+const DIGITS: u32 = 8;
+
+/// What is tried, as powers of ten, where a bound that is 0 on the orbit itself is so small that nothing sets its size.
+const SMALL: [i32; 8] = [-15, -12, -9, -6, -3, 0, 3, 6];
+
+/// Boxes that a proof of a small value may take.
+const SMALL_EFFORT: usize = 1 << 10;
+
+/// Boxes that a proof of a given value may take.
+const EFFORT: usize = 1 << 18;
+
+/// The arguments, rounded up.
+pub struct Needed {
+    x_p: Rational,
+    e_p: Rational,
+    e_per: Rational,
+    x_b: Rational,
+    e_b: Rational,
+    /// Whether existence has a rate of its own.
+    second: bool,
+}
+
+/// Those of a candidate, enlarged by a share.
+pub(super) fn needed(set: &PeriodicSet, at: &AtSigma, enlarged: f64, second: bool) -> Option<Needed> {
+    let up = |value: f64| round_f64(value * (1.0 + enlarged), DIGITS, Direction::Up).filter(|value| *value >= 0);
+    let d_e = active_level(at.eta, at.dist_e, at.rho).sqrt();
+    Some(Needed {
+        x_p: up(set.x_p)?,
+        e_p: up(set.e_p)?,
+        e_per: up(set.e_per)?,
+        x_b: up(set.x_per + at.d_x)?,
+        e_b: up(set.e_per + d_e)?,
+        second,
+    })
+}
+
+impl Needed {
+    /// The largest X and E.
+    pub(super) fn largest(&self) -> [Rational; 2] {
+        let larger = |a: &Rational, b: &Rational| if a > b { a.clone() } else { b.clone() };
+        [larger(&self.x_p, &self.x_b), larger(&self.e_p, &self.e_b)]
+    }
+
+    /// Which bound is used where (derivation, 11.3).
+    fn list(&self) -> Vec<(Bound, Rational, Rational)> {
+        let Needed { x_p, e_p, e_per, x_b, e_b, second } = self;
+        let of_existence = if *second { Bound::RateExistence } else { Bound::Rate };
+        let zero = Rational::new();
+        let mut list = vec![(Bound::Fx, x_p, &zero), (of_existence, x_p, &zero), (Bound::Rate, x_b, e_per)];
+        for bound in [Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax] {
+            list.extend([(bound, x_p, e_p), (bound, x_b, e_b)]);
+        }
+        list.extend([(Bound::Qtx, x_p, e_p), (Bound::Qte, x_p, e_p)]);
+        list.into_iter().map(|(bound, x, e)| (bound, x.clone(), e.clone())).collect()
+    }
+}
+
+/// The row of the table of 11.3.
+pub(super) fn kind(bound: Bound) -> Option<Kind> {
+    Kind::TABLE.into_iter().find(|kind| kind.name() == bound.field())
+}
+
+/// Proves a value for each argument; without states the bounds of x are 0, and the rate is any number.
+///
+/// # Errors
+/// The first bound for which none is proved.
+pub(super) fn prove_all(
+    engine: &Engine,
+    suprema: &FloatSuprema,
+    needed: &Needed,
+) -> Result<ProvedValues, PlantRefusal> {
+    let stateless = engine.states() == 0;
+    let proofs: Vec<Result<ProvedValue, PlantRefusal>> = needed
+        .list()
+        .into_par_iter()
+        .map(|(bound, x, e)| {
+            let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
+            let kind = kind(bound).ok_or_else(refusal)?;
+            let (value, sampled) = match engine.prove_value(suprema, kind, &x, &e) {
+                Some(proved) => (proved.value, Rational::from_f64(proved.sampled)),
+                // Without states every rate is as good as any other, and the checker asks for none.
+                None if kind.is_rate() && stateless => (Rational::from(1), None),
+                None if kind.is_rate() => return Err(refusal()),
+                None => (smallest(engine, kind, [&x, &e]).ok_or_else(refusal)?, None),
+            };
+            Ok(ProvedValue { bound, x, e, value, sampled })
+        })
+        .collect();
+    Ok(ProvedValues::new(proofs.into_iter().collect::<Result<_, _>>()?))
+}
+
+/// What a small value is multiplied with, so that another program proves it, whose bound of x_0' may be coarser.
+const ROOM: u32 = 1000;
+
+/// The smallest power of ten that is proved, with room; not of a rate.
+fn smallest(engine: &Engine, kind: Kind, [x, e]: [&Rational; 2]) -> Option<Rational> {
+    SMALL.into_iter().find_map(|exponent| {
+        let value = round_f64(10f64.portable_powi(exponent), 1, Direction::Up)?;
+        let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value };
+        engine.decide(&entry, SMALL_EFFORT).truth.is_true().then(|| entry.value * ROOM)
+    })
+}
+
+/// Decides given values.
+///
+/// # Errors
+/// The first that is not proved.
+pub(super) fn decide_all(engine: &Engine, values: &ProvedValues) -> Result<(), PlantRefusal> {
+    values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value, .. }| {
+        let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
+        let kind = kind(*bound).ok_or_else(refusal)?;
+        if kind.is_rate() && engine.states() == 0 {
+            return Ok(());
+        }
+        let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value: value.clone() };
+        if engine.decide(&entry, EFFORT).truth.is_true() { Ok(()) } else { Err(refusal()) }
+    })
+}

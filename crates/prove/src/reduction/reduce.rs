@@ -1,0 +1,435 @@
+//! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
+
+use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler, Shape};
+use super::entries::{Needed, decide_all, needed, prove_all};
+use super::refusal::{MAX_STATES, PlantRefusal};
+use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
+use super::specification::specification;
+use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
+use nalgebra::DMatrix;
+use rug::Rational;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::model::{Constant, InitialSet, Lyapunov};
+use sigmastar_lang::spec::{
+    OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
+};
+use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
+use sigmastar_plants::orbit::{
+    self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
+    propose_coordinates, prove_forcing, prove_orbit, prove_second, round_orbit,
+};
+use sigmastar_theory::data::Data;
+use sigmastar_theory::transfer::TradeOff;
+
+/// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
+pub(super) const PRECISION: u32 = 64;
+
+/// How far beyond the arguments of a proposal the bounds are proved, in turn: first with room for what the proved values are
+/// larger than the sampled ones, then close to the arguments that are used.
+pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
+
+/// In between, while the proved values lead to no gain near the proposal: at so much larger a gain (where the least set there is
+/// ceases to be one, the set of a somewhat larger gain has room for proved values), and so far beyond the arguments there.
+const FURTHER: [(f64, f64); 4] = [(5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
+
+/// A gain from proved values that is at most so many times the proposal is near it.
+const NEAR: f64 = 1.1;
+
+/// How far above the gain of a proposal the arguments are taken: close to the least gain at which there is a set, a little room
+/// in its inequalities takes more than the same share of the gain, and the first that has a set is used.
+const ABOVE: [f64; 7] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
+
+/// A smaller gain than by this share is not worth another round of proofs.
+const WORTH: f64 = 1e-4;
+
+/// A specification whose data were proved from a plant's formulas, and where the search for its gain may start.
+pub struct Reduced {
+    /// The specification.
+    pub spec: Specification,
+    /// Free numbers for it, in floating point.
+    pub proposal: SharpProposal,
+}
+
+/// Proves the data that the sharp derivation needs, at the arguments where it will need them.
+///
+/// Guarantee: every value of the specification holds for the plant, relative to its orbit and in the coordinates of its
+/// [`OfPlant`]; f and q have the period, and are smooth up to the largest arguments. That the gain comes out small is not
+/// claimed.
+///
+/// # Errors
+/// What could not be proved or found.
+pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
+    with_coordinates(plant, prove_bounds)
+}
+
+/// Finds and proves the orbit, chooses the coordinates, and goes on from there.
+pub(super) fn with_coordinates<T>(
+    plant: &Plant,
+    prove: impl FnOnce(&Plant, &Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
+) -> Result<T, PlantRefusal> {
+    if plant.states() > MAX_STATES {
+        return Err(PlantRefusal::TooManyStates { states: plant.states() });
+    }
+    plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
+    let found = find_orbit(plant).map_err(PlantRefusal::NoOrbit)?;
+    let curve = round_orbit(plant, &found).ok_or(PlantRefusal::NoOrbit(orbit::OrbitFailure::NotFinite))?;
+    smooth_along(plant, &curve)?;
+    let candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
+    let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
+    let base = along(plant, &curve, first)?;
+    let spec = base.specification(plant, ProvedValues::default())?;
+    let data = Data::new(&spec, PRECISION);
+    let model = FloatModel::new(&data, trade_off(&data));
+    let sampling = Sampling::new(plant, &curve, &model);
+    let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
+    let by_constant = match constant.is_empty() {
+        false => best_constant(plant, &curve, &constant, &model, &sampling),
+        true => Err(PlantRefusal::NoContraction),
+    };
+    let moving: Vec<Coordinates> =
+        candidates.iter().filter(|candidate| !candidate.p.harmonics.is_empty()).cloned().collect();
+    let (base, chosen) = match by_constant {
+        Ok(found) => found,
+        // Where no constant P leads to a gain, one that moves may.
+        Err(_) if !moving.is_empty() => {
+            let (coordinates, chosen) = best_periodic(plant, &curve, &moving, &model, &sampling)?;
+            (along(plant, &curve, &coordinates)?, chosen)
+        }
+        Err(refusal) => return Err(refusal),
+    };
+    prove(plant, &base, &sampling, &chosen)
+}
+
+/// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger
+/// that no gain is found with them.
+fn trade_off(data: &Data<'_>) -> TradeOff {
+    if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
+}
+
+/// The best coordinates for a constant P, and a P of existence where one helps; rounded, and proved along the orbit.
+fn best_constant(
+    plant: &Plant,
+    curve: &TrigonometricVector,
+    candidates: &[&Coordinates],
+    model: &FloatModel,
+    sampling: &Sampling<'_>,
+) -> Result<(Along, Chosen), PlantRefusal> {
+    let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
+    let matrices: Vec<DMatrix<f64>> = candidates.iter().map(|candidate| float_matrix(&candidate.l)).collect();
+    let sampler = |Shape { l, second }: Shape<'_>, density: Density| {
+        let second = second.and_then(rational_symmetric);
+        sampling.source(l, [None, second.as_ref()], density)
+    };
+    let search = search(model, plant, sampling, &sampler, 1.0);
+    let chosen = search.choose(&matrices).map_err(PlantRefusal::NoGain)?;
+    let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], Density::Rough)(0.0, 0.0);
+    let l = rational_matrix(&chosen.l, at_origin).ok_or(PlantRefusal::NoContraction)?;
+    let coordinates = Coordinates { l, p: first.p.clone(), rate: f64::NAN };
+    let mut base = along(plant, curve, &coordinates)?;
+    // The rounded L, which is L times a rotation, is the one that counts.
+    let rounded = float_matrix(&coordinates.l);
+    let turned = |second: &DMatrix<f64>| {
+        let rotation = chosen.l.clone().try_inverse()? * &rounded;
+        rational_symmetric(&(rotation.transpose() * second * rotation))
+    };
+    if let Some(p) = chosen.second.as_ref().and_then(turned) {
+        let with_second = Coordinates { l: coordinates.l.clone(), p, rate: f64::NAN };
+        // Without a proof the P of stability serves.
+        base.existence = prove_second(plant, &base.orbit, &with_second).ok().map(|triple| (with_second.p, triple));
+    }
+    let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
+    let both = Shape { l: &rounded, second: second.as_ref() };
+    let chosen = search.with(both, Some(&chosen.proposal)).map_err(PlantRefusal::NoGain)?;
+    Ok((base, chosen))
+}
+
+fn search<'a>(
+    model: &'a FloatModel,
+    plant: &'a Plant,
+    sampling: &'a Sampling<'a>,
+    sampler: &'a Sampler<'a>,
+    ratio: f64,
+) -> CoordinateSearch<'a> {
+    let frame = |l: &DMatrix<f64>, model: &FloatModel| in_frame(plant, l, model);
+    let units = |l: &DMatrix<f64>| sampling.units(l);
+    CoordinateSearch { base: model, sampler, frame: Box::new(frame), units: Box::new(units), ratio }
+}
+
+/// The initial set and the domain in the norm of y.
+fn in_frame(plant: &Plant, l: &DMatrix<f64>, model: &FloatModel) -> FloatModel {
+    let values = if l.nrows() == 0 { None } else { Some(l.singular_values()) };
+    let (largest, smallest) = values.map_or((1.0, 1.0), |values| (values.max(), values.min()));
+    let mut model = model.clone();
+    if let Some(ball) = &plant.ball {
+        let covering = ball.to_f64() / smallest;
+        model = model.with_set(match plant.initial_set.map(Constant::to_f64) {
+            InitialSet::Paper => InitialSet::Paper,
+            InitialSet::AtRest { e0, .. } => InitialSet::AtRest { x0: Some(covering), e0 },
+            InitialSet::Box { e0, z0, .. } => InitialSet::Box { x0: covering, e0, z0 },
+        });
+    }
+    if let Some(domain) = &plant.domain {
+        model.domain = (domain.x.to_f64() / largest, domain.e.to_f64());
+    }
+    model
+}
+
+/// The best of the candidates with a P(t).
+fn best_periodic(
+    plant: &Plant,
+    curve: &TrigonometricVector,
+    candidates: &[Coordinates],
+    model: &FloatModel,
+    sampling: &Sampling<'_>,
+) -> Result<(Coordinates, Chosen), PlantRefusal> {
+    let mut best: Option<(Coordinates, Chosen)> = None;
+    let mut failure = PlantRefusal::NoContraction;
+    for candidate in candidates {
+        let proved = match prove_orbit(plant, curve, candidate) {
+            Ok(proved) => proved,
+            Err(error) => {
+                failure = PlantRefusal::OrbitNotProved(error);
+                continue;
+            }
+        };
+        let ratio = Rational::from(&proved.p_up / &proved.p_low).to_f64();
+        let sampler =
+            |Shape { l, .. }: Shape<'_>, density: Density| sampling.source(l, [Some(&candidate.p), None], density);
+        let search = search(model, plant, sampling, &sampler, ratio);
+        match search.with(Shape { l: &float_matrix(&candidate.l), second: None }, None) {
+            Ok(chosen) if best.as_ref().is_none_or(|(_, known)| chosen.proposal.sigma < known.proposal.sigma) => {
+                best = Some((candidate.clone(), chosen));
+            }
+            Ok(_) => {}
+            Err(obstacle) => failure = PlantRefusal::NoGain(obstacle),
+        }
+    }
+    best.ok_or(failure)
+}
+
+/// The orbit and the harmonics of q, proved in some coordinates; a P of existence, where there is one.
+pub(super) struct Along {
+    pub(super) coordinates: Coordinates,
+    orbit: OrbitProof,
+    forcing: ProvedForcing,
+    existence: Option<(PeriodicMatrix, SecondTriple)>,
+}
+
+/// That f and q are smooth on the curve itself, so that what is not is told at its operation before anything is proved with it.
+fn smooth_along(plant: &Plant, curve: &TrigonometricVector) -> Result<(), PlantRefusal> {
+    let unit = (0..plant.states()).map(|i| (0..plant.states()).map(|j| Rational::from(u8::from(i == j))).collect());
+    let region = Region::new(unit.collect(), curve.clone(), Rational::new());
+    let engine = region.and_then(|region| Engine::new(plant, region, None, None));
+    let zero = Rational::new();
+    Ok(engine.map_err(|_| PlantRefusal::Coordinates)?.smooth(&zero, &zero)?)
+}
+
+fn along(plant: &Plant, curve: &TrigonometricVector, coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
+    let orbit = prove_orbit(plant, curve, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
+    let forcing = prove_forcing(plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
+    Ok(Along { coordinates: coordinates.clone(), orbit, forcing, existence: None })
+}
+
+impl Along {
+    /// The specification with these values.
+    pub(super) fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
+        let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
+        let of_plant = OfPlant {
+            coordinates: self.coordinates.l.clone(),
+            orbit: ProvedOrbit {
+                approximation: orbit.clone(),
+                defect: defect.clone(),
+                tube: tube.clone(),
+                radius: radius.clone(),
+            },
+            triple: Lyapunov {
+                p_low: Constant::rational(p_low),
+                p_up: Constant::rational(p_up),
+                alpha: Constant::rational(alpha),
+            },
+            matrix: self.coordinates.p.clone(),
+            existence: self.existence.as_ref().map(|(matrix, SecondTriple { alpha, p_low, p_up })| {
+                let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(Constant::rational);
+                Box::new((Lyapunov { p_low, p_up, alpha }, matrix.clone()))
+            }),
+            forcing: self.forcing.clone(),
+            domain: plant.domain.clone(),
+            ball: plant.ball.clone(),
+        };
+        specification(plant, of_plant, values)
+    }
+
+    /// The P of existence, where there is one.
+    pub(super) fn second(&self) -> Option<&PeriodicMatrix> {
+        self.existence.as_ref().map(|(matrix, _)| matrix)
+    }
+
+    /// What samples the bounds.
+    pub(super) fn suprema(&self, sampling: &Sampling<'_>) -> FloatSuprema {
+        sampling.suprema(&float_matrix(&self.coordinates.l), [Some(&self.coordinates.p), self.second()])
+    }
+
+    pub(super) fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
+        let orbit = (&self.orbit.orbit, &self.orbit.radius);
+        engine_around(plant, &self.coordinates, orbit, self.second().cloned())
+    }
+}
+
+fn engine_around(
+    plant: &Plant,
+    Coordinates { l, p, .. }: &Coordinates,
+    (orbit, radius): (&TrigonometricVector, &Rational),
+    existence: Option<PeriodicMatrix>,
+) -> Result<Engine, PlantRefusal> {
+    let region = Region::new(l.clone(), orbit.clone(), radius.clone());
+    let engine = region.and_then(|region| Engine::new(plant, region, Some(p.clone()), existence));
+    engine.map_err(|_| PlantRefusal::Coordinates)
+}
+
+/// What decides bounds of a plant around its proved orbit, and what samples them.
+///
+/// # Errors
+/// Data that are not of this plant.
+pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, FloatSuprema), PlantRefusal> {
+    let OfPlant { coordinates, orbit, matrix, existence, .. } = of_plant;
+    let second = existence.as_ref().map(|second| &second.1);
+    let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone(), rate: f64::NAN };
+    let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius), second.cloned())?;
+    let rows = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+    let samples = FloatSuprema::new(plant, FloatCurve::from(&orbit.approximation), rows, [Some(matrix), second]);
+    Ok((engine, samples))
+}
+
+/// Proves the bounds at the arguments of a proposal, looks for the best proposal with them, and once more near its arguments.
+fn prove_bounds(
+    plant: &Plant,
+    along: &Along,
+    sampling: &Sampling<'_>,
+    chosen: &Chosen,
+) -> Result<Reduced, PlantRefusal> {
+    let proofs = Proofs { plant, along, engine: along.engine(plant)?, suprema: along.suprema(sampling) };
+    let (model, proposal) = (&chosen.model, &chosen.proposal);
+    let (mut best, mut closest): (Option<(FloatModel, Reduced)>, _) = (None, Closest::default());
+    let [first, last] = ENLARGED;
+    for (above, enlarged) in [(0.0, first)].into_iter().chain(FURTHER) {
+        match proofs.with_values(model, proposal, above, enlarged) {
+            Ok(Ok(found)) if smaller(&found.1, best.as_ref()) => best = Some(found),
+            Ok(Ok(_)) => {}
+            Ok(Err(obstacle)) => closest.record(beyond_the_bounds(obstacle)),
+            Err(refusal) if best.is_none() => return Err(refusal),
+            Err(_) => {}
+        }
+        if best.as_ref().is_some_and(|(_, found)| found.proposal.sigma < proposal.sigma * NEAR) {
+            break;
+        }
+    }
+    if let Some((model, found)) = &best
+        && let Ok(Ok(closer)) = proofs.with_values(model, &found.proposal, 0.0, last)
+        && smaller(&closer.1, best.as_ref())
+    {
+        best = Some(closer);
+    }
+    closest.or(best.map(|(_, found)| found)).map_err(PlantRefusal::NoGain)
+}
+
+/// Whether a gain is smaller by what is worth it.
+fn smaller(found: &Reduced, best: Option<&(FloatModel, Reduced)>) -> bool {
+    best.is_none_or(|(_, known)| found.proposal.sigma < known.proposal.sigma * (1.0 - WORTH))
+}
+
+/// What proves bounds of a plant at arguments.
+struct Proofs<'a> {
+    plant: &'a Plant,
+    along: &'a Along,
+    engine: Engine,
+    suprema: FloatSuprema,
+}
+
+impl Proofs<'_> {
+    /// The best proposal with the values proved at the arguments of a proposal, and these values as a model.
+    fn with_values(
+        &self,
+        model: &FloatModel,
+        proposal: &SharpProposal,
+        above: f64,
+        enlarged: f64,
+    ) -> Result<Result<(FloatModel, Reduced), Obstacle>, PlantRefusal> {
+        let at = arguments(model, proposal, above, enlarged, self.along.second().is_some())?;
+        let [x, e] = at.largest();
+        self.engine.smooth(&x, &e)?;
+        let spec = self.along.specification(self.plant, prove_all(&self.engine, &self.suprema, &at)?)?;
+        let data = Data::new(&spec, PRECISION);
+        let with_values = FloatModel::new(&data, trade_off(&data));
+        Ok(search_sharp_near(&with_values, proposal).map(|proposal| (with_values, Reduced { spec, proposal })))
+    }
+}
+
+/// Where the values of a plant have none, they are not proved so far.
+pub(super) fn beyond_the_bounds(obstacle: Obstacle) -> Obstacle {
+    match obstacle.failing {
+        Failing::NotFinite(Some(_)) => Obstacle { failing: Failing::Bounds, ..obstacle },
+        _ => obstacle,
+    }
+}
+
+/// The arguments of a proposal at so much larger a gain, enlarged.
+fn arguments(
+    model: &FloatModel,
+    proposal: &SharpProposal,
+    above: f64,
+    enlarged: f64,
+    second: bool,
+) -> Result<Needed, PlantRefusal> {
+    let mut last = PlantRefusal::NoGain(Failing::NotFinite(None).into());
+    for little in ABOVE {
+        match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above + little), ABOVE[0]) {
+            Ok((set, at)) => return needed(&set, &at, enlarged, second).ok_or(last),
+            Err(obstacle) => last = PlantRefusal::NoGain(obstacle),
+        }
+    }
+    Err(last)
+}
+
+/// Proves again what a certificate says of a plant, without any search.
+///
+/// Guarantee: as for [`reduce()`].
+///
+/// # Errors
+/// The first part that is not proved.
+pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
+    if plant.states() > MAX_STATES {
+        return Err(PlantRefusal::TooManyStates { states: plant.states() });
+    }
+    plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
+    let coordinates = Coordinates { l: of_plant.coordinates.clone(), p: of_plant.matrix.clone(), rate: f64::NAN };
+    let rational = |constant: &Constant| constant.as_rational().cloned().unwrap_or_default();
+    let proved = OrbitProof {
+        orbit: of_plant.orbit.approximation.clone(),
+        defect: of_plant.orbit.defect.clone(),
+        tube: of_plant.orbit.tube.clone(),
+        radius: of_plant.orbit.radius.clone(),
+        alpha: rational(&of_plant.triple.alpha),
+        p_low: rational(&of_plant.triple.p_low),
+        p_up: rational(&of_plant.triple.p_up),
+    };
+    decide_orbit(plant, &coordinates, &proved).map_err(PlantRefusal::OrbitNotProved)?;
+    let forcing = of_plant.forcing.clone();
+    decide_forcing(plant, &coordinates, &proved, &forcing).map_err(PlantRefusal::OrbitNotProved)?;
+    let existence = match of_plant.existence.as_deref() {
+        None => None,
+        Some((triple, matrix)) => {
+            let [alpha, p_low, p_up] = [&triple.alpha, &triple.p_low, &triple.p_up].map(rational);
+            let second = SecondTriple { alpha, p_low, p_up };
+            let in_it = Coordinates { l: coordinates.l.clone(), p: matrix.clone(), rate: f64::NAN };
+            decide_second(plant, &proved, &in_it, &second).map_err(PlantRefusal::OrbitNotProved)?;
+            Some((matrix.clone(), second))
+        }
+    };
+    let along = Along { coordinates, orbit: proved, forcing, existence };
+    let engine = along.engine(plant)?;
+    if let Some([x, e]) = values.reach() {
+        engine.smooth(&x, &e)?;
+    }
+    decide_all(&engine, &values)?;
+    along.specification(plant, values)
+}

@@ -1,0 +1,178 @@
+//! What keeps a plant from being certified, as errors at their places in its file.
+
+use crate::search::{Failing, Obstacle};
+use sigmastar_lang::plant::{PeriodicityFailure, Plant};
+use sigmastar_lang::spec::{ErrorKind, SpecErrors};
+use sigmastar_plants::bounds::SmoothnessFailure;
+use sigmastar_plants::orbit::{OrbitFailure, OrbitNotProved};
+use std::ops::Range;
+
+/// Why a plant comes to no run.
+#[derive(Clone, Debug)]
+pub enum PlantRefusal {
+    /// A right side that is not proved to have the period: bad input, as it is written.
+    NotPeriodic(PeriodicityFailure),
+    /// An operation of a right side that is not proved to be smooth where it is used.
+    NotSmooth {
+        /// The index of the right side: a state, or the number of states for q.
+        index: usize,
+        /// The bytes of the operation in its text.
+        span: Range<usize>,
+        /// In words.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+    /// More states than are taken.
+    TooManyStates {
+        /// How many there are.
+        states: usize,
+    },
+    /// No orbit was found, or an unstable one.
+    NoOrbit(OrbitFailure),
+    /// The orbit, or q along it, is not proved.
+    OrbitNotProved(OrbitNotProved),
+    /// No coordinates in which the zero dynamics contract.
+    NoContraction,
+    /// No gain was found in floating point.
+    NoGain(Obstacle),
+    /// What keeps the witness of another plant from being one of this plant.
+    OfAnother(Box<PlantRefusal>),
+    /// A bound is not proved, at an argument that is needed.
+    NotProved {
+        /// Its name.
+        bound: &'static str,
+        /// X and E.
+        at: [f64; 2],
+    },
+    /// A ball or a domain that L cannot be compared with.
+    Coordinates,
+    /// Harmonics of q whose size leaves the exponents of the arithmetic.
+    Forcing,
+}
+
+impl From<SmoothnessFailure> for PlantRefusal {
+    fn from(failure: SmoothnessFailure) -> PlantRefusal {
+        let message = failure.to_string();
+        let help = failure.advice();
+        PlantRefusal::NotSmooth { index: failure.index, span: failure.span, message, help }
+    }
+}
+
+/// The most states of a plant that is to be certified.
+pub const MAX_STATES: usize = 6;
+
+impl PlantRefusal {
+    /// The errors at their places in the plant file; not empty.
+    #[must_use]
+    pub fn errors(&self, plant: &Plant) -> Vec<SpecErrors> {
+        let states = plant.states();
+        let field = |index: usize| if index < states { format!("/f/{index}") } else { "/q".to_owned() };
+        let undecided = |place: &str, message: String, help: Option<&str>| {
+            vec![plant.errors_at(place, &(0..0), ErrorKind::Undecided, message, help.map(str::to_owned))]
+        };
+        match self {
+            PlantRefusal::NotPeriodic(failure) => {
+                let help = "write the disturbance with sin(2*pi*k*t/period), cos(...) and the like, k whole";
+                let message = format!("the period is not proved: {failure}");
+                vec![plant.errors_at(
+                    &field(failure.index),
+                    &failure.span,
+                    ErrorKind::Range,
+                    message,
+                    Some(help.into()),
+                )]
+            }
+            PlantRefusal::NotSmooth { index, span, message, help } => {
+                let kind = ErrorKind::Undecided;
+                vec![plant.errors_at(&field(*index), span, kind, message.clone(), Some(help.clone()))]
+            }
+            PlantRefusal::TooManyStates { states } => {
+                let message = format!("{states} states; a plant of at most {MAX_STATES} is certified");
+                let help = "leave out states that do not act on e, or give a bounding specification";
+                vec![plant.errors_at("/states", &(0..0), ErrorKind::Range, message, Some(help.into()))]
+            }
+            PlantRefusal::NoOrbit(failure) => undecided("/f", failure.to_string(), failure.way_out()),
+            PlantRefusal::OrbitNotProved(failure) => undecided(
+                "/f",
+                failure.to_string(),
+                Some("write the plant in units in which its numbers are of ordinary size"),
+            ),
+            PlantRefusal::NoContraction => undecided(
+                "/f",
+                "no matrix P was found in which the zero dynamics x' = f(t,x,0) contract along their periodic solution"
+                    .to_owned(),
+                Some(
+                    "they have to be stable with a margin: close a loop around them first, or choose another output e",
+                ),
+            ),
+            PlantRefusal::NoGain(obstacle) => undecided("", no_gain(obstacle), Some(help(obstacle))),
+            PlantRefusal::OfAnother(refusal) => {
+                let all = refusal.errors(plant);
+                let told: Vec<&str> =
+                    all.iter().flat_map(|errors| errors.errors()).map(|error| error.message.as_str()).collect();
+                let message = format!(
+                    "the certificate was made for another plant, and what it says is not proved of this one: {}",
+                    told.join("; ")
+                );
+                undecided(
+                    "",
+                    message,
+                    Some(
+                        "give the plant that the certificate is of, or search for a witness of this one (without --witness)",
+                    ),
+                )
+            }
+            PlantRefusal::NotProved { bound, at: [x, e] } => undecided(
+                "",
+                format!("the bound `{bound}` is not proved for |y| <= {x:.6}, |e| <= {e:.6} within the effort"),
+                Some("a smaller initial set, or a smoother plant"),
+            ),
+            PlantRefusal::Forcing => undecided(
+                "/q",
+                "the harmonics of q(t,x_0,0) are too large or too small to be enclosed".to_owned(),
+                Some("write the plant in units in which its numbers are of ordinary size"),
+            ),
+            PlantRefusal::Coordinates => undecided(
+                "/initial_set",
+                "the coordinates are too ill-conditioned to turn this ball or domain into their norm".to_owned(),
+                Some("write the states in units in which they are of one size"),
+            ),
+        }
+    }
+}
+
+fn no_gain(obstacle: &Obstacle) -> String {
+    format!("no gain was found for this initial set in floating point. {}", obstacle.describe())
+}
+
+/// What helps where no gain was found, for the very reason.
+fn help(obstacle: &Obstacle) -> &'static str {
+    match obstacle.failing {
+        Failing::Magnitude(_) | Failing::NotFinite(None) => {
+            "write the plant in units in which its numbers are of ordinary size"
+        }
+        Failing::NotFinite(Some(_)) => {
+            "a smaller initial set (`at-rest` without sizes is the smallest): around this one the error box reaches where a \
+             right side has no finite derivative, or is far larger than the orbit"
+        }
+        Failing::Existence => {
+            "a larger rate of the zero dynamics, less coupling between e and x, or units in which the numbers are of one size"
+        }
+        Failing::DomainX | Failing::DomainE => {
+            "a larger `domain`, or a smaller initial set (`at-rest` without sizes is the smallest)"
+        }
+        Failing::Curvature => {
+            "a smaller initial set (`at-rest` without sizes is the smallest): on the error box around this one the zero \
+             dynamics do not contract"
+        }
+        Failing::Coupling => {
+            "a smaller initial set (`at-rest` without sizes is the smallest), or less coupling between e and x"
+        }
+        Failing::Gain { .. } => "a larger gain, or none: the smallest one is then sought",
+        Failing::Hold { given: true, .. } => "a smaller gain, or a shorter sampling period",
+        Failing::Hold { given: false, .. } | Failing::Samples => "a shorter sampling period, or a smaller gain",
+        Failing::Sampling => "a shorter sampling period, a smaller mu, or another gain",
+        Failing::Bounds => "a smaller initial set, or a smoother plant",
+    }
+}

@@ -1,0 +1,158 @@
+//! The whole way from a subject to a decided claim, of either regulator.
+
+use super::{FreeNumbers, Subject, Witness};
+use crate::certify::{
+    Certification, Options, Refusal, SampledCertification, Verdict, certify_at, certify_near, certify_sampled, recheck,
+    recheck_sampled,
+};
+use crate::search::{SampledProposal, SharpProposal};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::{Sampling, SpecErrors, Specification};
+use sigmastar_theory::derivation::condition::Condition;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::sampled::SampledWitness;
+
+/// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
+enum Start {
+    Continuous(Option<SharpProposal>),
+    Sampled(Box<Sampling>, Option<SampledProposal>),
+    Given(FreeNumbers),
+}
+
+/// A subject whose data are proved, for one question.
+pub struct Prepared {
+    spec: Specification,
+    start: Start,
+    gain: Option<Rational>,
+}
+
+/// What a run found out. What it claims is about the regulator at samples where the subject asks for that.
+#[derive(Clone, Debug)]
+pub enum Run<'s> {
+    /// Of the regulator in continuous time.
+    Continuous(Box<Certification<'s>>),
+    /// Of the regulator at samples.
+    Sampled(Box<SampledCertification<'s>>),
+}
+
+/// What a certified run claims, of either regulator.
+#[derive(Clone, Debug)]
+pub struct Certified<'r> {
+    /// The gain: the smallest one of the claim, or at samples the only one.
+    pub sigma: &'r Rational,
+    /// The samples, where it is about the regulator at samples.
+    pub sampling: Option<&'r Sampling>,
+    /// The set of the starts.
+    pub set: &'r ClaimedSet,
+    /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution.
+    pub periodic: [Enclosure; 4],
+    /// Whether it is proved that no plant with a state has these data.
+    pub no_plant: bool,
+}
+
+impl Prepared {
+    /// Proves the data of a subject, for a gain that is given or for the smallest one.
+    ///
+    /// # Errors
+    /// What keeps the data from being proved, at its place; not empty.
+    pub fn new(subject: Subject, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
+        match subject.sampling().cloned() {
+            None => {
+                let (spec, start) = subject.proved()?;
+                Ok(Prepared { spec, start: Start::Continuous(start), gain })
+            }
+            Some(sampling) => {
+                let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref())?;
+                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain })
+            }
+        }
+    }
+
+    /// The data of a subject as the witness of a certificate has them, each proved again: nothing is searched for.
+    ///
+    /// # Errors
+    /// What is not proved, at its place, and a witness of the other regulator or of other samples; not empty.
+    pub fn again(subject: &Subject, witness: Witness) -> Result<Prepared, Vec<SpecErrors>> {
+        let spec = witness.proved(subject)?;
+        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None })
+    }
+
+    /// Searches, rounds and decides. Hypothesis: the options fit ([`Options::misfit`]).
+    ///
+    /// # Errors
+    /// What the data are refused for, at its place; not empty.
+    pub fn certify(&self, options: Options) -> Result<Run<'_>, Vec<SpecErrors>> {
+        let (spec, gain) = (&self.spec, self.gain.as_ref());
+        let run = match &self.start {
+            Start::Continuous(start) => match gain {
+                None => certify_near(spec, options, start.as_ref()),
+                Some(gain) => certify_at(spec, options, start.as_ref(), gain),
+            }
+            .map(|run| Run::Continuous(Box::new(run))),
+            Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
+                .map(|run| Run::Sampled(Box::new(run))),
+            Start::Given(FreeNumbers::Continuous(witness)) => {
+                recheck(spec, witness, options).map(|run| Run::Continuous(Box::new(run)))
+            }
+            Start::Given(FreeNumbers::Sampled(witness)) => {
+                recheck_sampled(spec, witness, options.ladder).map(|run| Run::Sampled(Box::new(run)))
+            }
+        };
+        run.map_err(|refusal: Refusal| refusal.errors(spec))
+    }
+}
+
+impl Run<'_> {
+    /// The verdict.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            Run::Continuous(run) => run.verdict,
+            Run::Sampled(run) => run.verdict,
+        }
+    }
+
+    /// The specification whose data were proved.
+    #[must_use]
+    pub fn spec(&self) -> &Specification {
+        match self {
+            Run::Continuous(run) => run.spec,
+            Run::Sampled(run) => run.spec,
+        }
+    }
+
+    /// What is claimed; `None` where nothing is certified.
+    #[must_use]
+    pub fn certified(&self) -> Option<Certified<'_>> {
+        let (sigma, sampling, set, periodic, no_plant) = match self {
+            Run::Continuous(run) => {
+                (run.sigma_star()?, None, run.claimed_set()?, run.periodic_solution()?, run.no_plant.is_some())
+            }
+            Run::Sampled(run) => {
+                let SampledWitness { sigma, sampling, set, .. } = &run.claim()?.witness;
+                (sigma, Some(sampling), set, run.periodic_solution()?, run.no_plant.is_some())
+            }
+        };
+        Some(Certified { sigma, sampling, set, periodic, no_plant })
+    }
+
+    /// The conditions of the derivation that was asked about, proved or not.
+    #[must_use]
+    pub fn conditions(&self) -> &[Condition] {
+        match self {
+            Run::Continuous(run) => run.conditions(),
+            Run::Sampled(run) => run.conditions(),
+        }
+    }
+
+    /// The bounding functions that were neither proved nor refuted, as errors at their places.
+    #[must_use]
+    pub fn unproved(&self) -> Vec<SpecErrors> {
+        let problems = match self {
+            Run::Continuous(run) => &run.unproved_bounds,
+            Run::Sampled(run) => &run.unproved_bounds,
+        };
+        problems.iter().map(|problem| problem.errors(self.spec())).collect()
+    }
+}

@@ -1,0 +1,140 @@
+//! Sampled suprema of a plant's derivatives as a search takes them.
+
+use super::coordinates::Density;
+use super::entries::kind;
+use super::grid::{KINDS, RATE, Source, Values};
+use crate::search::FloatModel;
+use nalgebra::DMatrix;
+use rug::Rational;
+use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
+use sigmastar_plants::bounds::{FloatCurve, FloatSuprema};
+use sigmastar_plants::orbit::lower_triangular;
+use std::sync::Arc;
+
+/// Significant digits of a P of existence.
+const DIGITS: u32 = 4;
+
+/// Those of L, in turn, until no more than this share of the rate and of the norms on the orbit is lost.
+const DIGITS_OF_L: [u32; 4] = [4, 6, 9, 14];
+const LOST: f64 = 1e-3;
+
+/// The suprema along one orbit, for any coordinates.
+pub(super) struct Sampling<'a> {
+    plant: &'a Plant,
+    curve: &'a TrigonometricVector,
+    /// Of |e|.
+    unit_e: f64,
+    /// X_0 and E_0 that were asked for; 0 where none was.
+    asked: [f64; 2],
+}
+
+impl<'a> Sampling<'a> {
+    /// The ordinary size of e is what q makes of it over a period, or the initial set.
+    pub(super) fn new(plant: &'a Plant, curve: &'a TrigonometricVector, model: &FloatModel) -> Sampling<'a> {
+        let known = model.q_0.as_ref();
+        let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());
+        let [x_0, e_0, _] = model.set.required([0.0; 2], || 0.0, 0.0);
+        let by_forcing = 0.1 * squares.sqrt() * model.period;
+        let unit_e = [e_0, by_forcing].into_iter().fold(0.0, f64::max);
+        Sampling { plant, curve, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
+    }
+
+    /// Ordinary sizes of |y| and |e|.
+    pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
+        let values = self.source(l, [None; 2], Density::Rough)(0.0, 0.0);
+        let of = |bound| KINDS.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
+        let (rate, f_e) = (of(Bound::Rate), of(Bound::Fe));
+        let size = f_e / rate * self.unit_e;
+        let size = if size.is_finite() { size.max(self.asked[0]) } else { self.asked[0] };
+        [if size > 0.0 { size } else { 1.0 }, self.unit_e]
+    }
+
+    /// The sampler for these coordinates: with P, which is the identity without one, and that of existence.
+    pub(super) fn suprema(&self, l: &DMatrix<f64>, [p, second]: [Option<&PeriodicMatrix>; 2]) -> FloatSuprema {
+        let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
+            (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
+        };
+        let identity = identity(l.nrows());
+        FloatSuprema::new(self.plant, FloatCurve::from(self.curve), rows(l), [Some(p.unwrap_or(&identity)), second])
+    }
+
+    /// The same as a function of (X, E).
+    pub(super) fn source(
+        &self,
+        l: &DMatrix<f64>,
+        matrices: [Option<&PeriodicMatrix>; 2],
+        density: Density,
+    ) -> Arc<Source> {
+        let suprema = self.suprema(l, matrices);
+        let stride = match density {
+            Density::Rough => 6,
+            Density::Coarse => 3,
+            Density::Fine => 1,
+        };
+        let stateless = l.nrows() == 0;
+        let kinds = KINDS.map(kind);
+        Arc::new(move |x, e| -> Values {
+            let all = suprema.survey(x, e, stride);
+            let mut values: Values = kinds.map(|kind| kind.map_or(f64::NAN, |kind| all[kind.index()]));
+            if stateless {
+                // Without states every rate is as good as any other.
+                values[RATE] = 1.0;
+            }
+            values
+        })
+    }
+}
+
+/// P = I.
+fn identity(n: usize) -> PeriodicMatrix {
+    let row = |i: usize| (0..n).map(|j| Rational::from(u32::from(i == j))).collect();
+    PeriodicMatrix { mean: (0..n).map(row).collect(), harmonics: Vec::new() }
+}
+
+/// A constant P with short entries.
+pub(super) fn rational_symmetric(matrix: &DMatrix<f64>) -> Option<PeriodicMatrix> {
+    let n = matrix.nrows();
+    let entry = |i: usize, j: usize| round_f64(matrix[(i.max(j), i.min(j))], DIGITS, Direction::Nearest);
+    let rows: Option<Vec<Vec<Rational>>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+    Some(PeriodicMatrix { mean: rows?, harmonics: Vec::new() })
+}
+
+/// A rational matrix in doubles.
+pub(super) fn float_matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j].to_f64())
+}
+
+/// L with short entries, lower triangular: what is right of it, a rotation, changes no norm of y. `at_origin` are the bounds on
+/// the orbit in given coordinates.
+pub(super) fn rational_matrix(
+    l: &DMatrix<f64>,
+    at_origin: impl Fn(&DMatrix<f64>) -> Values,
+) -> Option<Vec<Vec<Rational>>> {
+    let n = l.nrows();
+    if n == 0 {
+        return Some(Vec::new());
+    }
+    let triangular = lower_triangular(l);
+    let wanted = at_origin(&triangular);
+    let mut last = None;
+    for digits in DIGITS_OF_L {
+        let entry = |i: usize, j: usize| match j > i {
+            true => Some(Rational::new()),
+            false => round_f64(triangular[(i, j)], digits, Direction::Nearest),
+        };
+        let rows: Vec<Vec<Rational>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect::<Option<_>>()?;
+        let found = at_origin(&float_matrix(&rows));
+        last = Some(rows);
+        let kept = |(index, bound): (usize, &Bound)| match bound {
+            Bound::Rate => found[index] >= wanted[index] * (1.0 - LOST),
+            Bound::Fe | Bound::Qx => found[index] <= wanted[index] * (1.0 + LOST),
+            _ => true,
+        };
+        if KINDS.iter().enumerate().all(kept) {
+            break;
+        }
+    }
+    last
+}

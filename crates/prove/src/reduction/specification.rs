@@ -1,0 +1,130 @@
+//! The specification that a plant's formulas amount to: the data of sections 1 and 10, in the coordinates y of section 11.
+
+use super::refusal::PlantRefusal;
+use crate::certify::{covers_ball, inverse_norm, within_ball};
+use nalgebra::DMatrix;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::model::{Constant, Domain, InitialSet, KnownForcing, LyapunovSource, Specification};
+use sigmastar_lang::spec::{Bounds, OfPlant, ProvedForcing, ProvedValues};
+
+/// Significant digits of the X_0 that covers a ball, and of a domain in the norm of y.
+const DIGITS: u32 = 10;
+
+/// Significant digits of the sizes of harmonics: of which nothing is written, so that they may be long.
+const LONG_DIGITS: u32 = 30;
+
+/// Room for rounding in the norms of L and L^-1, which doubles know: the first that is proved to be enough is taken.
+const ROOMS: [f64; 4] = [1e-9, 1e-6, 1e-3, 0.1];
+
+/// Bits at which the sizes of harmonics are enclosed.
+const PRECISION: u32 = 128;
+
+/// The specification of a plant, with what was proved of it; with other values nothing is proved.
+///
+/// # Errors
+/// [`PlantRefusal::Coordinates`] where L is so ill-conditioned that a ball or a domain cannot be turned into its norm,
+/// [`PlantRefusal::Forcing`] where a harmonic of q has no finite enclosure.
+pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
+    let q_0 = known_forcing(&of_plant.forcing).ok_or(PlantRefusal::Forcing)?;
+    let domain = match &plant.domain {
+        Some(domain) => Some(in_coordinates(domain, &of_plant.coordinates).ok_or(PlantRefusal::Coordinates)?),
+        None => None,
+    };
+    let initial_set = initial_set(plant, &of_plant.coordinates).ok_or(PlantRefusal::Coordinates)?;
+    Ok(Specification {
+        name: plant.name.clone(),
+        description: plant.description.clone(),
+        period: plant.period.clone(),
+        lyapunov: LyapunovSource::Plant(Box::new(of_plant)),
+        bounds: Bounds::proved(values),
+        q_0: Some(q_0),
+        domain,
+        internal_model: plant.internal_model.clone(),
+        initial_set,
+        relative_degree: None,
+        document: plant.document.clone(),
+        sha256: plant.sha256.clone(),
+        source: plant.source.clone(),
+        pointer: plant.pointer.clone(),
+    })
+}
+
+/// C_0 = |m_0|, C_k = sqrt(a_k^2 + b_k^2)/2 rounded up, r_0 and r_1; `None` where a C_k leaves the range of exponents.
+fn known_forcing(forcing: &ProvedForcing) -> Option<KnownForcing> {
+    let mean = Some(Rational::from(forcing.mean.abs_ref()));
+    let size = |[a, b]: &[Rational; 2]| {
+        let squares = Rational::from(a * a) + Rational::from(b * b);
+        let size = Enclosure::from_rational(&(squares / 4u32), PRECISION).sqrt();
+        size.upper_rational().map(|upper| round_rational(&upper, LONG_DIGITS, Direction::Up))
+    };
+    let harmonics = std::iter::once(mean).chain(forcing.harmonics.iter().map(size));
+    Some(KnownForcing {
+        harmonics: harmonics.map(|size| size.map(|size| Constant::rational(&size))).collect::<Option<_>>()?,
+        rest_rms: Constant::rational(&forcing.rest),
+        rest_t_rms: Some(Constant::rational(&forcing.rest_t)),
+    })
+}
+
+/// X with `|L^-1 (x - x_0)| <= X` inside of `|x - x_0| <= d_x`, proved, and E; `None` where rounding prevents it.
+fn in_coordinates(domain: &Domain, coordinates: &[Vec<Rational>]) -> Option<Domain> {
+    let distance = domain.x.enclose(PRECISION).lower_rational()?;
+    let n = coordinates.len();
+    let norm = if n == 0 { 1.0 } else { matrix(coordinates).singular_values().max() };
+    let x = ROOMS.into_iter().find_map(|room| {
+        let x = round_f64(distance.to_f64() / norm * (1.0 - room), DIGITS, Direction::Down)?;
+        (x > 0 && within_ball(coordinates, &x, &distance)).then_some(x)
+    })?;
+    Some(Domain { x: Constant::rational(&x), e: domain.e.clone() })
+}
+
+/// The set that is asked for; where a ball is, with an X_0 that is proved to cover it.
+fn initial_set(plant: &Plant, coordinates: &[Vec<Rational>]) -> Option<InitialSet> {
+    let Some(ball) = &plant.ball else { return Some(plant.initial_set.clone()) };
+    let radius = ball.enclose(PRECISION).upper_rational()?;
+    let covering = if radius == 0 {
+        radius
+    } else {
+        let size = radius.to_f64() * inverse_norm(coordinates);
+        ROOMS.into_iter().find_map(|room| {
+            let x_0 = round_f64(size * (1.0 + room), DIGITS, Direction::Up)?;
+            covers_ball(coordinates, &x_0, &radius).then_some(x_0)
+        })?
+    };
+    let covering = Constant::rational(&covering);
+    Some(match plant.initial_set.clone() {
+        InitialSet::Paper => InitialSet::Paper,
+        InitialSet::AtRest { e0, .. } => InitialSet::AtRest { x0: Some(covering), e0 },
+        InitialSet::Box { e0, z0, .. } => InitialSet::Box { x0: covering, e0, z0 },
+    })
+}
+
+fn matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j].to_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_are_rounded_up_and_none_is_left_out() {
+        let forcing = |a: Rational| ProvedForcing {
+            mean: Rational::from(-3),
+            harmonics: vec![[Rational::from((3, 5)), Rational::from((-4, 5))], [a, Rational::new()]],
+            rest: Rational::from((1, 8)),
+            rest_t: Rational::from(2),
+        };
+        let known = known_forcing(&forcing(Rational::from((1, 3)))).unwrap();
+        let sizes: Vec<&Rational> = known.harmonics.iter().map(|size| size.as_rational().unwrap()).collect();
+        assert_eq!(sizes[..2], [&Rational::from(3), &Rational::from((1, 2))]);
+        assert!(*sizes[2] > Rational::from((1, 6)) && *sizes[2] < Rational::from((1_000_001, 6_000_000)));
+        assert_eq!(known.rest_rms.as_rational(), Some(&Rational::from((1, 8))));
+        assert_eq!(known.rest_t_rms.unwrap().as_rational(), Some(&Rational::from(2)));
+        // The square leaves the exponents: the harmonic has no bound, and the whole of q_0 none.
+        let huge = Rational::from(rug::Integer::from(1) << 550_000_000);
+        assert!(known_forcing(&forcing(huge)).is_none());
+    }
+}

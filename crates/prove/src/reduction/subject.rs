@@ -1,0 +1,164 @@
+//! What is certified: a bounding specification, or a plant by its formulas.
+
+use super::{reduce, reduce_sampled};
+use crate::certify::with_triple;
+use crate::search::{SampledProposal, SharpProposal};
+use rug::Rational;
+use sigmastar_lang::plant::{self, Plant};
+use sigmastar_lang::spec::{Constant, Document, ErrorKind, InternalModel, Sampling, SpecErrors, Specification, Value};
+
+/// The document with another sampling period, which is called `name` in the label of the errors; itself where it has no internal
+/// model, for what is wrong with it is told as ever.
+///
+/// # Errors
+/// A document that is too large with it.
+pub fn at_samples(document: &Document, step: &Constant, name: &str) -> Result<Document, SpecErrors> {
+    let mut value = document.root().to_json();
+    let Some(model) = value.get_mut("internal_model").and_then(serde_json::Value::as_object_mut) else {
+        return Ok(document.clone());
+    };
+    model.insert("sampling_period".to_owned(), step.text.clone().into());
+    let label = format!("{} with {name} {}", document.label(), step.text);
+    Document::parse(&label, &format!("{value:#}\n"))
+}
+
+/// A document of either kind.
+#[derive(Clone, Debug)]
+pub enum Subject {
+    /// A bounding specification.
+    Specification(Box<Specification>),
+    /// A plant.
+    Plant(Box<Plant>),
+}
+
+impl Subject {
+    /// Reads it, by its `format`; what is neither is told as a specification.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(document: &Document) -> Result<Subject, SpecErrors> {
+        Subject::from_value(&document.root())
+    }
+
+    /// The same of a value of a document, such as the copy in a certificate.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn from_value(value: &Value<'_>) -> Result<Subject, SpecErrors> {
+        if value.member("format").is_some_and(|format| format.text() == Some(plant::FORMAT)) {
+            return Ok(Subject::Plant(Box::new(Plant::from_value(value)?)));
+        }
+        Ok(Subject::Specification(Box::new(Specification::from_value(value)?)))
+    }
+
+    /// What it is called: `specification` or `plant`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Subject::Specification(_) => "specification",
+            Subject::Plant(_) => "plant",
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Subject::Specification(spec) => &spec.name,
+            Subject::Plant(plant) => &plant.name,
+        }
+    }
+
+    /// The document as it was read.
+    #[must_use]
+    pub fn document(&self) -> &serde_json::Value {
+        match self {
+            Subject::Specification(spec) => &spec.document,
+            Subject::Plant(plant) => &plant.document,
+        }
+    }
+
+    /// SHA-256, in hexadecimal, of the canonical form of the document.
+    #[must_use]
+    pub fn sha256(&self) -> &str {
+        match self {
+            Subject::Specification(spec) => &spec.sha256,
+            Subject::Plant(plant) => &plant.sha256,
+        }
+    }
+
+    /// The period.
+    #[must_use]
+    pub fn period(&self) -> &Constant {
+        match self {
+            Subject::Specification(spec) => &spec.period,
+            Subject::Plant(plant) => &plant.period,
+        }
+    }
+
+    /// An error at a field of the document.
+    pub(super) fn errors_at(&self, field: &str, kind: ErrorKind, message: String, help: &str) -> SpecErrors {
+        let help = Some(help.to_owned());
+        match self {
+            Subject::Specification(spec) => spec.errors_at(field, &(0..0), kind, message, help),
+            Subject::Plant(plant) => plant.errors_at(field, &(0..0), kind, message, help),
+        }
+    }
+
+    /// The internal model of the regulator.
+    #[must_use]
+    pub fn internal_model(&self) -> &InternalModel {
+        match self {
+            Subject::Specification(spec) => &spec.internal_model,
+            Subject::Plant(plant) => &plant.internal_model,
+        }
+    }
+
+    /// The samples that the regulator is asked for at, if any.
+    #[must_use]
+    pub fn sampling(&self) -> Option<&Sampling> {
+        self.internal_model().sampling.as_ref()
+    }
+
+    /// Whether the base frequency is that of the period.
+    #[must_use]
+    pub fn is_matched(&self) -> bool {
+        self.internal_model().matched
+    }
+
+    /// The specification with proved data, and where the search for a gain may start: the triple of a Jacobian is sought, the
+    /// data of a plant are proved.
+    ///
+    /// # Errors
+    /// What keeps the data from being proved, at its place; not empty.
+    pub fn proved(self) -> Result<(Specification, Option<SharpProposal>), Vec<SpecErrors>> {
+        match self {
+            Subject::Specification(spec) => {
+                let proved = with_triple(&spec, None).map_err(|refusal| refusal.errors(&spec))?;
+                Ok((proved.into_owned(), None))
+            }
+            Subject::Plant(plant) => {
+                let reduced = reduce(&plant).map_err(|refusal| refusal.errors(&plant))?;
+                Ok((reduced.spec, Some(reduced.proposal)))
+            }
+        }
+    }
+
+    /// The same for a claim about the regulator at samples, at the gain that is given or at the smallest one.
+    ///
+    /// # Errors
+    /// Those of [`Subject::proved`].
+    pub fn proved_at_samples(
+        self,
+        sampling: &Sampling,
+        gain: Option<&Rational>,
+    ) -> Result<(Specification, Option<SampledProposal>), Vec<SpecErrors>> {
+        match self {
+            Subject::Plant(plant) => {
+                let reduced = reduce_sampled(&plant, sampling, gain).map_err(|refusal| refusal.errors(&plant))?;
+                Ok((reduced.spec, Some(reduced.proposal)))
+            }
+            specification @ Subject::Specification(_) => Ok((specification.proved()?.0, None)),
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! The values in certificates of the shipped plants, against random points.
+
+#[path = "../../../plants/src/bounds/tests/random_points.rs"]
+mod random_points;
+
+use super::entries::kind;
+use super::{bounds_around, reduce};
+use random_points::random_points;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::ProvedValue;
+use std::path::Path;
+
+/// A value may exceed what random points reach by this part of it.
+const SLACK: f64 = 0.05;
+
+/// What no relative comparison can see: q_tx and q_te where they vanish but for the radius of the orbit.
+const NOTHING: f64 = 1e-5;
+
+/// No value is below what 100,000 points reach, and none is more than 5 % above, but for those that vanish on the orbit.
+#[test]
+fn values_are_above_random_points_and_near_them() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/plants");
+    for name in [
+        "chain",
+        "converter",
+        "duffing",
+        "linear",
+        "motor-axis",
+        "paper-example",
+        "paper-example-ball",
+        "pendulum",
+        "relative-degree-2-domain",
+    ] {
+        let plant = Plant::load(&folder.join(name).with_extension("json")).unwrap();
+        let reduced = reduce(&plant).unwrap();
+        let (_, samples) = bounds_around(&plant, reduced.spec.plant().unwrap()).unwrap();
+        let radius = reduced.spec.plant().unwrap().orbit.radius.to_f64();
+        let points = random_points(plant.states(), 100_000);
+        for ProvedValue { bound, x, e, value, .. } in reduced.spec.bounds.proved_values().entries() {
+            let place = format!("{name}: {} at ({}, {})", bound.field(), x.to_f64(), e.to_f64());
+            if plant.states() == 0 && bound.is_nonincreasing() {
+                continue;
+            }
+            let found = samples.largest_at(kind(*bound).unwrap(), [x.to_f64() + radius, e.to_f64()], &points);
+            let value = if bound.is_nonincreasing() { -value.to_f64() } else { value.to_f64() };
+            assert!(value >= found, "{place}: {value} is below {found}");
+            let near = value - found <= SLACK * found.abs() || value.abs() < NOTHING;
+            assert!(near, "{place}: {value} for {found}");
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Parts of a candidate that the derivations share, in floating point.
+
+use super::model::FloatModel;
+use super::obstacle::{Failing, Obstacle};
+use super::scan;
+use sigmastar_theory::derivation::existence::StateBounds;
+use sigmastar_theory::derivation::stability::{DecayCondition, ErrorBox};
+
+/// Strict inequalities that do not involve sigma are proposed with this much room, so that rounding to short rationals
+/// cannot destroy them.
+pub(super) const BELOW_ONE: f64 = 1.0 - 1e-6;
+
+/// The error box of a candidate at one sigma.
+#[derive(Clone, Copy, Debug)]
+pub struct AtSigma {
+    /// D_x/(c dX), above 1.
+    pub rho: f64,
+    /// h dZ^2/dE^2.
+    pub eta: f64,
+    /// D_x.
+    pub d_x: f64,
+    /// dE.
+    pub dist_e: f64,
+    /// dZ.
+    pub dist_z: f64,
+    /// What is made small: the right side of C5, or of the law at samples the radius of its forms, to be below 1.
+    pub threshold: f64,
+}
+
+/// The larger one of the two shares of C1 and of a first entry of the contraction matrix below 1 (with room for rounding), to
+/// be at most 1: k = c and `factor` 1 for the sharp derivation, K_alpha and 2 for the others.
+pub fn demand(model: &FloatModel, state: &StateBounds<f64>, k: f64, factor: i64) -> f64 {
+    let invariance = state.invariance_lhs(model, &k) / state.x_p;
+    let contraction = state.contraction_xx(model, &k, factor) / BELOW_ONE;
+    if invariance >= contraction || invariance.is_nan() { invariance } else { contraction }
+}
+
+/// The largest E with a demand of at most 1 at X.
+pub fn largest_e(model: &FloatModel, x: f64, k: f64, factor: i64) -> Option<f64> {
+    scan::largest(|e| demand(model, &StateBounds::new(model, x, e), k, factor), model.domain.1)
+}
+
+/// h with h dZ^2 = eta dE^2.
+pub fn weight_h(eta: f64, dist_e: f64, dist_z: f64) -> f64 {
+    eta * dist_e * dist_e / (dist_z * dist_z)
+}
+
+/// D_e^2 = w_x P_low D_x^2, at which both members of C4 are equal, for D_x = rho c dX and h dZ^2 = eta dE^2.
+pub fn active_level(eta: f64, dist_e: f64, rho: f64) -> f64 {
+    (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho))
+}
+
+/// An error box with the level condition active: D_x = rho c dX, h from eta.
+pub(super) struct Shape {
+    pub(super) d_x: f64,
+    pub(super) w_x: f64,
+    /// h, or eta of the law at samples.
+    pub(super) weight: f64,
+    pub(super) error_box: ErrorBox<f64>,
+}
+
+impl Shape {
+    /// The box, where it lies in the domain and the rate on it is positive.
+    pub(super) fn new(
+        model: &FloatModel,
+        (x_per, e_per): (f64, f64),
+        [dist_x, dist_e, dist_z]: [f64; 3],
+        rho: f64,
+        eta: f64,
+    ) -> Result<Shape, Obstacle> {
+        let d_x = rho * model.c * dist_x;
+        let level = active_level(eta, dist_e, rho);
+        let d_e = level.sqrt();
+        let (x_b, e_b) = (x_per + d_x, e_per + d_e);
+        if x_b > model.domain.0 * (1.0 - 1e-7) {
+            return Err(Failing::DomainX.at(x_b, e_b));
+        }
+        if e_b > model.domain.1 * (1.0 - 1e-7) {
+            return Err(Failing::DomainE.at(x_b, e_b));
+        }
+        let error_box = ErrorBox::new(model, &x_per, &e_per, &d_x, &d_e);
+        let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
+        if ![rate, k_x, k_f, &sector.below, &sector.above].iter().all(|v| v.is_finite()) {
+            return Err(model.not_finite(x_b, e_b));
+        }
+        if *rate <= model.alpha * (1.0 - BELOW_ONE) {
+            return Err(Failing::Curvature.at(x_b, e_b));
+        }
+        let w_x = level / (model.p_low * d_x * d_x);
+        Ok(Shape { d_x, w_x, weight: weight_h(eta, dist_e, dist_z), error_box })
+    }
+}
+
+/// D_x = rho c dX, h from eta, and the threshold of C5 with the level condition active.
+pub fn error_box(
+    model: &FloatModel,
+    (x_per, e_per): (f64, f64),
+    [dist_x, dist_e, dist_z]: [f64; 3],
+    rho: f64,
+    eta: f64,
+) -> Result<AtSigma, Obstacle> {
+    let Shape { d_x, w_x, weight, error_box } = Shape::new(model, (x_per, e_per), [dist_x, dist_e, dist_z], rho, eta)?;
+    let decay = DecayCondition::new(model, &error_box, &w_x, &weight);
+    let (x_b, e_b) = (error_box.x_b, error_box.e_b);
+    let margin = decay.curvature - decay.coupling;
+    if margin.is_nan() || margin <= (1.0 - BELOW_ONE) * 4.0 * w_x * model.alpha {
+        return Err(Failing::Coupling.at(x_b, e_b));
+    }
+    if !decay.sigma_threshold.is_finite() {
+        return Err(model.not_finite(x_b, e_b));
+    }
+    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, threshold: decay.sigma_threshold })
+}

@@ -1,0 +1,77 @@
+//! A bounding function in doubles, for searches only.
+
+use sigmastar_lang::expr::FloatExpr;
+use sigmastar_lang::spec::{Bound, Specification};
+use std::fmt;
+use std::sync::Arc;
+
+/// What a search evaluates.
+#[derive(Clone)]
+pub enum FloatBound {
+    /// An expression.
+    Expression(FloatExpr),
+    /// Proved values: (X, E, value); the best of those that reach, NaN beyond them.
+    Values {
+        /// The entries.
+        entries: Vec<[f64; 3]>,
+        /// Whether the largest value is the best one.
+        from_below: bool,
+    },
+    /// Any function of (X, E).
+    Function(Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>),
+}
+
+/// Proved values end where they end: a search stays so far inside that rounding does not lead beyond.
+const EDGE: f64 = 1.0 + 1e-6;
+
+impl fmt::Debug for FloatBound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            FloatBound::Expression(_) => "expression",
+            FloatBound::Values { .. } => "values",
+            FloatBound::Function(_) => "function",
+        })
+    }
+}
+
+impl FloatBound {
+    /// That of a specification, or what serves in its place.
+    #[must_use]
+    pub fn of(spec: &Specification, which: Bound) -> Option<FloatBound> {
+        if let Some(expr) = spec.bounds.own(which) {
+            return Some(FloatBound::Expression(expr.to_float()));
+        }
+        let proved = spec.bounds.proved_values();
+        if !proved.has(which) {
+            return which.replacement().and_then(|other| FloatBound::of(spec, other));
+        }
+        let there = proved.entries().iter().filter(|entry| entry.bound == which);
+        let entries = there.map(|entry| [&entry.x, &entry.e, &entry.value].map(rug::Rational::to_f64)).collect();
+        Some(FloatBound::Values { entries, from_below: which.is_nonincreasing() })
+    }
+
+    /// The value at (X, E); NaN where it is undefined.
+    #[must_use]
+    pub fn at(&self, x: f64, e: f64) -> f64 {
+        match self {
+            FloatBound::Expression(expr) => expr.eval(x, e),
+            FloatBound::Values { entries, from_below } => {
+                let reaches = |entry: &&[f64; 3]| x * EDGE <= entry[0] && e * EDGE <= entry[1];
+                let reaching = entries.iter().filter(reaches).map(|entry| entry[2]);
+                let best = if *from_below { reaching.reduce(f64::max) } else { reaching.reduce(f64::min) };
+                best.unwrap_or(f64::NAN)
+            }
+            FloatBound::Function(function) => function(x, e),
+        }
+    }
+
+    /// How much work an evaluation is.
+    #[must_use]
+    pub fn operations(&self) -> usize {
+        match self {
+            FloatBound::Expression(expr) => expr.operations(),
+            FloatBound::Values { entries, .. } => entries.len(),
+            FloatBound::Function(_) => 1,
+        }
+    }
+}

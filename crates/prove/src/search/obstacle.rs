@@ -1,0 +1,207 @@
+//! What stands in the way of a candidate: what failed, and where.
+
+use super::binding::Binding;
+use sigmastar_exact::number::{Direction, round_f64, write_exact};
+use sigmastar_theory::data::Bound;
+
+/// What failed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Failing {
+    /// A number, or a bounding function at X = E = 0, is beyond what the search can work with.
+    Magnitude(Extreme),
+    /// A bounding function has no finite value; none of them is named where a number that is made of them has none.
+    NotFinite(Option<Bound>),
+    /// S1 or S2 fails (C1 or C3 in the repaired derivation).
+    Existence,
+    /// X_b leaves the domain.
+    DomainX,
+    /// E_b leaves the domain.
+    DomainE,
+    /// a_2 <= 0: the nonlinearity in the error box takes all of alpha.
+    Curvature,
+    /// (h/mu) k_x^2 >= 4 w_x a_2.
+    Coupling,
+    /// The gain that is given is below the smallest one that is found.
+    Gain {
+        /// The given one.
+        given: f64,
+        /// About the smallest one, and what sets it, where one was found.
+        smallest: Option<(f64, Binding)>,
+    },
+    /// h sigma > 1, for the gain that is given, or for every one that may do.
+    Hold {
+        /// The gain, or about the smallest one that may do.
+        sigma: f64,
+        /// 1/h.
+        largest: f64,
+        /// Whether the gain is given.
+        given: bool,
+    },
+    /// C5h: the decay from sample to sample is not positive.
+    Sampling,
+    /// A period would need more samples than are taken.
+    Samples,
+    /// A proof was found, but the bounding functions are not proved up to its arguments.
+    Bounds,
+}
+
+/// A number that is too large or too small.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extreme {
+    /// One that has a name, and its size.
+    Number(&'static str, f64),
+    /// A bounding function at X = E = 0.
+    Bound(Bound),
+}
+
+/// What stands in the way of a candidate, or of the one that came closest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Obstacle {
+    /// What failed.
+    pub failing: Failing,
+    /// X and E at which it did, where it is about arguments.
+    pub at: Option<[f64; 2]>,
+}
+
+impl From<Failing> for Obstacle {
+    fn from(failing: Failing) -> Obstacle {
+        Obstacle { failing, at: None }
+    }
+}
+
+impl Failing {
+    /// At these arguments.
+    #[must_use]
+    pub fn at(self, x: f64, e: f64) -> Obstacle {
+        Obstacle { failing: self, at: Some([x, e]) }
+    }
+
+    /// Larger ones come closer to a certificate.
+    fn rank(self) -> u8 {
+        match self {
+            Failing::Magnitude(_) => 0,
+            Failing::NotFinite(_) => 1,
+            Failing::Existence => 2,
+            Failing::DomainX => 3,
+            Failing::DomainE => 4,
+            Failing::Curvature => 5,
+            Failing::Coupling => 6,
+            Failing::Gain { .. } => 7,
+            Failing::Hold { .. } => 8,
+            Failing::Sampling => 9,
+            Failing::Samples => 10,
+            Failing::Bounds => 11,
+        }
+    }
+}
+
+impl Obstacle {
+    /// The one of two that came closer; of two of a kind that with the smaller arguments, then the first.
+    fn closer(self, other: Obstacle) -> Obstacle {
+        let size = |obstacle: &Obstacle| obstacle.at.map_or(f64::INFINITY, |[x, e]| x.max(e));
+        let (rank, others) = (self.failing.rank(), other.failing.rank());
+        if others > rank || (others == rank && size(&other) < size(&self)) { other } else { self }
+    }
+
+    /// What failed and where, for reports.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let place = self.at.map_or_else(String::new, |[x, e]| format!(" (X = {}, E = {})", short(x), short(e)));
+        match self.failing {
+            Failing::Magnitude(extreme) => {
+                let what = match extreme {
+                    Extreme::Number(name, value) => format!("{name} = {}", short(value)),
+                    Extreme::Bound(bound) => format!("the bounding function {} at X = E = 0", bound.field()),
+                };
+                format!("{what} is beyond the range of double precision, in which the search works")
+            }
+            Failing::NotFinite(Some(bound)) => format!(
+                "the bounding function {} has no finite value at the arguments of any candidate that was tried; the \
+                 smallest were{place}",
+                bound.field()
+            ),
+            Failing::NotFinite(None) => format!(
+                "a number of the proof is beyond the range of double precision for every candidate that was tried{place}"
+            ),
+            Failing::Existence => {
+                format!("existence: no set was found that the map of the proof takes into itself{place}")
+            }
+            Failing::DomainX => format!("domain X: the error box around the initial set leaves it{place}"),
+            Failing::DomainE => format!("domain E: the error box around the initial set leaves it{place}"),
+            Failing::Curvature => {
+                format!("C5: a_2 <= 0, the nonlinearity over the error box takes all of the decay rate{place}")
+            }
+            Failing::Coupling => format!("C5: (h/mu) k_x^2 >= 4 w_x a_2{place}"),
+            Failing::Gain { given, smallest: Some((smallest, binding)) } => format!(
+                "the gain {} is below the smallest one that is found, about {}, which is set by {}",
+                short(given),
+                short(smallest),
+                binding.describe()
+            ),
+            Failing::Gain { given, smallest: None } => format!(
+                "C5: the gain {} is below the threshold of the quadratic form for every error box that was tried{place}",
+                short(given)
+            ),
+            Failing::Hold { sigma, largest, given: true } => {
+                format!("h sigma > 1: the gain is {}, and 1/h is {}", short(sigma), short(largest))
+            }
+            Failing::Hold { sigma, largest, given: false } => format!(
+                "h sigma > 1 for every gain that may do: even in continuous time the smallest one that is found is about \
+                 {}, and 1/h is {}",
+                short(sigma),
+                short(largest)
+            ),
+            Failing::Sampling => {
+                format!("C5h: the decay from sample to sample is not positive for any error box that was tried{place}")
+            }
+            Failing::Samples => "a period would need more samples than are taken".to_owned(),
+            Failing::Bounds => {
+                format!("the bounding functions are not proved up to the arguments of the proof that was found{place}")
+            }
+        }
+    }
+}
+
+/// Four digits.
+fn short(value: f64) -> String {
+    round_f64(value, 4, Direction::Nearest).map_or_else(|| value.to_string(), |value| write_exact(&value))
+}
+
+/// The obstacle of the candidate that came closest: only what was recorded can be told.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Closest(Option<Obstacle>);
+
+impl Closest {
+    /// Records an obstacle.
+    pub fn record(&mut self, obstacle: Obstacle) {
+        self.0 = Some(self.0.map_or(obstacle, |known| known.closer(obstacle)));
+    }
+
+    /// What was found, or else the obstacle; where none was recorded, nothing was tried, for want of a finite number to start from.
+    ///
+    /// # Errors
+    /// The obstacle.
+    pub fn or<T>(self, found: Option<T>) -> Result<T, Obstacle> {
+        found.ok_or_else(|| self.0.unwrap_or(Failing::NotFinite(None).into()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_closest_one_is_told_and_no_start_value() {
+        let mut closest = Closest::default();
+        closest.record(Failing::NotFinite(Some(Bound::Qe)).at(3.0, 4.0));
+        closest.record(Failing::NotFinite(Some(Bound::Fe)).at(1.0, 2.0));
+        closest.record(Failing::NotFinite(Some(Bound::Qx)).at(5.0, 2.0));
+        assert_eq!(closest.or(None::<()>), Err(Failing::NotFinite(Some(Bound::Fe)).at(1.0, 2.0)));
+        closest.record(Failing::Curvature.at(7.0, 8.0));
+        closest.record(Failing::Existence.at(0.1, 0.1));
+        assert_eq!(closest.or(None::<()>), Err(Failing::Curvature.at(7.0, 8.0)));
+        assert_eq!(closest.or(Some(1)), Ok(1));
+        let told = closest.or(None::<()>).unwrap_err().describe();
+        assert!(told.contains("a_2 <= 0") && told.contains("X = 7, E = 8"), "{told}");
+    }
+}

@@ -1,0 +1,287 @@
+//! The smallest set in which a periodic solution is proved to exist, at one sigma (derivation, 10.3 and 10.4).
+//!
+//! S1 and S2 say that a map G of (X_p, E_p, r_x, r_e, r_d) has G(w) <= w. G is nondecreasing, so of all such w the least fixed
+//! point is the smallest, in every component at once; and everything that section 5 makes of w grows with it. So nothing is
+//! left to choose: the iteration of G from below finds it.
+
+use super::model::FloatModel;
+use super::obstacle::{Failing, Obstacle};
+use sigmastar_exact::number::Portable;
+use sigmastar_theory::data::Problem;
+use sigmastar_theory::derivation::harmonics::AtOrigin;
+use sigmastar_theory::derivation::mean_squares::{
+    DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, Response, SetBounds, at_the_solution,
+    sup_by_mean_squares,
+};
+use sigmastar_theory::derivation::sampled::{SampledGains, SampledLaw};
+
+/// Which form of S2 existence is sought with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ExistenceForm {
+    /// That of 10.3.
+    Plain,
+    /// That of 10.4, with this share of (b_qe - m)/2 as kap.
+    Damped(f64),
+}
+
+/// What the set may not be smaller than, where nothing else keeps it open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floors {
+    /// Of X_p.
+    pub x_p: f64,
+    /// Of E_p.
+    pub e_p: f64,
+}
+
+/// A set with a periodic solution, and its size.
+#[derive(Clone, Debug)]
+pub struct PeriodicSet {
+    /// X_p.
+    pub x_p: f64,
+    /// E_p.
+    pub e_p: f64,
+    /// r_x, r_e, r_d of existence.
+    pub squares: MeanSquares<f64>,
+    /// kap.
+    pub kap: f64,
+    /// Smaller ones, where kap > 0.
+    pub refined: Option<MeanSquares<f64>>,
+    /// x_per.
+    pub x_per: f64,
+    /// e_per.
+    pub e_per: f64,
+    /// Z.
+    pub z: f64,
+    /// k0, k1 and K.
+    pub pair: (f64, f64, u32),
+}
+
+/// Steps of the iteration at most.
+const STEPS: usize = 1000;
+
+/// The largest relative step at which it has converged.
+const NEAR: f64 = 1e-14;
+
+/// Every so many steps, the limit of a geometric sequence is tried.
+const LEAP_EVERY: usize = 12;
+
+/// How far beyond the limit, as shares of the distance to it; the steps from there lead down to it.
+const BEYOND: [f64; 4] = [1e-9, 1e-6, 1e-3, 0.1];
+
+/// Mean squares are at least this share of the suprema: they have to be positive.
+const SMALLEST_SHARE: f64 = 1e-12;
+
+/// (X_p, E_p, r_x, r_e, r_d).
+type Point = [f64; 5];
+
+/// What the regulator makes of a periodic q.
+#[derive(Clone, Copy)]
+enum Regulated<'a> {
+    /// In continuous time.
+    Continuous { gains: &'a ErrorGains<f64>, form: ExistenceForm },
+    /// At samples.
+    Sampled(&'a SampledGains<f64>),
+}
+
+/// The iteration at one sigma.
+struct Iteration<'a> {
+    model: &'a FloatModel,
+    origin: &'a AtOrigin<f64>,
+    regulated: Regulated<'a>,
+    floors: Floors,
+    /// 1 + the room that is left between both sides of every inequality.
+    enlarged: f64,
+}
+
+impl Iteration<'_> {
+    /// (1 + room) G, not below the floors.
+    fn image(&self, [x_p, e_p, x, e, e_rate]: Point) -> Result<Point, Obstacle> {
+        if x_p > self.model.domain.0 {
+            return Err(Failing::DomainX.at(x_p, e_p));
+        }
+        if e_p > self.model.domain.1 {
+            return Err(Failing::DomainE.at(x_p, e_p));
+        }
+        let bounds = SetBounds::new(self.model, x_p, e_p);
+        if bounds.rate <= 0.0 {
+            return Err(Failing::Existence.at(x_p, e_p));
+        }
+        let squares = MeanSquares { x, e, e_rate };
+        let by_squares = sup_by_mean_squares(self.model, &squares);
+        let kap = self.kap(&bounds);
+        let forcing = || Forcing::new(&bounds, self.origin, &squares);
+        let undamped = |response: Response<f64>| [response.sup.min(by_squares), response.rms, response.rate_rms];
+        let [sup, rms, rate_rms] = match self.regulated {
+            Regulated::Continuous { gains, .. } if kap > 0.0 => {
+                let damped = DampedResponse::new(&bounds, self.origin, [&gains.sigma, &kap], &squares);
+                [by_squares, damped.rms, damped.rate_rms]
+            }
+            Regulated::Continuous { gains, .. } => undamped(gains.response(self.origin, &forcing())),
+            Regulated::Sampled(gains) => undamped(gains.response(self.origin, &forcing())),
+        };
+        let next = [bounds.x_sup(&squares), sup, bounds.x_rms(&squares), rms, rate_rms].map(|v| v * self.enlarged);
+        if !next.iter().all(|value| value.is_finite() && *value < 1e140) {
+            return Err(if next.iter().any(|value| value.is_nan()) {
+                self.model.not_finite(x_p, e_p)
+            } else {
+                Failing::Existence.at(x_p, e_p)
+            });
+        }
+        let [x_p, e_p] = [next[0].max(self.floors.x_p), next[1].max(self.floors.e_p)];
+        let least = |share: f64, of: f64| share.max(SMALLEST_SHARE * of);
+        let rate = e_p / self.model.period;
+        Ok([x_p, e_p, least(next[2], x_p), least(next[3], e_p), least(next[4], rate)])
+    }
+
+    /// The smallest set, with mean squares that `refine` makes smaller.
+    fn set(
+        &self,
+        gains: &impl Gains<f64>,
+        refine: impl Fn(&Self, &SetBounds<f64>, f64) -> Option<MeanSquares<f64>>,
+    ) -> Result<PeriodicSet, Obstacle> {
+        let model = self.model;
+        let [x_p, e_p, x, e, e_rate] = self.least()?;
+        let bounds = SetBounds::new(model, x_p, e_p);
+        let squares = MeanSquares { x, e, e_rate };
+        let kap = self.kap(&bounds);
+        let refined = refine(self, &bounds, kap);
+        let size = PeriodicSize::new(model, &bounds, self.origin, gains, refined.as_ref().unwrap_or(&squares));
+        let pair = cheapest_pair(model, &size.forcing);
+        let z = gains.z_squared(model, &size.forcing, [&pair.0, &pair.1]).sqrt();
+        if !z.is_finite() {
+            return Err(model.not_finite(x_p, e_p));
+        }
+        Ok(PeriodicSet { x_p, e_p, squares, kap, refined, x_per: size.x_per, e_per: size.e_per, z, pair })
+    }
+
+    fn kap(&self, bounds: &SetBounds<f64>) -> f64 {
+        match self.regulated {
+            Regulated::Continuous { form: ExistenceForm::Damped(share), .. } => {
+                share * 0.5 * (bounds.q_e - bounds.q_e_max).max(0.0)
+            }
+            Regulated::Continuous { form: ExistenceForm::Plain, .. } | Regulated::Sampled(_) => 0.0,
+        }
+    }
+
+    /// The least fixed point; where it is approached slowly, a point above it that G maps below itself.
+    fn least(&self) -> Result<Point, Obstacle> {
+        let mut at = self.image([self.floors.x_p, self.floors.e_p, 0.0, 0.0, 0.0])?;
+        let mut before: Option<Point> = None;
+        for step in 1..STEPS {
+            let next = self.image(at)?;
+            if change(&at, &next) <= NEAR {
+                return Ok(next);
+            }
+            if let Some(before) = before.filter(|_| step % LEAP_EVERY == 0)
+                && let Some(found) = self.leap([before, at, next])
+            {
+                return Ok(found);
+            }
+            before = Some(at);
+            at = next;
+        }
+        Err(Failing::Existence.at(at[0], at[1]))
+    }
+
+    /// A little beyond the limit of a geometric sequence through three points, if G maps it below itself.
+    fn leap(&self, points: [Point; 3]) -> Option<Point> {
+        BEYOND.into_iter().find_map(|beyond| self.leap_beyond(points, beyond))
+    }
+
+    /// The same, beyond the limit by a share of the distance to it.
+    fn leap_beyond(&self, [first, second, third]: [Point; 3], beyond: f64) -> Option<Point> {
+        let mut limit = third;
+        for (index, value) in limit.iter_mut().enumerate() {
+            let (older, newer) = (second[index] - first[index], third[index] - second[index]);
+            let ratio = newer / older;
+            if older > 0.0 && newer > 0.0 && ratio < 1.0 {
+                *value += newer * ratio / (1.0 - ratio) * (1.0 + beyond);
+            }
+            *value *= 1.0 + 1e-13;
+        }
+        // From there down, which removes what it is too large; every point on the way is as good.
+        let mut at = limit;
+        for _ in 0..STEPS {
+            let next = self.image(at).ok()?;
+            if next.iter().zip(&at).any(|(next, at)| *next > at * (1.0 + NEAR)) {
+                return None;
+            }
+            let done = change(&at, &next) <= NEAR;
+            at = next;
+            if done {
+                break;
+            }
+        }
+        Some(at)
+    }
+
+    /// The least mean squares with `(1 + room) G(r) = r` at fixed X_p, E_p and kap, from both forms together.
+    fn refined(&self, gains: &ErrorGains<f64>, bounds: &SetBounds<f64>, kap: f64) -> Option<MeanSquares<f64>> {
+        let [x, e, e_rate] = [bounds.x_p, bounds.e_p, bounds.e_p / self.model.period].map(|of| SMALLEST_SHARE * of);
+        let least = MeanSquares { x, e, e_rate };
+        let mut at = least.clone();
+        for _ in 0..STEPS {
+            let next = at_the_solution(bounds, self.origin, gains, Some(&kap), &at);
+            let next =
+                [(&next.x, x), (&next.e, e), (&next.e_rate, e_rate)].map(|(v, low)| (v * self.enlarged).max(low));
+            let done = change(&[at.x, at.e, at.e_rate], &next) <= NEAR;
+            let [x, e, e_rate] = next;
+            at = MeanSquares { x, e, e_rate };
+            if done {
+                break;
+            }
+        }
+        // Where it has not converged, the next to the last digits are missing: the mean squares of existence serve.
+        let image = at_the_solution(bounds, self.origin, gains, Some(&kap), &at);
+        let below = [(image.x, at.x), (image.e, at.e), (image.e_rate, at.e_rate)];
+        below.into_iter().all(|(image, at)| image < at).then_some(at)
+    }
+}
+
+/// The largest relative change of a component.
+fn change<const N: usize>(from: &[f64; N], to: &[f64; N]) -> f64 {
+    from.iter().zip(to).map(|(a, b)| ((b - a) / b).abs()).fold(0.0, f64::max)
+}
+
+impl PeriodicSet {
+    /// The smallest set at sigma, with so much room (relatively) between both sides of S1 and S2.
+    ///
+    /// # Errors
+    /// The obstacle where there is none.
+    pub fn least(
+        model: &FloatModel,
+        origin: &AtOrigin<f64>,
+        sigma: f64,
+        (form, floors): (ExistenceForm, Floors),
+        room: f64,
+    ) -> Result<PeriodicSet, Obstacle> {
+        let gains = ErrorGains::new(model, &sigma);
+        let regulated = Regulated::Continuous { gains: &gains, form };
+        Iteration { model, origin, regulated, floors, enlarged: 1.0 + room }
+            .set(&gains, |iteration, bounds, kap| if kap > 0.0 { iteration.refined(&gains, bounds, kap) } else { None })
+    }
+
+    /// The same under the law at samples.
+    ///
+    /// # Errors
+    /// The obstacle where there is none.
+    pub fn least_sampled(
+        model: &FloatModel,
+        origin: &AtOrigin<f64>,
+        (law, sigma): (&SampledLaw<f64>, f64),
+        floors: Floors,
+        room: f64,
+    ) -> Result<PeriodicSet, Obstacle> {
+        let gains = SampledGains::new(law, &sigma, &model.period);
+        let regulated = Regulated::Sampled(&gains);
+        Iteration { model, origin, regulated, floors, enlarged: 1.0 + room }.set(&gains, |_, _, _| None)
+    }
+}
+
+/// The pair that makes Z smallest.
+fn cheapest_pair(model: &FloatModel, forcing: &Forcing<f64>) -> (f64, f64, u32) {
+    // What a unit of k0 and of k1 adds to Z^2.
+    let [by_size, by_rate] =
+        model.numbers().kappas(&forcing.q_rms.portable_powi(2), &forcing.q_rate_rms.portable_powi(2));
+    model.trade_off.best(by_size, by_rate)
+}

@@ -1,0 +1,101 @@
+//! From exact numbers to doubles, each rounded once.
+
+use super::{Discrete, Regulator};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::{Constant, InternalModel, SampledGain};
+
+/// The most oscillators that are exported: the matrices are written out in full.
+pub const MAX_EXPORTED_OSCILLATORS: u32 = 1000;
+
+/// Bits at which the entries are enclosed before they are rounded. An entry such as 1 - cos(l w dt) loses twice as
+/// many bits as l w dt has leading zeros, and none of that may show in 53.
+pub(super) const PRECISION: u32 = 512;
+
+/// A regulator with its numbers exact: an internal model, a gain, a number of oscillators.
+#[derive(Clone, Debug)]
+pub struct Design<'m> {
+    pub(super) model: &'m InternalModel,
+    pub(super) sigma: &'m Constant,
+    pub(super) n_o: u32,
+}
+
+impl<'m> Design<'m> {
+    /// The regulator of an internal model with the gain sigma and n_o oscillators.
+    #[must_use]
+    pub fn new(model: &'m InternalModel, sigma: &'m Constant, n_o: u32) -> Design<'m> {
+        Design { model, sigma, n_o }
+    }
+
+    /// The regulator in double precision.
+    ///
+    /// Guarantee: each parameter is the exact one rounded once (up to a double rounding of 2^-450).
+    #[must_use]
+    pub fn regulator(&self) -> Regulator {
+        Regulator {
+            sigma: self.sigma.enclose(PRECISION).midpoint_f64(),
+            mu: self.model.mu.enclose(PRECISION).midpoint_f64(),
+            frequencies: self.frequencies().iter().map(Enclosure::midpoint_f64).collect(),
+            weights: self.weights().iter().map(Enclosure::midpoint_f64).collect(),
+        }
+    }
+
+    /// The law of section 12 of the derivation for a sampling time h > 0, e measured at the samples and u held between
+    /// them. [`Discrete`] states it.
+    ///
+    /// With a = l w h: R = e^(Phi h) has the blocks [[cos a, sin a], [-sin a, cos a]], so that R M = (cos a, -sin a) in
+    /// block l, and 1 in the integrator. Guarantee: K is the double itself, with K h Nb2 < 2 proved for the double Nb2,
+    /// which is not below the sum of all weights; each other entry is the exact one for that K, rounded once.
+    ///
+    /// `None` where that is not to be had in double precision: h mu times the sum of the weights is beyond 2^50.
+    #[must_use]
+    pub fn discretise(&self, step: &Constant) -> Option<Discrete> {
+        self.discretise_with(step, &self.model.sampled_gain(step)?)
+    }
+
+    /// The same law with another K and Nb2, taken as they are: nothing is proved of them here. `None` where they are beyond
+    /// double precision.
+    #[must_use]
+    pub fn discretise_with(&self, step: &Constant, law: &SampledGain) -> Option<Discrete> {
+        let (gain, weight_sum) = (law.gain.to_f64(), law.weight_sum.to_f64());
+        let exact_gain = Enclosure::from_rational(&Rational::from_f64(gain)?, PRECISION);
+        let step = step.enclose(PRECISION);
+        let sigma = self.sigma.enclose(PRECISION);
+        let product = &sigma * &step;
+        let weights = self.weights();
+        let (mut rotations, mut input) = (Vec::new(), vec![(-&product).midpoint_f64()]);
+        let mut output = vec![(&exact_gain * &weights[0]).midpoint_f64()];
+        let mut direct = weights[0].clone();
+        for (frequency, weight) in self.frequencies().iter().zip(&weights[1..]) {
+            let angle = frequency * &step;
+            let (sine, cosine) = (angle.sin(), angle.cos());
+            // 1 - cos a = 2 sin^2(a/2), which cancels nothing.
+            let versine = 2 * (angle / 2).sin().sqr();
+            input.extend([(&versine - &product).midpoint_f64(), sine.midpoint_f64()]);
+            let scaled = &exact_gain * weight;
+            output.extend([(&scaled * &cosine).midpoint_f64(), (&scaled * &sine).midpoint_f64()]);
+            direct = &direct + &(weight * &cosine);
+            rotations.push([cosine.midpoint_f64(), sine.midpoint_f64()]);
+        }
+        Some(Discrete {
+            step: step.midpoint_f64(),
+            gain,
+            weight_sum,
+            decay: (Enclosure::one(PRECISION) - product).midpoint_f64(),
+            rotations,
+            input,
+            output,
+            feedthrough: (-(sigma + exact_gain * direct)).midpoint_f64(),
+            saturation: None,
+        })
+    }
+
+    fn weights(&self) -> Vec<Enclosure> {
+        (0..=u64::from(self.n_o)).map(|l| self.model.weights.weight(l, PRECISION)).collect()
+    }
+
+    pub(super) fn frequencies(&self) -> Vec<Enclosure> {
+        let base = self.model.base_frequency.enclose(PRECISION);
+        (1..=i64::from(self.n_o)).map(|l| l * &base).collect()
+    }
+}

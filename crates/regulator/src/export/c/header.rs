@@ -1,0 +1,58 @@
+//! The header of exported C code.
+
+use super::literal::hexadecimal;
+use super::{Prefix, harmless};
+use crate::export::notice::comment;
+use crate::export::{Export, decimal, notice};
+use crate::{Convergence, Discrete};
+
+/// The header, with what is claimed and what is not in front.
+pub(super) fn header(
+    export: &Export<'_>,
+    discrete: &Discrete,
+    sampled: Convergence,
+    prefix: &Prefix,
+    id: &str,
+) -> String {
+    let regulator = export.regulator;
+    let n_o = regulator.oscillators().unwrap_or(0);
+    let (dimension, upper) = (regulator.dimension(), prefix.upper());
+    let mut words = vec![
+        format!("Regulator for: {}", export.name),
+        format!(
+            "sigma = {}, mu = {}, n_o = {n_o}, sampling time h = {}, K = {} (mu/(1 + h mu Nbar^2/2)).",
+            decimal(regulator.sigma),
+            decimal(regulator.mu),
+            decimal(discrete.step),
+            decimal(discrete.gain),
+        ),
+        format!("In floating point, {sampled}."),
+    ];
+    words.extend(notice(export));
+    words.push(format!(
+        "Call {prefix}_step once per sample with the measured error; apply the control that it returns."
+    ));
+    let words: Vec<String> = words.iter().map(|line| harmless(line)).collect();
+    let saturation = discrete.saturation.map_or_else(String::new, |limit| {
+        format!("#define {upper}_SATURATION {} /* {} */\n", hexadecimal(limit), decimal(limit))
+    });
+    format!(
+        "/*\n{}\x20*/\n\
+         #ifndef {upper}_CONTROLLER_H\n\
+         #define {upper}_CONTROLLER_H\n\n\
+         #define {upper}_CONTROLLER_ID {id}\n\
+         #define {upper}_OSCILLATORS {n_o}\n\
+         #define {upper}_STATES {dimension}\n\
+         #define {upper}_SAMPLING_TIME {} /* {} */\n{saturation}\n\
+         typedef struct {{\n    double z[{upper}_STATES];\n}} {prefix}_controller;\n\n\
+         #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
+         /* Sets the state to rest (z = 0). */\n\
+         void {prefix}_reset({prefix}_controller *controller);\n\n\
+         /* Takes the error of this sample, returns the control for it, and moves the state to the next sample. */\n\
+         double {prefix}_step({prefix}_controller *controller, double e);\n\n\
+         #ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
+        comment(&words, " * "),
+        hexadecimal(discrete.step),
+        decimal(discrete.step),
+    )
+}

@@ -1,0 +1,67 @@
+//! Reading the law at samples back from the JSON export of a regulator.
+
+use super::Discrete;
+use super::export::VERSION;
+use super::read::positive;
+use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
+
+/// Reads the law at samples back, every number the double that was written; `None` where the file has none, or is of version 1,
+/// which had another law.
+///
+/// # Errors
+/// A field that is missing, unknown, or no finite number, in its place.
+pub fn read_discrete(document: &Document) -> Result<Option<Discrete>, SpecErrors> {
+    let mut errors = Errors::new();
+    let outcome = discrete(&document.root(), &mut errors);
+    errors.conclude(document, outcome)
+}
+
+fn discrete(root: &Value<'_>, errors: &mut Errors) -> Result<Option<Discrete>, Reported> {
+    let current = root.member("version").is_some_and(|version| version.numeral() == Some(&VERSION.to_string()));
+    let Some(law) = root.member("discrete").filter(|law| current && law.type_name() != "null") else { return Ok(None) };
+    let mut file = law.object(errors)?;
+    for told in ["hold", "law", "sampled_loop"] {
+        let _ = file.optional(told);
+    }
+    let single = |file: &mut Object<'_>, name, errors: &mut Errors| {
+        file.required(name, errors).and_then(|value| number(&value, errors))
+    };
+    let [step, gain, weight_sum, decay, feedthrough] =
+        ["step", "K", "weight_sum", "decay", "D"].map(|name| single(&mut file, name, errors));
+    let [input, output] =
+        ["Gamma", "C"].map(|name| file.required(name, errors).and_then(|value| numbers(&value, errors)));
+    let phi = file.required("Phi", errors).and_then(|value| {
+        let rows: Vec<_> = value.array(errors)?.iter().map(|row| numbers(row, errors)).collect();
+        rows.into_iter().collect::<Result<Vec<Vec<f64>>, Reported>>()
+    });
+    let saturation = file.optional("saturation").filter(|value| value.type_name() != "null");
+    let saturation = saturation.map(|value| positive(&value, errors)).transpose();
+    file.finish(errors);
+    let (phi, input, output) = (phi?, input?, output?);
+    let block = |l: usize| Some([*phi.get(2 * l + 1)?.get(2 * l + 1)?, *phi.get(2 * l + 1)?.get(2 * l + 2)?]);
+    let rotations: Option<Vec<[f64; 2]>> = (0..input.len() / 2).map(block).collect();
+    let Some(rotations) = rotations.filter(|_| input.len() % 2 == 1 && output.len() == input.len()) else {
+        let error = law.error(ErrorKind::Range, "`Phi`, `Gamma` and `C` are of different dimensions");
+        return Err(errors.report(error.expected("expected 2 n_o + 1 each")));
+    };
+    Ok(Some(Discrete {
+        step: step?,
+        gain: gain?,
+        weight_sum: weight_sum?,
+        decay: decay?,
+        rotations,
+        input,
+        output,
+        feedthrough: feedthrough?,
+        saturation: saturation?,
+    }))
+}
+
+fn numbers(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<f64>, Reported> {
+    let read: Vec<Result<f64, Reported>> = value.array(errors)?.iter().map(|value| number(value, errors)).collect();
+    read.into_iter().collect()
+}
+
+fn number(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
+    Ok(any_constant(value, errors)?.to_f64())
+}

@@ -1,0 +1,168 @@
+//! Which sampling times cannot work, decided with exact numbers or outward rounding.
+
+use super::Design;
+use super::design::PRECISION;
+use rug::{Float, Rational};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::Monomial;
+use sigmastar_lang::spec::Constant;
+use std::cmp::Ordering;
+use thiserror::Error;
+
+/// Why a regulator is known to work badly, or not at all, at a sampling time.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum SamplingError {
+    /// h sigma is not proved to be at most 1.
+    #[error("h sigma = {product:.6} with the sampling time h: above 1 the error changes its sign from sample to sample{}",
+        if *.product < 2.0 { "" } else { ", and from 2 on it grows" })]
+    TooSlowForSigma {
+        /// h sigma.
+        product: f64,
+        /// 1/sigma, rounded down.
+        below: f64,
+    },
+    /// The fastest oscillator is not proved to turn by less than half a turn in a sample.
+    #[error(
+        "oscillator {n_o} turns by {turns:.6} of a turn in a sample: from 1/2 on (2 n_o h >= T, with T = 2 pi/base_frequency) \
+         the samples cannot tell it from a slower one"
+    )]
+    Aliasing {
+        /// n_o.
+        n_o: u32,
+        /// n_o w h/(2 pi).
+        turns: f64,
+        /// pi/(n_o w), rounded down.
+        below: f64,
+        /// The number of oscillators that this sampling time serves.
+        oscillators: u32,
+    },
+}
+
+impl SamplingError {
+    /// What to try.
+    #[must_use]
+    pub fn way_out(&self) -> String {
+        match self {
+            SamplingError::TooSlowForSigma { below, .. } => {
+                format!("take a sampling time well below 1/sigma = {below:.6e}, or a smaller sigma")
+            }
+            SamplingError::Aliasing { below, oscillators, .. } => {
+                format!("take a sampling time well below {below:.6e}, or at most {oscillators} oscillators")
+            }
+        }
+    }
+}
+
+impl Design<'_> {
+    /// What is bad about a sampling time h; empty where n_o w h < pi and h sigma <= 1 are proved.
+    #[must_use]
+    pub fn sampling_errors(&self, step: &Constant) -> Vec<SamplingError> {
+        self.too_slow(step).into_iter().chain(self.aliasing(step)).collect()
+    }
+
+    /// Whether the sampled loop on e' = u is proved to converge, in exact arithmetic (derivation, section 12): without input
+    /// e is multiplied by 1 - h sigma, and the energy of zeta falls as long as no two modes turn alike, since K h Nb2 < 2.
+    #[must_use]
+    pub fn converges(&self, step: &Constant) -> bool {
+        let product = self.sigma.enclose(PRECISION) * step.enclose(PRECISION);
+        product.lt(&Enclosure::from_integer(2, PRECISION)).is_true() && self.aliasing(step).is_none()
+    }
+
+    /// The number of samples in the period T = 2 pi/base_frequency, where it is not a whole one (as far as that can be told).
+    #[must_use]
+    pub fn uneven_samples(&self, step: &Constant) -> Option<f64> {
+        let base = &self.model.base_frequency;
+        let turn = Monomial::pi().mul(&Monomial::rational(Rational::from(2)));
+        let exact = base.exact.as_ref().zip(step.exact.as_ref()).zip(turn);
+        let samples = match exact.and_then(|((base, step), turn)| turn.div(base)?.div(step)) {
+            Some(samples) if samples.as_rational().is_some_and(|samples| *samples.denom() == 1) => return None,
+            Some(samples) => samples.enclose(PRECISION),
+            None => {
+                let samples = Enclosure::pi(PRECISION) * 2 / (base.enclose(PRECISION) * step.enclose(PRECISION));
+                let nearest = Rational::try_from(Float::with_val(PRECISION, samples.lower()).round()).ok()?;
+                if samples.contains(&nearest) {
+                    return None;
+                }
+                samples
+            }
+        };
+        Some(samples.midpoint_f64())
+    }
+
+    fn too_slow(&self, step: &Constant) -> Option<SamplingError> {
+        let exact = self.sigma.exact.as_ref().zip(step.exact.as_ref()).and_then(|(sigma, step)| sigma.mul(step));
+        let one = Monomial::rational(Rational::from(1));
+        let sigma = self.sigma.enclose(PRECISION);
+        let product = &sigma * step.enclose(PRECISION);
+        let fast = match exact.and_then(|product| product.compare(&one)) {
+            Some(ordering) => ordering != Ordering::Greater,
+            None => product.le(&Enclosure::one(PRECISION)).is_true(),
+        };
+        let below = (Enclosure::one(PRECISION) / sigma).lower_f64();
+        (!fast).then(|| SamplingError::TooSlowForSigma { product: product.midpoint_f64(), below })
+    }
+
+    fn aliasing(&self, step: &Constant) -> Option<SamplingError> {
+        let (base, step) = (self.model.base_frequency.enclose(PRECISION), step.enclose(PRECISION));
+        let (n_o, pi) = (self.n_o, Enclosure::pi(PRECISION));
+        let angle = &(i64::from(n_o) * &base) * &step;
+        if angle.lt(&pi).is_true() {
+            return None;
+        }
+        // n_o >= 1 here: the angle 0 is below pi.
+        let most = (&pi / &(&base * &step)).lower_f64();
+        let oscillators = (most.ceil() - 1.0).clamp(0.0, f64::from(n_o - 1)) as u32;
+        let turns = (&angle / &(&pi * 2)).midpoint_f64();
+        let below = (pi / (i64::from(n_o) * &base)).lower_f64();
+        Some(SamplingError::Aliasing { n_o, turns, below, oscillators })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sigmastar_lang::spec::Specification;
+
+    fn constant(numerator: i64, denominator: i64) -> Constant {
+        Constant::rational(&Rational::from((numerator, denominator)))
+    }
+
+    fn example() -> Specification {
+        Specification::from_json("example", include_str!("../../../specs/paper-example.json")).unwrap()
+    }
+
+    #[test]
+    fn sampling_times_that_cannot_work() {
+        let spec = example();
+        let check = |sigma: i64, n_o: u32, step: (i64, i64)| {
+            let (sigma, step) = (constant(sigma, 1), constant(step.0, step.1));
+            let design = Design::new(&spec.internal_model, &sigma, n_o);
+            (design.sampling_errors(&step), design.converges(&step))
+        };
+        assert_eq!(check(2, 4, (1, 10)), (vec![], true));
+        // h sigma = 1 is allowed, 2 n_o h = T is not.
+        assert_eq!(check(10, 4, (1, 10)), (vec![], true));
+        assert!(
+            matches!(check(11, 4, (1, 10)), (errors, true) if matches!(errors[..], [SamplingError::TooSlowForSigma { .. }]))
+        );
+        assert!(
+            matches!(check(20, 4, (1, 10)), (errors, false) if errors.len() == 1 && errors[0].to_string().contains("grows"))
+        );
+        for n_o in [5, 9] {
+            let (errors, converges) = check(2, n_o, (1, 10));
+            assert!(matches!(errors[..], [SamplingError::Aliasing { oscillators: 4, .. }]) && !converges, "{n_o}");
+        }
+        assert_eq!(check(58, 9, (1, 10)).0.len(), 2);
+        assert_eq!(check(2, 5, (99, 1000)), (vec![], true));
+    }
+
+    #[test]
+    fn whole_numbers_of_samples() {
+        let (spec, sigma) = (example(), constant(1, 1));
+        let uneven = |numerator, denominator| {
+            Design::new(&spec.internal_model, &sigma, 1).uneven_samples(&constant(numerator, denominator))
+        };
+        assert_eq!((uneven(1, 50), uneven(1, 101), uneven(2, 1)), (None, None, Some(0.5)));
+        assert!(uneven(3, 100).is_some_and(|samples| (samples - 100.0 / 3.0).abs() < 1e-12));
+    }
+}

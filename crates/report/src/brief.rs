@@ -1,0 +1,123 @@
+//! The first lines of a report on a certified claim: the gain, from where, what to do next, what sets the gain, what is
+//! assumed. The sections below say more of each.
+
+use super::sensitivity;
+use super::verdict::assumed;
+use super::words;
+use sigmastar_document::Block;
+use sigmastar_document::number::{estimate, exact, upper};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certify::{Certification, Derivation, SampledCertification, claimed_ball};
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::targets::Consequences;
+
+/// The numbers of oscillators of which the error is said.
+const SHOWN: [u64; 3] = [0, 10, 100];
+
+/// Of a claim about the regulator in continuous time; nothing without one.
+pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences>, rechecked: bool) -> Vec<Block> {
+    let (Some(sigma), Some(set), Some(periodic), Some(error_box)) =
+        (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
+    else {
+        return Vec::new();
+    };
+    let sigma = write_exact(sigma);
+    let gain = match run.given_gain {
+        Some(_) => format!("sigma = {sigma} in 1/time, as it was given, or any larger; the same for every n_o"),
+        None => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
+    };
+    let next = match rechecked {
+        true => {
+            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the regulator"
+        }
+        false => {
+            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again with other code; `sigmastar controller \
+             FILE --n-o N` writes the regulator"
+        }
+    };
+    let mut facts = vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next.to_owned())];
+    facts.extend(set_by(run).map(|said| ("set by", said)));
+    // Where targets were given, their answers are above.
+    facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
+    facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper))));
+    facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
+    vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
+}
+
+/// Of a claim about the regulator at samples; nothing without one.
+pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec<Block> {
+    let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
+    let witness = &proof.witness;
+    // That gain stands exactly in the sentence above: the claim is about no other.
+    let gain = "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for \
+                faster samples"
+        .to_owned();
+    let next = match rechecked {
+        true => {
+            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the code"
+        }
+        false => {
+            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again; `sigmastar controller FILE --n-o N \
+             --format c -o FILE.c` writes the code"
+        }
+    };
+    let mut facts =
+        vec![("gain", gain), ("from", from(run.spec, &witness.set, "a sampling instant")), ("next", next.to_owned())];
+    facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
+    let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
+    facts.push(("to", to(run.spec, &periodic, radii)));
+    let of_the_computer = "no delay, rounding, quantisation or saturation";
+    facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
+    vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
+}
+
+/// What the norms are of, and whom a gain or a law serves.
+fn norms(spec: &Specification, what: &str) -> String {
+    match (spec.plant().is_some(), spec.state_name()) {
+        (true, Some(_)) => {
+            "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with the orbit x_0 and a matrix L.".to_owned()
+        }
+        (true, None) => "Here |z|_N = sqrt(z'Nz).".to_owned(),
+        (false, _) => {
+            format!("Here |z|_N = sqrt(z'Nz). The same {what} serves every plant that the bounding functions describe.")
+        }
+    }
+}
+
+/// The initial set, and of a plant the ball in it.
+fn from(spec: &Specification, set: &ClaimedSet, when: &str) -> String {
+    let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
+    let ball =
+        ball.map_or_else(String::new, |ball| format!("; so from |x - x_0| <= {}", exact(&ball, Direction::Down)));
+    format!("{}, at {when}{ball}", words::set(spec, set))
+}
+
+/// The periodic solution, and how far from it solutions go.
+fn to(spec: &Specification, periodic: &[Enclosure; 4], [d_x, d_e]: [String; 2]) -> String {
+    let [x, e, _, _] = periodic.each_ref().map(upper);
+    match spec.state_name() {
+        Some(state) => format!(
+            "a periodic solution with |{state}| <= {x}, |e| <= {e}; on the way {state} stays within {d_x} of it and e within \
+             {d_e}"
+        ),
+        None => format!("a periodic solution with |e| <= {e}; on the way e stays within {d_e} of it"),
+    }
+}
+
+/// The mechanism that asks for most of sigma*, and the datum that would lower it most.
+fn set_by(run: &Certification<'_>) -> Option<String> {
+    let binding = run.binding.filter(|_| run.options.derivation == Derivation::Sharp && run.given_gain.is_none())?;
+    let best = run.sensitivities.first().map(|(datum, gain)| {
+        format!("; {} lowers sigma* by about {} %", sensitivity::one_per_cent(run.spec, *datum), estimate(100.0 * gain))
+    });
+    Some(format!("{}{} (estimates)", binding.describe(), best.unwrap_or_default()))
+}
+
+/// The bounds of the error for a few n_o.
+fn error(consequences: &Consequences) -> Option<String> {
+    let shown = consequences.by_n_o.iter().filter(|(n_o, _)| SHOWN.contains(n_o));
+    let shown: Vec<String> = shown.map(|(n_o, bounds)| format!("{} with {n_o}", upper(&bounds.sup))).collect();
+    (!shown.is_empty()).then(|| format!("sup|e| at most {} oscillators", shown.join(", ")))
+}

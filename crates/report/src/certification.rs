@@ -1,0 +1,73 @@
+//! The report on a certification: what a person, or a script, reads about a run.
+
+use super::{
+    brief, conditions, consequences, constants, exact_regulation, json, matrix_checks, of_plant, printed,
+    relative_degree, sensitivity, sets, verdict,
+};
+use sigmastar_document::{Block, Readable, clean};
+use sigmastar_prove::certify::Certification;
+use sigmastar_theory::derivation::targets::{Consequences, Target};
+
+/// Everything that a report is made from.
+pub struct Report<'r> {
+    run: &'r Certification<'r>,
+    consequences: Option<Consequences>,
+    rechecked: bool,
+    unanswered: bool,
+}
+
+impl<'r> Report<'r> {
+    /// The report of a run, with answers to the targets.
+    ///
+    /// Guarantee: the certified figures in it follow from the conditions that the run proved; without a certified
+    /// claim there are none.
+    #[must_use]
+    pub fn new(run: &'r Certification<'r>, targets: &[Target]) -> Report<'r> {
+        let consequences = run.consequences(targets);
+        let unanswered = consequences.is_none() && !targets.is_empty();
+        Report { run, consequences, rechecked: false, unanswered }
+    }
+
+    /// The same report, of a run that decided a given witness again and searched for nothing.
+    #[must_use]
+    pub fn rechecked(mut self, rechecked: bool) -> Report<'r> {
+        self.rechecked = rechecked;
+        self
+    }
+}
+
+impl Readable for Report<'_> {
+    fn blocks(&self) -> Vec<Block> {
+        let run = self.run;
+        let name = clean(&run.spec.name);
+        let name = if name.is_empty() { "(no name)" } else { &name };
+        let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict))];
+        blocks.extend(verdict::section(run, self.rechecked));
+        if self.unanswered {
+            blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
+        }
+        blocks.extend(self.consequences.iter().flat_map(consequences::answers));
+        blocks.extend(brief::of_run(run, self.consequences.as_ref(), self.rechecked));
+        blocks.push(Block::Detail);
+        blocks.extend(verdict::detail(run));
+        blocks.extend(sets::section(run));
+        blocks.extend(of_plant::section(run.spec, run.claimed_set()));
+        blocks.extend(conditions::section(run));
+        blocks.extend(matrix_checks::section(run));
+        blocks.extend(constants::section(run));
+        // The printed formulas need data that are not computed from a plant's formulas.
+        if run.spec.plant().is_none() {
+            blocks.extend(printed::section(run, self.rechecked));
+        }
+        blocks.extend(sensitivity::section(run));
+        blocks.extend(self.consequences.iter().flat_map(|all| consequences::section(run.spec, all)));
+        blocks.extend(exact_regulation::section(run, self.rechecked));
+        blocks.extend(relative_degree::section(run));
+        blocks
+    }
+
+    /// As JSON: `{"format": "sigmastar/report", "version": 1, ...}`.
+    fn json(&self) -> serde_json::Value {
+        json::report(self.run, self.consequences.as_ref(), self.rechecked)
+    }
+}

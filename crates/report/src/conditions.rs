@@ -1,0 +1,45 @@
+//! The decided conditions with both sides.
+
+use sigmastar_document::number::{estimate, margin, pair};
+use sigmastar_document::{Block, Table};
+use sigmastar_prove::certify::Certification;
+use sigmastar_theory::derivation::condition::Condition;
+
+/// The conditions of the chosen derivation.
+pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+    of(&format!("Conditions of the {} derivation", run.options.derivation.name()), run.conditions())
+}
+
+/// The table of any conditions.
+pub(super) fn of(heading: &str, conditions: &[Condition]) -> Vec<Block> {
+    if conditions.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new(&["<", "left side", "<", "right side", "margin", "relative", "<"]);
+    let mut legend = Vec::new();
+    let mut previous = "";
+    for condition in conditions {
+        // Several conditions may share an identifier (the three of the set); the legend then follows their order.
+        let id = if condition.id == previous { String::new() } else { condition.id.to_owned() };
+        previous = condition.id;
+        table.push([
+            id,
+            pair(&condition.lhs),
+            condition.relation.to_string(),
+            pair(&condition.rhs),
+            margin(&condition.margin()),
+            estimate(condition.relative_margin()),
+            condition.truth().to_string(),
+        ]);
+        legend.push((condition.id, condition.what.clone()));
+    }
+    vec![
+        Block::heading(heading),
+        Block::says(
+            "Both sides are enclosed, rounded outward; the margin is right minus left, rounded down; the relative margin \
+             is an estimate. A margin near 0 is no weakness: at the smallest sigma some conditions are active.",
+        ),
+        Block::Table(table),
+        Block::facts(legend),
+    ]
+}

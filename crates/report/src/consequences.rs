@@ -1,0 +1,85 @@
+//! What a certified claim says about the regulated error, and the number of oscillators that a target needs.
+
+use sigmastar_document::number::upper;
+use sigmastar_document::plot::{Curve, Figure, Scale, Style};
+use sigmastar_document::{Block, Table, clean};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi};
+use sigmastar_theory::derivation::targets::{Consequences, Target, TargetOutcome};
+
+/// The section of the report.
+pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<Block> {
+    let mut blocks = vec![Block::heading("The regulated error"), Block::List(psi_items(spec, consequences))];
+    if consequences.matched {
+        let mut table = Table::new(&["n_o", "rms(e) at most", "sup|e| at most"]);
+        for (n_o, bounds) in &consequences.by_n_o {
+            table.push([n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)]);
+        }
+        blocks.push(Block::says(
+            "Bounds of the error along the periodic solution, at sigma* and for every larger sigma, by the number of \
+             oscillators. They follow from the claim, are computed with enclosures, and have no independent check:",
+        ));
+        blocks.push(Block::Table(table));
+        blocks.push(Block::Drawing(figure(consequences)));
+    } else {
+        blocks.push(Block::says(
+            "The base frequency is not asserted to be 2 pi / period (`\"matched\": true`), so nothing is certified \
+             about how the error decreases with the number of oscillators.",
+        ));
+    }
+    blocks
+}
+
+/// The answers to the targets, if there are any.
+pub(super) fn answers(consequences: &Consequences) -> Option<Block> {
+    let answers: Vec<String> = consequences.targets.iter().map(|(target, outcome)| answer(target, *outcome)).collect();
+    (!answers.is_empty()).then_some(Block::List(answers))
+}
+
+/// The bounds over n_o + 1, which is positive, so that both axes are logarithmic. It is drawn from doubles and claims nothing.
+fn figure(consequences: &Consequences) -> Figure {
+    let curve = |label: &str, of: fn(&ErrorBounds) -> &Enclosure| {
+        let points = consequences.by_n_o.iter().map(|(n_o, bounds)| (*n_o as f64 + 1.0, of(bounds).upper_f64()));
+        // A bound of 0 has no place on the axis.
+        let points = points.filter(|(_, bound)| *bound > 0.0).collect();
+        Curve { label: label.to_owned(), points, style: Style::Marked }
+    };
+    Figure {
+        title: "Bounds of the regulated error, at sigma* and above".to_owned(),
+        x: "n_o + 1 [pure number]".to_owned(),
+        y: "e [unit of e]".to_owned(),
+        scale: Scale::LogLog,
+        floor: 0.0,
+        curves: vec![curve("sup|e|", |bounds| &bounds.sup), curve("rms(e)", |bounds| &bounds.rms)],
+    }
+}
+
+fn psi_items(spec: &Specification, consequences: &Consequences) -> Vec<String> {
+    let Psi { psi_1, psi_x, psi_2 } = &consequences.psi;
+    let mut items = vec![format!("sup|e| <= psi_1/sigma with psi_1 = {}, for every n_o and mu", upper(psi_1))];
+    items.extend(
+        spec.state_name()
+            .map(|state| format!("sup|{state}| <= psi_x/sigma with psi_x = {}, for every n_o and mu", upper(psi_x))),
+    );
+    if consequences.matched {
+        items.push(format!("the integral of e^2 over a period <= psi_2/(n_o + 1)^2 with psi_2 = {}", upper(psi_2)));
+    }
+    items
+}
+
+fn answer(target: &Target, outcome: TargetOutcome) -> String {
+    let wanted = format!("{} <= {}", target.kind.name(), clean(&target.value.text));
+    match outcome {
+        TargetOutcome::Reached(n_o) => {
+            format!("Target {wanted}: certified with n_o = {n_o} oscillators (the smallest number for these bounds)")
+        }
+        TargetOutcome::NotReached => {
+            format!("Target {wanted}: not certified with any number of oscillators up to {MAX_OSCILLATORS}")
+        }
+        TargetOutcome::NotMatched => format!(
+            "Target {wanted}: no number of oscillators certifies it, because the base frequency is not asserted to be \
+             2 pi / period"
+        ),
+    }
+}

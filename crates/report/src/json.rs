@@ -1,0 +1,171 @@
+//! The report on a certification as JSON.
+
+use super::failures::{FORMAT, VERSION, errors_json};
+use super::matrix_checks::checks_json;
+use super::obstacles::advice;
+use super::of_plant::plant_json;
+use super::relative_degree::gains_json;
+use super::remarks::remarks;
+use super::sensitivity;
+use super::verdict::{basis, sentence};
+use rug::Rational;
+use serde_json::{Value, json};
+use sigmastar_document::number::{estimate, full};
+use sigmastar_exact::number::write_exact;
+use sigmastar_prove::certificate::{conditions_json, constants_json, no_plant_json};
+use sigmastar_prove::certify::{Certification, Outcome, Verdict};
+use sigmastar_prove::search::{Binding, OptionalDatum};
+use sigmastar_theory::derivation::condition::Condition;
+use sigmastar_theory::derivation::targets::{Consequences, TargetKind, TargetOutcome};
+
+/// The whole report: the same content as the text.
+pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences>, rechecked: bool) -> Value {
+    let mut report = json!({
+        "format": FORMAT, "version": VERSION,
+        "verdict": run.verdict.to_string(), "statement": sentence(run), "remarks": remarks(run),
+        "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": run.options.derivation.name(),
+        "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
+    });
+    if let (Some(sigma), Some(claimed), Some(periodic), Some(error_box)) =
+        (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
+    {
+        report["sigma_star"] = json!(write_exact(sigma));
+        report["given_gain"] = json!(run.given_gain.is_some());
+        report["basis"] = json!(basis(run));
+        let [x0, e0, z0] = [&claimed.x0, &claimed.e0, &claimed.z0].map(write_exact);
+        report["initial_set"] = json!({ "X0": x0, "E0": e0, "Z0": z0 });
+        let [x, e, zeta, z] = periodic.each_ref().map(full);
+        report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
+        let [x, e] = error_box.each_ref().map(full);
+        report["error_box"] = json!({ "D_x": x, "D_e": e });
+    }
+    if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(full)) {
+        report["largest_arguments"] = json!({ "X": x, "E": e });
+    }
+    if !run.unproved_bounds.is_empty() {
+        let errors: Vec<_> = run.unproved_bounds.iter().map(|problem| problem.errors(run.spec)).collect();
+        report["errors"] = errors_json(&errors);
+    }
+    if run.verdict != Verdict::Certified {
+        report["advice"] = json!(advice(run, rechecked));
+    }
+    for (name, value) in [
+        ("conditions", conditions_with_truth(run.conditions())),
+        ("matrix_inequalities", checks_json(run)),
+        ("derivations", derivations(run)),
+        ("constants", constants_json(&run.constants)),
+        ("plant", plant_json(run.spec, run.claimed_set())),
+        ("printed", printed(run)),
+        ("binding", json!(run.binding.map(Binding::describe))),
+        ("binding_advice", json!(run.binding.map(|binding| binding.advice(run.spec.plant().is_some())))),
+        ("without_optional", without_optional(run)),
+        ("sensitivities", sensitivities(run)),
+        ("consequences", consequences.map_or(Value::Null, consequences_json)),
+        ("exact_regulation", exact_regulation(run)),
+        ("relative_degree", gains_json(run)),
+    ] {
+        report[name] = value;
+    }
+    report
+}
+
+/// The conditions as in a certificate, with the truth of each.
+pub(super) fn conditions_with_truth(conditions: &[Condition]) -> Value {
+    let mut list = conditions_json(conditions);
+    for (item, condition) in list.as_array_mut().into_iter().flatten().zip(conditions) {
+        item["truth"] = json!(condition.truth().to_string());
+    }
+    list
+}
+
+/// What came of each derivation.
+fn derivations(run: &Certification<'_>) -> Value {
+    fn of<P>(outcome: &Outcome<P>, sigma: impl Fn(&P) -> &Rational) -> Value {
+        match outcome {
+            Outcome::Proved(proof) => json!({ "outcome": "proved", "sigma": write_exact(sigma(proof)) }),
+            Outcome::NotProved { failing, .. } => {
+                json!({ "outcome": "not proved", "failing": conditions_with_truth(failing) })
+            }
+            Outcome::NotFound(obstacle) => json!({ "outcome": "not found", "obstacle": obstacle.describe() }),
+            Outcome::Skipped => json!({ "outcome": "skipped" }),
+        }
+    }
+    json!({
+        "sharp": of(&run.sharp, |proof| &proof.witness.sigma),
+        "repaired": of(&run.repaired, |proof| &proof.witness.sigma),
+    })
+}
+
+fn printed(run: &Certification<'_>) -> Value {
+    let printed = &run.printed;
+    let reasons: Vec<String> = printed
+        .evaluation
+        .iter()
+        .flat_map(|evaluation| [&evaluation.sigma_p, &evaluation.sigma_a])
+        .filter_map(|value| value.as_ref().err().map(ToString::to_string))
+        .collect();
+    json!({
+        "refutation": printed.refutation.as_ref().map(ToString::to_string),
+        "sigma_without_it": printed.sigma.as_ref().map(|sigma| sigma.decimals()),
+        "reasons": reasons,
+    })
+}
+
+/// The optional data with the estimate of sigma* without each; null where none is found.
+fn without_optional(run: &Certification<'_>) -> Value {
+    let one = |(datum, sigma): &(OptionalDatum, Option<f64>)| json!({ "datum": datum.field(), "estimate": sigma.map(estimate) });
+    run.without_optional.iter().map(one).collect()
+}
+
+/// Relative falls of sigma* for 1 %; floating-point estimates.
+fn sensitivities(run: &Certification<'_>) -> Value {
+    run.sensitivities
+        .iter()
+        .map(|(datum, gain)| json!({ "datum": sensitivity::name(run.spec, *datum), "estimate": estimate(*gain) }))
+        .collect()
+}
+
+fn consequences_json(consequences: &Consequences) -> Value {
+    let rows: Vec<Value> = consequences
+        .by_n_o
+        .iter()
+        .map(|(n_o, bounds)| json!({ "n_o": n_o, "rms": full(&bounds.rms), "sup": full(&bounds.sup) }))
+        .collect();
+    let targets: Vec<Value> = consequences
+        .targets
+        .iter()
+        .map(|(target, outcome)| {
+            let norm = match target.kind {
+                TargetKind::Sup => "sup",
+                TargetKind::Rms => "rms",
+            };
+            let (answer, n_o) = match outcome {
+                TargetOutcome::Reached(n_o) => ("reached", Some(n_o)),
+                TargetOutcome::NotReached => ("not reached", None),
+                TargetOutcome::NotMatched => ("not matched", None),
+            };
+            json!({ "norm": norm, "target": target.value.text, "answer": answer, "n_o": n_o })
+        })
+        .collect();
+    let psi = &consequences.psi;
+    // psi_2 speaks about matched base frequencies only.
+    let psi_2 = if consequences.by_n_o.is_empty() { Value::Null } else { json!(full(&psi.psi_2)) };
+    json!({
+        "psi_1": full(&psi.psi_1), "psi_x": full(&psi.psi_x), "psi_2": psi_2,
+        "error_bounds": rows, "targets": targets,
+    })
+}
+
+fn exact_regulation(run: &Certification<'_>) -> Value {
+    match (&run.exact, run.sigma_star()) {
+        (Some(claim), Some(_)) => json!({
+            "sigma_star_oo": write_exact(&claim.witness.sigma),
+            "largest_arguments": run.exact_arguments().map(|arguments| {
+                let [x, e] = arguments.each_ref().map(full);
+                json!({ "X": x, "E": e })
+            }),
+            "conditions": conditions_with_truth(&claim.evaluation.conditions),
+        }),
+        _ => Value::Null,
+    }
+}

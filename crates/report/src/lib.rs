@@ -1,0 +1,45 @@
+//! What a person, or a script, reads about a run: text, Markdown, HTML and JSON with the same content.
+//!
+//! A report implements [`Readable`](document::Readable): it makes the blocks of a [`document`], which the renderers share,
+//! and writes JSON from the same figures. No bound is computed here. Numbers that are claims are rounded outward; what is
+//! only an estimate says so.
+
+#![deny(missing_docs)]
+
+mod brief;
+mod certification;
+mod conditions;
+mod consequences;
+mod constants;
+mod exact_regulation;
+mod failures;
+mod json;
+mod lyapunov;
+mod matrix_checks;
+mod obstacles;
+mod of_plant;
+mod orbit;
+mod printed;
+mod rate;
+mod relative_degree;
+mod remarks;
+mod run;
+mod sampled;
+mod sampling;
+mod sensitivity;
+mod sets;
+mod transfer;
+mod verdict;
+mod words;
+
+pub use certification::Report;
+pub use failures::{call_failure_json, failure_json};
+pub use lyapunov::LyapunovReport;
+pub use orbit::OrbitReport;
+pub use rate::RateReport;
+pub use run::run_remarks;
+pub use run::{RunReport, run_sentence};
+pub use sampled::SampledReport;
+pub use sampling::{SamplingReport, sampling_figure};
+pub use transfer::{TransferReport, pair_failure_json, transfer_figure};
+pub use verdict::sentence;

@@ -1,0 +1,269 @@
+//! Why nothing was certified, and what to try.
+
+use sigmastar_document::number::{pair, upper};
+use sigmastar_document::{Block, clean};
+use sigmastar_exact::enclosure::Truth;
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::expr::BoundingFailure;
+use sigmastar_prove::certify::{BoundingProblem, Certification, Derivation, Outcome, SmallerChoice, Verdict};
+use sigmastar_prove::search::{Failing, Obstacle, SmallerSet};
+use sigmastar_theory::derivation::condition::Condition;
+
+/// So many items of a list are in the short form.
+const FEW: usize = 3;
+
+/// What came of one derivation, without the type of its proof.
+enum Attempt<'r> {
+    Proved,
+    Failing(&'r [Condition]),
+    NotFound(Obstacle),
+    Skipped,
+}
+
+fn attempt<P>(outcome: &Outcome<P>) -> Attempt<'_> {
+    match outcome {
+        Outcome::Proved(_) => Attempt::Proved,
+        Outcome::NotProved { failing, .. } => Attempt::Failing(failing),
+        Outcome::NotFound(obstacle) => Attempt::NotFound(*obstacle),
+        Outcome::Skipped => Attempt::Skipped,
+    }
+}
+
+fn chosen<'r>(run: &'r Certification<'_>) -> Attempt<'r> {
+    match run.options.derivation {
+        // The claim itself is proved, and what the certificate says beyond it is not.
+        Derivation::Sharp if run.sharp.proved().is_some() && !run.exact_failing.is_empty() => {
+            Attempt::Failing(&run.exact_failing)
+        }
+        Derivation::Sharp => attempt(&run.sharp),
+        Derivation::Repaired => attempt(&run.repaired),
+        Derivation::Printed => Attempt::Skipped,
+    }
+}
+
+/// One sentence: what failed.
+pub(super) fn sentence(run: &Certification<'_>) -> String {
+    let name = run.options.derivation.name();
+    if run.options.derivation == Derivation::Printed {
+        return match (&run.printed.refutation, run.verdict) {
+            (Some(reason), Verdict::Refuted) => {
+                format!("Refuted: the printed derivation certifies no sigma for these data. {reason}.")
+            }
+            _ => "Undecided: the printed derivation was not refuted for these data, and it never certifies.".to_owned(),
+        };
+    }
+    let what = match chosen(run) {
+        Attempt::Proved => match run.unproved_bounds.first() {
+            Some(problem) => {
+                format!("the bounding function {} could not be proved: {}", problem.which.field(), problem.sentence())
+            }
+            None => "the claim was not proved".to_owned(),
+        },
+        Attempt::Failing(conditions) => match conditions.first() {
+            Some(condition) => format!("condition {} is {}", condition.id, truth(condition)),
+            None => "the conditions were not proved".to_owned(),
+        },
+        Attempt::NotFound(obstacle) => format!("no candidate was found: {}", obstacle.describe()),
+        Attempt::Skipped => "this derivation was not worked out".to_owned(),
+    };
+    let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };
+    format!(
+        "{word}: the {name} derivation certifies no sigma here; {what}. Nothing is claimed about the plant either way."
+    )
+}
+
+/// The figures of what failed, and what to try.
+pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    blocks.extend(first_of("Bounding functions that were neither proved nor refuted:", unproved(run)));
+    blocks.extend(first_of("Conditions that are not proved:", failing(run)));
+    let advice = advice(run, rechecked);
+    if !advice.is_empty() {
+        blocks.push(Block::says("What to try:"));
+        blocks.push(Block::List(advice));
+    }
+    blocks
+}
+
+/// The same that [`section`] had no room for.
+pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
+    let mut blocks = rest_of("Further bounding functions that were neither proved nor refuted", unproved(run));
+    blocks.extend(rest_of("Further conditions that are not proved", failing(run)));
+    blocks
+}
+
+fn unproved(run: &Certification<'_>) -> Vec<String> {
+    let sentence = |problem: &BoundingProblem| format!("{}: {}", problem.which.field(), problem.sentence());
+    run.unproved_bounds.iter().map(sentence).collect()
+}
+
+fn failing(run: &Certification<'_>) -> Vec<String> {
+    match chosen(run) {
+        Attempt::Failing(conditions) => conditions.iter().map(describe).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// A list with its title as far as the short form has room for it; nothing where it is empty.
+pub(super) fn first_of(title: &str, mut items: Vec<String>) -> Vec<Block> {
+    if items.is_empty() {
+        return Vec::new();
+    }
+    let more = items.len().saturating_sub(FEW);
+    if more > 0 {
+        items.truncate(FEW);
+        items.push(format!("and {more} more"));
+    }
+    vec![Block::says(title), Block::List(items)]
+}
+
+/// What [`first_of`] leaves out, under a heading.
+pub(super) fn rest_of(heading: &str, items: Vec<String>) -> Vec<Block> {
+    let rest: Vec<String> = items.into_iter().skip(FEW).collect();
+    if rest.is_empty() { Vec::new() } else { vec![Block::heading(heading), Block::List(rest)] }
+}
+
+pub(super) fn truth(condition: &Condition) -> &'static str {
+    match condition.truth() {
+        Truth::True => "proved",
+        Truth::False => "refuted for this witness",
+        Truth::Undecided => "not decided within the precision",
+    }
+}
+
+pub(super) fn describe(condition: &Condition) -> String {
+    format!(
+        "{} ({}): {} {} {} is {}",
+        condition.id,
+        condition.what,
+        pair(&condition.lhs),
+        condition.relation,
+        pair(&condition.rhs),
+        truth(condition)
+    )
+}
+
+/// What to try where nothing is certified.
+pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
+    let mut items: Vec<String> = Vec::new();
+    let mut add = |text: &str| items.push(text.to_owned());
+    match chosen(run) {
+        Attempt::Proved => {
+            let at_the_edge = run
+                .unproved_bounds
+                .iter()
+                .any(|problem| matches!(&problem.failure, BoundingFailure::Undecided { span, .. } if span.is_some()));
+            add("rewrite the bounding function as sums, products and compositions of nondecreasing functions");
+            if at_the_edge {
+                add("see the place in the expression that is shown with this report");
+            }
+        }
+        Attempt::Failing(conditions)
+            if conditions.iter().any(|condition| condition.truth().is_undecided())
+                && !conditions.iter().any(|condition| condition.truth().is_false()) =>
+        {
+            add("raise --precision-limit");
+        }
+        Attempt::Failing(_) if !rechecked => {
+            add("other units of time, x and e, in which the data have ordinary magnitudes");
+        }
+        Attempt::Failing(_) => add("search again (without --witness): another witness may exist"),
+        Attempt::NotFound(obstacle) => obstacle_advice(run, obstacle, &mut add),
+        Attempt::Skipped => {}
+    }
+    let other = matches!(run.options.derivation, Derivation::Printed | Derivation::Repaired);
+    if other && run.unproved_bounds.is_empty() {
+        let sharp = run.sharp.proved().map(|proof| write_exact(&proof.witness.sigma));
+        let repaired = run.repaired.proved().map(|proof| write_exact(&proof.witness.sigma));
+        if run.options.derivation == Derivation::Printed {
+            items.extend(repaired.map(|sigma| format!("`--derivation repaired` proves sigma = {sigma}")));
+        }
+        items.extend(sharp.map(|sigma| format!("`--derivation sharp` proves sigma = {sigma}")));
+    }
+    items
+}
+
+fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn FnMut(&str)) {
+    let domain = run.spec.domain.as_ref();
+    match obstacle.failing {
+        Failing::Magnitude(_) => add("units of time, x, e and q in which the numbers are of ordinary size"),
+        Failing::NotFinite(Some(bound)) if run.spec.plant().is_some() => {
+            add(&format!(
+                "of a plant {} is known as far as the smallest gain needs it: another gain, or the plant without this witness",
+                bound.field()
+            ));
+        }
+        Failing::NotFinite(Some(bound)) => {
+            add(&smaller(run));
+            add(&format!("a {} that is finite at these arguments", bound.field()));
+        }
+        Failing::NotFinite(None) => add("units of time, x, e and q in which the numbers are of ordinary size"),
+        Failing::Existence => {
+            add(
+                "a larger alpha, a smaller p_up/p_low, or smaller f_e, f_xx: a_1 > 0 (sharp), C1 and C3 (repaired) do not contain sigma there",
+            );
+        }
+        Failing::DomainX | Failing::DomainE => {
+            if let Some(domain) = domain {
+                let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));
+                add(&format!("a larger domain than X = {x}, E = {e}, if the bounding functions hold there"));
+            }
+            add(&smaller(run));
+        }
+        Failing::Curvature => {
+            add(&smaller(run));
+            add("a larger alpha, or smaller f_xx and f_ex: the nonlinearity is too strong for this initial set");
+        }
+        Failing::Coupling => {
+            add(&smaller(run));
+            add("smaller q_x, f_e");
+        }
+        Failing::Gain { .. } => add("a larger gain, or none: without --sigma the smallest one is sought"),
+        Failing::Hold { .. } | Failing::Samples => add("a smaller gain or a shorter sampling period"),
+        Failing::Sampling => add("a shorter sampling period, or a smaller mu"),
+        Failing::Bounds => add("a `domain` on which the bounding functions are valid"),
+    }
+    if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
+        add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
+    }
+}
+
+/// Which smaller initial set would do: one that is certified, or what the floating-point search proposes.
+fn smaller(run: &Certification<'_>) -> String {
+    const ESTIMATE: &str = "the floating-point search (an estimate, no proof)";
+    match run.smaller_set() {
+        SmallerChoice::Certified { set, sigma, share, as_proposed } => {
+            let share =
+                share.map_or_else(String::new, |share| format!("; it is {} of the one asked for", write_exact(&share)));
+            let edge = match (&set, as_proposed) {
+                (SmallerSet::Box(_), true) => format!("; {ESTIMATE} fails for a set that is 3 % larger"),
+                _ => String::new(),
+            };
+            format!(
+                "a smaller initial set: {} is certified, with sigma* = {}{share}{edge}",
+                field(&set).unwrap_or_default(),
+                write_exact(&sigma)
+            )
+        }
+        SmallerChoice::Proposed(set) => match field(&set) {
+            Some(field) => format!("a smaller initial set: {ESTIMATE} succeeds up to about {field}"),
+            None => format!(
+                "no smaller initial set alone: {ESTIMATE} fails for every size that was tried, a single point among them"
+            ),
+        },
+    }
+}
+
+/// The set as a specification has it.
+fn field(set: &SmallerSet) -> Option<String> {
+    match set {
+        SmallerSet::AtRest => Some("`\"initial_set\": { \"kind\": \"at-rest\" }`".to_owned()),
+        SmallerSet::Box(sizes) => {
+            let [x0, e0, z0] = sizes.each_ref().map(write_exact);
+            Some(format!(
+                "`\"initial_set\": {{ \"kind\": \"box\", \"X0\": \"{x0}\", \"E0\": \"{e0}\", \"Z0\": \"{z0}\" }}`"
+            ))
+        }
+        SmallerSet::None => None,
+    }
+}

@@ -1,0 +1,134 @@
+//! What was proved from a plant's formulas: the orbit, the coordinates, the values of the bounds.
+
+use super::words;
+use rug::Rational;
+use serde_json::{Value, json};
+use sigmastar_document::number::exact;
+use sigmastar_document::{Block, Table};
+use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_lang::spec::model::{Constant, Lyapunov};
+use sigmastar_lang::spec::{OfPlant, ProvedValue, Specification};
+use sigmastar_prove::certify::claimed_ball;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+
+/// The section; nothing where the data are those of a specification.
+pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Block> {
+    let Some(plant) = spec.plant() else { return Vec::new() };
+    let mut blocks = vec![Block::heading("From the plant's formulas")];
+    if plant.states() > 0 {
+        blocks.push(Block::says(
+            "x_0(t) is the T-periodic solution of x' = f(t,x,0), and y = L^-1 (x - x_0) are the coordinates in which all norms are \
+             taken. Everything below is proved.",
+        ));
+        blocks.push(Block::facts(facts(plant, set)));
+        blocks.push(matrix("L", &plant.coordinates));
+    }
+    let (where_, titles) = match spec.state_name() {
+        Some(_) => ("|y| <= X, |e| <= E", &["<bound", "<of", "X", "E", "value"][..]),
+        None => ("|e| <= E", &["<bound", "<of", "E", "value"][..]),
+    };
+    blocks.push(Block::says(format!("The bounds that the conditions use, for {where_} and every t:")));
+    let mut table = Table::new(titles);
+    for ProvedValue { bound, x, e, value, .. } in spec.bounds.proved_values().entries() {
+        // Without states those of f, and of derivatives by x, are of nothing.
+        if spec.state_name().is_none() && bound.is_of_state() {
+            continue;
+        }
+        let [x, e] = [x, e].map(|end| exact(end, Direction::Down));
+        let direction = if bound.is_nonincreasing() { Direction::Down } else { Direction::Up };
+        let arguments = words::with_state(spec, [x, e]);
+        let names = [bound.field(), bound.of_what()].map(str::to_owned);
+        table.push(names.into_iter().chain(arguments).chain([exact(value, direction)]));
+    }
+    blocks.push(Block::Table(table));
+    blocks
+}
+
+fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {
+    let up = |value: &Rational| exact(value, Direction::Up);
+    let orbit = &plant.orbit;
+    let mut facts = vec![
+        (
+            "orbit",
+            format!(
+                "a trigonometric polynomial with {} harmonics; |L^-1 (x_0 - xb)| <= {} (defect {}, tube {})",
+                orbit.approximation.harmonics.len(),
+                up(&orbit.radius),
+                up(&orbit.defect),
+                up(&orbit.tube)
+            ),
+        ),
+        ("rate along it", format!("alpha = {}", number(&plant.triple.alpha, Direction::Down))),
+    ];
+    if !plant.matrix.harmonics.is_empty() {
+        facts.push((
+            "P(t)",
+            format!(
+                "{} harmonics, p_low = {}, p_up = {}",
+                plant.matrix.harmonics.len(),
+                number(&plant.triple.p_low, Direction::Down),
+                number(&plant.triple.p_up, Direction::Up)
+            ),
+        ));
+    }
+    if let Some((triple, _)) = plant.existence.as_deref() {
+        let Lyapunov { p_low, p_up, alpha } = triple;
+        let [alpha, p_low] = [alpha, p_low].map(|value| number(value, Direction::Down));
+        let p_up = number(p_up, Direction::Up);
+        facts.push(("P of existence", format!("alpha = {alpha}, p_low = {p_low}, p_up = {p_up}")));
+    }
+    facts.push((
+        "q(t, x_0, 0)",
+        format!(
+            "{} harmonics; the rest is at most {}, its derivative {}",
+            plant.forcing.harmonics.len(),
+            up(&plant.forcing.rest),
+            up(&plant.forcing.rest_t)
+        ),
+    ));
+    if let Some(ball) = set.and_then(|set| claimed_ball(plant, &set.x0)) {
+        facts.push(("the initial set contains", format!("|x - x_0| <= {}", exact(&ball, Direction::Down))));
+    }
+    facts
+}
+
+/// A number of a triple in few digits.
+fn number(constant: &Constant, direction: Direction) -> String {
+    constant.as_rational().map_or_else(|| constant.text.clone(), |value| exact(value, direction))
+}
+
+fn matrix(name: &str, rows: &[Vec<Rational>]) -> Block {
+    // Exactly: it is what the norms are of.
+    let row = |row: &Vec<Rational>| row.iter().map(write_exact).collect::<Vec<_>>().join(", ");
+    let rows: Vec<String> = rows.iter().map(row).collect();
+    Block::facts([(name.to_owned(), format!("[{}]", rows.join("; ")))])
+}
+
+/// The same as JSON; null where the data are those of a specification.
+pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Value {
+    let Some(plant) = spec.plant() else { return Value::Null };
+    let rows = |matrix: &[Vec<Rational>]| -> Vec<Vec<String>> {
+        matrix.iter().map(|row| row.iter().map(write_exact).collect()).collect()
+    };
+    let ball = set.and_then(|set| claimed_ball(plant, &set.x0));
+    let values: Vec<Value> = spec
+        .bounds
+        .proved_values()
+        .entries()
+        .iter()
+        .map(|entry| {
+            json!({
+                "bound": entry.bound.field(), "X": write_exact(&entry.x), "E": write_exact(&entry.e),
+                "value": write_exact(&entry.value),
+            })
+        })
+        .collect();
+    json!({
+        "coordinates": rows(&plant.coordinates),
+        "orbit": {
+            "harmonics": plant.orbit.approximation.harmonics.len(), "defect": write_exact(&plant.orbit.defect),
+            "tube": write_exact(&plant.orbit.tube), "radius": write_exact(&plant.orbit.radius),
+        },
+        "alpha": plant.triple.alpha.text, "ball": ball.as_ref().map(write_exact), "bounds": values,
+    })
+}

@@ -1,0 +1,93 @@
+//! What the data themselves are to be looked at for; no verdict depends on it.
+
+use rug::Rational;
+use sigmastar_document::number::{estimate, exact};
+use sigmastar_exact::number::Direction;
+use sigmastar_lang::spec::ProvedValue;
+use sigmastar_prove::certify::{Certification, ExceededBy, NoPlant, SampledCertification};
+
+/// One sentence or two for each.
+pub fn remarks(run: &Certification<'_>) -> Vec<String> {
+    let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
+    if let Some(sigma) = run.sigma_star().filter(|_| run.given_gain.is_none())
+        && sigma.to_f64() * run.spec.period.to_f64() > LARGE
+    {
+        let cause = far_above_its_samples(run.spec.bounds.proved_values().entries()).unwrap_or_else(|| {
+            let of_plant = run.spec.plant().is_some();
+            run.binding.map_or_else(String::new, |binding| {
+                format!(" It is set by {}. {}", binding.describe(), binding.advice(of_plant))
+            })
+        });
+        remarks.push(format!("Remark: sigma* is above 10^4 divided by the period.{cause}"));
+    }
+    remarks
+}
+
+/// A gain times the period above which a remark names what asks for it.
+const LARGE: f64 = 1e4;
+
+/// A bound that is so many times its samples is far above them.
+const FAR: f64 = 2.0;
+
+/// The bound of a plant that is farthest above what samples reach, where one is far above.
+fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
+    let ratio = |entry: &&ProvedValue| {
+        let sampled = entry.sampled.as_ref().filter(|sampled| **sampled > 0 && !entry.bound.is_nonincreasing())?;
+        Some(Rational::from(&entry.value / sampled).to_f64()).filter(|ratio| *ratio > FAR)
+    };
+    let rated = entries.iter().filter_map(|entry| Some((ratio(&entry)?, entry)));
+    let (_, entry) = rated.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
+    Some(format!(
+        " One bound is far above its samples: {} ({}) is proved to be at most {}, and samples reach {}. A formula that is \
+         less steep, or a smaller `domain`, may bring the two together, and a smaller gain.",
+        entry.bound.field(),
+        entry.bound.of_what(),
+        exact(&entry.value, Direction::Up),
+        estimate(entry.sampled.as_ref()?.to_f64()),
+    ))
+}
+
+/// The same of a run about the regulator at samples.
+pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
+    of(run.no_plant.as_ref(), run.has_force_at_origin())
+}
+
+fn of(no_plant: Option<&NoPlant>, force_at_origin: bool) -> Vec<String> {
+    let mut remarks = Vec::new();
+    if let Some(reason) = no_plant {
+        let check = match reason.exceeded_by {
+            ExceededBy::Alpha { .. } => "f, f_xx, their domain, alpha, and the unit of time in each",
+            ExceededBy::Rate { .. } => "f, f_xx, their domain, rate, and the unit of time in each",
+            ExceededBy::Jacobian { .. } => "f, f_xx, their domain, the Jacobian, and the unit of time in each",
+        };
+        remarks.push(format!("Remark: {reason}. What is proved of all such plants is proved of none. Check {check}."));
+    }
+    if force_at_origin {
+        remarks.push(
+            "Remark: f(0,0) > 0, although |f(t,0,0)| = 0 for every plant of the family. Were the bounds taken before the \
+             shift by x_0(t), the periodic solution of x' = f(t,x,0)? They are to hold after it (erratum E18; the guide)."
+                .to_owned(),
+        );
+    }
+    remarks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sigmastar_lang::spec::Bound;
+
+    fn entry(bound: Bound, value: i32, sampled: Option<i32>) -> ProvedValue {
+        let [value, x, e] = [value, 1, 1].map(Rational::from);
+        ProvedValue { bound, x, e, value, sampled: sampled.map(Rational::from) }
+    }
+
+    #[test]
+    fn the_bound_that_is_farthest_above_its_samples_is_told() {
+        let near = [entry(Bound::Qx, 200, Some(100)), entry(Bound::Rate, 9, Some(1)), entry(Bound::Fe, 7, None)];
+        assert_eq!(far_above_its_samples(&near), None);
+        let far = [entry(Bound::Qe, 201, Some(100)), entry(Bound::Qx, 1000, Some(10)), entry(Bound::Fe, 7, Some(0))];
+        let told = far_above_its_samples(&[near.as_slice(), &far].concat()).unwrap();
+        assert!(told.contains("q_x (") && told.contains("at most 1000, and samples reach 10."), "{told}");
+    }
+}

@@ -1,0 +1,284 @@
+//! The report on a certification of the regulator at samples.
+
+use super::failures::{FORMAT, VERSION, errors_json};
+use super::json::conditions_with_truth;
+use super::obstacles::{describe, first_of, rest_of};
+use super::of_plant::plant_json;
+use super::remarks::sampled_remarks;
+use super::sets::{Boxes, Sizes};
+use super::verdict::of_the_data;
+use super::words;
+use super::{brief, conditions, of_plant};
+use rug::Rational;
+use serde_json::{Value, json};
+use sigmastar_document::number::{estimate, exact, full, upper};
+use sigmastar_document::{Block, Readable, clean};
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_prove::certificate::no_plant_json;
+use sigmastar_prove::certify::{Outcome, SampledCertification, SampledProof, Verdict};
+use sigmastar_prove::search::{Failing, Obstacle};
+
+/// Everything that the report is made from.
+pub struct SampledReport<'r> {
+    run: &'r SampledCertification<'r>,
+    rechecked: bool,
+}
+
+impl<'r> SampledReport<'r> {
+    /// The report of a run; `rechecked` where it decided a given witness again.
+    #[must_use]
+    pub fn new(run: &'r SampledCertification<'r>, rechecked: bool) -> SampledReport<'r> {
+        SampledReport { run, rechecked }
+    }
+
+    /// The verdict in one sentence.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let run = self.run;
+        let step = clean(&run.sampling.text());
+        match run.claim() {
+            Some(proof) => certified(run, proof),
+            None => format!(
+                "{}: nothing is certified at the sampling period h = {step}{}; {}. Nothing is claimed about the plant either way.",
+                if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" },
+                run.given_gain.as_ref().map_or_else(String::new, |gain| format!(" with sigma = {}", write_exact(gain))),
+                self.obstacle(),
+            ),
+        }
+    }
+
+    fn obstacle(&self) -> String {
+        let run = self.run;
+        if run.given_gain.as_ref().is_some_and(|gain| run.sampling.fits(gain).is_false()) {
+            return "h sigma exceeds 1: the law would overshoot from sample to sample".to_owned();
+        }
+        match &run.outcome {
+            Outcome::NotFound(obstacle) => format!("no candidate was found: {}", obstacle.describe()),
+            Outcome::NotProved { failing, .. } => match failing.first() {
+                Some(condition) => format!("condition {} is {}", condition.id, super::obstacles::truth(condition)),
+                None => "the conditions were not proved".to_owned(),
+            },
+            Outcome::Proved(_) => match run.unproved_bounds.first() {
+                Some(problem) => {
+                    format!(
+                        "the bounding function {} could not be proved: {}",
+                        problem.which.field(),
+                        problem.sentence()
+                    )
+                }
+                None => "the arguments of the bounding functions are not bounded".to_owned(),
+            },
+            Outcome::Skipped => "it was not worked out".to_owned(),
+        }
+    }
+
+    fn advice(&self) -> Vec<String> {
+        let run = self.run;
+        let mut items = Vec::new();
+        match &run.outcome {
+            Outcome::NotFound(Obstacle { failing: Failing::Hold { given, .. }, .. }) => {
+                items.push(
+                    if *given { "a smaller gain, or a shorter sampling period" } else { "a shorter sampling period" }
+                        .to_owned(),
+                );
+            }
+            Outcome::NotFound(Obstacle {
+                failing: Failing::Sampling | Failing::Coupling | Failing::Existence, ..
+            }) => {
+                if run.given_gain.is_some() {
+                    items.push("another gain, or none: without --sigma the smallest one is sought".to_owned());
+                }
+                items
+                    .push("a shorter sampling period: `sigmastar sampling` lists which gains go with which".to_owned());
+                items.push(
+                    "a smaller mu: theta = h mu Nbar^2/2 is what the oscillators lose to the sampling".to_owned(),
+                );
+            }
+            Outcome::NotFound(_) => {
+                items.push(
+                    "the continuous-time claim first, without a sampling period: its report says more".to_owned(),
+                );
+            }
+            Outcome::NotProved { failing, .. } => {
+                let undecided = failing.iter().all(|condition| condition.truth() == Truth::Undecided);
+                items.push(match (undecided, self.rechecked) {
+                    (true, _) => "raise --precision-limit".to_owned(),
+                    (false, true) => "search again (without --witness): another witness may exist".to_owned(),
+                    (false, false) => {
+                        "other units of time, x and e, in which the data have ordinary magnitudes".to_owned()
+                    }
+                });
+            }
+            Outcome::Proved(_) => {
+                items.push(
+                    "rewrite the bounding function as sums, products and compositions of nondecreasing functions"
+                        .to_owned(),
+                );
+            }
+            Outcome::Skipped => {}
+        }
+        items
+    }
+
+    fn basis(&self) -> Vec<String> {
+        let run = self.run;
+        let mut items = vec![
+            "Derivation: sharp, for the regulator at samples (section 12 of the mathematics).".to_owned(),
+            "The gain is a value for this sampling period, not a threshold: neither a larger gain nor a shorter sampling period \
+             follows from it."
+                .to_owned(),
+            "Assumed of the computer: u is held over each sample, no delay of the computation, no rounding, no quantisation, no \
+             saturation; a period has exactly the whole number of samples."
+                .to_owned(),
+        ];
+        items.extend(of_the_data(run.spec, run.largest_arguments(), None));
+        items.push("Used: the base frequency is exactly 2 pi / period (proved of the numbers given).".to_owned());
+        items
+    }
+
+    fn limit(&self) -> Option<String> {
+        let (proposal, limit) = self.run.found?;
+        Some(format!("{}. The margin of the forms is about {}.", limit.describe(), estimate(1.0 - proposal.radius)))
+    }
+}
+
+/// The claim in one sentence.
+fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
+    let (spec, witness) = (run.spec, &proof.witness);
+    let samples = witness.sampling.samples;
+    format!(
+        "Certified: the regulator at samples h = {} apart ({samples} in a period) with sigma = {} and K = {}, mu = {} and base \
+         frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples: every solution that \
+         starts, at a sampling instant, from {} converges exponentially to a T-periodic solution, T = {}.",
+        clean(&witness.sampling.text()),
+        write_exact(&witness.sigma),
+        sigmastar_document::number::compact(&proof.evaluation.law.gain),
+        clean(&spec.internal_model.mu.text),
+        clean(&spec.internal_model.base_frequency.text),
+        words::set(spec, &witness.set),
+        clean(&spec.period.text),
+    )
+}
+
+/// The law and the sets of a certified claim.
+fn sets(run: &SampledCertification<'_>) -> Vec<Block> {
+    let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
+    let (witness, evaluation) = (&proof.witness, &proof.evaluation);
+    let set = &witness.set;
+    let mut sizes = Sizes::new(run.spec);
+    sizes.of_claim(set, &periodic);
+    let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
+    sizes.row("error box around it (radii)", radii);
+    if let Some(arguments) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
+        sizes.row("bounding functions used up to", arguments);
+    }
+    let law = &evaluation.law;
+    let boxes = Boxes {
+        state: run.spec.state_name(),
+        initial: [&set.x0, &set.e0].map(Rational::to_f64),
+        periodic: [&periodic[0], &periodic[1]].map(Enclosure::upper_f64),
+        error: [&witness.d_x, &witness.d_e].map(Rational::to_f64),
+        used: run.largest_arguments().map(|arguments| arguments.each_ref().map(Enclosure::upper_f64)),
+        ellipse: false,
+    };
+    let mut blocks = vec![
+        Block::Heading(format!("The law and the sets at h = {}", clean(&witness.sampling.text()))),
+        Block::facts([
+            ("samples in a period", witness.sampling.samples.to_string()),
+            ("h sigma", upper(&evaluation.product)),
+            ("K, of u = -sigma e + K v", sigmastar_document::number::compact(&law.gain)),
+            ("theta = h mu Nbar^2/2", upper(&theta(law))),
+        ]),
+        Block::Table(sizes.table),
+    ];
+    blocks.extend(boxes.figure().map(Block::Drawing));
+    blocks.push(Block::says(
+        "Solutions from the initial set stay in the error box around the periodic solution, between samples too; zeta and z \
+         are those at samples. The rate of convergence depends on n_o and is not part of the claim.",
+    ));
+    blocks
+}
+
+/// theta.
+fn theta(law: &sigmastar_theory::derivation::sampled::SampledLaw<Enclosure>) -> Enclosure {
+    &law.enlarged - Enclosure::one(law.enlarged.precision())
+}
+
+impl Readable for SampledReport<'_> {
+    fn blocks(&self) -> Vec<Block> {
+        let run = self.run;
+        let name = clean(&run.spec.name);
+        let name = if name.is_empty() { "(no name)" } else { &name };
+        let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict)), Block::Verdict(self.sentence())];
+        blocks.extend(sampled_remarks(run).into_iter().map(Block::says));
+        if run.claim().is_some() {
+            blocks.extend(brief::of_samples(run, self.rechecked));
+            blocks.push(Block::Detail);
+            blocks.push(Block::heading("What the claim rests on"));
+            blocks.push(Block::List(self.basis()));
+        } else {
+            let failing: Vec<String> = match &run.outcome {
+                Outcome::NotProved { failing, .. } => failing.iter().map(describe).collect(),
+                _ => Vec::new(),
+            };
+            blocks.extend(first_of("Conditions that are not proved:", failing.clone()));
+            blocks.push(Block::says("What to try:"));
+            blocks.push(Block::List(self.advice()));
+            blocks.push(Block::Detail);
+            blocks.extend(rest_of("Further conditions that are not proved", failing));
+        }
+        blocks.extend(sets(run));
+        if let Some(limit) = self.limit() {
+            blocks.push(Block::heading("What limits it"));
+            blocks.push(Block::says(format!("{limit} This is floating point and an explanation, not a claim.")));
+        }
+        blocks.extend(of_plant::section(run.spec, run.claim().map(|proof| &proof.witness.set)));
+        blocks.extend(conditions::of("Conditions of the regulator at samples", run.conditions()));
+        blocks
+    }
+
+    /// As JSON: `{"format": "sigmastar/report", "version": 1, "regulator": "digital", ...}`.
+    fn json(&self) -> Value {
+        let run = self.run;
+        let mut report = json!({
+            "format": FORMAT, "version": VERSION, "regulator": "digital",
+            "verdict": run.verdict.to_string(), "statement": self.sentence(), "remarks": sampled_remarks(run),
+            "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": "sharp",
+            "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
+            "sampling_period": run.sampling.text(), "samples": run.sampling.samples,
+            "given_gain": run.given_gain.is_some(),
+        });
+        if let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) {
+            let (witness, law) = (&proof.witness, &proof.evaluation.law);
+            report["sigma"] = json!(write_exact(&witness.sigma));
+            report["gain"] = json!(write_exact(&witness.law.gain));
+            report["h_sigma"] = json!(full(&proof.evaluation.product));
+            report["theta"] = json!(full(&theta(law)));
+            report["basis"] = json!(self.basis());
+            let [x0, e0, z0] = [&witness.set.x0, &witness.set.e0, &witness.set.z0].map(write_exact);
+            report["initial_set"] = json!({ "X0": x0, "E0": e0, "Z0": z0 });
+            let [x, e, zeta, z] = periodic.each_ref().map(full);
+            report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
+            report["error_box"] = json!({ "D_x": write_exact(&witness.d_x), "D_e": write_exact(&witness.d_e) });
+        } else {
+            report["advice"] = json!(self.advice());
+        }
+        if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(full)) {
+            report["largest_arguments"] = json!({ "X": x, "E": e });
+        }
+        if !run.unproved_bounds.is_empty() {
+            let errors: Vec<_> = run.unproved_bounds.iter().map(|problem| problem.errors(run.spec)).collect();
+            report["errors"] = errors_json(&errors);
+        }
+        report["conditions"] = conditions_with_truth(run.conditions());
+        report["limit"] = match run.found {
+            Some((proposal, limit)) => json!({
+                "name": limit.name(), "sentence": limit.describe(), "margin": estimate(1.0 - proposal.radius),
+            }),
+            None => Value::Null,
+        };
+        report["plant"] = plant_json(run.spec, run.claim().map(|proof| &proof.witness.set));
+        report
+    }
+}

@@ -1,0 +1,111 @@
+//! What binds sigma*, and which datum would lower it most.
+
+use rug::Rational;
+use sigmastar_document::number::{estimate, exact};
+use sigmastar_document::plot::Bars;
+use sigmastar_document::{Block, Table};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::Direction;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certify::{Certification, Derivation, Verdict};
+use sigmastar_prove::search::Datum;
+use sigmastar_theory::transfer::TransferProof;
+
+/// The binding condition and the sensitivities of the sharp derivation.
+pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
+    if run.verdict != Verdict::Certified || run.options.derivation != Derivation::Sharp {
+        return Vec::new();
+    }
+    let Some(binding) = run.binding else { return Vec::new() };
+    let mut blocks = vec![
+        Block::heading("What sets sigma* (estimates)"),
+        Block::says(format!("sigma* is set by {}. {}", binding.describe(), binding.advice(run.spec.plant().is_some()))),
+    ];
+    blocks.extend(ingredients(run).map(Block::Bars));
+    if !run.without_optional.is_empty() {
+        blocks.push(Block::says("What the optional data bring: sigma* without each."));
+        let mut table = Table::new(&["<without", "sigma*"]);
+        for (datum, sigma) in &run.without_optional {
+            table.push([datum.field().to_owned(), sigma.map_or_else(|| "none found".to_owned(), estimate)]);
+        }
+        blocks.push(Block::Table(table));
+    }
+    let shown: Vec<_> = run.sensitivities.iter().filter(|(_, gain)| *gain >= 1e-6).collect();
+    if let Some((datum, gain)) = shown.first() {
+        let sentence = one_per_cent(run.spec, *datum);
+        blocks.push(Block::says(format!(
+            "{}{} lowers sigma* by about {} %, more than any other of what is compared: {}. Floating point, re-optimised \
+             locally, not certified.",
+            sentence[..1].to_uppercase(),
+            &sentence[1..],
+            estimate(100.0 * gain),
+            compared(run)
+        )));
+        let mut table = Table::new(&["<1 % better", "lowers sigma* by"]);
+        let mut bars = Bars { title: "By how much one per cent better lowers sigma*".to_owned(), entries: Vec::new() };
+        for (datum, gain) in shown {
+            let lowers = format!("{} %", estimate(100.0 * gain));
+            bars.entries.push((name(run.spec, *datum), *gain, lowers.clone()));
+            table.push([name(run.spec, *datum), lowers]);
+        }
+        blocks.push(Block::Table(table));
+        blocks.push(Block::Bars(bars));
+    }
+    blocks
+}
+
+/// What a datum is called in the file; the X0 of a plant may be given by a ball.
+pub(super) fn name(spec: &Specification, datum: Datum) -> String {
+    match (datum, spec.plant().is_some_and(|plant| plant.ball.is_some())) {
+        (Datum::Size(0), true) => "ball".to_owned(),
+        _ => datum.name(),
+    }
+}
+
+/// "one per cent smaller E0".
+pub(super) fn one_per_cent(spec: &Specification, datum: Datum) -> String {
+    let larger = match datum {
+        Datum::Alpha | Datum::Domain => true,
+        Datum::Bound(bound) => bound.is_nonincreasing(),
+        Datum::Mu { larger } => larger,
+        Datum::PUp | Datum::Harmonics | Datum::Size(_) => false,
+    };
+    let name = match datum {
+        Datum::Mu { .. } => "mu".to_owned(),
+        _ => name(spec, datum),
+    };
+    format!("one per cent {} {name}", if larger { "larger" } else { "smaller" })
+}
+
+/// What the sensitivities compare, and what they leave out.
+fn compared(run: &Certification<'_>) -> String {
+    // What another mu needs is not worked out where it takes boxes.
+    let by_boxes = run.sharp.proved().is_some_and(|proof| matches!(proof.witness.transfer, TransferProof::Boxes(_)));
+    let (mu, rest) = if by_boxes { ("", "mu and the weights") } else { (", and mu", "the weights") };
+    match run.spec.plant().is_some() {
+        true => format!(
+            "the sizes of the initial set that the file states{mu}, with the bounds that are proved for the present set. Not \
+             compared: {rest} (`sigmastar tune` tries them), the domain and the formulas"
+        ),
+        false => format!(
+            "the triple, the bounding functions, the harmonics, the sizes of the initial set and the domain that the file \
+             states{mu}. Not compared: {rest} (`sigmastar tune` tries them)"
+        ),
+    }
+}
+
+/// The two terms of the threshold of C5 beside sigma*. They are drawn from doubles and claim nothing.
+fn ingredients(run: &Certification<'_>) -> Option<Bars> {
+    let proof = run.sharp.proved()?;
+    let decay = &proof.evaluation.decay;
+    let [slope, all] = [&decay.by_slope, &decay.sigma_threshold].map(Enclosure::midpoint_f64);
+    let term = |name: &str, value: f64| (name.to_owned(), value, estimate(value));
+    let gain = |name: &str, sigma: &Rational| (name.to_owned(), sigma.to_f64(), exact(sigma, Direction::Up));
+    let mut entries = vec![
+        term("C5: dq/de and the internal model's start", slope),
+        term("C5: the loop through x", all - slope),
+        gain("sigma*", &proof.witness.sigma),
+    ];
+    entries.extend(run.exact.as_ref().map(|claim| gain("sigma*_oo (n_o infinite)", &claim.witness.sigma)));
+    Some(Bars { title: "sigma* and the two terms of C5 that it exceeds, in 1/time".to_owned(), entries })
+}

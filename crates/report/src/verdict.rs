@@ -1,0 +1,156 @@
+//! The verdict in one sentence, and what it rests on.
+
+use super::obstacles;
+use super::remarks::remarks;
+use super::words;
+use sigmastar_document::number::{exact, upper};
+use sigmastar_document::{Block, clean};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::Direction;
+use sigmastar_lang::spec::model::{Lyapunov, LyapunovSource};
+use sigmastar_lang::spec::{Bound, Specification};
+use sigmastar_prove::certify::{Certification, Derivation, Verdict};
+use sigmastar_theory::transfer::TransferProof;
+
+/// The verdict in one sentence that a control engineer understands.
+#[must_use]
+pub fn sentence(run: &Certification<'_>) -> String {
+    let spec = run.spec;
+    match (run.sigma_star(), run.claimed_set()) {
+        (Some(sigma), Some(set)) => format!(
+            "Certified: with sigma = {} (or any larger), mu = {} and base frequency {}, for every number of oscillators \
+             n_o >= 0, every solution that starts, at any time, from {} converges exponentially to a T-periodic solution, \
+             T = {}.",
+            exact(sigma, Direction::Up),
+            clean(&spec.internal_model.mu.text),
+            clean(&spec.internal_model.base_frequency.text),
+            words::set(spec, set),
+            clean(&spec.period.text),
+        ),
+        _ => obstacles::sentence(run),
+    }
+}
+
+/// The sentence; without a certificate, what failed and what to try.
+pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
+    let mut blocks = vec![Block::Verdict(sentence(run))];
+    blocks.extend(remarks(run).into_iter().map(Block::says));
+    if run.verdict != Verdict::Certified {
+        blocks.extend(obstacles::section(run, rechecked));
+    }
+    blocks
+}
+
+/// What the claim rests on; without one, the conditions that `section` had no room for.
+pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    if run.verdict == Verdict::Certified {
+        blocks.push(Block::heading("What the claim rests on"));
+        if run.given_gain.is_some() {
+            blocks.push(Block::says(
+                "The gain was given: the claim is about it and all larger ones, and smaller ones may certify too. How far it is \
+                 from the threshold is the relative margin of C5b.",
+            ));
+        }
+        blocks.push(Block::List(basis(run)));
+    } else {
+        blocks.extend(obstacles::detail(run));
+    }
+    blocks
+}
+
+/// What the claim rests on: derivation, assumptions about the plant, the transfer constants.
+pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
+    let derivation = match run.options.derivation {
+        Derivation::Sharp => "Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics).",
+        Derivation::Repaired => "Derivation: repaired (the architecture of the paper, each formula repaired).",
+        Derivation::Printed => "Derivation: printed (the paper to the letter).",
+    };
+    let mut items = vec![derivation.to_owned()];
+    let further = run.exact_arguments().filter(|_| run.largest_arguments().is_some());
+    items.extend(of_the_data(run.spec, run.largest_arguments(), further));
+    items.extend(of_the_transfer_bound(run));
+    items
+}
+
+/// What is assumed and what is proved of the data: those of a plant's formulas, or the bounding functions up to the arguments
+/// that are used.
+pub(super) fn of_the_data(
+    spec: &Specification,
+    used: Option<[Enclosure; 2]>,
+    further: Option<[Enclosure; 2]>,
+) -> Vec<String> {
+    let mut items = Vec::new();
+    if spec.plant().is_some() {
+        let of_states = if spec.state_name().is_some() { "the orbit x_0, the rate, " } else { "" };
+        items.push(format!(
+            "Proved from the formulas: that they have the period and are smooth where they are used, {of_states}the harmonics \
+             and every bound (section 11)."
+        ));
+        items.push(format!("Assumed: {}.", assumed(spec, used, further)));
+        return items;
+    }
+    match &spec.lyapunov {
+        LyapunovSource::Proved { triple, existence, .. } => {
+            let shown = |triple: &Lyapunov| {
+                format!("p_low = {}, p_up = {}, alpha = {}", triple.p_low.text, triple.p_up.text, triple.alpha.text)
+            };
+            let other = existence
+                .as_ref()
+                .map(|other| format!("; for the existence of the periodic solution {}", shown(&other.0)));
+            items.push(format!(
+                "Proved for every t and every matrix of the Jacobian: the Lyapunov triple {}{}.",
+                shown(triple),
+                other.unwrap_or_default()
+            ));
+        }
+        LyapunovSource::Given(_) | LyapunovSource::Wanted(_) | LyapunovSource::Plant(_) => {}
+    }
+    items.push(format!("Assumed of the plant: {}.", assumed(spec, used, further)));
+    items.push(
+        "Proved of the bounding functions: finite and nondecreasing there (a rate nonincreasing); of bounds of norms the \
+         positive parts are used. Proved of the weights: W1 to W3."
+        .to_owned(),
+    );
+    items
+}
+
+/// What nobody proves: that the formulas are the plant, or that the data of a specification bound it up to the arguments that
+/// are used.
+pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, further: Option<[Enclosure; 2]>) -> String {
+    if let Some(plant) = spec.plant() {
+        let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
+            let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));
+            spec.state_name()
+                .map_or_else(|| format!(", for |e| <= {e}"), |_| format!(", for |x - x_0| <= {x}, |e| <= {e}"))
+        });
+        return format!("that these formulas are the plant{domain}");
+    }
+    let [used, further] = [used, further].map(|some| some.map(|arguments| arguments.each_ref().map(upper)));
+    let of_the_zero_dynamics = match &spec.lyapunov {
+        LyapunovSource::Proved { .. } => "that its Jacobian df/dx(t,0,0) is within the one given",
+        _ if spec.bounds.own(Bound::Rate).is_some() => "the Lyapunov triple (p_low, p_up, alpha) and the rate",
+        _ => "the Lyapunov triple (p_low, p_up, alpha)",
+    };
+    let of_the_disturbance =
+        if spec.q_0.is_some() { ", that q_0 bounds the harmonics of q(t,0,0) and the rest" } else { "" };
+    format!(
+        "{of_the_zero_dynamics}{of_the_disturbance}, and that the bounding functions bound the plant{}{}",
+        used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments")),
+        further.map_or_else(String::new, |[x, e]| format!("; exact regulation needs them for |x| <= {x}, |e| <= {e}")),
+    )
+}
+
+/// Whether the claim uses that the base frequency fits the period.
+fn of_the_transfer_bound(run: &Certification<'_>) -> Option<String> {
+    run.claim().map(|claim| {
+        match claim.transfer {
+            TransferProof::Matched { .. } => {
+                "Used: the base frequency is exactly 2 pi / period (proved of the numbers given). `--transfer boxes` does \
+                 without."
+            }
+            TransferProof::ClosedForm | TransferProof::Boxes(_) => "Not used: that the base frequency fits the period.",
+        }
+        .to_owned()
+    })
+}

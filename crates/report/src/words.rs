@@ -1,0 +1,35 @@
+//! How a report names the state of the zero dynamics: x, its coordinates y of a plant's formulas, or nothing where a plant
+//! has none.
+
+use sigmastar_document::number::exact;
+use sigmastar_exact::number::Direction;
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+
+/// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`.
+pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
+    let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(|value| exact(value, Direction::Down));
+    let of_state = spec.state_name().map_or_else(String::new, |name| format!("|{name}| <= {x0}, "));
+    format!("{of_state}|e| <= {e0}, |z|_N <= {z0}")
+}
+
+/// The arguments up to which bounding functions are used: `X = 1, E = 2`.
+pub(super) fn arguments(spec: &Specification, [x, e]: [String; 2]) -> String {
+    let of_state = spec.state_name().map_or_else(String::new, |_| format!("X = {x}, "));
+    format!("{of_state}E = {e}")
+}
+
+/// What vanishes with infinitely many oscillators. Within bounding functions x is the deviation from the solution of
+/// x' = f(t,x,0); in the formulas of a plant it is not.
+pub(super) fn limit(spec: &Specification) -> &'static str {
+    match (spec.plant().is_some(), spec.state_name()) {
+        (false, _) => "x and e tend to 0",
+        (true, Some(_)) => "x - x_0(t) and e tend to 0, x_0 the T-periodic solution of x' = f(t,x,0)",
+        (true, None) => "e tends to 0",
+    }
+}
+
+/// The cells of a table of sizes, whose first one is that of the state: left out where there is none.
+pub(super) fn with_state<T, const N: usize>(spec: &Specification, cells: [T; N]) -> impl Iterator<Item = T> {
+    cells.into_iter().skip(usize::from(spec.state_name().is_none()))
+}

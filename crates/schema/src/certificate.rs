@@ -1,0 +1,284 @@
+//! The fields of a certificate. It is written by the program; the schema is for readers of it.
+
+use super::shape::{Field, Shape, Sign, any_list, may, must};
+use super::{plant, specification};
+use sigmastar_lang::spec::Bound;
+use sigmastar_prove::certificate::{FORMAT, NumberFields, RefinedSquares, VERSION};
+use sigmastar_theory::derivation::exact_regulation::ExactWitness;
+use sigmastar_theory::derivation::repaired::RepairedWitness;
+use sigmastar_theory::derivation::sampled::SampledWitness;
+use sigmastar_theory::derivation::sharp::SharpWitness;
+
+/// An exact rational number, as a decimal or a fraction.
+fn rational() -> Shape {
+    named("rational", Shape::Constant(Sign::Any))
+}
+
+/// A certificate of a specification or of a plant.
+pub(super) fn shape() -> Shape {
+    let of_specification = must(
+        "specification",
+        "Specification",
+        "The specification as it was read.",
+        Shape::Object(specification::fields(false)),
+    );
+    let of_plant = must("plant", "Plant", "The plant as it was read.", Shape::Object(plant::fields(false)));
+    let digest =
+        |name, what: &str| must(name, "Digest", format!("SHA-256 of the canonical form of the {what}."), Shape::Digest);
+    Shape::OneOf(vec![
+        Shape::Object(fields(of_specification, digest("specification_sha256", "specification"), false)),
+        Shape::Object(fields(of_plant, digest("plant_sha256", "plant"), true)),
+    ])
+}
+
+fn fields(embedded: Field, digest: Field, of_plant: bool) -> Vec<Field> {
+    let tool = vec![
+        must("name", "Name", "The program that wrote this file.", Shape::Text),
+        must("version", "Version", "Its version.", Shape::Text),
+    ];
+    let claims = [false, true].map(|sampled| Shape::Object(claim(sampled, of_plant)));
+    let witnesses = [Kind::MeanSquares, Kind::Contraction, Kind::Repaired, Kind::Sampled];
+    let witnesses = Shape::OneOf(witnesses.map(|kind| Shape::Object(witness(kind, true))).into());
+    let compared = vec![
+        may(
+            "sharp",
+            "Sharp",
+            "Those of the sharp derivation.",
+            Shape::OneOf(vec![Shape::Object(proof(Kind::MeanSquares)), Shape::Object(proof(Kind::Contraction))]),
+        ),
+        may("repaired", "Repaired", "Those of the repaired derivation.", Shape::Object(proof(Kind::Repaired))),
+    ];
+    vec![
+        must("format", "Format", "The kind of this file.", Shape::Word(vec![FORMAT])),
+        must("version", "Version", "The version of the format.", Shape::Version(vec![VERSION])),
+        must("tool", "Tool", "What wrote this file; free text.", Shape::Object(tool)),
+        must("precision_bits", "Precision", "The bits at which the conditions were decided.", Shape::Whole(128, 4096)),
+        embedded,
+        digest,
+        must("claim", "Claim", "What is claimed.", Shape::OneOf(claims.into())),
+        must("witness", "Witness", "From what the claim is decided again.", named("witness", witnesses)),
+        may("no_plant", "No plant", "That no plant with a state x satisfies the data.", Shape::Object(no_plant())),
+        may(
+            "comparison",
+            "Comparison",
+            "The free numbers of the other derivation; a figure.",
+            named("comparison", Shape::Object(compared)),
+        ),
+        may(
+            "conditions",
+            "Conditions",
+            "The conditions with both sides; figures.",
+            any_list(named("condition", Shape::Object(condition()))),
+        ),
+        may("constants", "Constants", "The constants in each derivation; figures.", {
+            Shape::Map(Box::new(named("constant", Shape::Object(constant()))))
+        }),
+    ]
+}
+
+fn named(name: &'static str, shape: Shape) -> Shape {
+    Shape::Named(name, Box::new(shape))
+}
+
+fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
+    let word = |name, title: &str, text: &str, word| must(name, title, text, Shape::Word(vec![word]));
+    let mut fields = vec![word("verdict", "Verdict", "Nothing else is written.", "certified")];
+    if sampled {
+        fields.extend([
+            word("regulator", "Regulator", "The regulator at samples.", "digital"),
+            word("derivation", "Derivation", "How it is proved.", "sharp"),
+            must("sigma", "Gain sigma", "The one gain that is certified, in 1/time.", rational()),
+            must("sampling_period", "Sampling period h", "In units of time.", rational()),
+            must("samples", "Samples", "period / h, a whole number.", Shape::Whole(2, 999_999_999)),
+            must("gain", "Gain K", "K of the law at samples, a double.", rational()),
+            word("n_o", "n_o", "For which numbers of oscillators.", "every n_o < samples/2"),
+        ]);
+    } else {
+        fields.extend([
+            must("derivation", "Derivation", "How it is proved.", Shape::Word(vec!["sharp", "repaired"])),
+            must("sigma_star", "sigma*", "Every gain from this one on is certified, in 1/time.", rational()),
+            word("n_o", "n_o", "For which numbers of oscillators.", "every n_o >= 0"),
+        ]);
+    }
+    let kind = must("kind", "Kind", "What was asked for.", Shape::Word(vec!["paper", "at-rest", "box"]));
+    let mut set: Vec<Field> = [kind].into_iter().chain(sizes()).collect();
+    if of_plant {
+        set.push(may("ball", "Ball", "The set contains |x - x_0| up to this radius.", rational()));
+    }
+    // Without a state x there is no bound of it.
+    let orbit = [("x", "|x|"), ("e", "|e|"), ("zeta", "|zeta|_N"), ("z", "|z|_N")]
+        .map(|(name, what)| may(name, what, format!("An upper bound of {what} along it."), rational()));
+    fields.extend([
+        must("mu", "Gain mu", "That of the specification.", rational()),
+        must("initial_set", "Initial set", "The set that is covered.", Shape::Object(set)),
+        must("periodic_solution", "Periodic solution", "Bounds of it.", Shape::Object(orbit.into())),
+        must("statement", "Statement", "The claim in words.", Shape::Text),
+    ]);
+    fields
+}
+
+fn sizes() -> [Field; 3] {
+    [("X0", "|x|"), ("E0", "|e|"), ("Z0", "|z|_N")]
+        .map(|(name, what)| must(name, name, format!("Bounds {what} of the initial set."), rational()))
+}
+
+/// Which conditions a witness is of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    MeanSquares,
+    /// Of earlier versions.
+    Contraction,
+    Repaired,
+    Sampled,
+}
+
+/// The free numbers of the other derivation.
+fn proof(kind: Kind) -> Vec<Field> {
+    vec![
+        must("sigma_star", "sigma*", "Its gain.", rational()),
+        must("initial_set", "Initial set", "Its initial set.", Shape::Object(sizes().into())),
+        must("witness", "Witness", "Its free numbers.", Shape::Object(witness(kind, false))),
+    ]
+}
+
+fn numbers(names: &[&'static str], text: &str) -> Vec<Field> {
+    names.iter().map(|name| must(name, *name, text, rational())).collect()
+}
+
+/// The witness; `main` is the one of the claim, which carries the proofs of the data.
+fn witness(kind: Kind, main: bool) -> Vec<Field> {
+    let names: &[&str] = match kind {
+        Kind::MeanSquares => SharpWitness::NAMES,
+        Kind::Contraction => &["X_p", "E_p", "p_x", "p_e", "D_x", "D_e", "w_x", "h", "k0", "k1"],
+        Kind::Repaired => RepairedWitness::NAMES,
+        Kind::Sampled => SampledWitness::NAMES,
+    };
+    let free = "A free number of the proof.";
+    let mut fields = numbers(names, free);
+    if kind == Kind::Sampled {
+        fields.extend(numbers(&["weight_sum"], free));
+    }
+    fields.push(must("transfer", "Transfer bound", "How (k0, k1) is proved.", Shape::OneOf(transfer(kind))));
+    if matches!(kind, Kind::MeanSquares | Kind::Contraction) {
+        let regulated = numbers(ExactWitness::NAMES, "A free number of exact regulation.");
+        fields.push(may("exact_regulation", "Exact regulation", "With infinitely many oscillators.", {
+            Shape::Object(regulated)
+        }));
+    }
+    if kind == Kind::MeanSquares {
+        let refined = numbers(RefinedSquares::NAMES, "A root mean square of the periodic solution.");
+        fields.push(may("refined", "Refined", "Smaller mean squares.", Shape::Object(refined)));
+    }
+    if main && kind != Kind::Sampled {
+        let multipliers = numbers(&["l_x", "l_e", "l_f"], "A multiplier.");
+        fields.push(may("lmi", "Multipliers", "C5 as a matrix inequality; a figure.", Shape::Object(multipliers)));
+    }
+    if main {
+        fields.extend(of_data());
+    }
+    fields
+}
+
+fn transfer(kind: Kind) -> Vec<Shape> {
+    let proof = |word| must("proof", "Proof", "Which proof it is.", Shape::Word(vec![word]));
+    if kind == Kind::Sampled {
+        return vec![Shape::Object(vec![proof("sampled")])];
+    }
+    let whole = |name| must(name, name, "A whole number of the proof.", Shape::Whole(0, 999_999_999));
+    let points = any_list(any_list(rational()));
+    let boxes = must("boxes", "Boxes", "Break points of x, for each number of oscillators.", points);
+    vec![
+        Shape::Object(vec![proof("closed-form")]),
+        Shape::Object(vec![proof("matched"), whole("K")]),
+        Shape::Object(vec![proof("boxes"), whole("m0"), whole("N0"), boxes]),
+    ]
+}
+
+/// What a Jacobian or a plant adds to the witness.
+fn of_data() -> Vec<Field> {
+    let matrix = || named("matrix", any_list(any_list(rational())));
+    let harmonics = |shape: &dyn Fn() -> Shape| {
+        let pair = [("cos", "cosine"), ("sin", "sine")]
+            .map(|(name, what)| must(name, name, format!("The coefficient of the {what}."), shape()));
+        may(
+            "harmonics",
+            "Harmonics",
+            "Those of 2 pi k t/period for k = 1, 2, ...",
+            any_list(Shape::Object(pair.into())),
+        )
+    };
+    let triple = || {
+        let mut fields = vec![must("P", "P", "The mean of P(t), by rows.", matrix()), harmonics(&matrix)];
+        fields.extend(numbers(&["p_low", "p_up", "alpha"], "A number of the proved triple."));
+        named("triple", Shape::Object(fields))
+    };
+    let vector = || any_list(rational());
+    let mut orbit = vec![must("mean", "Mean", "The mean of the approximate orbit.", vector()), harmonics(&vector)];
+    orbit.extend(numbers(&["defect", "tube", "radius"], "A size of the proof of the orbit."));
+    let mut forcing = vec![must("mean", "Mean", "The mean of q along the orbit.", rational()), harmonics(&rational)];
+    forcing.extend(numbers(&["rest", "rest_t"], "A bound of what the harmonics leave."));
+    let names = Bound::ALL.map(Bound::field).to_vec();
+    let mut value = vec![must("bound", "Bound", "Which bounding function.", Shape::Word(names))];
+    value.extend(numbers(&["X", "E", "value"], "An argument, or the bound there."));
+    vec![
+        may("lyapunov", "Lyapunov triple", "P(t) and the triple of stability, proved.", triple()),
+        may("lyapunov_existence", "Second triple", "That of the existence of the periodic solution.", triple()),
+        may("coordinates", "Coordinates", "The rows of L in x = x_0 + L y.", matrix()),
+        may("orbit", "Orbit", "The periodic solution of the zero dynamics.", named("orbit", Shape::Object(orbit))),
+        may("forcing", "Forcing", "q along the orbit.", named("forcing", Shape::Object(forcing))),
+        may(
+            "bounds",
+            "Bounds",
+            "The bounds that are proved from the formulas.",
+            any_list(named("bound", Shape::Object(value))),
+        ),
+    ]
+}
+
+fn interval() -> Shape {
+    Shape::List(Box::new(Shape::Text), 2, Some(2))
+}
+
+fn condition() -> Vec<Field> {
+    let text = |name, title: &str, about: &str| must(name, title, about, Shape::Text);
+    vec![
+        text("id", "Name", "The name of the condition."),
+        text("what", "Words", "What it says."),
+        text("relation", "Relation", "How its sides compare."),
+        must("lhs", "Left side", "An enclosure.", interval()),
+        must("rhs", "Right side", "An enclosure.", interval()),
+        text("margin", "Margin", "The right side less the left one, rounded down."),
+    ]
+}
+
+fn constant() -> Vec<Field> {
+    let about = || {
+        vec![
+            must("status", "Status", "Whether the formula is sound.", Shape::Text),
+            must("source", "Source", "Where the formula stands.", Shape::Text),
+        ]
+    };
+    let entry = || {
+        let value = must("value", "Value", "An enclosure.", interval());
+        let reason = must("reason", "Reason", "Why there is no value.", Shape::Text);
+        let kinds = [value, reason].map(|first| Shape::Object([first].into_iter().chain(about()).collect()));
+        named("entry", Shape::OneOf(kinds.into()))
+    };
+    vec![
+        must("evaluated_at", "Evaluated at", "With which free numbers.", Shape::Text),
+        may("printed", "Printed", "In the printed derivation.", entry()),
+        may("repaired", "Repaired", "In the repaired derivation.", entry()),
+        may("sharp", "Sharp", "In the sharp derivation.", entry()),
+    ]
+}
+
+/// Why no plant satisfies the data.
+fn no_plant() -> Vec<Field> {
+    vec![
+        must("X", "X", "Where the bounds contradict each other.", rational()),
+        must("rate_at_most", "Rate", "The largest contraction rate that the bounds allow.", interval()),
+        must("exceeded_by", "Exceeded by", "What is larger.", Shape::Word(vec!["alpha", "rate", "jacobian"])),
+        may("t", "t", "Where in the period, as a fraction of it.", rational()),
+        may("column", "Column", "Which column of the Jacobian.", Shape::Whole(0, 11)),
+    ]
+}

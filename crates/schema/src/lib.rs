@@ -1,0 +1,83 @@
+//! JSON Schemas of the files that people write, and of certificates: for editors and validators.
+//!
+//! A schema knows the names, types and places of fields. It knows no mathematics: what it accepts, the readers may refuse.
+//! What the readers accept, it accepts.
+
+#![deny(missing_docs)]
+
+mod certificate;
+mod parts;
+mod plant;
+mod shape;
+mod specification;
+mod study;
+
+use serde_json::{Map, Value, json};
+use shape::Shape;
+
+/// The dialect of the schemas.
+const DIALECT: &str = "https://json-schema.org/draft/2020-12/schema";
+
+/// The files that have a schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Schema {
+    /// A bounding specification.
+    Specification,
+    /// A plant.
+    Plant,
+    /// A parameter study.
+    Study,
+    /// A certificate.
+    Certificate,
+}
+
+impl Schema {
+    /// All of them.
+    pub const ALL: [Schema; 4] = [Schema::Specification, Schema::Plant, Schema::Study, Schema::Certificate];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Schema::Specification => "specification",
+            Schema::Plant => "plant",
+            Schema::Study => "study",
+            Schema::Certificate => "certificate",
+        }
+    }
+
+    fn shape(self) -> Shape {
+        match self {
+            Schema::Specification => Shape::Object(specification::fields(true)),
+            Schema::Plant => Shape::Object(plant::fields(true)),
+            Schema::Study => study::shape(),
+            Schema::Certificate => certificate::shape(),
+        }
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Schema::Specification => "Bounding specification of sigmastar",
+            Schema::Plant => "Plant of sigmastar",
+            Schema::Study => "Parameter study of sigmastar",
+            Schema::Certificate => "Certificate of sigmastar",
+        }
+    }
+
+    /// The schema.
+    #[must_use]
+    pub fn json(self) -> Value {
+        let mut schema = Map::new();
+        schema.insert("$schema".to_owned(), json!(DIALECT));
+        schema.insert("$id".to_owned(), json!(format!("urn:sigmastar:schema:{}:1", self.name())));
+        schema.insert("title".to_owned(), json!(self.title()));
+        let shape = self.shape();
+        schema.extend(shape.json());
+        let mut definitions = Map::new();
+        shape.definitions(&mut definitions);
+        if !definitions.is_empty() {
+            schema.insert("$defs".to_owned(), Value::Object(definitions));
+        }
+        Value::Object(schema)
+    }
+}

@@ -1,0 +1,99 @@
+//! The parts that several files have.
+
+use super::shape::{Field, Shape, Sign, list, may, must};
+use sigmastar_lang::spec::MAX_WEIGHTS;
+
+/// A positive constant.
+pub(super) const POSITIVE: Shape = Shape::Constant(Sign::Positive);
+
+/// A constant that is not negative.
+pub(super) const NONNEGATIVE: Shape = Shape::Constant(Sign::Nonnegative);
+
+/// `format`, `version`, `name`, `description`; `$schema` where the file is one of its own.
+pub(super) fn header(format: &'static str, versions: &[u64], whole: bool) -> Vec<Field> {
+    let schema = whole.then(|| {
+        may("$schema", "Schema", "Where an editor finds the schema of this file. It is ignored.", Shape::Text)
+    });
+    let rest = [
+        must("format", "Format", "The kind of this file.", Shape::Word(vec![format])),
+        must("version", "Version", "The version of the format.", Shape::Version(versions.to_vec())),
+        must("name", "Name", "Free text for reports; no claim depends on it.", Shape::Text),
+        may("description", "Description", "Free text for reports; no claim depends on it.", Shape::Text),
+    ];
+    schema.into_iter().chain(rest).collect()
+}
+
+/// `internal_model`.
+pub(super) fn internal_model() -> Field {
+    let fields = vec![
+        must("mu", "Gain mu", "The gain of the internal model, in 1/time.", POSITIVE),
+        must(
+            "base_frequency",
+            "Base frequency w",
+            "The oscillators have the frequencies w, 2 w, 3 w, ..., in radians per unit of time.",
+            POSITIVE,
+        ),
+        may(
+            "matched",
+            "Matched",
+            "Whether base_frequency is 2 pi / period, which is proved exactly. Without it: false.",
+            Shape::Boolean,
+        ),
+        must(
+            "weights",
+            "Weights",
+            "The weights n_0, n_1, ... of the oscillators; they are proved to be summable.",
+            weights(),
+        ),
+        may(
+            "sampling_period",
+            "Sampling period h",
+            "Asks for the regulator at samples, in units of time: the period is a whole multiple, and `matched` is true.",
+            POSITIVE,
+        ),
+    ];
+    must("internal_model", "Internal model", "The oscillators of the regulator.", Shape::Object(fields))
+}
+
+fn weights() -> Shape {
+    let family = |name| must("family", "Family", "How the weights are given.", Shape::Word(vec![name]));
+    let power = vec![
+        family("power"),
+        must("n0", "n_0", "The weight of the integrator, above 1.", Shape::Constant(Sign::Any)),
+        must("epsilon", "epsilon", "The weight of oscillator l is l^-(1 + epsilon).", Shape::Constant(Sign::Any)),
+    ];
+    let tail = vec![
+        must("coefficient", "Coefficient", "c in c l^-p.", Shape::Constant(Sign::Any)),
+        must("exponent", "Exponent", "p in c l^-p.", Shape::Constant(Sign::Any)),
+    ];
+    let explicit = vec![
+        family("explicit"),
+        must("values", "Values", "n_0, n_1, ... one by one.", list(Shape::Constant(Sign::Any), MAX_WEIGHTS)),
+        must("tail", "Tail", "The weights beyond the list: c l^-p.", Shape::Object(tail)),
+    ];
+    Shape::OneOf(vec![Shape::Object(power), Shape::Object(explicit)])
+}
+
+/// The kinds of `initial_set`; of a plant a ball may stand for X0.
+pub(super) fn initial_set(ball: bool) -> Shape {
+    let kind = |name| must("kind", "Kind", "What the initial set is.", Shape::Word(vec![name]));
+    let x0 = || {
+        let text = if ball { "Bounds |L^-1 (x - x_0)| in the norm of the certificate." } else { "Bounds |x|." };
+        ("X0", "X0", text, NONNEGATIVE)
+    };
+    let round = || ("ball", "Ball", "The set contains |x - x_0| up to this radius.", NONNEGATIVE);
+    let e0 = || ("E0", "E0", "Bounds |e|.", NONNEGATIVE);
+    let optional = |(name, title, text, shape)| may(name, title, text, shape);
+    let required = |(name, title, text, shape)| must(name, title, text, shape);
+    let z0 = || must("Z0", "Z0", "Bounds |z|_N = sqrt(z'Nz), the state of the regulator.", NONNEGATIVE);
+    let mut kinds = vec![
+        Shape::Object(vec![kind("paper")]),
+        Shape::Object(vec![kind("at-rest"), optional(x0()), optional(e0())]),
+        Shape::Object(vec![kind("box"), required(x0()), required(e0()), z0()]),
+    ];
+    if ball {
+        kinds.push(Shape::Object(vec![kind("at-rest"), required(round()), optional(e0())]));
+        kinds.push(Shape::Object(vec![kind("box"), required(round()), required(e0()), z0()]));
+    }
+    Shape::OneOf(kinds)
+}

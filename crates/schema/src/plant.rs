@@ -1,0 +1,46 @@
+//! The fields of a plant.
+
+use super::parts::{POSITIVE, header, initial_set, internal_model};
+use super::shape::{Field, Shape, Sign, any_list, may, must};
+use sigmastar_lang::plant::{FORMAT, VERSIONS};
+
+/// All fields; those of a file of its own, or of a copy in another one.
+pub(super) fn fields(whole: bool) -> Vec<Field> {
+    let number = || Shape::Constant(Sign::Any);
+    let start = vec![
+        must("x", "x", "One number for each state.", any_list(number())),
+        must("e", "e", "The regulated output.", number()),
+        may("z", "z", "The state of the regulator; at rest without it.", any_list(number())),
+    ];
+    let domain = vec![
+        must("x", "x", "The model holds for |x - x_0(t)| up to this.", POSITIVE),
+        must("e", "e", "The model holds for |e| up to this.", POSITIVE),
+    ];
+    let mut fields = header(FORMAT, &VERSIONS, whole);
+    fields.extend([
+        must("period", "Period T", "The period of f and q in t, in units of time.", POSITIVE),
+        must(
+            "states",
+            "States",
+            "The names of the states x, such as x1; empty where there are none.",
+            any_list(Shape::Text),
+        ),
+        must(
+            "f",
+            "f",
+            "x' = f(t,x,e): for each state a formula in t, the states and e.",
+            any_list(Shape::Expression("t, the states and e")),
+        ),
+        must("q", "q", "e' = q(t,x,e) + u.", Shape::Expression("t, the states and e")),
+        may(
+            "initial",
+            "Start of simulations",
+            "Where `simulate` starts; no claim depends on it.",
+            Shape::Object(start),
+        ),
+        may("initial_set", "Initial set", "The initial conditions that the claim covers.", initial_set(true)),
+        may("domain", "Domain", "Where the model holds; everywhere without it.", Shape::Object(domain)),
+        internal_model(),
+    ]);
+    fields
+}

@@ -1,0 +1,198 @@
+//! The bounding functions of a plant on a domain: polynomials that are proved.
+
+use super::fit::Samples;
+use rayon::prelude::*;
+use rug::Rational;
+use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, Kind, Majorant, Term};
+use sigmastar_prove::reduction::PlantRefusal;
+
+/// Where suprema are sampled, as parts of the largest X and E.
+const GRID: [f64; 6] = [0.0, 0.1, 0.25, 0.5, 0.75, 1.0];
+
+/// What a proposal is enlarged by until it is proved, and the boxes that each attempt may take.
+const ATTEMPTS: [(f64, usize); 5] = [(0.002, 4000), (0.006, 6000), (0.02, 10_000), (0.06, 15_000), (0.2, 20_000)];
+
+/// The constant grows by this part more, so that what vanishes on the orbit has room there.
+const ROOM: f64 = 0.1;
+
+/// Significant digits of coefficients.
+pub(super) const DIGITS: u32 = 4;
+
+/// Powers of ten that are tried for a bound that nothing is known of, and how often the step down is halved then (in
+/// logarithms).
+const EXPONENTS: [i32; 10] = [-15, -12, -9, -6, -3, 0, 3, 6, 9, 12];
+const HALVINGS: u32 = 10;
+
+/// Boxes that a trial of one value may take.
+const EFFORT: usize = 2000;
+
+/// The bounding functions of a plant on `|y| <= X`, `|e| <= E`, relative to its orbit; each is proved there for every t by
+/// itself: of the norms that the names say, q and q_t on the orbit alone.
+#[derive(Clone, Debug)]
+pub struct PlantBounds {
+    q: Majorant,
+    q_t: Majorant,
+    f_x: Majorant,
+    f_e: Majorant,
+    f_xx: Majorant,
+    f_ex: Majorant,
+    q_x: Majorant,
+    q_e: Majorant,
+    q_e_max: Majorant,
+    q_tx: Majorant,
+    q_te: Majorant,
+    rate: Majorant,
+}
+
+/// The kinds that are fitted by a polynomial.
+const FITTED: [Kind; 8] = [Kind::FX, Kind::FE, Kind::QX, Kind::QE, Kind::QEMax, Kind::QTX, Kind::QTE, Kind::Rate];
+
+impl PlantBounds {
+    /// Proposes and proves them. `engine` and `samples` are of one plant and region, of which the period and smoothness on the
+    /// whole domain have been proved.
+    ///
+    /// # Errors
+    /// The first bounding function that is not proved within the effort.
+    pub fn prove(engine: &Engine, samples: &FloatSuprema, domain: [&Rational; 2]) -> Result<PlantBounds, PlantRefusal> {
+        let stateless = engine.states() == 0;
+        let fitted = FITTED.into_par_iter().map(|kind| {
+            let found = match kind {
+                // Without states every rate is as good as any other.
+                Kind::Rate if stateless => Some(Majorant::constant(Rational::from(1))),
+                _ => majorant(engine, samples, kind, domain),
+            };
+            (kind, found)
+        });
+        let corner = domain.map(Rational::clone);
+        let origin = [Rational::new(), Rational::new()];
+        let single = [(Kind::Q, &origin), (Kind::QT, &origin), (Kind::FXX, &corner), (Kind::FEX, &corner)];
+        let single = single.into_par_iter().map(|(kind, at)| (kind, least(engine, kind, at).map(Majorant::constant)));
+        let all: Vec<(Kind, Option<Majorant>)> = fitted.chain(single).collect();
+        // What was not asked for is not proved either.
+        let proved = |kind: Kind| {
+            let found = all.iter().find(|(other, _)| *other == kind).and_then(|(_, found)| found.clone());
+            found.ok_or_else(|| PlantRefusal::NotProved { bound: kind.name(), at: domain.map(Rational::to_f64) })
+        };
+        Ok(PlantBounds {
+            f_x: proved(Kind::FX)?,
+            f_e: proved(Kind::FE)?,
+            q_x: proved(Kind::QX)?,
+            q_e: proved(Kind::QE)?,
+            q_e_max: proved(Kind::QEMax)?,
+            q_tx: proved(Kind::QTX)?,
+            q_te: proved(Kind::QTE)?,
+            rate: proved(Kind::Rate)?,
+            q: proved(Kind::Q)?,
+            q_t: proved(Kind::QT)?,
+            f_xx: proved(Kind::FXX)?,
+            f_ex: proved(Kind::FEX)?,
+        })
+    }
+
+    /// The bounding functions as fields of a specification, with coefficients of a few digits, and the rate.
+    ///
+    /// f, q and q_t follow from their derivatives along the segment from the orbit: `|f(t,x,e) - f(t,x_0,0)|` is at most
+    /// `int_0^1 f_x(sX,sE) X + f_e(sX,sE) E ds`, and so on.
+    #[must_use]
+    pub fn fields(self) -> (Vec<(&'static str, Majorant)>, Majorant) {
+        let added = |start: &Majorant, x: &Majorant, e: &Majorant| {
+            let sum = start.plus(&x.along_segment([1, 0])).plus(&e.along_segment([0, 1]));
+            sum.map(|coefficient| round_rational(coefficient, DIGITS, Direction::Up))
+        };
+        let on_the_orbit = [
+            ("f", added(&Majorant::default(), &self.f_x, &self.f_e)),
+            ("q", added(&self.q, &self.q_x, &self.q_e)),
+            ("q_t", added(&self.q_t, &self.q_tx, &self.q_te)),
+        ];
+        // From above and from below it is the same: then one of the two is enough.
+        let one_sided = (!self.q_e_max.is_above(&self.q_e)).then_some((Kind::QEMax, self.q_e_max));
+        let first = [
+            (Kind::FX, self.f_x),
+            (Kind::FE, self.f_e),
+            (Kind::FXX, self.f_xx),
+            (Kind::FEX, self.f_ex),
+            (Kind::QX, self.q_x),
+            (Kind::QE, self.q_e),
+        ];
+        let last = [(Kind::QTX, self.q_tx), (Kind::QTE, self.q_te)];
+        let own = first.into_iter().chain(one_sided).chain(last).map(|(kind, majorant)| (kind.name(), majorant));
+        (on_the_orbit.into_iter().chain(own).collect(), self.rate)
+    }
+}
+
+/// A polynomial that is proved, near the least that the samples allow; the constant at the far corner where none is.
+fn majorant(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Rational; 2]) -> Option<Majorant> {
+    let corner = || {
+        let proved = engine.prove_value(samples, kind, domain[0], domain[1])?;
+        let direction = if kind.is_rate() { Direction::Down } else { Direction::Up };
+        Some(round_rational(&proved.value, DIGITS, direction))
+    };
+    // What is 0 at every sample may be a little more, as x_0' is known to a radius.
+    let small = || if kind.is_rate() { None } else { least(engine, kind, &domain.map(Rational::clone)) };
+    proposal(engine, samples, kind, domain).or_else(|| corner().or_else(small).map(Majorant::constant))
+}
+
+fn proposal(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Rational; 2]) -> Option<Majorant> {
+    let sampled = sampled(engine, samples, kind, domain);
+    let size = sampled.size();
+    if !size.is_finite() {
+        return None;
+    }
+    if size == 0.0 {
+        let zero = Majorant::default();
+        return engine.decide_majorant(kind, &zero, domain, EFFORT).truth.is_true().then_some(zero);
+    }
+    let fitted = sampled.fit(!kind.is_norm())?;
+    ATTEMPTS.into_iter().find_map(|(slack, effort)| {
+        let term = |&(x, e, c): &(u32, u32, f64)| {
+            let room = if (x, e) == (0, 0) { ROOM * slack * size } else { 0.0 };
+            let enlarged = c + c.abs() * slack + room;
+            let (value, direction) =
+                if kind.is_rate() { (-enlarged, Direction::Down) } else { (enlarged, Direction::Up) };
+            Some(Term { x, e, coefficient: round_f64(value, DIGITS, direction)? })
+        };
+        let tried = Majorant { terms: fitted.iter().map(term).collect::<Option<_>>()? };
+        engine.decide_majorant(kind, &tried, domain, effort).truth.is_true().then_some(tried)
+    })
+}
+
+/// Suprema over the grid; the negatives of a rate.
+fn sampled(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Rational; 2]) -> Samples {
+    let [x, e] = domain.map(|end| {
+        let end = end.to_f64();
+        if end > 0.0 { GRID.map(|part| part * end).to_vec() } else { vec![0.0] }
+    });
+    let x = if engine.states() == 0 { vec![0.0] } else { x };
+    let radius = engine.radius();
+    let pairs = x.iter().flat_map(|x| e.iter().map(move |e| (*x, *e)));
+    let values = pairs.map(|(x, e)| {
+        let value = samples.refined(kind, x + radius, e).value;
+        if kind.is_rate() { -value } else { value }
+    });
+    let values = values.collect();
+    Samples { x, e, values }
+}
+
+/// A value of few digits that is proved at one argument, near the least of which that holds.
+fn least(engine: &Engine, kind: Kind, [x, e]: &[Rational; 2]) -> Option<Rational> {
+    let proved = |value: f64| {
+        let value = round_f64(value, DIGITS, Direction::Up)?;
+        let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value };
+        engine.decide(&entry, EFFORT).truth.is_true().then_some(entry.value)
+    };
+    if let Some(zero) = proved(0.0) {
+        return Some(zero);
+    }
+    let (exponent, mut best) =
+        EXPONENTS.into_iter().find_map(|exponent| Some((exponent, proved(10f64.portable_powi(exponent))?)))?;
+    let (mut low, mut high) = (f64::from(exponent - 3), f64::from(exponent));
+    for _ in 0..HALVINGS {
+        let middle = (low + high) / 2.0;
+        match proved(libm::exp10(middle)) {
+            Some(value) => (best, high) = (value, middle),
+            None => low = middle,
+        }
+    }
+    Some(best)
+}

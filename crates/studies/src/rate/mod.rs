@@ -1,0 +1,135 @@
+//! Rates of convergence for a given number of oscillators: they tend to 0 as n_o grows, while sigma* does not move.
+//!
+//! - [`oscillators`]: P_zeta and the decay rate of `Phi - mu M M'N` (Lemma 1 of the paper, P:lemma:hurwitzPhiM);
+//! - [`inequality`]: the matrix inequality that proves a rate of the closed loop, for any quadratic Lyapunov function;
+//! - [`small_gain`]: the largest rate that the inequality can prove, in floating point;
+//! - [`riccati`]: the Lyapunov function for it, by a Riccati equation;
+//! - [`by_kappa`]: a rate by the paper's constants c and kappa, for comparison.
+
+pub mod by_kappa;
+pub mod inequality;
+pub mod oscillators;
+pub mod riccati;
+pub mod small_gain;
+
+use by_kappa::RateByKappa;
+use inequality::{ErrorDynamics, LoopBounds};
+use oscillators::{OscillatorMatrix, ProvedLyapunov};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_prove::certify::{Certification, NoPlant, SharpProof, Verdict};
+use sigmastar_theory::data::Data;
+use small_gain::SmallGain;
+
+/// The largest number of oscillators for which rates are worked out: matrices of order up to 407.
+pub const MAX_OSCILLATORS: u32 = 200;
+
+/// Shares of the spectral abscissa that are tried for the oscillators alone.
+const SHARES: [f64; 7] = [0.9999, 0.999, 0.99, 0.95, 0.9, 0.75, 0.5];
+
+/// How a rate of the closed loop was proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// By a Lyapunov function of its own, from a Riccati equation.
+    Riccati,
+    /// By the paper's c and kappa, from the Lyapunov function of the certificate.
+    Kappa,
+}
+
+/// What was found for one n_o; rates in 1/time.
+#[derive(Clone, Debug)]
+pub struct Rates {
+    /// n_o.
+    pub n_o: u32,
+    /// Minus the spectral abscissa of `Phi - mu M M'N`, in floating point.
+    pub spectral: Option<f64>,
+    /// A proved decay rate of `zeta' = (Phi - mu M M'N) zeta`.
+    pub oscillators: Option<Rational>,
+    /// P_zeta of Lemma 1, as its largest eigenvalue relative to N, with the proved rate 1/(2 p) that the lemma gives: every
+    /// kappa > 0 is admissible, and the rate of N + kappa P_zeta tends to it as kappa grows.
+    pub lemma: Option<(Rational, Rational)>,
+    /// The best proved rate of exponential convergence of the closed loop's state to the periodic solution, at the given sigma.
+    pub closed_loop: Option<(Rational, Method)>,
+    /// The rate that the paper's c and kappa give, proved.
+    pub by_kappa: Option<Enclosure>,
+}
+
+/// Why there are no rates.
+#[derive(Clone, Debug)]
+pub enum NoRates {
+    /// Nothing is certified by the sharp derivation; the verdict.
+    NotCertified(Verdict),
+    /// No plant with a state satisfies the data: a rate of all of them would be one of a plant without x.
+    NoPlant(Box<NoPlant>),
+    /// The gain is below this sigma*.
+    BelowSigmaStar(Rational),
+}
+
+/// The [`rates`] of a certified run, with the gain they are for: sigma* where none is given.
+///
+/// # Errors
+/// [`NoRates`].
+pub fn certified_rates(
+    run: &Certification<'_>,
+    sigma: Option<Rational>,
+    n_o: &[u32],
+) -> Result<(Rational, Vec<Rates>), NoRates> {
+    let (Some(sigma_star), Some(proof)) = (run.sigma_star(), run.sharp.proved()) else {
+        return Err(NoRates::NotCertified(run.verdict));
+    };
+    if let Some(reason) = &run.no_plant {
+        return Err(NoRates::NoPlant(Box::new(reason.clone())));
+    }
+    let sigma = sigma.unwrap_or_else(|| sigma_star.clone());
+    if sigma < *sigma_star {
+        return Err(NoRates::BelowSigmaStar(sigma_star.clone()));
+    }
+    let found = rates(&Data::new(run.spec, proof.precision), proof, &sigma, n_o);
+    Ok((sigma, found))
+}
+
+/// The rates for several n_o at a gain `sigma >= sigma*`.
+///
+/// Guarantee: every rate but `spectral` is proved; `None` says that nothing was proved, not that there is none. The rate of the
+/// closed loop holds from the initial set of the proof.
+#[must_use]
+pub fn rates(data: &Data<'_>, proof: &SharpProof, sigma: &Rational, n_o: &[u32]) -> Vec<Rates> {
+    // The error box is proved to be invariant from sigma* on.
+    let bounds = LoopBounds::new(data, &proof.evaluation.error_box).filter(|_| *sigma >= proof.witness.sigma);
+    let by_kappa = RateByKappa::new(data, proof, sigma);
+    n_o.iter().map(|n_o| at(data, sigma, *n_o, bounds.as_ref(), by_kappa.as_ref())).collect()
+}
+
+fn at(
+    data: &Data<'_>,
+    sigma: &Rational,
+    n_o: u32,
+    bounds: Option<&LoopBounds>,
+    by_kappa: Option<&RateByKappa>,
+) -> Rates {
+    let system = OscillatorMatrix::new(data, n_o);
+    let eigen = system.eigen();
+    let spectral = eigen.as_ref().map(|eigen| -eigen.abscissa());
+    let prove = |rate: f64| eigen.as_ref().and_then(|eigen| system.prove(eigen, rate));
+    let oscillators =
+        spectral.and_then(|spectral| SHARES.iter().find_map(|share| prove(share * spectral)).map(|proved| proved.rate));
+    let lemma: Option<ProvedLyapunov> = prove(0.0);
+    let by_kappa = lemma.as_ref().zip(by_kappa).map(|(lemma, by_kappa)| by_kappa.rate(lemma));
+    let own = bounds.zip(eigen.as_ref()).and_then(|(bounds, eigen)| {
+        let dynamics = ErrorDynamics { oscillators: &system, sigma: sigma.clone(), bounds };
+        let condition = SmallGain::new(&dynamics, eigen.values());
+        riccati::propose_and_prove(&dynamics, &condition).map(|witness| (witness.rate, Method::Riccati))
+    });
+    let weaker = by_kappa.as_ref().and_then(Enclosure::lower_rational).filter(|rate| *rate > 0);
+    let weaker = weaker.map(|rate| (round_rational(&rate, 6, Direction::Down), Method::Kappa));
+    let closed_loop = match (own, weaker) {
+        (Some(own), Some(weaker)) => Some(if own.0 >= weaker.0 { own } else { weaker }),
+        (own, weaker) => own.or(weaker),
+    };
+    let lemma = lemma.map(|lemma| {
+        let rate = Rational::from(1) / (lemma.largest.clone() * 2u32);
+        (lemma.largest, round_rational(&rate, 6, Direction::Down))
+    });
+    Rates { n_o, spectral, oscillators, lemma, closed_loop, by_kappa }
+}

@@ -1,0 +1,80 @@
+//! Certifying the cases: each as `certify` does, in parallel over the cases.
+
+use super::cases::{Case, Sweep};
+use super::row::{Row, RowClaim, RowError};
+use rayon::prelude::*;
+use sigmastar_document::progress::Progress;
+use sigmastar_lang::spec::SpecErrors;
+use sigmastar_prove::certify::{Derivation, Options, Verdict, verdict_of_errors};
+use sigmastar_prove::reduction::{Prepared, Subject};
+use sigmastar_report::run_sentence;
+
+/// Certifies the cases of some indices on all cores and hands over each row as it is done.
+///
+/// A row depends on its case alone, so it is the same in every order.
+///
+/// # Errors
+/// The first error of `done`, after which no further case is begun.
+pub fn run<E: Send>(
+    sweep: &Sweep,
+    indices: &[u64],
+    progress: &impl Progress,
+    done: impl Fn(Row) -> Result<(), E> + Sync,
+) -> Result<(), E> {
+    // One case at a time for each thread: they differ widely in their work.
+    indices.par_iter().with_max_len(1).try_for_each(|index| {
+        let row = match sweep.case(*index) {
+            Ok(case) => solve(&case, sweep.study().derivation),
+            Err(errors) => Row { index: *index, values: Vec::new(), sha256: String::new(), ..refused(vec![errors]) },
+        };
+        progress.advance();
+        done(row)
+    })
+}
+
+/// The row of a case.
+///
+/// Guarantee: `certified` only where the certification of the document is.
+#[must_use]
+pub fn solve(case: &Case, derivation: Derivation) -> Row {
+    let row = attempt(case, derivation).unwrap_or_else(refused);
+    Row { index: case.index, values: case.values.clone(), sha256: case.sha256.clone(), ..row }
+}
+
+fn attempt(case: &Case, derivation: Derivation) -> Result<Row, Vec<SpecErrors>> {
+    let options = Options { derivation, compare: false, ..Options::default() };
+    let subject = Subject::read(&case.document).map_err(|errors| vec![errors])?;
+    let prepared = Prepared::new(subject, None)?;
+    let run = prepared.certify(options)?;
+    let claim = run.certified().map(|certified| RowClaim::new(&certified));
+    let verdict = if claim.is_some() { run.verdict() } else { run.verdict().without_claim() };
+    let reason = claim.is_none().then(|| run_sentence(&run));
+    Ok(Row { verdict, claim, reason, ..empty(errors(&run.unproved())) })
+}
+
+/// The row of a case that came to no run.
+fn refused(all: Vec<SpecErrors>) -> Row {
+    Row { verdict: verdict_of_errors(&all), ..empty(errors(&all)) }
+}
+
+fn empty(errors: Vec<RowError>) -> Row {
+    Row {
+        index: 0,
+        values: Vec::new(),
+        sha256: String::new(),
+        verdict: Verdict::Undecided,
+        claim: None,
+        reason: None,
+        errors,
+    }
+}
+
+fn errors(all: &[SpecErrors]) -> Vec<RowError> {
+    let every = all.iter().flat_map(SpecErrors::errors);
+    let one = |error: &sigmastar_lang::spec::SpecError| RowError {
+        code: error.kind.code().to_owned(),
+        pointer: error.pointer.clone(),
+        message: error.message.clone(),
+    };
+    every.map(one).collect()
+}

@@ -1,0 +1,117 @@
+//! Exact regulation with infinitely many oscillators: sigma*_oo (derivation, section 6; P:thm2 repaired).
+
+use super::condition::{self, Condition};
+use super::harmonics;
+use super::initial_set::ClaimedSet;
+use super::sharp::one_sided;
+use super::stability::{DecayCondition, ErrorBox, level_condition};
+use super::{domain_conditions, sign_conditions};
+use crate::data::{Bound, Data, Problem};
+use rug::Rational;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::real::Real;
+
+/// The free numbers of the exact-regulation claim, exactly.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExactWitness {
+    /// sigma*_oo.
+    pub sigma: Rational,
+    /// D_x > 0.
+    pub d_x: Rational,
+    /// D_e > 0.
+    pub d_e: Rational,
+    /// w_x > 0.
+    pub w_x: Rational,
+    /// h > 0.
+    pub h: Rational,
+}
+
+/// `z_oo = (1/mu) sqrt( b_q_rms(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt_rms(0,0)^2 )`: the norm of the steady state of the
+/// internal model (the paper drops the k = 0 term, a square root and n_0: erratum E13); where harmonics of q(t,0,0) are known,
+/// `(1/mu)[ sqrt(C_0^2/n_0 + sum_{k>=1} 4 C_k^2/n_k) + sqrt(r_0^2/n_0 + (2/n_1)(T/2pi)^2 r_1^2) ]`, if that is smaller
+/// (derivation, 10.6). Only the mean squares of q(t,0,0) and of its derivative enter (Parseval).
+#[must_use]
+pub fn steady_state_norm(data: &Data<'_>) -> Enclosure {
+    let at_origin = |which| data.bound(which, &data.zero(), &data.zero());
+    let norm = |size: &Enclosure, rate: &Enclosure| {
+        let constant = size.sqr() / &data.n_0;
+        (constant + 2 * (rate / &data.fundamental).sqr() / &data.n_1).sqrt()
+    };
+    let general = norm(&at_origin(Bound::QRms), &at_origin(Bound::QtRms));
+    let norm = match &data.q_0 {
+        None => general,
+        Some(known) => {
+            let rest = norm(&known.rest_rms, &harmonics::rest_t_rms(data, known));
+            general.min_known(&(harmonics::weighted_norm(data, known) + rest))
+        }
+    };
+    norm / &data.mu
+}
+
+/// Everything computed for exact regulation.
+#[derive(Clone, Debug)]
+pub struct ExactEvaluation {
+    /// z_oo.
+    pub z: Enclosure,
+    /// C4 and C5 around the origin, and the domain.
+    pub conditions: Vec<Condition>,
+}
+
+impl ExactEvaluation {
+    /// Evaluates C4 and C5 with x_per = e_per = 0.
+    ///
+    /// Hypotheses: base_frequency = 2 pi/T. Guarantee: if [`ExactEvaluation::truth`] is `True` and the bounding
+    /// functions are as proved up to (D_x, D_e), then with infinitely many oscillators, for every sigma' >= sigma,
+    /// solutions from the claimed set are bounded and x, e -> 0. No rate, and nothing on z.
+    #[must_use]
+    pub fn new(data: &Data<'_>, set: &ClaimedSet, witness: &ExactWitness) -> ExactEvaluation {
+        let number = |value: &Rational| data.rational(value);
+        let z = steady_state_norm(data);
+        let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
+        let (w_x, h, sigma) = (number(&witness.w_x), number(&witness.h), number(&witness.sigma));
+        let error_box = ErrorBox::new(data, &data.zero(), &data.zero(), &d_x, &d_e);
+        let decay = DecayCondition::new(data, &error_box, &w_x, &h);
+        let mut conditions = sign_conditions(
+            data,
+            &[
+                ("sigma", &witness.sigma),
+                ("D_x", &witness.d_x),
+                ("D_e", &witness.d_e),
+                ("w_x", &witness.w_x),
+                ("h", &witness.h),
+            ],
+        );
+        if !data.spec.internal_model.matched {
+            conditions.push(Condition::less(
+                "matched",
+                "exact regulation needs base_frequency = 2 pi / period",
+                Enclosure::one(data.precision),
+                data.zero(),
+            ));
+        }
+        conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
+        conditions.extend(one_sided(data, "(D_x, D_e)", [&error_box.x_b, &error_box.e_b]));
+        let [dist_x, dist_e, dist_z] = set.distances(data, [&data.zero(), &data.zero(), &z]);
+        let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
+        conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));
+        conditions.push(Condition::less(
+            "C5",
+            "exact regulation: (h/mu) k_x^2 < 4 w_x a_2",
+            decay.coupling,
+            decay.curvature,
+        ));
+        conditions.push(Condition::less(
+            "C5b",
+            "exact regulation: threshold of the quadratic form < sigma",
+            decay.sigma_threshold,
+            sigma,
+        ));
+        ExactEvaluation { z, conditions }
+    }
+
+    /// The truth of all conditions together.
+    #[must_use]
+    pub fn truth(&self) -> Truth {
+        condition::all(&self.conditions)
+    }
+}

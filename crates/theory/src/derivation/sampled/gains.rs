@@ -1,0 +1,263 @@
+//! What the law at samples makes of a periodic q, for every n_o < N_s/2 (derivation, 12.1).
+
+use super::law::SampledLaw;
+use crate::data::Problem;
+use crate::derivation::harmonics::AtOrigin;
+use crate::derivation::mean_squares::{Forcing, Gains, Response};
+use sigmastar_exact::real::{Operand, Real};
+
+/// With more samples than these 1 + theta, which is then nearly 1, stands for every Sb_j.
+pub const SHARP_SAMPLES: u32 = 8192;
+
+/// The gains at one sigma, between bounds R_q of rms(q), R_1 of rms(q') and those of e.
+#[derive(Clone, Debug)]
+pub struct SampledGains<R> {
+    /// bt_S: sup|e_k| <= bt_S rms(q).
+    pub sup: R,
+    /// tau_S: sup|e_k| <= tau_S rms(q').
+    pub sup_by_rate: R,
+    /// 1/sg_S: the rms of the e_k over rms(q), and that of (e_{k+1} - e_k)/h over rms(q').
+    pub rms: R,
+    /// 1/(om_1 sg_S): the rms of the e_k over rms(q').
+    pub rms_by_rate: R,
+    /// 2 (1 + theta)/(2 - h sigma): rms(e') over rms(q).
+    pub rate: R,
+    /// sqrt(1/sg_S^2 + (h/pi)^2): rms(e') over rms(q').
+    pub rate_by_rate: R,
+    /// (h/(2 pi)) sqrt(h T): what e is off its straight lines between samples, over rms(q').
+    pub between: R,
+    /// (h/pi)^2: the same in the mean.
+    pub between_rms: R,
+    /// mu and 1 + theta of the law.
+    mu: R,
+    enlarged: R,
+}
+
+impl<R: Real> SampledGains<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// Evaluates the gains. Hypotheses: K h Nb2 < 2, h sigma <= 1.
+    ///
+    /// With Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|} the harmonics of y are at most Sb_j times those of the means of q, and 0
+    /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike.
+    #[must_use]
+    pub fn new(law: &SampledLaw<R>, sigma: &R, period: &R) -> SampledGains<R> {
+        let one = R::int(1);
+        let product = &law.step * sigma;
+        let decay = &one - &product;
+        let share = |sine: &R| sigma.sqr() + &decay * law.frequency_squared(sine);
+        let largest = law.enlarged.sqr();
+        let nothing = &largest * R::int(0);
+        let (mut sup, mut sup_by_rate) = (nothing.clone(), nothing);
+        for (j, sine) in (1_u32..).zip(law.sines.iter()) {
+            let cosine = &one - sine;
+            let gain = if law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
+                largest.min(&(&one / cosine))
+            } else {
+                largest.clone()
+            };
+            let times = if 2 * j == law.samples { one.clone() } else { R::int(2) };
+            let term = times * gain / share(sine);
+            sup_by_rate = sup_by_rate + &term / law.frequency_squared(sine);
+            sup = sup + term;
+        }
+        let first = law.first_frequency_squared();
+        let rms = &one / slowest(law, sigma, &decay);
+        let in_between = &law.step / &law.pi;
+        SampledGains {
+            sup: sup.sqrt(),
+            sup_by_rate: sup_by_rate.sqrt(),
+            rms_by_rate: &rms / first.sqrt(),
+            rate: R::int(2) * &law.enlarged / (R::int(2) - product),
+            rate_by_rate: (rms.sqr() + in_between.sqr()).sqrt(),
+            rms,
+            between: &in_between / R::int(2) * (&law.step * period).sqrt(),
+            between_rms: in_between.sqr(),
+            mu: law.mu.clone(),
+            enlarged: law.enlarged.clone(),
+        }
+    }
+}
+
+/// sg_S = max{ sg_h/(1+theta), min{ cos(pi/N_s) sg_h, sqrt(sigma^2 + 4 a s*/h^2)/(1+theta) } }, s* = 1 - (1+theta)^-2: at most
+/// every sqrt(sigma^2 + a om_j^2)/Sb_j.
+fn slowest<R: Real>(law: &SampledLaw<R>, sigma: &R, decay: &R) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
+    let one = R::int(1);
+    let first = sigma.sqr() + decay * law.first_frequency_squared();
+    let squared = law.enlarged.sqr();
+    let plain = &first / &squared;
+    if law.samples > SHARP_SAMPLES {
+        return plain.sqrt();
+    }
+    let turn = &one - &one / &squared;
+    let cosine = law.sines.first().map_or_else(R::unknown, |sine| &one - sine);
+    let at_turn = (sigma.sqr() + decay * law.frequency_squared(&turn)) / &squared;
+    plain.max(&(cosine * &first).min(&at_turn)).sqrt()
+}
+
+impl<R: Real> Gains<R> for SampledGains<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// `min{bt_S R_q, tau_S R_1} + (h/(2 pi)) sqrt(h T) R_1`, `min{R_q, R_1/om_1}/sg_S + (h/pi)^2 R_1`,
+    /// `min{2 (1+theta)/(2 - h sigma) R_q, sqrt(1/sg_S^2 + (h/pi)^2) R_1}`.
+    fn response(&self, _: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R> {
+        let Forcing { q_rms, q_rate_rms, .. } = forcing;
+        let least = |by_size: &R, by_rate: &R| (by_size * q_rms).min_known(&(by_rate * q_rate_rms));
+        Response {
+            sup: least(&self.sup, &self.sup_by_rate) + &self.between * q_rate_rms,
+            rms: least(&self.rms, &self.rms_by_rate) + &self.between_rms * q_rate_rms,
+            rate_rms: least(&self.rate, &self.rate_by_rate),
+        }
+    }
+
+    /// `Z^2 = (1+theta)^2 [ (T/(2 mu) + k0/w^2) R_q^2 + (k1/w^4) R_1^2 ]` (12.2), a bound of sup_k |zeta_k|_N^2.
+    fn z_squared(&self, problem: &impl Problem<R>, forcing: &Forcing<R>, [k0, k1]: [&R; 2]) -> R {
+        let [kappa_0, kappa_1] = problem.numbers().kappas(k0, k1);
+        let swing = &problem.numbers().period / (R::int(2) * &self.mu);
+        self.enlarged.sqr() * ((swing + kappa_0) * forcing.q_rms.sqr() + kappa_1 * forcing.q_rate_rms.sqr())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{Data, Problem};
+    use crate::derivation::sampled::examples::{example, law};
+    use nalgebra::Complex;
+    use std::f64::consts::{PI, TAU};
+
+    /// [sup|e_k|, sup|e|, rms(e), rms(e')] of the periodic answer to q = 2 Re sum_m c_m e^{i m Om t}, T = 1, by its harmonics at
+    /// samples and the law between them; in doubles.
+    fn answer(data: &Data<'_>, law: &SampledLaw<f64>, sigma: f64, n_o: i64, q: &[(i64, Complex<f64>)]) -> [f64; 4] {
+        let weights = &data.spec.internal_model.weights;
+        let (n, h, i) = (i64::from(law.samples), law.step, Complex::i());
+        let turn = |angle: f64| Complex::new(0.0, angle).exp();
+        let both: Vec<(i64, Complex<f64>)> = q.iter().flat_map(|(m, c)| [(*m, *c), (-m, c.conj())]).collect();
+        let mut e = vec![Complex::new(0.0, 0.0); n as usize];
+        let mut means = e.clone();
+        for (m, c) in &both {
+            let angle = TAU * *m as f64 * h;
+            let mean = c * (turn(angle) - 1.0) / (i * angle);
+            for k in 0..n {
+                means[k as usize] += mean * turn(TAU * (*m * k).rem_euclid(n) as f64 / n as f64);
+            }
+        }
+        for j in 1..n {
+            let mean: Complex<f64> = (0..n)
+                .map(|k| means[k as usize] * turn(-TAU * (j * k).rem_euclid(n) as f64 / n as f64))
+                .sum::<Complex<f64>>()
+                / n as f64;
+            let near = j.min(n - j);
+            if near <= n_o {
+                continue;
+            }
+            let phi = TAU * j as f64 / n as f64;
+            let c = |l: i64| weights.weight_f64(l.unsigned_abs()) * if l == 0 { 1.0 } else { 0.5 };
+            let g: Complex<f64> = (-n_o..=n_o).map(|l| c(l) / (turn(phi - TAU * l as f64 / n as f64) - 1.0)).sum();
+            let y = mean / (1.0 + law.gain * h * g);
+            let own = h * y / (turn(phi) - (1.0 - h * sigma));
+            for k in 0..n {
+                e[k as usize] += own * turn(TAU * (j * k).rem_euclid(n) as f64 / n as f64);
+            }
+        }
+        let (mut at_samples, mut sup, mut squares, mut rates) = (0.0_f64, 0.0_f64, 0.0, 0.0);
+        const FINE: u32 = 40;
+        for k in 0..n {
+            let (here, next) = (e[k as usize].re, e[((k + 1) % n) as usize].re);
+            let u = (next - here) / h - means[k as usize].re;
+            at_samples = at_samples.max(here.abs());
+            for step in 0..FINE {
+                let s = h * (f64::from(step) + 0.5) / f64::from(FINE);
+                let start = k as f64 * h;
+                let moved: Complex<f64> = both
+                    .iter()
+                    .map(|(m, c)| {
+                        c * turn(TAU * *m as f64 * start) * (turn(TAU * *m as f64 * s) - 1.0) / (i * TAU * *m as f64)
+                    })
+                    .sum();
+                let value: Complex<f64> = both.iter().map(|(m, c)| c * turn(TAU * *m as f64 * (start + s))).sum();
+                let error = here + s * u + moved.re;
+                sup = sup.max(error.abs());
+                squares += error * error;
+                rates += (value.re + u).powi(2);
+            }
+        }
+        let count = (n * i64::from(FINE)) as f64;
+        [at_samples, sup, (squares / count).sqrt(), (rates / count).sqrt()]
+    }
+
+    #[test]
+    fn answers_of_the_law_stay_within_their_bounds() {
+        let mut state = 5_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / 2f64.powi(23) - 1.0
+        };
+        let mut worst = [0.0_f64; 4];
+        for (samples, mu) in [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")] {
+            let spec = example(samples, mu, |_| ());
+            let data = Data::new(&spec, 128);
+            let law = law(&data).to_f64();
+            for product in [0.02, 0.3, 1.0] {
+                let sigma = product / law.step;
+                let gains = SampledGains::new(&law, &sigma, &1.0);
+                for trial in 0..24 {
+                    let n_o = i64::from(trial % 3) * i64::from((samples - 1) / 2) / 2;
+                    let q: Vec<(i64, Complex<f64>)> = match trial {
+                        // One harmonic alone, the first that the oscillators leave.
+                        0..3 => vec![(n_o + 1, Complex::new(1.0, next()))],
+                        _ => (1..=i64::from(samples) + 5)
+                            .filter(|m| trial % 2 == 0 || *m > n_o)
+                            .map(|m| (m, Complex::new(next(), next()) / (m as f64).powi(trial % 4)))
+                            .collect(),
+                    };
+                    let rms = |rate: bool| {
+                        let factor = |m: i64| if rate { TAU * m as f64 } else { 1.0 };
+                        q.iter().map(|(m, c)| 2.0 * c.norm_sqr() * factor(*m).powi(2)).sum::<f64>().sqrt()
+                    };
+                    let (size, rate) = (rms(false), rms(true));
+                    let least = |by_size: f64, by_rate: f64| (by_size * size).min(by_rate * rate);
+                    let at_samples = least(gains.sup, gains.sup_by_rate);
+                    let bounds = [
+                        at_samples,
+                        at_samples + gains.between * rate,
+                        least(gains.rms, gains.rms_by_rate) + gains.between_rms * rate,
+                        least(gains.rate, gains.rate_by_rate),
+                    ];
+                    let found = answer(&data, &law, sigma, n_o, &q);
+                    for ((found, bound), worst) in found.iter().zip(bounds).zip(&mut worst) {
+                        assert!(found <= &(bound * (1.0 + 1e-3)), "{samples} {mu} {product} {trial}: {found} {bound}");
+                        *worst = worst.max(found / bound);
+                    }
+                }
+            }
+        }
+        // None of the bounds is idle.
+        assert!(worst.iter().all(|ratio| *ratio > 0.6), "{worst:?}");
+    }
+
+    /// The closed forms of the sums where theta plays no part: those of the resolvent at samples.
+    #[test]
+    fn the_sums_have_their_closed_forms() {
+        let spec = example(40, "1/1000000", |_| ());
+        let data = Data::new(&spec, 128);
+        let law = law(&data).to_f64();
+        let (h, t, n) = (law.step, data.numbers().period.midpoint_f64(), 40);
+        for sigma in [0.5, 7.0, 39.0] {
+            let gains = SampledGains::new(&law, &sigma, &t);
+            let a = 1.0 - h * sigma;
+            let power = a.powi(n);
+            let sup = t * (1.0 + power) / (sigma * (2.0 - h * sigma) * (1.0 - power)) - 1.0 / (sigma * sigma);
+            let by_rate = ((t * t - h * h) / 12.0 - a * sup) / (sigma * sigma);
+            assert!((gains.sup.powi(2) / sup - 1.0).abs() < 1e-5, "{sigma}");
+            assert!((gains.sup_by_rate.powi(2) / by_rate - 1.0).abs() < 1e-4, "{sigma}");
+            let first = 2.0 / h * (PI / 40.0).sin();
+            assert!((gains.rms - 1.0 / (sigma * sigma + a * first * first).sqrt()).abs() < 1e-5 * gains.rms, "{sigma}");
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! The numbers of the law at samples (derivation, 12): h, K, theta, and the sines of its harmonics.
+
+use crate::data::{Data, Numbers, Problem};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::real::{Operand, Real};
+use sigmastar_lang::spec::{SampledGain, Sampling};
+use std::sync::Arc;
+
+/// The law at samples h apart, N_s of them in a period, with the gain K.
+#[derive(Clone, Debug)]
+pub struct SampledLaw<R> {
+    /// h.
+    pub step: R,
+    /// N_s = T/h.
+    pub samples: u32,
+    /// K.
+    pub gain: R,
+    /// Nb2, at least the sum of all weights.
+    pub weight_sum: R,
+    /// 1 + theta := 1/(1 - K h Nb2/2); meaningful where K h Nb2 < 2.
+    pub enlarged: R,
+    /// mu := K (1 + theta), the mu of every formula of section 12.
+    pub mu: R,
+    /// pi.
+    pub pi: R,
+    /// sin^2(pi j/N_s) for j = 1, ..., floor(N_s/2).
+    pub sines: Arc<Vec<R>>,
+}
+
+impl SampledLaw<Enclosure> {
+    /// Encloses the numbers at the precision of the data.
+    #[must_use]
+    pub fn new(data: &Data<'_>, sampling: &Sampling, gain: &SampledGain) -> SampledLaw<Enclosure> {
+        let pi = Enclosure::pi(data.precision);
+        let samples = Enclosure::from_integer(i64::from(sampling.samples), data.precision);
+        let unit = &pi / &samples;
+        let sine = |j: u32| (i64::from(j) * &unit).sin().sqr();
+        let sines = (1..=sampling.samples / 2).map(sine).collect();
+        let [step, gain, weight_sum] =
+            [sampling.step.enclose(data.precision), data.rational(&gain.gain), data.rational(&gain.weight_sum)];
+        SampledLaw::with(step, sampling.samples, [gain, weight_sum], pi, sines)
+    }
+
+    /// The same law in doubles, for a search.
+    #[must_use]
+    pub fn to_f64(&self) -> SampledLaw<f64> {
+        let [step, gain, weight_sum, pi] =
+            [&self.step, &self.gain, &self.weight_sum, &self.pi].map(Enclosure::midpoint_f64);
+        let sines = self.sines.iter().map(Enclosure::midpoint_f64).collect();
+        SampledLaw::with(step, self.samples, [gain, weight_sum], pi, sines)
+    }
+}
+
+impl<R: Real> SampledLaw<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    fn with(step: R, samples: u32, [gain, weight_sum]: [R; 2], pi: R, sines: Vec<R>) -> SampledLaw<R> {
+        let enlarged = R::int(1) / (R::int(1) - &gain * &step * &weight_sum / R::int(2));
+        SampledLaw { mu: &gain * &enlarged, step, samples, gain, weight_sum, enlarged, pi, sines: Arc::new(sines) }
+    }
+
+    /// K h Nb2, to be below 2.
+    #[must_use]
+    pub fn load(&self) -> R {
+        &self.gain * &self.step * &self.weight_sum
+    }
+
+    /// theta/(1 + theta) = K h Nb2/2.
+    #[must_use]
+    pub fn lost(&self) -> R {
+        self.load() / R::int(2)
+    }
+
+    /// nu = mu/w.
+    #[must_use]
+    pub fn nu(&self, problem: &impl Problem<R>) -> R {
+        let Numbers { base_frequency, .. } = problem.numbers();
+        &self.mu / base_frequency
+    }
+
+    /// om_j^2 = (4/h^2) sin^2(pi j/N_s) of one of the sines.
+    #[must_use]
+    pub fn frequency_squared(&self, sine: &R) -> R {
+        R::int(4) * sine / self.step.sqr()
+    }
+
+    /// om_1^2.
+    #[must_use]
+    pub fn first_frequency_squared(&self) -> R {
+        // There are at least two samples, so at least one sine.
+        self.sines.first().map_or_else(R::unknown, |sine| self.frequency_squared(sine))
+    }
+}

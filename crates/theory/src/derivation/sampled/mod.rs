@@ -1,0 +1,233 @@
+//! The regulator at samples (derivation, 12): conditions S0, S1, S2, C4, C5h decided from a rational witness.
+//!
+//! A claim is about exactly one sigma and one sampling period: nothing here is monotone in either.
+
+#[cfg(test)]
+mod examples;
+mod gains;
+mod law;
+mod pair;
+mod stability;
+
+pub use gains::SampledGains;
+pub use law::SampledLaw;
+pub use pair::{SampledPair, sampled_trade_off};
+pub use stability::{DecayForms, DecayNumbers, Form, Part};
+
+use super::condition::{self, Condition};
+use super::harmonics::AtOrigin;
+use super::initial_set::{ClaimedSet, set_conditions};
+use super::mean_squares::{Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, sup_by_mean_squares};
+use super::sharp::one_sided;
+use super::stability::{ErrorBox, level_condition};
+use super::{domain_conditions, sign_conditions};
+use crate::data::Data;
+use rug::Rational;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_lang::spec::{SampledGain, Sampling};
+
+/// The largest relative difference between the mu of a specification and K (1 + theta), as its inverse.
+const SAME_MU: u32 = 1_000_000;
+
+/// The free numbers of a claim about the regulator at samples, exactly.
+#[derive(Clone, Debug)]
+pub struct SampledWitness {
+    /// The gain.
+    pub sigma: Rational,
+    /// h, with T/h samples.
+    pub sampling: Sampling,
+    /// K and Nb2.
+    pub law: SampledGain,
+    /// X_p > 0.
+    pub x_p: Rational,
+    /// E_p > 0.
+    pub e_p: Rational,
+    /// r_x > 0.
+    pub r_x: Rational,
+    /// r_e > 0.
+    pub r_e: Rational,
+    /// r_d > 0.
+    pub r_d: Rational,
+    /// D_x > 0.
+    pub d_x: Rational,
+    /// D_e > 0.
+    pub d_e: Rational,
+    /// w_x > 0.
+    pub w_x: Rational,
+    /// eta > 0, the weight of zeta.
+    pub eta: Rational,
+    /// k0, in units of omega/w.
+    pub k0: Rational,
+    /// k1, in units of omega/w.
+    pub k1: Rational,
+    /// The initial set to be covered.
+    pub set: ClaimedSet,
+}
+
+impl SampledWitness {
+    /// r_x, r_e, r_d.
+    #[must_use]
+    pub fn squares(&self) -> MeanSquares<&Rational> {
+        MeanSquares { x: &self.r_x, e: &self.r_e, e_rate: &self.r_d }
+    }
+}
+
+/// Everything that is computed from such a witness.
+#[derive(Clone, Debug)]
+pub struct SampledEvaluation {
+    /// h sigma.
+    pub product: Enclosure,
+    /// The law.
+    pub law: SampledLaw<Enclosure>,
+    /// The bounding functions at (X_p, E_p).
+    pub bounds: SetBounds<Enclosure>,
+    /// R_q, R_1, e_per, x_per.
+    pub size: PeriodicSize<Enclosure>,
+    /// Z.
+    pub z: Enclosure,
+    /// The error box.
+    pub error_box: ErrorBox<Enclosure>,
+    /// Q_0 and Q_h.
+    pub forms: DecayForms<Enclosure>,
+    /// All conditions in order.
+    pub conditions: Vec<Condition>,
+}
+
+impl SampledEvaluation {
+    /// Evaluates all quantities and conditions at the precision of `data`.
+    ///
+    /// Guarantee: if [`SampledEvaluation::truth`] is `True` and the bounding functions are finite, nonnegative where they bound
+    /// norms, and nondecreasing (a rate nonincreasing) up to (max{X_p, X_b}, max{E_p, E_b}), then for this sigma and h, every
+    /// n_o < N_s/2 and every phase of the sampling grid there is a T-periodic solution with sup|x| <= x_per,
+    /// sup|e| <= e_per, |zeta_k|_N <= Z, and every solution that is in the claimed set at a sampling instant converges to it
+    /// exponentially.
+    #[must_use]
+    pub fn new(data: &Data<'_>, witness: &SampledWitness) -> SampledEvaluation {
+        let number = |value: &Rational| data.rational(value);
+        let (sigma, law) = (number(&witness.sigma), SampledLaw::new(data, &witness.sampling, &witness.law));
+        // Exactly where h is rational: h sigma = 1 is allowed.
+        let product = match witness.sampling.step.as_rational() {
+            Some(step) => number(&Rational::from(step * &witness.sigma)),
+            None => &law.step * &sigma,
+        };
+        let origin = AtOrigin::new(data);
+        let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
+        let gains = SampledGains::new(&law, &sigma, &data.period);
+        let squares = witness.squares().map(|value| number(value));
+        let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
+        let z = gains.z_squared(data, &size.forcing, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
+        let [d_x, d_e, w_x, eta] = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta].map(number);
+        let error_box = ErrorBox::new(data, &size.x_per, &size.e_per, &d_x, &d_e);
+        let forms = DecayForms::new(data, &error_box, &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta });
+
+        let mut conditions = signs(data, witness);
+        conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
+        conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
+        conditions.push(SampledPair { law: &law, k0: &witness.k0, k1: &witness.k1 }.condition(data));
+        conditions.extend(law_conditions(data, &law, &product));
+        conditions.extend(too_large_a_sum(data, &law));
+        conditions.extend(existence_conditions(data, &bounds, &origin, &gains, &squares));
+        let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&size.x_per, &size.e_per, &z]);
+        let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
+        conditions.push(Condition::less(
+            "C4",
+            "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}",
+            start,
+            exit,
+        ));
+        conditions.extend(one_sided(data, "(X_b, E_b)", [&error_box.x_b, &error_box.e_b]));
+        conditions.extend(form_conditions(data, &forms));
+        SampledEvaluation { product, law, bounds, size, z, error_box, forms, conditions }
+    }
+
+    /// The truth of all conditions together.
+    #[must_use]
+    pub fn truth(&self) -> Truth {
+        condition::all(&self.conditions)
+    }
+}
+
+/// All numbers of a witness are positive; k1 may be 0.
+fn signs(data: &Data<'_>, witness: &SampledWitness) -> Vec<Condition> {
+    let named = [
+        ("sigma", &witness.sigma),
+        ("gain", &witness.law.gain),
+        ("X_p", &witness.x_p),
+        ("E_p", &witness.e_p),
+        ("r_x", &witness.r_x),
+        ("r_e", &witness.r_e),
+        ("r_d", &witness.r_d),
+        ("D_x", &witness.d_x),
+        ("D_e", &witness.d_e),
+        ("w_x", &witness.w_x),
+        ("h", &witness.eta),
+        ("k0", &witness.k0),
+    ];
+    let mut conditions = sign_conditions(data, &named);
+    if witness.k1 < 0 {
+        conditions.push(Condition::at_most("sign", "0 <= k1", data.zero(), data.rational(&witness.k1)));
+    }
+    conditions
+}
+
+/// (S0): the law is one of section 12, for the mu of the specification.
+fn law_conditions(data: &Data<'_>, law: &SampledLaw<Enclosure>, product: &Enclosure) -> Vec<Condition> {
+    let one = Enclosure::one(data.precision);
+    let two = Enclosure::from_integer(2, data.precision);
+    vec![
+        Condition::at_most("S0", "h sigma <= 1", product.clone(), one),
+        Condition::at_most("S0b", "Nbar^2 <= weight_sum", data.n_bar_squared.clone(), law.weight_sum.clone()),
+        Condition::less("S0c", "K h weight_sum < 2", law.load(), two),
+        Condition::at_most(
+            "S0d",
+            "|K (1 + theta) - mu| <= mu/10^6",
+            (&law.mu - &data.mu).abs(),
+            &data.mu / Enclosure::from_integer(i64::from(SAME_MU), data.precision),
+        ),
+    ]
+}
+
+/// Nb2 <= Nbar^2 (1 + 1/10^6), told where it is not proved: a larger sum would let a smaller K pass for the mu that is asked for.
+fn too_large_a_sum(data: &Data<'_>, law: &SampledLaw<Enclosure>) -> Option<Condition> {
+    let one = Enclosure::one(data.precision);
+    let room = &one + &one / Enclosure::from_integer(i64::from(SAME_MU), data.precision);
+    let what = "weight_sum <= Nbar^2 (1 + 1/10^6)";
+    let condition = Condition::at_most("S0b", what, law.weight_sum.clone(), &data.n_bar_squared * room);
+    (!condition.truth().is_true()).then_some(condition)
+}
+
+/// (S1) of 10.3, and (S2) of 12.2.
+fn existence_conditions(
+    data: &Data<'_>,
+    bounds: &SetBounds<Enclosure>,
+    origin: &AtOrigin<Enclosure>,
+    gains: &SampledGains<Enclosure>,
+    squares: &MeanSquares<Enclosure>,
+) -> Vec<Condition> {
+    let response = gains.response(origin, &Forcing::new(bounds, origin, squares));
+    let sup = response.sup.min(&sup_by_mean_squares(data, squares));
+    vec![
+        Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
+        Condition::at_most(
+            "S1b",
+            "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p",
+            bounds.x_sup(squares),
+            bounds.x_p.clone(),
+        ),
+        Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", bounds.x_rms(squares), squares.x.clone()),
+        Condition::at_most("S2", "sup|e| <= E_p", sup, bounds.e_p.clone()),
+        Condition::at_most("S2b", "rms(e) <= r_e", response.rms, squares.e.clone()),
+        Condition::at_most("S2c", "rms(e') <= r_d", response.rate_rms, squares.e_rate.clone()),
+    ]
+}
+
+/// (C5h).
+fn form_conditions(data: &Data<'_>, forms: &DecayForms<Enclosure>) -> Vec<Condition> {
+    let positive = |what: String, value: Enclosure| Condition::less("C5h", what, data.zero(), value);
+    let mut conditions = vec![positive("0 < 1 - h k_e/pi".to_owned(), forms.within.clone())];
+    for (name, form) in [("Q_0", &forms.start), ("Q_h", &forms.end)] {
+        let minors = form.minors().into_iter().zip(1..);
+        conditions.extend(minors.map(|(minor, index)| positive(format!("0 < minor {index} of {name}"), minor)));
+    }
+    conditions
+}

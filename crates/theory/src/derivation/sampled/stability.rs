@@ -1,0 +1,284 @@
+//! (C5h): the quadratic forms of the decay from sample to sample (derivation, 12.3).
+
+use super::law::SampledLaw;
+use crate::data::{Numbers, Problem};
+use crate::derivation::stability::ErrorBox;
+use sigmastar_exact::real::{Operand, Real};
+
+/// `xx X^2 + ee E^2 + yy Y^2 - xe XE - xy XY - ey EY`; the last three are nonnegative.
+#[derive(Clone, Debug)]
+pub struct Form<R> {
+    /// Of X^2.
+    pub xx: R,
+    /// Of E^2.
+    pub ee: R,
+    /// Of Y^2.
+    pub yy: R,
+    /// Of -XE.
+    pub xe: R,
+    /// Of -XY.
+    pub xy: R,
+    /// Of -EY.
+    pub ey: R,
+}
+
+impl<R: Real> Form<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// The leading principal minors of its matrix: all positive if and only if the form is positive definite.
+    #[must_use]
+    pub fn minors(&self) -> [R; 3] {
+        let two = R::int(2);
+        let [p, q, r] = [&self.ey / &two, &self.xe / &two, &self.xy / &two];
+        let second = &self.xx * &self.ee - q.sqr();
+        let third = &second * &self.yy - &self.xx * p.sqr() - &self.ee * r.sqr() - two * (&p * &q * &r);
+        [self.xx.clone(), second, third]
+    }
+}
+
+/// What of the sampling is taken into account: everything, but for a report that asks what limits a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// theta: what K h Nbar^2 takes from the damping of the oscillators.
+    Theta,
+    /// h sigma, and the hold of e over a sample.
+    Hold,
+    /// What moves within a sample: h k_x, h k_e, and x with it.
+    Motion,
+}
+
+/// Q_0 and Q_h: the decay over [kh, kh + t] is at least t times the form between them.
+#[derive(Clone, Debug)]
+pub struct DecayForms<R> {
+    /// kp = 1 - h k_e/pi, to be positive.
+    pub within: R,
+    /// Q_0.
+    pub start: Form<R>,
+    /// Q_h.
+    pub end: Form<R>,
+}
+
+/// The numbers of the forms at one sigma.
+pub struct DecayNumbers<'n, R> {
+    /// The law.
+    pub law: &'n SampledLaw<R>,
+    /// sigma.
+    pub sigma: &'n R,
+    /// w_x.
+    pub w_x: &'n R,
+    /// eta, the weight of zeta.
+    pub eta: &'n R,
+}
+
+impl<R: Real> DecayForms<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// Evaluates the forms on an error box.
+    ///
+    /// Guarantee: where `within` and the minors of both are positive, U falls from sample to sample in the box, and at no time
+    /// between samples exceeds what it was at the last one; for every n_o < N_s/2.
+    #[must_use]
+    pub fn new(problem: &impl Problem<R>, error_box: &ErrorBox<R>, numbers: &DecayNumbers<'_, R>) -> DecayForms<R> {
+        DecayForms::without(problem, error_box, numbers, None)
+    }
+
+    /// The same as if one part of what the sampling does were not there: for a report, never for a claim.
+    #[must_use]
+    pub fn without(
+        problem: &impl Problem<R>,
+        error_box: &ErrorBox<R>,
+        numbers: &DecayNumbers<'_, R>,
+        part: Option<Part>,
+    ) -> DecayForms<R> {
+        let DecayNumbers { law, sigma, w_x, eta } = *numbers;
+        let Numbers { p_up, .. } = problem.numbers();
+        let ErrorBox { k_x, k_f, rate, sector, .. } = error_box;
+        let (one, two) = (R::int(1), R::int(2));
+        let k_e = sector.below.max(&sector.above);
+        let within = &one - &law.step * &k_e / &law.pi;
+        // eta/K.
+        let weight = eta / &law.gain;
+        let coupling = &two * w_x * p_up.sqrt() * k_f;
+        let form = |share: R| {
+            let t = |of: Part| if part == Some(of) { &law.step * R::int(0) } else { &law.step * &share };
+            let (hold, motion) = (t(Part::Hold), t(Part::Motion));
+            let theta = if part == Some(Part::Theta) { R::int(0) } else { &share * law.lost() };
+            let ts = &hold * sigma;
+            let within_t = &motion * &k_e / &within;
+            let g = (within_t.sqr() / R::int(12)).sqrt();
+            let c_x = &motion * k_x / (&law.pi * &within);
+            let c_e = (&one - &ts + ts.sqr() / R::int(3)).sqrt() + &within_t / &law.pi;
+            let c_y = (motion.sqr() / R::int(3)).sqrt() / &within;
+            // |1 - ts + (eta/K)(1 - ts/2) delta| at the ends of the sector.
+            let mean = &weight * (&one - &ts / &two);
+            let at = |slope: R| {
+                let value = &one - &ts + &mean * slope;
+                value.max(&-value.clone())
+            };
+            let worst = at(sector.above.clone()).max(&at(-sector.below.clone()));
+            Form {
+                xx: &two * w_x * rate - &coupling * c_x,
+                xe: &coupling * c_e,
+                xy: &coupling * c_y + &two * &weight * k_x * (&one + &g),
+                ee: sigma * (&two - &ts),
+                ey: &two * worst + &two * &weight * &g * &k_e,
+                yy: &two * &weight * (&one - theta)
+                    - &hold
+                    - &weight * &hold * &sector.above
+                    - &weight * within_t.sqr() * &within / R::int(3),
+            }
+        };
+        DecayForms { start: form(R::int(0)), end: form(R::int(1)), within }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{Bound, Data, Problem};
+    use crate::derivation::sampled::examples::{example, law};
+    use crate::derivation::stability::{DecayTerms, Sector};
+    use sigmastar_lang::spec::Specification;
+
+    /// P = 1, so that xi = |x|, and 40 samples in a period of 1.
+    fn spec(mu: &str) -> Specification {
+        example(40, mu, |document| document["lyapunov"]["p_up"] = "1".into())
+    }
+
+    /// A problem whose bounding functions nobody asks for.
+    struct InDoubles(Numbers<f64>);
+
+    impl Problem<f64> for InDoubles {
+        fn numbers(&self) -> &Numbers<f64> {
+            &self.0
+        }
+        fn bound(&self, _: Bound, _: &f64, _: &f64) -> f64 {
+            f64::NAN
+        }
+        fn given(&self, _: Bound) -> bool {
+            false
+        }
+        fn zero(&self) -> f64 {
+            0.0
+        }
+    }
+
+    fn parts(data: &Data<'_>) -> (InDoubles, SampledLaw<f64>) {
+        (InDoubles(data.numbers.midpoints()), law(data).to_f64())
+    }
+
+    fn random(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed;
+        move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / 2f64.powi(24)
+        }
+    }
+
+    fn box_of(next: &mut impl FnMut() -> f64, scale: f64) -> ErrorBox<f64> {
+        let below = scale * next();
+        let sector = Sector { below, above: below * (2.0 * next() - 1.0) };
+        let (k_x, k_f, rate) = (scale * next(), scale * next(), 0.1 + scale * next());
+        ErrorBox { x_b: 1.0, e_b: 1.0, k_x, sector, k_f, gamma: 0.0, rate }
+    }
+
+    #[test]
+    fn the_form_at_the_start_is_that_of_continuous_time() {
+        let spec = spec("1");
+        let data = Data::new(&spec, 128);
+        let (model, law) = parts(&data);
+        let mut next = random(3);
+        let mut seen = [0; 2];
+        for _ in 0..2000 {
+            let error_box = box_of(&mut next, 4.0);
+            let (w_x, eta, sigma) = (0.2 + 4.0 * next(), 0.05 + next(), 30.0 * next());
+            let numbers = DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta };
+            let start = DecayForms::new(&model, &error_box, &numbers).start;
+            let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
+            let terms = DecayTerms::new([&w_x, &eta], [rate, &law.gain, &1.0], [k_x, k_f], sector);
+            let holds = terms.coupling < terms.curvature && sigma > terms.threshold(terms.curvature - terms.coupling);
+            let definite = start.minors().iter().all(|minor| *minor > 0.0);
+            assert_eq!(definite, holds, "{error_box:?} {sigma} {w_x} {eta}");
+            seen[usize::from(holds)] += 1;
+        }
+        assert!(seen.iter().all(|count| *count > 200), "{seen:?}");
+    }
+
+    /// One interval of a loop of the class, integrated finely: U falls at least as the form between both says, for every part of
+    /// a sample.
+    #[test]
+    fn the_level_falls_as_the_forms_say() {
+        let mut next = random(11);
+        let mut tightest = f64::INFINITY;
+        for mu in ["1", "20"] {
+            let spec = spec(mu);
+            let data = Data::new(&spec, 128);
+            let (model, law) = parts(&data);
+            let weights = [2.0, 1.0, 1.0];
+            let angle = std::f64::consts::TAU * law.step;
+            for _ in 0..400 {
+                let error_box = box_of(&mut next, 20.0);
+                let sigma = (0.05 + 0.95 * next()) / law.step;
+                let (w_x, eta) = (0.1 + next(), 10f64.powf(-2.0 + 3.0 * next()));
+                let forms = DecayForms::new(
+                    &model,
+                    &error_box,
+                    &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta },
+                );
+                if forms.within <= 0.0 {
+                    continue;
+                }
+                let [x, e] = [2.0 * next() - 1.0, 2.0 * next() - 1.0];
+                let zeta = [0; 3].map(|_| (2.0 * next() - 1.0) * 10f64.powf(2.0 * next() - 1.0));
+                let turned = [
+                    zeta[0],
+                    angle.cos() * zeta[1] + angle.sin() * zeta[2],
+                    angle.cos() * zeta[2] - angle.sin() * zeta[1],
+                ];
+                let v = 2.0 * turned[0] + turned[1];
+                let u = law.gain * v - sigma * e;
+                let norm = |zeta: [f64; 3]| -> f64 { zeta.iter().zip(weights).map(|(z, n)| n * z * z).sum() };
+                let level = |x: f64, e: f64, zeta: [f64; 3]| w_x * x * x + e * e + eta * norm(zeta);
+                let ErrorBox { k_x, k_f, rate, sector, .. } = &error_box;
+                // dq/de, dq/dx and df/de of any size and sign that the box allows, switched within the sample.
+                let pick = |next: &mut dyn FnMut() -> f64| {
+                    let slope = -sector.below + next() * (sector.above + sector.below);
+                    [slope, k_x * (2.0 * next() - 1.0), k_f * (2.0 * next() - 1.0)]
+                };
+                let slopes = [pick(&mut next), pick(&mut next)];
+                let (steps, until) = (400, 0.05 + 0.95 * next());
+                let t = until * law.step;
+                let dt = t / f64::from(steps);
+                let (mut xs, mut es, mut x_squares, mut q_mean) = (x, e, 0.0, 0.0);
+                for step in 0..steps {
+                    let [slope, by_x, by_e] = slopes[usize::from(step >= steps / 2)];
+                    let field = |x: f64, e: f64| [-rate * x + by_e * e, slope * e + by_x * x + u];
+                    let [a, b] = field(xs, es);
+                    let [c, d] = field(xs + dt / 2.0 * a, es + dt / 2.0 * b);
+                    let (xm, em) = (xs + dt / 2.0 * a, es + dt / 2.0 * b);
+                    x_squares += xm * xm / f64::from(steps);
+                    q_mean += (slope * em + by_x * xm) / f64::from(steps);
+                    (xs, es) = (xs + dt * c, es + dt * d);
+                }
+                let y = law.gain * v + q_mean;
+                let moved = [turned[0] - t * y, turned[1] - t * y, turned[2]];
+                let fall = (level(x, e, zeta) - level(xs, es, moved)) / t;
+                let [x_rms, e_size, y_size] = [x_squares.sqrt(), e.abs(), y.abs()];
+                let value = |form: &Form<f64>| {
+                    form.xx * x_rms * x_rms + form.ee * e_size * e_size + form.yy * y_size * y_size
+                        - form.xe * x_rms * e_size
+                        - form.xy * x_rms * y_size
+                        - form.ey * e_size * y_size
+                };
+                let least = (1.0 - until) * value(&forms.start) + until * value(&forms.end);
+                let scale = fall.abs() + least.abs() + y * y * eta;
+                assert!(fall >= least - 1e-4 * scale, "{fall} {least} {error_box:?}");
+                tightest = tightest.min((fall - least) / scale);
+            }
+        }
+        // The bound is not idle.
+        assert!(tightest < 0.05, "{tightest}");
+    }
+}

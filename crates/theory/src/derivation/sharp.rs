@@ -1,0 +1,259 @@
+//! The sharp derivation: conditions S1, S2, C4, C5 decided from a rational witness (derivation, sections 5 and 10).
+
+use super::condition::{self, Condition};
+use super::consequences::Excitation;
+use super::contraction::ContractionMatrix;
+use super::harmonics::AtOrigin;
+use super::initial_set::{ClaimedSet, set_conditions};
+use super::mean_squares::{
+    DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, at_the_solution,
+    sup_by_mean_squares,
+};
+use super::stability::{DecayCondition, ErrorBox, level_condition};
+use super::uniqueness;
+use super::{domain_conditions, sign_conditions};
+use crate::data::{Bound, Data, Problem};
+use crate::transfer::{self, TransferProof};
+use rug::Rational;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+
+/// The free numbers of the sharp derivation, exactly.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SharpWitness {
+    /// The gain to be certified.
+    pub sigma: Rational,
+    /// X_p > 0.
+    pub x_p: Rational,
+    /// E_p > 0.
+    pub e_p: Rational,
+    /// r_x > 0.
+    pub r_x: Rational,
+    /// r_e > 0.
+    pub r_e: Rational,
+    /// r_d > 0.
+    pub r_d: Rational,
+    /// kap >= 0: how much of dq/de the map of the existence proof takes into its linear part; with 0 the form is that of
+    /// 10.3, else that of 10.4.
+    pub kap: Rational,
+    /// Smaller r_x, r_e, r_d > 0, which hold at the periodic solution; those of existence, above, serve without.
+    pub refined: Option<MeanSquares<Rational>>,
+    /// D_x > 0.
+    pub d_x: Rational,
+    /// D_e > 0.
+    pub d_e: Rational,
+    /// w_x > 0.
+    pub w_x: Rational,
+    /// h > 0.
+    pub h: Rational,
+    /// k0, in units of x = omega/w.
+    pub k0: Rational,
+    /// k1, in units of x = omega/w.
+    pub k1: Rational,
+    /// Why T_N(x) <= k0 + k1 x^2.
+    pub transfer: TransferProof,
+    /// The initial set to be covered.
+    pub set: ClaimedSet,
+}
+
+impl SharpWitness {
+    /// r_x, r_e, r_d, with which existence is proved.
+    #[must_use]
+    pub fn squares(&self) -> MeanSquares<&Rational> {
+        MeanSquares { x: &self.r_x, e: &self.r_e, e_rate: &self.r_d }
+    }
+
+    /// r_x, r_e, r_d of the periodic solution.
+    #[must_use]
+    pub fn squares_at_the_solution(&self) -> MeanSquares<&Rational> {
+        match &self.refined {
+            Some(MeanSquares { x, e, e_rate }) => MeanSquares { x, e, e_rate },
+            None => self.squares(),
+        }
+    }
+}
+
+/// Everything the sharp derivation computes from a witness.
+#[derive(Clone, Debug)]
+pub struct SharpEvaluation {
+    /// sigma.
+    pub sigma: Enclosure,
+    /// The bounding functions at (X_p, E_p).
+    pub bounds: SetBounds<Enclosure>,
+    /// r_x, r_e, r_d of the periodic solution.
+    pub squares: MeanSquares<Enclosure>,
+    /// R_q, R_1, e_per and x_per at sigma.
+    pub periodic: PeriodicSize<Enclosure>,
+    /// What drives the periodic error.
+    pub excitation: Excitation,
+    /// Z.
+    pub z: Enclosure,
+    /// The contraction matrix in mean squares: where its spectral radius is below 1, the periodic solution is the only one in
+    /// the set. No condition asks for it.
+    pub contraction: ContractionMatrix<Enclosure>,
+    /// The error box.
+    pub error_box: ErrorBox<Enclosure>,
+    /// C5.
+    pub decay: DecayCondition<Enclosure>,
+    /// All conditions in order.
+    pub conditions: Vec<Condition>,
+}
+
+impl SharpEvaluation {
+    /// Evaluates all quantities and conditions at the precision of `data`.
+    ///
+    /// Guarantee: if [`SharpEvaluation::truth`] is `True` and the bounding functions are finite, nonnegative where they bound
+    /// norms, and nondecreasing (a rate nonincreasing) up to (max{X_p, X_b}, max{E_p, E_b}), then for every n_o >= 0 and every
+    /// sigma' >= sigma there is a T-periodic solution with sup|x| <= x_per, sup|e| <= e_per, sup|zeta|_N <= Z, and every
+    /// solution from the claimed set, at any initial time, converges to it exponentially.
+    #[must_use]
+    pub fn new(data: &Data<'_>, witness: &SharpWitness) -> SharpEvaluation {
+        let number = |value: &Rational| data.rational(value);
+        let sigma = number(&witness.sigma);
+        let origin = AtOrigin::new(data);
+        let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
+        let gains = ErrorGains::new(data, &sigma);
+        let squares = witness.squares_at_the_solution().map(|value| number(value));
+        let periodic = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
+        let z = gains.z_squared(data, &periodic.forcing, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
+
+        let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
+        let (w_x, h) = (number(&witness.w_x), number(&witness.h));
+        let error_box = ErrorBox::new(data, &periodic.x_per, &periodic.e_per, &d_x, &d_e);
+        let decay = DecayCondition::new(data, &error_box, &w_x, &h);
+
+        let mut conditions = signs(data, witness);
+        conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
+        conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
+        let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer);
+        conditions.push(Condition::at_most(
+            "T",
+            format!("transfer bound, {}: {}", witness.transfer.name(), step.what),
+            step.lhs,
+            step.rhs,
+        ));
+        conditions.extend(existence_conditions(data, witness, &bounds, &origin, &gains));
+        let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&periodic.x_per, &periodic.e_per, &z]);
+        let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
+        conditions.push(Condition::less(
+            "C4",
+            "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}",
+            start,
+            exit,
+        ));
+        conditions.extend(one_sided(data, "(X_b, E_b)", [&error_box.x_b, &error_box.e_b]));
+        conditions.push(Condition::less(
+            "C5",
+            "(h/mu) k_x^2 < 4 w_x a_2",
+            decay.coupling.clone(),
+            decay.curvature.clone(),
+        ));
+        conditions.push(Condition::less(
+            "C5b",
+            "threshold of the quadratic form < sigma",
+            decay.sigma_threshold.clone(),
+            sigma.clone(),
+        ));
+        let contraction = uniqueness::contraction(data, &bounds, &gains);
+        let excitation = Excitation {
+            q_rms: periodic.forcing.q_rms.clone(),
+            q_rate_rms: periodic.forcing.q_rate_rms.clone(),
+            x_gain: bounds.x_gain.clone(),
+        };
+        SharpEvaluation { sigma, bounds, squares, periodic, excitation, z, contraction, error_box, decay, conditions }
+    }
+
+    /// The truth of all conditions together.
+    #[must_use]
+    pub fn truth(&self) -> Truth {
+        condition::all(&self.conditions)
+    }
+}
+
+/// The signs of the witness: all numbers are positive, kap may be 0.
+fn signs(data: &Data<'_>, witness: &SharpWitness) -> Vec<Condition> {
+    let mut named = vec![
+        ("sigma", &witness.sigma),
+        ("X_p", &witness.x_p),
+        ("E_p", &witness.e_p),
+        ("r_x", &witness.r_x),
+        ("r_e", &witness.r_e),
+        ("r_d", &witness.r_d),
+        ("D_x", &witness.d_x),
+        ("D_e", &witness.d_e),
+        ("w_x", &witness.w_x),
+        ("h", &witness.h),
+        ("k1", &witness.k1),
+    ];
+    if witness.kap != 0 {
+        named.push(("kap", &witness.kap));
+    }
+    if let Some(refined) = &witness.refined {
+        named.extend([("refined r_x", &refined.x), ("refined r_e", &refined.e), ("refined r_d", &refined.e_rate)]);
+    }
+    sign_conditions(data, &named)
+}
+
+/// (M) -b_qe <= q_e_max where the one-sided bound is used: otherwise no plant has it.
+pub(super) fn one_sided(data: &Data<'_>, place: &str, [x, e]: [&Enclosure; 2]) -> Option<Condition> {
+    data.given(Bound::QeMax).then(|| {
+        // As it is given, even where b_qe is smaller and serves in its place.
+        let [below, above] = [Bound::Qe, Bound::QeMax].map(|which| data.spec.bounds.at(which, x, e));
+        Condition::at_most("M", format!("-b_qe <= q_e_max at {place}"), below.negate(), above)
+    })
+}
+
+/// (S1), (S2), and (S3) for the refined mean squares.
+fn existence_conditions(
+    data: &Data<'_>,
+    witness: &SharpWitness,
+    bounds: &SetBounds<Enclosure>,
+    origin: &AtOrigin<Enclosure>,
+    gains: &ErrorGains<Enclosure>,
+) -> Vec<Condition> {
+    let squares = witness.squares().map(|value| data.rational(value));
+    let kap = (witness.kap != 0).then(|| data.rational(&witness.kap));
+    let mut conditions = vec![
+        Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
+        Condition::at_most(
+            "S1b",
+            "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p",
+            bounds.x_sup(&squares),
+            bounds.x_p.clone(),
+        ),
+        Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", bounds.x_rms(&squares), squares.x.clone()),
+    ];
+    let by_squares = sup_by_mean_squares(data, &squares);
+    let known = if data.q_0.is_some() { ", q_0 form" } else { "" };
+    let [sup, rms, rate_rms] = match &kap {
+        None => {
+            let response = gains.response(origin, &Forcing::new(bounds, origin, &squares));
+            [
+                (format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){known}}} <= E_p"), response.sup.min(&by_squares)),
+                (format!("min{{R_q/sg, R_1/(Om sg){known}}} <= r_e"), response.rms),
+                ("min{R_q, R_1/sg} <= r_d".to_owned(), response.rate_rms),
+            ]
+        }
+        Some(kap) => {
+            let damped = DampedResponse::new(bounds, origin, [&gains.sigma, kap], &squares);
+            [
+                ("sqrt(T r_e r_d) <= E_p".to_owned(), by_squares),
+                ("g_k Rt <= r_e".to_owned(), damped.rms),
+                ("Rt + kap r_e <= r_d".to_owned(), damped.rate_rms),
+            ]
+        }
+    };
+    conditions.push(Condition::at_most("S2", sup.0, sup.1, bounds.e_p.clone()));
+    conditions.push(Condition::at_most("S2b", rms.0, rms.1, squares.e.clone()));
+    conditions.push(Condition::at_most("S2c", rate_rms.0, rate_rms.1, squares.e_rate.clone()));
+    if kap.is_some() {
+        conditions.extend(one_sided(data, "(X_p, E_p)", [&bounds.x_p, &bounds.e_p]));
+    }
+    if let Some(refined) = &witness.refined {
+        let refined = refined.map(|value: &Rational| data.rational(value));
+        let image = at_the_solution(bounds, origin, gains, kap.as_ref(), &refined);
+        conditions.push(Condition::less("S3", "G_x(r') < r'_x", image.x, refined.x));
+        conditions.push(Condition::less("S3b", "G_e(r') < r'_e", image.e, refined.e));
+        conditions.push(Condition::less("S3c", "G_d(r') < r'_d", image.e_rate, refined.e_rate));
+    }
+    conditions
+}

@@ -1,0 +1,9 @@
+//! The paper's constants and conditions, printed, repaired and sharp, and the transfer bound.
+
+#![deny(missing_docs)]
+// What tests compare with need not be the same on every machine.
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
+pub mod data;
+pub mod derivation;
+pub mod transfer;
