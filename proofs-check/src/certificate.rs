@@ -65,11 +65,8 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     let claim = Claim::read(&file.required("claim")?, has_states)?;
     let derivation = match &claim.sampled {
         Some(regulator) => Derivation::read_sampled(&mut witness, regulator, claim.set.clone())?,
-        None => Derivation::read(&mut witness, claim.sharp, claim.sigma.clone(), claim.set.clone())?,
+        None => Derivation::read(&mut witness, claim.sigma.clone(), claim.set.clone())?,
     };
-    if spec.plant.is_some() && !derivation.is_by_mean_squares() {
-        return bad("/witness", "the claim about a plant is of the sharp derivation, with r_x, r_e, r_d");
-    }
     // The other figures are those of a continuous regulator; in a sampled certificate they are left to be refused.
     let continuous = claim.sampled.is_none();
     let parts = figures::Parts {

@@ -4,14 +4,17 @@
 
 mod compare;
 mod constants;
+pub mod existence;
 mod lmi;
 mod no_plant;
+pub mod repaired;
 
 use crate::data::Data;
 use crate::effort;
 use crate::json::{Field, Fields, join};
 use crate::rules::claim::Sizes;
 use crate::rules::derivation::{Derivation, Proved, Witnesses};
+use crate::rules::sharp;
 use crate::spec::Specification;
 use crate::verdict::{Condition, Finding, Outcome, Verdict, finding};
 use std::collections::{BTreeMap, BTreeSet};
@@ -131,12 +134,12 @@ impl Attempt<'_> {
         self.conditions(&proved);
         self.tight(&proved.sizes());
         // Those that follow are of a continuous regulator.
-        if main.is_sampled() {
-            return;
-        }
-        self.multipliers(main, &proved);
-        let other = self.other(main);
-        self.constants(&[Some((main, &proved)), other.as_ref().map(|(other, proved)| (other, proved))]);
+        let (Witnesses::Sharp(w), Proved::Sharp(sharp)) = (&main.witnesses, &proved) else { return };
+        self.multipliers(w, sharp);
+        let repaired = self.repaired();
+        let repaired = repaired.as_ref().map(|(w, proved)| (w, proved));
+        let regulation = main.regulation.as_ref().map(|w| &w.sigma);
+        self.constants(&constants::Input { sharp: (w, sharp), repaired, regulation });
         if let Some(field) = &self.parts.no_plant {
             self.note(&field.pointer, no_plant::check(self.d, field));
         }
@@ -175,49 +178,29 @@ impl Attempt<'_> {
     }
 
     /// C5 as a matrix inequality.
-    fn multipliers(&mut self, main: &Derivation, proved: &Proved) {
+    fn multipliers(&mut self, w: &sharp::Witness, proved: &sharp::Sharp) {
         let Some(field) = &self.parts.multipliers else { return };
-        let outcome = lmi::Witness::read(field).and_then(|w| match (&main.witnesses, proved) {
-            (Witnesses::Sharp(sharp), Proved::Sharp(proved)) => {
-                lmi::check(self.d, &proved.error_box, [&sharp.sigma, &sharp.w_x, &sharp.h], &w)
-            }
-            _ => Err(finding(Verdict::Invalid, compare::RULE, &field.pointer, "it belongs to the sharp derivation")),
-        });
+        let outcome = lmi::Witness::read(field)
+            .and_then(|multipliers| lmi::check(self.d, &proved.error_box, [&w.sigma, &w.w_x, &w.h], &multipliers));
         self.note(&field.pointer, outcome);
     }
 
-    /// The other derivation, if it is given and proved.
-    fn other(&mut self, main: &Derivation) -> Option<(Derivation, Proved)> {
+    /// The repaired derivation, if it is given and proved.
+    fn repaired(&mut self) -> Option<(repaired::Witness, repaired::Repaired)> {
         let field = self.parts.comparison.as_ref()?;
-        let outcome = comparison(field, !main.is_sharp())
-            .and_then(|other| other.prove(self.d, &mut Vec::new()).map(|proved| (other, proved)));
-        match outcome {
-            Ok(pair) => {
-                self.note(&field.pointer, Ok(()));
-                Some(pair)
-            }
-            Err(finding) => {
-                self.note(&field.pointer, Err(finding));
-                None
-            }
-        }
+        let outcome = comparison(field).and_then(|w| repaired::prove(self.d, &w).map(|proved| (w, proved)));
+        let (found, outcome) = match outcome {
+            Ok(pair) => (Some(pair), Ok(())),
+            Err(finding) => (None, Err(finding)),
+        };
+        self.note(&field.pointer, outcome);
+        found
     }
 
-    fn constants(&mut self, derivations: &[Option<(&Derivation, &Proved)>; 2]) {
+    fn constants(&mut self, input: &constants::Input<'_>) {
         let Some(table) = &self.parts.constants else { return self.note("/constants", missing("/constants")) };
-        let mut input = constants::Input { sharp: None, repaired: None, regulation: None };
-        for (derivation, proved) in derivations.iter().flatten() {
-            match (&derivation.witnesses, proved) {
-                (Witnesses::Sharp(w), Proved::Sharp(proved)) => {
-                    input.sharp = Some((w, proved));
-                    input.regulation = derivation.regulation.as_ref().map(|w| &w.sigma);
-                }
-                (Witnesses::Repaired(w), Proved::Repaired(proved)) => input.repaired = Some((w, proved)),
-                _ => {}
-            }
-        }
         let mut outcomes = Vec::new();
-        constants::check(self.d, table, &input, &mut |place, outcome| outcomes.push((place, outcome)));
+        constants::check(self.d, table, input, &mut |place, outcome| outcomes.push((place, outcome)));
         outcomes.into_iter().for_each(|(place, outcome)| self.note(&place, outcome));
     }
 }
@@ -226,10 +209,10 @@ fn missing(pointer: &str) -> Outcome<()> {
     Err(finding(Verdict::BadInput, "format", pointer, "this part of a certificate is missing"))
 }
 
-/// The free numbers of the derivation that the claim is not about.
-fn comparison(field: &Field<'_>, sharp: bool) -> Outcome<Derivation> {
+/// The free numbers of the repaired derivation.
+fn comparison(field: &Field<'_>) -> Outcome<repaired::Witness> {
     let mut fields = field.fields()?;
-    let part = fields.required(if sharp { "sharp" } else { "repaired" })?;
+    let part = fields.required("repaired")?;
     fields.finish()?;
     let mut fields = part.fields()?;
     let sigma = fields.required("sigma_star")?.rational()?;
@@ -238,9 +221,9 @@ fn comparison(field: &Field<'_>, sharp: bool) -> Outcome<Derivation> {
     set.finish()?;
     let mut witness = fields.required("witness")?.fields()?;
     fields.finish()?;
-    let derivation = Derivation::read(&mut witness, sharp, sigma, numbers)?;
+    let w = repaired::Witness::read(&mut witness, sigma, numbers)?;
     witness.finish()?;
-    Ok(derivation)
+    Ok(w)
 }
 
 /// What is left of an object is unknown; each is a figure that nothing stands behind.

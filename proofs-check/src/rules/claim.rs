@@ -15,8 +15,6 @@ const RULE: &str = "claim";
 
 /// The numbers of a claim.
 pub struct Claim<'a> {
-    /// `sharp` (true) or `repaired`.
-    pub sharp: bool,
     /// sigma*, or the one gain of a sampled regulator.
     pub sigma: Rational,
     /// The sampled regulator that it is about, if it is.
@@ -76,15 +74,10 @@ impl<'a> Claim<'a> {
     pub fn read(field: &Field<'a>, has_ball: bool) -> Outcome<Claim<'a>> {
         let mut fields = field.fields()?;
         let derivation = fields.required("derivation")?;
-        let sharp = match derivation.text()? {
-            "sharp" => true,
-            "repaired" => false,
-            _ => return bad(&derivation.pointer, "only `sharp` and `repaired` can be claimed"),
-        };
-        let sampled = Regulator::read(&mut fields)?;
-        if sampled.is_some() && !sharp {
-            return bad(&derivation.pointer, "only `sharp` can be claimed of a sampled regulator");
+        if derivation.text()? != "sharp" {
+            return bad(&derivation.pointer, "only `sharp` can be claimed");
         }
+        let sampled = Regulator::read(&mut fields)?;
         let (sigma, sigma_text) = match &sampled {
             Some(regulator) => (regulator.sigma.clone(), ""),
             None => {
@@ -99,7 +92,6 @@ impl<'a> Claim<'a> {
         let ball = ball.map(|field| field.rational().map(|value| (value, field))).transpose()?;
         set.finish()?;
         let claim = Claim {
-            sharp,
             sigma,
             sampled,
             set: numbers,

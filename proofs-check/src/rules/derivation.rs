@@ -5,21 +5,18 @@
 
 use super::claim::Sizes;
 use super::sampled::{self, claim::Regulator};
-use super::stability::Plant;
 use super::transfer::Proof;
-use super::{bounding, mean_squares, regulation, repaired, sharp};
+use super::{bounding, mean_squares, regulation, sharp};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::verdict::{Condition, Outcome, bad};
 use rug::Rational;
 
-/// The free numbers of one of the two derivations that can be claimed.
+/// The free numbers of a claim about either regulator.
 pub enum Witnesses {
-    /// Sections 4, 5 and 10.
+    /// In continuous time: sections 5 and 10.
     Sharp(Box<sharp::Witness>),
-    /// The paper's architecture.
-    Repaired(Box<repaired::Witness>),
     /// A sampled regulator: section 12.
     Sampled(Box<sampled::Witness>),
 }
@@ -27,21 +24,20 @@ pub enum Witnesses {
 /// One derivation with its witness.
 pub struct Derivation {
     pub witnesses: Witnesses,
-    /// Exact regulation, which a claim of the sharp derivation may add.
+    /// Exact regulation, which a claim in continuous time may add.
     pub regulation: Option<Box<regulation::Witness>>,
 }
 
 /// What was evaluated of one derivation.
 pub enum Proved {
-    /// Sections 4, 5 and 10.
+    /// In continuous time: sections 5 and 10.
     Sharp(Box<sharp::Sharp>),
-    /// The paper's architecture.
-    Repaired(Box<repaired::Repaired>),
     /// A sampled regulator: section 12.
     Sampled(Box<sampled::Sampled>),
 }
 
-fn proof(field: &Field<'_>) -> Outcome<Proof> {
+/// Reads how the transfer bound is proved.
+pub fn proof(field: &Field<'_>) -> Outcome<Proof> {
     let mut fields = field.fields()?;
     let kind = fields.required("proof")?;
     let proof = match kind.text()? {
@@ -69,33 +65,16 @@ fn means(field: &Field<'_>) -> Outcome<mean_squares::Means> {
 
 impl Derivation {
     /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
-    pub fn read(fields: &mut Fields<'_>, sharp: bool, sigma: Rational, set: [Rational; 3]) -> Outcome<Derivation> {
+    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: [Rational; 3]) -> Outcome<Derivation> {
         let pointer = fields.pointer.clone();
-        if !sharp {
-            let mut number = |name: &str| fields.required(name)?.rational();
-            let w = repaired::Witness {
-                x: number("X")?,
-                e: number("E")?,
-                level: number("L")?,
-                h: number("h")?,
-                p_x: number("p_x")?,
-                p_e: number("p_e")?,
-                k0: number("k0")?,
-                k1: number("k1")?,
-                transfer: proof(&fields.required("transfer")?)?,
-                pointer,
-                sigma,
-                set,
-            };
-            return Ok(Derivation { witnesses: Witnesses::Repaired(Box::new(w)), regulation: None });
+        if fields.has("p_x") && !fields.has("r_x") {
+            return bad(&pointer, "this witness, by p_x and p_e, is of an older form: certify again");
         }
-        let existence = match fields.optional("r_x") {
-            None => sharp::By::Contraction([fields.required("p_x")?.rational()?, fields.required("p_e")?.rational()?]),
-            Some(r_x) => sharp::By::MeanSquares(mean_squares::Witness {
-                r: [r_x.rational()?, fields.required("r_e")?.rational()?, fields.required("r_d")?.rational()?],
-                kap: fields.required("kap")?.rational()?,
-                refined: fields.optional("refined").map(|field| means(&field)).transpose()?,
-            }),
+        let mut number = |name: &str| fields.required(name)?.rational();
+        let existence = mean_squares::Witness {
+            r: [number("r_x")?, number("r_e")?, number("r_d")?],
+            kap: number("kap")?,
+            refined: fields.optional("refined").map(|field| means(&field)).transpose()?,
         };
         let mut number = |name: &str| fields.required(name)?.rational();
         let w = sharp::Witness {
@@ -124,23 +103,9 @@ impl Derivation {
         Ok(Derivation { witnesses: Witnesses::Sampled(Box::new(w)), regulation: None })
     }
 
-    /// Whether it is the sharp one in continuous time.
-    pub fn is_sharp(&self) -> bool {
-        matches!(self.witnesses, Witnesses::Sharp(_))
-    }
-
     /// Whether it is about a sampled regulator.
     pub fn is_sampled(&self) -> bool {
         matches!(self.witnesses, Witnesses::Sampled(_))
-    }
-
-    /// Whether existence is that of section 10.
-    pub fn is_by_mean_squares(&self) -> bool {
-        match &self.witnesses {
-            Witnesses::Sharp(w) => matches!(w.existence, sharp::By::MeanSquares(_)),
-            Witnesses::Repaired(_) => false,
-            Witnesses::Sampled(_) => true,
-        }
     }
 
     /// The largest X and E of exact regulation, where that is claimed.
@@ -152,7 +117,6 @@ impl Derivation {
     pub fn exact(&self) -> [&Rational; 2] {
         match &self.witnesses {
             Witnesses::Sharp(w) => [&w.x_p, &w.e_p],
-            Witnesses::Repaired(w) => [&w.x, &w.e],
             Witnesses::Sampled(w) => [&w.x_p, &w.e_p],
         }
     }
@@ -161,7 +125,6 @@ impl Derivation {
     pub fn evaluate(&self, d: &Data<'_>) -> Outcome<Proved> {
         Ok(match &self.witnesses {
             Witnesses::Sharp(w) => Proved::Sharp(Box::new(sharp::evaluate(d, w)?)),
-            Witnesses::Repaired(w) => Proved::Repaired(Box::new(repaired::evaluate(d, w)?)),
             Witnesses::Sampled(w) => Proved::Sampled(Box::new(sampled::evaluate(d, w)?)),
         })
     }
@@ -171,7 +134,6 @@ impl Derivation {
         let proved = self.evaluate(d)?;
         let (name, pointer, sigma, set) = match &self.witnesses {
             Witnesses::Sharp(w) => ("sharp", &w.pointer, &w.sigma, &w.set),
-            Witnesses::Repaired(w) => ("repaired", &w.pointer, &w.sigma, &w.set),
             Witnesses::Sampled(w) => ("sampled", &w.pointer, &w.terms.sigma, &w.set),
         };
         lines.push(format!("{name} derivation, sigma = {sigma}"));
@@ -179,9 +141,8 @@ impl Derivation {
         all(name, pointer, transfer.iter().chain(conditions), lines)?;
         without_domain(d, arguments, lines)?;
         if let Some(exact) = &self.regulation {
-            let plant = if let Witnesses::Sharp(w) = &self.witnesses { w.plant() } else { Plant::Norms };
             lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
-            let conditions = regulation::evaluate(d, plant, set, exact)?;
+            let conditions = regulation::evaluate(d, set, exact)?;
             all("exact regulation", &exact.pointer, conditions.iter(), lines)?;
             without_domain(d, &[d.number(&exact.d_x), d.number(&exact.d_e)], lines)?;
         }
@@ -193,7 +154,6 @@ impl Proved {
     fn parts(&self) -> (&[Condition], &[Condition], &[Interval; 2]) {
         match self {
             Proved::Sharp(s) => (&s.transfer, &s.conditions, &s.arguments),
-            Proved::Repaired(r) => (&r.transfer, &r.conditions, &r.arguments),
             Proved::Sampled(sampled) => (&sampled.transfer, &sampled.conditions, &sampled.arguments),
         }
     }
@@ -212,7 +172,6 @@ impl Proved {
     pub fn sizes(&self) -> Sizes {
         let [x, e, zeta] = match self {
             Proved::Sharp(s) => [&s.solution.x, &s.solution.e, &s.z],
-            Proved::Repaired(r) => [&r.existence.x_p, &r.existence.e_p, &r.z],
             Proved::Sampled(sampled) => [&sampled.solution.x, &sampled.solution.e, &sampled.solution.z],
         };
         Sizes { x: x.clone(), e: e.clone(), zeta: zeta.clone() }
@@ -220,13 +179,13 @@ impl Proved {
 }
 
 /// Without a domain the bounding functions are proved up to the arguments that are used.
-fn without_domain(d: &Data<'_>, [x, e]: &[Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
+pub fn without_domain(d: &Data<'_>, [x, e]: &[Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
     // Those of a plant are numbers, which are proved apart.
     if d.spec.domain.is_some() || d.spec.plant.is_some() { Ok(()) } else { bounding::prove_all(d, [x, e], lines) }
 }
 
 /// Writes down all conditions, then demands each.
-fn all<'c>(
+pub fn all<'c>(
     rule: &'static str,
     pointer: &str,
     mut conditions: impl Iterator<Item = &'c Condition> + Clone,

@@ -42,7 +42,7 @@ pub struct Solution {
     pub x_gain: Interval,
     pub z_squared: Interval,
     /// a_1, and r_x, r_e, r_d of the solution; only the table of constants shows them.
-    pub shown: Option<(Interval, [Interval; 3])>,
+    pub shown: (Interval, [Interval; 3]),
     pub conditions: Vec<Condition>,
 }
 
@@ -307,6 +307,6 @@ pub fn evaluate(
     let e = e_p.min(&follows.sup_e);
     let x = bounds.sup_x(&e, &last[1]);
     let z_squared = bounds.z_squared(&follows, pair, kappa);
-    let shown = Some((bounds.rate, last));
+    let shown = (bounds.rate, last);
     Solution { x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, shown, conditions }
 }

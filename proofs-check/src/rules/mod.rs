@@ -2,13 +2,11 @@
 pub mod bounding;
 pub mod claim;
 pub mod derivation;
-pub mod existence;
 pub mod gains;
 pub mod lyapunov;
 pub mod mean_squares;
 pub mod period;
 pub mod regulation;
-pub mod repaired;
 pub mod sampled;
 pub mod set;
 pub mod sharp;

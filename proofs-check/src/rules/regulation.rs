@@ -1,11 +1,11 @@
 //! Exact regulation with infinitely many oscillators (docs/mathematics.md, sections 6, Theorem 2, and 10.6).
 //!
 //! Guarantee, for a matched base frequency: with n_o infinite, for every sigma' >= sigma, solutions from the claimed
-//! set are bounded and x, e -> 0. C1-C3 and S1-S3 are not used; the error box is around 0.
+//! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
 
 use super::mean_squares::forcing;
 use super::set;
-use super::stability::{ErrorBox, Plant, distances, level};
+use super::stability::{ErrorBox, distances, level};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Field;
@@ -46,15 +46,11 @@ impl Witness {
     }
 }
 
-/// `z_oo = (1/mu) sqrt(b_q(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt(0,0)^2)`; with section 10 by root mean squares, or, where it is less
-/// and `q_0` is given, `(1/mu)[sqrt(C_0^2/n_0 + sum_{k>=1} 4 C_k^2/n_k) + sqrt(r_0^2/n_0 + (2/n_1)(T/2pi)^2 r_1^2)]`.
-fn steady_state(d: &Data<'_>, plant: Plant) -> Interval {
+/// `z_oo = (1/mu) sqrt(b_q_rms(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt_rms(0,0)^2)`, or, where it is less and `q_0` is given, `(1/mu)[sqrt(C_0^2/n_0 + sum_{k>=1} 4 C_k^2/n_k) + sqrt(r_0^2/n_0 + (2/n_1)(T/2pi)^2 r_1^2)]`.
+fn steady_state(d: &Data<'_>) -> Interval {
     let zero = d.int(0);
     let at = |which| d.bound(which, &zero, &zero);
     let root = |q: &Interval, q_t: &Interval| (q.sqr() / &d.n_0 + (q_t / d.frequency()).sqr() * 2 / &d.n_1).sqrt();
-    if plant == Plant::Norms {
-        return root(&at(Bound::Q), &at(Bound::Qt)) / &d.mu;
-    }
     let generic = root(&at(Bound::QRms), &at(Bound::QtRms));
     let Some(given) = &d.spec.q_0 else { return generic / &d.mu };
     let (harmonics, [rest, rest_t]) = forcing(d, given);
@@ -65,7 +61,7 @@ fn steady_state(d: &Data<'_>, plant: Plant) -> Interval {
 }
 
 /// Evaluates the conditions; only `matched` and the signs are decided yet.
-pub fn evaluate(d: &Data<'_>, plant: Plant, set: &[Rational; 3], w: &Witness) -> Outcome<Vec<Condition>> {
+pub fn evaluate(d: &Data<'_>, set: &[Rational; 3], w: &Witness) -> Outcome<Vec<Condition>> {
     if !d.spec.matched {
         return invalid("exact regulation", &w.pointer, "it needs base_frequency = 2 pi/period, asserted by `matched`");
     }
@@ -73,11 +69,11 @@ pub fn evaluate(d: &Data<'_>, plant: Plant, set: &[Rational; 3], w: &Witness) ->
     set::positive(&named, &w.pointer)?;
     let [sigma, d_x, d_e, w_x, h] = named.map(|(_, value)| d.number(value));
     let zero = d.int(0);
-    let error_box = ErrorBox::new(d, plant, [&zero, &zero], [&d_x, &d_e]);
-    let reach = distances(d, set, [&zero, &zero, &steady_state(d, plant)]);
+    let error_box = ErrorBox::new(d, [&zero, &zero], [&d_x, &d_e]);
+    let reach = distances(d, set, [&zero, &zero, &steady_state(d)]);
     let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
     let mut conditions = set::domain(d, &d_x, &d_e);
     conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
-    conditions.extend(error_box.conditions(plant, error_box.decay(d, &w_x, &h), sigma, "sigma_oo"));
+    conditions.extend(error_box.conditions(error_box.decay(d, &w_x, &h), sigma, "sigma_oo"));
     Ok(conditions)
 }

@@ -1,14 +1,13 @@
-//! The sharp derivation: every condition from the witness (docs/mathematics.md, sections 4, 5 and 10).
+//! The sharp derivation: every condition from the witness (docs/mathematics.md, sections 5 and 10).
 //!
 //! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for every n_o >= 0 and
 //! every sigma' >= sigma there is a T-periodic solution with |x| <= x_per, |e| <= e_per, |zeta|_N <= Z, and every
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
-use super::existence::Existence;
-use super::gains::{beta_s, kappas, tau};
+use super::gains::kappas;
 use super::mean_squares::{self, Solution};
 use super::set;
-use super::stability::{ErrorBox, Plant, distances, level};
+use super::stability::{ErrorBox, distances, level};
 use super::transfer::{self, Proof};
 use crate::data::Data;
 use crate::interval::Interval;
@@ -27,7 +26,7 @@ pub struct Witness {
     pub e_p: Rational,
     pub d_x: Rational,
     pub d_e: Rational,
-    pub existence: By,
+    pub existence: mean_squares::Witness,
     pub w_x: Rational,
     pub h: Rational,
     pub k0: Rational,
@@ -35,36 +34,14 @@ pub struct Witness {
     pub transfer: Proof,
 }
 
-/// How the periodic solution is proved to exist.
-#[derive(Clone, Debug)]
-pub enum By {
-    /// C1-C3 of section 4, with p_x and p_e.
-    Contraction([Rational; 2]),
-    /// S1-S3 of section 10.
-    MeanSquares(mean_squares::Witness),
-}
-
 impl Witness {
-    /// The data with which stability is decided: a certificate with a witness of section 4 has that of section 5.
-    pub fn plant(&self) -> Plant {
-        if matches!(self.existence, By::Contraction(_)) { Plant::Norms } else { Plant::OneSided }
-    }
-
     fn signs(&self) -> Outcome<()> {
         let mut named = vec![("X_p", &self.x_p), ("E_p", &self.e_p), ("D_x", &self.d_x), ("D_e", &self.d_e)];
-        match &self.existence {
-            By::Contraction([p_x, p_e]) => named.extend([("p_x", p_x), ("p_e", p_e)]),
-            By::MeanSquares(w) => {
-                named.extend(["r_x", "r_e", "r_d"].into_iter().zip(&w.r));
-                named.extend(["refined/r_x", "refined/r_e", "refined/r_d"].into_iter().zip(w.refined.iter().flatten()));
-                if w.kap < 0 {
-                    return invalid(
-                        "signs",
-                        &format!("{}/kap", self.pointer),
-                        format!("0 <= kap fails: kap = {}", w.kap),
-                    );
-                }
-            }
+        let w = &self.existence;
+        named.extend(["r_x", "r_e", "r_d"].into_iter().zip(&w.r));
+        named.extend(["refined/r_x", "refined/r_e", "refined/r_d"].into_iter().zip(w.refined.iter().flatten()));
+        if w.kap < 0 {
+            return invalid("signs", &format!("{}/kap", self.pointer), format!("0 <= kap fails: kap = {}", w.kap));
         }
         named.extend([("w_x", &self.w_x), ("h", &self.h), ("k1", &self.k1), ("sigma", &self.sigma)]);
         set::positive(&named, &self.pointer)
@@ -73,7 +50,6 @@ impl Witness {
 
 /// What the conditions, the claim and the constants are about.
 pub struct Sharp {
-    pub existence: Existence,
     pub solution: Solution,
     pub z: Interval,
     pub error_box: ErrorBox,
@@ -85,48 +61,18 @@ pub struct Sharp {
     pub arguments: [Interval; 2],
 }
 
-/// C1-C3 of section 4 with p_x and p_e, and what follows.
-fn by_contraction(
-    d: &Data<'_>,
-    ex: &Existence,
-    sigma: &Interval,
-    p: &[Rational; 2],
-    kappa: &[Interval; 2],
-) -> Solution {
-    let [p_x, p_e] = p.each_ref().map(|value| d.number(value));
-    let size = (beta_s(d, sigma) * &ex.qr).min(&(tau(d, sigma) * &ex.q1));
-    let e = ex.e_p.min(&size);
-    let x_gain = ex.x_gain(d);
-    let [xx, xe, xe_gain, ee] = ex.contraction(d, &d.c, 1, &beta_s(d, sigma));
-    let (column_x, column_e) = (xx * &p_x + xe_gain * &p_e, xe * &p_x + ee * &p_e);
-    let what = "(c/alpha)(b_fe E_p + b_fxx X_p^2/2) <= X_p";
-    let conditions = vec![
-        Condition::at_most("C1", what, ex.invariance(d, &d.c), ex.x_p.clone()),
-        Condition::less("C1b", "(c/alpha) b_fxx X_p/2 < 1", ex.share(d, &d.c), d.int(1)),
-        Condition::at_most("C2", "min{beta_s(sigma) qr, tau(sigma) q1} <= E_p", size, ex.e_p.clone()),
-        Condition::less("C3", "A p_x + beta_s b_qx p_e < p_x", column_x, p_x),
-        Condition::less("C3b", "B p_x + beta_s b_qe p_e < p_e", column_e, p_e),
-    ];
-    let rates = [ex.qr.clone(), ex.q1.clone()];
-    let z_squared = ex.z_squared(d, kappa);
-    Solution { x: ex.x_p.min(&(&x_gain * &e)), e, rates, x_gain, z_squared, shown: None, conditions }
-}
-
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
     let [sigma, d_x, d_e, w_x, h] = [&w.sigma, &w.d_x, &w.d_e, &w.w_x, &w.h].map(|q| d.number(q));
-    let ex = Existence::new(d, d.number(&w.x_p), d.number(&w.e_p));
+    let at = [d.number(&w.x_p), d.number(&w.e_p)];
     let pair = [d.number(&w.k0), d.number(&w.k1)];
     let kappa = kappas(d, &pair[0], &pair[1]);
-    let solution = match &w.existence {
-        By::Contraction(p) => by_contraction(d, &ex, &sigma, p, &kappa),
-        By::MeanSquares(m) => mean_squares::evaluate(d, m, &w.sigma, [&ex.x_p, &ex.e_p], [&pair[0], &pair[1]], &kappa),
-    };
+    let solution = mean_squares::evaluate(d, &w.existence, &w.sigma, at.each_ref(), pair.each_ref(), &kappa);
     let (periodic, z) = ([&solution.x, &solution.e], solution.z_squared.sqrt());
-    let error_box = ErrorBox::new(d, w.plant(), periodic, [&d_x, &d_e]);
+    let error_box = ErrorBox::new(d, periodic, [&d_x, &d_e]);
     let decay = error_box.decay(d, &w_x, &h);
-    let arguments = [ex.x_p.max(&error_box.x_b), ex.e_p.max(&error_box.e_b)];
+    let arguments = [at[0].max(&error_box.x_b), at[1].max(&error_box.e_b)];
     let transfer = transfer::check(d, &w.k0, &w.k1, &w.transfer, &format!("{}/transfer", w.pointer))?;
 
     let mut conditions = set::covers(d, &w.set, [&w.x_p, &w.e_p], &z);
@@ -138,6 +84,6 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
     conditions.push(Condition::less("C4", what, start, exit));
     let threshold = decay[2].clone();
-    conditions.extend(error_box.conditions(w.plant(), decay, sigma, "sigma"));
-    Ok(Sharp { existence: ex, solution, z, error_box, threshold, conditions, transfer, arguments })
+    conditions.extend(error_box.conditions(decay, sigma, "sigma"));
+    Ok(Sharp { solution, z, error_box, threshold, conditions, transfer, arguments })
 }

@@ -6,15 +6,6 @@ use crate::spec::Bound;
 use crate::verdict::Condition;
 use rug::Rational;
 
-/// Which data C5 is decided with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Plant {
-    /// Those of section 5: |dq/de| and the second derivatives.
-    Norms,
-    /// Those of section 10 besides: q_e_max and the rate.
-    OneSided,
-}
-
 /// What the plant's data give on the error box |xt| <= D_x, |et| <= D_e around |x| <= x_per, |e| <= e_per.
 pub struct ErrorBox {
     pub x_b: Interval,
@@ -27,36 +18,30 @@ pub struct ErrorBox {
     pub gam: Interval,
     /// a_2: alpha - gam, or the rate at (X_b, e_per) where it is larger.
     pub rate: Interval,
-    /// The condition on q_e_max, where it is given and used.
+    /// The condition on q_e_max, where it is given.
     pub one_sided: Option<Condition>,
 }
 
 impl ErrorBox {
     /// `gam = c [b_fxx(x_per,0) x_per + b_fex(x_per,e_per) e_per + b_fxx(X_b,e_per) D_x/2]`, `k_x = b_qx/sqrt(P_low)`, k_e, k_f
     /// at (X_b, E_b) = (x_per + D_x, e_per + D_e), which must lie in the domain.
-    pub fn new(d: &Data<'_>, plant: Plant, [x_per, e_per]: [&Interval; 2], [d_x, d_e]: [&Interval; 2]) -> ErrorBox {
+    pub fn new(d: &Data<'_>, [x_per, e_per]: [&Interval; 2], [d_x, d_e]: [&Interval; 2]) -> ErrorBox {
         let (x_b, e_b) = (x_per + d_x, e_per + d_e);
         let bends = d.bound(Bound::Fxx, x_per, &d.int(0)) * x_per + d.bound(Bound::Fxx, &x_b, e_per) * d_x / 2;
         let gam = &d.c * (bends + d.bound(Bound::Fex, x_per, e_per) * e_per);
         let k_e = d.bound(Bound::Qe, &x_b, &e_b);
-        let mut error_box = ErrorBox {
-            rate: &d.alpha - &gam,
+        let given = d.q_e_max(&x_b, &e_b);
+        ErrorBox {
+            rate: d.better_rate(&(&d.alpha - &gam), false, &x_b, e_per),
             gam,
             k_x: d.bound(Bound::Qx, &x_b, &e_b) / d.p_low.sqrt(),
             k_f: d.bound(Bound::Fe, &x_b, &e_b),
-            most: k_e.clone(),
+            one_sided: one_sided("(X_b, E_b)", &k_e, given.as_ref()),
+            most: given.map_or_else(|| k_e.clone(), |given| given.min(&k_e)),
             k_e,
-            one_sided: None,
             x_b,
             e_b,
-        };
-        if plant == Plant::OneSided {
-            error_box.rate = d.better_rate(&error_box.rate, false, &error_box.x_b, e_per);
-            let given = d.q_e_max(&error_box.x_b, &error_box.e_b);
-            error_box.one_sided = one_sided("(X_b, E_b)", &error_box.k_e, given.as_ref());
-            error_box.most = given.map_or(error_box.most, |given| given.min(&error_box.k_e));
         }
-        error_box
     }
 
     /// C5 by its closed form, with ht = h/mu, A = w_x a_2 and D = max{|1 + ht most|, |1 - ht k_e|}: `ht k_x^2`, `4 A`, and, if the
@@ -74,15 +59,12 @@ impl ErrorBox {
     /// C5 as conditions, on the gain that is named; before them the one on q_e_max.
     pub fn conditions(
         &self,
-        plant: Plant,
         [coupling, curvature, threshold]: [Interval; 3],
         sigma: Interval,
         name: &str,
     ) -> Vec<Condition> {
-        let rate = if plant == Plant::Norms { "(alpha - gam)" } else { "a_2" };
         let mut conditions: Vec<Condition> = self.one_sided.iter().cloned().collect();
-        let what = format!("(h/mu) k_x^2 < 4 w_x {rate}");
-        conditions.push(Condition::less("C5", what, coupling, curvature));
+        conditions.push(Condition::less("C5", "(h/mu) k_x^2 < 4 w_x a_2", coupling, curvature));
         let what = format!("threshold of the quadratic form < {name}");
         conditions.push(Condition::less("C5b", what, threshold, sigma));
         conditions

@@ -2,11 +2,11 @@
 
 use crate::common::{BOXES, PAPER, certificate};
 use proofs_check::data::Data;
+use proofs_check::figures::existence::Existence;
+use proofs_check::figures::repaired;
 use proofs_check::interval::Interval;
 use proofs_check::json::{Field, parse};
-use proofs_check::rules::existence::Existence;
-use proofs_check::rules::repaired;
-use proofs_check::rules::stability::{ErrorBox, Plant};
+use proofs_check::rules::stability::ErrorBox;
 use proofs_check::rules::transfer::{self, Proof};
 use proofs_check::spec::Specification;
 use rug::Rational;
@@ -44,20 +44,14 @@ fn existence() {
     let (x, e) = (0.25, 0.125);
     let at = |c: f64, cx: f64, ce: f64| c + cx * x + ce * e;
     let (f_e, f_xx, q_x, q_e) = (at(2.0, 3.0, 5.0), 3.0 + 5.0 * x, at(13.0, 17.0, 19.0), at(11.0, 13.0, 17.0));
-    let (qr, f_ex) = (at(1.0, 1.0, 2.0), at(5.0, 7.0, 11.0));
-    let x1 = 1.0 + 2.0 * x + f_xx * x * x + f_e * e;
-    let q1 = at(2.0, 3.0, 1.0) + q_x * x1 + q_e * qr;
-    close(&ex.qr, qr);
-    close(&ex.q1, q1);
+    let f_ex = at(5.0, 7.0, 11.0);
     close(&ex.invariance(&d, &d.c), 4.0 * (f_e * e + f_xx * x * x / 2.0));
-    close(&ex.share(&d, &d.c), 4.0 * f_xx * x / 2.0);
     let [xx, xe, ex_gain, ee] = ex.contraction(&d, &d.c, 1, &d.int(3));
     close(&xx, 4.0 * (f_ex * e + f_xx * x));
     close(&xe, 4.0 * f_e);
     close(&ex_gain, 3.0 * q_x);
     close(&ee, 3.0 * q_e);
     let kappa = [d.int(2), d.int(3)];
-    close(&ex.z_squared(&d, &kappa), 2.5 * qr * qr + 3.0 * q1 * q1);
     let (q, q_t, f) = (at(7.0, 11.0, 13.0), at(17.0, 19.0, 23.0), at(1.0, 2.0, 3.0));
     let paper = (1.0 + 2.0 + 162.0 * q_e * q_e) * q * q + 9.0 * (q_t * q_t + q_x * q_x * f * f);
     close(&ex.z_squared_paper(&d, &kappa), paper);
@@ -69,7 +63,7 @@ fn error_box() {
     let d = Data::new(&spec, 128);
     let (x, e, dx, de) = (0.25, 0.125, 0.5, 1.0);
     let periodic = [&d.ratio(1, 4), &d.ratio(1, 8)];
-    let error_box = ErrorBox::new(&d, Plant::Norms, periodic, [&d.ratio(1, 2), &d.int(1)]);
+    let error_box = ErrorBox::new(&d, periodic, [&d.ratio(1, 2), &d.int(1)]);
     let (x_b, e_b) = (x + dx, e + de);
     let bends = (3.0 + 5.0 * x) * x + (3.0 + 5.0 * x_b + 7.0 * e) * dx / 2.0;
     close(&error_box.gam, 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e) * e));

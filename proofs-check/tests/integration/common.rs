@@ -7,7 +7,6 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 pub const PAPER: &str = "paper-example.sharp";
-pub const REPAIRED: &str = "paper-example.repaired";
 pub const BOXES: &str = "paper-example.boxes";
 
 pub fn folder(name: &str) -> PathBuf {

@@ -141,7 +141,7 @@ fn numbers_too_large_to_form() {
 fn numbers_near_the_limits_are_formed_and_refused() {
     for number in ["1e4000", "1e-4000", "-1e4000"] {
         for pointer in
-            ["/witness/D_x", "/witness/p_e", "/witness/h", "/witness/k1", "/claim/sigma_star", "/witness/X_p"]
+            ["/witness/D_x", "/witness/r_e", "/witness/h", "/witness/k1", "/claim/sigma_star", "/witness/X_p"]
         {
             let report = changed(PAPER, pointer, number);
             assert!([Invalid, Undecided].contains(&report.verdict), "{pointer} = {number}: {}", report.text(false));

@@ -198,7 +198,7 @@ fn bounded_effort() {
 
 #[test]
 fn the_claim_uses_the_proved_triple() {
-    for name in [INTERVALS, PERIODIC, "paper-example-jacobian.repaired"] {
+    for name in [INTERVALS, PERIODIC, "paper-example-jacobian.sharp"] {
         assert_valid(&check(certificate(name).to_string().as_bytes()));
         for (field, factor) in [("p_low", 0.999), ("p_up", 1.001), ("alpha", 0.999)] {
             // Another true triple does not fit the stored figures.

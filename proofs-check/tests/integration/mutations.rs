@@ -4,7 +4,7 @@
 //! A mutant may be accepted only in one of the classes of `harmless`, each of which leaves a true claim, or with figures that
 //! are said to differ, in one of the classes of `told`.
 
-use crate::common::{BOXES, PAPER, REPAIRED, certificate, every, names, rehash};
+use crate::common::{BOXES, PAPER, certificate, every, names, rehash};
 use proofs_check::check;
 use proofs_check::verdict::Verdict;
 use rug::Rational;
@@ -238,11 +238,6 @@ fn places_of_a_sharp_certificate() {
 }
 
 #[test]
-fn places_of_a_repaired_certificate() {
-    mutate(REPAIRED, 3 * every(7), 0).report();
-}
-
-#[test]
 fn places_of_a_certificate_by_boxes() {
     mutate(BOXES, 10 * every(7), 1).report();
 }
@@ -262,7 +257,7 @@ fn places_that_a_claim_by_mean_squares_rests_on() {
 #[test]
 fn places_of_every_other_certificate() {
     for (offset, name) in
-        names("certificates").iter().filter(|name| ![PAPER, REPAIRED, BOXES].contains(&name.as_str())).enumerate()
+        names("certificates").iter().filter(|name| ![PAPER, BOXES].contains(&name.as_str())).enumerate()
     {
         mutate(name, 60 * every(4), offset).report();
     }

@@ -9,7 +9,7 @@ use proofs_check::rules::sampled::gains::Gains;
 use proofs_check::rules::sampled::law::{Law, Terms};
 use proofs_check::rules::sampled::stability::{self, Weights};
 use proofs_check::rules::sampled::transfer;
-use proofs_check::rules::stability::{ErrorBox, Plant};
+use proofs_check::rules::stability::ErrorBox;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::Verdict;
 use rug::Rational;
@@ -314,8 +314,7 @@ fn parts_of_stability() {
     for float in laws() {
         with_law(&float, |law| {
             let number = |value: f64| law.d.number(&rational(value));
-            let error_box =
-                ErrorBox::new(law.d, Plant::OneSided, [&number(x_per), &number(e_per)], [&number(d_x), &number(d_e)]);
+            let error_box = ErrorBox::new(law.d, [&number(x_per), &number(e_per)], [&number(d_x), &number(d_e)]);
             let (w, zeta) = (number(w_x), number(eta));
             let found = stability::conditions(law, &error_box, &Weights { w_x: &w, eta: &zeta });
             let (x_b, e_b) = (x_per + d_x, e_per + d_e);

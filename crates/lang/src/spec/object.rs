@@ -12,7 +12,7 @@ pub const MAX_UNKNOWN: usize = 5;
 /// the others, so a misspelt field can never be silently ignored.
 ///
 /// ```
-/// use crate::spec::{Document, Errors, SpecErrors, positive_constant};
+/// use sigmastar_lang::spec::{Document, Errors, SpecErrors, positive_constant};
 ///
 /// let text = r#"{ "format": "sigmastar/witness", "version": 1, "sigma_star": "97/2" }"#;
 /// let document = Document::parse("witness.json", text)?;

@@ -14,7 +14,7 @@ pub mod transfer;
 
 use super::mean_squares::Means;
 use super::set;
-use super::stability::{ErrorBox, Plant, distances, level};
+use super::stability::{ErrorBox, distances, level};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
@@ -106,7 +106,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sampled> {
     let [x_p, e_p, d_x, d_e, w_x, eta, k0, k1] =
         [&w.x_p, &w.e_p, &w.d_x, &w.d_e, &w.w_x, &w.eta, &w.k0, &w.k1].map(|value| d.number(value));
     let solution = existence::evaluate(&law, &w.r, [&x_p, &e_p], [&k0, &k1]);
-    let error_box = ErrorBox::new(d, Plant::OneSided, [&solution.x, &solution.e], [&d_x, &d_e]);
+    let error_box = ErrorBox::new(d, [&solution.x, &solution.e], [&d_x, &d_e]);
     let arguments = [x_p.max(&error_box.x_b), e_p.max(&error_box.e_b)];
 
     let mut conditions = set::covers(d, &w.set, [&w.x_p, &w.e_p], &solution.z);

@@ -1,4 +1,5 @@
-//! Rules C1-C3: existence and size of the periodic solution (docs/mathematics.md, sections 3 and 4).
+//! Existence and size of the periodic solution by C1-C3, as the paper and the repaired derivation have them (docs/mathematics.md,
+//! sections 3 and 4).
 
 use crate::data::Data;
 use crate::interval::Interval;
@@ -16,33 +17,21 @@ pub struct Existence {
     pub q_e: Interval,
     pub q_x: Interval,
     pub q_t: Interval,
-    /// qr = b_q_rms.
-    pub qr: Interval,
-    /// q1 = b_qt_rms + b_qx x1 + b_qe qr, x1 = b_f(X_p,0) + b_fxx X_p^2 + b_fe E_p.
-    pub q1: Interval,
 }
 
 impl Existence {
     /// Evaluates the bounding functions. (X_p, E_p) must lie in the domain.
     pub fn new(d: &Data<'_>, x_p: Interval, e_p: Interval) -> Existence {
         let at = |which| d.bound(which, &x_p, &e_p);
-        let at_zero = |which| d.bound(which, &x_p, &d.int(0));
-        let (f_xx, f_e, q_e, q_x, qr) =
-            (at_zero(Bound::Fxx), at(Bound::Fe), at(Bound::Qe), at(Bound::Qx), at(Bound::QRms));
-        let x1 = at_zero(Bound::F) + &f_xx * x_p.sqr() + &f_e * &e_p;
-        let q1 = at(Bound::QtRms) + &q_x * x1 + &q_e * &qr;
-        let (f_box, f_ex, q, q_t) = (at(Bound::F), at(Bound::Fex), at(Bound::Q), at(Bound::Qt));
-        Existence { f_box, f_e, f_xx, f_ex, q, q_e, q_x, q_t, qr, q1, x_p, e_p }
+        let [f_box, f_e, f_ex] = [Bound::F, Bound::Fe, Bound::Fex].map(at);
+        let [q, q_e, q_x, q_t] = [Bound::Q, Bound::Qe, Bound::Qx, Bound::Qt].map(at);
+        let f_xx = d.bound(Bound::Fxx, &x_p, &d.int(0));
+        Existence { f_box, f_e, f_xx, f_ex, q, q_e, q_x, q_t, x_p, e_p }
     }
 
     /// `(k/alpha)(b_fe E_p + b_fxx X_p^2/2)`, the left side of C1; k is c or K_alpha.
     pub fn invariance(&self, d: &Data<'_>, k: &Interval) -> Interval {
         k / &d.alpha * (&self.f_e * &self.e_p + &self.f_xx * self.x_p.sqr() / 2)
-    }
-
-    /// `(k/alpha) b_fxx X_p/2`, below 1 in C1.
-    pub fn share(&self, d: &Data<'_>, k: &Interval) -> Interval {
-        k / &d.alpha * &self.f_xx * &self.x_p / 2
     }
 
     /// The entries xx, xe, ex, ee of the contraction matrix: A with `factor` in front of b_fxx X_p, B, and the error
@@ -53,19 +42,9 @@ impl Existence {
         [xx, gain * &self.f_e, error_gain * &self.q_x, error_gain * &self.q_e]
     }
 
-    /// `Z^2 = (T/(2 mu) + kappa_0) qr^2 + kappa_1 q1^2`.
-    pub fn z_squared(&self, d: &Data<'_>, kappa: &[Interval; 2]) -> Interval {
-        (&d.period / (&d.mu * 2) + &kappa[0]) * self.qr.sqr() + &kappa[1] * self.q1.sqr()
-    }
-
     /// The paper's `Z^2 = (T/mu + kappa_0 + 54 kappa_1 b_qe^2) b_q^2 + 3 kappa_1 (b_qt^2 + b_qx^2 b_f^2)`.
     pub fn z_squared_paper(&self, d: &Data<'_>, kappa: &[Interval; 2]) -> Interval {
         (&d.period / &d.mu + &kappa[0] + &kappa[1] * self.q_e.sqr() * 54) * self.q.sqr()
             + &kappa[1] * (self.q_t.sqr() + self.q_x.sqr() * self.f_box.sqr()) * 3
-    }
-
-    /// `(c/alpha) b_fe/(1 - (c/alpha) b_fxx X_p/2)`: sup|x| over sup|e|.
-    pub fn x_gain(&self, d: &Data<'_>) -> Interval {
-        &d.c / &d.alpha * &self.f_e / (1 - self.share(d, &d.c))
     }
 }

@@ -1,14 +1,16 @@
 //! The repaired derivation: the paper's architecture, every condition from the witness (docs/mathematics.md, sections 4 and 5).
 //!
-//! Guarantee: that of [`super::sharp`] with X, E in place of x_per, e_per.
+//! A report shows it beside the derivation of the claim; no claim rests on it.
 
 use super::existence::Existence;
-use super::gains::{beta_s, k_alpha, kappas};
-use super::set;
-use super::stability::distances;
-use super::transfer::{self, Proof};
 use crate::data::Data;
 use crate::interval::Interval;
+use crate::json::Fields;
+use crate::rules::derivation::{all, proof, without_domain};
+use crate::rules::gains::{beta_s, k_alpha, kappas};
+use crate::rules::set;
+use crate::rules::stability::distances;
+use crate::rules::transfer::{self, Proof};
 use crate::spec::Bound;
 use crate::verdict::{Condition, Outcome};
 use rug::Rational;
@@ -32,20 +34,50 @@ pub struct Witness {
     pub transfer: Proof,
 }
 
-/// What the conditions, the claim and the constants are about.
+impl Witness {
+    /// Takes the free numbers out of a witness; what is left there is the caller's to refuse.
+    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: [Rational; 3]) -> Outcome<Witness> {
+        let pointer = fields.pointer.clone();
+        let mut number = |name: &str| fields.required(name)?.rational();
+        Ok(Witness {
+            x: number("X")?,
+            e: number("E")?,
+            level: number("L")?,
+            h: number("h")?,
+            p_x: number("p_x")?,
+            p_e: number("p_e")?,
+            k0: number("k0")?,
+            k1: number("k1")?,
+            transfer: proof(&fields.required("transfer")?)?,
+            pointer,
+            sigma,
+            set,
+        })
+    }
+}
+
+/// What the conditions and the constants are about.
 pub struct Repaired {
     pub existence: Existence,
-    pub z: Interval,
     /// rho_0, rho_11, rho_12, rho_22.
     pub rho: [Interval; 4],
     /// The three leading minors of R at sigma.
     pub minors: [Interval; 3],
     pub sigma_a: Interval,
-    pub conditions: Vec<Condition>,
-    /// As in [`super::sharp::Sharp`].
-    pub transfer: Vec<Condition>,
+    conditions: Vec<Condition>,
+    /// The comparisons of the transfer proof.
+    transfer: Vec<Condition>,
     /// X_b, E_b: the largest arguments.
     pub arguments: [Interval; 2],
+}
+
+/// Proves the derivation: its conditions, and the bounding functions up to its arguments.
+pub fn prove(d: &Data<'_>, w: &Witness) -> Outcome<Repaired> {
+    let repaired = evaluate(d, w)?;
+    let mut lines = Vec::new();
+    all("repaired", &w.pointer, repaired.transfer.iter().chain(&repaired.conditions), &mut lines)?;
+    without_domain(d, &repaired.arguments, &mut lines)?;
+    Ok(repaired)
 }
 
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
@@ -99,5 +131,5 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Repaired> {
     conditions.push(Condition::less("C5", "rho_11 < alpha P_low", rho_11.clone(), &d.alpha * &d.p_low));
     conditions.push(Condition::less("C5b", "sigma_a < sigma", sigma_a.clone(), sigma));
     let (rho, minors, arguments) = ([rho_0, rho_11, rho_12, rho_22], [first, second, third], [x_b, e_b]);
-    Ok(Repaired { existence: ex, z, rho, minors, sigma_a, conditions, transfer, arguments })
+    Ok(Repaired { existence: ex, rho, minors, sigma_a, conditions, transfer, arguments })
 }
