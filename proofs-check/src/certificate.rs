@@ -1,17 +1,15 @@
 //! The certificate file, and the order in which the rules are applied to it.
 
-use crate::data::Data;
-use crate::effort;
-use crate::figures::{self, Figures};
-use crate::json::{Field, Json};
-use crate::plant;
-use crate::rules::claim::{Claim, reads};
-use crate::rules::derivation::Derivation;
-use crate::rules::{bounding, lyapunov};
-use crate::sha256;
-use crate::spec::{Specification, header};
 use crate::subject::{Subject, same_data};
-use crate::verdict::{Finding, Outcome, Verdict, bad};
+use proofs_core::data::Data;
+use proofs_core::effort;
+use proofs_core::json::{Field, Json};
+use proofs_core::rules::bounding;
+use proofs_core::rules::claim::{Claim, reads};
+use proofs_core::rules::derivation::Derivation;
+use proofs_core::sha256;
+use proofs_core::spec::{Specification, header};
+use proofs_core::verdict::{Finding, Outcome, Verdict, bad};
 use rug::Float;
 
 /// The precisions that a certificate may name, in bits: those at which it may have been written.
@@ -25,7 +23,7 @@ pub struct Proved {
     /// What the claim is about.
     pub subject: Subject,
     /// The answer about the figures.
-    pub figures: Figures,
+    pub figures: proofs_figures::Figures,
 }
 
 /// Applies every rule; `lines` receives the argument, line by line. `other` is a specification that the certificate has
@@ -43,15 +41,14 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         return bad(&bits.pointer, format!("expected {PRECISIONS:?} bits"));
     }
     // A plant stands in the place of a specification.
-    let plant = file.optional("plant");
-    let (embedded, about) = match plant {
+    let (embedded, about) = match file.optional("plant") {
         Some(plant) => (plant, "plant"),
         None => (file.required("specification")?, "specification"),
     };
     let mut witness = file.required("witness")?.fields()?;
-    let spec = match about {
-        "plant" => plant::read::read(&embedded, &mut witness)?,
-        _ => Specification::read(&embedded, &mut witness)?,
+    let (spec, plant) = match about {
+        "plant" => proofs_plants::read::read(&embedded, &mut witness).map(|(spec, plant)| (spec, Some(plant)))?,
+        _ => (Specification::read(&embedded, &mut witness)?, None),
     };
     let mut canonical = String::new();
     embedded.json.canonical(&mut canonical);
@@ -61,7 +58,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         "{about}: well-formed; T, w, mu, alpha, P_low > 0, P_up >= P_low; W1-W3 and n_0 > n_1; digest right"
     ));
 
-    let has_states = spec.plant.as_ref().is_some_and(|plant| plant.states() > 0);
+    let has_states = spec.plant.as_ref().is_some_and(|plant| plant.states > 0);
     let claim = Claim::read(&file.required("claim")?, has_states)?;
     let derivation = match &claim.sampled {
         Some(regulator) => Derivation::read_sampled(&mut witness, regulator, claim.set.clone())?,
@@ -69,7 +66,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     };
     // The other figures are those of a continuous regulator; in a sampled certificate they are left to be refused.
     let continuous = claim.sampled.is_none();
-    let parts = figures::Parts {
+    let parts = proofs_figures::Parts {
         conditions: file.optional("conditions"),
         constants: if continuous { file.optional("constants") } else { None },
         comparison: if continuous { file.optional("comparison") } else { None },
@@ -96,19 +93,20 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     };
     let shown = arguments.each_ref().map(Float::to_f64);
     // Last, because it may take the longest.
-    if let Some(plant) = &spec.plant {
-        plant::prove(&spec, plant, arguments.each_ref(), lines)?;
+    if let Some(plant) = &plant {
+        proofs_plants::prove(&spec, plant, arguments.each_ref(), lines)?;
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
         for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {
-            lines.push(format!("Lyapunov triple: {}", lyapunov::prove(jacobian, &spec.period, witness)?));
+            lines
+                .push(format!("Lyapunov triple: {}", proofs_plants::jacobian::prove(jacobian, &spec.period, witness)?));
         }
     }
     let subject = Subject::new(&embedded, &spec, &claim, &derivation, &digest, [tool_name, tool_version], shown);
     if let Some(other) = other {
         same_data(about, embedded.json, other)?;
     }
-    let figures = figures::check(&spec, &parts, &derivation, figures_limit);
+    let figures = proofs_figures::check(&spec, &parts, &derivation, figures_limit);
     lines.push(format!("figures on which no claim rests: {figures}"));
     Ok(Proved { subject, figures })
 }
@@ -131,7 +129,7 @@ fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut V
                 end.clone_from(other.hi());
             }
         }
-        plant::domain(plant, largest.each_ref(), "/witness")?;
+        plant.lies_within(largest.each_ref(), "/witness")?;
     }
     Ok(largest)
 }

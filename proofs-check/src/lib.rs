@@ -9,27 +9,15 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod certificate;
-pub mod constant;
-pub mod data;
-pub mod effort;
-pub mod exact;
-pub mod expr;
-pub mod figures;
-pub mod interval;
-pub mod jacobian;
-pub mod json;
-pub mod matrix;
-pub mod monotone;
-pub mod plant;
-pub mod propose;
 pub mod report;
-pub mod rules;
-pub mod sha256;
-pub mod spec;
 pub mod subject;
-pub mod verdict;
-pub mod weights;
 
+pub use proofs_core::{
+    bound, constant, data, effort, exact, expr, interval, jacobian, json, matrix, monotone, plant, propose, rules,
+    sha256, spec, verdict, weights,
+};
+pub use proofs_figures as figures;
+pub use proofs_plants as plants;
 pub use report::Report;
 use std::io::Read;
 use verdict::{Finding, Verdict};

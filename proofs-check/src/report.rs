@@ -1,7 +1,7 @@
 //! The answer about a file, as text and as JSON. Nothing is decided here.
 
 use crate::certificate::Proved;
-use crate::verdict::{Finding, Verdict};
+use proofs_core::verdict::{Finding, Verdict};
 
 /// The answer about a file.
 pub struct Report {
@@ -13,7 +13,7 @@ pub struct Report {
     pub proved: Option<Proved>,
     /// The argument, line by line, as far as it went.
     pub lines: Vec<String>,
-    /// The steps that the claim took ([`crate::effort`]).
+    /// The steps that the claim took ([`proofs_core::effort`]).
     pub steps: u64,
 }
 

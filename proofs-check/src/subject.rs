@@ -1,13 +1,14 @@
 //! What a certificate is about: the claim in words, the specification, what it takes for granted; and whether that is the
 //! specification of somebody else's file.
 
-use crate::json::{Field, Json, join};
-use crate::plant::read::Plant;
-use crate::rules::claim::Claim;
-use crate::rules::derivation::Derivation;
-use crate::rules::sampled::claim::Regulator;
-use crate::spec::{BOUND_NAMES, Bound, Specification};
-use crate::verdict::{Outcome, invalid};
+use proofs_core::bound::{BOUND_NAMES, Bound};
+use proofs_core::json::{Field, Json, join};
+use proofs_core::plant::OfPlant;
+use proofs_core::rules::claim::Claim;
+use proofs_core::rules::derivation::Derivation;
+use proofs_core::rules::sampled::claim::Regulator;
+use proofs_core::spec::Specification;
+use proofs_core::verdict::{Outcome, invalid};
 use rug::Rational;
 
 const RULE: &str = "the specification that was asked for";
@@ -81,10 +82,10 @@ impl Subject {
 
 /// What vanishes with infinitely many oscillators (docs/mathematics.md, section 6): within bounding functions x is the
 /// deviation from the solution of `x' = f(t,x,0)`, in the formulas of a plant it is not.
-fn limit(plant: Option<&Plant>) -> &'static str {
+fn limit(plant: Option<&OfPlant>) -> &'static str {
     match plant {
         None => "x and e tend to 0",
-        Some(plant) if plant.states() == 0 => "e tends to 0",
+        Some(plant) if plant.states == 0 => "e tends to 0",
         Some(_) => "x - x_0(t) and e tend to 0",
     }
 }
@@ -153,8 +154,8 @@ fn regulator(spec: &Specification) -> String {
 }
 
 /// What a claim about formulas takes for granted.
-fn assumed_of_plant(plant: &Plant) -> Vec<String> {
-    let stateless = plant.states() == 0;
+fn assumed_of_plant(plant: &OfPlant) -> Vec<String> {
+    let stateless = plant.states == 0;
     let where_ = match &plant.domain {
         None => String::new(),
         Some([_, e]) if stateless => format!(" for |e| <= {}", printable(&e.text)),

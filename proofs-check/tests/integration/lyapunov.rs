@@ -5,7 +5,7 @@ use proofs_check::check;
 use proofs_check::constant::Constant;
 use proofs_check::jacobian::{Entry, Jacobian, Witness};
 use proofs_check::json::{Field, parse};
-use proofs_check::rules::lyapunov::prove;
+use proofs_check::plants::jacobian::prove;
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
 use serde_json::{Value, json};
 

@@ -3,7 +3,8 @@
 use super::common::folder;
 use proofs_check::effort;
 use proofs_check::json::{Field, Json, parse};
-use proofs_check::plant;
+use proofs_check::plants as plant;
+use proofs_check::plants::read::Plant;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
 use rug::Float;
@@ -15,21 +16,20 @@ pub fn stored(name: &str) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
-fn read(parts: &Value) -> Outcome<Specification> {
+fn read(parts: &Value) -> Outcome<(Specification, Plant)> {
     let parse = |part: &str| -> Json { parse(parts[part].to_string().as_bytes()).unwrap() };
     let (plant, witness) = (parse("plant"), parse("witness"));
     let mut fields = Field { json: &witness, pointer: "/witness".to_owned() }.fields()?;
-    let spec = plant::read::read(&Field { json: &plant, pointer: "/plant".to_owned() }, &mut fields)?;
-    fields.finish().map(|()| spec)
+    let read = plant::read::read(&Field { json: &plant, pointer: "/plant".to_owned() }, &mut fields)?;
+    fields.finish().map(|()| read)
 }
 
 /// Applies the rules of section 11; the lines of the argument.
 pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
-    let spec = read(parts)?;
-    let plant = spec.plant.as_ref().expect("it is a plant");
+    let (spec, plant) = read(parts)?;
     let none = Float::new(128);
     let mut lines = Vec::new();
-    let (answer, steps) = effort::limited(effort::LIMIT, || plant::prove(&spec, plant, [&none, &none], &mut lines));
+    let (answer, steps) = effort::limited(effort::LIMIT, || plant::prove(&spec, &plant, [&none, &none], &mut lines));
     lines.push(format!("{steps} steps"));
     answer.map(|()| lines)
 }

@@ -90,7 +90,7 @@ fn checked(text: &str, period: &str) -> bool {
     let Ok(expr) = proofs_check::expr::Expr::parse(text, &names) else { return false };
     let json = Json::Text(period.to_owned());
     let constant = Constant::read(&Field { json: &json, pointer: String::new() }).expect("a constant");
-    proofs_check::plant::periodic::is_periodic(&expr, constant.exact.as_ref()) == Some(true)
+    proofs_check::plants::periodic::is_periodic(&expr, constant.exact.as_ref()) == Some(true)
 }
 
 #[test]

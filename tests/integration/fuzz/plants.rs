@@ -258,11 +258,10 @@ impl Drawn {
             [&self.document, witness].map(|part| parse(part.to_string().as_bytes()).expect("JSON"));
         let mut fields = Field { json: &witness, pointer: "/witness".to_owned() }.fields()?;
         let field = Field { json: &plant, pointer: "/plant".to_owned() };
-        let spec = proofs_check::plant::read::read(&field, &mut fields)?;
+        let (spec, plant) = proofs_check::plants::read::read(&field, &mut fields)?;
         fields.finish()?;
-        let plant = spec.plant.as_ref().expect("it is a plant");
         let none = Float::new(128);
-        proofs_check::plant::prove(&spec, plant, [&none, &none], &mut Vec::new())
+        proofs_check::plants::prove(&spec, &plant, [&none, &none], &mut Vec::new())
     }
 
     pub fn name(&self) -> String {

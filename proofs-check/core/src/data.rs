@@ -1,0 +1,124 @@
+//! The data of a specification, enclosed at one working precision (docs/mathematics.md, section 1).
+
+use crate::bound::Bound;
+use crate::interval::Interval;
+use crate::plant::entries::Name;
+use crate::spec::Specification;
+use rug::Rational;
+
+/// The numbers of derivation, section 1, under their names there.
+pub struct Data<'s> {
+    pub spec: &'s Specification,
+    pub precision: u32,
+    pub period: Interval,
+    pub p_low: Interval,
+    pub p_up: Interval,
+    pub alpha: Interval,
+    pub mu: Interval,
+    pub w: Interval,
+    /// c = sqrt(P_up/P_low) >= 1.
+    pub c: Interval,
+    /// c and alpha of the triple that serves for existence: the second one, if there is one.
+    pub existence: [Interval; 2],
+    /// nu = mu/w.
+    pub nu: Interval,
+    pub n_0: Interval,
+    pub n_1: Interval,
+    pub n_bar: Interval,
+}
+
+impl<'s> Data<'s> {
+    /// Encloses everything at `precision` bits.
+    pub fn new(spec: &'s Specification, precision: u32) -> Data<'s> {
+        let number = |constant: &crate::constant::Constant| constant.enclose(precision);
+        let (p_low, p_up, mu, w) =
+            (number(&spec.p_low), number(&spec.p_up), number(&spec.mu), number(&spec.base_frequency));
+        // P_low <= P_up holds, so c >= 1 does whatever the rounding.
+        let root = |p_low: &Interval, p_up: &Interval| (p_up / p_low).sqrt().max(&Interval::int(1, precision));
+        let (alpha, c) = (number(&spec.alpha), root(&p_low, &p_up));
+        let existence = match &spec.existence {
+            Some((_, [p_low, p_up, alpha])) => [root(&number(p_low), &number(p_up)), number(alpha)],
+            None => [c.clone(), alpha.clone()],
+        };
+        Data {
+            period: number(&spec.period),
+            alpha,
+            c,
+            existence,
+            nu: &mu / &w,
+            n_0: spec.weights.weight(0, precision),
+            n_1: spec.weights.weight(1, precision),
+            n_bar: spec.weights.total(precision).sqrt(),
+            p_low,
+            p_up,
+            mu,
+            w,
+            spec,
+            precision,
+        }
+    }
+
+    /// An exact number.
+    pub fn number(&self, value: &Rational) -> Interval {
+        Interval::rational(value, self.precision)
+    }
+
+    /// An integer.
+    pub fn int(&self, value: i64) -> Interval {
+        Interval::int(value, self.precision)
+    }
+
+    /// A fraction.
+    pub fn ratio(&self, numerator: i64, denominator: i64) -> Interval {
+        self.number(&Rational::from((numerator, denominator)))
+    }
+
+    /// Om = 2 pi/T.
+    pub fn frequency(&self) -> Interval {
+        Interval::pi(self.precision) * 2 / &self.period
+    }
+
+    /// The positive part of a bounding function at (X, E), undefined if it is not given. A root mean square is at most the supremum, so b_q and b_qt serve
+    /// for rms bounds that are not given, or are larger.
+    pub fn bound(&self, which: Bound, x: &Interval, e: &Interval) -> Interval {
+        let own = self.given(which, x, e);
+        let supremum = match which {
+            Bound::QRms => self.given(Bound::Q, x, e),
+            Bound::QtRms => self.given(Bound::Qt, x, e),
+            _ => None,
+        };
+        match (own, supremum) {
+            (Some(own), Some(supremum)) => own.min(&supremum),
+            (own, supremum) => own.or(supremum).unwrap_or_else(|| Interval::undefined(self.precision)),
+        }
+    }
+
+    /// The positive part of a bounding function, if it is given.
+    pub fn given(&self, which: Bound, x: &Interval, e: &Interval) -> Option<Interval> {
+        if let Some(plant) = &self.spec.plant {
+            return plant.entries.at(which, x, e, self.precision).map(|value| value.max(&self.int(0)));
+        }
+        let expr = self.spec.bounds[which as usize].as_ref()?;
+        Some(expr.enclose(x, e).max(&self.int(0)))
+    }
+
+    /// q_e_max at (X, E), if it is given: it may be negative.
+    pub fn q_e_max(&self, x: &Interval, e: &Interval) -> Option<Interval> {
+        if let Some(plant) = &self.spec.plant {
+            return plant.entries.at(Bound::QeMax, x, e, self.precision);
+        }
+        self.spec.bounds[Bound::QeMax as usize].as_ref().map(|expr| expr.enclose(x, e))
+    }
+
+    /// The larger of a rate, which need not be defined for a plant, and the one that is given at (X, E), if one is given: of the P
+    /// of stability, or of that of existence.
+    pub fn better_rate(&self, rate: &Interval, of_existence: bool, x: &Interval, e: &Interval) -> Interval {
+        if let Some(plant) = &self.spec.plant {
+            let second = of_existence && plant.two_matrices;
+            let name = if second { Name::RateExistence } else { Name::Rate };
+            let given = plant.entries.rate(name, x, e, self.precision);
+            return given.map_or_else(|| rate.clone(), |given| given.greatest(rate));
+        }
+        self.spec.rate.as_ref().map_or_else(|| rate.clone(), |expr| expr.enclose(x, e).max(rate))
+    }
+}

@@ -1,0 +1,233 @@
+//! Rule: the claim says what the witness proves, and nothing that it does not.
+
+use super::sampled::claim::{N_O, Regulator};
+use crate::constant::Constant;
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::json::{Field, Fields};
+use crate::plant::OfPlant;
+use crate::plant::coordinates;
+use crate::spec::{AskedSet, Specification};
+use crate::verdict::{Outcome, bad, demand, invalid};
+use rug::Rational;
+
+const RULE: &str = "claim";
+
+/// The numbers of a claim.
+pub struct Claim<'a> {
+    /// sigma*, or the one gain of a sampled regulator.
+    pub sigma: Rational,
+    /// The sampled regulator that it is about, if it is.
+    pub sampled: Option<Regulator<'a>>,
+    /// X_0, E_0, Z_0.
+    pub set: [Rational; 3],
+    /// Bounds of the periodic solution.
+    pub periodic: Field<'a>,
+    /// The claim in words.
+    pub statement: Field<'a>,
+    /// The radius of the ball that the set of a plant contains, with its place and as it is written.
+    ball: Option<(Rational, Field<'a>)>,
+    sigma_text: &'a str,
+    set_text: [&'a str; 3],
+    verdict: Field<'a>,
+    n_o: Field<'a>,
+    mu: Field<'a>,
+    kind: Field<'a>,
+}
+
+/// The sizes |x|, |e|, |zeta|_N of the periodic solution that are proved.
+pub struct Sizes {
+    pub x: Interval,
+    pub e: Interval,
+    pub zeta: Interval,
+}
+
+impl Sizes {
+    /// With that of z = zeta + M e, under the names in a file.
+    pub fn named(&self, d: &Data<'_>) -> [(&'static str, Interval); 4] {
+        let z = &self.zeta + &d.n_bar * &self.e;
+        [("x", self.x.clone()), ("e", self.e.clone()), ("zeta", self.zeta.clone()), ("z", z)]
+    }
+}
+
+/// A text that is fixed by the rest of the certificate.
+pub fn reads(rule: &'static str, field: &Field<'_>, expected: &str) -> Outcome<()> {
+    if field.text()? == expected {
+        Ok(())
+    } else {
+        invalid(rule, &field.pointer, format!("it should read: {expected}"))
+    }
+}
+
+/// Reads X0, E0, Z0, and what is left besides.
+pub fn read_set<'a>(fields: &mut Fields<'a>) -> Outcome<([Rational; 3], [&'a str; 3])> {
+    let [x0, e0, z0] = [fields.required("X0")?, fields.required("E0")?, fields.required("Z0")?];
+    let set = [x0.rational()?, e0.rational()?, z0.rational()?];
+    if let Some(index) = set.iter().position(|value| *value < 0) {
+        return invalid("initial set", &[&x0, &e0, &z0][index].pointer, "it must not be negative");
+    }
+    Ok((set, [x0.numeral()?, e0.numeral()?, z0.numeral()?]))
+}
+
+impl<'a> Claim<'a> {
+    /// Reads the claim; `has_ball`: it is about a plant with states.
+    pub fn read(field: &Field<'a>, has_ball: bool) -> Outcome<Claim<'a>> {
+        let mut fields = field.fields()?;
+        let derivation = fields.required("derivation")?;
+        if derivation.text()? != "sharp" {
+            return bad(&derivation.pointer, "only `sharp` can be claimed");
+        }
+        let sampled = Regulator::read(&mut fields)?;
+        let (sigma, sigma_text) = match &sampled {
+            Some(regulator) => (regulator.sigma.clone(), ""),
+            None => {
+                let sigma = fields.required("sigma_star")?;
+                (sigma.rational()?, sigma.numeral()?)
+            }
+        };
+        let mut set = fields.required("initial_set")?.fields()?;
+        let kind = set.required("kind")?;
+        let (numbers, set_text) = read_set(&mut set)?;
+        let ball = if has_ball { Some(set.required("ball")?) } else { None };
+        let ball = ball.map(|field| field.rational().map(|value| (value, field))).transpose()?;
+        set.finish()?;
+        let claim = Claim {
+            sigma,
+            sampled,
+            set: numbers,
+            ball,
+            sigma_text,
+            set_text,
+            verdict: fields.required("verdict")?,
+            n_o: fields.required("n_o")?,
+            mu: fields.required("mu")?,
+            kind,
+            periodic: fields.required("periodic_solution")?,
+            statement: fields.required("statement")?,
+        };
+        fields.finish()?;
+        Ok(claim)
+    }
+
+    /// Compares every field with the specification, and demands that the stored sizes of the periodic solution bound those
+    /// that are proved; `exact` are rational bounds of |x| and |e|.
+    pub fn check(&self, d: &Data<'_>, sizes: &Sizes, exact: [&Rational; 2]) -> Outcome<()> {
+        reads(RULE, &self.verdict, "certified")?;
+        let spec = d.spec;
+        match &self.sampled {
+            None => reads(RULE, &self.n_o, "every n_o >= 0")?,
+            Some(regulator) => {
+                reads(RULE, &self.n_o, N_O)?;
+                regulator.check(spec)?;
+            }
+        }
+        let mu = Constant::read(&self.mu)?;
+        let same =
+            mu.text == spec.mu.text || mu.exact.as_ref().zip(spec.mu.exact.as_ref()).is_some_and(|(a, b)| a.equals(b));
+        if !same {
+            return reads(RULE, &self.mu, &spec.mu.text);
+        }
+        let kind = match spec.initial_set {
+            AskedSet::Paper => "paper",
+            AskedSet::AtRest(_) => "at-rest",
+            AskedSet::Box(_) => "box",
+        };
+        reads(RULE, &self.kind, kind)?;
+        let mut fields = self.periodic.fields()?;
+        for (index, (name, mine)) in sizes.named(d).into_iter().enumerate() {
+            // z is a state at the samples alone.
+            let field = match self.sampled {
+                Some(_) if name == "z" => fields.optional(name),
+                _ => Some(fields.required(name)?),
+            };
+            field.map_or(Ok(()), |field| bounds(d, &field, &mine, exact.get(index).copied()))?;
+        }
+        fields.finish()?;
+        match &spec.plant {
+            None => reads(RULE, &self.statement, &self.in_words(spec)),
+            Some(plant) => {
+                self.check_ball(plant)?;
+                reads(RULE, &self.statement, &self.of_plant(spec, plant)?)
+            }
+        }
+    }
+
+    /// The set contains the ball (docs/mathematics.md, section 11.5), and the ball is no smaller than the one that is asked for.
+    fn check_ball(&self, plant: &OfPlant) -> Outcome<()> {
+        let Some((ball, field)) = &self.ball else { return Ok(()) };
+        demand(Some(*ball >= 0), coordinates::RULE, &field.pointer, "the radius is not negative")?;
+        let covered = plant.coordinates.covers_ball(&self.set[0], ball);
+        demand(Some(covered), coordinates::RULE, &field.pointer, "X0^2 L L' - ball^2 I >= 0")?;
+        demand(plant.asks_for(ball), coordinates::RULE, &field.pointer, "the ball that is asked for <= ball")
+    }
+
+    /// The claim about a plant in words.
+    fn of_plant(&self, spec: &Specification, plant: &OfPlant) -> Outcome<String> {
+        let domain = plant.domain.as_ref().map_or_else(String::new, |[x, e]| {
+            let of_x = if plant.states > 0 { format!("|x - x_0| <= {}, ", x.text) } else { String::new() };
+            format!(" (a model that holds for {of_x}|e| <= {})", e.text)
+        });
+        let [x0, e0, z0] = self.set_text;
+        let (states, orbit) = match &self.ball {
+            None => (String::new(), String::new()),
+            Some((_, field)) => (
+                format!("|L^-1 (x - x_0)| <= {x0}, "),
+                format!(
+                    "; x_0(t) is the T-periodic solution of x' = f(t,x,0), proved within `radius` of `orbit`; the set \
+                     contains |x - x_0| <= {}",
+                    field.numeral()?
+                ),
+            ),
+        };
+        let (regulator, when) = self.regulator(spec);
+        Ok(format!(
+            "{regulator}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
+             every solution from {states}|e| <= {e0}, sqrt(z'Nz) <= {z0}, at any {when}, converges exponentially{orbit}.",
+        ))
+    }
+
+    /// The beginning of the claim in words, and where its solutions start.
+    fn regulator(&self, spec: &Specification) -> (String, &'static str) {
+        if let Some(regulator) = &self.sampled {
+            return (regulator.in_words(spec), "sampling instant");
+        }
+        let reach = if spec.matched { "" } else { " (which need not match the period)" };
+        let words = format!(
+            "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+             frequency {}{reach}",
+            self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
+        );
+        (words, "initial time")
+    }
+
+    /// The claim in words, as the specification and the numbers of the claim make it.
+    fn in_words(&self, spec: &Specification) -> String {
+        let domain = spec
+            .domain
+            .as_ref()
+            .map_or_else(String::new, |[x, e]| format!(" (for |x| <= {}, |e| <= {})", x.text, e.text));
+        let triple = if spec.jacobian.is_some() {
+            "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
+        } else {
+            let [p_low, p_up, alpha] = [&spec.p_low, &spec.p_up, &spec.alpha].map(|constant| &constant.text);
+            format!("with the Lyapunov triple p_low = {p_low}, p_up = {p_up}, alpha = {alpha} (given, not proved)")
+        };
+        let rate = if spec.rate.is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
+        let harmonics =
+            if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
+        let [x0, e0, z0] = self.set_text;
+        let (regulator, when) = self.regulator(spec);
+        format!(
+            "{regulator}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
+             has a T-periodic solution of the closed loop to which every solution from |x| <= {x0}, |e| <= {e0}, sqrt(z'Nz) <= {z0}, at \
+             any {when}, converges exponentially.",
+        )
+    }
+}
+
+/// A stored number is an upper bound of one that is enclosed, or of one that is known exactly to bound it.
+fn bounds(d: &Data<'_>, field: &Field<'_>, mine: &Interval, exact: Option<&Rational>) -> Outcome<()> {
+    let value = field.rational()?;
+    let truth = if exact.is_some_and(|exact| value >= *exact) { Some(true) } else { mine.le(&d.number(&value)) };
+    demand(truth, RULE, &field.pointer, format!("it bounds what is proved, {}", crate::verdict::shown(mine)))
+}

@@ -1,0 +1,313 @@
+//! Rules S1-S3: existence and size of the periodic solution by mean squares, without a contraction (docs/mathematics.md,
+//! sections 10.3 and 10.4).
+//!
+//! Guarantee of S1 and S2: for every n_o and every sigma' >= sigma there is a T-periodic solution with sup|x| <= X_p, sup|e| <= E_p,
+//! rms(x) <= r_x, rms(e) <= r_e, rms(e') <= r_d. All that `Bounds::at` and `Bounds::damped` say of such a solution then holds
+//! together, for its own root mean squares rho too: rho <= G(rho), where G takes the least of what they say.
+//!
+//! Guarantee of S3 besides: rho <= r'. For G is nondecreasing and concave with G(0) >= 0 (it is made of constants that are
+//! nonnegative, sums and minima), so G(l r') <= l G(r') for l >= 1. If l = max rho_i/r'_i > 1, then rho <= G(rho) <= G(l r') <=
+//! l G(r') < l r' in every place, against the choice of l. Strictness matters.
+
+use super::gains::{beta_s, bt, damped, tau};
+use super::stability::one_sided;
+use crate::bound::Bound;
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::spec::Forcing;
+use crate::verdict::Condition;
+use rug::Rational;
+
+/// The root mean squares of x, e and e'.
+pub type Means = [Rational; 3];
+
+/// The free numbers.
+#[derive(Clone, Debug)]
+pub struct Witness {
+    /// r_x, r_e, r_d.
+    pub r: Means,
+    /// The linear part -kap e that the map of existence has; 0 for none.
+    pub kap: Rational,
+    /// Root mean squares that are proved of the solution itself.
+    pub refined: Option<Means>,
+}
+
+/// What a witness proves of the periodic solution.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    pub x: Interval,
+    pub e: Interval,
+    /// R_q, R_1: the root mean squares of q along it and of its derivative in t.
+    pub rates: [Interval; 2],
+    /// (c/a_1) b_fe: |x| over |e|.
+    pub x_gain: Interval,
+    pub z_squared: Interval,
+    /// a_1, and r_x, r_e, r_d of the solution; only the table of constants shows them.
+    pub shown: (Interval, [Interval; 3]),
+    pub conditions: Vec<Condition>,
+}
+
+/// The bounding functions at (X_p, E_p), b_fx at (X_p, 0), and the gains at sigma. What is not given is undefined, and the least
+/// of several bounds leaves it out (docs/mathematics.md, section 11.3). Those that do not name sigma serve every regulator.
+pub struct Bounds<'a> {
+    d: &'a Data<'a>,
+    x_p: Interval,
+    e_p: Interval,
+    /// a_1.
+    rate: Interval,
+    f_x: Interval,
+    f_e: Interval,
+    q_x: Interval,
+    q_e: Interval,
+    /// b_q_rms, b_qt_rms.
+    rates: [Interval; 2],
+    /// b_qt_rms(0,0).
+    q_t_start: Interval,
+    /// b_qtx and b_qte, where both are given.
+    bends: Option<[Interval; 2]>,
+    /// Q_0 >= rms(q(t,0,0)).
+    start: Interval,
+    forced: Option<Forced>,
+    x_gain: Interval,
+    /// K2(a_1) b_fe: sup|x| over rms(e).
+    from_rms: Interval,
+    bt: Interval,
+    tau: Interval,
+    /// Om, and sg = sqrt(sigma^2 + Om^2).
+    om: Interval,
+    sg: Interval,
+}
+
+/// What `q_0` gives at sigma: of the response to the harmonics, and of the rest.
+struct Forced {
+    /// C_0, C_1, ...
+    harmonics: Vec<Interval>,
+    sup_e: Interval,
+    rms_e: Interval,
+    /// rms of the derivative of the harmonics.
+    rate: Interval,
+    /// r_0, r_1.
+    rest: [Interval; 2],
+}
+
+/// What follows for a solution with given root mean squares.
+struct Follows {
+    sup_e: Interval,
+    rms_e: Interval,
+    rms_e_t: Interval,
+    /// R_q, R_1.
+    rates: [Interval; 2],
+    /// d_0, d_1: the root mean squares of q(t,x,e) - q(t,0,0) and of its derivative.
+    apart: [Interval; 2],
+}
+
+/// The numbers of `q_0` under their names in the derivation: C_k, r_0, r_1.
+pub fn forcing(d: &Data<'_>, given: &Forcing) -> (Vec<Interval>, [Interval; 2]) {
+    let number = |size: &crate::spec::Size| size.enclose(d.precision);
+    let harmonics: Vec<Interval> = given.harmonics.iter().map(number).collect();
+    let zero = d.int(0);
+    // What follows from the other data bounds it too.
+    let derived = d.bound(Bound::QtRms, &zero, &zero) + derivative(d, &harmonics);
+    let rest_t = given.rest_t_rms.as_ref().map_or(derived.clone(), |rest_t| number(rest_t).least(&derived));
+    (harmonics, [number(&given.rest_rms), rest_t])
+}
+
+/// `sqrt(sum_{k>=1} 2 (k Om C_k)^2)`.
+fn derivative(d: &Data<'_>, harmonics: &[Interval]) -> Interval {
+    twice_sum(d, harmonics, |k, c| (c * d.frequency() * k).sqr()).sqrt()
+}
+
+/// `2 sum_{k>=1} term(k, C_k)`.
+fn twice_sum(d: &Data<'_>, harmonics: &[Interval], term: impl Fn(i64, &Interval) -> Interval) -> Interval {
+    (1..).zip(harmonics.iter().skip(1)).fold(d.int(0), |sum, (k, c)| sum + term(k, c)) * 2
+}
+
+impl Forced {
+    fn new(d: &Data<'_>, sigma: &Interval, given: &Forcing) -> Forced {
+        let (harmonics, rest) = forcing(d, given);
+        let gain = |k: i64| sigma.sqr() + (d.frequency() * k).sqr();
+        Forced {
+            sup_e: twice_sum(d, &harmonics, |k, c| c / gain(k).sqrt()),
+            rms_e: twice_sum(d, &harmonics, |k, c| c.sqr() / gain(k)).sqrt(),
+            rate: derivative(d, &harmonics),
+            harmonics,
+            rest,
+        }
+    }
+
+    /// `sqrt(C_0^2 + 2 sum C_k^2) + r_0`.
+    fn rms(&self, d: &Data<'_>) -> Interval {
+        let mean = self.harmonics[0].sqr();
+        (mean + twice_sum(d, &self.harmonics, |_, c| c.sqr())).sqrt() + &self.rest[0]
+    }
+}
+
+impl<'a> Bounds<'a> {
+    /// At (X_p, E_p) and sigma.
+    pub fn new(d: &'a Data<'a>, sigma: &Interval, [x_p, e_p]: [&Interval; 2]) -> Bounds<'a> {
+        let zero = d.int(0);
+        let [c, alpha] = &d.existence;
+        let bent = alpha - c * d.bound(Bound::Fxx, x_p, &zero) * x_p / 2;
+        let a_1 = d.better_rate(&bent, true, x_p, &zero);
+        let at = |which| d.bound(which, x_p, e_p);
+        let secant = d.bound(Bound::F, x_p, &zero) / x_p + d.bound(Bound::Fxx, x_p, &zero) * x_p;
+        let forced = d.spec.q_0.as_ref().map(|given| Forced::new(d, sigma, given));
+        let start = d.bound(Bound::QRms, &zero, &zero);
+        let bends = d.given(Bound::Qtx, x_p, e_p).zip(d.given(Bound::Qte, x_p, e_p));
+        let om = d.frequency();
+        Bounds {
+            f_x: d.given(Bound::Fx, x_p, &zero).map_or(secant.clone(), |f_x| f_x.least(&secant)),
+            f_e: at(Bound::Fe),
+            q_x: at(Bound::Qx),
+            q_e: at(Bound::Qe),
+            rates: [at(Bound::QRms), at(Bound::QtRms)],
+            q_t_start: d.bound(Bound::QtRms, &zero, &zero),
+            bends: bends.map(|(q_tx, q_te)| [q_tx, q_te]),
+            start: forced.as_ref().map_or(start.clone(), |forced| forced.rms(d).least(&start)),
+            forced,
+            x_gain: c / &a_1 * at(Bound::Fe),
+            from_rms: c * beta_s(d, &a_1) * at(Bound::Fe),
+            rate: a_1,
+            x_p: x_p.clone(),
+            e_p: e_p.clone(),
+            bt: bt(d, sigma),
+            tau: tau(d, sigma),
+            sg: (sigma.sqr() + om.sqr()).sqrt(),
+            om,
+            d,
+        }
+    }
+
+    /// S1: x+ stays in the set of the proof. The regulator has no part in it.
+    pub fn of_states(&self, [r_x, r_e, _]: &[Interval; 3]) -> Vec<Condition> {
+        let sup = (&self.x_gain * &self.e_p).min(&(&self.from_rms * r_e));
+        let what = "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p";
+        vec![
+            Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone()),
+            Condition::at_most("S1b", what, sup, self.x_p.clone()),
+            Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", &self.x_gain * r_e, r_x.clone()),
+        ]
+    }
+
+    /// x_per, from e_per and rms(e). Where S1 fails X_p stands for what is not defined.
+    pub fn sup_x(&self, e: &Interval, rms_e: &Interval) -> Interval {
+        if !self.rate.is_positive() {
+            return self.x_p.clone();
+        }
+        self.x_p.min(&(&self.x_gain * e)).min(&(&self.from_rms * rms_e))
+    }
+
+    /// R_q and R_1 at (r_x, r_e, r_d), and d_0, d_1: they are of q along the solution, whatever the regulator is.
+    pub fn inputs(&self, [r_x, r_e, r_d]: &[Interval; 3]) -> [[Interval; 2]; 2] {
+        let d_0 = &self.q_x * r_x + &self.q_e * r_e;
+        let along = &self.q_x * (&self.f_x * r_x + &self.f_e * r_e) + &self.q_e * r_d;
+        let generic = &self.rates[1] + &self.q_t_start + &along;
+        let d_1 = match &self.bends {
+            Some([q_tx, q_te]) => generic.least(&(q_tx * r_x + q_te * r_e + &along)),
+            None => generic,
+        };
+        let r_q = self.rates[0].least(&(&self.start + &d_0));
+        let r_1 = &self.rates[1] + along;
+        let r_1 = self.forced.as_ref().map_or(r_1.clone(), |f| r_1.least(&(&f.rate + &f.rest[1] + &d_1)));
+        [[r_q, r_1], [d_0, d_1]]
+    }
+
+    /// Section 10.3 at (r_x, r_e, r_d).
+    fn at(&self, r: &[Interval; 3]) -> Follows {
+        let [[r_q, r_1], [d_0, d_1]] = self.inputs(r);
+        let [_, r_e, r_d] = r;
+        // Of the response to an input with these root mean squares of itself and of its derivative.
+        let sup = |q: &Interval, q_t: &Interval| (&self.bt * q).least(&(&self.tau * q_t));
+        let rms = |q: &Interval, q_t: &Interval| (q / &self.sg).least(&(q_t / (&self.om * &self.sg)));
+        let mut sup_e = sup(&r_q, &r_1).least(&(&self.d.period * r_e * r_d).sqrt());
+        let mut rms_e = rms(&r_q, &r_1);
+        if let Some(f) = &self.forced {
+            sup_e = sup_e.least(&(&f.sup_e + sup(&f.rest[0], &f.rest[1]) + sup(&d_0, &d_1)));
+            rms_e = rms_e.least(&(&f.rms_e + rms(&f.rest[0], &f.rest[1]) + rms(&d_0, &d_1)));
+        }
+        Follows { sup_e, rms_e, rms_e_t: r_q.least(&(&r_1 / &self.sg)), rates: [r_q, r_1], apart: [d_0, d_1] }
+    }
+
+    /// Section 10.4 at (r_x, r_e): rms(e) <= g_k Rt and rms(e') <= Rt + kap r_e, with Rt = Q_0 + b_qx r_x + rho r_e.
+    fn damped(&self, [r_x, r_e, _]: &[Interval; 3], [gain, kap, rho]: &[Interval; 3]) -> [Interval; 2] {
+        let input = &self.start + &self.q_x * r_x + rho * r_e;
+        [gain * &input, input + kap * r_e]
+    }
+
+    /// Z^2, the least of `(T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2` and the form of `q_0`.
+    fn z_squared(&self, follows: &Follows, pair: [&Interval; 2], kappa: &[Interval; 2]) -> Interval {
+        let d = self.d;
+        let mean = |[q, q_t]: &[Interval; 2]| &kappa[0] * q.sqr() + &kappa[1] * q_t.sqr();
+        let swing = &d.period * follows.rates[0].sqr() / (&d.mu * 2);
+        let plain = &swing + mean(&follows.rates);
+        let Some(forced) = &self.forced else { return plain };
+        // Bounds of sup_N T_N(k Om/w).
+        let inverse = d.nu.sqr().recip();
+        let transfer = |k: i64| {
+            let bound = pair[0] + pair[1] * (&self.om * k / &d.w).sqr();
+            let pole = || &inverse * 2 / d.spec.weights.weight(k.unsigned_abs(), d.precision);
+            if d.spec.matched { bound.min(&pole()) } else { bound }
+        };
+        let mean_part = &inverse / &d.n_0 * forced.harmonics[0].sqr();
+        let harmonics = mean_part + twice_sum(d, &forced.harmonics, |k, c| transfer(k) * c.sqr());
+        let z = harmonics.sqrt() / &d.w + mean(&forced.rest).sqrt() + mean(&follows.apart).sqrt();
+        plain.least(&(swing + z.sqr()))
+    }
+}
+
+/// Evaluates S1-S3; `pair` is (k0, k1), which the transfer proof has to settle.
+pub fn evaluate(
+    d: &Data<'_>,
+    w: &Witness,
+    sigma: &Rational,
+    [x_p, e_p]: [&Interval; 2],
+    pair: [&Interval; 2],
+    kappa: &[Interval; 2],
+) -> Solution {
+    let bounds = Bounds::new(d, &d.number(sigma), [x_p, e_p]);
+    let r = w.r.each_ref().map(|value| d.number(value));
+    let [_, r_e, r_d] = &r;
+    let most = d.q_e_max(x_p, e_p);
+    let upper = most.as_ref().map_or(bounds.q_e.clone(), |most| most.min(&bounds.q_e));
+    let kap = d.number(&w.kap);
+    let rho = (upper + &kap).max(&(&bounds.q_e - &kap));
+    let with_kap = w.kap > 0;
+    let damping = [damped(d, sigma, &w.kap), kap, rho];
+
+    let mut conditions = bounds.of_states(&r);
+    let mut at_most = |id, what: &str, lhs, rhs: &Interval| {
+        conditions.push(Condition::at_most(id, what, lhs, rhs.clone()));
+    };
+    if with_kap {
+        let [rms_e, rms_e_t] = bounds.damped(&r, &damping);
+        at_most("S2", "sqrt(T r_e r_d) <= E_p", (&d.period * r_e * r_d).sqrt(), e_p);
+        at_most("S2b", "g_k Rt <= r_e", rms_e, r_e);
+        at_most("S2c", "Rt + kap r_e <= r_d", rms_e_t, r_d);
+        conditions.extend(one_sided("(X_p, E_p)", &bounds.q_e, most.as_ref()));
+    } else {
+        let follows = bounds.at(&r);
+        let forced = if bounds.forced.is_some() { ", q_0 form" } else { "" };
+        let what = format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){forced}}} <= E_p");
+        at_most("S2", &what, follows.sup_e, e_p);
+        at_most("S2b", &format!("min{{R_q/sg, R_1/(Om sg){forced}}} <= r_e"), follows.rms_e, r_e);
+        at_most("S2c", "min{R_q, R_1/sg} <= r_d", follows.rms_e_t, r_d);
+    }
+    let last = w.refined.as_ref().unwrap_or(&w.r).each_ref().map(|value| d.number(value));
+    let follows = bounds.at(&last);
+    if w.refined.is_some() {
+        let (mut rms_e, mut rms_e_t) = (follows.rms_e.clone(), follows.rms_e_t.clone());
+        if with_kap {
+            let damped = bounds.damped(&last, &damping);
+            (rms_e, rms_e_t) = (rms_e.least(&damped[0]), rms_e_t.least(&damped[1]));
+        }
+        let sides = [&bounds.x_gain * &last[1], rms_e, rms_e_t].into_iter().zip(last.iter().cloned());
+        let names = [("S3", "G_x(r') < r'_x"), ("S3b", "G_e(r') < r'_e"), ("S3c", "G_d(r') < r'_d")];
+        conditions
+            .extend(names.into_iter().zip(sides).map(|((id, what), (lhs, rhs))| Condition::less(id, what, lhs, rhs)));
+    }
+    let e = e_p.min(&follows.sup_e);
+    let x = bounds.sup_x(&e, &last[1]);
+    let z_squared = bounds.z_squared(&follows, pair, kappa);
+    let shown = (bounds.rate, last);
+    Solution { x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, shown, conditions }
+}

@@ -1,0 +1,12 @@
+//! The rules, one a file.
+pub mod bounding;
+pub mod claim;
+pub mod derivation;
+pub mod gains;
+pub mod mean_squares;
+pub mod regulation;
+pub mod sampled;
+pub mod set;
+pub mod sharp;
+pub mod stability;
+pub mod transfer;

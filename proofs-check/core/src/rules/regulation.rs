@@ -1,0 +1,79 @@
+//! Exact regulation with infinitely many oscillators (docs/mathematics.md, sections 6, Theorem 2, and 10.6).
+//!
+//! Guarantee, for a matched base frequency: with n_o infinite, for every sigma' >= sigma, solutions from the claimed
+//! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
+
+use super::mean_squares::forcing;
+use super::set;
+use super::stability::{ErrorBox, distances, level};
+use crate::bound::Bound;
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::json::Field;
+use crate::verdict::{Condition, Outcome, invalid};
+use rug::Rational;
+
+/// The free numbers.
+#[derive(Clone, Debug)]
+pub struct Witness {
+    pub pointer: String,
+    pub sigma: Rational,
+    /// sigma*_oo as it is written.
+    pub sigma_text: String,
+    pub d_x: Rational,
+    pub d_e: Rational,
+    pub w_x: Rational,
+    pub h: Rational,
+}
+
+impl Witness {
+    /// Reads the part `exact_regulation`.
+    pub fn read(field: &Field<'_>) -> Outcome<Witness> {
+        let mut fields = field.fields()?;
+        let sigma = fields.required("sigma_star_oo")?;
+        let mut number = |name| -> Outcome<Rational> { fields.required(name)?.rational() };
+        let w = Witness {
+            sigma: sigma.rational()?,
+            sigma_text: sigma.numeral()?.to_owned(),
+            d_x: number("D_x")?,
+            d_e: number("D_e")?,
+            w_x: number("w_x")?,
+            h: number("h")?,
+            pointer: field.pointer.clone(),
+        };
+        fields.finish()?;
+        Ok(w)
+    }
+}
+
+/// `z_oo = (1/mu) sqrt(b_q_rms(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt_rms(0,0)^2)`, or, where it is less and `q_0` is given, `(1/mu)[sqrt(C_0^2/n_0 + sum_{k>=1} 4 C_k^2/n_k) + sqrt(r_0^2/n_0 + (2/n_1)(T/2pi)^2 r_1^2)]`.
+fn steady_state(d: &Data<'_>) -> Interval {
+    let zero = d.int(0);
+    let at = |which| d.bound(which, &zero, &zero);
+    let root = |q: &Interval, q_t: &Interval| (q.sqr() / &d.n_0 + (q_t / d.frequency()).sqr() * 2 / &d.n_1).sqrt();
+    let generic = root(&at(Bound::QRms), &at(Bound::QtRms));
+    let Some(given) = &d.spec.q_0 else { return generic / &d.mu };
+    let (harmonics, [rest, rest_t]) = forcing(d, given);
+    let weight = |k: u64| d.spec.weights.weight(k, d.precision);
+    let later = (1..).zip(&harmonics[1..]).fold(d.int(0), |sum, (k, c)| sum + c.sqr() * 4 / weight(k));
+    let forced = (harmonics[0].sqr() / &d.n_0 + later).sqrt() + root(&rest, &rest_t);
+    generic.least(&forced) / &d.mu
+}
+
+/// Evaluates the conditions; only `matched` and the signs are decided yet.
+pub fn evaluate(d: &Data<'_>, set: &[Rational; 3], w: &Witness) -> Outcome<Vec<Condition>> {
+    if !d.spec.matched {
+        return invalid("exact regulation", &w.pointer, "it needs base_frequency = 2 pi/period, asserted by `matched`");
+    }
+    let named = [("sigma_star_oo", &w.sigma), ("D_x", &w.d_x), ("D_e", &w.d_e), ("w_x", &w.w_x), ("h", &w.h)];
+    set::positive(&named, &w.pointer)?;
+    let [sigma, d_x, d_e, w_x, h] = named.map(|(_, value)| d.number(value));
+    let zero = d.int(0);
+    let error_box = ErrorBox::new(d, [&zero, &zero], [&d_x, &d_e]);
+    let reach = distances(d, set, [&zero, &zero, &steady_state(d)]);
+    let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
+    let mut conditions = set::domain(d, &d_x, &d_e);
+    conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
+    conditions.extend(error_box.conditions(error_box.decay(d, &w_x, &h), sigma, "sigma_oo"));
+    Ok(conditions)
+}

@@ -1,0 +1,334 @@
+//! Rule: the embedded specification is well-formed (docs/guide.md), and its data lie in their ranges (docs/mathematics.md, section 1).
+//!
+//! Guarantee: no unknown field, every number exact, T, w, mu, alpha, P_low > 0, P_up >= P_low, weights with W1-W3
+//! ([`crate::weights`]), `matched` only where base_frequency * period = 2 pi exactly, and `sampling_period` only with it and
+//! where period / sampling_period is a whole number >= 2 exactly.
+
+use crate::bound::{BOUND_NAMES, BOUNDS, REQUIRED};
+use crate::constant::{Constant, Number, PRECISIONS, expression};
+use crate::exact::Exact;
+use crate::expr::{ARGUMENTS, Expr};
+use crate::interval::Interval;
+use crate::jacobian::{self, Jacobian};
+use crate::json::{Field, Fields, Json};
+use crate::plant::OfPlant;
+use crate::verdict::{Outcome, bad, demand};
+use crate::weights::Weights;
+use rug::{Integer, Rational};
+
+const RULE: &str = "specification";
+
+/// q(t,0,0) = sum over |k| <= K of c_k e^{i k Om t} + rest (docs/mathematics.md, section 10.1).
+#[derive(Clone, Debug)]
+pub struct Forcing {
+    /// Bounds of |c_0|, ..., |c_K|.
+    pub harmonics: Vec<Size>,
+    /// A bound of rms(rest).
+    pub rest_rms: Size,
+    /// A bound of rms(rest'), if given.
+    pub rest_t_rms: Option<Size>,
+}
+
+/// A number that is not negative: as a specification has it, or as it follows from a plant's witness.
+#[derive(Clone, Debug)]
+pub enum Size {
+    Constant(Constant),
+    Number(Rational),
+    /// The root of this number.
+    Root(Rational),
+}
+
+impl Size {
+    /// An enclosure, without what may lie below 0.
+    pub fn enclose(&self, precision: u32) -> Interval {
+        let value = match self {
+            Size::Constant(constant) => constant.enclose(precision),
+            Size::Number(value) => Interval::rational(value, precision),
+            Size::Root(square) => Interval::rational(square, precision).sqrt(),
+        };
+        value.max(&Interval::int(0, precision))
+    }
+}
+
+/// The most harmonics that are read.
+const MAX_HARMONICS: usize = 1000;
+
+/// The set of initial conditions that is asked for.
+#[derive(Clone, Debug)]
+pub enum AskedSet {
+    /// X0 = 2 X_p, E0 = 2 E_p, Z0 = 2 (Z + Nbar E_p).
+    Paper,
+    /// Z0 = 0; X0, E0 given or 2 X_p, 2 E_p.
+    AtRest([Option<Constant>; 2]),
+    /// X0, E0, Z0 given.
+    Box([Constant; 3]),
+}
+
+/// A specification that satisfies this rule.
+#[derive(Clone, Debug)]
+pub struct Specification {
+    pub period: Constant,
+    pub p_low: Constant,
+    pub p_up: Constant,
+    pub alpha: Constant,
+    /// The Jacobian that stands in place of the triple, with what proves the triple.
+    pub jacobian: Option<(Jacobian, jacobian::Witness)>,
+    /// With a Jacobian: what proves a second triple for it, which serves for existence, and that triple.
+    pub existence: Option<(jacobian::Witness, [Constant; 3])>,
+    /// The contraction rate a(X, E), for the P of a triple that is given.
+    pub rate: Option<Expr>,
+    pub mu: Constant,
+    pub base_frequency: Constant,
+    pub matched: bool,
+    /// N_s = T/h, where a sampling period is given: a claim in continuous time does not use it.
+    pub samples: Option<Integer>,
+    pub weights: Weights,
+    pub bounds: [Option<Expr>; BOUNDS],
+    pub q_0: Option<Forcing>,
+    pub domain: Option<[Constant; 2]>,
+    pub initial_set: AskedSet,
+    /// Where the specification is a plant's formulas: what is known of them.
+    pub plant: Option<Box<OfPlant>>,
+}
+
+/// The regulator, as far as it is given.
+pub struct InternalModel {
+    pub mu: Constant,
+    pub base_frequency: Constant,
+    pub matched: bool,
+    pub samples: Option<Integer>,
+    pub weights: Weights,
+}
+
+/// `N_s = period / sampling`, a whole number >= 2 exactly; without exact forms nothing is known.
+pub fn samples(period: &Constant, sampling: &Constant, pointer: &str) -> Outcome<Integer> {
+    let inverse = sampling.exact.as_ref().and_then(Exact::recip);
+    let ratio = period.exact.as_ref().zip(inverse).and_then(|(period, inverse)| period.mul(&inverse));
+    let whole = ratio.as_ref().map(|ratio| ratio.as_rational().filter(|q| *q.denom() == 1 && *q >= 2));
+    demand(whole.as_ref().map(Option::is_some), RULE, pointer, "period / sampling_period is a whole number >= 2")?;
+    whole.flatten().map_or_else(|| bad(pointer, "this is no part of the period"), |q| Ok(q.into_numer_denom().0))
+}
+
+/// Reads `sampling_period`, if it is given.
+fn read_samples(fields: &mut Fields<'_>, period: &Constant, matched: bool) -> Outcome<Option<Integer>> {
+    if !fields.has("sampling_period") {
+        return Ok(None);
+    }
+    let pointer = format!("{}/sampling_period", fields.pointer);
+    let sampling = positive(fields, "sampling_period")?;
+    demand(Some(matched), RULE, &pointer, "a sampling period needs `matched`")?;
+    samples(period, &sampling, &pointer).map(Some)
+}
+
+/// Reads a constant that has to be positive.
+pub fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
+    let field = fields.required(name)?;
+    let constant = Constant::read(&field)?;
+    let truth = Number::rational(Rational::new()).lt(&constant.number());
+    demand(truth, RULE, &field.pointer, format!("{name} > 0"))?;
+    Ok(constant)
+}
+
+fn nonnegative(field: Field<'_>) -> Outcome<Constant> {
+    let constant = Constant::read(&field)?;
+    let truth = Number::rational(Rational::new()).le(&constant.number());
+    demand(truth, RULE, &field.pointer, "the number is nonnegative")?;
+    Ok(constant)
+}
+
+impl Specification {
+    /// Reads and checks the embedded specification. With a Jacobian, the triple is the field `lyapunov` of the witness, and a second
+    /// one may be its field `lyapunov_existence`; both are taken out, and their proof (`rules/lyapunov`) is left to be done.
+    pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<Specification> {
+        let mut file = field.fields()?;
+        header(&mut file, "sigmastar/bounding-spec")?;
+        file.required("name")?.text()?;
+        file.optional("description").map(|field| field.text().map(drop)).transpose()?;
+        let period = positive(&mut file, "period")?;
+
+        let mut fields = file.required("lyapunov")?.fields()?;
+        let (jacobian, [p_low, p_up, alpha]) = match fields.optional("jacobian") {
+            None => (None, ["p_low", "p_up", "alpha"].map(|name| positive(&mut fields, name))),
+            Some(field) => {
+                let jacobian = jacobian::read(&field)?;
+                let (witness, triple) = jacobian::Witness::read(&witness.required("lyapunov")?, jacobian.len())?;
+                (Some((jacobian, witness)), triple.map(Ok))
+            }
+        };
+        let (p_low, p_up, alpha) = (p_low?, p_up?, alpha?);
+        demand(p_low.number().le(&p_up.number()), RULE, &fields.pointer, "p_low <= p_up")?;
+        let second = if jacobian.is_some() { witness.optional("lyapunov_existence") } else { None };
+        let order = jacobian.as_ref().map_or(0, |(jacobian, _)| jacobian.len());
+        let existence = second.map(|field| jacobian::Witness::read(&field, order)).transpose()?;
+        // The P that is found for a Jacobian is not known to whoever states a rate.
+        let rate = if jacobian.is_none() { fields.optional("rate") } else { None };
+        let rate = rate.map(|field| expression(&field, ARGUMENTS)).transpose()?;
+        fields.finish()?;
+
+        let mut functions = file.required("bounds")?.fields()?;
+        let mut bounds: [Option<Expr>; BOUNDS] = Default::default();
+        for (index, (name, bound)) in BOUND_NAMES.iter().zip(&mut bounds).enumerate() {
+            let field = if index < REQUIRED { Some(functions.required(name)?) } else { functions.optional(name) };
+            *bound = field.map(|field| expression(&field, ARGUMENTS)).transpose()?;
+        }
+        functions.finish()?;
+        let q_0 = file.optional("q_0").map(|field| read_forcing(&field)).transpose()?;
+
+        let domain = file.optional("domain").map(|field| {
+            let mut fields = field.fields()?;
+            let ends = [positive(&mut fields, "X")?, positive(&mut fields, "E")?];
+            fields.finish().map(|()| ends)
+        });
+
+        let InternalModel { mu, base_frequency, matched, samples, weights } =
+            InternalModel::read(&file.required("internal_model")?, &period)?;
+
+        let (initial_set, _) = read_set(&file.required("initial_set")?, false)?;
+        file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
+        file.finish()?;
+        let domain = domain.transpose()?;
+        Ok(Specification {
+            period,
+            p_low,
+            p_up,
+            alpha,
+            jacobian,
+            existence,
+            rate,
+            mu,
+            base_frequency,
+            matched,
+            samples,
+            weights,
+            bounds,
+            q_0,
+            domain,
+            initial_set,
+            plant: None,
+        })
+    }
+}
+
+impl InternalModel {
+    /// Reads `internal_model`; `matched` only where base_frequency * period = 2 pi exactly.
+    pub fn read(field: &Field<'_>, period: &Constant) -> Outcome<InternalModel> {
+        let mut model = field.fields()?;
+        let (mu, base_frequency) = (positive(&mut model, "mu")?, positive(&mut model, "base_frequency")?);
+        let matched = match model.optional("matched") {
+            None => false,
+            Some(field) => match field.json {
+                Json::Bool(value) => *value,
+                _ => return bad(&field.pointer, "expected true or false"),
+            },
+        };
+        let weights = Weights::read(&model.required("weights")?)?;
+        if matched {
+            let product = base_frequency.number().times(period.number());
+            let two_pi = Exact::rational(&Rational::from(2)).and_then(|two| two.mul(&Exact::pi()));
+            let equal = match (&product.exact, &two_pi) {
+                (Some(a), Some(b)) => Some(a.equals(b)),
+                // Disjoint enclosures refute; nothing else is proved without exact forms.
+                _ => PRECISIONS.iter().find_map(|p| {
+                    let (a, b) = ((product.enclose)(*p), Interval::pi(*p) * 2);
+                    (a.lt(&b) == Some(true) || b.lt(&a) == Some(true)).then_some(false)
+                }),
+            };
+            demand(equal, RULE, &format!("{}/matched", model.pointer), "base_frequency * period = 2 pi")?;
+        }
+        let samples = read_samples(&mut model, period, matched)?;
+        model.finish()?;
+        Ok(InternalModel { mu, base_frequency, matched, samples, weights })
+    }
+}
+
+/// `format` and `version` of a file.
+pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
+    let field = file.required("format")?;
+    let found = field.text()?;
+    if found != format {
+        // What is to be certified, in the place of what was.
+        let what = match (found, format) {
+            ("sigmastar/plant", "sigmastar/certificate") => "a plant",
+            ("sigmastar/bounding-spec", "sigmastar/certificate") => "a specification",
+            _ => return bad(&field.pointer, format!("expected `{format}`")),
+        };
+        let first =
+            "is to be certified first: `sigmastar certify FILE -o CERTIFICATE`, and then the CERTIFICATE is checked";
+        return bad(&field.pointer, format!("expected `{format}`; this is {what}, which {first}"));
+    }
+    let field = file.required("version")?;
+    if field.whole()? == 1 { Ok(()) } else { bad(&field.pointer, "only version 1 is read") }
+}
+
+fn read_forcing(field: &Field<'_>) -> Outcome<Forcing> {
+    let mut fields = field.fields()?;
+    let list = fields.required("harmonics")?;
+    let elements = list.elements()?;
+    if elements.is_empty() || elements.len() > MAX_HARMONICS {
+        return bad(&list.pointer, format!("expected 1 to {MAX_HARMONICS} harmonics"));
+    }
+    let forcing = Forcing {
+        harmonics: elements.into_iter().map(size).collect::<Outcome<_>>()?,
+        rest_rms: size(fields.required("rest_rms")?)?,
+        rest_t_rms: fields.optional("rest_t_rms").map(size).transpose()?,
+    };
+    fields.finish()?;
+    Ok(forcing)
+}
+
+/// Reads the set that is asked for; that of a plant may have `ball` in the place of `X0`: then it is returned too.
+pub fn read_set(field: &Field<'_>, of_plant: bool) -> Outcome<(AskedSet, Option<Constant>)> {
+    let mut fields = field.fields()?;
+    let kind = fields.required("kind")?;
+    let name = kind.text()?;
+    let takes_ball = of_plant && matches!(name, "at-rest" | "box");
+    let ball = if takes_ball { fields.optional("ball") } else { None }.map(nonnegative).transpose()?;
+    let set = match name {
+        "paper" => AskedSet::Paper,
+        "at-rest" => {
+            let mut end = |name| fields.optional(name).map(nonnegative).transpose();
+            // Where there is a ball, `X0` is left to be refused as unknown.
+            AskedSet::AtRest([if ball.is_some() { None } else { end("X0")? }, end("E0")?])
+        }
+        "box" => {
+            let mut end = |name| fields.required(name).and_then(nonnegative);
+            let x0 = ball.clone().map_or_else(|| end("X0"), Ok)?;
+            AskedSet::Box([x0, end("E0")?, end("Z0")?])
+        }
+        _ => return bad(&kind.pointer, "expected `paper`, `at-rest` or `box`"),
+    };
+    fields.finish()?;
+    Ok((set, ball))
+}
+
+fn size(field: Field<'_>) -> Outcome<Size> {
+    nonnegative(field).map(Size::Constant)
+}
+
+/// The filter e = xi_r + sum a_i xi_i: s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 must be Hurwitz (docs/mathematics.md, section 6),
+/// decided by Routh's array in rationals.
+fn filter(field: &Field<'_>) -> Outcome<()> {
+    let mut fields = field.fields()?;
+    let list = fields.required("a")?;
+    fields.finish()?;
+    let elements = list.elements()?;
+    if elements.is_empty() || elements.len() > 20 {
+        return bad(&list.pointer, "expected 1 to 20 coefficients");
+    }
+    let mut coefficients = vec![Rational::from(1)];
+    for element in elements.iter().rev() {
+        match Constant::read(element)?.rational() {
+            Some(value) => coefficients.push(value),
+            None => return bad(&element.pointer, "this coefficient is not known to be rational"),
+        }
+    }
+    let every_second = |from: usize| coefficients.iter().skip(from).step_by(2).cloned().collect::<Vec<_>>();
+    let (mut upper, mut lower) = (every_second(0), every_second(1));
+    while let (Some(a), Some(b)) = (upper.first().cloned(), lower.first().cloned()) {
+        demand(Some(b > 0), RULE, &list.pointer, "the polynomial of `a` is Hurwitz")?;
+        let at = |row: &[Rational], j: usize| row.get(j).cloned().unwrap_or_default();
+        let next = (1..upper.len()).map(|j| at(&upper, j) - Rational::from(&a / &b) * at(&lower, j)).collect();
+        (upper, lower) = (lower, next);
+    }
+    Ok(())
+}

@@ -1,0 +1,238 @@
+//! The figures of a certificate on which no claim rests: the sides of its conditions, the table of constants, the other
+//! derivation for comparison, a second proof of C5, a remark. They are computed again, one by one, apart from the claim,
+//! and get an answer of their own. So a figure can neither take a true claim away nor pass unseen when it is wrong.
+
+mod compare;
+mod constants;
+pub mod existence;
+mod lmi;
+mod no_plant;
+pub mod repaired;
+
+use proofs_core::data::Data;
+use proofs_core::effort;
+use proofs_core::json::{Field, Fields, join};
+use proofs_core::rules::claim::Sizes;
+use proofs_core::rules::derivation::{Derivation, Proved, Witnesses};
+use proofs_core::rules::sharp;
+use proofs_core::spec::Specification;
+use proofs_core::verdict::{Condition, Finding, Outcome, Verdict, finding};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+/// The precisions, in bits, at which figures are computed: it is enough that one of them gives the stored one. Those from
+/// the second on are for what is undecided, and for words, which may depend on a comparison.
+const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
+
+/// What was found out about the figures.
+#[derive(Clone, Debug, Default)]
+pub struct Figures {
+    /// How many were looked at.
+    pub checked: usize,
+    /// Those that are not as they are computed here, with what is wrong.
+    pub findings: Vec<Finding>,
+}
+
+impl Figures {
+    /// `agree`; `differ`, where one certainly does; else `undecided`.
+    pub fn word(&self) -> &'static str {
+        match self.findings.iter().any(differs) {
+            true => "differ",
+            false if self.findings.is_empty() => "agree",
+            false => "undecided",
+        }
+    }
+}
+
+fn differs(finding: &Finding) -> bool {
+    finding.verdict != Verdict::Undecided
+}
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let wrong = self.findings.iter().filter(|finding| differs(finding)).count();
+        match (wrong, self.findings.len() - wrong) {
+            (0, 0) => write!(f, "all {} agree", self.checked),
+            (0, open) => write!(f, "{open} undecided"),
+            (1, 0) => write!(f, "1 differs"),
+            (wrong, 0) => write!(f, "{wrong} differ"),
+            (wrong, open) => write!(f, "{wrong} differ{}, {open} undecided", if wrong == 1 { "s" } else { "" }),
+        }
+    }
+}
+
+/// The parts of a file that hold figures.
+pub struct Parts<'a> {
+    /// `/conditions`.
+    pub conditions: Option<Field<'a>>,
+    /// `/constants`.
+    pub constants: Option<Field<'a>>,
+    /// `/comparison`.
+    pub comparison: Option<Field<'a>>,
+    /// `/witness/lmi`.
+    pub multipliers: Option<Field<'a>>,
+    /// `/claim/periodic_solution`, whose truth is part of the claim; how tight it is, is not.
+    pub periodic: Field<'a>,
+    /// `/no_plant`.
+    pub no_plant: Option<Field<'a>>,
+}
+
+/// Figures by their places: `None` for one that is as it is computed here.
+type Answers = BTreeMap<String, Option<Box<Finding>>>;
+
+/// Computes all figures again within `limit` steps; `main` is the derivation of the claim, which is proved.
+pub fn check(spec: &Specification, parts: &Parts<'_>, main: &Derivation, limit: u64) -> Figures {
+    let (answer, _) = effort::limited(limit, || {
+        let mut settled = BTreeSet::new();
+        let mut figures = Figures::default();
+        for precision in PRECISIONS {
+            let mut attempt = Attempt { d: &Data::new(spec, precision), parts, answers: Answers::new() };
+            attempt.run(main);
+            // What an attempt says that ran out of steps is worth nothing, not even that a figure agrees.
+            if effort::exhausted() {
+                let message = "not computed within the steps that the figures may take";
+                figures.findings.push(*finding(Verdict::Undecided, "effort", "", message));
+                break;
+            }
+            figures.checked = attempt.answers.len();
+            figures.findings.clear();
+            for (place, finding) in attempt.answers {
+                match finding {
+                    None => drop(settled.insert(place)),
+                    Some(finding) if !settled.contains(&place) => figures.findings.push(*finding),
+                    Some(_) => {}
+                }
+            }
+            let open = |finding: &Finding| !differs(finding) || (finding.sides.is_none() && precision == PRECISIONS[0]);
+            if !figures.findings.iter().any(open) {
+                break;
+            }
+        }
+        figures
+    });
+    answer
+}
+
+/// All figures at one precision.
+struct Attempt<'a> {
+    d: &'a Data<'a>,
+    parts: &'a Parts<'a>,
+    answers: Answers,
+}
+
+impl Attempt<'_> {
+    fn note(&mut self, place: &str, outcome: Outcome<()>) {
+        self.answers.insert(place.to_owned(), outcome.err());
+    }
+
+    fn run(&mut self, main: &Derivation) {
+        // It was proved for the claim, if not at this precision.
+        let proved = match main.evaluate(self.d) {
+            Ok(proved) => proved,
+            Err(finding) => return self.note("", Err(finding)),
+        };
+        self.conditions(&proved);
+        self.tight(&proved.sizes());
+        // Those that follow are of a continuous regulator.
+        let (Witnesses::Sharp(w), Proved::Sharp(sharp)) = (&main.witnesses, &proved) else { return };
+        self.multipliers(w, sharp);
+        let repaired = self.repaired();
+        let repaired = repaired.as_ref().map(|(w, proved)| (w, proved));
+        let regulation = main.regulation.as_ref().map(|w| &w.sigma);
+        self.constants(&constants::Input { sharp: (w, sharp), repaired, regulation });
+        if let Some(field) = &self.parts.no_plant {
+            self.note(&field.pointer, no_plant::check(self.d, field));
+        }
+    }
+
+    fn conditions(&mut self, proved: &Proved) {
+        let Some(list) = &self.parts.conditions else { return self.note("/conditions", missing("/conditions")) };
+        let mut stored = match list.elements() {
+            Ok(stored) => stored,
+            Err(finding) => return self.note(&list.pointer, Err(finding)),
+        };
+        let mut computed: Vec<&Condition> = proved.conditions().iter().collect();
+        if self.d.spec.plant.is_some() {
+            // A ball and a domain of a plant are compared exactly, by matrices (section 11.5), not by these two numbers.
+            let compared = |id: &str| !["set", "domain"].contains(&id);
+            computed.retain(|condition| compared(condition.id));
+            let id = |element: &Field<'_>| Some(element.fields().ok()?.optional("id")?.text().ok()?.to_owned());
+            stored.retain(|element| id(element).is_none_or(|id| compared(&id)));
+        }
+        for (element, mine) in stored.iter().zip(&computed) {
+            self.note(&element.pointer, compare::condition(element, mine));
+        }
+        if stored.len() != computed.len() {
+            let message = format!("{} conditions are stored, not {}", stored.len(), computed.len());
+            self.note(&list.pointer, Err(finding(Verdict::Invalid, compare::RULE, &list.pointer, message)));
+        }
+    }
+
+    /// The upper ends of the claim are no larger than their rounding makes them.
+    fn tight(&mut self, sizes: &Sizes) {
+        let Ok(mut fields) = self.parts.periodic.fields() else { return };
+        for (name, mine) in sizes.named(self.d) {
+            let Some(field) = fields.optional(name) else { continue };
+            self.note(&field.pointer, compare::tight(&field, &mine));
+        }
+    }
+
+    /// C5 as a matrix inequality.
+    fn multipliers(&mut self, w: &sharp::Witness, proved: &sharp::Sharp) {
+        let Some(field) = &self.parts.multipliers else { return };
+        let outcome = lmi::Witness::read(field)
+            .and_then(|multipliers| lmi::check(self.d, &proved.error_box, [&w.sigma, &w.w_x, &w.h], &multipliers));
+        self.note(&field.pointer, outcome);
+    }
+
+    /// The repaired derivation, if it is given and proved.
+    fn repaired(&mut self) -> Option<(repaired::Witness, repaired::Repaired)> {
+        let field = self.parts.comparison.as_ref()?;
+        let outcome = comparison(field).and_then(|w| repaired::prove(self.d, &w).map(|proved| (w, proved)));
+        let (found, outcome) = match outcome {
+            Ok(pair) => (Some(pair), Ok(())),
+            Err(finding) => (None, Err(finding)),
+        };
+        self.note(&field.pointer, outcome);
+        found
+    }
+
+    fn constants(&mut self, input: &constants::Input<'_>) {
+        let Some(table) = &self.parts.constants else { return self.note("/constants", missing("/constants")) };
+        let mut outcomes = Vec::new();
+        constants::check(self.d, table, input, &mut |place, outcome| outcomes.push((place, outcome)));
+        outcomes.into_iter().for_each(|(place, outcome)| self.note(&place, outcome));
+    }
+}
+
+fn missing(pointer: &str) -> Outcome<()> {
+    Err(finding(Verdict::BadInput, "format", pointer, "this part of a certificate is missing"))
+}
+
+/// The free numbers of the repaired derivation.
+fn comparison(field: &Field<'_>) -> Outcome<repaired::Witness> {
+    let mut fields = field.fields()?;
+    let part = fields.required("repaired")?;
+    fields.finish()?;
+    let mut fields = part.fields()?;
+    let sigma = fields.required("sigma_star")?.rational()?;
+    let mut set = fields.required("initial_set")?.fields()?;
+    let (numbers, _) = proofs_core::rules::claim::read_set(&mut set)?;
+    set.finish()?;
+    let mut witness = fields.required("witness")?.fields()?;
+    fields.finish()?;
+    let w = repaired::Witness::read(&mut witness, sigma, numbers)?;
+    witness.finish()?;
+    Ok(w)
+}
+
+/// What is left of an object is unknown; each is a figure that nothing stands behind.
+fn unknown(fields: Fields<'_>, note: &mut dyn FnMut(String, Outcome<()>)) {
+    let at = fields.pointer.clone();
+    for (key, _) in fields.rest() {
+        let place = join(&at, key);
+        let outcome =
+            Err(finding(Verdict::Invalid, compare::RULE, &place, "nothing in the certificate gives this figure"));
+        note(place, outcome);
+    }
+}

@@ -1,0 +1,230 @@
+//! Certificates of a plant that is given by its formulas (docs/mathematics.md, section 11).
+//!
+//! Guarantee of [`prove`]: f and q are periodic and smooth where they are used (P0); x_0 exists, near xb (P1); every entry of
+//! `bounds` is true (P2), and the forcing is as `forcing` says (P3). What the claim says of balls and domains is decided in
+//! [`coordinates`] (P4).
+
+mod around;
+pub mod bounds;
+mod break_points;
+mod derivative;
+pub mod formula;
+pub mod harmonics;
+pub mod jacobian;
+pub mod machine;
+pub mod model;
+mod narrowing;
+pub mod orbit;
+pub mod path;
+pub mod periodic;
+pub mod question;
+pub mod read;
+pub mod region;
+pub mod smooth;
+mod still;
+pub mod taylor;
+pub mod time;
+
+use machine::{Cell, Machine, Values};
+use model::{Frame, Model};
+use proofs_core::interval::Interval;
+use proofs_core::plant::entries;
+use proofs_core::spec::Specification;
+use proofs_core::verdict::{Outcome, Verdict, demand, finding};
+use question::{Answer, Question};
+use read::Plant;
+use region::{Region, Shape};
+use rug::{Float, Rational};
+use std::rc::Rc;
+
+/// The precision, in bits, of the boxes.
+const PRECISION: u32 = 64;
+/// Those of Taylor arithmetic, each tried where the one before does not decide.
+const TAYLOR_PRECISIONS: [u32; 2] = [128, 320];
+/// How many cells of t there are for the bound of the drift.
+const DRIFT_CELLS_LOG: u32 = 6;
+
+/// A question with its region, and what it is about.
+struct Asked {
+    question: Question,
+    region: Region,
+    rule: &'static str,
+    pointer: String,
+    what: String,
+}
+
+/// Proves everything that section 11 demands of the formulas; `arguments`: the largest X and E at which they are used.
+pub fn prove(spec: &Specification, plant: &Plant, arguments: [&Float; 2], lines: &mut Vec<String>) -> Outcome<()> {
+    for formula in plant.f.iter().chain([&plant.q]) {
+        let what = "t occurs only inside sin, cos and tan, as A t + B with A period/(2 pi) a whole number";
+        demand(
+            periodic::is_periodic(&formula.expr, spec.period.exact.as_ref()),
+            "periodicity",
+            &formula.pointer,
+            what,
+        )?;
+    }
+    lines.push("formulas: periodic in t, by their form".to_owned());
+    let mut model = Model::new(plant, Frame::Moving);
+    let rest = harmonics::Rest::new(&mut model);
+    let mut asked = Vec::new();
+    if plant.states() > 0 {
+        orbit::radii(&plant.orbit, &plant.lyapunov[0])?;
+        asked = of_orbit(plant, &mut model)?;
+    }
+    let of_the_orbit = asked.len();
+    for entry in &plant.known.entries.list {
+        asked.push(of_entry(plant, &mut model, entry));
+    }
+    let still = still::Still::new(plant);
+    if model.formulas.is_too_large() {
+        let message = "the formulas and their derivatives have too many parts";
+        return Err(finding(Verdict::Undecided, "formulas", "/plant", message));
+    }
+    let mut curves = model::curves(plant);
+    curves.orbit.push(plant.forcing.wave.clone());
+    let circle = |p: u32| {
+        let period = spec.period.enclose(p);
+        (Interval::pi(p) * 2 / &period, period)
+    };
+
+    let (om, period) = circle(PRECISION);
+    let mut machine = Machine::new(&model.formulas, &curves, &om);
+    let root = machine.period(&period);
+    let mut values = machine.values();
+    let count = smoothness(plant, &model, &machine, &root, arguments, &mut values)?;
+    lines.push(format!("formulas: smooth where they are used, by {count} boxes"));
+    if plant.states() > 0 {
+        let cells = at_rising_precision(|p| {
+            let (om, period) = circle(p);
+            orbit::defect(plant, &model, &curves, &om, &period)
+        })?;
+        lines.push(format!("orbit: defect by {cells} cells of t, at order {}", path::ORDER));
+    }
+    let cells = at_rising_precision(|p| {
+        let (om, period) = circle(p);
+        rest.prove(plant, &model, &curves, &om, &period)
+    })?;
+    lines.push(format!("forcing: harmonics and rest by {cells} cells of t"));
+    machine.drift = drift(plant, &model, &machine, &root, &mut values);
+    let mut in_states = still.prepared(&curves, &om, &period);
+    for (at, Asked { question, region, rule, pointer, what }) in asked.into_iter().enumerate() {
+        let entry = at.checked_sub(of_the_orbit);
+        if let Some(count) = entry.and_then(|entry| in_states.proves(plant, entry)) {
+            lines.push(format!("{rule}: {what}, by {count} boxes of the states"));
+            continue;
+        }
+        match question.decide(&machine, &root, &region, question::MAX_PIECES, &mut values) {
+            Answer::Proved(count) => lines.push(format!("{rule}: {what}, by {count} boxes")),
+            Answer::Refuted(place) => demand(Some(false), rule, &pointer, format!("{what}, at {place}"))?,
+            Answer::Open(place) => demand(None, rule, &pointer, format!("{what}, near {place}"))?,
+        }
+    }
+    Ok(())
+}
+
+/// The sizes of each P, and its rate in the tube.
+fn of_orbit(plant: &Plant, model: &mut Model) -> Outcome<Vec<Asked>> {
+    let zero = || Interval::int(0, PRECISION);
+    let mut asked = Vec::new();
+    for (which, what, question) in orbit::sizes(plant, model)? {
+        let region = Region { states: plant.states(), shape: Shape::Ball(zero()), output: zero() };
+        let pointer = plant.lyapunov[which].pointer.clone();
+        asked.push(Asked { question, region, rule: orbit::RULE, pointer, what: what.to_owned() });
+    }
+    for (which, w) in plant.lyapunov.iter().enumerate() {
+        let p = model.lyapunov[which].clone();
+        let jacobian = model.jacobian.clone();
+        let rows = bounds::rate(&mut model.formulas, &w.numbers[2], &p, &jacobian);
+        asked.push(Asked {
+            question: Question::new(&mut model.formulas, rows, plant.states()),
+            region: Region { states: plant.states(), shape: Shape::Ball(tube(plant)), output: zero() },
+            rule: orbit::RULE,
+            pointer: format!("{}/alpha", w.pointer),
+            what: "P' + P J + J'P <= -2 alpha P in the tube".to_owned(),
+        });
+    }
+    Ok(asked)
+}
+
+fn tube(plant: &Plant) -> Interval {
+    Interval::rational(&plant.orbit.tube, PRECISION)
+}
+
+fn of_entry(plant: &Plant, model: &mut Model, entry: &entries::Entry) -> Asked {
+    let [x, e] = &entry.arguments;
+    let what = format!("{} at X = {}, E = {}", entry.label, x.to_f64(), e.to_f64());
+    Asked {
+        question: bounds::question(model, entry),
+        region: region(plant, x, e),
+        rule: entries::RULE,
+        pointer: format!("{}/value", entry.pointer),
+        what,
+    }
+}
+
+fn end(value: &Float) -> Interval {
+    Interval::new(value.clone(), value.clone()).round(PRECISION)
+}
+
+/// X + r.
+fn radius(plant: &Plant, x: &Float) -> Interval {
+    end(x) + Interval::rational(&plant.orbit.radius, PRECISION)
+}
+
+/// G(X, E).
+fn region(plant: &Plant, x: &Float, e: &Float) -> Region {
+    Region { states: plant.states(), shape: Shape::Ball(radius(plant, x)), output: end(e) }
+}
+
+/// On the largest region that anything is used on, and in the tube.
+fn smoothness(
+    plant: &Plant,
+    model: &Model,
+    machine: &Machine<'_>,
+    root: &Rc<Cell>,
+    arguments: [&Float; 2],
+    values: &mut Values,
+) -> Outcome<usize> {
+    let largest = plant.known.entries.largest();
+    let [x, e] = [0, 1].map(|i| if *arguments[i] > largest[i] { arguments[i] } else { &largest[i] });
+    let whole = region(plant, x, e);
+    let count = smooth::prove(model, machine, root, &whole, values)?;
+    let tube_region = Region { shape: Shape::Ball(tube(plant)), output: Interval::int(0, PRECISION), ..whole };
+    if tube(plant).le(&radius(plant, x)) == Some(true) {
+        return Ok(count);
+    }
+    Ok(count + smooth::prove(model, machine, root, &tube_region, values)?)
+}
+
+/// `eps + r sup|J|` over `|v| <= r`: a bound of `L^-1 (x_0' - xb')`, in every component, as an interval around 0.
+fn drift(plant: &Plant, model: &Model, machine: &Machine<'_>, root: &Rc<Cell>, values: &mut Values) -> Interval {
+    let zero = Interval::int(0, PRECISION);
+    let number = |value: &Rational| Interval::rational(value, PRECISION);
+    let (eps, r) = (number(&plant.orbit.defect), number(&plant.orbit.radius));
+    let entries: Vec<_> = model.jacobian.iter().flatten().copied().collect();
+    let program = machine.program(&entries);
+    let ball = vec![time::around(&r); plant.states()];
+    let mut cells = vec![root.clone()];
+    for _ in 0..DRIFT_CELLS_LOG {
+        cells = cells.iter().flat_map(|cell| cell.halves()).collect();
+    }
+    let mut largest = zero.clone();
+    for cell in &cells {
+        machine.run(&program, machine::At::Box, cell, &ball, &zero, values);
+        let value = |id: &formula::Id| machine.get(*id, machine::At::Box, cell, values);
+        let square = entries.iter().fold(zero.clone(), |sum, id| sum + value(id).sqr());
+        largest = largest.max(&square);
+    }
+    time::around(&(eps + r * largest.sqrt()))
+}
+
+fn at_rising_precision<T>(attempt: impl Fn(u32) -> Outcome<T>) -> Outcome<T> {
+    let mut last = attempt(TAYLOR_PRECISIONS[0]);
+    for precision in &TAYLOR_PRECISIONS[1..] {
+        if last.as_ref().is_err_and(|finding| finding.verdict == Verdict::Undecided) {
+            last = attempt(*precision);
+        }
+    }
+    last
+}

@@ -1,0 +1,119 @@
+//! A plant's formulas in the variables of the proof: t, v with `x = xb(t) + L v`, and e (docs/mathematics.md, section 11.3); or t,
+//! x, and e (section 11.6).
+
+use super::formula::{Axis, Demand, Formulas, Id, Leaf};
+use super::machine::Curves;
+use super::read::Plant;
+use super::time::Wave;
+use proofs_core::jacobian::Witness;
+
+/// What the states of the formulas are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Frame {
+    /// v, with `x = xb(t) + L v`.
+    Moving,
+    /// x.
+    Still,
+}
+
+/// The formulas of a plant and what is made from them.
+pub struct Model {
+    pub formulas: Formulas,
+    /// `L^-1 f`.
+    pub f: Vec<Id>,
+    pub q: Id,
+    /// `L^-1 (f - xb')`: at v = 0, e = 0 the defect of the orbit.
+    pub defect: Vec<Id>,
+    /// `J = L^-1 f_x L`, by rows.
+    pub jacobian: Vec<Vec<Id>>,
+    /// `q_x L`.
+    pub row: Vec<Id>,
+    /// The entries of each P(t).
+    pub lyapunov: Vec<Vec<Vec<Id>>>,
+    /// What the operations of the formulas ask for.
+    pub demands: Vec<(Id, Demand)>,
+}
+
+impl Model {
+    /// From a plant and its witness.
+    pub fn new(plant: &Plant, frame: Frame) -> Model {
+        let order = plant.states();
+        let mut formulas = Formulas::default();
+        let mut demands = Vec::new();
+        let linear = |formulas: &mut Formulas, row: &[rug::Rational], nodes: &[Id]| {
+            let numbers: Vec<Id> = row.iter().map(|value| formulas.number(value)).collect();
+            formulas.dot(numbers.into_iter().zip(nodes.iter().copied()))
+        };
+        let states: Vec<Id> = (0..order).map(|j| formulas.leaf(Leaf::State(j))).collect();
+        let mut variables = vec![formulas.leaf(Leaf::Time), formulas.leaf(Leaf::Output)];
+        for (i, row) in plant.known.coordinates.matrix.iter().enumerate() {
+            let orbit = orbit(&mut formulas, plant, i, 0);
+            let moved = linear(&mut formulas, row, &states);
+            variables.push(if frame == Frame::Moving { formulas.add(orbit, moved) } else { states[i] });
+        }
+        let f: Vec<Id> = plant.f.iter().map(|formula| formulas.read(&formula.expr, &variables, &mut demands)).collect();
+        let q = formulas.read(&plant.q.expr, &variables, &mut demands);
+        let apart: Vec<Id> = (0..order)
+            .map(|i| {
+                let velocity = orbit(&mut formulas, plant, i, 1);
+                formulas.sub(f[i], velocity)
+            })
+            .collect();
+        let inverse = &plant.known.coordinates.inverse;
+        let defect = inverse.iter().map(|row| linear(&mut formulas, row, &apart)).collect();
+        let f: Vec<Id> = inverse.iter().map(|row| linear(&mut formulas, row, &f)).collect();
+        // The derivatives along y.
+        let slopes = |formulas: &mut Formulas, id: Id| -> Vec<Id> {
+            let along: Vec<Id> = (0..order).map(|j| formulas.derivative(id, Axis::State(j))).collect();
+            if frame == Frame::Moving {
+                return along;
+            }
+            let column = |j: usize| plant.known.coordinates.matrix.iter().map(|row| row[j].clone()).collect::<Vec<_>>();
+            (0..order).map(|j| linear(formulas, &column(j), &along)).collect()
+        };
+        let jacobian = f.iter().map(|id| slopes(&mut formulas, *id)).collect();
+        let row = slopes(&mut formulas, q);
+        let matrices = plant.lyapunov.iter().enumerate();
+        let lyapunov = matrices.map(|(which, w)| matrix(&mut formulas, which, w)).collect();
+        Model { formulas, f, q, defect, jacobian, row, lyapunov, demands }
+    }
+
+    /// The number of states.
+    pub fn states(&self) -> usize {
+        self.f.len()
+    }
+}
+
+/// A derivative of a component of xb: a number where it does not move.
+fn orbit(formulas: &mut Formulas, plant: &Plant, state: usize, order: usize) -> Id {
+    match plant.orbit.waves.get(state).filter(|wave| wave.is_constant()) {
+        Some(wave) if order == 0 => formulas.number(&wave.mean),
+        Some(_) => formulas.int(0),
+        None => formulas.leaf(Leaf::Orbit { state, order }),
+    }
+}
+
+/// P(t): numbers where it is constant.
+fn matrix(formulas: &mut Formulas, which: usize, w: &Witness) -> Vec<Vec<Id>> {
+    let order = w.mean.len();
+    let mut entry = |i: usize, j: usize| {
+        if wave(w, i, j).is_constant() {
+            return formulas.number(&w.mean[i][j]);
+        }
+        // P is symmetric: one leaf for both entries.
+        formulas.leaf(Leaf::Lyapunov { which, entry: [i.max(j), i.min(j)], order: 0 })
+    };
+    (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect()
+}
+
+fn wave(w: &Witness, i: usize, j: usize) -> Wave {
+    let harmonics = w.harmonics.iter().map(|[cos, sin]| [cos[i][j].clone(), sin[i][j].clone()]).collect();
+    Wave { mean: w.mean[i][j].clone(), harmonics }
+}
+
+/// The trigonometric polynomials of a witness.
+pub fn curves(plant: &Plant) -> Curves {
+    let order = plant.states();
+    let matrix = |w: &Witness| (0..order).map(|i| (0..order).map(|j| wave(w, i, j)).collect()).collect();
+    Curves { orbit: plant.orbit.waves.clone(), lyapunov: plant.lyapunov.iter().map(matrix).collect() }
+}

@@ -1,0 +1,167 @@
+//! Functions of t along the approximate orbit, as polynomials with a remainder on cells that cover a period.
+
+use super::formula::{Formulas, Id, Leaf};
+use super::machine::{Cell, Curves, Machine, Values};
+use super::taylor::{Series, expand};
+use super::time::{Table, point, waves};
+use proofs_core::effort;
+use proofs_core::interval::Interval;
+use std::rc::Rc;
+
+/// The order of the polynomials.
+pub const ORDER: usize = 12;
+/// Terms of Taylor's formula for what xb and qb are on a cell.
+const TERMS: usize = 3;
+/// How many cells there are at first, and the most.
+const FIRST_CELLS_LOG: u32 = 5;
+const MAX_CELLS: usize = 8_192;
+
+/// A function on a cell: coefficients at the middle, and the coefficient of the remainder `d^(ORDER+1)`.
+pub struct Polynomial {
+    pub coefficients: Series,
+    pub remainder: Interval,
+}
+
+/// What is needed to expand formulas at v = 0, e = 0.
+pub struct Path<'m, 'f> {
+    pub machine: &'m Machine<'f>,
+    orbit: Vec<Table>,
+    om: Interval,
+    count: usize,
+    order: Vec<Id>,
+    roots: Vec<Id>,
+}
+
+impl<'m, 'f> Path<'m, 'f> {
+    /// For these nodes.
+    pub fn new(machine: &'m Machine<'f>, curves: &Curves, om: &Interval, roots: &[Id]) -> Path<'m, 'f> {
+        // One order more for the velocity, one for the remainder.
+        let last = ORDER + 3 + TERMS;
+        Path {
+            orbit: curves.orbit.iter().map(|wave| Table::new(wave, om, last)).collect(),
+            count: curves.orbit.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0),
+            order: machine.formulas.below(roots),
+            roots: roots.to_vec(),
+            om: om.clone(),
+            machine,
+        }
+    }
+
+    fn formulas(&self) -> &'f Formulas {
+        self.machine.formulas
+    }
+
+    /// The nodes on a cell.
+    pub fn expand(&self, cell: &Cell, values: &Values) -> Vec<Polynomial> {
+        let p = self.machine.precision;
+        let (middle, half) = (point(&cell.middle), cell.half_width());
+        let waves = waves(&self.om, &middle, self.count);
+        let derivatives: Vec<Vec<Interval>> = self
+            .orbit
+            .iter()
+            .map(|table| (0..=ORDER + 2 + TERMS).map(|order| table.at(order, &waves, p)).collect())
+            .collect();
+        let none = || vec![Interval::undefined(p)];
+        let leaf = |leaf: Leaf, on_cell: bool, length: usize| match leaf {
+            Leaf::Time if on_cell => vec![Interval::new(cell.lo.clone(), cell.hi.clone()), Interval::int(1, p)],
+            Leaf::Time => vec![middle.clone(), Interval::int(1, p)],
+            Leaf::State(_) | Leaf::Output => vec![Interval::int(0, p)],
+            Leaf::Orbit { state, order } => {
+                let (Some(table), Some(all)) = (self.orbit.get(state), derivatives.get(state)) else { return none() };
+                let mut factorial = Interval::int(1, p);
+                let coefficient = |k: usize| {
+                    factorial = if k > 1 { &factorial * k as i64 } else { factorial.clone() };
+                    let value = match all.get(order + k..order + k + TERMS) {
+                        Some(values) if on_cell => table.around(order + k, values, &half),
+                        Some(values) => values[0].clone(),
+                        None => Interval::undefined(p),
+                    };
+                    value / &factorial
+                };
+                (0..length).map(coefficient).collect()
+            }
+            Leaf::Lyapunov { .. } | Leaf::Drift(_) => none(),
+        };
+        let number = |id: Id| self.machine.number(id, values);
+        let series = |on_cell: bool, length: usize| {
+            expand(self.formulas(), &self.order, number, |kind| leaf(kind, on_cell, length), length)
+        };
+        let (thin, thick) = (series(false, ORDER + 1), series(true, ORDER + 2));
+        let polynomial = |root: &Id| Polynomial {
+            coefficients: thin[*root].clone(),
+            remainder: thick[*root].get(ORDER + 1).cloned().unwrap_or_else(|| undefined_or_zero(&thick[*root], p)),
+        };
+        self.roots.iter().map(polynomial).collect()
+    }
+}
+
+/// The coefficient that a short series does not list.
+fn undefined_or_zero(series: &Series, precision: u32) -> Interval {
+    let known = series.iter().all(Interval::is_defined) && !series.is_empty();
+    if known { Interval::int(0, precision) } else { Interval::undefined(precision) }
+}
+
+/// What is known of a cell.
+pub enum Judged {
+    Proved,
+    Refuted,
+    Halve,
+}
+
+/// Decides something on cells that cover a period; else where that fails, and whether it is refuted there.
+///
+/// # Errors
+/// The time, and whether it is refuted.
+pub fn everywhere(root: &Rc<Cell>, mut judge: impl FnMut(&Cell) -> Judged) -> Result<usize, (f64, bool)> {
+    let mut queue = vec![root.clone()];
+    for _ in 0..FIRST_CELLS_LOG {
+        queue = queue.iter().flat_map(|cell| cell.halves()).collect();
+    }
+    let mut count = 0;
+    while let Some(cell) = queue.pop() {
+        count += 1;
+        let at = cell.middle.to_f64();
+        match judge(&cell) {
+            Judged::Proved => {}
+            Judged::Refuted => return Err((at, true)),
+            Judged::Halve if count < MAX_CELLS && !effort::exhausted() => queue.extend(cell.halves()),
+            Judged::Halve => return Err((at, false)),
+        }
+    }
+    Ok(count)
+}
+
+/// `|a_0| + |a_1| h + ... + |remainder| h^(ORDER+1)`: a bound on a cell of half width h.
+pub fn bound(polynomial: &Polynomial, half: &Interval) -> Interval {
+    size(&polynomial.coefficients, half) + polynomial.remainder.abs() * half.powi(ORDER as i32 + 1)
+}
+
+fn size(coefficients: &[Interval], half: &Interval) -> Interval {
+    let zero = Interval::int(0, half.precision());
+    coefficients.iter().rev().fold(zero, |sum, a| a.abs() + half * sum)
+}
+
+/// The same for the derivative.
+pub fn bound_of_derivative(polynomial: &Polynomial, half: &Interval) -> Interval {
+    let slopes: Series = polynomial.coefficients.iter().enumerate().skip(1).map(|(k, a)| a * k as i64).collect();
+    size(&slopes, half) + polynomial.remainder.abs() * half.powi(ORDER as i32) * (ORDER as i64 + 1)
+}
+
+/// A bound of the Euclidean norm of several: by the polynomial of its square, without the remainders.
+pub fn bound_of_norm(polynomials: &[Polynomial], half: &Interval) -> Interval {
+    let p = half.precision();
+    let zero = || Interval::int(0, p);
+    let mut square = vec![zero(); 2 * ORDER + 1];
+    let mut remainder = zero();
+    for polynomial in polynomials {
+        for (i, a) in polynomial.coefficients.iter().enumerate() {
+            for (j, b) in polynomial.coefficients.iter().enumerate() {
+                square[i + j] = &square[i + j] + a * b;
+            }
+        }
+        remainder = remainder + (polynomial.remainder.abs() * half.powi(ORDER as i32 + 1)).sqr();
+    }
+    // The first coefficient with its sign.
+    let later = half * size(&square[1..], half);
+    (&square[0] + later).max(&zero()).sqrt() + remainder.sqrt()
+}

@@ -1,0 +1,246 @@
+//! A plant and the parts of a witness that are about its formulas, as a file has them (docs/formats.md, "Plant" and "A certificate
+//! of a plant"): read and checked in form. What is proved of them is in the other files of this folder.
+
+use super::time::Wave;
+use proofs_core::constant::{Constant, expression};
+use proofs_core::expr::Expr;
+use proofs_core::jacobian;
+use proofs_core::json::{Field, Fields};
+use proofs_core::plant::OfPlant;
+use proofs_core::plant::coordinates::Coordinates;
+use proofs_core::plant::entries::Entries;
+use proofs_core::spec::{self, AskedSet, Specification, header};
+use proofs_core::verdict::{Outcome, bad, demand};
+use rug::Rational;
+
+/// The most states that are taken.
+pub const MAX_STATES: usize = 6;
+/// The most characters of the name of a state.
+const MAX_NAME: usize = 40;
+/// The most harmonics of the orbit and of the forcing.
+const MAX_HARMONICS: usize = 200;
+/// What a state may not be called, besides t, e and pi.
+#[rustfmt::skip]
+const TAKEN: [&str; 14] = [
+    "t", "e", "pi", "sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "min", "max",
+];
+
+/// A formula with its place in the file.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    pub pointer: String,
+    pub expr: Expr,
+}
+
+/// xb(t), with eps, rho and r (docs/mathematics.md, section 11.2).
+#[derive(Clone, Debug)]
+pub struct Orbit {
+    pub pointer: String,
+    pub waves: Vec<Wave>,
+    pub defect: Rational,
+    pub tube: Rational,
+    pub radius: Rational,
+}
+
+/// qb(t), with r_0 and r_1 (section 11.4).
+#[derive(Clone, Debug)]
+pub struct Forcing {
+    pub pointer: String,
+    pub wave: Wave,
+    pub rest: Rational,
+    pub rest_t: Rational,
+}
+
+/// What is given of a plant.
+#[derive(Clone, Debug)]
+pub struct Plant {
+    pub f: Vec<Formula>,
+    pub q: Formula,
+    pub orbit: Orbit,
+    /// The P of stability and, if there is one, that of existence.
+    pub lyapunov: Vec<jacobian::Witness>,
+    pub forcing: Forcing,
+    /// What a claim needs of it.
+    pub known: OfPlant,
+}
+
+impl Plant {
+    /// The number of states.
+    pub fn states(&self) -> usize {
+        self.f.len()
+    }
+}
+
+/// Reads a plant, and takes its parts out of the witness.
+pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specification, Plant)> {
+    let mut file = field.fields()?;
+    header(&mut file, "sigmastar/plant")?;
+    file.required("name")?.text()?;
+    file.optional("description").map(|field| field.text().map(drop)).transpose()?;
+    let period = spec::positive(&mut file, "period")?;
+    let names = states(&file.required("states")?)?;
+    let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).collect();
+    let formula =
+        |field: &Field<'_>| expression(field, &variables).map(|expr| Formula { pointer: field.pointer.clone(), expr });
+    let list = file.required("f")?;
+    let f: Vec<Formula> = list.elements()?.iter().map(formula).collect::<Outcome<_>>()?;
+    if f.len() != names.len() {
+        return bad(&list.pointer, format!("expected {} expressions, one for each state", names.len()));
+    }
+    let q = formula(&file.required("q")?)?;
+    file.optional("initial").map(|field| initial(&field, names.len())).transpose()?;
+    let (initial_set, ball) = match file.optional("initial_set") {
+        Some(field) => spec::read_set(&field, true)?,
+        None => (AskedSet::AtRest([None, None]), None),
+    };
+    let domain = file.optional("domain").map(|field| {
+        let mut fields = field.fields()?;
+        let ends = [spec::positive(&mut fields, "x")?, spec::positive(&mut fields, "e")?];
+        fields.finish().map(|()| ends)
+    });
+    let domain = domain.transpose()?;
+    let model = spec::InternalModel::read(&file.required("internal_model")?, &period)?;
+    file.finish()?;
+
+    let order = names.len();
+    let coordinates = Coordinates::read_part(&witness.required("coordinates")?, order)?;
+    let orbit = orbit(&witness.required("orbit")?, order)?;
+    let (first, [p_low, p_up, alpha]) = jacobian::Witness::read(&witness.required("lyapunov")?, order)?;
+    let second = witness.optional("lyapunov_existence").map(|field| jacobian::Witness::read(&field, order));
+    let existence = second.transpose()?;
+    let lyapunov: Vec<_> = [first].into_iter().chain(existence.iter().map(|(second, _)| second.clone())).collect();
+    for w in &lyapunov {
+        let [low, up, _] = &w.numbers;
+        demand(Some(low <= up), jacobian::RULE, &w.pointer, "p_low <= p_up")?;
+    }
+    let forcing = forcing(&witness.required("forcing")?)?;
+    let entries = Entries::read(&witness.required("bounds")?, order > 0, lyapunov.len() > 1)?;
+    let q_0 = spec::Forcing {
+        harmonics: amplitudes(&forcing.wave),
+        rest_rms: spec::Size::Number(forcing.rest.clone()),
+        rest_t_rms: Some(spec::Size::Number(forcing.rest_t.clone())),
+    };
+    let known = OfPlant { states: order, domain, ball, coordinates, entries, two_matrices: lyapunov.len() > 1 };
+    let specification = Specification {
+        period,
+        p_low,
+        p_up,
+        alpha,
+        jacobian: None,
+        existence,
+        rate: None,
+        mu: model.mu,
+        base_frequency: model.base_frequency,
+        matched: model.matched,
+        samples: model.samples,
+        weights: model.weights,
+        bounds: Default::default(),
+        q_0: Some(q_0),
+        domain: None,
+        initial_set,
+        plant: Some(Box::new(known.clone())),
+    };
+    Ok((specification, Plant { f, q, orbit, lyapunov, forcing, known }))
+}
+
+fn states<'a>(list: &Field<'a>) -> Outcome<Vec<&'a str>> {
+    let mut names: Vec<&str> = Vec::new();
+    for field in list.elements()? {
+        let name = field.text()?;
+        let begins = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        if !begins || name.len() > MAX_NAME || !name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
+            return bad(&field.pointer, format!("expected a name of at most {MAX_NAME} letters, digits and `_`"));
+        }
+        if TAKEN.contains(&name) || names.contains(&name) {
+            return bad(&field.pointer, "this name is taken");
+        }
+        names.push(name);
+    }
+    if names.len() > MAX_STATES {
+        return bad(&list.pointer, format!("at most {MAX_STATES} states are taken"));
+    }
+    Ok(names)
+}
+
+/// Where simulations start: constants, of which nothing is used.
+fn initial(field: &Field<'_>, order: usize) -> Outcome<()> {
+    let mut fields = field.fields()?;
+    let x = fields.required("x")?;
+    let list = x.elements()?;
+    if list.len() != order {
+        return bad(&x.pointer, format!("expected {order} numbers, one for each state"));
+    }
+    let z = fields.optional("z").map(|field| field.elements()).transpose()?;
+    list.iter().chain(z.iter().flatten()).try_for_each(|field| Constant::read(field).map(drop))?;
+    Constant::read(&fields.required("e")?)?;
+    fields.finish()
+}
+
+fn number(fields: &mut Fields<'_>, name: &str, least: Option<bool>) -> Outcome<Rational> {
+    let field = fields.required(name)?;
+    let value = field.rational()?;
+    let (truth, what) = match least {
+        Some(true) => (value > 0, "> 0"),
+        _ => (value >= 0, ">= 0"),
+    };
+    demand(Some(truth), "signs", &field.pointer, format!("{name} {what}"))?;
+    Ok(value)
+}
+
+/// A list of harmonics: what `cos` and `sin` are read as.
+fn harmonics<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) -> Outcome<Vec<[T; 2]>> {
+    let Some(list) = fields.optional("harmonics") else { return Ok(Vec::new()) };
+    let elements = list.elements()?;
+    if elements.len() > MAX_HARMONICS {
+        return bad(&list.pointer, format!("expected at most {MAX_HARMONICS} harmonics"));
+    }
+    let pair = |element: &Field<'_>| {
+        let mut pair = element.fields()?;
+        let both = [read(&pair.required("cos")?)?, read(&pair.required("sin")?)?];
+        pair.finish().map(|()| both)
+    };
+    elements.iter().map(pair).collect()
+}
+
+fn orbit(field: &Field<'_>, order: usize) -> Outcome<Orbit> {
+    let mut fields = field.fields()?;
+    let vector = |field: &Field<'_>| {
+        let list = field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>()?;
+        let right = list.len() == order;
+        if right { Ok(list) } else { bad(&field.pointer, format!("expected {order} numbers, one for each state")) }
+    };
+    let mean = vector(&fields.required("mean")?)?;
+    let harmonics = harmonics(&mut fields, vector)?;
+    let wave = |(i, mean): (usize, &Rational)| Wave {
+        mean: mean.clone(),
+        harmonics: harmonics.iter().map(|[cos, sin]| [cos[i].clone(), sin[i].clone()]).collect(),
+    };
+    let orbit = Orbit {
+        pointer: field.pointer.clone(),
+        waves: mean.iter().enumerate().map(wave).collect(),
+        defect: number(&mut fields, "defect", None)?,
+        tube: number(&mut fields, "tube", Some(true))?,
+        radius: number(&mut fields, "radius", None)?,
+    };
+    fields.finish().map(|()| orbit)
+}
+
+fn forcing(field: &Field<'_>) -> Outcome<Forcing> {
+    let mut fields = field.fields()?;
+    let mean = fields.required("mean")?.rational()?;
+    let harmonics = harmonics(&mut fields, |field| field.rational())?;
+    let forcing = Forcing {
+        pointer: field.pointer.clone(),
+        wave: Wave { mean, harmonics },
+        rest: number(&mut fields, "rest", None)?,
+        rest_t: number(&mut fields, "rest_t", None)?,
+    };
+    fields.finish().map(|()| forcing)
+}
+
+/// `C_0 = |m_0|` and `C_k = sqrt(a_k^2 + b_k^2)/2`.
+fn amplitudes(wave: &Wave) -> Vec<spec::Size> {
+    let square = |[a, b]: &[Rational; 2]| (Rational::from(a.square_ref()) + Rational::from(b.square_ref())) / 4u32;
+    let mean = spec::Size::Number(wave.mean.clone().abs());
+    std::iter::once(mean).chain(wave.harmonics.iter().map(|pair| spec::Size::Root(square(pair)))).collect()
+}

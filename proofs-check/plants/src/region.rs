@@ -1,0 +1,181 @@
+//! The region on which something is decided, in boxes: t over a period, v in a ball, or the states themselves each in an interval,
+//! e in an interval (docs/mathematics.md, sections 11.3 and 11.6).
+//!
+//! Boxes that are certainly outside of the ball are left out. The ends of a box are shared with its neighbours, so the boxes
+//! cover the region whatever is rounded.
+
+use super::around::Around;
+use super::formula::Axis;
+use super::machine::{Cell, Machine};
+use proofs_core::interval::Interval;
+use rug::{Float, Rational};
+use std::rc::Rc;
+
+/// How many cells of t there are before anything is halved for a reason.
+const FIRST_CELLS_LOG: u32 = 4;
+
+/// `v` or `x` in a set of `states` dimensions, `|e| <= output`, all t.
+#[derive(Clone)]
+pub struct Region {
+    pub states: usize,
+    pub shape: Shape,
+    pub output: Interval,
+}
+
+/// Where v or x lies.
+#[derive(Clone)]
+pub enum Shape {
+    /// `|v| <= radius`.
+    Ball(Interval),
+    /// Each component between two ends, and all around a middle that moves.
+    Sides(Vec<[Float; 2]>, Around),
+}
+
+/// A box: those axes on which nothing depends have the whole range.
+#[derive(Clone)]
+pub struct Piece {
+    pub cell: Rc<Cell>,
+    /// The ends of v_1, ..., v_n and of e.
+    pub sides: Vec<[Float; 2]>,
+}
+
+impl Region {
+    /// Boxes that cover it, cut along t if something depends on t.
+    pub fn pieces(&self, machine: &Machine<'_>, root: &Rc<Cell>, depends: u16) -> Vec<Piece> {
+        let mut cells = vec![root.clone()];
+        if depends & Axis::Time.bit() != 0 {
+            for _ in 0..FIRST_CELLS_LOG {
+                cells = cells.iter().flat_map(|cell| cell.halves()).collect();
+            }
+        }
+        let ends = |size: &Interval| {
+            let end = Float::with_val_round(machine.precision, size.hi(), rug::float::Round::Up).0;
+            [Float::with_val(machine.precision, -&end), end]
+        };
+        let mut sides = match &self.shape {
+            Shape::Ball(radius) => vec![ends(radius); self.states],
+            Shape::Sides(sides, _) => sides.clone(),
+        };
+        sides.push(ends(&self.output));
+        cells.into_iter().map(|cell| Piece { cell, sides: sides.clone() }).collect()
+    }
+
+    /// Whether a box has no point of the region.
+    pub fn misses(&self, piece: &Piece) -> bool {
+        let radius = match &self.shape {
+            Shape::Ball(radius) => radius,
+            Shape::Sides(_, around) => {
+                let sides: Vec<Interval> = (0..self.states).map(|state| piece.side(state)).collect();
+                return around.excludes(&sides);
+            }
+        };
+        let nearest = |side: &[Float; 2]| {
+            let end = if side[0] > 0 { &side[0] } else { &side[1] };
+            let outside = side[0] > 0 || side[1] < 0;
+            outside.then(|| super::time::point(end).sqr())
+        };
+        let zero = Interval::int(0, radius.precision());
+        let distance = piece.sides[..self.states].iter().filter_map(nearest).fold(zero, |sum, part| sum + part);
+        radius.sqr().lt(&distance) == Some(true)
+    }
+
+    /// The radius of the ball, where a box is not certainly within it.
+    pub fn reaches_out(&self, piece: &Piece) -> Option<&Interval> {
+        let Shape::Ball(radius) = &self.shape else { return None };
+        let farthest = |[lo, hi]: &[Float; 2]| Interval::new(lo.clone(), hi.clone()).sqr();
+        let zero = Interval::int(0, radius.precision());
+        let distance = piece.sides[..self.states].iter().map(farthest).fold(zero, |sum, part| sum + part);
+        (distance.ceiling().le(&radius.sqr()) != Some(true)).then_some(radius)
+    }
+
+    /// A place v moved towards the origin, to lie within the ball where it is outside. A hint.
+    pub fn inward(&self, place: &mut [Float]) {
+        let Shape::Ball(radius) = &self.shape else { return };
+        let p = radius.precision();
+        let distance = place.iter().fold(Interval::int(0, p), |sum, v| sum + super::time::point(v).sqr()).sqrt();
+        if distance.lt(radius) != Some(true) && distance.is_positive() {
+            let inward = Interval::rational(&Rational::from((999_999, 1_000_000)), p);
+            let factor = (radius * inward / distance).lo().clone();
+            place.iter_mut().for_each(|v| *v *= &factor);
+        }
+    }
+
+    /// Whether the middle of a box certainly belongs to the region.
+    pub fn has_middle(&self, piece: &Piece) -> bool {
+        let middle: Vec<Interval> = (0..=self.states).map(|i| super::time::point(&piece.middle(i))).collect();
+        self.has(&middle)
+    }
+
+    /// Whether v_1, ..., v_n and e certainly belong to it.
+    pub fn has(&self, place: &[Interval]) -> bool {
+        let lies_within = |value: &Interval, end: &Interval| value.hi() <= end.lo();
+        let within = match &self.shape {
+            Shape::Ball(radius) => {
+                let zero = Interval::int(0, radius.precision());
+                let distance = place[..self.states].iter().fold(zero, |sum, v| sum + v.sqr());
+                lies_within(&distance, &radius.sqr())
+            }
+            Shape::Sides(sides, around) => {
+                place.iter().zip(sides).all(|(v, [lo, hi])| v.lo() >= lo && v.hi() <= hi) && !around.excludes(place)
+            }
+        };
+        within && lies_within(&place[self.states].abs(), &self.output)
+    }
+}
+
+impl Piece {
+    /// The middle of a side.
+    pub fn middle(&self, side: usize) -> Float {
+        let [lo, hi] = &self.sides[side];
+        Float::with_val(lo.prec(), lo + hi) / 2u32
+    }
+
+    /// A side.
+    pub fn side(&self, side: usize) -> Interval {
+        let [lo, hi] = &self.sides[side];
+        Interval::new(lo.clone(), hi.clone())
+    }
+
+    /// A bound of the distance to the middle, along t (`None`) or a side.
+    pub fn half_width(&self, side: Option<usize>) -> Interval {
+        let Some(side) = side else { return self.cell.half_width() };
+        let ([lo, hi], middle) = (&self.sides[side], super::time::point(&self.middle(side)));
+        (super::time::point(hi) - &middle).max(&(middle - super::time::point(lo))).ceiling()
+    }
+
+    /// The two halves along t (`None`) or a side.
+    pub fn halves(&self, side: Option<usize>) -> [Piece; 2] {
+        let Some(side) = side else {
+            return self.cell.halves().map(|cell| Piece { cell, sides: self.sides.clone() });
+        };
+        let middle = self.middle(side);
+        [1, 0].map(|end| {
+            let mut half = self.clone();
+            half.sides[side][end] = middle.clone();
+            half
+        })
+    }
+
+    /// The width along t (`None`) or a side in comparison with that of another box, 0 where that has none. A hint.
+    pub fn share(&self, side: Option<usize>, whole: &Piece) -> f64 {
+        let width = |piece: &Piece| piece.half_width(side).hi().to_f64();
+        let (now, first) = (width(self), width(whole));
+        if first > 0.0 { now / first } else { 0.0 }
+    }
+
+    /// Along which of these axes a box is widest, in comparison with the widths at the beginning: t (`None`) or a side. A hint,
+    /// of which nothing is believed.
+    pub fn widest(&self, whole: &Piece, depends: u16) -> Option<Option<usize>> {
+        let states = self.sides.len() - 1;
+        let share = |side: Option<usize>| self.share(side, whole);
+        let time = (depends & Axis::Time.bit() != 0).then_some(None);
+        let sides = (0..=states).filter(|side| depends & axis(*side, states).bit() != 0).map(Some);
+        let all = time.into_iter().chain(sides).map(|side| (share(side), side)).filter(|(share, _)| *share > 0.0);
+        all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, side)| side)
+    }
+}
+
+/// The axis of a side.
+pub fn axis(side: usize, states: usize) -> Axis {
+    if side < states { Axis::State(side) } else { Axis::Output }
+}

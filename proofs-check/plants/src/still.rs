@@ -1,0 +1,114 @@
+//! Bounds decided in the states themselves (docs/mathematics.md, section 11.6).
+//!
+//! A derivative that t enters through the orbit alone is a function of those states and e that it names: where three coordinates
+//! and t move one state, one side is to be cut in the place of four. The set is larger than G(X,E), each state over all that it is
+//! there, so what is not proved on it says nothing.
+
+use super::around::Around;
+use super::bounds;
+use super::machine::{At, Cell, Curves, Machine, Values};
+use super::model::{Frame, Model};
+use super::question::{Answer, Question};
+use super::read::Plant;
+use super::region::{Region, Shape};
+use super::time::around;
+use super::{end, formula::Leaf, radius};
+use proofs_core::interval::Interval;
+use proofs_core::plant::entries;
+use rug::Float;
+use std::rc::Rc;
+
+/// The most boxes that an attempt may take.
+const MAX_PIECES: usize = 4_000;
+/// How many cells of t there are for the range of the orbit.
+const RANGE_CELLS_LOG: u32 = 6;
+
+/// The entries as questions in x; `None` where one moves with t.
+pub struct Still {
+    model: Model,
+    /// The components of xb.
+    orbit: Vec<usize>,
+    questions: Vec<Option<Question>>,
+}
+
+/// The same with what is needed for deciding.
+pub struct Prepared<'s> {
+    still: &'s Still,
+    machine: Machine<'s>,
+    root: Rc<Cell>,
+    values: Values,
+    /// What each component of xb is over a period.
+    ranges: Vec<Interval>,
+}
+
+impl Still {
+    /// For all entries of a plant.
+    pub fn new(plant: &Plant) -> Still {
+        let mut model = Model::new(plant, Frame::Still);
+        let orbit = (0..plant.states()).map(|state| model.formulas.leaf(Leaf::Orbit { state, order: 0 })).collect();
+        let question = |entry: &entries::Entry| {
+            let moves = entry.name.is_of_motion();
+            (!moves).then(|| bounds::question(&mut model, entry)).filter(|question| !question.moves())
+        };
+        let questions = plant.known.entries.list.iter().map(question).collect();
+        Still { model, orbit, questions }
+    }
+
+    /// With the orbit; `om` has the precision.
+    pub fn prepared(&self, curves: &Curves, om: &Interval, period: &Interval) -> Prepared<'_> {
+        let machine = Machine::new(&self.model.formulas, curves, om);
+        let (root, mut values) = (machine.period(period), machine.values());
+        let program = machine.program(&self.orbit);
+        let mut cells = vec![root.clone()];
+        for _ in 0..RANGE_CELLS_LOG {
+            cells = cells.iter().flat_map(|cell| cell.halves()).collect();
+        }
+        let mut range = |id: usize| {
+            let on = |cell: &Rc<Cell>| {
+                machine.run(&program, At::Box, cell, &[], &Interval::int(0, machine.precision), &mut values);
+                machine.get(id, At::Box, cell, &values)
+            };
+            cells.iter().map(on).reduce(|all, next| all.hull(&next))
+        };
+        let none = || Interval::undefined(om.precision());
+        let ranges = self.orbit.iter().map(|id| range(*id).unwrap_or_else(none)).collect();
+        Prepared { still: self, machine, root, values, ranges }
+    }
+}
+
+impl Prepared<'_> {
+    /// Whether an entry is proved on all states that G(X,E) has; by how many boxes. `None` says nothing.
+    pub fn proves(&mut self, plant: &Plant, entry: usize) -> Option<usize> {
+        let question = self.still.questions.get(entry)?.as_ref()?;
+        if self.still.model.formulas.is_too_large() {
+            return None;
+        }
+        let [x, e] = &plant.known.entries.list.get(entry)?.arguments;
+        let shape = Shape::Sides(self.sides(plant, x)?, self.around(plant, x, question)?);
+        let region = Region { states: plant.states(), shape, output: end(e) };
+        match question.decide(&self.machine, &self.root, &region, MAX_PIECES, &mut self.values) {
+            Answer::Proved(count) => Some(count),
+            Answer::Refuted(_) | Answer::Open(_) => None,
+        }
+    }
+
+    /// What is known of the components that a question names, together.
+    fn around(&self, plant: &Plant, x: &Float, question: &Question) -> Option<Around> {
+        let named = (0..plant.states()).filter(|state| question.names(*state));
+        let rows =
+            named.map(|state| (state, plant.known.coordinates.matrix[state].as_slice(), self.ranges[state].clone()));
+        Around::new(rows.collect(), radius(plant, x))
+    }
+
+    /// `|x_i - xb_i| <= |row i of L| (X + r)`.
+    fn sides(&self, plant: &Plant, x: &Float) -> Option<Vec<[Float; 2]>> {
+        let (p, radius) = (self.machine.precision, radius(plant, x));
+        let side = |(range, row): (&Interval, &Vec<rug::Rational>)| {
+            let number = |value: &rug::Rational| Interval::rational(value, p);
+            let size = row.iter().fold(Interval::int(0, p), |sum, value| sum + number(value).sqr()).sqrt();
+            let side = range + around(&(size * &radius));
+            side.is_bounded().then(|| [side.lo().clone(), side.hi().clone()])
+        };
+        self.ranges.iter().zip(&plant.known.coordinates.matrix).map(side).collect()
+    }
+}
