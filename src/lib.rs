@@ -76,8 +76,8 @@
 mod api;
 
 pub use api::{
-    BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition, Derivation, Diagnostic,
-    Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, Rate, RateMethod, Rates,
+    BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition, Diagnostic, Error,
+    ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, Rate, RateMethod, Rates,
     RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, Specification, SpecificationBuilder, Study,
     StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy, VERSION, Verdict, certify,
     check, check_against, rates, regulator_matrices, sampled_regulator, transfer_bound, transfer_study,

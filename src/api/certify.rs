@@ -43,7 +43,7 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
         }
     };
     let sampled = asked.read.sampling().is_some();
-    if let Some(misfit) = options.misfit(subject.is_plant(), sampled, gain.is_some()) {
+    if let Some(misfit) = options.misfit(sampled) {
         return Err(Error::misfit(misfit));
     }
     let prepared = Prepared::new(asked.read.clone(), gain).map_err(|all| Error::documents(&all))?;

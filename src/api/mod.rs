@@ -22,7 +22,7 @@ pub use certify::certify;
 pub use check::{CheckReport, CheckVerdict, check, check_against};
 pub use condition::Condition;
 pub use error::{Diagnostic, Error, ErrorKind};
-pub use options::{CertifyOptions, Derivation};
+pub use options::CertifyOptions;
 pub use rate::{Rate, RateMethod, Rates, rates};
 pub use regulator::{RegulatorMatrices, SampledRegulator, regulator_matrices, sampled_regulator};
 pub use report::{Report, ReportFormat};

@@ -5,29 +5,17 @@ use super::{positive, rational};
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar_lang::spec::Constant;
-use sigmastar_prove::certify::{self, Ladder, Options, TransferChoice};
-
-/// The derivation on which a claim rests.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Derivation {
-    /// The smaller gain: sections 2 to 6 of `docs/mathematics.md`.
-    #[default]
-    Sharp,
-    /// The architecture of the paper, with every formula repaired.
-    Repaired,
-}
+use sigmastar_prove::certify::{Ladder, Options, TransferChoice};
 
 /// What a run of [`certify`](sigmastar_prove::certify) does. The defaults are those of the command `sigmastar certify`.
 ///
 /// ```
-/// use sigmastar::{CertifyOptions, Derivation};
-/// let options = CertifyOptions::new().derivation(Derivation::Repaired).compare(false);
+/// use sigmastar::CertifyOptions;
+/// let options = CertifyOptions::new().precision_limit(512).compare(false);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CertifyOptions {
-    derivation: Derivation,
     transfer: TransferChoice,
     precision_limit: u32,
     compare: bool,
@@ -45,7 +33,6 @@ pub(super) struct Asked {
 impl Default for CertifyOptions {
     fn default() -> CertifyOptions {
         CertifyOptions {
-            derivation: Derivation::default(),
             transfer: TransferChoice::default(),
             precision_limit: MAX_PRECISION,
             compare: true,
@@ -68,13 +55,6 @@ impl CertifyOptions {
         CertifyOptions::default()
     }
 
-    /// The derivation that the claim rests on (default: [`Derivation::Sharp`]).
-    #[must_use]
-    pub fn derivation(mut self, derivation: Derivation) -> CertifyOptions {
-        self.derivation = derivation;
-        self
-    }
-
     /// The proof of the transfer bound (default: [`TransferChoice::Best`]).
     #[must_use]
     pub fn transfer(mut self, transfer: TransferChoice) -> CertifyOptions {
@@ -91,7 +71,7 @@ impl CertifyOptions {
         self
     }
 
-    /// Whether the other derivation is worked out too, and its free numbers put into the certificate (default: yes).
+    /// Whether the repaired derivation is worked out too, and its free numbers put into the certificate (default: yes).
     /// Without it a run is faster, and the claim is the same or nearly so.
     #[must_use]
     pub fn compare(mut self, compare: bool) -> CertifyOptions {
@@ -131,10 +111,6 @@ impl CertifyOptions {
             return Err(Error::new(ErrorKind::Range, message, &help));
         }
         let options = Options {
-            derivation: match self.derivation {
-                Derivation::Sharp => certify::Derivation::Sharp,
-                Derivation::Repaired => certify::Derivation::Repaired,
-            },
             transfer: self.transfer,
             ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
             compare: self.compare,

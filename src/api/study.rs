@@ -96,7 +96,7 @@ impl Study {
     /// # Errors
     /// Those of [`Study::case`].
     pub fn run_case(&self, index: u64) -> Result<String, Error> {
-        Ok(solve(&self.made(index)?, self.sweep.study().derivation).line())
+        Ok(solve(&self.made(index)?).line())
     }
 
     /// The file of results from the lines of all cases, in any order: the bytes of `sigmastar sweep STUDY -o FILE`.

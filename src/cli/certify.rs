@@ -34,8 +34,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let witness = args.witness.as_deref().map(input::written).transpose()?;
     let gain = args.sigma.as_deref().map(|text| input::rational("--sigma", text)).transpose()?;
     let sampled = witness.as_ref().map_or(subject.sampling().is_some(), is_sampled);
-    let of_plant = matches!(subject, Subject::Plant(_));
-    if let Some(misfit) = args.options().misfit(of_plant, sampled, gain.is_some()) {
+    if let Some(misfit) = args.options().misfit(sampled) {
         return Err(Failure::misfit(misfit));
     }
     if let (true, Some(target)) = (sampled, targets.first()) {

@@ -28,7 +28,7 @@ impl Given {
     pub fn read(document: &Document) -> Result<Given, Failure> {
         let (sigma_star, sampled) = match read_numbers(document)? {
             FreeNumbers::Sampled(witness) => (witness.sigma, Some((witness.sampling, witness.law))),
-            FreeNumbers::Continuous(witness) => (witness.sigma().clone(), None),
+            FreeNumbers::Continuous(witness) => (witness.witness.sigma.clone(), None),
         };
         let text = |pointer: &str| document.at(pointer).and_then(|value| value.text().map(str::to_owned));
         let statement = text("/claim/statement").ok_or_else(|| {

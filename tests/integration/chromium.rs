@@ -1,7 +1,7 @@
 //! The pages of `--format html` in a real browser: nothing is loaded, nothing is complained of, the first screen answers what a
 //! reader asks, and what is folded is printed. Where Chromium is not installed this is said, and nothing fails.
 
-use crate::support::{EXAMPLE, PLANT, program};
+use crate::support::{EXAMPLE, PLANT, program, refuted_witness};
 use serde_json::Value;
 use std::fs;
 use std::io::Write as _;
@@ -91,7 +91,7 @@ fn every_page(folder: &Path) -> Vec<PathBuf> {
     let others: [(&str, &[&str], i32); 11] = [
         ("plant", &["certify", PLANT, "-q"], 0),
         ("sampled", &["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0),
-        ("refuted", &["certify", EXAMPLE, "-q", "--derivation", "printed"], 1),
+        ("refuted", &["certify", EXAMPLE, "-q", "--witness", refuted_witness()], 1),
         ("transfer", &["transfer", EXAMPLE, "-q", "--n-o", "0,1,2,5,10,inf"], 0),
         ("rate", &["rate", EXAMPLE, "--n-o", "0..3"], 0),
         ("lyapunov", &["lyapunov", jacobian], 0),
@@ -193,7 +193,7 @@ fn the_first_screen_answers_what_a_reader_asks() {
         ("sampled", &["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0, 4),
         ("sampled-undecided", &["certify", AT_REST, "-q", "--sampling-period", "1/10"], 3, 2),
         ("undecided", &["certify", EXAMPLE, "-q", "--sigma", "30"], 3, 2),
-        ("refuted", &["certify", EXAMPLE, "-q", "--derivation", "printed"], 1, 2),
+        ("refuted", &["certify", EXAMPLE, "-q", "--witness", refuted_witness()], 1, 2),
     ];
     for (name, arguments, code, expected) in cases {
         let page = page(folder.path(), name, arguments, code);

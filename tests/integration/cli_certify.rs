@@ -1,6 +1,6 @@
 //! `sigmastar certify`: exit codes, streams, flags and files.
 
-use crate::support::{EXAMPLE, EXAMPLE_TEXT, json, process, program, specification_text};
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, json, process, program, refuted_witness, specification_text};
 use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty, starts_with};
@@ -37,13 +37,16 @@ fn certified_is_0_with_data_on_standard_output_only() {
 }
 
 #[test]
-fn printed_is_refuted_with_its_figures() {
-    certify(&[EXAMPLE, "--derivation", "printed"])
+fn a_witness_that_breaks_a_condition_is_refuted() {
+    certify(&[EXAMPLE, "--witness", refuted_witness()])
         .assert()
         .code(1)
-        .stdout(contains("Refuted: ").and(contains("P:eq:boundx_bounde_1")).and(contains("81 <= ")))
-        .stdout(contains("`--derivation sharp` proves sigma = "));
-    certify(&[EXAMPLE, "--derivation", "printed", "--no-compare"]).assert().code(1);
+        .stdout(contains("Refuted: no sigma is certified here; condition C4 is certainly false"));
+}
+
+#[test]
+fn what_the_paper_prints_is_refuted_beside_the_claim() {
+    certify(&[EXAMPLE, "--full"]).assert().code(0).stdout(contains("P:eq:boundx_bounde_1").and(contains("81 <= ")));
 }
 
 #[test]
@@ -111,7 +114,7 @@ fn standard_input_is_read() {
 
 #[test]
 fn wrong_calls_are_2_with_a_suggestion() {
-    certify(&[EXAMPLE, "--derivation", "shrap"]).assert().code(2).stderr(contains("'sharp'"));
+    certify(&[EXAMPLE, "--transfer", "boxs"]).assert().code(2).stderr(contains("'boxes'"));
     certify(&[EXAMPLE, "--fromat", "json"]).assert().code(2).stderr(contains("'--format'"));
     program().arg("certfy").assert().code(2).stderr(contains("'certify'"));
     program().assert().code(2);
@@ -119,7 +122,7 @@ fn wrong_calls_are_2_with_a_suggestion() {
     for bits in ["127", "4097", "-1", "many"] {
         certify(&[EXAMPLE, &format!("--precision-limit={bits}")]).assert().code(2).stdout(is_empty());
     }
-    certify(&[EXAMPLE, "--witness", EXAMPLE, "--derivation", "sharp"]).assert().code(2);
+    certify(&[EXAMPLE, "--witness", EXAMPLE, "--transfer", "best"]).assert().code(2);
     certify(&[EXAMPLE, "--witness", EXAMPLE]).assert().code(2).stderr(contains("cannot be the same file"));
 }
 
@@ -183,7 +186,7 @@ fn nothing_is_written_without_a_certificate() {
     let folder = TempDir::new().expect("a temporary folder");
     let path = folder.path().join("certificate.json");
     let name = path.to_str().expect("plain");
-    certify(&[EXAMPLE, "--derivation", "printed", "-o", name])
+    certify(&[EXAMPLE, "--witness", refuted_witness(), "-o", name])
         .assert()
         .code(1)
         .stderr(contains("was not written: the verdict is refuted"));

@@ -87,7 +87,6 @@ fn words(report: &str) -> Vec<String> {
 
 const SPECIFICATION: &str = "From the specification alone";
 const CERTIFICATE: &str = "At X_p, E_p, sigma of the certificate";
-const BEST: &str = "At the free numbers that each derivation finds best";
 const WITHOUT: &str = "Without a value";
 const PRINTED: &str = "What the printed formulas say";
 const SETS_SIGMA: &str = "What sets sigma* (estimates)";
@@ -104,33 +103,6 @@ fn paper_example() {
     assert_eq!(outline(markdown), outline(text));
     let special = sections(markdown, &["Example of the paper", SPECIFICATION, WITHOUT, PRINTED]);
     assert_snapshot!("markdown-paper-example", special);
-}
-
-#[test]
-fn other_derivations() {
-    let whole = output(&EXAMPLE, 0);
-    let printed = shown(&["specs/paper-example.json", "--derivation", "printed", "--full"]);
-    fits(&printed);
-    let printed = output(&printed, 1);
-    assert_snapshot!(
-        "text-paper-example-printed",
-        sections(printed, &["Example of the paper", "What to try", "Matrix inequalities"])
-    );
-    // What is the same with every derivation: all constants, and what the printed formulas say.
-    let titles = outline(printed);
-    assert_eq!(titles[..2], ["What to try", "Matrix inequalities"]);
-    let shared: Vec<&str> = titles[2..].iter().map(String::as_str).collect();
-    assert_eq!((shared.len(), shared[0], shared[6]), (7, "Constants in the three derivations", PRINTED));
-    assert_eq!(sections(printed, &shared), sections(whole, &shared));
-
-    let repaired = shown(&["specs/paper-example-at-rest.json", "--derivation", "repaired", "--no-compare", "--full"]);
-    fits(&repaired);
-    let repaired = output(&repaired, 0);
-    let special = ["Example of the paper", "sigma* = ", "Conditions", BEST, PRINTED, "Exact regulation"];
-    assert_snapshot!("text-at-rest-repaired", sections(repaired, &special));
-    let other = |title: &String| title.replace("the sharp derivation", "the repaired derivation");
-    let expected: Vec<String> = outline(whole).iter().filter(|title| *title != SETS_SIGMA).map(other).collect();
-    assert_eq!(outline(repaired), expected);
 }
 
 #[test]

@@ -1,12 +1,13 @@
 //! `docs/formats.md` against the readers and against what the program writes: no example on it is wrong, and no field
 //! that is read or written is missing from it.
 
+use crate::support::refuted_witness;
 use assert_cmd::Command;
 use serde_json::{Map, Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, SpecErrors, Specification};
 use sigmastar_prove::certificate::{certificate_json, sampled_certificate_json};
-use sigmastar_prove::certify::{Derivation, Ladder, Options, TransferChoice, certify, certify_sampled, resolve};
+use sigmastar_prove::certify::{Ladder, Options, TransferChoice, certify, certify_sampled, resolve};
 use sigmastar_regulator::read_regulator;
 use sigmastar_sweep::sweep::Study;
 use std::collections::{BTreeMap, BTreeSet};
@@ -250,8 +251,6 @@ fn without_plant(lyapunov: Value, f: &str) -> String {
 }
 
 fn certificates() -> Vec<Value> {
-    let with = |derivation, transfer| Options { derivation, transfer, ..Options::default() };
-    let (sharp, repaired) = (Derivation::Sharp, Derivation::Repaired);
     let example = specification(&file(EXAMPLE), EXAMPLE);
     let of = |name: &str| {
         let file = parsed(&file(&format!("proofs-check/tests/certificates/{name}.json")), name);
@@ -260,8 +259,7 @@ fn certificates() -> Vec<Value> {
     let quick = Options { compare: false, ..Options::default() };
     let mut all = vec![
         certificate(&example, Options::default()),
-        certificate(&example, with(repaired, TransferChoice::Best)),
-        certificate(&example, with(sharp, TransferChoice::Boxes)),
+        certificate(&example, Options { transfer: TransferChoice::Boxes, ..Options::default() }),
     ];
     for name in ["periodic-jacobian.sharp", "refined.means", "two-matrices.means"] {
         all.push(certificate(&of(name), quick));
@@ -337,7 +335,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                     report(0, &[EXAMPLE, "--target-sup", "0.1", "--target-rms", "0.01"]),
                     report(0, &["specs/relative-degree-2.json"]),
                     report(0, &["specs/motor-axis-friction.json"]),
-                    report(1, &[EXAMPLE, "--derivation", "printed"]),
+                    report(1, &[EXAMPLE, "--witness", refuted_witness()]),
                     report(2, &["specs/invalid/many-errors.json"]),
                     report(2, &["specs/invalid/misspelt-field.json"]),
                     report(2, &["nowhere.json"]),

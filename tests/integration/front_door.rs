@@ -2,9 +2,9 @@
 
 use crate::support::{EXAMPLE, EXAMPLE_TEXT, ROOT, json, program};
 use sigmastar::{
-    BoundingFunction as Bound, Certificate, CertifyOptions, CheckReport, CheckVerdict, Derivation, Error, ErrorKind,
-    JacobianEntry, RateMethod, RegulatorMatrices, Report, ReportFormat, Specification, SpecificationBuilder, Study,
-    Subject, TransferChoice, TransferOptions, Verdict, certify, check, check_against, rates, regulator_matrices,
+    BoundingFunction as Bound, Certificate, CertifyOptions, CheckReport, CheckVerdict, Error, ErrorKind, JacobianEntry,
+    RateMethod, RegulatorMatrices, Report, ReportFormat, Specification, SpecificationBuilder, Study, Subject,
+    TransferChoice, TransferOptions, Verdict, certify, check, check_against, rates, regulator_matrices,
     sampled_regulator, transfer_bound, transfer_study,
 };
 
@@ -155,10 +155,9 @@ fn a_specification_with_a_jacobian_is_certified() {
 }
 
 #[test]
-fn options_choose_the_derivation_and_the_transfer_proof() {
+fn options_choose_the_transfer_proof_and_the_precision() {
     let sigma = |options: CertifyOptions| certify(example(), &options).unwrap().claim().sigma_star_f64();
     let sharp = sigma(quick());
-    assert!(sigma(quick().derivation(Derivation::Repaired)) > sharp);
     assert!(sigma(quick().transfer(TransferChoice::ClosedForm)) > sharp);
     assert!((sigma(quick().precision_limit(CertifyOptions::LEAST_PRECISION_LIMIT)) - sharp).abs() < 1.0);
     for bits in [0, 127, 1025, u32::MAX] {
@@ -320,11 +319,6 @@ fn a_plant_is_certified_and_checked() {
     assert_eq!(certificate.subject().to_json(), plant.to_json());
     assert_eq!(regulator_matrices(&plant, certificate.claim().sigma_star(), 1).unwrap().phi.len(), 3);
 
-    let repaired = CertifyOptions::new().derivation(Derivation::Repaired);
-    let error = certify(&plant, &repaired).unwrap_err();
-    assert_eq!((error.kind(), error.verdict()), (ErrorKind::Options, Verdict::BadInput));
-    assert!(error.to_string().contains("a plant does not give"), "{error}");
-
     let unstable = include_str!("../../specs/plants/invalid/unstable.json");
     let error = certify(Subject::from_bytes("unstable.json", unstable.as_bytes()).unwrap(), &quick()).unwrap_err();
     assert_eq!((error.kind(), error.verdict()), (ErrorKind::Undecided, Verdict::Undecided), "{error}");
@@ -355,9 +349,9 @@ fn the_regulator_at_samples_is_certified() {
     let again = certify(certificate.subject(), &quick()).unwrap();
     assert_eq!(again.to_json(), certificate.to_json());
 
-    for options in [options.clone().derivation(Derivation::Repaired), options.clone().transfer(TransferChoice::Boxes)] {
-        assert_eq!(kind(certify(example(), &options)), ErrorKind::Options);
-    }
+    let boxes = options.clone().transfer(TransferChoice::Boxes);
+    let error = certify(example(), &boxes).unwrap_err();
+    assert_eq!((error.kind(), error.verdict()), (ErrorKind::Options, Verdict::BadInput));
     assert_eq!(kind(certify(example(), &quick().sampling_period("1/3.5"))), ErrorKind::Range);
     assert_eq!(kind(certify(example(), &quick().sampling_period("0"))), ErrorKind::Range);
     let error = certify(example(), &options.sigma("600")).unwrap_err();
@@ -373,10 +367,9 @@ fn a_given_gain_is_certified_or_not() {
     assert_eq!((error.kind(), error.verdict()), (ErrorKind::NotCertified, Verdict::Undecided));
     assert!(error.diagnostics().is_empty());
     let report = error.report().expect("a run was made").to_string();
-    assert!(report.contains("What to try:") && report.contains("certifies no sigma"), "{report}");
+    assert!(report.contains("What to try:") && report.contains("no sigma is certified"), "{report}");
     assert_eq!(kind(certify(example(), &quick().sigma("pi"))), ErrorKind::Range);
     assert_eq!(kind(certify(example(), &quick().sigma("-1"))), ErrorKind::Range);
-    assert_eq!(kind(certify(example(), &quick().sigma("42").derivation(Derivation::Repaired))), ErrorKind::Options);
 }
 
 #[test]

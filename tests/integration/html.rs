@@ -1,6 +1,6 @@
 //! `--format html`: every report is one page with balanced tags, links within itself alone, and no markup from files.
 
-use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, PLANT_TEXT, answer, program, utf8};
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, PLANT_TEXT, answer, program, refuted_witness, utf8};
 use insta::assert_snapshot;
 use std::collections::HashSet;
 
@@ -155,7 +155,7 @@ fn every(cases: &[Case]) {
 fn reports_on_claims_are_pages() {
     every(&[
         (vec!["certify", EXAMPLE, "--target-sup", "1e-3"], 0, [4, 2]),
-        (vec!["certify", EXAMPLE, "--derivation", "printed"], 1, [0, 2]),
+        (vec!["certify", EXAMPLE, "--witness", refuted_witness()], 1, [0, 2]),
         (vec!["certify", PLANT, "-q"], 0, [3, 1]),
         (vec!["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0, [1, 0]),
         (vec!["sampling", AT_REST, "-q", "--sampling-period", "1/1000", "--sigma", "1,25"], 0, [1, 0]),

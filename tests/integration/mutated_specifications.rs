@@ -4,7 +4,7 @@ use crate::mutants;
 use crate::support::cases;
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certificate::certificate_json;
-use sigmastar_prove::certify::{Derivation, Options, TransferChoice, certify, resolve};
+use sigmastar_prove::certify::{Options, TransferChoice, certify, resolve};
 
 /// Seeds of an ordinary run, and of a night; `SIGMASTAR_CASES=0..3000 cargo test --release --test integration mutated` takes
 /// others.
@@ -20,13 +20,12 @@ fn certificate(seed: u64, text: &str) -> Option<String> {
     if let Some(resolved) = resolve(&spec) {
         spec = resolved.ok()?.spec;
     }
-    let derivation = if seed % 5 == 4 { Derivation::Repaired } else { Derivation::Sharp };
     let transfer = match seed % 7 {
         5 => TransferChoice::Boxes,
         6 => TransferChoice::ClosedForm,
         _ => TransferChoice::Best,
     };
-    let options = Options { derivation, transfer, ..Options::default() };
+    let options = Options { transfer, ..Options::default() };
     Some(certificate_json(&certify(&spec, options).ok()?)?.to_string())
 }
 

@@ -108,16 +108,6 @@ fn plants_that_have_no_certificate_are_told_why() {
     }
 }
 
-#[test]
-fn derivations_that_a_plant_has_no_data_for_are_refused() {
-    for derivation in ["repaired", "printed"] {
-        let output =
-            program().args(["certify", "specs/plants/motor-axis.json", "--derivation", derivation]).output().unwrap();
-        assert_eq!(output.status.code(), Some(2));
-        assert!(String::from_utf8_lossy(&output.stderr).contains("bounding functions that a plant does not give"));
-    }
-}
-
 /// `--witness` proves the data of a certificate again; numbers that are too good are not proved.
 #[test]
 fn the_witness_of_a_plant_is_decided_again() {

@@ -339,14 +339,12 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
 #[test]
 fn flags_that_make_no_sense_are_refused() {
     for wrong in [
-        &["--sampling-period", "1/100", "--derivation", "repaired"][..],
-        &["--sampling-period", "1/100", "--transfer", "boxes"],
+        &["--sampling-period", "1/100", "--transfer", "boxes"][..],
         &["--sampling-period", "1/100", "--target-sup", "1"],
         &["--sampling-period", "3/1000"],
         &["--sampling-period", "-1"],
         &["--sigma", "0"],
         &["--sigma", "pi"],
-        &["--sigma", "20", "--derivation", "repaired"],
     ] {
         program().args(["certify", AT_REST, "-q"]).args(wrong).assert().code(2);
     }

@@ -7,7 +7,6 @@ use crate::validator::Validator;
 use serde_json::{Map, Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, SpecErrors, Specification};
-use sigmastar_prove::certify::Derivation;
 use sigmastar_schema::Schema;
 use sigmastar_sweep::sweep::Study;
 use std::collections::BTreeSet;
@@ -257,7 +256,7 @@ fn studies() -> Vec<Value> {
         { "pointer": "/name", "values": ["a", 1, true] }]);
     let embedded = parsed(&Path::new(ROOT).join("specs/linear.json"));
     vec![
-        with(file, &[("$schema", json!("x")), ("derivation", json!("repaired")), ("subject", embedded)]),
+        with(file, &[("$schema", json!("x")), ("derivation", json!("sharp")), ("subject", embedded)]),
         with(file, &[("parameters", logarithmic), ("sampling_period", json!("1/9"))]),
         with(file, &[("design", json!("latin")), ("count", json!(3)), ("seed", json!(1)), ("parameters", latin)]),
     ]
@@ -327,7 +326,7 @@ fn properties_of(schema: &Value, found: &mut BTreeSet<String>) {
 #[test]
 fn the_schema_of_certificates_is_that_of_what_is_written() {
     let validator = validator(Schema::Certificate);
-    let fresh = certify_all(&["no-x", "paper-example"], Derivation::Sharp);
+    let fresh = certify_all(&["no-x", "paper-example"]);
     // One whose Jacobian contradicts its bounds.
     let folder = tempfile::tempdir().expect("a folder");
     let (spec, file) = (write(folder.path(), JACOBIAN, "2.1*X", "0"), folder.path().join("certificate.json"));

@@ -1,10 +1,10 @@
-//! The search knows no scale of its own, and no derivation or transfer proof beats the one it may choose.
+//! The search knows no scale of its own, and no transfer proof beats the one it may choose.
 
 use crate::mutants;
 use crate::support::{EXAMPLE_TEXT, every};
 use rug::Rational;
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{Derivation, Options, TransferChoice, certify};
+use sigmastar_prove::certify::{Options, TransferChoice, certify};
 
 /// A specification with a matched base frequency, or with the one given.
 fn spec(period: &str, mu: &str, q: &str, frequency: Option<&str>) -> Specification {
@@ -22,9 +22,9 @@ fn spec(period: &str, mu: &str, q: &str, frequency: Option<&str>) -> Specificati
     Specification::from_json("scale", &text).unwrap()
 }
 
-fn sigma(spec: &Specification, derivation: Derivation, transfer: TransferChoice) -> Rational {
-    let run = certify(spec, Options { derivation, transfer, compare: false, ..Options::default() }).unwrap();
-    run.sigma_star().unwrap_or_else(|| panic!("{derivation:?}, {transfer:?}: {:?}", run.conditions())).clone()
+fn sigma(spec: &Specification, transfer: TransferChoice) -> Rational {
+    let run = certify(spec, Options { transfer, compare: false, ..Options::default() }).unwrap();
+    run.sigma_star().unwrap_or_else(|| panic!("{transfer:?}: {:?}", run.conditions())).clone()
 }
 
 /// sigma T far below 1e-12, by a small mu and by a small period.
@@ -32,8 +32,9 @@ fn sigma(spec: &Specification, derivation: Derivation, transfer: TransferChoice)
 fn tiny_gains_are_found() {
     for (period, mu) in [("1", "1e-16"), ("1e-30", "1"), ("1", "1e-40"), ("1e20", "1e-30")] {
         let spec = spec(period, mu, "0", None);
-        let sharp = sigma(&spec, Derivation::Sharp, TransferChoice::Best);
-        let repaired = sigma(&spec, Derivation::Repaired, TransferChoice::Best);
+        let sharp = sigma(&spec, TransferChoice::Best);
+        let run = certify(&spec, Options::default()).unwrap();
+        let repaired = run.repaired.as_ref().unwrap().proved().expect("proved").witness.sigma.clone();
         assert!(sharp <= repaired, "T = {period}, mu = {mu}: {} {}", sharp.to_f64(), repaired.to_f64());
         // C5 alone sets sigma here, and it contains mu and no time but 1/alpha: about mu Nbar^2 times a number.
         let mu: f64 = mu.parse().unwrap();
@@ -49,12 +50,12 @@ fn a_needless_rms_bound_changes_nothing() {
     let with = EXAMPLE_TEXT.replace(q, &format!("{q}, {rms}, \"q_t_rms\": \"1e4 + 1e4*E\""));
     let [plain, with] = [EXAMPLE_TEXT, &with].map(|text| {
         let spec = Specification::from_json("rms", text).unwrap();
-        sigma(&spec, Derivation::Sharp, TransferChoice::Best)
+        sigma(&spec, TransferChoice::Best)
     });
     assert_eq!(plain, with);
 }
 
-/// Each transfer proof by itself, and the repaired derivation, give no smaller gain than the choice among them.
+/// Each transfer proof by itself gives no smaller gain than the choice among them.
 #[test]
 fn the_best_is_not_above_any_other() {
     for (period, mu, q, frequency) in [
@@ -67,13 +68,8 @@ fn the_best_is_not_above_any_other() {
     .step_by(every(2))
     {
         let spec = spec(period, mu, q, frequency);
-        let best = sigma(&spec, Derivation::Sharp, TransferChoice::Best);
-        let others = [
-            sigma(&spec, Derivation::Repaired, TransferChoice::Best),
-            sigma(&spec, Derivation::Sharp, TransferChoice::ClosedForm),
-            sigma(&spec, Derivation::Sharp, TransferChoice::Boxes),
-        ];
-        for other in others {
+        let best = sigma(&spec, TransferChoice::Best);
+        for other in [TransferChoice::ClosedForm, TransferChoice::Boxes].map(|transfer| sigma(&spec, transfer)) {
             assert!(best <= other, "T = {period}: {} {}", best.to_f64(), other.to_f64());
         }
     }
@@ -85,7 +81,7 @@ fn the_best_is_not_above_any_other() {
 fn the_edge_of_the_possible_costs_no_gain() {
     for (seed, largest) in [(150, 1.2e23), (182, 4.03), (223, 1.69e8)] {
         let spec = Specification::from_json("mutant", &mutants::specification(seed).to_string()).unwrap();
-        let sigma = sigma(&spec, Derivation::Sharp, TransferChoice::Best);
+        let sigma = sigma(&spec, TransferChoice::Best);
         assert!(sigma <= largest, "seed {seed}: {}", sigma.to_f64());
     }
 }

@@ -1,6 +1,6 @@
 //! The short forms of reports, and how to see the rest.
 
-use crate::support::{EXAMPLE, PLANT, ROOT, answer, files, stem, utf8};
+use crate::support::{EXAMPLE, PLANT, ROOT, answer, files, refuted_witness, stem, utf8};
 
 const AT_REST: &str = "specs/paper-example-at-rest.json";
 const JACOBIAN: &str = "specs/paper-example-jacobian.json";
@@ -57,8 +57,8 @@ fn claims_fit_a_screen() {
 #[test]
 fn what_is_not_certified_fits_a_screen() {
     for (arguments, code, words) in [
-        (&["certify", EXAMPLE, "--derivation", "printed"][..], 1, "Refuted: the printed derivation"),
-        (&["certify", EXAMPLE, "--sigma", "30"], 3, "Undecided: the sharp derivation"),
+        (&["certify", EXAMPLE, "--witness", refuted_witness()][..], 1, "Refuted: no sigma is certified here"),
+        (&["certify", EXAMPLE, "--sigma", "30"], 3, "Undecided: no sigma is certified here"),
         (
             &["certify", AT_REST, "--sampling-period", "1/10"],
             3,
@@ -101,7 +101,7 @@ fn the_whole_report_starts_with_the_short_one() {
     let certificate = "proofs-check/tests/certificates/paper-example.means.json";
     for arguments in [
         &["certify", EXAMPLE][..],
-        &["certify", EXAMPLE, "--derivation", "printed"],
+        &["certify", EXAMPLE, "--witness", refuted_witness()],
         &["certify", AT_REST, "--sampling-period", "1/1000"],
         &["transfer", EXAMPLE, "--n-o", "0,1"],
         &["lyapunov", JACOBIAN],

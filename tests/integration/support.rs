@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use serde_json::Value;
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certificate::certificate_json;
-use sigmastar_prove::certify::{Certification, Derivation, Options, certify, resolve};
+use sigmastar_prove::certify::{Certification, Options, certify, resolve};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -45,6 +45,19 @@ pub fn answer(arguments: &[&str]) -> Output {
     let key: Vec<String> = arguments.iter().map(|argument| (*argument).to_owned()).collect();
     let place = Arc::clone(OUTPUTS.lock().expect("no test panics in here").entry(key).or_default());
     place.get_or_init(|| program().args(arguments).output().expect("the program runs")).clone()
+}
+
+/// A certificate of the paper's example with an error box that is too small: decided again, it is refuted.
+pub fn refuted_witness() -> &'static str {
+    static PATH: LazyLock<String> = LazyLock::new(|| {
+        let text = std::fs::read(Path::new(ROOT).join("proofs-check/tests/certificates/paper-example.means.json"));
+        let mut certificate = json(&text.expect("shipped"));
+        certificate["witness"]["D_e"] = "1".into();
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("refuted.json");
+        std::fs::write(&path, certificate.to_string()).expect("a folder for tests");
+        path.to_str().expect("a plain name").to_owned()
+    });
+    &PATH
 }
 
 /// Of what takes long an ordinary run takes every so many-th, and `SIGMASTAR_CASES=all` all.
@@ -111,19 +124,18 @@ pub fn specification(name: &str) -> Specification {
     Specification::load(&path(name)).unwrap_or_else(|errors| panic!("{}", errors.render(false)))
 }
 
-/// A derivation without the comparison with the others.
-pub fn options(derivation: Derivation) -> Options {
-    Options { derivation, compare: false, ..Options::default() }
+/// Without the comparison with the other derivations.
+pub fn options() -> Options {
+    Options { compare: false, ..Options::default() }
 }
 
-pub fn certificate(spec: &Specification, derivation: Derivation) -> Value {
-    certificate_json(&certify(spec, options(derivation)).unwrap()).expect("certified")
+pub fn certificate(spec: &Specification) -> Value {
+    certificate_json(&certify(spec, options()).unwrap()).expect("certified")
 }
 
-/// A shipped specification with its certificate in one derivation; a Jacobian is replaced by the triple that it gives.
+/// A shipped specification with its certificate; a Jacobian is replaced by the triple that it gives.
 pub struct Shipped {
     pub name: String,
-    pub derivation: Derivation,
     pub spec: &'static Specification,
     pub run: Certification<'static>,
     pub certificate: Value,
@@ -131,7 +143,7 @@ pub struct Shipped {
 
 /// The certificates of shipped specifications. They are for a `LazyLock`, and so never to be asked for in a thread of
 /// rayon's: it may be the one that the lock waits for.
-pub fn certify_all<N: AsRef<str> + Sync>(names: &[N], derivation: Derivation) -> Vec<Shipped> {
+pub fn certify_all<N: AsRef<str> + Sync>(names: &[N]) -> Vec<Shipped> {
     let make = |name: &N| {
         let name = name.as_ref().to_owned();
         let spec = specification(&name);
@@ -141,18 +153,18 @@ pub fn certify_all<N: AsRef<str> + Sync>(names: &[N], derivation: Derivation) ->
         };
         // A run borrows its specification; both last as long as the tests.
         let spec: &'static Specification = Box::leak(Box::new(spec));
-        let run = certify(spec, options(derivation)).expect("not refuted");
+        let run = certify(spec, options()).expect("not refuted");
         let certificate = certificate_json(&run).expect("certified");
-        Shipped { name, derivation, spec, run, certificate }
+        Shipped { name, spec, run, certificate }
     };
     names.par_iter().map(make).collect()
 }
 
-/// Every shipped specification with its sharp certificate, made once.
+/// Every shipped specification with its certificate, made once.
 pub fn certified() -> &'static [Shipped] {
     static CERTIFIED: LazyLock<Vec<Shipped>> = LazyLock::new(|| {
         let names: Vec<String> = files("specs").iter().map(|path| stem(path).to_owned()).collect();
-        certify_all(&names, Derivation::Sharp)
+        certify_all(&names)
     });
     &CERTIFIED
 }

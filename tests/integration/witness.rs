@@ -1,15 +1,14 @@
 //! The witness of a certificate is not to be trusted: whatever is written into it, what is certified is true.
 
 use crate::plain::{self, BITS, Plain, R, Spec, parse};
-use crate::support::{Shipped, certificate, certified, certify_all, options, specification};
+use crate::support::{Shipped, certificate, certified, options, specification};
 use rayon::prelude::*;
 use rug::{Float, Rational};
 use serde_json::Value;
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{certificate_json, read_witness};
-use sigmastar_prove::certify::{Certification, Derivation, Options, TransferChoice, Verdict, certify, recheck};
+use sigmastar_prove::certify::{Certification, Options, TransferChoice, Verdict, certify, recheck};
 use sigmastar_theory::derivation::condition::Condition;
-use std::sync::LazyLock;
 
 const SPECS: [&str; 13] = [
     "explicit-weights",
@@ -27,23 +26,20 @@ const SPECS: [&str; 13] = [
     "short-period",
 ];
 
-/// All of them in the repaired derivation, made once.
-static REPAIRED: LazyLock<Vec<Shipped>> = LazyLock::new(|| certify_all(&SPECS, Derivation::Repaired));
-
-/// The shipped specifications that are listed here, with a certificate in both derivations.
+/// The shipped specifications that are listed here, with their certificates.
 fn shipped() -> Vec<&'static Shipped> {
-    certified().iter().filter(|shipped| SPECS.contains(&shipped.name.as_str())).chain(REPAIRED.iter()).collect()
+    certified().iter().filter(|shipped| SPECS.contains(&shipped.name.as_str())).collect()
 }
 
-fn find(name: &str, derivation: Derivation) -> &'static Shipped {
-    shipped().into_iter().find(|shipped| shipped.name == name && shipped.derivation == derivation).unwrap()
+fn find(name: &str) -> &'static Shipped {
+    shipped().into_iter().find(|shipped| shipped.name == name).unwrap()
 }
 
 /// The run on a certificate as a file; `None` when reading refuses it or a bounding function fails.
 fn decide<'s>(spec: &'s Specification, certificate: &Value) -> Option<Certification<'s>> {
     let document = Document::parse("certificate", &certificate.to_string()).unwrap();
     let witness = read_witness(&document).ok()?;
-    recheck(spec, &witness, options(Derivation::Sharp)).ok()
+    recheck(spec, &witness, options()).ok()
 }
 
 fn accepted(spec: &Specification, certificate: &Value) -> bool {
@@ -144,9 +140,7 @@ fn holds(plain: &Plain) -> bool {
 
 /// Compares the tool with the plain computation on one certificate.
 fn compare(what: &str, spec: &Specification, plain: &Spec<'_>, certificate: &Value) {
-    let repaired = certificate["claim"]["derivation"] == "repaired";
-    let main = if repaired { plain.repaired(certificate) } else { plain.sharp(certificate) };
-    let exact = if repaired { Vec::new() } else { plain.exact(certificate) };
+    let (main, exact) = (plain.sharp(certificate), plain.exact(certificate));
     let run = decide(spec, certificate);
     let certified = run.as_ref().is_some_and(|run| run.verdict == Verdict::Certified);
     for condition in main.iter().chain(&exact) {
@@ -190,7 +184,7 @@ fn every_condition_agrees_with_a_second_computation() {
         compare(name, spec, &plain, certificate);
         assert!(accepted(spec, certificate), "{name}");
         for (what, changed) in moved(certificate, ["paper-example", "linear"].contains(&name)) {
-            compare(&format!("{name} {}: {what}", certificate["claim"]["derivation"]), spec, &plain, &changed);
+            compare(&format!("{name}: {what}"), spec, &plain, &changed);
         }
     });
 }
@@ -216,9 +210,7 @@ fn a_better_claim_is_refused() {
             let value = parse(certificate.pointer(&pointer).unwrap().as_str().unwrap());
             let larger = if value > 0 { value * Rational::from((1001, 1000)) } else { Rational::from((1, 1000)) };
             let claim = with(certificate, &pointer, larger.to_string());
-            let sharp = certificate["claim"]["derivation"] == "sharp";
-            let all = if sharp { plain.sharp(&claim) } else { plain.repaired(&claim) };
-            let room = all.iter().chain(&plain.exact(&claim)).all(|c| c.holds);
+            let room = plain.sharp(&claim).iter().chain(&plain.exact(&claim)).all(|c| c.holds);
             assert_eq!(accepted(spec, &claim), room, "{name}: {side}");
             // In relative-degree-2 C3 sets sigma*, which leaves room in the others.
             assert!(!room || ["no-x", "ill-conditioned", "relative-degree-2"].contains(&name), "{name}: {side}");
@@ -232,7 +224,7 @@ fn a_better_claim_is_refused() {
 
 #[test]
 fn matched_proofs_with_a_foolish_k_are_refused() {
-    let Shipped { spec, certificate: good, .. } = find("paper-example", Derivation::Sharp);
+    let Shipped { spec, certificate: good, .. } = find("paper-example");
     for k in [0_u64, 4097, 65536, 4_294_967_295, 4_294_967_296, 1 << 63] {
         let mut changed = good.clone();
         changed["witness"]["transfer"]["K"] = Value::from(k);
@@ -259,7 +251,7 @@ fn exact_regulation_is_not_certified_beyond_the_proved_arguments() {
     let boxed = text.replace("{\"kind\":\"paper\"}", "{\"kind\":\"box\",\"X0\":\"1\",\"E0\":\"1\",\"Z0\":\"0\"}");
     assert_ne!(text, boxed);
     let spec = Specification::from_json("boxed", &boxed).unwrap();
-    let mut claim = certificate(&spec, Derivation::Sharp);
+    let mut claim = certificate(&spec);
     // The same plant with a bound of |dq/dx| that is 1 up to X = 50 and falls to 0 at X = 100.
     let falling = boxed.replace("\"q_x\":1", "\"q_x\":\"min(1, max(0, 2 - X/50))\"");
     assert_ne!(boxed, falling);
@@ -278,7 +270,7 @@ fn exact_regulation_is_not_certified_beyond_the_proved_arguments() {
 /// A file that says more than can be proved is not certified in part.
 #[test]
 fn a_wrong_exact_regulation_claim_spoils_the_certificate() {
-    let Shipped { spec, certificate: good, .. } = find("paper-example", Derivation::Sharp);
+    let Shipped { spec, certificate: good, .. } = find("paper-example");
     let lower = scaled(good, "/witness/exact_regulation/sigma_star_oo", (1, 2));
     let run = decide(spec, &lower).unwrap();
     assert_eq!(run.verdict, Verdict::Refuted);
@@ -301,8 +293,8 @@ fn the_same_bytes_with_any_number_of_threads() {
     }
 }
 
-fn sigma(name: &str, derivation: Derivation) -> f64 {
-    parse(find(name, derivation).certificate["claim"]["sigma_star"].as_str().unwrap()).to_f64()
+fn sigma(name: &str) -> f64 {
+    parse(find(name).certificate["claim"]["sigma_star"].as_str().unwrap()).to_f64()
 }
 
 #[test]
@@ -313,31 +305,28 @@ fn the_figures_of_the_derivation_are_met() {
         ("paper-example-rms", 27.0),
         ("paper-example-rms-at-rest", 20.0),
     ] {
-        let found = sigma(name, Derivation::Sharp);
+        let found = sigma(name);
         assert!(found <= goal, "{name}: {found}");
         // Far below the goals of the derivation, a figure would be a mistake.
         assert!(found > goal / 4.0, "{name}: {found}");
     }
     let spec = specification("paper-example");
-    let closed = Options { transfer: TransferChoice::ClosedForm, ..options(Derivation::Sharp) };
+    let closed = Options { transfer: TransferChoice::ClosedForm, ..options() };
     let by_closed_form = certify(&spec, closed).unwrap().sigma_star().expect("certified").to_f64();
-    assert!(by_closed_form.is_finite() && by_closed_form > sigma("paper-example", Derivation::Sharp));
+    assert!(by_closed_form.is_finite() && by_closed_form > sigma("paper-example"));
 }
 
+/// What the paper's chain gives is shown beside the claim: repaired, with a larger gain; printed, refuted, with a figure.
 #[test]
-fn sharp_is_never_worse_than_repaired() {
+fn the_other_derivations_are_never_better() {
     for name in SPECS {
-        let (sharp, repaired) = (sigma(name, Derivation::Sharp), sigma(name, Derivation::Repaired));
-        assert!(sharp <= repaired && repaired.is_finite(), "{name}: {sharp} > {repaired}");
+        let spec = specification(name);
+        let run = certify(&spec, Options::default()).unwrap();
+        let repaired = run.repaired.as_ref().unwrap().proved().expect("proved").witness.sigma.to_f64();
+        assert!(sigma(name) <= repaired && repaired.is_finite(), "{name}: {repaired}");
+        if name == "paper-example" {
+            assert!(run.printed.refutation.as_ref().unwrap().to_string().contains("(E1)"));
+            assert!(run.printed.sigma.as_ref().unwrap().is_bounded());
+        }
     }
-}
-
-#[test]
-fn printed_is_refuted_with_a_figure() {
-    let spec = specification("paper-example");
-    let run = certify(&spec, options(Derivation::Printed)).unwrap();
-    assert_eq!(run.verdict, Verdict::Refuted);
-    assert!(run.printed.refutation.as_ref().unwrap().to_string().contains("(E1)"));
-    assert!(run.printed.sigma.as_ref().unwrap().is_bounded());
-    assert!(run.sigma_star().is_none() && certificate_json(&run).is_none());
 }

@@ -7,7 +7,7 @@ mod told;
 mod work;
 
 use pyo3::prelude::*;
-use sigmastar::{Certificate, CertifyOptions, Derivation, Error, Study, Subject, TransferChoice, TransferOptions};
+use sigmastar::{Certificate, CertifyOptions, Error, Study, Subject, TransferChoice, TransferOptions};
 use std::cell::RefCell;
 use told::{Told, ToldCase, ToldCertificate, ToldCheck, ToldRates, ToldRegulator, ToldSampled, ToldTransfer};
 use work::outside;
@@ -29,7 +29,6 @@ fn study(((name, bytes), subject): &StudyFiles) -> Result<Study, Error> {
 /// The options of `certify`, as they are chosen by name; what is no choice is told by the package.
 #[derive(FromPyObject)]
 struct Options {
-    derivation: String,
     transfer: String,
     precision_limit: u32,
     compare: bool,
@@ -42,18 +41,13 @@ impl Options {
         let wrong = |what: &str, word: &str, known: &str| {
             Err(pyo3::exceptions::PyValueError::new_err(format!("{what}: `{word}` is none of {known}")))
         };
-        let derivation = match self.derivation.as_str() {
-            "sharp" => Derivation::Sharp,
-            "repaired" => Derivation::Repaired,
-            other => return wrong("derivation", other, "`sharp`, `repaired`"),
-        };
         let transfer = match self.transfer.as_str() {
             "best" => TransferChoice::Best,
             "boxes" => TransferChoice::Boxes,
             "closed-form" => TransferChoice::ClosedForm,
             other => return wrong("transfer", other, "`best`, `boxes`, `closed-form`"),
         };
-        let options = CertifyOptions::new().derivation(derivation).transfer(transfer).compare(self.compare);
+        let options = CertifyOptions::new().transfer(transfer).compare(self.compare);
         let options = options.precision_limit(self.precision_limit);
         let options = self.sigma.into_iter().fold(options, CertifyOptions::sigma);
         Ok(self.sampling_period.into_iter().fold(options, CertifyOptions::sampling_period))

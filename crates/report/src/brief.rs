@@ -9,7 +9,7 @@ use sigmastar_document::number::{estimate, exact, upper};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{Certification, Derivation, SampledCertification, claimed_ball};
+use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::targets::Consequences;
 
@@ -108,7 +108,7 @@ fn to(spec: &Specification, periodic: &[Enclosure; 4], [d_x, d_e]: [String; 2]) 
 
 /// The mechanism that asks for most of sigma*, and the datum that would lower it most.
 fn set_by(run: &Certification<'_>) -> Option<String> {
-    let binding = run.binding.filter(|_| run.options.derivation == Derivation::Sharp && run.given_gain.is_none())?;
+    let binding = run.binding.filter(|_| run.given_gain.is_none())?;
     let best = run.sensitivities.first().map(|(datum, gain)| {
         format!("; {} lowers sigma* by about {} %", sensitivity::one_per_cent(run.spec, *datum), estimate(100.0 * gain))
     });

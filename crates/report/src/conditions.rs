@@ -7,7 +7,7 @@ use sigmastar_theory::derivation::condition::Condition;
 
 /// The conditions of the chosen derivation.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    of(&format!("Conditions of the {} derivation", run.options.derivation.name()), run.conditions())
+    of("Conditions", run.conditions())
 }
 
 /// The table of any conditions.

@@ -23,7 +23,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     let mut report = json!({
         "format": FORMAT, "version": VERSION,
         "verdict": run.verdict.to_string(), "statement": sentence(run), "remarks": remarks(run),
-        "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": run.options.derivation.name(),
+        "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": "sharp",
         "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
     });
     if let (Some(sigma), Some(claimed), Some(periodic), Some(error_box)) =
@@ -87,12 +87,14 @@ fn derivations(run: &Certification<'_>) -> Value {
                 json!({ "outcome": "not proved", "failing": conditions_with_truth(failing) })
             }
             Outcome::NotFound(obstacle) => json!({ "outcome": "not found", "obstacle": obstacle.describe() }),
-            Outcome::Skipped => json!({ "outcome": "skipped" }),
         }
     }
     json!({
         "sharp": of(&run.sharp, |proof| &proof.witness.sigma),
-        "repaired": of(&run.repaired, |proof| &proof.witness.sigma),
+        "repaired": run.repaired.as_ref().map_or_else(
+            || json!({ "outcome": "skipped" }),
+            |repaired| of(repaired, |proof| &proof.witness.sigma),
+        ),
     })
 }
 

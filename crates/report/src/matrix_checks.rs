@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{exact, pair};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
-use sigmastar_prove::certify::{Certification, Derivation};
+use sigmastar_prove::certify::Certification;
 use sigmastar_prove::lmi::{CrossCheck, SigmaBothWays};
 
 /// The solver's figure in as many digits as it gives on every machine.
@@ -60,33 +60,31 @@ fn compared(figures: &SigmaBothWays, contradiction: bool) -> String {
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let checks = &run.checks;
     let mut items = Vec::new();
-    if run.options.derivation == Derivation::Sharp {
-        match &checks.decay {
-            Some(Ok(check)) => items.extend(decay_items(check)),
-            Some(Err(error)) => items.push(format!("C5: not cross-checked by the semidefinite program: {error}.")),
-            None => {}
-        }
-        items.extend(checks.contraction.as_ref().map(|check| {
-            let [low, up] = &check.spectral_radius;
-            // What the contraction in mean squares says beyond the claim; nothing asks for it.
-            let unique = if *up < 1 {
-                "below 1, so the periodic solution is the only one in its set"
-            } else {
-                "not proved to be below 1, so that the periodic solution is the only one in its set is not claimed (that all \
-                 solutions from the initial set tend to it is)"
-            };
-            let stein = match &check.stein {
-                Some(_) => "; the diagonal Stein inequality D - M'DM > 0 is proved, exactly",
-                None => "",
-            };
-            format!(
-                "Contraction in mean squares, asked for by no condition: the spectral radius of the matrix M of upper bounds \
-                 lies in [{}, {}], {unique}{stein}.",
-                exact(low, Direction::Down),
-                exact(up, Direction::Up)
-            )
-        }));
+    match &checks.decay {
+        Some(Ok(check)) => items.extend(decay_items(check)),
+        Some(Err(error)) => items.push(format!("C5: not cross-checked by the semidefinite program: {error}.")),
+        None => {}
     }
+    items.extend(checks.contraction.as_ref().map(|check| {
+        let [low, up] = &check.spectral_radius;
+        // What the contraction in mean squares says beyond the claim; nothing asks for it.
+        let unique = if *up < 1 {
+            "below 1, so the periodic solution is the only one in its set"
+        } else {
+            "not proved to be below 1, so that the periodic solution is the only one in its set is not claimed (that all \
+             solutions from the initial set tend to it is)"
+        };
+        let stein = match &check.stein {
+            Some(_) => "; the diagonal Stein inequality D - M'DM > 0 is proved, exactly",
+            None => "",
+        };
+        format!(
+            "Contraction in mean squares, asked for by no condition: the spectral radius of the matrix M of upper bounds \
+             lies in [{}, {}], {unique}{stein}.",
+            exact(low, Direction::Down),
+            exact(up, Direction::Up)
+        )
+    }));
     let mut blocks = Vec::new();
     if !items.is_empty() || checks.sylvester.is_some() {
         blocks.push(Block::heading("Matrix inequalities"));

@@ -5,54 +5,33 @@ use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::BoundingFailure;
-use sigmastar_prove::certify::{BoundingProblem, Certification, Derivation, Outcome, SmallerChoice, Verdict};
+use sigmastar_prove::certify::{BoundingProblem, Certification, Outcome, SmallerChoice, Verdict};
 use sigmastar_prove::search::{Failing, Obstacle, SmallerSet};
 use sigmastar_theory::derivation::condition::Condition;
 
 /// So many items of a list are in the short form.
 const FEW: usize = 3;
 
-/// What came of one derivation, without the type of its proof.
+/// What came of it.
 enum Attempt<'r> {
     Proved,
     Failing(&'r [Condition]),
     NotFound(Obstacle),
-    Skipped,
 }
 
-fn attempt<P>(outcome: &Outcome<P>) -> Attempt<'_> {
-    match outcome {
+fn attempt<'r>(run: &'r Certification<'_>) -> Attempt<'r> {
+    match &run.sharp {
+        // The claim itself is proved, and what the certificate says beyond it is not.
+        Outcome::Proved(_) if !run.exact_failing.is_empty() => Attempt::Failing(&run.exact_failing),
         Outcome::Proved(_) => Attempt::Proved,
         Outcome::NotProved { failing, .. } => Attempt::Failing(failing),
         Outcome::NotFound(obstacle) => Attempt::NotFound(*obstacle),
-        Outcome::Skipped => Attempt::Skipped,
-    }
-}
-
-fn chosen<'r>(run: &'r Certification<'_>) -> Attempt<'r> {
-    match run.options.derivation {
-        // The claim itself is proved, and what the certificate says beyond it is not.
-        Derivation::Sharp if run.sharp.proved().is_some() && !run.exact_failing.is_empty() => {
-            Attempt::Failing(&run.exact_failing)
-        }
-        Derivation::Sharp => attempt(&run.sharp),
-        Derivation::Repaired => attempt(&run.repaired),
-        Derivation::Printed => Attempt::Skipped,
     }
 }
 
 /// One sentence: what failed.
 pub(super) fn sentence(run: &Certification<'_>) -> String {
-    let name = run.options.derivation.name();
-    if run.options.derivation == Derivation::Printed {
-        return match (&run.printed.refutation, run.verdict) {
-            (Some(reason), Verdict::Refuted) => {
-                format!("Refuted: the printed derivation certifies no sigma for these data. {reason}.")
-            }
-            _ => "Undecided: the printed derivation was not refuted for these data, and it never certifies.".to_owned(),
-        };
-    }
-    let what = match chosen(run) {
+    let what = match attempt(run) {
         Attempt::Proved => match run.unproved_bounds.first() {
             Some(problem) => {
                 format!("the bounding function {} could not be proved: {}", problem.which.field(), problem.sentence())
@@ -64,12 +43,9 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
             None => "the conditions were not proved".to_owned(),
         },
         Attempt::NotFound(obstacle) => format!("no candidate was found: {}", obstacle.describe()),
-        Attempt::Skipped => "this derivation was not worked out".to_owned(),
     };
     let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };
-    format!(
-        "{word}: the {name} derivation certifies no sigma here; {what}. Nothing is claimed about the plant either way."
-    )
+    format!("{word}: no sigma is certified here; {what}. Nothing is claimed about the plant either way.")
 }
 
 /// The figures of what failed, and what to try.
@@ -98,7 +74,7 @@ fn unproved(run: &Certification<'_>) -> Vec<String> {
 }
 
 fn failing(run: &Certification<'_>) -> Vec<String> {
-    match chosen(run) {
+    match attempt(run) {
         Attempt::Failing(conditions) => conditions.iter().map(describe).collect(),
         _ => Vec::new(),
     }
@@ -147,7 +123,7 @@ pub(super) fn describe(condition: &Condition) -> String {
 pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
     let mut items: Vec<String> = Vec::new();
     let mut add = |text: &str| items.push(text.to_owned());
-    match chosen(run) {
+    match attempt(run) {
         Attempt::Proved => {
             let at_the_edge = run
                 .unproved_bounds
@@ -169,16 +145,6 @@ pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
         }
         Attempt::Failing(_) => add("search again (without --witness): another witness may exist"),
         Attempt::NotFound(obstacle) => obstacle_advice(run, obstacle, &mut add),
-        Attempt::Skipped => {}
-    }
-    let other = matches!(run.options.derivation, Derivation::Printed | Derivation::Repaired);
-    if other && run.unproved_bounds.is_empty() {
-        let sharp = run.sharp.proved().map(|proof| write_exact(&proof.witness.sigma));
-        let repaired = run.repaired.proved().map(|proof| write_exact(&proof.witness.sigma));
-        if run.options.derivation == Derivation::Printed {
-            items.extend(repaired.map(|sigma| format!("`--derivation repaired` proves sigma = {sigma}")));
-        }
-        items.extend(sharp.map(|sigma| format!("`--derivation sharp` proves sigma = {sigma}")));
     }
     items
 }

@@ -69,7 +69,6 @@ impl<'r> SampledReport<'r> {
                 }
                 None => "the arguments of the bounding functions are not bounded".to_owned(),
             },
-            Outcome::Skipped => "it was not worked out".to_owned(),
         }
     }
 
@@ -116,7 +115,6 @@ impl<'r> SampledReport<'r> {
                         .to_owned(),
                 );
             }
-            Outcome::Skipped => {}
         }
         items
     }

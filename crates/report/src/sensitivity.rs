@@ -7,13 +7,13 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{Certification, Derivation, Verdict};
+use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_prove::search::Datum;
 use sigmastar_theory::transfer::TransferProof;
 
 /// The binding condition and the sensitivities of the sharp derivation.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    if run.verdict != Verdict::Certified || run.options.derivation != Derivation::Sharp {
+    if run.verdict != Verdict::Certified {
         return Vec::new();
     }
     let Some(binding) = run.binding else { return Vec::new() };

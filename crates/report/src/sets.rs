@@ -8,7 +8,7 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{Certification, Derivation};
+use sigmastar_prove::certify::Certification;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use std::f64::consts::FRAC_PI_2;
 
@@ -38,7 +38,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         error: error_box.each_ref().map(Enclosure::upper_f64),
         used: run.largest_arguments().map(|arguments| arguments.each_ref().map(Enclosure::upper_f64)),
         // C4 keeps solutions below a level of U in the box; as P >= P_low I, such a level is within this ellipse.
-        ellipse: run.options.derivation == Derivation::Sharp,
+        ellipse: true,
     };
     let mut blocks = vec![
         Block::Heading(format!("sigma* = {} and the sets", number::exact(sigma, Direction::Up))),

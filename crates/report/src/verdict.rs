@@ -9,7 +9,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::model::{Lyapunov, LyapunovSource};
 use sigmastar_lang::spec::{Bound, Specification};
-use sigmastar_prove::certify::{Certification, Derivation, Verdict};
+use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_theory::transfer::TransferProof;
 
 /// The verdict in one sentence that a control engineer understands.
@@ -61,11 +61,7 @@ pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
 
 /// What the claim rests on: derivation, assumptions about the plant, the transfer constants.
 pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
-    let derivation = match run.options.derivation {
-        Derivation::Sharp => "Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics).",
-        Derivation::Repaired => "Derivation: repaired (the architecture of the paper, each formula repaired).",
-        Derivation::Printed => "Derivation: printed (the paper to the letter).",
-    };
+    let derivation = "Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics).";
     let mut items = vec![derivation.to_owned()];
     let further = run.exact_arguments().filter(|_| run.largest_arguments().is_some());
     items.extend(of_the_data(run.spec, run.largest_arguments(), further));

@@ -37,17 +37,10 @@ fn fields(embedded: Field, digest: Field, of_plant: bool) -> Vec<Field> {
         must("version", "Version", "Its version.", Shape::Text),
     ];
     let claims = [false, true].map(|sampled| Shape::Object(claim(sampled, of_plant)));
-    let witnesses = [Kind::MeanSquares, Kind::Contraction, Kind::Repaired, Kind::Sampled];
+    let witnesses = [Kind::MeanSquares, Kind::Sampled];
     let witnesses = Shape::OneOf(witnesses.map(|kind| Shape::Object(witness(kind, true))).into());
-    let compared = vec![
-        may(
-            "sharp",
-            "Sharp",
-            "Those of the sharp derivation.",
-            Shape::OneOf(vec![Shape::Object(proof(Kind::MeanSquares)), Shape::Object(proof(Kind::Contraction))]),
-        ),
-        may("repaired", "Repaired", "Those of the repaired derivation.", Shape::Object(proof(Kind::Repaired))),
-    ];
+    let compared =
+        vec![must("repaired", "Repaired", "Those of the repaired derivation.", Shape::Object(proof(Kind::Repaired)))];
     vec![
         must("format", "Format", "The kind of this file.", Shape::Word(vec![FORMAT])),
         must("version", "Version", "The version of the format.", Shape::Version(vec![VERSION])),
@@ -61,7 +54,7 @@ fn fields(embedded: Field, digest: Field, of_plant: bool) -> Vec<Field> {
         may(
             "comparison",
             "Comparison",
-            "The free numbers of the other derivation; a figure.",
+            "The free numbers of the repaired derivation; a figure.",
             named("comparison", Shape::Object(compared)),
         ),
         may(
@@ -95,7 +88,7 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         ]);
     } else {
         fields.extend([
-            must("derivation", "Derivation", "How it is proved.", Shape::Word(vec!["sharp", "repaired"])),
+            must("derivation", "Derivation", "How it is proved.", Shape::Word(vec!["sharp"])),
             must("sigma_star", "sigma*", "Every gain from this one on is certified, in 1/time.", rational()),
             word("n_o", "n_o", "For which numbers of oscillators.", "every n_o >= 0"),
         ]);
@@ -126,13 +119,11 @@ fn sizes() -> [Field; 3] {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     MeanSquares,
-    /// Of earlier versions.
-    Contraction,
     Repaired,
     Sampled,
 }
 
-/// The free numbers of the other derivation.
+/// The free numbers of a derivation beside the claim.
 fn proof(kind: Kind) -> Vec<Field> {
     vec![
         must("sigma_star", "sigma*", "Its gain.", rational()),
@@ -149,7 +140,6 @@ fn numbers(names: &[&'static str], text: &str) -> Vec<Field> {
 fn witness(kind: Kind, main: bool) -> Vec<Field> {
     let names: &[&str] = match kind {
         Kind::MeanSquares => SharpWitness::NAMES,
-        Kind::Contraction => &["X_p", "E_p", "p_x", "p_e", "D_x", "D_e", "w_x", "h", "k0", "k1"],
         Kind::Repaired => RepairedWitness::NAMES,
         Kind::Sampled => SampledWitness::NAMES,
     };
@@ -159,17 +149,13 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
         fields.extend(numbers(&["weight_sum"], free));
     }
     fields.push(must("transfer", "Transfer bound", "How (k0, k1) is proved.", Shape::OneOf(transfer(kind))));
-    if matches!(kind, Kind::MeanSquares | Kind::Contraction) {
+    if kind == Kind::MeanSquares {
         let regulated = numbers(ExactWitness::NAMES, "A free number of exact regulation.");
         fields.push(may("exact_regulation", "Exact regulation", "With infinitely many oscillators.", {
             Shape::Object(regulated)
         }));
-    }
-    if kind == Kind::MeanSquares {
         let refined = numbers(RefinedSquares::NAMES, "A root mean square of the periodic solution.");
         fields.push(may("refined", "Refined", "Smaller mean squares.", Shape::Object(refined)));
-    }
-    if main && kind != Kind::Sampled {
         let multipliers = numbers(&["l_x", "l_e", "l_f"], "A multiplier.");
         fields.push(may("lmi", "Multipliers", "C5 as a matrix inequality; a figure.", Shape::Object(multipliers)));
     }

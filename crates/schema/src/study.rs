@@ -2,7 +2,6 @@
 
 use super::parts::{POSITIVE, header};
 use super::shape::{Field, Shape, Sign, list, may, must};
-use sigmastar_prove::certify::Derivation;
 use sigmastar_sweep::sweep::{FORMAT, MAX_CASES, MAX_PARAMETERS, VERSIONS};
 
 /// A study of either design.
@@ -20,12 +19,7 @@ fn fields(design: &'static str) -> Vec<Field> {
             "The path of a specification or plant, relative to this file, or one in place.",
             Shape::OneOf(vec![Shape::Text, Shape::Foreign]),
         ),
-        may(
-            "derivation",
-            "Derivation",
-            "What the verdicts are about; `sharp` without it.",
-            Shape::Word([Derivation::Sharp, Derivation::Repaired].map(Derivation::name).to_vec()),
-        ),
+        may("derivation", "Derivation", "What the verdicts are about; `sharp` without it.", Shape::Word(vec!["sharp"])),
         may(
             "sampling_period",
             "Sampling period h",

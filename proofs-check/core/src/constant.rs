@@ -32,6 +32,11 @@ impl Constant {
         bad(&field.pointer, "this constant has no value that can be enclosed")
     }
 
+    /// What is written, as an expression without variables.
+    pub fn expr(&self) -> &Expr {
+        &self.expr
+    }
+
     /// An enclosure.
     pub fn enclose(&self, precision: u32) -> Interval {
         let none = Interval::undefined(precision);

@@ -6,7 +6,6 @@
 
 mod around;
 pub mod bounds;
-mod break_points;
 mod derivative;
 pub mod formula;
 pub mod harmonics;
@@ -78,8 +77,7 @@ pub fn prove(spec: &Specification, plant: &Plant, arguments: [&Float; 2], lines:
     }
     let still = still::Still::new(plant);
     if model.formulas.is_too_large() {
-        let message = "the formulas and their derivatives have too many parts";
-        return Err(finding(Verdict::Undecided, "formulas", "/plant", message));
+        return too_large("formulas", "/plant");
     }
     let mut curves = model::curves(plant);
     curves.orbit.push(plant.forcing.wave.clone());
@@ -189,12 +187,12 @@ fn smoothness(
     let largest = plant.known.entries.largest();
     let [x, e] = [0, 1].map(|i| if *arguments[i] > largest[i] { arguments[i] } else { &largest[i] });
     let whole = region(plant, x, e);
-    let count = smooth::prove(model, machine, root, &whole, values)?;
+    let count = smooth::prove(&model.formulas, &model.demands, "/plant", machine, root, &whole, values)?;
     let tube_region = Region { shape: Shape::Ball(tube(plant)), output: Interval::int(0, PRECISION), ..whole };
     if tube(plant).le(&radius(plant, x)) == Some(true) {
         return Ok(count);
     }
-    Ok(count + smooth::prove(model, machine, root, &tube_region, values)?)
+    Ok(count + smooth::prove(&model.formulas, &model.demands, "/plant", machine, root, &tube_region, values)?)
 }
 
 /// `eps + r sup|J|` over `|v| <= r`: a bound of `L^-1 (x_0' - xb')`, in every component, as an interval around 0.
@@ -217,6 +215,12 @@ fn drift(plant: &Plant, model: &Model, machine: &Machine<'_>, root: &Rc<Cell>, v
         largest = largest.max(&square);
     }
     time::around(&(eps + r * largest.sqrt()))
+}
+
+/// That formulas have too many parts for anything to be decided.
+fn too_large<T>(rule: &'static str, pointer: &str) -> Outcome<T> {
+    let message = "the formulas and their derivatives have too many parts";
+    Err(finding(Verdict::Undecided, rule, pointer, message))
 }
 
 fn at_rising_precision<T>(attempt: impl Fn(u32) -> Outcome<T>) -> Outcome<T> {

@@ -94,7 +94,7 @@ fn orbit(formulas: &mut Formulas, plant: &Plant, state: usize, order: usize) -> 
 }
 
 /// P(t): numbers where it is constant.
-fn matrix(formulas: &mut Formulas, which: usize, w: &Witness) -> Vec<Vec<Id>> {
+pub fn matrix(formulas: &mut Formulas, which: usize, w: &Witness) -> Vec<Vec<Id>> {
     let order = w.mean.len();
     let mut entry = |i: usize, j: usize| {
         if wave(w, i, j).is_constant() {
@@ -111,9 +111,13 @@ fn wave(w: &Witness, i: usize, j: usize) -> Wave {
     Wave { mean: w.mean[i][j].clone(), harmonics }
 }
 
+/// The entries of P as trigonometric polynomials.
+pub fn polynomials(w: &Witness) -> Vec<Vec<Wave>> {
+    let order = w.mean.len();
+    (0..order).map(|i| (0..order).map(|j| wave(w, i, j)).collect()).collect()
+}
+
 /// The trigonometric polynomials of a witness.
 pub fn curves(plant: &Plant) -> Curves {
-    let order = plant.states();
-    let matrix = |w: &Witness| (0..order).map(|i| (0..order).map(|j| wave(w, i, j)).collect()).collect();
-    Curves { orbit: plant.orbit.waves.clone(), lyapunov: plant.lyapunov.iter().map(matrix).collect() }
+    Curves { orbit: plant.orbit.waves.clone(), lyapunov: plant.lyapunov.iter().map(polynomials).collect() }
 }

@@ -57,7 +57,7 @@ pub fn sizes(plant: &Plant, model: &mut Model) -> Outcome<Vec<(usize, &'static s
 }
 
 /// `sign (P - end I)`, its lower triangle.
-fn shifted(formulas: &mut Formulas, p: &[Vec<Id>], end: &Rational, sign: i32) -> Vec<Vec<Id>> {
+pub fn shifted(formulas: &mut Formulas, p: &[Vec<Id>], end: &Rational, sign: i32) -> Vec<Vec<Id>> {
     let (end, zero) = (formulas.number(end), formulas.int(0));
     let entry = |i: usize, j: usize, formulas: &mut Formulas| {
         let taken = if i == j { end } else { zero };

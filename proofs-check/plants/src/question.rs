@@ -126,6 +126,9 @@ fn place(piece: &Piece) -> String {
     let states = piece.sides.len() - 1;
     let v: Vec<String> = (0..states).map(|i| format!("{:.6}", piece.middle(i).to_f64())).collect();
     let (t, e) = (piece.cell.middle.to_f64(), piece.middle(states).to_f64());
+    if states == 0 && e == 0.0 {
+        return format!("t = {t:.6}");
+    }
     format!("t = {t:.6}, L^-1 (x - xb) = ({}), e = {e:.6}", v.join(", "))
 }
 

@@ -1,9 +1,8 @@
 //! Smoothness of the formulas where they are used (docs/mathematics.md, section 11.1, P0): what each operation asks of its
 //! operands, decided by enclosures on boxes that cover the region.
 
-use super::formula::{Demand, Id};
+use super::formula::{Demand, Formulas, Id};
 use super::machine::{At, Cell, Machine, Values};
-use super::model::Model;
 use super::narrowing::Narrowing;
 use super::region::Region;
 use proofs_core::effort;
@@ -18,16 +17,18 @@ const MAX_PIECES: usize = 40_000;
 
 /// Proves every demand on a region; how many boxes that took.
 pub fn prove(
-    model: &Model,
+    formulas: &Formulas,
+    demands: &[(Id, Demand)],
+    pointer: &str,
     machine: &Machine<'_>,
     root: &Rc<Cell>,
     region: &Region,
     values: &mut Values,
 ) -> Outcome<usize> {
-    let states = model.states();
-    let depends = |id: Id| model.formulas.depends(id);
-    let (varying, constant): (Vec<_>, Vec<_>) = model.demands.iter().copied().partition(|(id, _)| depends(*id) != 0);
-    let undecided = |what: String| demand(None, RULE, "/plant", what).map(|()| 0);
+    let states = region.states;
+    let depends = |id: Id| formulas.depends(id);
+    let (varying, constant): (Vec<_>, Vec<_>) = demands.iter().copied().partition(|(id, _)| depends(*id) != 0);
+    let undecided = |what: String| demand(None, RULE, pointer, what).map(|()| 0);
     for (id, what) in constant {
         // An operand that is the same everywhere: 1/(2 - 2), or a function of numbers.
         if !what.holds(&machine.number(id, values)) {
@@ -59,7 +60,7 @@ pub fn prove(
             Some(side) => queue.extend(piece.halves(side)),
             None => {
                 let t = piece.cell.middle.to_f64();
-                return undecided(format!("the operand of an operation of f or q is {} near t = {t:.6}", words(what)));
+                return undecided(format!("the operand of an operation is {} near t = {t:.6}", words(what)));
             }
         }
     }

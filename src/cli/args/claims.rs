@@ -4,7 +4,7 @@ use super::Replace;
 use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
-use sigmastar_prove::certify::{Derivation, Ladder, Options, TransferChoice};
+use sigmastar_prove::certify::{Ladder, Options, TransferChoice};
 use std::path::PathBuf;
 
 /// The flags of `certify`.
@@ -14,11 +14,7 @@ pub struct CertifyArgs {
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
-    /// Derivation that the verdict is about
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = DerivationArg::Sharp)]
-    pub derivation: DerivationArg,
-
-    /// Transfer constants of the sharp derivation
+    /// Which proof of the transfer bound
     #[arg(long, value_enum, value_name = "NAME", default_value_t = TransferArg::Best)]
     pub transfer: TransferArg,
 
@@ -32,7 +28,7 @@ pub struct CertifyArgs {
 
     /// Decide the witness of this certificate again instead of searching
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
-          conflicts_with_all = ["derivation", "transfer", "sigma"])]
+          conflicts_with_all = ["transfer", "sigma"])]
     pub witness: Option<PathBuf>,
 
     /// Format of the report
@@ -63,7 +59,7 @@ pub struct CertifyArgs {
           value_parser = clap::value_parser!(u32).range(i64::from(DEFAULT_PRECISION)..=4096))]
     pub precision_limit: u32,
 
-    /// Do not work out the other derivations for comparison
+    /// Do not work out the printed and the repaired derivation for comparison
     #[arg(long)]
     pub no_compare: bool,
 
@@ -76,11 +72,6 @@ impl CertifyArgs {
     /// The options of the run.
     pub fn options(&self) -> Options {
         Options {
-            derivation: match self.derivation {
-                DerivationArg::Sharp => Derivation::Sharp,
-                DerivationArg::Repaired => Derivation::Repaired,
-                DerivationArg::Printed => Derivation::Printed,
-            },
             transfer: match self.transfer {
                 TransferArg::Best => TransferChoice::Best,
                 TransferArg::Boxes => TransferChoice::Boxes,
@@ -257,17 +248,6 @@ pub struct RateArgs {
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
-}
-
-/// A derivation.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum DerivationArg {
-    /// The tightest bounds
-    Sharp,
-    /// The paper's architecture, each formula repaired
-    Repaired,
-    /// The paper to the letter; never certifies
-    Printed,
 }
 
 /// A choice of transfer constants.

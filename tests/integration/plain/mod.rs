@@ -92,10 +92,8 @@ struct At {
     fe: R,
     fxx: R,
     fex: R,
-    q: R,
     qe: R,
     qx: R,
-    qt: R,
     qr: R,
     qtr: R,
     /// -below <= dq/de <= above.
@@ -146,10 +144,8 @@ impl<'s> Spec<'s> {
             fe: of(Bound::Fe),
             fxx: of(Bound::Fxx),
             fex: of(Bound::Fex),
-            q: of(Bound::Q),
             qe: of(Bound::Qe),
             qx: of(Bound::Qx),
-            qt: of(Bound::Qt),
             qr: rms(Bound::QRms, Bound::Q),
             qtr: rms(Bound::QtRms, Bound::Qt),
             below: of(Bound::Qe),
@@ -172,11 +168,6 @@ impl<'s> Spec<'s> {
     fn tau(&self, sigma: &R) -> R {
         let sum = self.t.sq() / r(12.0) - self.beta(sigma).sq() + r(1.0) / sigma.sq();
         sum.sqrt() / sigma
-    }
-
-    fn k_alpha(&self) -> R {
-        let grown = R((&self.alpha * &self.t).0.exp());
-        &self.c * (&grown - r(1.0) + &self.c) / grown
     }
 
     /// Whether the pair is admissible and its proof allowed.
@@ -468,54 +459,6 @@ impl<'s> Spec<'s> {
         all.extend(self.domain(&x_b, &e_b));
         all.extend(self.one_sided(&x_b, &e_b));
         all.extend(stability);
-        all
-    }
-
-    /// All conditions of a repaired certificate.
-    pub fn repaired(&self, certificate: &Value) -> Vec<Plain> {
-        let (witness, claim) = (&certificate["witness"], &certificate["claim"]);
-        let sigma = number(&claim["sigma_star"]);
-        let [x, e, level, h, p_x, p_e, k0, k1] = numbers(witness, ["X", "E", "L", "h", "p_x", "p_e", "k0", "k1"]);
-        let at = self.at(&x, &e);
-        let fxx = self.at(&x, &r(0.0)).fxx;
-        let w2 = self.w.sq();
-        let (kappa_0, kappa_1) = (&k0 / &w2, &k1 / w2.sq());
-        let z = ((&self.t / &self.mu + kappa_0 + r(54.0) * &kappa_1 * at.qe.sq()) * at.q.sq()
-            + r(3.0) * kappa_1 * (at.qt.sq() + at.qx.sq() * at.f.sq()))
-        .sqrt();
-        let mut all = signs(certificate, &["X", "E", "L", "h", "p_x", "p_e", "k1"]);
-        all.extend(self.set(claim, &x, &e, &z));
-        let (x_b, e_b) = (&x + (&level / &self.p_low).sqrt(), &e + level.sqrt());
-        all.extend(self.domain(&x_b, &e_b));
-        all.push(self.transfer(witness, &k0, &k1));
-        let gain = self.k_alpha() / &self.alpha;
-        let beta = r(2.0) * self.beta(&sigma);
-        all.push(at_most("C1", &gain * (&at.fe * &e + &fxx * x.sq() / r(2.0)), x.clone()));
-        all.push(at_most("C2", &beta * &at.q, e.clone()));
-        let (a, b) = (&gain * (&at.fex * &e + r(2.0) * &fxx * &x), &gain * &at.fe);
-        all.push(less("C3", &a * &p_x + &beta * &at.qx * &p_e, p_x.clone()));
-        all.push(less("C3b", &b * &p_x + &beta * &at.qe * &p_e, p_e.clone()));
-        let claimed = set_of(claim);
-        let far = &claimed[2] + &self.n_bar * &claimed[1] + &z;
-        let start = &self.p_up * (&claimed[0] + &x).sq() + (&claimed[1] + &e).sq() + &h * far.sq();
-        all.push(less("C4", start, level));
-        let edge = self.at(&x_b, &e_b);
-        let rho_0 =
-            &self.p_up * (&at.fxx * &x + &at.fex * &e) + &self.p_up / r(2.0) * self.at(&x_b, &e).fxx * (&x_b + &x);
-        let rho_11 = rho_0 + &h / &self.mu * edge.qx.sq();
-        let rho_12 = &self.p_up * &edge.fe + &edge.qx;
-        let rho_22 = &edge.qe + &h / &self.mu * edge.qe.sq();
-        let room = &self.alpha * &self.p_low - &rho_11;
-        // R itself, by its determinant expanded along the last row; affine in sigma.
-        let first = r(2.0) * &room;
-        let determinant = |sigma: &R| {
-            let middle = r(2.0) * (sigma - &rho_22);
-            &self.mu * &h * (&first * &middle - rho_12.sq()) - self.mu.sq() * &first
-        };
-        let threshold = r(0.0) - determinant(&r(0.0)) / (r(2.0) * &self.mu * &h * &first);
-        let definite = first > r(0.0) && h > r(0.0) && determinant(&sigma) > r(0.0);
-        all.push(less("C5", rho_11, &self.alpha * &self.p_low));
-        all.push(Plain { id: "C5b", lhs: threshold, rhs: sigma, holds: definite });
         all
     }
 }

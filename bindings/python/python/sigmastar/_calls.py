@@ -19,7 +19,6 @@ from ._results import transfer as _transfer
 
 
 class _Options(NamedTuple):
-    derivation: str
     transfer: str
     precision_limit: int
     compare: bool
@@ -32,7 +31,6 @@ def certify(
     *,
     sigma: Optional[Number] = None,
     sampling_period: Optional[Number] = None,
-    derivation: str = "sharp",
     transfer: str = "best",
     precision_limit: int = _native.LARGEST_PRECISION_LIMIT,
     compare: bool = True,
@@ -43,15 +41,14 @@ def certify(
 
     - `sigma`: certify this gain instead of the smallest one that is found;
     - `sampling_period`: certify the regulator that a computer runs at samples this far apart;
-    - `derivation`: `sharp` or `repaired`;
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;
-    - `compare`: whether the other derivation is worked out too, for the report and the certificate.
+    - `compare`: whether the repaired derivation is worked out too, for the report and the certificate.
 
     Raises InputError where the document or an option is wrong, UndecidedError where nothing is claimed either way, RefutedError
     where what was asked for is proved not to hold, and OSError for a file that cannot be read.
     """
-    options = _Options(derivation, transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period))
+    options = _Options(transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period))
     return _certificate(found(_native.certify(file(document, "document"), options)))
 
 

@@ -6,11 +6,10 @@ use rug::Rational;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_lang::spec::{Constant, Document, SpecErrors, Specification};
 use sigmastar_prove::certificate::{StatedClaim, read_claim};
-use sigmastar_prove::certify::{Derivation, GivenWitness};
+use sigmastar_prove::certify::GivenWitness;
 use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds};
-use sigmastar_theory::derivation::existence::PeriodicBounds;
 use sigmastar_theory::derivation::sharp::SharpEvaluation;
 
 /// The claim of a certificate in double precision.
@@ -18,8 +17,6 @@ use sigmastar_theory::derivation::sharp::SharpEvaluation;
 pub struct TriedClaim {
     /// The specification inside the certificate, with its triple where that is proved by the witness.
     pub spec: Specification,
-    /// The derivation that the claim rests on.
-    pub derivation: Derivation,
     /// sigma*.
     pub sigma: f64,
     /// X0, E0, Z0: the initial set.
@@ -57,32 +54,21 @@ impl TriedClaim {
         let data = Data::new(&spec, DEFAULT_PRECISION);
         let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
         let quadratic = |w_x: &Rational, h: &Rational| Some([w_x.to_f64() * p_low, w_x.to_f64() * p_up, h.to_f64()]);
-        let error_box = |w: [&Rational; 2]| w.map(Rational::to_f64);
-        let (derivation, sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
-            FreeNumbers::Continuous(GivenWitness::Sharp { witness: w, .. }) => {
-                let lyapunov = quadratic(&w.w_x, &w.h);
-                (Derivation::Sharp, &w.sigma, &w.set, [&w.x_p, &w.e_p], error_box([&w.d_x, &w.d_e]), lyapunov)
-            }
-            FreeNumbers::Continuous(GivenWitness::Repaired { witness: w }) => {
-                let level = w.level.to_f64();
-                let radii = [(level / p_low).sqrt(), level.sqrt()];
-                (Derivation::Repaired, &w.sigma, &w.set, [&w.x, &w.e], radii, None)
+        let (sigma, set, [x_p, e_p], error_box, lyapunov) = match &witness {
+            FreeNumbers::Continuous(GivenWitness { witness: w, .. }) => {
+                (&w.sigma, &w.set, [&w.x_p, &w.e_p], [&w.d_x, &w.d_e], quadratic(&w.w_x, &w.h))
             }
             FreeNumbers::Sampled(w) => {
-                let lyapunov = quadratic(&w.w_x, &w.eta);
-                (Derivation::Sharp, &w.sigma, &w.set, [&w.x_p, &w.e_p], error_box([&w.d_x, &w.d_e]), lyapunov)
+                (&w.sigma, &w.set, [&w.x_p, &w.e_p], [&w.d_x, &w.d_e], quadratic(&w.w_x, &w.eta))
             }
         };
+        let error_box = error_box.map(Rational::to_f64);
         let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
         let initial = [&set.x0, &set.e0, &set.z0].map(Rational::to_f64);
         let reach = reach(&spec, periodic, [x_p, e_p], error_box);
         let excitation = match &witness {
-            FreeNumbers::Continuous(GivenWitness::Sharp { witness, .. }) => {
+            FreeNumbers::Continuous(GivenWitness { witness, .. }) => {
                 Some(SharpEvaluation::new(&data, witness).excitation)
-            }
-            FreeNumbers::Continuous(GivenWitness::Repaired { .. }) => {
-                let bounds = PeriodicBounds::new(&data, data.rational(x_p), data.rational(e_p));
-                Some(Excitation::by_contraction(&data, &bounds))
             }
             FreeNumbers::Sampled(_) => None,
         };
@@ -97,7 +83,6 @@ impl TriedClaim {
         let (sigma, drive) = (sigma.to_f64(), excitation.map(|excitation| (excitation, e_p.clone())));
         Ok(TriedClaim {
             spec,
-            derivation,
             sigma,
             initial,
             periodic,
@@ -132,10 +117,8 @@ impl TriedClaim {
         let (drive, own) = (None, None);
         let (initial, periodic, error_box) = ([0.0; 3], [0.0; 3], [0.0; 2]);
         let (periodic_z, lyapunov, psi, sampled) = (0.0, None, None, None);
-        let derivation = Derivation::Sharp;
         TriedClaim {
             spec,
-            derivation,
             sigma: 1.0,
             initial,
             periodic,

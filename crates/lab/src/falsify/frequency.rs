@@ -36,7 +36,7 @@ pub fn with_base_frequency(claim: &TriedClaim, frequency: &Constant) -> Result<T
     let document = Document::parse("base frequency", &document.to_string())?;
     let mut spec = Specification::from_value(&document.root())?;
     spec.lyapunov = claim.spec.lyapunov.clone();
-    let options = Options { derivation: claim.derivation, compare: false, ..Options::default() };
+    let options = Options { compare: false, ..Options::default() };
     let run = certify(&spec, options).ok();
     let certificate = run.as_ref().and_then(certificate_json);
     let Some(certificate) = certificate else {

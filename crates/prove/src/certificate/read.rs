@@ -9,7 +9,6 @@ use sigmastar_lang::spec::model::PeriodicMatrix;
 use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value};
 use sigmastar_plants::lyapunov::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
-use sigmastar_theory::derivation::repaired::RepairedWitness;
 use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::transfer::{BoxProof, TransferProof};
 
@@ -37,25 +36,19 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
     let claim = file.required("claim", errors).and_then(|value| claim_part(&value, errors));
     let witness = file.required("witness", errors);
     file.finish(errors);
-    let ((repaired, sigma, set), witness) = (claim?, witness?);
+    let ((sigma, set), witness) = (claim?, witness?);
     let mut fields = witness.object(errors)?;
-    if let (false, Some(p_x), None) = (repaired, witness.member("p_x"), witness.member("r_x")) {
+    if let (Some(p_x), None) = (witness.member("p_x"), witness.member("r_x")) {
         let message = "this witness proves existence by a contraction, as earlier versions did";
         let error = p_x.error(ErrorKind::UnknownField, message).expected("expected `r_x`, `r_e`, `r_d`, `kap`");
-        return Err(errors.report(error.help("proofs-check decides it as it is; `certify` writes a new one")));
+        return Err(errors.report(error.help("`certify` writes a new one")));
     }
     // Read by `read_lyapunov`, where the specification asks for it.
     let of_plant: &[&'static str] = if root.member("plant").is_some() { &PLANT_FIELDS } else { &[] };
     for field in [STABILITY, EXISTENCE].iter().chain(of_plant) {
         let _ = fields.optional(field);
     }
-    let result = if repaired {
-        let other = |fields: &mut Object<'_>, errors: &mut Errors| Ok((sigma, set, read_transfer(fields, errors)?));
-        RepairedWitness::read(&mut fields, errors, other)
-            .map(|witness| GivenWitness::Repaired { witness: Box::new(witness) })
-    } else {
-        read_sharp(&mut fields, errors, sigma, set)
-    };
+    let result = read_sharp(&mut fields, errors, sigma, set);
     fields.finish(errors);
     result
 }
@@ -113,8 +106,8 @@ pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> R
     Ok(rows)
 }
 
-/// What the claim contributes to the witness: whether it is of the repaired derivation, sigma*, and the initial set.
-fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(bool, Rational, ClaimedSet), Reported> {
+/// What the claim contributes to the witness: sigma*, and the initial set.
+fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(Rational, ClaimedSet), Reported> {
     let mut claim = value.object(errors)?;
     if let Some(regulator) = value.member("regulator") {
         let message = "this certificate is about the regulator at samples, not about the one in continuous time";
@@ -124,18 +117,18 @@ fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(bool, Rational,
     for unused in ["verdict", "n_o", "mu", "periodic_solution", "statement"] {
         let _ = claim.optional(unused);
     }
-    let repaired = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {
-        "sharp" => Ok(false),
-        "repaired" => Ok(true),
+    let derivation = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {
+        "sharp" => Ok(()),
         other => {
             let message = format!("no witness is read for the derivation `{other}`");
-            Err(errors.report(value.error(ErrorKind::UnknownName, message).expected("expected `sharp` or `repaired`")))
+            Err(errors.report(value.error(ErrorKind::UnknownName, message).expected("expected `sharp`")))
         }
     });
     let sigma = rational(&mut claim, "sigma_star", errors);
     let set = read_set(&mut claim, errors);
     claim.finish(errors);
-    Ok((repaired?, sigma?, set?))
+    derivation?;
+    Ok((sigma?, set?))
 }
 
 /// `initial_set` of a claim.
@@ -195,7 +188,7 @@ fn read_sharp(
             fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
         Ok((sigma, set, transfer?, refined?))
     });
-    Ok(GivenWitness::Sharp { witness: Box::new(witness?), exact: exact? })
+    Ok(GivenWitness { witness: witness?, exact: exact? })
 }
 
 /// An object that holds numbers and nothing else.

@@ -3,7 +3,7 @@
 use super::fields::NumberFields;
 use super::of_plant::plant_parts;
 use super::triple::{lyapunov_parts, rows};
-use crate::certify::{Certification, Decided, Derivation, ExceededBy, NoPlant, Proof, Witness, claimed_ball};
+use crate::certify::{Certification, Decided, ExceededBy, NoPlant, Outcome, Proof, Witness, claimed_ball};
 use rug::{Integer, Rational};
 use serde_json::{Map, Value};
 use sigmastar_exact::enclosure::Enclosure;
@@ -13,6 +13,7 @@ use sigmastar_lang::spec::{Bound, OfPlant, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::repaired::RepairedWitness;
 use sigmastar_theory::derivation::table::{At, Entry, Row, Value as Cell};
 use sigmastar_theory::transfer::{TransferProof, closed_form_pair};
 use std::sync::LazyLock;
@@ -69,7 +70,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let mu = &spec.internal_model.mu;
     let claim = object([
         ("verdict", text(run.verdict.to_string())),
-        ("derivation", text(run.options.derivation.name())),
+        ("derivation", text("sharp")),
         ("sigma_star", exact(sigma)),
         ("n_o", text("every n_o >= 0")),
         ("mu", text(mu.as_rational().map_or_else(|| mu.text.clone(), write_exact))),
@@ -81,19 +82,15 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("statement", text(statement(run, sigma, set))),
     ]);
     let regulation = run.exact.as_ref().map(|exact| ("exact_regulation", object(exact.witness.json())));
-    let sharp = run.sharp.proved().map(|proof| {
-        let refined = proof.witness.refined.as_ref().map(|refined| ("refined", object(refined.json())));
-        with_witness(proof, refined.into_iter().chain(regulation))
-    });
-    let repaired = run.repaired.proved().map(|proof| with_witness(proof, None));
-    // The free numbers of the other derivation, without which its column of the constants could not be checked.
-    let (main, other): (Vec<_>, Vec<_>) =
-        [sharp, repaired].into_iter().flatten().partition(|(proof, _)| proof.derivation == claimed.derivation);
-    let (_, mut witness) = main.into_iter().next()?;
-    let comparison = other.into_iter().map(|(proof, witness)| {
-        let part =
-            [("sigma_star", exact(proof.sigma)), ("initial_set", object(proof.set.json())), ("witness", witness)];
-        ("comparison".to_owned(), object([(proof.derivation.name(), object(part))]))
+    let proof = run.sharp.proved()?;
+    let refined = proof.witness.refined.as_ref().map(|refined| ("refined", object(refined.json())));
+    let mut witness = with_witness(proof, refined.into_iter().chain(regulation));
+    // The free numbers of the repaired derivation, without which its column of the constants could not be checked.
+    let comparison = run.repaired.as_ref().and_then(Outcome::proved).map(|proof| {
+        let RepairedWitness { sigma, set, .. } = &proof.witness;
+        let witness = with_witness(proof, None);
+        let part = [("sigma_star", exact(sigma)), ("initial_set", object(set.json())), ("witness", witness)];
+        ("comparison".to_owned(), object([("repaired", object(part))]))
     });
     let transfer = first_comparison(&Data::new(spec, claimed.precision), &claimed);
     let conditions: Vec<Condition> = run
@@ -150,7 +147,7 @@ pub fn no_plant_json(reason: &NoPlant) -> Value {
 
 /// The multipliers with which the matrix inequality of C5 was proved, for a claim of the sharp derivation.
 fn multipliers_json(run: &Certification<'_>) -> Option<Value> {
-    let checks = (run.options.derivation == Derivation::Sharp).then_some(&run.checks)?;
+    let checks = &run.checks;
     let [l_x, l_e, l_f] = checks.decay.iter().flatten().find_map(|check| check.multipliers.as_ref())?;
     Some(object([("l_x", exact(l_x)), ("l_e", exact(l_e)), ("l_f", exact(l_f))]))
 }
@@ -284,10 +281,9 @@ fn transfer_json(proof: &TransferProof) -> Value {
 fn with_witness<W: Witness + NumberFields>(
     proof: &Proof<W>,
     parts: impl IntoIterator<Item = (&'static str, Value)>,
-) -> (Decided<'_>, Value) {
-    let decided = proof.decided();
-    let transfer = ("transfer", transfer_json(decided.transfer));
-    (decided, object(proof.witness.json().into_iter().chain([transfer]).chain(parts)))
+) -> Value {
+    let transfer = ("transfer", transfer_json(proof.decided().transfer));
+    object(proof.witness.json().into_iter().chain([transfer]).chain(parts))
 }
 
 /// Conditions with outward-rounded sides, and the margin rounded down.

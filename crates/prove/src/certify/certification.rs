@@ -3,7 +3,7 @@
 use super::bounding::BoundingProblem;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
-use super::options::{Derivation, Options};
+use super::options::Options;
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
 use crate::search::{Binding, Datum, OptionalDatum};
@@ -57,13 +57,13 @@ pub struct Certification<'s> {
     pub options: Options,
     /// The gain that was asked about, where the smallest one was not sought.
     pub given_gain: Option<Rational>,
-    /// The verdict on the chosen derivation.
+    /// The verdict.
     pub verdict: Verdict,
-    /// The sharp derivation.
+    /// The derivation of the claim.
     pub sharp: Outcome<SharpProof>,
-    /// The repaired derivation.
-    pub repaired: Outcome<RepairedProof>,
-    /// The printed derivation.
+    /// The repaired derivation, where it was worked out for comparison.
+    pub repaired: Option<Outcome<RepairedProof>>,
+    /// The printed one, for comparison.
     pub printed: PrintedFigure,
     /// k_inf and k_2, when the specification has a relative degree, or why there are none.
     pub relative_degree: Option<Result<RelativeDegreeGains, RelativeDegreeError>>,
@@ -71,7 +71,7 @@ pub struct Certification<'s> {
     pub exact: Option<ExactClaim>,
     /// The conditions that are not proved of an exact-regulation claim that was given to be decided again.
     pub exact_failing: Vec<Condition>,
-    /// What the matrix inequalities say; a disagreement keeps the sharp derivation from being certified.
+    /// What the matrix inequalities say; a disagreement keeps the claim from being certified.
     pub checks: MatrixChecks,
     /// That no plant with a state x satisfies the data, where it is proved; the claim then says nothing about any.
     pub no_plant: Option<NoPlant>,
@@ -90,14 +90,10 @@ pub struct Certification<'s> {
 }
 
 impl Certification<'_> {
-    /// What was decided in the chosen derivation, proved or not; `None` where there was no witness.
+    /// What was decided, proved or not; `None` where there was no witness.
     #[must_use]
     pub fn attempt(&self) -> Option<Decided<'_>> {
-        match self.options.derivation {
-            Derivation::Sharp => self.sharp.attempt().map(Proof::decided),
-            Derivation::Repaired => self.repaired.attempt().map(Proof::decided),
-            Derivation::Printed => None,
-        }
+        self.sharp.attempt().map(Proof::decided)
     }
 
     /// The proof of the claim, if certified.
@@ -107,25 +103,25 @@ impl Certification<'_> {
         self.attempt().filter(|attempt| self.verdict == Verdict::Certified && all(attempt.conditions).is_true())
     }
 
-    /// The claimed gain of the chosen derivation, if certified.
+    /// The claimed gain, if certified.
     #[must_use]
     pub fn sigma_star(&self) -> Option<&Rational> {
         self.claim().map(|claim| claim.sigma)
     }
 
-    /// The claimed initial set of the chosen derivation, if certified.
+    /// The claimed initial set, if certified.
     #[must_use]
     pub fn claimed_set(&self) -> Option<&ClaimedSet> {
         self.claim().map(|claim| claim.set)
     }
 
-    /// The conditions of the chosen derivation, proved or not.
+    /// The conditions, proved or not.
     #[must_use]
     pub fn conditions(&self) -> &[Condition] {
         self.attempt().map_or(&[], |attempt| attempt.conditions)
     }
 
-    /// Upper bounds of the periodic solution, |x|, |e|, |zeta|_N and |z|_N, of the chosen derivation, if certified.
+    /// Upper bounds of the periodic solution, |x|, |e|, |zeta|_N and |z|_N, if certified.
     #[must_use]
     pub fn periodic_solution(&self) -> Option<[Enclosure; 4]> {
         let claim = self.claim()?;

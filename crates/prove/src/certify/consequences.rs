@@ -2,10 +2,9 @@
 //! error box, the regulated output behind a filter.
 
 use super::certification::{Certification, RelativeDegreeGains};
-use super::options::Derivation;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_theory::data::{Bound, Data, Problem};
-use sigmastar_theory::derivation::consequences::{ErrorBounds, error_bounds};
+use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, error_bounds};
 use sigmastar_theory::derivation::targets::{Consequences, Target};
 
 impl Certification<'_> {
@@ -17,7 +16,7 @@ impl Certification<'_> {
         let claim = self.claim()?;
         let data = Data::new(self.spec, claim.precision);
         let [_, e_per, _] = claim.periodic;
-        Some(Consequences::new(&data, claim.excitation, &data.rational(claim.sigma), e_per, targets))
+        Some(Consequences::new(&data, self.excitation()?, &data.rational(claim.sigma), e_per, targets))
     }
 
     /// Certified bounds of the periodic error with so many oscillators; `None` without a certified claim, or where the base
@@ -29,7 +28,11 @@ impl Certification<'_> {
         let claim = self.claim().filter(|_| self.spec.internal_model.matched)?;
         let data = Data::new(self.spec, claim.precision);
         let [_, e_per, _] = claim.periodic;
-        Some(error_bounds(&data, claim.excitation, &data.rational(claim.sigma), e_per, n_o))
+        Some(error_bounds(&data, self.excitation()?, &data.rational(claim.sigma), e_per, n_o))
+    }
+
+    fn excitation(&self) -> Option<&Excitation> {
+        self.sharp.proved().map(|proof| &proof.evaluation.excitation)
     }
 
     /// An upper bound of sigma* + mu Nbar^2, if certified: u = -(sigma + mu (n_0 + ... + n_{n_o})) e + mu M'N z, so this is
@@ -56,7 +59,7 @@ impl Certification<'_> {
     /// The largest X and E at which exact regulation uses a bounding function; it does so for an error box of its own.
     #[must_use]
     pub fn exact_arguments(&self) -> Option<[Enclosure; 2]> {
-        let claim = self.exact.as_ref().filter(|_| self.options.derivation == Derivation::Sharp)?;
+        let claim = self.exact.as_ref()?;
         Some([&claim.witness.d_x, &claim.witness.d_e].map(|radius| Enclosure::from_rational(radius, self.precision)))
     }
 

@@ -8,7 +8,6 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_theory::data::Data;
-use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::table::{At, Row, TableInput, Value, table};
 
 /// Binary digits that a reported number has, where the precision allows it.
@@ -20,7 +19,7 @@ const FINEST: u32 = 512;
 /// What the table of constants is made from.
 pub(super) struct Columns<'a> {
     pub(super) sharp: Outcome<SharpProof>,
-    pub(super) repaired: Outcome<RepairedProof>,
+    pub(super) repaired: Option<Outcome<RepairedProof>>,
     pub(super) printed: &'a PrintedFigure,
     pub(super) exact: Option<&'a ExactClaim>,
 }
@@ -47,8 +46,12 @@ impl Columns<'_> {
             precision = (2 * precision).min(finest);
             let ladder = Ladder { start: precision, ..ladder };
             raise(&mut self.sharp, spec, ladder);
-            raise(&mut self.repaired, spec, ladder);
+            self.repaired.iter_mut().for_each(|outcome| raise(outcome, spec, ladder));
         }
+    }
+
+    fn repaired_proof(&self) -> Option<&RepairedProof> {
+        self.repaired.as_ref().and_then(Outcome::proved)
     }
 
     fn is_rough(&self, rows: &[Row]) -> bool {
@@ -59,7 +62,7 @@ impl Columns<'_> {
             Value::Number(value) => Some(value),
             Value::Span(_) | Value::Infeasible(_) | Value::Unavailable(_) => None,
         });
-        let proofs = [self.sharp.proved().map(Proof::decided), self.repaired.proved().map(Proof::decided)];
+        let proofs = [self.sharp.proved().map(Proof::decided), self.repaired_proof().map(Proof::decided)];
         let unknown = |proof: Decided<'_>| {
             let [x_per, e_per, _] = proof.periodic;
             rough(x_per) || rough(e_per) || proof.conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs))
@@ -91,29 +94,15 @@ fn rough(value: &Enclosure) -> bool {
     !width.le(&(value.abs().ceiling() * unit)).is_true()
 }
 
-/// The table, at the witness of the sharp derivation or, failing that, of the repaired one.
+/// The table, at the witness of the claim; nothing where that is not proved.
 fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
-    let (sharp, repaired, printed) = (columns.sharp.proved(), columns.repaired.proved(), columns.printed);
-    let Some(common) = sharp.map(Proof::decided).or(repaired.map(Proof::decided)) else { return Vec::new() };
-    let ([x, e], [k0, k1]) = (common.point, common.pair);
-    let numbers = |set: &ClaimedSet| [set.x0.clone(), set.e0.clone(), set.z0.clone()];
+    let Some(sharp) = columns.sharp.proved() else { return Vec::new() };
     let rows = table(&TableInput {
         data,
-        common: [x.clone(), e.clone(), common.sigma.clone()],
-        sharp_pair: (k0.clone(), k1.clone()),
-        sharp: sharp.map(|proof| &proof.evaluation),
-        sharp_free: sharp.map(|proof| {
-            let w = &proof.witness;
-            [w.h.clone(), w.w_x.clone(), w.d_x.clone(), w.d_e.clone()]
-        }),
-        sets: [repaired.map(|proof| numbers(&proof.witness.set)), sharp.map(|proof| numbers(&proof.witness.set))],
-        repaired: repaired.map(|proof| &proof.evaluation),
-        printed: printed.evaluation.as_ref(),
-        sigmas: [
-            printed.sigma.clone(),
-            repaired.map(|proof| data.rational(&proof.witness.sigma)),
-            sharp.map(|proof| data.rational(&proof.witness.sigma)),
-        ],
+        sharp: (&sharp.witness, &sharp.evaluation),
+        repaired: columns.repaired_proof().map(|proof| (&proof.witness, &proof.evaluation)),
+        printed: columns.printed.evaluation.as_ref(),
+        printed_sigma: columns.printed.sigma.clone(),
         sigma_exact: columns.exact.map(|claim| claim.witness.sigma.clone()),
     });
     if data.spec.plant().is_some() { rows.into_iter().filter_map(of_a_plant).collect() } else { rows }

@@ -32,7 +32,7 @@ pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple}
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
 pub use misfit::Misfit;
 pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
-pub use options::{Derivation, Ladder, Options, TransferChoice};
+pub use options::{Ladder, Options, TransferChoice};
 pub use produce::{certify, certify_at, certify_near, recheck};
 pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof, SampledProof, SharpProof, Witness};
 pub use refusal::Refusal;

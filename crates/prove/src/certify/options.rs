@@ -2,31 +2,7 @@
 
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 
-/// The derivation on which a claim rests.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Derivation {
-    /// Sections 2-6 of the derivation.
-    #[default]
-    Sharp,
-    /// The paper's architecture, repaired.
-    Repaired,
-    /// The paper to the letter: never certifies.
-    Printed,
-}
-
-impl Derivation {
-    /// The word in certificates.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Derivation::Sharp => "sharp",
-            Derivation::Repaired => "repaired",
-            Derivation::Printed => "printed",
-        }
-    }
-}
-
-/// Which proof of the transfer bound the sharp derivation uses. The repaired derivation always has the closed form.
+/// Which proof of the transfer bound a claim uses. The repaired derivation always has the closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum TransferChoice {
     /// Harmonic by harmonic where the specification has a matched base frequency, by boxes otherwise.
@@ -56,23 +32,16 @@ impl Default for Ladder {
 /// What a run does; every field has a default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// The derivation that the verdict is about (default: sharp).
-    pub derivation: Derivation,
-    /// The transfer constants of the sharp derivation (default: the best available).
+    /// The transfer constants (default: the best available).
     pub transfer: TransferChoice,
     /// The working precisions (default: 128 to 1024 bits).
     pub ladder: Ladder,
-    /// Whether the other derivations are worked out too, for comparison (default: yes).
+    /// Whether the printed and the repaired derivation are worked out too, for comparison (default: yes).
     pub compare: bool,
 }
 
 impl Default for Options {
     fn default() -> Options {
-        Options {
-            derivation: Derivation::default(),
-            transfer: TransferChoice::default(),
-            ladder: Ladder::default(),
-            compare: true,
-        }
+        Options { transfer: TransferChoice::default(), ladder: Ladder::default(), compare: true }
     }
 }

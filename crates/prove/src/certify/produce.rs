@@ -1,13 +1,13 @@
 //! The whole run: prove the bounding functions, search, round, decide, in each derivation.
 
-use super::best::{Wanted, best_sharp, model};
+use super::best::{BestSharp, Wanted, best_sharp, model};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 use super::constants::Columns;
 use super::decide::{decide, decide_exact};
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
-use super::options::{Derivation, Options};
+use super::options::Options;
 use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
 use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
@@ -29,7 +29,7 @@ use sigmastar_theory::transfer::{TradeOff, printed_transfer};
 /// Certifies a specification: search, then rigorous decision.
 ///
 /// Guarantee: the verdict is `Certified` only if the bounding functions are proved on every argument used and every
-/// condition of the chosen derivation is proved for the witness.
+/// condition is proved for the witness.
 ///
 /// # Errors
 /// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
@@ -49,8 +49,7 @@ pub fn certify_near<'s>(
     certify_wanted(spec, options, Wanted { start, gain: None })
 }
 
-/// The same for a gain that is given: the claim, if it is proved, is about this gain and all larger ones. Of the sharp
-/// derivation.
+/// The same for a gain that is given: the claim, if it is proved, is about this gain and all larger ones.
 ///
 /// # Errors
 /// Those of [`certify`].
@@ -60,7 +59,7 @@ pub fn certify_at<'s>(
     start: Option<&SharpProposal>,
     gain: &Rational,
 ) -> Result<Certification<'s>, Refusal> {
-    certify_wanted(spec, Options { derivation: Derivation::Sharp, ..options }, Wanted { start, gain: Some(gain) })
+    certify_wanted(spec, options, Wanted { start, gain: Some(gain) })
 }
 
 fn certify_wanted<'s>(
@@ -75,29 +74,17 @@ fn certify_wanted<'s>(
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
     let paper_model = model(&data, TransferKind::ClosedForm);
-    // From a plant's formulas only the data of the sharp derivation are computed.
+    // From a plant's formulas only the data of the claim are computed.
     let others = spec.plant().is_none();
-    let wanted = |derivation| {
-        options.derivation == derivation || (options.compare && (others || derivation == Derivation::Sharp))
-    };
-    let repaired = if wanted(Derivation::Repaired) {
-        match search_repaired(&paper_model) {
-            Err(obstacle) => Outcome::NotFound(obstacle),
-            Ok(proposal) => round_repaired(&data, &paper_model, &proposal, options.ladder).into(),
-        }
-    } else {
-        Outcome::Skipped
-    };
-    let (sharp_model, proposal, sharp) = if wanted(Derivation::Sharp) {
-        let best = best_sharp(&data, options, asked);
-        // Figures about the smallest gain say nothing about one that is given.
-        (best.model, best.proposal.filter(|_| asked.gain.is_none()), best.outcome)
-    } else {
-        (model(&data, TransferKind::ClosedForm), None, Outcome::Skipped)
-    };
-    let chosen = |derivation| options.derivation == derivation;
-    let sharp = proved_up_to_arguments(spec, sharp, chosen(Derivation::Sharp), &mut unproved)?;
-    let repaired = proved_up_to_arguments(spec, repaired, chosen(Derivation::Repaired), &mut unproved)?;
+    let repaired = (options.compare && others).then(|| match search_repaired(&paper_model) {
+        Err(obstacle) => Outcome::NotFound(obstacle),
+        Ok(proposal) => round_repaired(&data, &paper_model, &proposal, options.ladder).into(),
+    });
+    let BestSharp { model: sharp_model, proposal, outcome: sharp } = best_sharp(&data, options, asked);
+    // Figures about the smallest gain say nothing about one that is given.
+    let proposal = proposal.filter(|_| asked.gain.is_none());
+    let sharp = proved_up_to_arguments(spec, sharp, Some(&mut unproved))?;
+    let repaired = repaired.map(|outcome| proved_up_to_arguments(spec, outcome, None)).transpose()?;
     let printed = if others { printed_figure(&data, &paper_model) } else { PrintedFigure::default() };
     let exact = match (&sharp, spec.internal_model.matched) {
         (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
@@ -129,33 +116,24 @@ pub fn recheck<'s>(
         return Err(Refusal::Sampled);
     }
     let data = Data::new(spec, options.ladder.start.max(53));
-    let (derivation, sharp, repaired, claimed) = match file {
-        GivenWitness::Sharp { witness, exact } => {
-            let decided = decide(spec, witness.as_ref().clone(), options.ladder);
-            let claimed = exact.as_ref().map(|exact| ExactClaim {
-                witness: exact.clone(),
-                evaluation: decide_exact(spec, &witness.set, exact, options.ladder),
-            });
-            (Derivation::Sharp, Some(decided).into(), Outcome::Skipped, claimed)
-        }
-        GivenWitness::Repaired { witness } => {
-            let decided = decide(spec, witness.as_ref().clone(), options.ladder);
-            (Derivation::Repaired, Outcome::Skipped, Some(decided).into(), None)
-        }
-    };
+    let GivenWitness { witness, exact } = file;
+    let sharp = Some(decide(spec, witness.clone(), options.ladder)).into();
+    let claimed = exact.as_ref().map(|exact| ExactClaim {
+        witness: exact.clone(),
+        evaluation: decide_exact(spec, &witness.set, exact, options.ladder),
+    });
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
-    let sharp = proved_up_to_arguments(spec, sharp, true, &mut unproved)?;
+    let sharp = proved_up_to_arguments(spec, sharp, Some(&mut unproved))?;
     if let (None, Some(claim)) = (&spec.domain, &claimed) {
         unproved.extend(undecided_or_error(prove_up_to(spec, &claim.witness.d_x, &claim.witness.d_e))?);
     }
-    let repaired = proved_up_to_arguments(spec, repaired, true, &mut unproved)?;
     let exact_failing = claimed.as_ref().map_or_else(Vec::new, |claim| failing(&claim.evaluation.conditions));
     let exact = claimed.filter(|_| exact_failing.is_empty());
     let refutation = if spec.plant().is_none() { level_condition(&data).err() } else { None };
     let printed = PrintedFigure { refutation, evaluation: None, sigma: None };
     let model = FloatModel::new(&data, TradeOff::closed_form(&data));
-    let parts = Parts { sharp, repaired, printed, exact, exact_failing, unproved, proposal: None };
-    let mut run = assemble(spec, Options { derivation, ..options }, &data, parts, &model)?;
+    let parts = Parts { sharp, repaired: None, printed, exact, exact_failing, unproved, proposal: None };
+    let mut run = assemble(spec, options, &data, parts, &model)?;
     // A given witness that breaks a condition is refuted; a search that ends with one has merely found nothing.
     let mut conditions = run.conditions().iter().chain(&run.exact_failing);
     if run.verdict == Verdict::Undecided && conditions.any(|condition| condition.truth().is_false()) {
@@ -167,7 +145,7 @@ pub fn recheck<'s>(
 /// What the stages of a run produced.
 struct Parts {
     sharp: Outcome<SharpProof>,
-    repaired: Outcome<RepairedProof>,
+    repaired: Option<Outcome<RepairedProof>>,
     printed: PrintedFigure,
     exact: Option<ExactClaim>,
     exact_failing: Vec<Condition>,
@@ -187,17 +165,9 @@ fn assemble<'s>(
     if let Some(Err(error @ RelativeDegreeError::NotHurwitz(_))) = relative_degree {
         return Err(Refusal::Filter(error));
     }
-    let checks = MatrixChecks::new(spec, sharp.proved(), repaired.proved());
-    let claimed = |proved: bool| {
-        if proved && unproved.is_empty() && exact_failing.is_empty() { Verdict::Certified } else { Verdict::Undecided }
-    };
-    let verdict = match options.derivation {
-        Derivation::Sharp => claimed(sharp.proved().is_some() && !checks.disagree()),
-        Derivation::Repaired => claimed(repaired.proved().is_some()),
-        // Printed can be refuted (E1), never certified.
-        Derivation::Printed if printed.refutation.is_some() => Verdict::Refuted,
-        Derivation::Printed => Verdict::Undecided,
-    };
+    let checks = MatrixChecks::new(spec, sharp.proved(), repaired.as_ref().and_then(Outcome::proved));
+    let proved = sharp.proved().is_some() && unproved.is_empty() && exact_failing.is_empty() && !checks.disagree();
+    let verdict = if proved { Verdict::Certified } else { Verdict::Undecided };
     let columns = Columns { sharp, repaired, printed: &printed, exact: exact.as_ref() };
     let (columns, constants) = columns.evaluated(spec, data.precision, options.ladder);
     let Columns { sharp, repaired, .. } = columns;
@@ -206,10 +176,7 @@ fn assemble<'s>(
         _ => Vec::new(),
     };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
-    let used = match options.derivation {
-        Derivation::Repaired => reach(&repaired).or_else(|| reach(&sharp)),
-        Derivation::Sharp | Derivation::Printed => reach(&sharp).or_else(|| reach(&repaired)),
-    };
+    let used = reach(&sharp).or_else(|| repaired.as_ref().and_then(reach));
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
     let without_optional = match (&sharp, &proposal) {
         (Outcome::Proved(_), Some(_)) if spec.plant().is_none() => without_optional_data(model),
@@ -259,18 +226,17 @@ pub(super) fn undecided_or_error(result: Result<(), Vec<BoundingProblem>>) -> Re
 
 /// Without a domain, the bounding functions are proved up to the arguments that a proof uses; with one they are already.
 ///
-/// For the derivation the verdict is about, refuted ones are an error and undecided ones go to `unproved`; for the
+/// For the derivation of the claim, which has a list `unproved`, refuted ones are an error and undecided ones go there; for the
 /// other, either takes its proof away.
 fn proved_up_to_arguments<W: Witness>(
     spec: &Specification,
     outcome: Outcome<Proof<W>>,
-    chosen: bool,
-    unproved: &mut Vec<BoundingProblem>,
+    unproved: Option<&mut Vec<BoundingProblem>>,
 ) -> Result<Outcome<Proof<W>>, Refusal> {
     let (None, Some(proof)) = (&spec.domain, outcome.attempt()) else { return Ok(outcome) };
     let Some([x, e]) = proof.decided().reach() else { return Ok(Outcome::NotFound(Failing::NotFinite(None).into())) };
     let result = prove_up_to(spec, &x, &e);
-    if chosen {
+    if let Some(unproved) = unproved {
         unproved.extend(undecided_or_error(result)?);
         return Ok(outcome);
     }

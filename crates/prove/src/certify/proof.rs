@@ -1,12 +1,10 @@
 //! A witness with what was decided about it, in either derivation, and one view of both.
 
-use super::options::Derivation;
 use crate::search::{Failing, Obstacle};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::{self, Condition};
-use sigmastar_theory::derivation::consequences::Excitation;
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::repaired::{RepairedEvaluation, RepairedWitness};
@@ -26,38 +24,19 @@ pub trait Decidable: Sized {
     fn conditions(evaluation: &Self::Evaluation) -> &[Condition];
 }
 
-/// The free numbers of a derivation that can certify the regulator in continuous time.
+/// The free numbers of a derivation of the regulator in continuous time.
 pub trait Witness: Decidable {
     /// What both derivations say.
     fn decided(proof: &Proof<Self>) -> Decided<'_>;
 }
 
-/// The free numbers of a claim, given to be decided.
+/// The free numbers of a claim in continuous time, given to be decided.
 #[derive(Clone, Debug)]
-pub enum GivenWitness {
-    /// Of the sharp derivation, with the exact-regulation part where it is there.
-    Sharp {
-        /// The free numbers.
-        witness: Box<SharpWitness>,
-        /// Exact regulation.
-        exact: Option<ExactWitness>,
-    },
-    /// Of the repaired derivation.
-    Repaired {
-        /// The free numbers.
-        witness: Box<RepairedWitness>,
-    },
-}
-
-impl GivenWitness {
-    /// The gain to be certified.
-    #[must_use]
-    pub fn sigma(&self) -> &Rational {
-        match self {
-            GivenWitness::Sharp { witness, .. } => &witness.sigma,
-            GivenWitness::Repaired { witness } => &witness.sigma,
-        }
-    }
+pub struct GivenWitness {
+    /// The free numbers.
+    pub witness: SharpWitness,
+    /// Exact regulation, where it is claimed.
+    pub exact: Option<ExactWitness>,
 }
 
 /// A witness and what was decided about it.
@@ -111,8 +90,6 @@ impl<W: Witness> Proof<W> {
 /// What was decided about a witness, whichever derivation it is of.
 #[derive(Clone, Debug)]
 pub struct Decided<'p> {
-    /// The derivation.
-    pub derivation: Derivation,
     /// The gain.
     pub sigma: &'p Rational,
     /// The initial set.
@@ -125,8 +102,6 @@ pub struct Decided<'p> {
     pub transfer: &'p TransferProof,
     /// All conditions in order, proved or not.
     pub conditions: &'p [Condition],
-    /// What drives the periodic error.
-    pub excitation: &'p Excitation,
     /// Upper bounds of sup|x|, sup|e| and sup|zeta|_N along the periodic solution. The repaired conditions imply C1-C3 with X, E
     /// in place of x_per, e_per.
     pub periodic: [&'p Enclosure; 3],
@@ -164,14 +139,12 @@ impl Witness for SharpWitness {
         let Proof { witness, evaluation, precision } = proof;
         let SharpEvaluation { bounds, periodic, error_box, .. } = evaluation;
         Decided {
-            derivation: Derivation::Sharp,
             sigma: &witness.sigma,
             set: &witness.set,
             point: [&witness.x_p, &witness.e_p],
             pair: [&witness.k0, &witness.k1],
             transfer: &witness.transfer,
             conditions: &evaluation.conditions,
-            excitation: &evaluation.excitation,
             periodic: [&periodic.x_per, &periodic.e_per, &evaluation.z],
             error_box: [&witness.d_x, &witness.d_e].map(|radius| Enclosure::from_rational(radius, *precision)),
             arguments: [bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)],
@@ -197,14 +170,12 @@ impl Witness for RepairedWitness {
         let Proof { witness, evaluation, precision } = proof;
         let RepairedEvaluation { bounds, point, .. } = evaluation;
         Decided {
-            derivation: Derivation::Repaired,
             sigma: &witness.sigma,
             set: &witness.set,
             point: [&witness.x, &witness.e],
             pair: [&witness.k0, &witness.k1],
             transfer: &witness.transfer,
             conditions: &evaluation.conditions,
-            excitation: &evaluation.excitation,
             periodic: [&bounds.state.x_p, &bounds.state.e_p, &evaluation.z],
             error_box: [&point.x_b - &point.x, &point.e_b - &point.e],
             // X <= X_b and E <= E_b.
@@ -228,8 +199,6 @@ pub enum Outcome<P> {
     },
     /// No candidate was found.
     NotFound(Obstacle),
-    /// Not asked for.
-    Skipped,
 }
 
 impl<P> Outcome<P> {
@@ -247,7 +216,7 @@ impl<P> Outcome<P> {
     pub fn attempt(&self) -> Option<&P> {
         match self {
             Outcome::Proved(proof) | Outcome::NotProved { proof, .. } => Some(proof),
-            Outcome::NotFound(_) | Outcome::Skipped => None,
+            Outcome::NotFound(_) => None,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A smaller initial set for which a specification is certified that is not certified as it is.
 
 use super::certification::Certification;
-use super::options::{Derivation, Options, TransferChoice};
+use super::options::{Options, TransferChoice};
 use super::produce::certify;
 use crate::search::{FloatModel, SmallerSet, smaller_set};
 use rug::Rational;
@@ -66,9 +66,8 @@ impl Certification<'_> {
         // The working precision of what only proposes.
         let data = Data::new(self.spec, 64);
         let matched = self.options.transfer == TransferChoice::Best && self.spec.internal_model.matched;
-        let repaired = self.options.derivation == Derivation::Repaired;
-        let trade_off = if matched && !repaired { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
-        smaller_set(&FloatModel::new(&data, trade_off), repaired)
+        let trade_off = if matched { TradeOff::matched(&data) } else { TradeOff::closed_form(&data) };
+        smaller_set(&FloatModel::new(&data, trade_off))
     }
 
     /// The certified gain of the specification with another initial set.

@@ -1,7 +1,6 @@
 //! How much smaller an initial set would have to be, in floating point.
 
 use super::model::FloatModel;
-use super::repaired::search_repaired;
 use super::sharp::{any_candidate, at_sigma, search_sharp};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
@@ -32,11 +31,8 @@ pub enum SmallerSet {
 ///
 /// Guarantee: none. This is floating point, and what it proposes has to be certified.
 #[must_use]
-pub fn smaller_set(model: &FloatModel, repaired: bool) -> SmallerSet {
-    let finds = |set: InitialSet<f64>| {
-        let model = model.with_set(set);
-        if repaired { search_repaired(&model).is_ok() } else { any_candidate(&model) }
-    };
+pub fn smaller_set(model: &FloatModel) -> SmallerSet {
+    let finds = |set: InitialSet<f64>| any_candidate(&model.with_set(set));
     if matches!(model.set, InitialSet::Paper) && finds(InitialSet::AtRest { x0: None, e0: None }) {
         return SmallerSet::AtRest;
     }
@@ -101,7 +97,7 @@ mod tests {
     fn the_size_is_near_the_edge_of_success() {
         let asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
         assert!(search_sharp(&asked).is_err());
-        let SmallerSet::Box(sizes) = smaller_set(&asked, false) else { panic!("a size is expected") };
+        let SmallerSet::Box(sizes) = smaller_set(&asked) else { panic!("a size is expected") };
         let [x0, e0, z0] = sizes.each_ref().map(Rational::to_f64);
         assert!(x0 > 0.0 && (e0 / x0 - 4.0).abs() < 0.4 && z0 == 0.0, "{x0} {e0} {z0}");
         let succeeds =
@@ -114,6 +110,6 @@ mod tests {
         let asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
         // Data for which no comparison holds.
         let asked = asked.with_triple(1.0, f64::NAN);
-        assert_eq!(smaller_set(&asked, false), SmallerSet::None);
+        assert_eq!(smaller_set(&asked), SmallerSet::None);
     }
 }

@@ -5,7 +5,6 @@ use super::study::{Study, SubjectSource};
 use serde_json::Value;
 use sigmastar_lang::plant;
 use sigmastar_lang::spec::{self, Document, ErrorKind, Errors, SpecErrors};
-use sigmastar_prove::certify::Derivation;
 
 /// A study with its subject: every case can be made.
 #[derive(Clone, Debug)]
@@ -132,15 +131,6 @@ fn fits(study: &Study, base: &Value) -> Result<(), SpecErrors> {
         let message = "the subject is neither a bounding specification nor a plant";
         let help = format!("give a file of the format `{}` or `{}`", spec::FORMAT, plant::FORMAT);
         return Err(study.source.errors_at("/subject", &(0..0), ErrorKind::Format, message, Some(help)));
-    }
-    let sampled = base.pointer("/internal_model/sampling_period").is_some();
-    if study.derivation == Derivation::Repaired && (of_plant || sampled) {
-        let message = match of_plant {
-            true => "the derivation `repaired` needs bounding functions that a plant does not give",
-            false => "only the sharp derivation covers the regulator at samples",
-        };
-        let help = Some("leave `derivation` out".to_owned());
-        return Err(study.source.errors_at("/derivation", &(0..0), ErrorKind::Range, message, help));
     }
     let mut errors = Errors::new();
     for (index, parameter) in study.parameters.iter().enumerate() {

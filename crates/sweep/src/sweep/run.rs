@@ -5,7 +5,7 @@ use super::row::{Row, RowClaim, RowError};
 use rayon::prelude::*;
 use sigmastar_document::progress::Progress;
 use sigmastar_lang::spec::SpecErrors;
-use sigmastar_prove::certify::{Derivation, Options, Verdict, verdict_of_errors};
+use sigmastar_prove::certify::{Options, Verdict, verdict_of_errors};
 use sigmastar_prove::reduction::{Prepared, Subject};
 use sigmastar_report::run_sentence;
 
@@ -24,7 +24,7 @@ pub fn run<E: Send>(
     // One case at a time for each thread: they differ widely in their work.
     indices.par_iter().with_max_len(1).try_for_each(|index| {
         let row = match sweep.case(*index) {
-            Ok(case) => solve(&case, sweep.study().derivation),
+            Ok(case) => solve(&case),
             Err(errors) => Row { index: *index, values: Vec::new(), sha256: String::new(), ..refused(vec![errors]) },
         };
         progress.advance();
@@ -36,13 +36,13 @@ pub fn run<E: Send>(
 ///
 /// Guarantee: `certified` only where the certification of the document is.
 #[must_use]
-pub fn solve(case: &Case, derivation: Derivation) -> Row {
-    let row = attempt(case, derivation).unwrap_or_else(refused);
+pub fn solve(case: &Case) -> Row {
+    let row = attempt(case).unwrap_or_else(refused);
     Row { index: case.index, values: case.values.clone(), sha256: case.sha256.clone(), ..row }
 }
 
-fn attempt(case: &Case, derivation: Derivation) -> Result<Row, Vec<SpecErrors>> {
-    let options = Options { derivation, compare: false, ..Options::default() };
+fn attempt(case: &Case) -> Result<Row, Vec<SpecErrors>> {
+    let options = Options { compare: false, ..Options::default() };
     let subject = Subject::read(&case.document).map_err(|errors| vec![errors])?;
     let prepared = Prepared::new(subject, None)?;
     let run = prepared.certify(options)?;

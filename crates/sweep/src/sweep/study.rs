@@ -7,7 +7,6 @@ use super::{MAX_CASES, MAX_PARAMETERS};
 use sigmastar_lang::spec::{
     Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, choose, positive_constant,
 };
-use sigmastar_prove::certify::Derivation;
 
 /// The format of a study.
 pub const FORMAT: &str = "sigmastar/study";
@@ -35,8 +34,6 @@ pub struct Study {
     pub parameters: Vec<Parameter>,
     /// How their values are combined.
     pub design: Design,
-    /// What the verdicts are about.
-    pub derivation: Derivation,
     /// The sampling period of every case, where the regulator at samples is asked for: an exact constant as it is written.
     pub sampling_period: Option<String>,
     /// The document, for errors that are found later.
@@ -63,18 +60,9 @@ fn read(mut object: Object<'_>, document: &Document, errors: &mut Errors) -> Res
     let name = object.required("name", errors).and_then(|value| value.string(errors));
     let description = object.optional("description").map(|value| value.string(errors)).transpose();
     let subject = object.required("subject", errors).and_then(|value| subject(&value, errors));
-    let derivation = object.optional("derivation").map_or(Ok(Derivation::Sharp), |value| {
-        // The printed derivation certifies nothing.
-        let names = [Derivation::Sharp, Derivation::Repaired].map(Derivation::name);
-        let name = choose(&value, "derivation", &names, errors)?;
-        Ok(if name == Derivation::Repaired.name() { Derivation::Repaired } else { Derivation::Sharp })
-    });
-    let sampling = object.optional("sampling_period");
-    let sampling_period = sampling.as_ref().map(|value| positive_constant(value, errors)).transpose();
-    if let (Some(value), Ok(Derivation::Repaired)) = (&sampling, &derivation) {
-        let error = value.error(ErrorKind::Range, "only the sharp derivation covers the regulator at samples");
-        errors.report(error.help("leave `derivation` or `sampling_period` out"));
-    }
+    let derivation =
+        object.optional("derivation").map(|value| choose(&value, "derivation", &["sharp"], errors)).transpose();
+    let sampling_period = object.optional("sampling_period").map(|value| positive_constant(&value, errors)).transpose();
     let design = design(&mut object, errors);
     let parameters = object.required("parameters", errors);
     object.finish_as("in a study of this design", errors);
@@ -88,12 +76,12 @@ fn read(mut object: Object<'_>, document: &Document, errors: &mut Errors) -> Res
     })?;
     description?;
     schema?;
+    derivation?;
     Ok(Study {
         name: name?.to_owned(),
         subject: subject?,
         parameters: list,
         design,
-        derivation: derivation?,
         sampling_period: sampling_period?.map(|constant| constant.text),
         source: document.clone(),
         combinations,

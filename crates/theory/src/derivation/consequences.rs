@@ -1,6 +1,5 @@
 //! What a certificate says about the regulated error (derivation, section 6).
 
-use super::existence::{PeriodicBounds, x_per_gain};
 use crate::data::Data;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -14,24 +13,12 @@ pub const MAX_OSCILLATORS: u64 = 1 << 40;
 /// What drives the periodic error: bounds of q along the periodic solution, and what x makes of e.
 #[derive(Clone, Debug)]
 pub struct Excitation {
-    /// Of rms(q): R_q, or qr of section 4.
+    /// Of rms(q): R_q.
     pub q_rms: Enclosure,
-    /// Of the rms of q's derivative along the solution: R_1, or q1 of section 4.
+    /// Of the rms of q's derivative along the solution: R_1.
     pub q_rate_rms: Enclosure,
     /// sup|x| over sup|e|.
     pub x_gain: Enclosure,
-}
-
-impl Excitation {
-    /// That of section 4. Hypotheses: C1-C3, which the repaired conditions imply.
-    #[must_use]
-    pub fn by_contraction(data: &Data<'_>, bounds: &PeriodicBounds<Enclosure>) -> Excitation {
-        Excitation {
-            q_rms: bounds.q_rms.clone(),
-            q_rate_rms: bounds.q_rate_rms.clone(),
-            x_gain: x_per_gain(data, bounds),
-        }
-    }
 }
 
 /// psi_1, psi_x and psi_2: bounds for every n_o and mu at once.

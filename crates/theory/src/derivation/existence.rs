@@ -38,12 +38,6 @@ where
         k / &problem.numbers().alpha * (&self.f_e * &self.e_p + &self.f_xx * self.x_p.sqr() / R::int(2))
     }
 
-    /// `(k/alpha) b_fxx X_p/2`, to be below 1 in (C1).
-    #[must_use]
-    pub fn quadratic_share(&self, problem: &impl Problem<R>, k: &R) -> R {
-        k / &problem.numbers().alpha * &self.f_xx * &self.x_p / R::int(2)
-    }
-
     /// `(k/alpha)(b_fex E_p + factor b_fxx X_p)`, the first entry of the contraction matrix, to be below 1 in (C3); `factor`
     /// is 1 (sharp) or 2 (P:eq:def_ypsilon).
     #[must_use]
@@ -52,7 +46,7 @@ where
     }
 }
 
-/// The bounding functions at (X_p, E_p), b_fxx at (X_p, 0), and the norms of the right sides that follow.
+/// The bounding functions at (X_p, E_p), and b_fxx at (X_p, 0).
 #[derive(Clone, Debug)]
 pub struct PeriodicBounds<R> {
     /// Those of x'.
@@ -61,11 +55,6 @@ pub struct PeriodicBounds<R> {
     pub q_e: R,
     /// b_qx(X_p, E_p).
     pub q_x: R,
-    /// qr = b_q_rms(X_p, E_p), a bound of rms(q).
-    pub q_rms: R,
-    /// q1 = b_qt_rms + b_qx x1 + b_qe qr, a bound of rms(dq/dt) along the solution; x1 = b_f(X_p,0) + b_fxx X_p^2 + b_fe E_p
-    /// is a bound of |x'|.
-    pub q_rate_rms: R,
 }
 
 impl<R: Real> PeriodicBounds<R>
@@ -73,18 +62,12 @@ where
     for<'a> &'a R: Operand<R>,
 {
     /// Evaluates the bounding functions.
-    ///
-    /// Guarantee: when (X_p, E_p) lies in the domain, every member bounds what it says for all T-periodic (x, e) of
-    /// the set |x| <= X_p, |e| <= E_p, |x'| <= x1, rms(e') <= qr.
     #[must_use]
     pub fn new(problem: &impl Problem<R>, x_p: R, e_p: R) -> PeriodicBounds<R> {
         let state = StateBounds::new(problem, x_p, e_p);
-        let StateBounds { x_p, e_p, f_e, f_xx, .. } = &state;
-        let at_box = |which| problem.bound(which, x_p, e_p);
-        let (q_e, q_x, q_rms) = (at_box(Bound::Qe), at_box(Bound::Qx), at_box(Bound::QRms));
-        let x_rate = problem.bound(Bound::F, x_p, &problem.zero()) + f_xx * x_p.sqr() + f_e * e_p;
-        let q_rate_rms = at_box(Bound::QtRms) + &q_x * x_rate + &q_e * &q_rms;
-        PeriodicBounds { state, q_e, q_x, q_rms, q_rate_rms }
+        let at_box = |which| problem.bound(which, &state.x_p, &state.e_p);
+        let (q_e, q_x) = (at_box(Bound::Qe), at_box(Bound::Qx));
+        PeriodicBounds { state, q_e, q_x }
     }
 
     /// The contraction matrix with gain k (c or K_alpha), `factor` 1 (sharp) or 2 (P:eq:def_ypsilon) in front of
@@ -116,23 +99,12 @@ where
     }
 }
 
-/// `(c/alpha) b_fe / (1 - (c/alpha) b_fxx X_p/2)`: sup|x| over sup|e| along the periodic solution, under C1.
-#[must_use]
-pub fn x_per_gain<R: Real>(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>) -> R
-where
-    for<'a> &'a R: Operand<R>,
-{
-    // Lemma K of the derivation: c in place of K_alpha.
-    let Numbers { c, alpha, .. } = problem.numbers();
-    c / alpha * &bounds.state.f_e / (R::int(1) - bounds.state.quadratic_share(problem, c))
-}
-
 /// The infima of the sigma with C2 and C3 at (X_p, E_p), each by itself.
 #[derive(Clone, Debug)]
 pub struct LeastSigma<R> {
-    /// Of the sigma with C2: min{beta_s^-1(E_p/qr), tau^-1(E_p/q1)}, or beta^-1(E/b_q).
+    /// Of the sigma with C2: beta^-1(E/b_q).
     pub by_size: R,
-    /// Of the sigma with C3, given A < 1: the inverse of beta_s, or beta, at the level (1 - A)/((1 - A) b_qe + B b_qx), from
+    /// Of the sigma with C3, given A < 1: the inverse of beta at the level (1 - A)/((1 - A) b_qe + B b_qx), from
     /// 1 - tr + det > 0.
     pub by_contraction: R,
 }

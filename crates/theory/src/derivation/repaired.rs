@@ -1,7 +1,6 @@
 //! The repaired derivation: the paper's architecture with the smallest sound repair of each formula.
 
 use super::condition::{self, Condition};
-use super::consequences::Excitation;
 use super::existence::PeriodicBounds;
 use super::gains;
 use super::initial_set::{ClaimedSet, set_conditions};
@@ -46,8 +45,6 @@ pub struct RepairedEvaluation {
     pub sigma: Enclosure,
     /// The bounding functions at (X, E).
     pub bounds: PeriodicBounds<Enclosure>,
-    /// What drives the periodic error: C1-C3 follow from the repaired conditions.
-    pub excitation: Excitation,
     /// kappa_0 = k0/w^2.
     pub kappa_0: Enclosure,
     /// kappa_1 = k1/w^4.
@@ -75,7 +72,6 @@ impl RepairedEvaluation {
         let k = gains::k_alpha(&data.c, &data.alpha, &data.period);
         let beta = gains::beta(&sigma, &data.period);
         let bounds = PeriodicBounds::new(data, x.clone(), e.clone());
-        let excitation = Excitation::by_contraction(data, &bounds);
         let [kappa_0, kappa_1] = data.kappas(&number(&witness.k0), &number(&witness.k1));
         let z = bounds.z_squared_printed(data, &kappa_0, &kappa_1).sqrt();
         let point = LyapunovPoint {
@@ -130,7 +126,7 @@ impl RepairedEvaluation {
             &data.alpha * &data.p_low,
         ));
         conditions.push(Condition::less("C5b", "sigma_a < sigma", lyapunov.sigma_a.clone(), sigma.clone()));
-        RepairedEvaluation { sigma, bounds, excitation, kappa_0, kappa_1, z, point, lyapunov, conditions }
+        RepairedEvaluation { sigma, bounds, kappa_0, kappa_1, z, point, lyapunov, conditions }
     }
 
     /// The truth of all conditions together.

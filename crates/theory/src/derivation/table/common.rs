@@ -2,7 +2,7 @@
 
 use super::{At, Entry, Row, Status, TableInput, Value, number, printed, row, sound};
 use crate::data::Data;
-use crate::derivation::consequences::{Excitation, Psi};
+use crate::derivation::consequences::Psi;
 use crate::derivation::contraction::ContractionMatrix;
 use crate::derivation::existence::PeriodicBounds;
 use crate::derivation::gains;
@@ -10,12 +10,10 @@ use crate::derivation::sharp::SharpEvaluation;
 use crate::transfer::{PrintedTransfer, closed_form_pair, lambda_interval, printed_transfer};
 use sigmastar_exact::enclosure::Enclosure;
 
-/// The three derivations at common arguments.
-///
-/// Those of the sharp one need the mean squares of its witness, so they stand where the certificate is a sharp one.
+/// The three derivations at the arguments of the claim.
 pub(super) struct Common<'a> {
     sigma: Enclosure,
-    own: Option<&'a SharpEvaluation>,
+    own: &'a SharpEvaluation,
     pub(super) bounds: PeriodicBounds<Enclosure>,
     pub(super) k_alpha: Enclosure,
     closed: [Enclosure; 2],
@@ -26,18 +24,19 @@ pub(super) struct Common<'a> {
 }
 
 impl<'a> Common<'a> {
-    pub(super) fn new(input: &TableInput<'a>, x_p: Enclosure, e_p: Enclosure, sigma: Enclosure) -> Common<'a> {
-        let data = input.data;
-        let bounds = PeriodicBounds::new(data, x_p.clone(), e_p.clone());
+    pub(super) fn new(input: &TableInput<'a>) -> Common<'a> {
+        let (data, (witness, own)) = (input.data, input.sharp);
+        let [x_p, e_p, sigma] = [&witness.x_p, &witness.e_p, &witness.sigma].map(|value| data.rational(value));
+        let bounds = PeriodicBounds::new(data, x_p, e_p);
         let (k0, k1) = closed_form_pair(data);
         let closed = data.kappas(&k0, &k1);
-        let sharp = data.kappas(&data.rational(&input.sharp_pair.0), &data.rational(&input.sharp_pair.1));
+        let sharp = data.kappas(&data.rational(&witness.k0), &data.rational(&witness.k1));
         let transfer = printed_transfer(data);
         Common {
             k_alpha: gains::k_alpha(&data.c, &data.alpha, &data.period),
             z_printed: bounds.z_squared_printed(data, &transfer.kappa_0, &transfer.kappa_1).sqrt(),
             z_repaired: bounds.z_squared_printed(data, &closed[0], &closed[1]).sqrt(),
-            own: input.sharp.filter(|own| own.sigma == sigma && own.bounds.x_p == x_p && own.bounds.e_p == e_p),
+            own,
             sigma,
             bounds,
             closed,
@@ -72,7 +71,7 @@ pub(super) fn gain_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
             At::Common,
             sound(beta.clone(), "P:eq:beta_definition"),
             sound(beta, "P:eq:beta_definition"),
-            common.own.and_then(|own| sound(gains::zero_mean_gain(&own.sigma, &data.period), "section 10.2, bt")),
+            sound(gains::zero_mean_gain(&common.sigma, &data.period), "section 10.2, bt"),
         ),
         row("tau", At::Common, None, None, sound(gains::tau(&common.sigma, &data.period), "section 3")),
     ]
@@ -80,7 +79,7 @@ pub(super) fn gain_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
 
 pub(super) fn contraction_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let paper = common.bounds.contraction(data, &common.k_alpha, 2, &gains::beta(&common.sigma, &data.period));
-    let sharp = common.own.map(|own| &own.contraction);
+    let sharp = &common.own.contraction;
     let label = "P:eq:def_ypsilon";
     let three = |name: &str, of: &dyn Fn(&ContractionMatrix<Enclosure>) -> Enclosure| {
         row(
@@ -88,7 +87,7 @@ pub(super) fn contraction_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row>
             At::Common,
             sound(of(&paper), label),
             sound(of(&paper), label),
-            sharp.and_then(|m| sound(of(m), "section 10.3, uniqueness")),
+            sound(of(sharp), "section 10.3, uniqueness"),
         )
     };
     let mut rows = vec![
@@ -104,7 +103,7 @@ pub(super) fn contraction_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row>
         At::Common,
         number(paper.jury_second_printed(), Status::PrintedUnsound, "P:eq:ypsilon_xx, 1 + det"),
         sound(paper.jury_second(), "section 4, 1 - det"),
-        sharp.and_then(|m| sound(m.jury_second(), "section 10.3, 1 - det")),
+        sound(sharp.jury_second(), "section 10.3, 1 - det"),
     ));
     rows
 }
@@ -146,7 +145,7 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
         At::Common,
         number(common.z_printed.clone(), z_status, "P:prop:periodic_solution, zeta_p"),
         sound(common.z_repaired.clone(), "section 4"),
-        common.own.and_then(|own| sound(own.z.clone(), "section 10.3")),
+        sound(common.own.z.clone(), "section 10.3"),
     ));
     let n_bar = &data.n_bar;
     let paper_r_e = common.bounds.q(data) + n_bar * &common.z_printed;
@@ -154,22 +153,20 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let k = &common.k_alpha;
     let gain =
         k * &common.bounds.state.f_e / (&data.alpha - k * &common.bounds.state.f_xx * &common.bounds.state.x_p / 2);
-    let own = common.own.map(|own| Psi::new(data, &own.excitation));
-    // What a printed value is held against.
-    let sound_psi = own.clone().unwrap_or_else(|| Psi::new(data, &Excitation::by_contraction(data, &common.bounds)));
+    let own = Psi::new(data, &common.own.excitation);
     rows.push(row(
         "r_e = psi_1",
         At::Common,
-        printed(paper_r_e.clone(), &sound_psi.psi_1, "P:prop:periodic_solution, r_e"),
+        printed(paper_r_e.clone(), &own.psi_1, "P:prop:periodic_solution, r_e"),
         sound(repaired_r_e.clone(), "section 6, with mu"),
-        own.as_ref().and_then(|psi| sound(psi.psi_1.clone(), "section 6, T R_1/sqrt(12)")),
+        sound(own.psi_1.clone(), "section 6, T R_1/sqrt(12)"),
     ));
     rows.push(row(
         "r_x = psi_x",
         At::Common,
-        printed(&gain * paper_r_e, &sound_psi.psi_x, "P:prop:periodic_solution, r_x"),
+        printed(&gain * paper_r_e, &own.psi_x, "P:prop:periodic_solution, r_x"),
         sound(gain * repaired_r_e, "section 6"),
-        own.as_ref().and_then(|psi| sound(psi.psi_x.clone(), "section 6, 10.6")),
+        sound(own.psi_x.clone(), "section 6, 10.6"),
     ));
     let t_over_two_pi = &data.period / (2 * Enclosure::pi(data.precision));
     let psi_2_printed = t_over_two_pi.sqr() * common.bounds.q(data).sqr();
@@ -178,9 +175,9 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     rows.push(row(
         "psi_2",
         At::Common,
-        printed(psi_2_printed.clone(), &sound_psi.psi_2, "P:eq:theorem_2_bound_e2"),
+        printed(psi_2_printed.clone(), &own.psi_2, "P:eq:theorem_2_bound_e2"),
         psi_2(&data.period * psi_2_printed),
-        own.and_then(|psi| psi_2(psi.psi_2)),
+        psi_2(own.psi_2.clone()),
     ));
     rows
 }

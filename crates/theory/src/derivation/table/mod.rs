@@ -5,8 +5,8 @@ mod limits;
 mod own;
 
 use super::printed::{Infeasible, PrintedEvaluation};
-use super::repaired::RepairedEvaluation;
-use super::sharp::SharpEvaluation;
+use super::repaired::{RepairedEvaluation, RepairedWitness};
+use super::sharp::{SharpEvaluation, SharpWitness};
 use crate::data::Data;
 use common::Common;
 use rug::Rational;
@@ -101,22 +101,14 @@ impl At {
 pub struct TableInput<'a> {
     /// The data.
     pub data: &'a Data<'a>,
-    /// X_p, E_p, sigma for the common rows.
-    pub common: [Rational; 3],
-    /// k0, k1 proved for the sharp derivation.
-    pub sharp_pair: (Rational, Rational),
-    /// The sharp evaluation, when there is one.
-    pub sharp: Option<&'a SharpEvaluation>,
-    /// h, w_x, D_x, D_e of the sharp witness.
-    pub sharp_free: Option<[Rational; 4]>,
-    /// X_0, E_0, Z_0 claimed by the repaired and the sharp derivation.
-    pub sets: [Option<[Rational; 3]>; 2],
-    /// The repaired evaluation, when there is one.
-    pub repaired: Option<&'a RepairedEvaluation>,
+    /// The derivation of the claim; the common rows are at its X_p, E_p, sigma.
+    pub sharp: (&'a SharpWitness, &'a SharpEvaluation),
+    /// The repaired one, when it was proved too.
+    pub repaired: Option<(&'a RepairedWitness, &'a RepairedEvaluation)>,
     /// The printed evaluation at its own free numbers, when some were found.
     pub printed: Option<&'a PrintedEvaluation<Enclosure>>,
-    /// The claimed sigma of each derivation: printed figure, repaired, sharp.
-    pub sigmas: [Option<Enclosure>; 3],
+    /// The figure that the printed conditions but one would give.
+    pub printed_sigma: Option<Enclosure>,
     /// sigma*_oo.
     pub sigma_exact: Option<Rational>,
 }
@@ -147,8 +139,7 @@ fn row(name: &str, at: At, printed: Option<Entry>, repaired: Option<Entry>, shar
 #[must_use]
 pub fn table(input: &TableInput<'_>) -> Vec<Row> {
     let data = input.data;
-    let [x_p, e_p, sigma] = input.common.each_ref().map(|value| data.rational(value));
-    let common = Common::new(input, x_p, e_p, sigma);
+    let common = Common::new(input);
     let mut rows = common::gain_rows(data, &common);
     rows.extend(common::contraction_rows(data, &common));
     rows.extend(common::transfer_rows(data, &common));
