@@ -1,6 +1,6 @@
 //! Certificates as they are written today, read by the independent checker; and the command `check`.
 
-use crate::support::{program, specification, specification_text};
+use crate::support::{program, refuted_witness, specification, specification_text};
 use predicates::prelude::*;
 use predicates::str::{contains, ends_with, is_empty, starts_with};
 use sigmastar_lang::spec::Specification;
@@ -59,7 +59,7 @@ fn bounds_that_all_but_vanish_are_written_so_that_they_are_read() {
 #[test]
 fn the_command() {
     let valid = "proofs-check/tests/certificates/paper-example.sharp.json";
-    let forged = "proofs-check/tests/forged/sharp-C4.json";
+    let forged = refuted_witness();
     program().args(["check", valid]).assert().code(0).stdout(starts_with("valid; figures: all ")).stderr(is_empty());
     let own = ["check", valid, "--spec", "specs/paper-example.json"];
     program().args(own).assert().code(0).stdout(contains("proved:  For every"));

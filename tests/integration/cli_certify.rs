@@ -41,7 +41,7 @@ fn a_witness_that_breaks_a_condition_is_refuted() {
     certify(&[EXAMPLE, "--witness", refuted_witness()])
         .assert()
         .code(1)
-        .stdout(contains("Refuted: no sigma is certified here; condition C4 is certainly false"));
+        .stdout(contains("Refuted: no sigma is certified here; condition C4 is refuted for this witness"));
 }
 
 #[test]

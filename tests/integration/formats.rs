@@ -1,7 +1,7 @@
 //! `docs/formats.md` against the readers and against what the program writes: no example on it is wrong, and no field
 //! that is read or written is missing from it.
 
-use crate::support::refuted_witness;
+use crate::support::{forged, refuted_witness};
 use assert_cmd::Command;
 use serde_json::{Map, Value, json};
 use sigmastar_lang::plant::Plant;
@@ -21,7 +21,7 @@ const LEAST: [(&str, usize); 19] = [
     ("bounding-spec-part", 10),
     ("plant", 2),
     ("controller", 1),
-    ("certificate-fragment", 12),
+    ("certificate-fragment", 11),
     ("report-fragment", 4),
     ("sampling-fragment", 1),
     ("study", 1),
@@ -359,8 +359,8 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                 "check-fragment",
                 vec![
                     other(&["check", VALID]),
-                    other(&["check", "proofs-check/tests/forged/lmi-l_e.json"]),
-                    run(1, &["check", "proofs-check/tests/forged/sharp-C4.json", "--format", "json"]),
+                    other(&["check", &forged("figures", "/witness/lmi/l_e", "0.25")]),
+                    run(1, &["check", refuted_witness(), "--format", "json"]),
                 ],
             ),
             ("sweep-fragment", swept().into_iter().take(1).collect()),

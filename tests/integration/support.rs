@@ -49,15 +49,18 @@ pub fn answer(arguments: &[&str]) -> Output {
 
 /// A certificate of the paper's example with an error box that is too small: decided again, it is refuted.
 pub fn refuted_witness() -> &'static str {
-    static PATH: LazyLock<String> = LazyLock::new(|| {
-        let text = std::fs::read(Path::new(ROOT).join("proofs-check/tests/certificates/paper-example.means.json"));
-        let mut certificate = json(&text.expect("shipped"));
-        certificate["witness"]["D_e"] = "1".into();
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("refuted.json");
-        std::fs::write(&path, certificate.to_string()).expect("a folder for tests");
-        path.to_str().expect("a plain name").to_owned()
-    });
+    static PATH: LazyLock<String> = LazyLock::new(|| forged("refuted", "/witness/D_e", "1"));
     &PATH
+}
+
+/// The path of a certificate of the paper's example with another value in one place.
+pub fn forged(name: &str, pointer: &str, value: &str) -> String {
+    let text = std::fs::read(Path::new(ROOT).join("proofs-check/tests/certificates/paper-example.sharp.json"));
+    let mut certificate = json(&text.expect("shipped"));
+    *certificate.pointer_mut(pointer).expect("it is there") = value.into();
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.json"));
+    std::fs::write(&path, certificate.to_string()).expect("a folder for tests");
+    path.to_str().expect("a plain name").to_owned()
 }
 
 /// Of what takes long an ordinary run takes every so many-th, and `SIGMASTAR_CASES=all` all.
