@@ -119,9 +119,10 @@ fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut V
         bounding::prove_all(d, [&x, &e], lines)?;
     }
     let proved = derivation.prove(d, lines)?;
-    claim.check(d, &proved.sizes(), derivation.exact())?;
+    let free = derivation.free();
+    claim.check(d, &proved.sizes, [&free.x_p, &free.e_p])?;
     lines.push("claim: verdict, n_o, mu, set, periodic solution and statement follow from what is proved".to_owned());
-    let mut largest = proved.arguments().each_ref().map(|argument| argument.hi().clone());
+    let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().clone());
     if let Some(plant) = &d.spec.plant {
         // Those of exact regulation, which has no figures of them, count as well.
         for (end, other) in largest.iter_mut().zip(derivation.regulated(d).into_iter().flatten()) {

@@ -63,7 +63,8 @@ pub struct Input<'a> {
 /// Rows that all derivations evaluate at X_p, E_p, sigma of the claim.
 fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     let (w, proved) = input.sharp;
-    let [x_p, e_p, sigma, k0, k1] = [&w.x_p, &w.e_p, &w.sigma, &w.k0, &w.k1].map(|value| d.number(value));
+    let [x_p, e_p, sigma, k0, k1] =
+        [&w.free.x_p, &w.free.e_p, &w.sigma, &w.free.k0, &w.free.k1].map(|value| d.number(value));
     let ex = Existence::new(d, x_p.clone(), e_p);
     let (k, beta) = (k_alpha(d), beta_s(d, &sigma) * 2);
     let mut rows: Vec<Row<'a>> = Vec::new();
@@ -132,7 +133,7 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     let cells = [
         as_printed(&z_printed, "P:prop:periodic_solution, zeta_p"),
         sound(&z_repaired, "section 4"),
-        sound(&proved.z, "section 10.3"),
+        sound(&proved.evaluated.sizes.zeta, "section 10.3"),
     ];
     row("Z", COMMON, cells);
     let [r_printed, r_repaired] = [&ex.q + &d.n_bar * z_printed, &ex.q + &d.mu * &d.n_bar * z_repaired];
@@ -228,9 +229,9 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     }
     row("gam", [None, None, sound(&s.error_box.gam, "section 5, C5")]);
     let free = |value: &Rational| sound(&d.number(value), "section 5, free");
-    row("h", [None, r.and_then(|(w, _)| free(&w.h)), free(&w.h)]);
+    row("h", [None, r.and_then(|(w, _)| free(&w.h)), free(&w.free.h)]);
     for (i, name) in ["w_x", "D_x", "D_e"].into_iter().enumerate() {
-        row(name, [None, None, free([&w.w_x, &w.d_x, &w.d_e][i])]);
+        row(name, [None, None, free([&w.free.w_x, &w.free.d_x, &w.free.d_e][i])]);
     }
     let (a_1, means) = &s.solution.shown;
     let ours = ["a_1", "r_x", "r_e", "r_d", "R_q", "R_1"].into_iter();
@@ -247,7 +248,7 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     row("sigma_a*", [None, r.and_then(|(_, r)| sound(&r.sigma_a, "section 5")), threshold]);
     for (i, name) in ["X0", "E0", "Z0"].into_iter().enumerate() {
         let covered = |set: &[Rational; 3]| sound(&d.number(&set[i]), "section 5, the set that is covered");
-        row(name, [None, r.and_then(|(w, _)| covered(&w.set)), covered(&w.set)]);
+        row(name, [None, r.and_then(|(w, _)| covered(&w.set)), covered(&w.free.set)]);
     }
     let gain = |sigma: &Rational| sound(&d.number(sigma), "section 5");
     row("sigma*", [no_level("P:thm1"), r.and_then(|(w, _)| gain(&w.sigma)), gain(&w.sigma)]);

@@ -12,9 +12,10 @@ pub mod repaired;
 use proofs_core::data::Data;
 use proofs_core::effort;
 use proofs_core::json::{Field, Fields, join};
-use proofs_core::rules::claim::Sizes;
-use proofs_core::rules::derivation::{Derivation, Proved, Witnesses};
-use proofs_core::rules::sharp;
+use proofs_core::rules::common::Evaluated;
+use proofs_core::rules::common::Sizes;
+use proofs_core::rules::derivation::{Derivation, Witness};
+use proofs_core::rules::{sampled, sharp};
 use proofs_core::spec::Specification;
 use proofs_core::verdict::{Condition, Finding, Outcome, Verdict, finding};
 use std::collections::{BTreeMap, BTreeSet};
@@ -127,14 +128,24 @@ impl Attempt<'_> {
 
     fn run(&mut self, main: &Derivation) {
         // It was proved for the claim, if not at this precision.
-        let proved = match main.evaluate(self.d) {
-            Ok(proved) => proved,
-            Err(finding) => return self.note("", Err(finding)),
+        let outcome = match &main.witness {
+            Witness::Sampled(w) => sampled::evaluate(self.d, w).map(|evaluated| self.of_claim(&evaluated)),
+            Witness::Sharp(w) => sharp::evaluate(self.d, w).map(|sharp| {
+                self.of_claim(&sharp.evaluated);
+                self.in_continuous_time(main, w, &sharp);
+            }),
         };
-        self.conditions(&proved);
-        self.tight(&proved.sizes());
-        // Those that follow are of a continuous regulator.
-        let (Witnesses::Sharp(w), Proved::Sharp(sharp)) = (&main.witnesses, &proved) else { return };
+        if let Err(finding) = outcome {
+            self.note("", Err(finding));
+        }
+    }
+
+    fn of_claim(&mut self, evaluated: &Evaluated) {
+        self.conditions(&evaluated.conditions);
+        self.tight(&evaluated.sizes);
+    }
+
+    fn in_continuous_time(&mut self, main: &Derivation, w: &sharp::Witness, sharp: &sharp::Sharp) {
         self.multipliers(w, sharp);
         let repaired = self.repaired();
         let repaired = repaired.as_ref().map(|(w, proved)| (w, proved));
@@ -145,13 +156,13 @@ impl Attempt<'_> {
         }
     }
 
-    fn conditions(&mut self, proved: &Proved) {
+    fn conditions(&mut self, proved: &[Condition]) {
         let Some(list) = &self.parts.conditions else { return self.note("/conditions", missing("/conditions")) };
         let mut stored = match list.elements() {
             Ok(stored) => stored,
             Err(finding) => return self.note(&list.pointer, Err(finding)),
         };
-        let mut computed: Vec<&Condition> = proved.conditions().iter().collect();
+        let mut computed: Vec<&Condition> = proved.iter().collect();
         if self.d.spec.plant.is_some() {
             // A ball and a domain of a plant are compared exactly, by matrices (section 11.5), not by these two numbers.
             let compared = |id: &str| !["set", "domain"].contains(&id);
@@ -180,8 +191,9 @@ impl Attempt<'_> {
     /// C5 as a matrix inequality.
     fn multipliers(&mut self, w: &sharp::Witness, proved: &sharp::Sharp) {
         let Some(field) = &self.parts.multipliers else { return };
-        let outcome = lmi::Witness::read(field)
-            .and_then(|multipliers| lmi::check(self.d, &proved.error_box, [&w.sigma, &w.w_x, &w.h], &multipliers));
+        let outcome = lmi::Witness::read(field).and_then(|multipliers| {
+            lmi::check(self.d, &proved.error_box, [&w.sigma, &w.free.w_x, &w.free.h], &multipliers)
+        });
         self.note(&field.pointer, outcome);
     }
 

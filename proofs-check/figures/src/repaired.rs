@@ -7,7 +7,7 @@ use proofs_core::bound::Bound;
 use proofs_core::data::Data;
 use proofs_core::interval::Interval;
 use proofs_core::json::Fields;
-use proofs_core::rules::derivation::{all, proof, without_domain};
+use proofs_core::rules::derivation::{all, without_domain};
 use proofs_core::rules::gains::{beta_s, k_alpha, kappas};
 use proofs_core::rules::set;
 use proofs_core::rules::stability::distances;
@@ -48,7 +48,7 @@ impl Witness {
             p_e: number("p_e")?,
             k0: number("k0")?,
             k1: number("k1")?,
-            transfer: proof(&fields.required("transfer")?)?,
+            transfer: Proof::read(&fields.required("transfer")?)?,
             pointer,
             sigma,
             set,

@@ -1,5 +1,6 @@
 //! Rule: the claim says what the witness proves, and nothing that it does not.
 
+use super::common::Sizes;
 use super::sampled::claim::{N_O, Regulator};
 use crate::constant::Constant;
 use crate::data::Data;
@@ -33,21 +34,6 @@ pub struct Claim<'a> {
     n_o: Field<'a>,
     mu: Field<'a>,
     kind: Field<'a>,
-}
-
-/// The sizes |x|, |e|, |zeta|_N of the periodic solution that are proved.
-pub struct Sizes {
-    pub x: Interval,
-    pub e: Interval,
-    pub zeta: Interval,
-}
-
-impl Sizes {
-    /// With that of z = zeta + M e, under the names in a file.
-    pub fn named(&self, d: &Data<'_>) -> [(&'static str, Interval); 4] {
-        let z = &self.zeta + &d.n_bar * &self.e;
-        [("x", self.x.clone()), ("e", self.e.clone()), ("zeta", self.zeta.clone()), ("z", z)]
-    }
 }
 
 /// A text that is fixed by the rest of the certificate.

@@ -14,8 +14,9 @@ use super::stability::one_sided;
 use crate::bound::Bound;
 use crate::data::Data;
 use crate::interval::Interval;
+use crate::json::Field;
 use crate::spec::Forcing;
-use crate::verdict::Condition;
+use crate::verdict::{Condition, Outcome};
 use rug::Rational;
 
 /// The root mean squares of x, e and e'.
@@ -30,6 +31,14 @@ pub struct Witness {
     pub kap: Rational,
     /// Root mean squares that are proved of the solution itself.
     pub refined: Option<Means>,
+}
+
+/// Reads r'_x, r'_e, r'_d.
+pub fn read(field: &Field<'_>) -> Outcome<Means> {
+    let mut fields = field.fields()?;
+    let mut number = |name: &str| fields.required(name)?.rational();
+    let means = [number("r_x")?, number("r_e")?, number("r_d")?];
+    fields.finish().map(|()| means)
 }
 
 /// What a witness proves of the periodic solution.

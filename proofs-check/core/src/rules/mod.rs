@@ -1,6 +1,7 @@
 //! The rules, one a file.
 pub mod bounding;
 pub mod claim;
+pub mod common;
 pub mod derivation;
 pub mod gains;
 pub mod mean_squares;

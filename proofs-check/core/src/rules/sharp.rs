@@ -4,86 +4,75 @@
 //! every sigma' >= sigma there is a T-periodic solution with |x| <= x_per, |e| <= e_per, |zeta|_N <= Z, and every
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
+use super::common::{Evaluated, Free};
 use super::gains::kappas;
 use super::mean_squares::{self, Solution};
-use super::set;
-use super::stability::{ErrorBox, distances, level};
+use super::stability::ErrorBox;
 use super::transfer::{self, Proof};
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::verdict::{Condition, Outcome, invalid};
+use crate::json::Fields;
+use crate::rules::common::Sizes;
+use crate::verdict::{Outcome, bad, invalid};
 use rug::Rational;
 
 /// The free numbers.
 #[derive(Clone, Debug)]
 pub struct Witness {
-    /// Where it stands in the file.
-    pub pointer: String,
+    pub free: Free,
     pub sigma: Rational,
-    /// X_0, E_0, Z_0.
-    pub set: [Rational; 3],
-    pub x_p: Rational,
-    pub e_p: Rational,
-    pub d_x: Rational,
-    pub d_e: Rational,
     pub existence: mean_squares::Witness,
-    pub w_x: Rational,
-    pub h: Rational,
-    pub k0: Rational,
-    pub k1: Rational,
     pub transfer: Proof,
 }
 
-impl Witness {
-    fn signs(&self) -> Outcome<()> {
-        let mut named = vec![("X_p", &self.x_p), ("E_p", &self.e_p), ("D_x", &self.d_x), ("D_e", &self.d_e)];
-        let w = &self.existence;
-        named.extend(["r_x", "r_e", "r_d"].into_iter().zip(&w.r));
-        named.extend(["refined/r_x", "refined/r_e", "refined/r_d"].into_iter().zip(w.refined.iter().flatten()));
-        if w.kap < 0 {
-            return invalid("signs", &format!("{}/kap", self.pointer), format!("0 <= kap fails: kap = {}", w.kap));
-        }
-        named.extend([("w_x", &self.w_x), ("h", &self.h), ("k1", &self.k1), ("sigma", &self.sigma)]);
-        set::positive(&named, &self.pointer)
-    }
-}
-
-/// What the conditions, the claim and the constants are about.
+/// What the conditions and the constants are about.
 pub struct Sharp {
+    pub evaluated: Evaluated,
     pub solution: Solution,
-    pub z: Interval,
     pub error_box: ErrorBox,
     pub threshold: Interval,
-    pub conditions: Vec<Condition>,
-    /// The comparisons of the transfer proof, any of which may stand for it in the list of conditions.
-    pub transfer: Vec<Condition>,
-    /// The largest X and E at which bounding functions are used.
-    pub arguments: [Interval; 2],
+}
+
+impl Witness {
+    /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
+    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: [Rational; 3]) -> Outcome<Witness> {
+        if fields.has("p_x") && !fields.has("r_x") {
+            return bad(&fields.pointer, "this witness, by p_x and p_e, is of an older form: certify again");
+        }
+        let free = Free::read(fields, set)?;
+        let existence = mean_squares::Witness {
+            r: free.r.clone(),
+            kap: fields.required("kap")?.rational()?,
+            refined: fields.optional("refined").map(|field| mean_squares::read(&field)).transpose()?,
+        };
+        let transfer = Proof::read(&fields.required("transfer")?)?;
+        Ok(Witness { free, sigma, existence, transfer })
+    }
+
+    fn signs(&self) -> Outcome<()> {
+        let (w, pointer) = (&self.existence, &self.free.pointer);
+        if w.kap < 0 {
+            return invalid("signs", &format!("{pointer}/kap"), format!("0 <= kap fails: kap = {}", w.kap));
+        }
+        let refined = ["refined/r_x", "refined/r_e", "refined/r_d"].into_iter().zip(w.refined.iter().flatten());
+        let others: Vec<_> = refined.chain([("k1", &self.free.k1), ("sigma", &self.sigma)]).collect();
+        self.free.signs(&others)
+    }
 }
 
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
-    let [sigma, d_x, d_e, w_x, h] = [&w.sigma, &w.d_x, &w.d_e, &w.w_x, &w.h].map(|q| d.number(q));
-    let at = [d.number(&w.x_p), d.number(&w.e_p)];
-    let pair = [d.number(&w.k0), d.number(&w.k1)];
-    let kappa = kappas(d, &pair[0], &pair[1]);
-    let solution = mean_squares::evaluate(d, &w.existence, &w.sigma, at.each_ref(), pair.each_ref(), &kappa);
-    let (periodic, z) = ([&solution.x, &solution.e], solution.z_squared.sqrt());
-    let error_box = ErrorBox::new(d, periodic, [&d_x, &d_e]);
+    let free = &w.free;
+    let [sigma, w_x, h, x_p, e_p, k0, k1] =
+        [&w.sigma, &free.w_x, &free.h, &free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
+    let kappa = kappas(d, &k0, &k1);
+    let solution = mean_squares::evaluate(d, &w.existence, &w.sigma, [&x_p, &e_p], [&k0, &k1], &kappa);
+    let transfer = transfer::check(d, &free.k0, &free.k1, &w.transfer, &format!("{}/transfer", free.pointer))?;
+    let sizes = Sizes { x: solution.x.clone(), e: solution.e.clone(), zeta: solution.z_squared.sqrt() };
+    let (error_box, mut evaluated) = free.evaluate(d, sizes, transfer, solution.conditions.iter().cloned());
     let decay = error_box.decay(d, &w_x, &h);
-    let arguments = [at[0].max(&error_box.x_b), at[1].max(&error_box.e_b)];
-    let transfer = transfer::check(d, &w.k0, &w.k1, &w.transfer, &format!("{}/transfer", w.pointer))?;
-
-    let mut conditions = set::covers(d, &w.set, [&w.x_p, &w.e_p], &z);
-    conditions.extend(set::domain(d, &arguments[0], &arguments[1]));
-    conditions.push(transfer[0].clone());
-    conditions.extend(solution.conditions.iter().cloned());
-    let reach = distances(d, &w.set, [periodic[0], periodic[1], &z]);
-    let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
-    let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
-    conditions.push(Condition::less("C4", what, start, exit));
     let threshold = decay[2].clone();
-    conditions.extend(error_box.conditions(decay, sigma, "sigma"));
-    Ok(Sharp { solution, z, error_box, threshold, conditions, transfer, arguments })
+    evaluated.conditions.extend(error_box.conditions(decay, sigma, "sigma"));
+    Ok(Sharp { evaluated, solution, error_box, threshold })
 }

@@ -5,7 +5,8 @@
 
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::verdict::{Condition, Outcome, invalid};
+use crate::json::Field;
+use crate::verdict::{Condition, Outcome, bad, invalid};
 use rug::Rational;
 
 /// Limits of a proof: harmonics, m0, N0 and boxes.
@@ -31,6 +32,28 @@ pub enum Proof {
         /// N0 lists of break points.
         breaks: Vec<Vec<Rational>>,
     },
+}
+
+impl Proof {
+    /// Reads how the transfer bound is proved.
+    pub fn read(field: &Field<'_>) -> Outcome<Proof> {
+        let mut fields = field.fields()?;
+        let kind = fields.required("proof")?;
+        let proof = match kind.text()? {
+            "closed-form" => Proof::ClosedForm,
+            "matched" => Proof::Matched(fields.required("K")?.whole()?),
+            "boxes" => {
+                let list =
+                    |field: Field<'_>| field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
+                let (m0, n0) = (fields.required("m0")?.whole()?, fields.required("N0")?.whole()?);
+                let breaks = fields.required("boxes")?.elements()?.into_iter().map(list).collect::<Outcome<_>>()?;
+                Proof::Boxes { m0, n0, breaks }
+            }
+            _ => return bad(&kind.pointer, "expected `closed-form`, `matched` or `boxes`"),
+        };
+        fields.finish()?;
+        Ok(proof)
+    }
 }
 
 /// The closed-form k0, k1: `(pi^2-4)/2 n_1 + max{(1/nu^2 + n_1^2)/n_0, 4 n_0 - 2 n_1}`,

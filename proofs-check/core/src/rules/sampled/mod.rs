@@ -12,46 +12,20 @@ pub mod law;
 pub mod stability;
 pub mod transfer;
 
-use super::mean_squares::Means;
+use super::common::Sizes;
+use super::common::{Evaluated, Free};
 use super::set;
-use super::stability::{ErrorBox, distances, level};
 use crate::data::Data;
-use crate::interval::Interval;
 use crate::json::Fields;
-use crate::verdict::{Condition, Outcome, bad, demand};
-use existence::Solution;
+use crate::verdict::{Outcome, bad, demand};
 use law::{Law, Terms};
 use rug::Rational;
 
 /// The free numbers.
 #[derive(Clone, Debug)]
 pub struct Witness {
-    /// Where it stands in the file.
-    pub pointer: String,
+    pub free: Free,
     pub terms: Terms,
-    /// X_0, E_0, Z_0.
-    pub set: [Rational; 3],
-    pub x_p: Rational,
-    pub e_p: Rational,
-    /// r_x, r_e, r_d.
-    pub r: Means,
-    pub d_x: Rational,
-    pub d_e: Rational,
-    pub w_x: Rational,
-    /// The weight of zeta, `h` in the file.
-    pub eta: Rational,
-    pub k0: Rational,
-    pub k1: Rational,
-}
-
-/// What the conditions and the claim are about.
-pub struct Sampled {
-    pub solution: Solution,
-    pub conditions: Vec<Condition>,
-    /// The comparison at j = 0 of the transfer proof, which stands in the list of conditions too.
-    pub transfer: Vec<Condition>,
-    /// The largest X and E at which bounding functions are used.
-    pub arguments: [Interval; 2],
 }
 
 impl Witness {
@@ -63,62 +37,32 @@ impl Witness {
             return bad(&kind.pointer, "expected `sampled`, for a sampled regulator");
         }
         proof.finish()?;
-        let pointer = fields.pointer.clone();
-        let mut number = |name: &str| fields.required(name)?.rational();
-        let weight_sum = number("weight_sum")?;
-        Ok(Witness {
-            terms: Terms {
-                sigma: claimed.sigma.clone(),
-                samples: claimed.samples,
-                gain: claimed.gain.clone(),
-                weight_sum,
-            },
-            x_p: number("X_p")?,
-            e_p: number("E_p")?,
-            r: [number("r_x")?, number("r_e")?, number("r_d")?],
-            d_x: number("D_x")?,
-            d_e: number("D_e")?,
-            w_x: number("w_x")?,
-            eta: number("h")?,
-            k0: number("k0")?,
-            k1: number("k1")?,
-            pointer,
-            set,
-        })
+        let (sigma, gain, samples) = (claimed.sigma.clone(), claimed.gain.clone(), claimed.samples);
+        let weight_sum = fields.required("weight_sum")?.rational()?;
+        Ok(Witness { free: Free::read(fields, set)?, terms: Terms { sigma, samples, gain, weight_sum } })
     }
 
     fn signs(&self) -> Outcome<()> {
         set::positive(&[("sigma", &self.terms.sigma), ("gain", &self.terms.gain)], "/claim")?;
-        let mut named = vec![("X_p", &self.x_p), ("E_p", &self.e_p), ("D_x", &self.d_x), ("D_e", &self.d_e)];
-        named.extend(["r_x", "r_e", "r_d"].into_iter().zip(&self.r));
-        named.extend([("w_x", &self.w_x), ("h", &self.eta), ("k0", &self.k0)]);
-        set::positive(&named, &self.pointer)?;
-        demand(Some(self.k1 >= 0), "signs", &format!("{}/k1", self.pointer), "0 <= k1")
+        self.free.signs(&[("k0", &self.free.k0)])?;
+        demand(Some(self.free.k1 >= 0), "signs", &format!("{}/k1", self.free.pointer), "0 <= k1")
     }
 }
 
 /// Evaluates all conditions; S0, the transfer proof and the signs are decided here.
-pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sampled> {
+pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     w.signs()?;
-    let law = Law::new(d, &w.terms);
+    let (free, law) = (&w.free, Law::new(d, &w.terms));
     let of_law = law.conditions("/claim")?;
-    let transfer = transfer::check(&law, &w.k0, &w.k1, &format!("{}/k0", w.pointer))?;
-    let [x_p, e_p, d_x, d_e, w_x, eta, k0, k1] =
-        [&w.x_p, &w.e_p, &w.d_x, &w.d_e, &w.w_x, &w.eta, &w.k0, &w.k1].map(|value| d.number(value));
-    let solution = existence::evaluate(&law, &w.r, [&x_p, &e_p], [&k0, &k1]);
-    let error_box = ErrorBox::new(d, [&solution.x, &solution.e], [&d_x, &d_e]);
-    let arguments = [x_p.max(&error_box.x_b), e_p.max(&error_box.e_b)];
-
-    let mut conditions = set::covers(d, &w.set, [&w.x_p, &w.e_p], &solution.z);
-    conditions.extend(set::domain(d, &arguments[0], &arguments[1]));
-    conditions.push(transfer.clone());
-    conditions.extend(of_law);
-    conditions.extend(solution.conditions.iter().cloned());
-    let reach = distances(d, &w.set, [&solution.x, &solution.e, &solution.z]);
-    let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &eta]);
-    let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
-    conditions.push(Condition::less("C4", what, start, exit));
-    conditions.extend(error_box.one_sided.iter().cloned());
-    conditions.extend(stability::conditions(&law, &error_box, &stability::Weights { w_x: &w_x, eta: &eta }));
-    Ok(Sampled { solution, conditions, transfer: vec![transfer], arguments })
+    let transfer = transfer::check(&law, &free.k0, &free.k1, &format!("{}/k0", free.pointer))?;
+    let [x_p, e_p, w_x, eta, k0, k1] =
+        [&free.x_p, &free.e_p, &free.w_x, &free.h, &free.k0, &free.k1].map(|value| d.number(value));
+    let solution = existence::evaluate(&law, &free.r, [&x_p, &e_p], [&k0, &k1]);
+    let sizes = Sizes { x: solution.x, e: solution.e, zeta: solution.z };
+    let (error_box, mut evaluated) =
+        free.evaluate(d, sizes, vec![transfer], of_law.into_iter().chain(solution.conditions));
+    evaluated.conditions.extend(error_box.one_sided.iter().cloned());
+    let weights = stability::Weights { w_x: &w_x, eta: &eta };
+    evaluated.conditions.extend(stability::conditions(&law, &error_box, &weights));
+    Ok(evaluated)
 }

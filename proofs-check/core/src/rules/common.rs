@@ -1,0 +1,111 @@
+//! What the rules for both regulators share (docs/mathematics.md, sections 5, 10 and 12): the free numbers of a witness, the
+//! conditions on the set, the domain and the level, and what is said of the periodic solution.
+
+use super::mean_squares::Means;
+use super::set;
+use super::stability::{ErrorBox, distances, level};
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::json::Fields;
+use crate::verdict::{Condition, Outcome};
+use rug::Rational;
+
+/// The free numbers of either regulator.
+#[derive(Clone, Debug)]
+pub struct Free {
+    /// Where they stand in the file.
+    pub pointer: String,
+    /// X_0, E_0, Z_0.
+    pub set: [Rational; 3],
+    pub x_p: Rational,
+    pub e_p: Rational,
+    /// r_x, r_e, r_d.
+    pub r: Means,
+    pub d_x: Rational,
+    pub d_e: Rational,
+    pub w_x: Rational,
+    /// The weight of zeta.
+    pub h: Rational,
+    pub k0: Rational,
+    pub k1: Rational,
+}
+
+/// The sizes |x|, |e|, |zeta|_N of the periodic solution that are proved.
+pub struct Sizes {
+    pub x: Interval,
+    pub e: Interval,
+    pub zeta: Interval,
+}
+
+impl Sizes {
+    /// With that of z = zeta + M e, under the names in a file.
+    pub fn named(&self, d: &Data<'_>) -> [(&'static str, Interval); 4] {
+        let z = &self.zeta + &d.n_bar * &self.e;
+        [("x", self.x.clone()), ("e", self.e.clone()), ("zeta", self.zeta.clone()), ("z", z)]
+    }
+}
+
+/// What was evaluated of a derivation.
+pub struct Evaluated {
+    /// The sizes of the periodic solution.
+    pub sizes: Sizes,
+    /// The conditions, in the order of the file.
+    pub conditions: Vec<Condition>,
+    /// The comparisons of the transfer proof, any of which may stand for it in the list of conditions.
+    pub transfer: Vec<Condition>,
+    /// The largest X and E at which bounding functions are used.
+    pub arguments: [Interval; 2],
+}
+
+impl Free {
+    /// Takes the free numbers out of a witness.
+    pub fn read(fields: &mut Fields<'_>, set: [Rational; 3]) -> Outcome<Free> {
+        let pointer = fields.pointer.clone();
+        let mut number = |name: &str| fields.required(name)?.rational();
+        Ok(Free {
+            r: [number("r_x")?, number("r_e")?, number("r_d")?],
+            x_p: number("X_p")?,
+            e_p: number("E_p")?,
+            d_x: number("D_x")?,
+            d_e: number("D_e")?,
+            w_x: number("w_x")?,
+            h: number("h")?,
+            k0: number("k0")?,
+            k1: number("k1")?,
+            pointer,
+            set,
+        })
+    }
+
+    /// Demands the signs that both regulators need, and of these numbers besides.
+    pub fn signs(&self, others: &[(&str, &Rational)]) -> Outcome<()> {
+        let mut named = vec![("X_p", &self.x_p), ("E_p", &self.e_p), ("D_x", &self.d_x), ("D_e", &self.d_e)];
+        named.extend(["r_x", "r_e", "r_d"].into_iter().zip(&self.r));
+        named.extend([("w_x", &self.w_x), ("h", &self.h)]);
+        set::positive(&[&named, others].concat(), &self.pointer)
+    }
+
+    /// The error box around a solution of these sizes, and the conditions before those of stability: on the set and the domain, T,
+    /// those of existence that are given, and C4.
+    pub fn evaluate(
+        &self,
+        d: &Data<'_>,
+        sizes: Sizes,
+        transfer: Vec<Condition>,
+        existence: impl IntoIterator<Item = Condition>,
+    ) -> (ErrorBox, Evaluated) {
+        let [x_p, e_p, d_x, d_e, w_x, h] =
+            [&self.x_p, &self.e_p, &self.d_x, &self.d_e, &self.w_x, &self.h].map(|value| d.number(value));
+        let error_box = ErrorBox::new(d, [&sizes.x, &sizes.e], [&d_x, &d_e]);
+        let arguments = [x_p.max(&error_box.x_b), e_p.max(&error_box.e_b)];
+        let mut conditions = set::covers(d, &self.set, [&self.x_p, &self.e_p], &sizes.zeta);
+        conditions.extend(set::domain(d, &arguments[0], &arguments[1]));
+        conditions.push(transfer[0].clone());
+        conditions.extend(existence);
+        let reach = distances(d, &self.set, [&sizes.x, &sizes.e, &sizes.zeta]);
+        let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
+        let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
+        conditions.push(Condition::less("C4", what, start, exit));
+        (error_box, Evaluated { sizes, conditions, transfer, arguments })
+    }
+}
