@@ -23,7 +23,7 @@ fn runs(criterion: &mut Criterion) {
     let spec = paper_example();
     let run = certify(&spec, Options::default()).expect("its bounding functions are proved");
     let witness = run.sharp.proved().expect("it certifies").witness.clone();
-    let file = GivenWitness::Sharp { witness: Box::new(witness.clone()), exact: None };
+    let file = GivenWitness { witness: Box::new(witness.clone()), exact: None };
 
     let mut group = criterion.benchmark_group("paper example");
     group.sample_size(10);

@@ -6,7 +6,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use sigmastar_prove::certificate::certificate_json;
-use sigmastar_prove::certify::{Derivation, Options, TransferChoice, certify};
+use sigmastar_prove::certify::{Options, TransferChoice, certify};
 use sigmastar_lang::spec::Specification;
 use std::hint::black_box;
 use std::path::Path;
@@ -16,7 +16,6 @@ fn check_and_produce(criterion: &mut Criterion) {
     let spec = Specification::load(&path).expect("the shipped example is valid");
     let kinds = [
         ("sharp", Options::default()),
-        ("repaired", Options { derivation: Derivation::Repaired, ..Options::default() }),
         ("sharp, by boxes", Options { transfer: TransferChoice::Boxes, ..Options::default() }),
     ];
     let mut group = criterion.benchmark_group("paper example");

@@ -35,7 +35,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             continue;
         }
         let [x, e] = [x, e].map(|end| exact(end, Direction::Down));
-        let direction = if bound.is_nonincreasing() { Direction::Down } else { Direction::Up };
+        let direction = if bound.is_rate() { Direction::Down } else { Direction::Up };
         let arguments = words::with_state(spec, [x, e]);
         let names = [bound.field(), bound.of_what()].map(str::to_owned);
         table.push(names.into_iter().chain(arguments).chain([exact(value, direction)]));

@@ -32,7 +32,7 @@ const FAR: f64 = 2.0;
 /// The bound of a plant that is farthest above what samples reach, where one is far above.
 fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
     let ratio = |entry: &&ProvedValue| {
-        let sampled = entry.sampled.as_ref().filter(|sampled| **sampled > 0 && !entry.bound.is_nonincreasing())?;
+        let sampled = entry.sampled.as_ref().filter(|sampled| **sampled > 0 && !entry.bound.is_rate())?;
         Some(Rational::from(&entry.value / sampled).to_f64()).filter(|ratio| *ratio > FAR)
     };
     let rated = entries.iter().filter_map(|entry| Some((ratio(&entry)?, entry)));

@@ -66,7 +66,7 @@ pub(super) fn name(spec: &Specification, datum: Datum) -> String {
 pub(super) fn one_per_cent(spec: &Specification, datum: Datum) -> String {
     let larger = match datum {
         Datum::Alpha | Datum::Domain => true,
-        Datum::Bound(bound) => bound.is_nonincreasing(),
+        Datum::Bound(bound) => bound.is_rate(),
         Datum::Mu { larger } => larger,
         Datum::PUp | Datum::Harmonics | Datum::Size(_) => false,
     };

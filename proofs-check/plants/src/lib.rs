@@ -2,7 +2,7 @@
 //!
 //! Guarantee of [`prove`]: f and q are periodic and smooth where they are used (P0); x_0 exists, near xb (P1); every entry of
 //! `bounds` is true (P2), and the forcing is as `forcing` says (P3). What the claim says of balls and domains is decided in
-//! [`coordinates`] (P4).
+//! `proofs_core::plant` (P4).
 
 mod around;
 pub mod bounds;

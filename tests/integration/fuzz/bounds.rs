@@ -5,7 +5,8 @@ use super::{cases, random};
 use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::Rational;
-use sigmastar_plants::bounds::{Entry, FloatSuprema, Kind};
+use sigmastar_lang::spec::Bound;
+use sigmastar_plants::bounds::{Entry, FloatSuprema, TABLE};
 
 /// Below a value that is met, and well above what is sampled.
 const BELOW: f64 = -0.001;
@@ -38,7 +39,7 @@ fn points(drawn: &Drawn, random: &mut StdRng) -> Vec<(f64, Vec<f64>, f64)> {
 }
 
 /// A value this part of itself above the largest that is met (of a rate below the least); `None` where that is about 0.
-fn stated(drawn: &Drawn, samples: &FloatSuprema, kind: Kind, random: &mut StdRng, part: f64) -> Option<Rational> {
+fn stated(drawn: &Drawn, samples: &FloatSuprema, kind: Bound, random: &mut StdRng, part: f64) -> Option<Rational> {
     let largest = samples.largest_at(kind, [drawn.x.to_f64(), drawn.e.to_f64()], &points(drawn, random));
     let moved = largest + part * largest.abs();
     let value = Rational::from_f64(if kind.is_rate() { -moved } else { moved })?;
@@ -52,14 +53,14 @@ fn fuzz_bounds_of_plants_by_the_producer() {
         let random = &mut random(5, case);
         let drawn = Drawn::new(random);
         let (engine, samples) = (drawn.engine(), drawn.samples());
-        for kind in Kind::TABLE {
+        for kind in TABLE {
             let mut decide = |part: f64| {
                 let value = stated(&drawn, &samples, kind, random, part)?;
                 let entry = Entry { bound: kind, x: drawn.x.clone(), e: drawn.e.clone(), value };
                 Some((engine.decide(&entry, BOXES).truth.is_true(), entry.value.to_f64()))
             };
             let Some((proved, value)) = decide(BELOW) else { continue };
-            assert!(!proved, "case {case}: {} at {value}: {}", kind.name(), drawn.name());
+            assert!(!proved, "case {case}: {} at {value}: {}", kind.field(), drawn.name());
             if case % 3 > 0 {
                 continue;
             }
@@ -79,14 +80,14 @@ fn fuzz_bounds_of_plants_by_the_checker() {
         let random = &mut random(6, case);
         let drawn = Drawn::new(random);
         let samples = drawn.samples();
-        let kind = Kind::TABLE[(case % 9) as usize];
+        let kind = TABLE[(case % 9) as usize];
         let mut checked = |part: f64| {
             let value = stated(&drawn, &samples, kind, random, part)?;
-            let witness = drawn.witness(&drawn.proof(), [&large, &large], &[(kind.name(), &value)]);
+            let witness = drawn.witness(&drawn.proof(), [&large, &large], &[(kind.field(), &value)]);
             Some((drawn.checked(&witness), value.to_f64()))
         };
         let Some((proved, value)) = checked(BELOW) else { continue };
-        assert!(proved != Some(true), "case {case}: {} at {value}: {}", kind.name(), drawn.name());
+        assert!(proved != Some(true), "case {case}: {} at {value}: {}", kind.field(), drawn.name());
         if case % 3 > 0 {
             continue;
         }

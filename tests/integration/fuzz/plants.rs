@@ -15,8 +15,8 @@ use rug::{Float, Rational};
 use serde_json::{Value, json};
 use sigmastar_exact::number::{parse_decimal, write_exact};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
-use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Kind, Region};
+use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
+use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
 use sigmastar_plants::orbit::{Coordinates, OrbitProof};
 
 /// Bounds of the P(t) that are drawn, and the sizes of their parts.
@@ -301,7 +301,7 @@ fn damped(
         }
         let plant = Plant::from_json("drawn", &document.to_string()).expect("a plant");
         let sampled = samples(&plant, &l, &orbit, &p);
-        let rates = [Kind::Rate, Kind::RateExistence].map(|kind| sampled.at(kind, tube.to_f64(), 0.0));
+        let rates = [Bound::Rate, Bound::RateExistence].map(|kind| sampled.at(kind, tube.to_f64(), 0.0));
         if rates.iter().all(|rate| *rate > 0.5) {
             let alpha = rates.map(|rate| rational(&number(0.9 * rate)));
             return Drawn { plant, document, l, orbit, p, x, e, ray, tube, alpha };

@@ -81,7 +81,7 @@ impl ClosedLoop {
         self.held
     }
 
-    /// The number of states of the plant without e; y[states()] is e.
+    /// The number of states of the plant without e; `y[states()]` is e.
     #[must_use]
     pub fn states(&self) -> usize {
         self.states

@@ -1,7 +1,7 @@
 //! Simulation of the closed loop: steady states, long runs, spectra, measurement noise.
 //!
 //! Everything here is floating point and claims nothing: it shows what a certificate speaks of, and it is what
-//! [`sigmastar_paper::reproduce`] and [`crate::falsify`] are made of. The same input gives the same figures on every machine.
+//! the reproduction of the paper's figures and [`crate::falsify`] are made of. The same input gives the same figures on every machine.
 
 mod adaptive;
 mod bode;

@@ -163,7 +163,7 @@ impl Program {
     }
 
     /// The number of operations of one evaluation, those that depend on the time alone among them; an elementary function
-    /// counts as [`FUNCTION_WEIGHT`] additions.
+    /// counts as `FUNCTION_WEIGHT` additions.
     #[must_use]
     pub fn operations(&self) -> usize {
         let weight = |instruction: &Instruction| match instruction.operation {

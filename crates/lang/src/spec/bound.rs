@@ -153,7 +153,7 @@ impl Bound {
 
     /// Whether it must be nonincreasing; the others must be nondecreasing.
     #[must_use]
-    pub fn is_nonincreasing(self) -> bool {
+    pub fn is_rate(self) -> bool {
         matches!(self.role(), Role::Rate | Role::ProvedRate)
     }
 

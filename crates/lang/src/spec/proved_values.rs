@@ -58,7 +58,7 @@ impl ProvedValues {
             |argument: &Enclosure, end: &Rational| argument.upper_rational().is_some_and(|upper| upper <= *end);
         let there = self.entries.iter().filter(|entry| entry.bound == which);
         let values = there.filter(|entry| reaches(x, &entry.x) && reaches(e, &entry.e)).map(|entry| &entry.value);
-        let best = if which.is_nonincreasing() { values.max() } else { values.min() };
+        let best = if which.is_rate() { values.max() } else { values.min() };
         best.map_or_else(|| Enclosure::undefined(precision), exact)
     }
 

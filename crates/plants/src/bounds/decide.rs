@@ -6,7 +6,7 @@ use super::chart::{Active, Ball, Cell, Chart, MAX_LEVEL, Placed};
 use super::definite::{SymmetricValues, Verdict, definite, leaves_out, nonnegative};
 use super::eigen::largest;
 use super::engine::Engine;
-use super::entry::{Entry, Kind};
+use super::entry::Entry;
 use super::majorant::Majorant;
 use super::pointwise::{product, roots};
 use super::quantity::{Quantity, Right};
@@ -16,6 +16,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::expr::{Memory, VariableSet};
+use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
 
 /// The answer for an entry.
@@ -85,11 +86,11 @@ impl Engine {
         if *x < 0 || *e < 0 || (bound.is_rate() && !self.has_matrix(*bound)) {
             return undecided;
         }
-        if bound.is_norm() && *value < 0 {
+        if !bound.is_signed() && *value < 0 {
             return Decision { truth: Truth::False, boxes: 0 };
         }
-        let active = &self.quantity(*bound).active;
-        self.below(*bound, active, [x, e], effort, &|frame, _, _, _| frame.rational(value))
+        let Some(quantity) = self.quantity(*bound) else { return undecided };
+        self.below((*bound, quantity), &quantity.active, [x, e], effort, &|frame, _, _, _| frame.rational(value))
     }
 
     /// Decides whether a bounding function holds on `|y| <= X`, `|e| <= E`, with so many boxes at most.
@@ -99,14 +100,16 @@ impl Engine {
     /// nonincreasing), `b(X', E')` is a bound on `|y| <= X'`, `|e| <= E'` then, for all X' <= X and E' <= E. For the caller to
     /// prove: what [`Engine::decide`] leaves to him.
     #[must_use]
-    pub fn decide_majorant(&self, kind: Kind, b: &Majorant, [x, e]: [&Rational; 2], effort: usize) -> Decision {
+    pub fn decide_majorant(&self, kind: Bound, b: &Majorant, [x, e]: [&Rational; 2], effort: usize) -> Decision {
+        let undecided = Decision { truth: Truth::Undecided, boxes: 0 };
         if *x < 0 || *e < 0 || (kind.is_rate() && !self.has_matrix(kind)) || !b.is_monotone(kind) {
-            return Decision { truth: Truth::Undecided, boxes: 0 };
+            return undecided;
         }
+        let Some(quantity) = self.quantity(kind) else { return undecided };
         // The distance from the orbit is that of the tube, which is followed in time.
-        let mut active = self.quantity(kind).active.clone();
+        let mut active = quantity.active.clone();
         active.time |= !active.states.is_empty();
-        self.below(kind, &active, [x, e], effort, &|frame, chart, ball, e| {
+        self.below((kind, quantity), &active, [x, e], effort, &|frame, chart, ball, e| {
             // x = x_0 + L y with |x_0 - xb| <= r in the norm of y: |y| is not below the distance from xb less r.
             let zero = frame.constant(Enclosure::zero(PRECISION));
             let distance = frame.sub(&chart.distance(frame, ball), &frame.rational(self.region.radius()));
@@ -117,14 +120,14 @@ impl Engine {
     /// Decides that a quantity stays below a value, which may differ from point to point.
     fn below(
         &self,
-        kind: Kind,
+        (kind, quantity): (Bound, &Quantity),
         active: &Active,
         [x, e]: [&Rational; 2],
         effort: usize,
         value: &BoundOnBox<'_>,
     ) -> Decision {
         let chart = Chart::new(&self.region, self.period(), active, [x, e], |index| self.extent(index));
-        let mut boxes = OnBoxes::new(self, kind, &chart);
+        let mut boxes = OnBoxes::new(self, quantity, &chart);
         subdivide(&chart, effort, |cell, ball| {
             boxes.with(cell, ball, |values, frame| {
                 let bound = value(frame, &chart, ball, active.error.then_some(values.error));
@@ -144,8 +147,8 @@ pub(super) struct OnBoxes<'a> {
 }
 
 impl<'a> OnBoxes<'a> {
-    pub(super) fn new(engine: &'a Engine, kind: Kind, chart: &'a Chart) -> OnBoxes<'a> {
-        OnBoxes { engine, quantity: engine.quantity(kind), chart, memory: Memory::default(), last: None }
+    pub(super) fn new(engine: &'a Engine, quantity: &'a Quantity, chart: &'a Chart) -> OnBoxes<'a> {
+        OnBoxes { engine, quantity, chart, memory: Memory::default(), last: None }
     }
 
     /// What `use_it` makes of the values on a box.
@@ -235,7 +238,7 @@ impl Values<'_> {
 
     /// The value in the middle of the box, and how far the others may be from it, in doubles; of a rate the negative. Nothing
     /// rests on them.
-    pub(super) fn middle(&self, kind: Kind) -> [f64; 2] {
+    pub(super) fn middle(&self, kind: Bound) -> [f64; 2] {
         let doubles = |value: &Centred| -> [f64; 2] {
             let middle = value.centre.midpoint_f64();
             [middle, (value.range.upper_f64() - middle).max(middle - value.range.lower_f64())]
@@ -244,7 +247,7 @@ impl Values<'_> {
         let matrix = self.matrix();
         if kind.is_rate() {
             let zero = self.frame.constant(Enclosure::zero(PRECISION));
-            let matrices = self.time.matrices[usize::from(kind == Kind::RateExistence)].as_ref();
+            let matrices = self.time.matrices[usize::from(kind == Bound::RateExistence)].as_ref();
             let (Some(decay), Some([p, _])) = (self.decay(kind, &matrix, &zero), matrices) else {
                 return [f64::NAN; 2];
             };
@@ -263,7 +266,7 @@ impl Values<'_> {
         let reach = length(&mut values.iter().flatten().map(|value| value[1]));
         let middles: Vec<Vec<f64>> = values.iter().map(|row| row.iter().map(|value| value[0]).collect()).collect();
         let middle = match &middles[..] {
-            [row] if kind == Kind::QEMax => row.first().copied().unwrap_or(f64::NAN),
+            [row] if kind == Bound::QeMax => row.first().copied().unwrap_or(f64::NAN),
             rows => {
                 let transposed: Vec<Vec<f64>> =
                     (0..rows.first().map_or(0, Vec::len)).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
@@ -273,7 +276,7 @@ impl Values<'_> {
         [middle, reach]
     }
 
-    pub(super) fn examine(&self, kind: Kind, bound: &Centred, ball: &Ball) -> Verdict {
+    pub(super) fn examine(&self, kind: Bound, bound: &Centred, ball: &Ball) -> Verdict {
         let frame = self.frame;
         let matrix = self.matrix();
         if kind.is_rate() {
@@ -289,7 +292,7 @@ impl Values<'_> {
             && let [number] = &row[..]
         {
             let above = nonnegative(frame, &frame.sub(bound, number), ball, false);
-            if kind == Kind::QEMax || above != Verdict::Holds {
+            if kind == Bound::QeMax || above != Verdict::Holds {
                 return above;
             }
             return nonnegative(frame, &frame.add(bound, number), ball, false);
@@ -308,9 +311,9 @@ impl Values<'_> {
     }
 
     /// `-(P' + P J + J^T P + 2 value P)`.
-    fn decay(&self, kind: Kind, jacobian: &[Vec<Centred>], value: &Centred) -> Option<SymmetricValues> {
+    fn decay(&self, kind: Bound, jacobian: &[Vec<Centred>], value: &Centred) -> Option<SymmetricValues> {
         let frame = self.frame;
-        let [p, derivative] = self.time.matrices[usize::from(kind == Kind::RateExistence)].as_ref()?;
+        let [p, derivative] = self.time.matrices[usize::from(kind == Bound::RateExistence)].as_ref()?;
         let order = jacobian.len();
         let rate = frame.scale(value, &Enclosure::from_integer(2, PRECISION));
         let moved = |value: &Centred| self.chart.moving(frame, value);

@@ -2,7 +2,6 @@
 
 use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox};
-use super::entry::Kind;
 use super::extent::extent;
 use super::quantity::Quantity;
 use super::region::{Region, RegionError};
@@ -13,7 +12,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Formulas, Walk};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Constant, PeriodicMatrix};
+use sigmastar_lang::spec::{Bound, Constant, PeriodicMatrix};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -27,7 +26,7 @@ const REMEMBERED: usize = 1 << 14;
 pub struct Engine {
     pub(super) region: Region,
     pub(super) period: Constant,
-    quantities: [Quantity; Kind::ALL.len()],
+    quantities: [Option<Quantity>; Bound::ALL.len()],
     pub(super) requirements: Vec<Requirement>,
     /// f.
     velocity: Walk,
@@ -65,12 +64,12 @@ impl Engine {
         }
         // There is one right side at least, that of q.
         let (f, q) = sides.split_at(order);
-        let quantity = |kind: Kind, formulas: &mut Formulas| {
-            let moves = matrices[usize::from(kind == Kind::RateExistence)].as_ref();
+        let quantity = |kind: Bound, formulas: &mut Formulas| {
+            let moves = matrices[usize::from(kind == Bound::RateExistence)].as_ref();
             let moves = moves.is_some_and(|matrix| !matrix.harmonics.is_empty());
             Quantity::new(formulas, f, q[0], kind, moves)
         };
-        let quantities = Kind::ALL.map(|kind| quantity(kind, &mut formulas));
+        let quantities = Bound::ALL.map(|kind| quantity(kind, &mut formulas));
         let velocity = formulas.walk(f);
         let extents = (0..order).map(|_| OnceLock::new()).collect();
         let period = plant.period.clone();
@@ -90,14 +89,15 @@ impl Engine {
         self.region.radius().to_f64()
     }
 
-    pub(super) fn quantity(&self, kind: Kind) -> &Quantity {
-        &self.quantities[kind.index()]
+    /// What a bound is of; `None` where it is not computed of a plant.
+    pub(super) fn quantity(&self, kind: Bound) -> Option<&Quantity> {
+        self.quantities[kind as usize].as_ref()
     }
 
     /// Whether there is a P for a rate.
     #[must_use]
-    pub fn has_matrix(&self, kind: Kind) -> bool {
-        self.matrices[usize::from(kind == Kind::RateExistence)].is_some()
+    pub fn has_matrix(&self, kind: Bound) -> bool {
+        self.matrices[usize::from(kind == Bound::RateExistence)].is_some()
     }
 
     /// T.

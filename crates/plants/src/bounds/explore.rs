@@ -5,9 +5,9 @@ use super::chart::{Cell, Chart, MAX_LEVEL};
 use super::decide::OnBoxes;
 use super::definite::Verdict;
 use super::engine::Engine;
-use super::entry::Kind;
 use super::side::Side;
 use rug::Rational;
+use sigmastar_lang::spec::Bound;
 
 /// What was met, of a rate downwards.
 #[derive(Clone, Copy, Debug)]
@@ -22,15 +22,18 @@ impl Engine {
     /// Looks at so many boxes of `G(X,E)` for values that exceed `known`, until none may exceed the largest by more than `room`.
     pub(super) fn explore(
         &self,
-        kind: Kind,
+        kind: Bound,
         [x, e]: [&Rational; 2],
         (known, room): (f64, f64),
         effort: usize,
     ) -> Explored {
         let sign = if kind.is_rate() { -1.0 } else { 1.0 };
-        let active = &self.quantity(kind).active;
-        let chart = Chart::new(&self.region, self.period(), active, [x, e], |index| self.extent(index));
-        let mut boxes = OnBoxes::new(self, kind, &chart);
+        // Of what is not computed nothing is known.
+        let Some(quantity) = self.quantity(kind) else {
+            return Explored { largest: known, above: sign * f64::INFINITY };
+        };
+        let chart = Chart::new(&self.region, self.period(), &quantity.active, [x, e], |index| self.extent(index));
+        let mut boxes = OnBoxes::new(self, quantity, &chart);
         let mut largest = sign * known;
         let mut open: Vec<(f64, Cell)> = vec![(f64::INFINITY, vec![Side::WHOLE; chart.sides()])];
         let mut stuck = false;

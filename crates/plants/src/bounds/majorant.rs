@@ -1,9 +1,9 @@
 //! Bounding functions as polynomials in X and E.
 
 use super::centred::{Centred, Frame};
-use super::entry::Kind;
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::Bound;
 
 /// `sum coefficient X^x E^e`; the powers are all different.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -33,9 +33,9 @@ impl Majorant {
     /// Whether the signs of the coefficients say that it is nondecreasing, and nonnegative where it bounds a norm; for a rate,
     /// nonincreasing.
     #[must_use]
-    pub fn is_monotone(&self, kind: Kind) -> bool {
+    pub fn is_monotone(&self, kind: Bound) -> bool {
         self.terms.iter().all(|Term { x, e, coefficient }| match (*x == 0 && *e == 0, kind.is_rate()) {
-            (true, _) => !kind.is_norm() || *coefficient >= 0,
+            (true, _) => kind.is_signed() || *coefficient >= 0,
             (false, true) => *coefficient <= 0,
             (false, false) => *coefficient >= 0,
         })
@@ -145,8 +145,8 @@ mod tests {
     #[test]
     fn signs_say_what_is_monotone() {
         let falling = polynomial(&[(0, 0, 1, 2), (1, 0, -3, 1)]);
-        assert!(falling.is_monotone(Kind::Rate) && !falling.is_monotone(Kind::QX));
+        assert!(falling.is_monotone(Bound::Rate) && !falling.is_monotone(Bound::Qx));
         let rising = polynomial(&[(0, 0, -1, 2), (1, 1, 3, 1)]);
-        assert!(rising.is_monotone(Kind::QEMax) && !rising.is_monotone(Kind::QE) && !rising.is_monotone(Kind::Rate));
+        assert!(rising.is_monotone(Bound::QeMax) && !rising.is_monotone(Bound::Qe) && !rising.is_monotone(Bound::Rate));
     }
 }

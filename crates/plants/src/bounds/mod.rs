@@ -34,7 +34,7 @@ mod time_cell;
 
 pub use decide::Decision;
 pub use engine::Engine;
-pub use entry::{Entry, Kind};
+pub use entry::{Entry, TABLE};
 pub use majorant::{Majorant, Term};
 pub use prove_value::ProvedValue;
 pub use region::{Region, RegionError};

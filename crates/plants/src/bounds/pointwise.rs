@@ -1,7 +1,7 @@
 //! All bounds at one point in doubles: norms of derivatives in the coordinates y. They propose; nothing rests on them.
 
 use super::eigen::{eigen, largest, largest_of};
-use super::entry::Kind;
+use super::entry::TABLE;
 use sigmastar_exact::number::Portable;
 use std::sync::Arc;
 
@@ -67,14 +67,9 @@ impl Pointwise {
         }
     }
 
-    /// What is to be bounded from above, in the order of [`Kind::TABLE`]: norms, q_e, the negatives of the local rates; NaN where
+    /// What is to be bounded from above, in the order of [`TABLE`]: norms, q_e, the negatives of the local rates; NaN where
     /// there is no P.
-    pub(super) fn all(
-        &mut self,
-        outputs: &[f64],
-        velocity: &[f64],
-        matrices: &[MatrixAt; 2],
-    ) -> [f64; Kind::TABLE.len()] {
+    pub(super) fn all(&mut self, outputs: &[f64], velocity: &[f64], matrices: &[MatrixAt; 2]) -> [f64; TABLE.len()] {
         let (n, blocks) = (self.order, self.blocks);
         self.transform(outputs);
         let column = &outputs[blocks.f_e..blocks.f_e + n];

@@ -1,10 +1,11 @@
 //! From a sampled supremum to a decided bound a little above it.
 
 use super::engine::Engine;
-use super::entry::{Entry, Kind};
+use super::entry::Entry;
 use super::suprema::FloatSuprema;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::spec::Bound;
 
 /// What a sampled supremum is enlarged by, until a bound is proved, and the boxes that each attempt may take.
 const ATTEMPTS: [(f64, usize); 6] =
@@ -56,7 +57,7 @@ impl Engine {
     /// these fail, a norm is bounded by the least value above that is proved, to 5 %. `None` if none is. `samples` must be of the
     /// same plant and region.
     #[must_use]
-    pub fn prove_value(&self, samples: &FloatSuprema, kind: Kind, x: &Rational, e: &Rational) -> Option<ProvedValue> {
+    pub fn prove_value(&self, samples: &FloatSuprema, kind: Bound, x: &Rational, e: &Rational) -> Option<ProvedValue> {
         let reach = Rational::from(x + self.region.radius()).to_f64();
         let sampled = samples.refined(kind, reach, e.to_f64());
         if !sampled.value.is_finite() {
@@ -97,7 +98,7 @@ impl Engine {
     }
 
     /// The least value above that is proved, to 5 %.
-    fn least_above(&self, kind: Kind, at: [&Rational; 2], known: f64, explored: usize) -> Option<ProvedValue> {
+    fn least_above(&self, kind: Bound, at: [&Rational; 2], known: f64, explored: usize) -> Option<ProvedValue> {
         let last = if self.states() > 2 { MODEST_ATTEMPTS } else { ATTEMPTS }.last().map_or(0.0, |(slack, _)| *slack);
         let above = self.explore(kind, at, (known, NEWS * known), explored).above;
         let mut values: Vec<f64> = MULTIPLES.iter().map(|multiple| multiple * known).chain([above]).collect();
@@ -131,7 +132,7 @@ impl Engine {
     /// A value, rounded and decided, and the boxes that were examined.
     fn attempt(
         &self,
-        kind: Kind,
+        kind: Bound,
         [x, e]: [&Rational; 2],
         (known, value): (f64, f64),
         effort: usize,

@@ -1,8 +1,8 @@
 //! The formulas of each bound.
 
 use super::chart::Active;
-use super::entry::Kind;
 use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
+use sigmastar_lang::spec::Bound;
 
 /// The matrix `A (plain + sum_l along_l x_0'_l) B` of which a bound speaks; A is the inverse of L or 1, B is L or 1.
 #[derive(Clone, Debug)]
@@ -32,8 +32,15 @@ pub(super) enum Right {
 }
 
 impl Quantity {
-    /// The formulas of a bound, from those of f and q. `moves` says whether P depends on t.
-    pub(super) fn new(formulas: &mut Formulas, f: &[Formula], q: Formula, kind: Kind, moves: bool) -> Quantity {
+    /// The formulas of a bound, from those of f and q; `None` where it is not computed of a plant. `moves` says whether P depends
+    /// on t.
+    pub(super) fn new(
+        formulas: &mut Formulas,
+        f: &[Formula],
+        q: Formula,
+        kind: Bound,
+        moves: bool,
+    ) -> Option<Quantity> {
         let order = f.len();
         let states: Vec<PlantVariable> = (0..order).map(PlantVariable::State).collect();
         let columns = |formulas: &mut Formulas, of: &[Formula]| -> Vec<Vec<Formula>> {
@@ -41,34 +48,35 @@ impl Quantity {
             (0..of.len()).map(|row| columns.iter().map(|column| column[row]).collect()).collect()
         };
         let (plain, along) = match kind {
-            Kind::FX | Kind::Rate | Kind::RateExistence => (columns(formulas, f), Vec::new()),
-            Kind::FE => {
+            Bound::F | Bound::QRms | Bound::QtRms => return None,
+            Bound::Fx | Bound::Rate | Bound::RateExistence => (columns(formulas, f), Vec::new()),
+            Bound::Fe => {
                 let column = formulas.derivatives(f, PlantVariable::Error);
                 (column.into_iter().map(|entry| vec![entry]).collect(), Vec::new())
             }
-            Kind::QX => (columns(formulas, &[q]), Vec::new()),
-            Kind::Q => (vec![vec![q]], Vec::new()),
-            Kind::QT => {
+            Bound::Qx => (columns(formulas, &[q]), Vec::new()),
+            Bound::Q => (vec![vec![q]], Vec::new()),
+            Bound::Qt => {
                 let gradient = columns(formulas, &[q]).concat();
                 (vec![formulas.derivatives(&[q], PlantVariable::Time)], vec![vec![gradient]])
             }
-            Kind::FXX => {
+            Bound::Fxx => {
                 let jacobian = columns(formulas, f).concat();
                 let rows = columns(formulas, &jacobian);
                 (rows.chunks(order.max(1)).map(<[Vec<Formula>]>::concat).collect(), Vec::new())
             }
-            Kind::FEX => {
+            Bound::Fex => {
                 let column = formulas.derivatives(f, PlantVariable::Error);
                 (columns(formulas, &column), Vec::new())
             }
-            Kind::QE | Kind::QEMax => (vec![formulas.derivatives(&[q], PlantVariable::Error)], Vec::new()),
-            Kind::QTX => {
+            Bound::Qe | Bound::QeMax => (vec![formulas.derivatives(&[q], PlantVariable::Error)], Vec::new()),
+            Bound::Qtx => {
                 let gradient = columns(formulas, &[q]).concat();
                 let plain = formulas.derivatives(&gradient, PlantVariable::Time);
                 let along = columns(formulas, &gradient);
                 (vec![plain], vec![along])
             }
-            Kind::QTE => {
+            Bound::Qte => {
                 let slope = formulas.derivatives(&[q], PlantVariable::Error);
                 let plain = formulas.derivatives(&slope, PlantVariable::Time);
                 let along = columns(formulas, &slope);
@@ -99,12 +107,13 @@ impl Quantity {
             states: (0..order).filter(|&index| variables.has(PlantVariable::State(index))).collect(),
             error: variables.has(PlantVariable::Error),
         };
-        let inverse = matches!(kind, Kind::FX | Kind::FE | Kind::Rate | Kind::RateExistence | Kind::FXX | Kind::FEX);
+        let inverse =
+            matches!(kind, Bound::Fx | Bound::Fe | Bound::Rate | Bound::RateExistence | Bound::Fxx | Bound::Fex);
         let right = match kind {
-            Kind::FX | Kind::QX | Kind::QTX | Kind::Rate | Kind::RateExistence | Kind::FEX => Right::Matrix,
-            Kind::FXX => Right::Pair,
-            Kind::FE | Kind::QE | Kind::QEMax | Kind::QTE | Kind::Q | Kind::QT => Right::One,
+            Bound::Fx | Bound::Qx | Bound::Qtx | Bound::Rate | Bound::RateExistence | Bound::Fex => Right::Matrix,
+            Bound::Fxx => Right::Pair,
+            _ => Right::One,
         };
-        Quantity { walk, plain, along, inverse, right, active }
+        Some(Quantity { walk, plain, along, inverse, right, active })
     }
 }

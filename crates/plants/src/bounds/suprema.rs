@@ -1,11 +1,11 @@
 //! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
 
-use super::entry::Kind;
+use super::entry::{TABLE, of_table};
 use super::pointwise::{MatrixAt, Pointwise, roots};
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
 use std::sync::Arc;
 
 /// Points of a period.
@@ -164,15 +164,15 @@ impl FloatSuprema {
 
     /// The supremum of one bound, roughly; for a rate the infimum. `reach` is X + r.
     #[must_use]
-    pub fn at(&self, kind: Kind, reach: f64, e: f64) -> f64 {
+    pub fn at(&self, kind: Bound, reach: f64, e: f64) -> f64 {
         self.search(kind, reach, e, ROUGH, 1).value
     }
 
-    /// The suprema of all bounds, in the order of [`Kind::TABLE`], at the points of the grid: every `stride`-th time only, and
+    /// The suprema of all bounds, in the order of [`TABLE`], at the points of the grid: every `stride`-th time only, and
     /// with a stride above 1 fewer points at each time.
     #[must_use]
-    pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; Kind::TABLE.len()] {
-        let mut largest = [f64::NEG_INFINITY; Kind::TABLE.len()];
+    pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; TABLE.len()] {
+        let mut largest = [f64::NEG_INFINITY; TABLE.len()];
         let errors: &[f64] = match stride {
             _ if e == 0.0 || !self.by_error => &[0.0],
             1 => &[-1.0, 0.0, 1.0],
@@ -185,7 +185,7 @@ impl FloatSuprema {
                 *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
             }
         });
-        std::array::from_fn(|index| if Kind::TABLE[index].is_rate() { -largest[index] } else { largest[index] })
+        std::array::from_fn(|index| if TABLE[index].is_rate() { -largest[index] } else { largest[index] })
     }
 
     /// Calls `see` with the place and the values of every point of the grid.
@@ -194,7 +194,7 @@ impl FloatSuprema {
         reach: f64,
         e: f64,
         (strides, errors): ([usize; 2], &[f64]),
-        mut see: impl FnMut([usize; 3], [f64; Kind::TABLE.len()]),
+        mut see: impl FnMut([usize; 3], [f64; TABLE.len()]),
     ) {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut outputs = vec![0.0; self.program.outputs()];
@@ -219,13 +219,13 @@ impl FloatSuprema {
 
     /// The supremum of one bound by a longer search.
     #[must_use]
-    pub fn refined(&self, kind: Kind, reach: f64, e: f64) -> Sampled {
+    pub fn refined(&self, kind: Bound, reach: f64, e: f64) -> Sampled {
         self.search(kind, reach, e, FINE, STARTS)
     }
 
     /// The largest value at these points: t/T, y in the unit ball, e/E; of a rate the negative.
     #[must_use]
-    pub fn largest_at(&self, kind: Kind, [reach, e]: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
+    pub fn largest_at(&self, kind: Bound, [reach, e]: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut slow = Evaluator::new(self.velocity.clone());
         let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
@@ -235,18 +235,18 @@ impl FloatSuprema {
             evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, y, reach, &mut x);
             evaluator.evaluate(&x, part * e, &mut outputs);
-            kind.of(&pointwise.all(&outputs, &moment.velocity, &self.matrices_at(*time)))
+            of_table(kind, &pointwise.all(&outputs, &moment.velocity, &self.matrices_at(*time)))
         };
         points.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The largest value at the points of the grid, and a local search from the best of them.
-    fn search(&self, kind: Kind, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
+    fn search(&self, kind: Bound, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
         let errors: &[f64] = if e == 0.0 || !self.by_error { &[0.0] } else { &[-1.0, 0.0, 1.0] };
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
         self.at_points(reach, e, ([1, 1], errors), |at, values| {
-            let value = kind.of(&values);
+            let value = of_table(kind, &values);
             least = least.min(value);
             keep(&mut best, starts, value, at);
         });
@@ -264,7 +264,7 @@ impl FloatSuprema {
             evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, &point.y, reach, &mut x);
             evaluator.evaluate(&x, point.e * e, &mut outputs);
-            kind.of(&pointwise.all(&outputs, &moment.velocity, &self.matrices_at(moment.time)))
+            of_table(kind, &pointwise.all(&outputs, &moment.velocity, &self.matrices_at(moment.time)))
         };
         // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
         let mut largest = f64::NAN;

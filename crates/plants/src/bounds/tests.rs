@@ -9,7 +9,7 @@ use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::expr::Evaluator;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -97,7 +97,7 @@ fn best_matrix(plant: &Plant, orbit: &TrigonometricVector, x: f64, e: f64) -> Ve
     };
     let rate = |matrix: &Vec<Vec<f64>>| {
         let samples = FloatSuprema::new(plant, FloatCurve::from(orbit), matrix.clone(), [Some(&p), None]);
-        samples.at(Kind::Rate, x, e)
+        samples.at(Bound::Rate, x, e)
     };
     let (mut best, mut at, mut step) = (f64::NEG_INFINITY, (0.0, 1.0), 0.2);
     while step > 1e-3 {
@@ -127,7 +127,7 @@ fn the_papers_plant() {
         let (x, e) = (rational(x), rational(e));
         let matrix = best_matrix(&plant, &orbit, x.to_f64(), e.to_f64());
         let case = case(&plant, &matrix, orbit.clone(), "1e-6");
-        let proved = case.engine.prove_value(&case.samples, Kind::Rate, &x, &e).unwrap();
+        let proved = case.engine.prove_value(&case.samples, Bound::Rate, &x, &e).unwrap();
         let [low, high] = case.engine.extent(1).map(|end| end.to_f64());
         let most = (1.2 - (high + x.to_f64()) / 5.0 - e.to_f64()) / 2.0;
         println!("rate on ({x}, {e}): {} of {most}; x_2 in [{low}, {high}]", proved.value.to_f64());
@@ -140,13 +140,13 @@ fn the_papers_plant() {
         let start = Instant::now();
         let all = case.samples.survey(0.5, e.to_f64(), 1);
         println!("(0.5, {e}): all sampled in {:.2} ms: {all:.4?}", start.elapsed().as_secs_f64() * 1e3);
-        for kind in Kind::TABLE.into_iter().filter(|kind| *kind != Kind::RateExistence) {
+        for kind in TABLE.into_iter().filter(|kind| *kind != Bound::RateExistence) {
             let start = Instant::now();
             let sampled = case.samples.refined(kind, 0.5, e.to_f64());
             let refined = start.elapsed().as_secs_f64() * 1e3;
             let proved = case.engine.prove_value(&case.samples, kind, &x, &e);
             let time = start.elapsed().as_secs_f64() * 1e3 - refined;
-            let name = kind.name();
+            let name = kind.field();
             println!("  {name:8} {:10.5} {refined:5.1} ms; {time:7.1} ms, {proved:?}", sampled.value);
         }
         assert_eq!(case.engine.smooth(&x, &e), Ok(()));
@@ -215,8 +215,8 @@ fn proved_bounds_hold_at_random_points() {
         let (x, e) = (rational(x), rational(e));
         let reach = Rational::from(&x + engine.region.radius()).to_f64();
         assert_eq!(engine.smooth(&x, &e), Ok(()), "{name}");
-        for kind in Kind::TABLE.into_iter().filter(|kind| *kind != Kind::RateExistence) {
-            let what = kind.name();
+        for kind in TABLE.into_iter().filter(|kind| *kind != Bound::RateExistence) {
+            let what = kind.field();
             let start = Instant::now();
             if name == "none" && kind.is_rate() {
                 continue;
@@ -257,28 +257,28 @@ fn majorants_hold_at_every_point_or_are_refused() {
     let polynomial = |terms: &[(u32, u32, &str)]| Majorant {
         terms: terms.iter().map(|(x, e, c)| Term { x: *x, e: *e, coefficient: rational(c) }).collect(),
     };
-    let decide = |kind: Kind, terms: &[(u32, u32, &str)]| {
+    let decide = |kind: Bound, terms: &[(u32, u32, &str)]| {
         let domain = [rational("0.5"), rational("0.8")];
         engine.decide_majorant(kind, &polynomial(terms), domain.each_ref(), 20_000).truth
     };
     // x = 2 y: f_x = -1 - 12 y^2 + e^2, f_e = 4 y e in x and 2 y e in y, q_x L = 2 e, q_e = 2 y.
     for (kind, above, below) in [
-        (Kind::FX, vec![(0, 0, "1.001"), (2, 0, "12.01")], vec![(0, 0, "1.001"), (2, 0, "11.9")]),
-        (Kind::FE, vec![(0, 0, "0.001"), (1, 1, "2.01")], vec![(0, 0, "0.001"), (1, 1, "1.9")]),
-        (Kind::QX, vec![(0, 0, "0.001"), (0, 1, "2.01")], vec![(0, 0, "0.001"), (0, 1, "1.99")]),
-        (Kind::QEMax, vec![(0, 0, "0.001"), (1, 0, "2.01")], vec![(0, 0, "-0.1"), (1, 0, "2.1")]),
-        (Kind::Rate, vec![(0, 0, "0.999"), (0, 2, "-1.01")], vec![(0, 0, "0.999"), (0, 2, "-0.99")]),
-        (Kind::Q, vec![(0, 0, "0.001"), (1, 1, "2.01")], vec![(0, 0, "0.001"), (1, 1, "1.98")]),
-        (Kind::FXX, vec![(0, 0, "0.001"), (1, 0, "24.1")], vec![(0, 0, "0.001"), (1, 0, "23.9")]),
-        (Kind::FEX, vec![(0, 0, "0.001"), (0, 1, "2.01")], vec![(0, 0, "0.001"), (0, 1, "1.99")]),
+        (Bound::Fx, vec![(0, 0, "1.001"), (2, 0, "12.01")], vec![(0, 0, "1.001"), (2, 0, "11.9")]),
+        (Bound::Fe, vec![(0, 0, "0.001"), (1, 1, "2.01")], vec![(0, 0, "0.001"), (1, 1, "1.9")]),
+        (Bound::Qx, vec![(0, 0, "0.001"), (0, 1, "2.01")], vec![(0, 0, "0.001"), (0, 1, "1.99")]),
+        (Bound::QeMax, vec![(0, 0, "0.001"), (1, 0, "2.01")], vec![(0, 0, "-0.1"), (1, 0, "2.1")]),
+        (Bound::Rate, vec![(0, 0, "0.999"), (0, 2, "-1.01")], vec![(0, 0, "0.999"), (0, 2, "-0.99")]),
+        (Bound::Q, vec![(0, 0, "0.001"), (1, 1, "2.01")], vec![(0, 0, "0.001"), (1, 1, "1.98")]),
+        (Bound::Fxx, vec![(0, 0, "0.001"), (1, 0, "24.1")], vec![(0, 0, "0.001"), (1, 0, "23.9")]),
+        (Bound::Fex, vec![(0, 0, "0.001"), (0, 1, "2.01")], vec![(0, 0, "0.001"), (0, 1, "1.99")]),
     ] {
-        assert!(decide(kind, &above).is_true(), "{}", kind.name());
-        assert!(!decide(kind, &below).is_true(), "{}", kind.name());
+        assert!(decide(kind, &above).is_true(), "{}", kind.field());
+        assert!(!decide(kind, &below).is_true(), "{}", kind.field());
     }
     // What is not monotone bounds nothing at larger arguments.
-    assert!(!decide(Kind::QE, &[(0, 0, "9"), (1, 0, "-1")]).is_true());
-    assert!(!decide(Kind::Rate, &[(0, 0, "-9"), (1, 0, "1")]).is_true());
-    assert!(!decide(Kind::RateExistence, &[(0, 0, "-9")]).is_true());
+    assert!(!decide(Bound::Qe, &[(0, 0, "9"), (1, 0, "-1")]).is_true());
+    assert!(!decide(Bound::Rate, &[(0, 0, "-9"), (1, 0, "1")]).is_true());
+    assert!(!decide(Bound::RateExistence, &[(0, 0, "-9")]).is_true());
 }
 
 #[test]
@@ -289,18 +289,18 @@ fn spikes_are_seen() {
     let Case { engine, .. } = case(&plant, &[vec![1.0]], still, "0");
     let (x, e) = (Rational::from(1), Rational::from(1));
     for (kind, below, above) in [
-        (Kind::FE, "0.99", "1.001"),
-        (Kind::QX, "0.99", "1.001"),
-        (Kind::QE, "0.99", "1.001"),
-        (Kind::QEMax, "0.99", "1.001"),
+        (Bound::Fe, "0.99", "1.001"),
+        (Bound::Qx, "0.99", "1.001"),
+        (Bound::Qe, "0.99", "1.001"),
+        (Bound::QeMax, "0.99", "1.001"),
         // The rate is 1 away from the spike and 0 on it.
-        (Kind::Rate, "0.01", "-0.001"),
+        (Bound::Rate, "0.01", "-0.001"),
     ] {
         let decide = |value: &str| {
             engine.decide(&Entry { bound: kind, x: x.clone(), e: e.clone(), value: rational(value) }, 10_000).truth
         };
-        assert!(!decide(below).is_true(), "{}", kind.name());
-        assert!(decide(above).is_true(), "{}", kind.name());
+        assert!(!decide(below).is_true(), "{}", kind.field());
+        assert!(decide(above).is_true(), "{}", kind.field());
     }
 }
 
@@ -369,11 +369,11 @@ fn a_periodic_matrix_proves_a_rate_that_no_constant_one_has() {
     let harmonics = (1..=8).map(|k| [wave(f64::from(k), 0.0), wave(f64::from(k), quarter)]).collect();
     let matrix = PeriodicMatrix { mean: wave(0.0, 0.0), harmonics };
     let engine = Engine::new(&plant, region(), Some(matrix), Some(identity(1))).unwrap();
-    let decide = |bound: Kind, value: &str| {
+    let decide = |bound: Bound, value: &str| {
         engine.decide(&Entry { bound, x: Rational::from(1), e: Rational::from(1), value: rational(value) }, 4000).truth
     };
-    assert!(decide(Kind::Rate, "0.99").is_true());
-    assert!(!decide(Kind::Rate, "1.01").is_true());
-    assert!(decide(Kind::RateExistence, "-1.001").is_true());
-    assert!(!decide(Kind::RateExistence, "-0.99").is_true());
+    assert!(decide(Bound::Rate, "0.99").is_true());
+    assert!(!decide(Bound::Rate, "1.01").is_true());
+    assert!(decide(Bound::RateExistence, "-1.001").is_true());
+    assert!(!decide(Bound::RateExistence, "-0.99").is_true());
 }

@@ -188,7 +188,7 @@ fn read_sharp(
             fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
         Ok((sigma, set, transfer?, refined?))
     });
-    Ok(GivenWitness { witness: witness?, exact: exact? })
+    Ok(GivenWitness { witness: Box::new(witness?), exact: exact? })
 }
 
 /// An object that holds numbers and nothing else.

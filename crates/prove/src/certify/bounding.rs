@@ -18,7 +18,7 @@ impl BoundingProblem {
     /// The sentence of the failure; of a rate that must not increase it speaks of the negative.
     #[must_use]
     pub fn sentence(&self) -> String {
-        if self.which.is_nonincreasing() {
+        if self.which.is_rate() {
             format!("it must be nonincreasing, so its negative nondecreasing; of the negative: {}", self.failure)
         } else {
             self.failure.to_string()
@@ -69,7 +69,7 @@ fn all(
 ) -> Result<(), Vec<BoundingProblem>> {
     let attempt = |which: Bound, expr: &Expr, max_operations: u64| {
         let settings = ProofSettings { max_operations, signed: which.is_signed(), ..ProofSettings::default() };
-        if which.is_nonincreasing() { proof(&expr.negated(), &settings) } else { proof(expr, &settings) }.err()
+        if which.is_rate() { proof(&expr.negated(), &settings) } else { proof(expr, &settings) }.err()
     };
     let unfinished =
         |failure: &BoundingFailure| matches!(failure, BoundingFailure::Undecided { reason: Reason::Operations(_), .. });

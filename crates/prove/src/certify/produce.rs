@@ -117,7 +117,7 @@ pub fn recheck<'s>(
     }
     let data = Data::new(spec, options.ladder.start.max(53));
     let GivenWitness { witness, exact } = file;
-    let sharp = Some(decide(spec, witness.clone(), options.ladder)).into();
+    let sharp = Some(decide(spec, witness.as_ref().clone(), options.ladder)).into();
     let claimed = exact.as_ref().map(|exact| ExactClaim {
         witness: exact.clone(),
         evaluation: decide_exact(spec, &witness.set, exact, options.ladder),

@@ -34,7 +34,7 @@ pub trait Witness: Decidable {
 #[derive(Clone, Debug)]
 pub struct GivenWitness {
     /// The free numbers.
-    pub witness: SharpWitness,
+    pub witness: Box<SharpWitness>,
     /// Exact regulation, where it is claimed.
     pub exact: Option<ExactWitness>,
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{Bound, ProvedValue, ProvedValues};
-use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, Kind};
+use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, TABLE};
 
 /// Significant digits of an argument.
 const DIGITS: u32 = 8;
@@ -66,11 +66,6 @@ impl Needed {
     }
 }
 
-/// The row of the table of 11.3.
-pub(super) fn kind(bound: Bound) -> Option<Kind> {
-    Kind::TABLE.into_iter().find(|kind| kind.name() == bound.field())
-}
-
 /// Proves a value for each argument; without states the bounds of x are 0, and the rate is any number.
 ///
 /// # Errors
@@ -86,13 +81,12 @@ pub(super) fn prove_all(
         .into_par_iter()
         .map(|(bound, x, e)| {
             let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
-            let kind = kind(bound).ok_or_else(refusal)?;
-            let (value, sampled) = match engine.prove_value(suprema, kind, &x, &e) {
+            let (value, sampled) = match engine.prove_value(suprema, bound, &x, &e) {
                 Some(proved) => (proved.value, Rational::from_f64(proved.sampled)),
                 // Without states every rate is as good as any other, and the checker asks for none.
-                None if kind.is_rate() && stateless => (Rational::from(1), None),
-                None if kind.is_rate() => return Err(refusal()),
-                None => (smallest(engine, kind, [&x, &e]).ok_or_else(refusal)?, None),
+                None if bound.is_rate() && stateless => (Rational::from(1), None),
+                None if bound.is_rate() => return Err(refusal()),
+                None => (smallest(engine, bound, [&x, &e]).ok_or_else(refusal)?, None),
             };
             Ok(ProvedValue { bound, x, e, value, sampled })
         })
@@ -104,10 +98,10 @@ pub(super) fn prove_all(
 const ROOM: u32 = 1000;
 
 /// The smallest power of ten that is proved, with room; not of a rate.
-fn smallest(engine: &Engine, kind: Kind, [x, e]: [&Rational; 2]) -> Option<Rational> {
+fn smallest(engine: &Engine, bound: Bound, [x, e]: [&Rational; 2]) -> Option<Rational> {
     SMALL.into_iter().find_map(|exponent| {
         let value = round_f64(10f64.portable_powi(exponent), 1, Direction::Up)?;
-        let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value };
+        let entry = Entry { bound, x: x.clone(), e: e.clone(), value };
         engine.decide(&entry, SMALL_EFFORT).truth.is_true().then(|| entry.value * ROOM)
     })
 }
@@ -119,11 +113,13 @@ fn smallest(engine: &Engine, kind: Kind, [x, e]: [&Rational; 2]) -> Option<Ratio
 pub(super) fn decide_all(engine: &Engine, values: &ProvedValues) -> Result<(), PlantRefusal> {
     values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value, .. }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
-        let kind = kind(*bound).ok_or_else(refusal)?;
-        if kind.is_rate() && engine.states() == 0 {
+        if !TABLE.contains(bound) {
+            return Err(refusal());
+        }
+        if bound.is_rate() && engine.states() == 0 {
             return Ok(());
         }
-        let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value: value.clone() };
+        let entry = Entry { bound: *bound, x: x.clone(), e: e.clone(), value: value.clone() };
         if engine.decide(&entry, EFFORT).truth.is_true() { Ok(()) } else { Err(refusal()) }
     })
 }

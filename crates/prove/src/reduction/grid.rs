@@ -4,31 +4,18 @@
 use crate::search::FloatBound;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
+use sigmastar_plants::bounds::TABLE;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The bounding functions that a plant's formulas give, in the order in which a node has them; the last one is not a number
-/// without a P of existence.
-pub const KINDS: [Bound; 9] = [
-    Bound::Fx,
-    Bound::Fe,
-    Bound::Qx,
-    Bound::Qe,
-    Bound::QeMax,
-    Bound::Qtx,
-    Bound::Qte,
-    Bound::Rate,
-    Bound::RateExistence,
-];
-
-/// The place of the rate in them.
+/// The place of the rate in [`TABLE`].
 pub const RATE: usize = 7;
 
 /// The place of the rate of existence.
 pub const RATE_EXISTENCE: usize = 8;
 
-/// Estimates of all of [`KINDS`] at one (X, E).
-pub type Values = [f64; KINDS.len()];
+/// Estimates of all of [`TABLE`]; the last one is not a number without a P of existence at one (X, E).
+pub type Values = [f64; TABLE.len()];
 
 /// A source of estimates at (X, E).
 pub type Source = dyn Fn(f64, f64) -> Values + Send + Sync;
@@ -63,12 +50,12 @@ impl Grid {
             (*bound, FloatBound::Function(Arc::new(move |x, e| grid.at(x, e)[index])))
         };
         let wanted = |bound: &&Bound| existence || **bound != Bound::RateExistence;
-        KINDS.iter().filter(wanted).enumerate().map(function).collect()
+        TABLE.iter().filter(wanted).enumerate().map(function).collect()
     }
 
     /// Estimates at (X, E).
     fn at(&self, x: f64, e: f64) -> Values {
-        let unknown = [f64::NAN; KINDS.len()];
+        let unknown = [f64::NAN; TABLE.len()];
         let (Some((i, across)), Some((j, along))) = (self.cell(x, self.units[0]), self.cell(e, self.units[1])) else {
             return unknown;
         };

@@ -1,15 +1,14 @@
 //! Sampled suprema of a plant's derivatives as a search takes them.
 
 use super::coordinates::Density;
-use super::entries::kind;
-use super::grid::{KINDS, RATE, Source, Values};
+use super::grid::{RATE, Source, Values};
 use crate::search::FloatModel;
 use nalgebra::DMatrix;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
-use sigmastar_plants::bounds::{FloatCurve, FloatSuprema};
+use sigmastar_plants::bounds::{FloatCurve, FloatSuprema, TABLE};
 use sigmastar_plants::orbit::lower_triangular;
 use std::sync::Arc;
 
@@ -44,7 +43,7 @@ impl<'a> Sampling<'a> {
     /// Ordinary sizes of |y| and |e|.
     pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
         let values = self.source(l, [None; 2], Density::Rough)(0.0, 0.0);
-        let of = |bound| KINDS.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
+        let of = |bound| TABLE.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
         let (rate, f_e) = (of(Bound::Rate), of(Bound::Fe));
         let size = f_e / rate * self.unit_e;
         let size = if size.is_finite() { size.max(self.asked[0]) } else { self.asked[0] };
@@ -74,10 +73,8 @@ impl<'a> Sampling<'a> {
             Density::Fine => 1,
         };
         let stateless = l.nrows() == 0;
-        let kinds = KINDS.map(kind);
         Arc::new(move |x, e| -> Values {
-            let all = suprema.survey(x, e, stride);
-            let mut values: Values = kinds.map(|kind| kind.map_or(f64::NAN, |kind| all[kind.index()]));
+            let mut values: Values = suprema.survey(x, e, stride);
             if stateless {
                 // Without states every rate is as good as any other.
                 values[RATE] = 1.0;
@@ -132,7 +129,7 @@ pub(super) fn rational_matrix(
             Bound::Fe | Bound::Qx => found[index] <= wanted[index] * (1.0 + LOST),
             _ => true,
         };
-        if KINDS.iter().enumerate().all(kept) {
+        if TABLE.iter().enumerate().all(kept) {
             break;
         }
     }

@@ -3,7 +3,6 @@
 #[path = "../../../plants/src/bounds/tests/random_points.rs"]
 mod random_points;
 
-use super::entries::kind;
 use super::{bounds_around, reduce};
 use random_points::random_points;
 use sigmastar_lang::plant::Plant;
@@ -38,11 +37,11 @@ fn values_are_above_random_points_and_near_them() {
         let points = random_points(plant.states(), 100_000);
         for ProvedValue { bound, x, e, value, .. } in reduced.spec.bounds.proved_values().entries() {
             let place = format!("{name}: {} at ({}, {})", bound.field(), x.to_f64(), e.to_f64());
-            if plant.states() == 0 && bound.is_nonincreasing() {
+            if plant.states() == 0 && bound.is_rate() {
                 continue;
             }
-            let found = samples.largest_at(kind(*bound).unwrap(), [x.to_f64() + radius, e.to_f64()], &points);
-            let value = if bound.is_nonincreasing() { -value.to_f64() } else { value.to_f64() };
+            let found = samples.largest_at(*bound, [x.to_f64() + radius, e.to_f64()], &points);
+            let value = if bound.is_rate() { -value.to_f64() } else { value.to_f64() };
             assert!(value >= found, "{place}: {value} is below {found}");
             let near = value - found <= SLACK * found.abs() || value.abs() < NOTHING;
             assert!(near, "{place}: {value} for {found}");

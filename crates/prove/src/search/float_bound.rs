@@ -47,7 +47,7 @@ impl FloatBound {
         }
         let there = proved.entries().iter().filter(|entry| entry.bound == which);
         let entries = there.map(|entry| [&entry.x, &entry.e, &entry.value].map(rug::Rational::to_f64)).collect();
-        Some(FloatBound::Values { entries, from_below: which.is_nonincreasing() })
+        Some(FloatBound::Values { entries, from_below: which.is_rate() })
     }
 
     /// The value at (X, E); NaN where it is undefined.

@@ -268,7 +268,7 @@ impl FloatModel {
                     |bound: Bound| bound.is_signed() && bound.replacement() == Some(which) && !self.given(bound);
                 for (bound, kind) in model.bounds.iter_mut().zip(Bound::ALL) {
                     if kind == which || serves(kind) {
-                        bound.change = if which.is_nonincreasing() { by } else { -by };
+                        bound.change = if which.is_rate() { by } else { -by };
                     }
                 }
             }

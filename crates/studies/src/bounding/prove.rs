@@ -4,7 +4,8 @@ use super::fit::Samples;
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
-use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, Kind, Majorant, Term};
+use sigmastar_lang::spec::Bound;
+use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, Majorant, Term};
 use sigmastar_prove::reduction::PlantRefusal;
 
 /// Where suprema are sampled, as parts of the largest X and E.
@@ -46,7 +47,8 @@ pub struct PlantBounds {
 }
 
 /// The kinds that are fitted by a polynomial.
-const FITTED: [Kind; 8] = [Kind::FX, Kind::FE, Kind::QX, Kind::QE, Kind::QEMax, Kind::QTX, Kind::QTE, Kind::Rate];
+const FITTED: [Bound; 8] =
+    [Bound::Fx, Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax, Bound::Qtx, Bound::Qte, Bound::Rate];
 
 impl PlantBounds {
     /// Proposes and proves them. `engine` and `samples` are of one plant and region, of which the period and smoothness on the
@@ -59,34 +61,34 @@ impl PlantBounds {
         let fitted = FITTED.into_par_iter().map(|kind| {
             let found = match kind {
                 // Without states every rate is as good as any other.
-                Kind::Rate if stateless => Some(Majorant::constant(Rational::from(1))),
+                Bound::Rate if stateless => Some(Majorant::constant(Rational::from(1))),
                 _ => majorant(engine, samples, kind, domain),
             };
             (kind, found)
         });
         let corner = domain.map(Rational::clone);
         let origin = [Rational::new(), Rational::new()];
-        let single = [(Kind::Q, &origin), (Kind::QT, &origin), (Kind::FXX, &corner), (Kind::FEX, &corner)];
+        let single = [(Bound::Q, &origin), (Bound::Qt, &origin), (Bound::Fxx, &corner), (Bound::Fex, &corner)];
         let single = single.into_par_iter().map(|(kind, at)| (kind, least(engine, kind, at).map(Majorant::constant)));
-        let all: Vec<(Kind, Option<Majorant>)> = fitted.chain(single).collect();
+        let all: Vec<(Bound, Option<Majorant>)> = fitted.chain(single).collect();
         // What was not asked for is not proved either.
-        let proved = |kind: Kind| {
+        let proved = |kind: Bound| {
             let found = all.iter().find(|(other, _)| *other == kind).and_then(|(_, found)| found.clone());
-            found.ok_or_else(|| PlantRefusal::NotProved { bound: kind.name(), at: domain.map(Rational::to_f64) })
+            found.ok_or_else(|| PlantRefusal::NotProved { bound: kind.field(), at: domain.map(Rational::to_f64) })
         };
         Ok(PlantBounds {
-            f_x: proved(Kind::FX)?,
-            f_e: proved(Kind::FE)?,
-            q_x: proved(Kind::QX)?,
-            q_e: proved(Kind::QE)?,
-            q_e_max: proved(Kind::QEMax)?,
-            q_tx: proved(Kind::QTX)?,
-            q_te: proved(Kind::QTE)?,
-            rate: proved(Kind::Rate)?,
-            q: proved(Kind::Q)?,
-            q_t: proved(Kind::QT)?,
-            f_xx: proved(Kind::FXX)?,
-            f_ex: proved(Kind::FEX)?,
+            f_x: proved(Bound::Fx)?,
+            f_e: proved(Bound::Fe)?,
+            q_x: proved(Bound::Qx)?,
+            q_e: proved(Bound::Qe)?,
+            q_e_max: proved(Bound::QeMax)?,
+            q_tx: proved(Bound::Qtx)?,
+            q_te: proved(Bound::Qte)?,
+            rate: proved(Bound::Rate)?,
+            q: proved(Bound::Q)?,
+            q_t: proved(Bound::Qt)?,
+            f_xx: proved(Bound::Fxx)?,
+            f_ex: proved(Bound::Fex)?,
         })
     }
 
@@ -106,23 +108,23 @@ impl PlantBounds {
             ("q_t", added(&self.q_t, &self.q_tx, &self.q_te)),
         ];
         // From above and from below it is the same: then one of the two is enough.
-        let one_sided = (!self.q_e_max.is_above(&self.q_e)).then_some((Kind::QEMax, self.q_e_max));
+        let one_sided = (!self.q_e_max.is_above(&self.q_e)).then_some((Bound::QeMax, self.q_e_max));
         let first = [
-            (Kind::FX, self.f_x),
-            (Kind::FE, self.f_e),
-            (Kind::FXX, self.f_xx),
-            (Kind::FEX, self.f_ex),
-            (Kind::QX, self.q_x),
-            (Kind::QE, self.q_e),
+            (Bound::Fx, self.f_x),
+            (Bound::Fe, self.f_e),
+            (Bound::Fxx, self.f_xx),
+            (Bound::Fex, self.f_ex),
+            (Bound::Qx, self.q_x),
+            (Bound::Qe, self.q_e),
         ];
-        let last = [(Kind::QTX, self.q_tx), (Kind::QTE, self.q_te)];
-        let own = first.into_iter().chain(one_sided).chain(last).map(|(kind, majorant)| (kind.name(), majorant));
+        let last = [(Bound::Qtx, self.q_tx), (Bound::Qte, self.q_te)];
+        let own = first.into_iter().chain(one_sided).chain(last).map(|(kind, majorant)| (kind.field(), majorant));
         (on_the_orbit.into_iter().chain(own).collect(), self.rate)
     }
 }
 
 /// A polynomial that is proved, near the least that the samples allow; the constant at the far corner where none is.
-fn majorant(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Rational; 2]) -> Option<Majorant> {
+fn majorant(engine: &Engine, samples: &FloatSuprema, kind: Bound, domain: [&Rational; 2]) -> Option<Majorant> {
     let corner = || {
         let proved = engine.prove_value(samples, kind, domain[0], domain[1])?;
         let direction = if kind.is_rate() { Direction::Down } else { Direction::Up };
@@ -133,7 +135,7 @@ fn majorant(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Ratio
     proposal(engine, samples, kind, domain).or_else(|| corner().or_else(small).map(Majorant::constant))
 }
 
-fn proposal(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Rational; 2]) -> Option<Majorant> {
+fn proposal(engine: &Engine, samples: &FloatSuprema, kind: Bound, domain: [&Rational; 2]) -> Option<Majorant> {
     let sampled = sampled(engine, samples, kind, domain);
     let size = sampled.size();
     if !size.is_finite() {
@@ -143,7 +145,7 @@ fn proposal(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Ratio
         let zero = Majorant::default();
         return engine.decide_majorant(kind, &zero, domain, EFFORT).truth.is_true().then_some(zero);
     }
-    let fitted = sampled.fit(!kind.is_norm())?;
+    let fitted = sampled.fit(kind.is_signed())?;
     ATTEMPTS.into_iter().find_map(|(slack, effort)| {
         let term = |&(x, e, c): &(u32, u32, f64)| {
             let room = if (x, e) == (0, 0) { ROOM * slack * size } else { 0.0 };
@@ -158,7 +160,7 @@ fn proposal(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Ratio
 }
 
 /// Suprema over the grid; the negatives of a rate.
-fn sampled(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Rational; 2]) -> Samples {
+fn sampled(engine: &Engine, samples: &FloatSuprema, kind: Bound, domain: [&Rational; 2]) -> Samples {
     let [x, e] = domain.map(|end| {
         let end = end.to_f64();
         if end > 0.0 { GRID.map(|part| part * end).to_vec() } else { vec![0.0] }
@@ -175,7 +177,7 @@ fn sampled(engine: &Engine, samples: &FloatSuprema, kind: Kind, domain: [&Ration
 }
 
 /// A value of few digits that is proved at one argument, near the least of which that holds.
-fn least(engine: &Engine, kind: Kind, [x, e]: &[Rational; 2]) -> Option<Rational> {
+fn least(engine: &Engine, kind: Bound, [x, e]: &[Rational; 2]) -> Option<Rational> {
     let proved = |value: f64| {
         let value = round_f64(value, DIGITS, Direction::Up)?;
         let entry = Entry { bound: kind, x: x.clone(), e: e.clone(), value };

@@ -6,6 +6,7 @@
 //! alone: with the slope at its middle the box would be proved for every value from 900 on.
 
 use super::*;
+use sigmastar_lang::spec::Bound;
 
 const BUMP: &str = "0.6*(1 + tanh(1500*(Y - 0.9965)))";
 const BUMP_SLOPE: &str = "900*(1 - tanh(1500*(Y - 0.9965))^2)";
@@ -24,15 +25,15 @@ const EDGES: [[&str; 2]; 9] = [
 ];
 
 /// The right sides and q of the plant in which the edge is in this bound, and Y as it is there.
-fn formulas(kind: Kind, [edge, edge_e]: [&str; 2], y: &str) -> ([String; 2], String) {
+fn formulas(kind: Bound, [edge, edge_e]: [&str; 2], y: &str) -> ([String; 2], String) {
     let (of_y, of_e) = (format!("({edge} + {BUMP})"), format!("({edge_e} + e*{BUMP_SLOPE})"));
     let none = || "0".to_owned();
     let (decay, along, q) = match kind {
-        Kind::FX | Kind::Rate | Kind::RateExistence => (3000, of_y, none()),
-        Kind::FE => (1, of_e, none()),
-        Kind::QX => (1, none(), of_y),
-        Kind::QTX => (1, none(), format!("{of_y}*sin(2*pi*t)/6")),
-        Kind::QTE => (1, none(), format!("{of_e}*sin(2*pi*t)/6")),
+        Bound::Fx | Bound::Rate | Bound::RateExistence => (3000, of_y, none()),
+        Bound::Fe => (1, of_e, none()),
+        Bound::Qx => (1, none(), of_y),
+        Bound::Qtx => (1, none(), format!("{of_y}*sin(2*pi*t)/6")),
+        Bound::Qte => (1, none(), format!("{of_e}*sin(2*pi*t)/6")),
         _ => (1, none(), of_e),
     };
     let f = [("a", "0.6"), ("b", "0.8")].map(|(x, part)| format!("-{decay}*{x} + {part}*{along}"));
@@ -46,13 +47,13 @@ fn on_the_ray() -> Vec<(f64, Vec<f64>, f64)> {
     reach.flat_map(at).flatten().collect()
 }
 
-fn decide(engine: &Engine, kind: Kind, [x, e]: [&str; 2], value: f64, effort: usize) -> Decision {
+fn decide(engine: &Engine, kind: Bound, [x, e]: [&str; 2], value: f64, effort: usize) -> Decision {
     let value = Rational::from_f64(value).unwrap();
     engine.decide(&Entry { bound: kind, x: rational(x), e: rational(e), value }, effort)
 }
 
 /// One per mille below what is met in the ball is never proved; whether a little above it is, where that is asked for.
-fn examine(plant: &Plant, orbit: TrigonometricVector, kind: Kind, what: &str, also_above: bool) -> bool {
+fn examine(plant: &Plant, orbit: TrigonometricVector, kind: Bound, what: &str, also_above: bool) -> bool {
     let unit = vec![vec![1.0, 0.0], vec![0.0, 1.0]];
     let p = identity(2);
     let samples = FloatSuprema::new(plant, FloatCurve::from(&orbit), unit, [Some(&p), Some(&p)]);
@@ -67,7 +68,7 @@ fn examine(plant: &Plant, orbit: TrigonometricVector, kind: Kind, what: &str, al
         if kind.is_rate() { -moved } else { moved }
     });
     let false_one = decide(&engine, kind, set, below, 500);
-    assert!(!false_one.truth.is_true(), "{what}: {} at {below}, {largest} in the ball", kind.name());
+    assert!(!false_one.truth.is_true(), "{what}: {} at {below}, {largest} in the ball", kind.field());
     also_above && decide(&engine, kind, set, above, 4000).truth.is_true()
 }
 
@@ -76,9 +77,9 @@ fn an_edge_outside_of_the_ball_proves_nothing_false() {
     let still = || TrigonometricVector { mean: vec![Rational::new(); 2], harmonics: Vec::new() };
     let mut proved = 0;
     for edges in EDGES {
-        for kind in Kind::TABLE {
+        for kind in TABLE {
             let ([f, g], q) = formulas(kind, edges, "(0.6*a + 0.8*b)");
-            let also_above = kind == Kind::QX;
+            let also_above = kind == Bound::Qx;
             proved += u32::from(examine(&plant(&["a", "b"], &[&f, &g], &q), still(), kind, edges[0], also_above));
         }
     }
@@ -90,7 +91,7 @@ fn an_edge_outside_of_the_ball_proves_nothing_false() {
 fn nor_does_one_that_moves_with_the_orbit() {
     let moving = || curve(&["0", "0"], &[["0.12", "0"], ["0.16", "0"]]);
     for edges in [EDGES[0], EDGES[2], EDGES[3]] {
-        for kind in Kind::TABLE {
+        for kind in TABLE {
             let ([f, g], q) = formulas(kind, edges, "(0.6*a + 0.8*b - cos(2*pi*t)/5)");
             examine(&plant(&["a", "b"], &[&f, &g], &q), moving(), kind, edges[0], false);
         }
@@ -108,7 +109,7 @@ fn a_rate_that_only_a_box_beyond_the_kink_has_is_refused() {
     let still = TrigonometricVector { mean: vec![Rational::new(); 2], harmonics: Vec::new() };
     let region = Region::new(p.mean.clone(), still, Rational::new()).unwrap();
     let engine = Engine::new(&plant, region, Some(p.clone()), Some(p)).unwrap();
-    for kind in [Kind::Rate, Kind::RateExistence] {
+    for kind in [Bound::Rate, Bound::RateExistence] {
         for x in ["0.998", "1"] {
             assert!(!decide(&engine, kind, [x, "0"], 0.1, 20_000).truth.is_true(), "{x}");
         }
@@ -126,8 +127,8 @@ fn a_zero_factor_leaves_nothing_undefined_out() {
     let plant = plant(&["a", "b"], &["-a + b/(e - 1/2)", "-b"], "a/(e - 1/2)");
     let region = Region::new(p.mean.clone(), still(), Rational::new()).unwrap();
     let engine = Engine::new(&plant, region, Some(p.clone()), Some(p)).unwrap();
-    for kind in [Kind::FX, Kind::FE, Kind::QX, Kind::QE, Kind::QEMax, Kind::Rate, Kind::RateExistence] {
+    for kind in [Bound::Fx, Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax, Bound::Rate, Bound::RateExistence] {
         let value = if kind.is_rate() { -1e9 } else { 1e9 };
-        assert!(!decide(&engine, kind, ["1", "1"], value, 2000).truth.is_true(), "{}", kind.name());
+        assert!(!decide(&engine, kind, ["1", "1"], value, 2000).truth.is_true(), "{}", kind.field());
     }
 }
