@@ -1,6 +1,6 @@
 //! Rule: the Lyapunov triple of a specification with a Jacobian.
 
-use crate::common::{assert_refused, assert_valid, certificate, changed, with};
+use crate::common::{assert_refused, assert_valid, certificate, changed, drawn, every, with};
 use proofs_check::check;
 use proofs_check::constant::Constant;
 use proofs_check::jacobian::{Entry, Jacobian, Witness};
@@ -240,4 +240,85 @@ fn fields() {
     }
     let many: Vec<Value> = vec![json!({ "cos": [["0"]], "sin": [["0"]] }); 65];
     assert_refused(&with(PERIODIC, lyapunov, "harmonics", many), BadInput, "format", "/witness/lyapunov/harmonics");
+}
+
+/// A random Jacobian of order 2 with P(t), each entry `mean + cos cos(2 pi t) + sin sin(2 pi t)`; of F one entry is between two
+/// numbers.
+struct Drawn {
+    f: [[[f64; 3]; 2]; 2],
+    between: [f64; 2],
+    p: [[f64; 3]; 3],
+}
+
+impl Drawn {
+    fn new(case: u64) -> Drawn {
+        let mut next = drawn(case);
+        let mut entry = |mean: f64, size: f64| [mean, 0.0, 0.0].map(|mean| mean + size * (2.0 * next() - 1.0));
+        let f = [[entry(-2.0, 0.5), entry(0.0, 1.0)], [entry(0.0, 1.0), entry(-1.5, 0.5)]];
+        let p = [entry(1.0, 0.2), entry(0.0, 0.2), entry(1.2, 0.2)];
+        let low = next() - 0.5;
+        Drawn { f, between: [low, low + next()], p }
+    }
+
+    fn at([mean, cos, sin]: &[f64; 3], t: f64) -> [f64; 2] {
+        let (s, c) = (std::f64::consts::TAU * t).sin_cos();
+        [mean + cos * c + sin * s, std::f64::consts::TAU * (sin * c - cos * s)]
+    }
+
+    /// The least and the largest eigenvalue of P, and the least alpha, over times and both ends.
+    fn sampled(&self) -> [f64; 3] {
+        let mut found = [f64::INFINITY, 0.0, f64::INFINITY];
+        for t in (0..4000).map(|k| f64::from(k) / 4000.0) {
+            let [[a, da], [b, db], [d, dd]] = self.p.each_ref().map(|entry| Drawn::at(entry, t));
+            let (middle, radius) = ((a + d) / 2.0, ((a - d) / 2.0).hypot(b));
+            found = [found[0].min(middle - radius), found[1].max(middle + radius), found[2]];
+            for end in self.between {
+                let f = |i: usize, j: usize| if (i, j) == (0, 1) { end } else { Drawn::at(&self.f[i][j], t)[0] };
+                let [g, h, k] = [
+                    -(da + 2.0 * (a * f(0, 0) + b * f(1, 0))),
+                    -(db + a * f(0, 1) + b * f(1, 1) + f(0, 0) * b + f(1, 0) * d),
+                    -(dd + 2.0 * (b * f(0, 1) + d * f(1, 1))),
+                ];
+                // det(G - 2 alpha P) = 0, the lesser root.
+                let [x, y, z] = [a * d - b * b, g * d + k * a - 2.0 * h * b, g * k - h * h];
+                found[2] = found[2].min((y - (y * y - 4.0 * x * z).max(0.0).sqrt()) / (4.0 * x));
+            }
+        }
+        found
+    }
+
+    fn verdict(&self, [p_low, p_up, alpha]: [f64; 3]) -> Result<String, Verdict> {
+        let text = |[mean, cos, sin]: &[f64; 3]| format!("({mean}) + ({cos})*cos(2*pi*t) + ({sin})*sin(2*pi*t)");
+        let f = json!([
+            [text(&self.f[0][0]), [self.between[0].to_string(), self.between[1].to_string()]],
+            [text(&self.f[1][0]), text(&self.f[1][1])]
+        ]);
+        let rows = |part: usize| {
+            let [a, b, d] = self.p.map(|entry| entry[part].to_string());
+            json!([[a, b.clone()], [b, d]])
+        };
+        let harmonics = json!([{ "cos": rows(1), "sin": rows(2) }]);
+        let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|number| number.to_string());
+        verdict(&f, &json!({ "P": rows(0), "harmonics": harmonics, "p_low": p_low, "p_up": p_up, "alpha": alpha }))
+    }
+}
+
+/// A number that a sampled time contradicts is never proved; one with a little room is.
+#[test]
+fn random_triples_that_are_false_at_some_time() {
+    let mut seen = [0, 0];
+    for case in 0..240 / every(6) as u64 {
+        let drawn = Drawn::new(case);
+        let [low, up, alpha] = drawn.sampled();
+        if low < 0.2 || alpha < 0.1 {
+            continue;
+        }
+        seen[0] += 1;
+        seen[1] += usize::from(drawn.verdict([low * 0.98, up * 1.02, alpha * 0.98]).is_ok());
+        for wrong in [[low * 1.000_001, up * 1.02, alpha * 0.9], [low * 0.98, up * 0.999_999, alpha * 0.9]] {
+            assert!(drawn.verdict(wrong).is_err(), "{case}");
+        }
+        assert!(drawn.verdict([low * 0.98, up * 1.02, alpha * 1.000_001]).is_err(), "{case}: {alpha}");
+    }
+    assert!(seen[0] >= 10 && seen[1] == seen[0], "{seen:?}");
 }
