@@ -1,5 +1,5 @@
 //! The Jacobian F(t) of a specification, and the P(t) with which a witness proves a Lyapunov triple for it: read and checked in
-//! form. What is proved with them is in `rules/lyapunov`.
+//! form. What is proved with them is in the crate `proofs-plants`.
 
 use crate::constant::{Constant, expression};
 use crate::expr::{Expr, TIME};

@@ -138,7 +138,7 @@ fn nonnegative(field: Field<'_>) -> Outcome<Constant> {
 
 impl Specification {
     /// Reads and checks the embedded specification. With a Jacobian, the triple is the field `lyapunov` of the witness, and a second
-    /// one may be its field `lyapunov_existence`; both are taken out, and their proof (`rules/lyapunov`) is left to be done.
+    /// one may be its field `lyapunov_existence`; both are taken out, and their proof (the crate `proofs-plants`) is left to be done.
     pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<Specification> {
         let mut file = field.fields()?;
         header(&mut file, "sigmastar/bounding-spec")?;
