@@ -5,7 +5,7 @@ use sigmastar_document::{Block, Table};
 use sigmastar_prove::certify::Certification;
 use sigmastar_theory::derivation::condition::Condition;
 
-/// The conditions of the chosen derivation.
+/// The conditions of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     of("Conditions", run.conditions())
 }

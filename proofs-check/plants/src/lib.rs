@@ -38,7 +38,7 @@ use std::rc::Rc;
 
 /// The precision, in bits, of the boxes.
 const PRECISION: u32 = 64;
-/// Those of Taylor arithmetic, each tried where the one before does not decide.
+/// Those of Taylor arithmetic and of the Jacobian over time, each tried where the one before does not decide.
 const TAYLOR_PRECISIONS: [u32; 2] = [128, 320];
 /// How many cells of t there are for the bound of the drift.
 const DRIFT_CELLS_LOG: u32 = 6;

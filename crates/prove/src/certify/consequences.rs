@@ -44,7 +44,7 @@ impl Certification<'_> {
         Some((data.rational(claim.sigma) + &data.mu * &data.n_bar_squared).ceiling())
     }
 
-    /// Radii of the error box in x and e of the chosen derivation, if certified.
+    /// Radii of the error box of the claim in x and e, if certified.
     #[must_use]
     pub fn error_box(&self) -> Option<[Enclosure; 2]> {
         self.claim().map(|claim| claim.error_box)
