@@ -4,10 +4,9 @@ use super::condition::Condition;
 use super::report::Report;
 use super::subject::Subject;
 use super::{json_text, nearest, rounded_down, rounded_up};
-use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Specification, StartSizes};
 use sigmastar_prove::certificate::{certificate_of, sampled_statement, statement};
 use sigmastar_prove::certify::claimed_ball;
 use sigmastar_prove::reduction::Run;
@@ -174,25 +173,20 @@ pub struct Samples {
     pub gain: String,
 }
 
-/// The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`; of a plant by its formulas `|L^-1 (x - x_0(t))| <= x0` in the place of
+/// The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`, or `z = M e` in the place of the last; of a plant by its formulas `|L^-1 (x - x_0(t))| <= x0` in the place of
 /// `|x| <= x0`, with the orbit x_0 and the coordinates L of its certificate.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct InitialSet {
-    exact: [String; 3],
-    down: [f64; 3],
+    exact: StartSizes<String>,
+    down: StartSizes<f64>,
     ball: Option<String>,
 }
 
 impl InitialSet {
     fn new(spec: &Specification, set: &ClaimedSet) -> InitialSet {
-        let sizes: [&Rational; 3] = [&set.x0, &set.e0, &set.z0];
         let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
-        InitialSet {
-            exact: sizes.map(write_exact),
-            down: sizes.map(rounded_down),
-            ball: ball.as_ref().map(write_exact),
-        }
+        InitialSet { exact: set.map(write_exact), down: set.map(rounded_down), ball: ball.as_ref().map(write_exact) }
     }
 
     /// Of a plant: a radius such that the set contains all x with `|x - x_0(t)|` up to it, exactly.
@@ -201,28 +195,28 @@ impl InitialSet {
         self.ball.as_deref()
     }
 
-    /// x0, e0 and z0, exactly.
+    /// x0, e0 and z0, exactly; no z0 where the regulator sets `z = M e`.
     #[must_use]
-    pub fn exact(&self) -> [&str; 3] {
-        self.exact.each_ref().map(String::as_str)
+    pub fn exact(&self) -> (&str, &str, Option<&str>) {
+        (&self.exact.x0, &self.exact.e0, self.exact.z0.as_deref())
     }
 
     /// x0, rounded down: the smaller set is covered too.
     #[must_use]
     pub fn x0(&self) -> f64 {
-        self.down[0]
+        self.down.x0
     }
 
     /// e0, rounded down.
     #[must_use]
     pub fn e0(&self) -> f64 {
-        self.down[1]
+        self.down.e0
     }
 
-    /// z0, rounded down.
+    /// z0, rounded down; `None` where the regulator sets `z = M e` at its first instant.
     #[must_use]
-    pub fn z0(&self) -> f64 {
-        self.down[2]
+    pub fn z0(&self) -> Option<f64> {
+        self.down.z0
     }
 }
 

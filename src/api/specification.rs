@@ -234,7 +234,17 @@ impl SpecificationBuilder {
     /// they are not given.
     #[must_use]
     pub fn initial_set_at_rest(self, x0: Option<&str>, e0: Option<&str>) -> SpecificationBuilder {
-        let mut set = object([("kind", text("at-rest"))]);
+        self.initial_set_of_sizes("at-rest", x0, e0)
+    }
+
+    /// The regulator sets `z = M e` at its first instant; `|x| <= x0` and `|e| <= e0` as at rest.
+    #[must_use]
+    pub fn initial_set_aligned(self, x0: Option<&str>, e0: Option<&str>) -> SpecificationBuilder {
+        self.initial_set_of_sizes("aligned", x0, e0)
+    }
+
+    fn initial_set_of_sizes(self, kind: &str, x0: Option<&str>, e0: Option<&str>) -> SpecificationBuilder {
+        let mut set = object([("kind", text(kind))]);
         let given = [("X0", x0), ("E0", e0)];
         set.extend(given.into_iter().filter_map(|(name, value)| Some((name.to_owned(), text(value?)))));
         self.with("initial_set", set.into())

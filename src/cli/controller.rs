@@ -69,8 +69,13 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
             Some((discrete, sampled))
         }
     };
-    let export =
-        Export { name: &clean(subject.name()), regulator: &regulator, discrete, certificate: certificate.as_ref() };
+    let export = Export {
+        name: &clean(subject.name()),
+        regulator: &regulator,
+        discrete,
+        aligned: subject.starts_aligned(),
+        certificate: certificate.as_ref(),
+    };
     let text = match args.format {
         RegulatorForm::Json => output::json_text(&export::json(&export)),
         RegulatorForm::Matlab => export::matlab(&export),

@@ -6,6 +6,7 @@ use super::files::Input;
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
+use super::simulate::wrong_dimension;
 use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
@@ -129,14 +130,10 @@ fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discret
 
 /// The initial condition of the plant file.
 fn start(sampled: &SampledLoop, initial: &Initial) -> Result<Vec<f64>, Failure> {
-    let (given, needed) = (initial.z.len(), sampled.regulator.dimension());
-    if given != 0 && given != needed {
-        let message = format!("the initial z of the plant file has {given} components, this regulator has {needed}");
-        let help = "give the number of oscillators that it is for, or remove z for a start at rest";
-        return Err(Failure::call(message, help));
-    }
-    let mut start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(initial.z.iter().copied()).collect();
-    // At rest, and with a delay no control acts yet.
+    let z = sampled.regulator.start(&initial.z, initial.e);
+    let z = z.ok_or_else(|| wrong_dimension(initial, sampled.regulator.dimension()))?;
+    let mut start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(z).collect();
+    // With a delay no control acts yet.
     start.resize(sampled.dimension(), 0.0);
     Ok(start)
 }

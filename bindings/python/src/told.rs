@@ -177,9 +177,10 @@ impl From<&Certificate> for ToldCertificate {
     }
 }
 
-fn sizes(set: &InitialSet) -> [(f64, String); 3] {
-    let [x0, e0, z0] = set.exact().map(str::to_owned);
-    [(set.x0(), x0), (set.e0(), e0), (set.z0(), z0)]
+fn sizes(set: &InitialSet) -> ((f64, String), (f64, String), Option<(f64, String)>) {
+    let (x0, e0, z0) = set.exact();
+    let of_z = set.z0().zip(z0.map(str::to_owned));
+    ((set.x0(), x0.to_owned()), (set.e0(), e0.to_owned()), of_z)
 }
 
 /// The answer of the checker.

@@ -1,6 +1,7 @@
 //! The regulator in double precision.
 
 use faer::Mat;
+use sigmastar_lang::plant::InitialRegulator;
 
 /// The parameters of the regulator in double precision.
 ///
@@ -81,6 +82,16 @@ impl Regulator {
     #[must_use]
     pub fn m(&self) -> Vec<f64> {
         (0..self.dimension()).map(|i| if i == 0 || i % 2 == 1 { 1.0 } else { 0.0 }).collect()
+    }
+
+    /// z at the first instant, where e is there; `None` where the components that are given are not as many as there are.
+    #[must_use]
+    pub fn start(&self, start: &InitialRegulator, e: f64) -> Option<Vec<f64>> {
+        match start {
+            InitialRegulator::AtRest => Some(vec![0.0; self.dimension()]),
+            InitialRegulator::Aligned => Some(self.m().iter().map(|m| m * e).collect()),
+            InitialRegulator::Given(z) => (z.len() == self.dimension()).then(|| z.clone()),
+        }
     }
 
     /// The diagonal of N = blkdiag(n_0, n_l I_2).

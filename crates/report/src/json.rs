@@ -12,7 +12,7 @@ use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, full};
 use sigmastar_exact::number::write_exact;
-use sigmastar_prove::certificate::{conditions_json, constants_json, no_plant_json};
+use sigmastar_prove::certificate::{conditions_json, constants_json, no_plant_json, set_fields};
 use sigmastar_prove::certify::{Certification, Outcome, Verdict};
 use sigmastar_prove::search::{Binding, OptionalDatum};
 use sigmastar_theory::derivation::condition::Condition;
@@ -32,8 +32,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         report["sigma_star"] = json!(write_exact(sigma));
         report["given_gain"] = json!(run.given_gain.is_some());
         report["basis"] = json!(basis(run));
-        let [x0, e0, z0] = [&claimed.x0, &claimed.e0, &claimed.z0].map(write_exact);
-        report["initial_set"] = json!({ "X0": x0, "E0": e0, "Z0": z0 });
+        report["initial_set"] = set_fields(claimed).collect();
         let [x, e, zeta, z] = periodic.each_ref().map(full);
         report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
         let [x, e] = error_box.each_ref().map(full);

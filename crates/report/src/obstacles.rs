@@ -1,12 +1,14 @@
 //! Why nothing was certified, and what to try.
 
+use rug::Rational;
 use sigmastar_document::number::{pair, upper};
 use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::BoundingFailure;
+use sigmastar_lang::spec::{InitialSet, SIZES};
 use sigmastar_prove::certify::{BoundingProblem, Certification, Outcome, SmallerChoice, Verdict};
-use sigmastar_prove::search::{Failing, Obstacle, SmallerSet};
+use sigmastar_prove::search::{Failing, Obstacle};
 use sigmastar_theory::derivation::condition::Condition;
 
 /// So many items of a list are in the short form.
@@ -201,18 +203,16 @@ fn smaller(run: &Certification<'_>) -> String {
         SmallerChoice::Certified { set, sigma, share, as_proposed } => {
             let share =
                 share.map_or_else(String::new, |share| format!("; it is {} of the one asked for", write_exact(&share)));
-            let edge = match (&set, as_proposed) {
-                (SmallerSet::Box(_), true) => format!("; {ESTIMATE} fails for a set that is 3 % larger"),
-                _ => String::new(),
-            };
+            let edge =
+                if as_proposed { format!("; {ESTIMATE} fails for a set that is 3 % larger") } else { String::new() };
             format!(
                 "a smaller initial set: {} is certified, with sigma* = {}{share}{edge}",
-                field(&set).unwrap_or_default(),
+                field(&set),
                 write_exact(&sigma)
             )
         }
-        SmallerChoice::Proposed(set) => match field(&set) {
-            Some(field) => format!("a smaller initial set: {ESTIMATE} succeeds up to about {field}"),
+        SmallerChoice::Proposed(set) => match set {
+            Some(set) => format!("a smaller initial set: {ESTIMATE} succeeds up to about {}", field(&set)),
             None => format!(
                 "no smaller initial set alone: {ESTIMATE} fails for every size that was tried, a single point among them"
             ),
@@ -221,15 +221,8 @@ fn smaller(run: &Certification<'_>) -> String {
 }
 
 /// The set as a specification has it.
-fn field(set: &SmallerSet) -> Option<String> {
-    match set {
-        SmallerSet::AtRest => Some("`\"initial_set\": { \"kind\": \"at-rest\" }`".to_owned()),
-        SmallerSet::Box(sizes) => {
-            let [x0, e0, z0] = sizes.each_ref().map(write_exact);
-            Some(format!(
-                "`\"initial_set\": {{ \"kind\": \"box\", \"X0\": \"{x0}\", \"E0\": \"{e0}\", \"Z0\": \"{z0}\" }}`"
-            ))
-        }
-        SmallerSet::None => None,
-    }
+fn field(set: &InitialSet<Rational>) -> String {
+    let mut sizes = String::new();
+    let _ = set.map_each(|place, size| sizes += &format!(", \"{}\": \"{}\"", SIZES[place], write_exact(size)));
+    format!("`\"initial_set\": {{ \"kind\": \"{}\"{sizes} }}`", set.kind())
 }

@@ -15,7 +15,7 @@ use sigmastar_document::number::{estimate, exact, full, upper};
 use sigmastar_document::{Block, Readable, clean};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_prove::certificate::no_plant_json;
+use sigmastar_prove::certificate::{no_plant_json, set_fields};
 use sigmastar_prove::certify::{Outcome, SampledCertification, SampledProof, Verdict};
 use sigmastar_prove::search::{Failing, Obstacle};
 
@@ -254,8 +254,7 @@ impl Readable for SampledReport<'_> {
             report["h_sigma"] = json!(full(&proof.evaluation.product));
             report["theta"] = json!(full(&theta(law)));
             report["basis"] = json!(self.basis());
-            let [x0, e0, z0] = [&witness.set.x0, &witness.set.e0, &witness.set.z0].map(write_exact);
-            report["initial_set"] = json!({ "X0": x0, "E0": e0, "Z0": z0 });
+            report["initial_set"] = set_fields(&witness.set).collect();
             let [x, e, zeta, z] = periodic.each_ref().map(full);
             report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             report["error_box"] = json!({ "D_x": write_exact(&witness.d_x), "D_e": write_exact(&witness.d_e) });

@@ -7,7 +7,7 @@ use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Specification, StartSizes};
 use sigmastar_prove::certify::Certification;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use std::f64::consts::FRAC_PI_2;
@@ -67,8 +67,10 @@ impl<'s> Sizes<'s> {
 
     /// Where solutions start, rounded inward, and how large the periodic solution is, rounded outward.
     pub(super) fn of_claim(&mut self, set: &ClaimedSet, periodic: &[Enclosure; 4]) {
-        let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(|value| number::exact(value, Direction::Down));
-        self.cells("initial set (covered)", [x0, e0, "-".to_owned(), z0]);
+        let StartSizes { x0, e0, z0 } = set.map(|value| number::exact(value, Direction::Down));
+        // z = M e is zeta = 0.
+        let [zeta, z] = z0.map_or_else(|| ["0".to_owned(), "z = M e".to_owned()], |z0| ["-".to_owned(), z0]);
+        self.cells("initial set (covered)", [x0, e0, zeta, z]);
         self.cells("periodic solution, at most", periodic.each_ref().map(upper));
     }
 

@@ -3,14 +3,15 @@
 
 use sigmastar_document::number::exact;
 use sigmastar_exact::number::Direction;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Specification, StartSizes};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
-/// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`.
+/// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`, or `z = M e`.
 pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
-    let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(|value| exact(value, Direction::Down));
+    let StartSizes { x0, e0, z0 } = set.map(|value| exact(value, Direction::Down));
     let of_state = spec.state_name().map_or_else(String::new, |name| format!("|{name}| <= {x0}, "));
-    format!("{of_state}|e| <= {e0}, |z|_N <= {z0}")
+    let of_regulator = z0.map_or_else(|| "z = M e".to_owned(), |z0| format!("|z|_N <= {z0}"));
+    format!("{of_state}|e| <= {e0}, {of_regulator}")
 }
 
 /// The arguments up to which bounding functions are used: `X = 1, E = 2`.

@@ -60,6 +60,8 @@ pub enum AskedSet {
     Paper,
     /// Z0 = 0; X0, E0 given or 2 X_p, 2 E_p.
     AtRest([Option<Constant>; 2]),
+    /// z = M e at the first instant of the regulator; X0, E0 given or 2 X_p, 2 E_p.
+    Aligned([Option<Constant>; 2]),
     /// X0, E0, Z0 given.
     Box([Constant; 3]),
 }
@@ -281,21 +283,22 @@ pub fn read_set(field: &Field<'_>, of_plant: bool) -> Outcome<(AskedSet, Option<
     let mut fields = field.fields()?;
     let kind = fields.required("kind")?;
     let name = kind.text()?;
-    let takes_ball = of_plant && matches!(name, "at-rest" | "box");
+    let takes_ball = of_plant && matches!(name, "at-rest" | "aligned" | "box");
     let ball = if takes_ball { fields.optional("ball") } else { None }.map(nonnegative).transpose()?;
     let set = match name {
         "paper" => AskedSet::Paper,
-        "at-rest" => {
+        "at-rest" | "aligned" => {
             let mut end = |name| fields.optional(name).map(nonnegative).transpose();
             // Where there is a ball, `X0` is left to be refused as unknown.
-            AskedSet::AtRest([if ball.is_some() { None } else { end("X0")? }, end("E0")?])
+            let sizes = [if ball.is_some() { None } else { end("X0")? }, end("E0")?];
+            if name == "aligned" { AskedSet::Aligned(sizes) } else { AskedSet::AtRest(sizes) }
         }
         "box" => {
             let mut end = |name| fields.required(name).and_then(nonnegative);
             let x0 = ball.clone().map_or_else(|| end("X0"), Ok)?;
             AskedSet::Box([x0, end("E0")?, end("Z0")?])
         }
-        _ => return bad(&kind.pointer, "expected `paper`, `at-rest` or `box`"),
+        _ => return bad(&kind.pointer, "expected `paper`, `at-rest`, `aligned` or `box`"),
     };
     fields.finish()?;
     Ok((set, ball))

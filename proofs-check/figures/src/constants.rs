@@ -246,9 +246,10 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     row("sigma_p*", [None, r.map(|(_, r)| (sigma_p(d, &r.existence), true, label)), None]);
     let threshold = sound(&s.threshold, "section 5, C5");
     row("sigma_a*", [None, r.and_then(|(_, r)| sound(&r.sigma_a, "section 5")), threshold]);
-    for (i, name) in ["X0", "E0", "Z0"].into_iter().enumerate() {
-        let covered = |set: &[Rational; 3]| sound(&d.number(&set[i]), "section 5, the set that is covered");
-        row(name, [None, r.and_then(|(w, _)| covered(&w.set)), covered(&w.free.set)]);
+    for (i, (name, size)) in w.free.set.named().enumerate() {
+        let covered = |size: &Rational| sound(&d.number(size), "section 5, the set that is covered");
+        let repaired = r.and_then(|(w, _)| w.set.named().nth(i)).and_then(|(_, size)| covered(size));
+        row(name, [None, repaired, covered(size)]);
     }
     let gain = |sigma: &Rational| sound(&d.number(sigma), "section 5");
     row("sigma*", [no_level("P:thm1"), r.and_then(|(w, _)| gain(&w.sigma)), gain(&w.sigma)]);

@@ -16,7 +16,7 @@ use proofs_core::rules::common::Evaluated;
 use proofs_core::rules::common::Sizes;
 use proofs_core::rules::derivation::{Derivation, Witness};
 use proofs_core::rules::{sampled, sharp};
-use proofs_core::spec::Specification;
+use proofs_core::spec::{AskedSet, Specification};
 use proofs_core::verdict::{Condition, Finding, Outcome, Verdict, finding};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -200,7 +200,7 @@ impl Attempt<'_> {
     /// The repaired derivation, if it is given and proved.
     fn repaired(&mut self) -> Option<(repaired::Witness, repaired::Repaired)> {
         let field = self.parts.comparison.as_ref()?;
-        let outcome = comparison(field).and_then(|w| repaired::prove(self.d, &w).map(|proved| (w, proved)));
+        let outcome = comparison(field, self.d).and_then(|w| repaired::prove(self.d, &w).map(|proved| (w, proved)));
         let (found, outcome) = match outcome {
             Ok(pair) => (Some(pair), Ok(())),
             Err(finding) => (None, Err(finding)),
@@ -222,14 +222,15 @@ fn missing(pointer: &str) -> Outcome<()> {
 }
 
 /// The free numbers of the repaired derivation.
-fn comparison(field: &Field<'_>) -> Outcome<repaired::Witness> {
+fn comparison(field: &Field<'_>, d: &Data<'_>) -> Outcome<repaired::Witness> {
     let mut fields = field.fields()?;
     let part = fields.required("repaired")?;
     fields.finish()?;
     let mut fields = part.fields()?;
     let sigma = fields.required("sigma_star")?.rational()?;
     let mut set = fields.required("initial_set")?.fields()?;
-    let (numbers, _) = proofs_core::rules::claim::read_set(&mut set)?;
+    let (numbers, _) =
+        proofs_core::rules::claim::read_set(&mut set, matches!(d.spec.initial_set, AskedSet::Aligned(_)))?;
     set.finish()?;
     let mut witness = fields.required("witness")?.fields()?;
     fields.finish()?;

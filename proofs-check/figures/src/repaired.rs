@@ -9,7 +9,7 @@ use proofs_core::interval::Interval;
 use proofs_core::json::Fields;
 use proofs_core::rules::derivation::{all, without_domain};
 use proofs_core::rules::gains::{beta_s, k_alpha, kappas};
-use proofs_core::rules::set;
+use proofs_core::rules::set::{self, ClaimedSet};
 use proofs_core::rules::stability::distances;
 use proofs_core::rules::transfer::{self, Proof};
 use proofs_core::verdict::{Condition, Outcome};
@@ -22,7 +22,7 @@ pub struct Witness {
     pub pointer: String,
     pub sigma: Rational,
     /// X_0, E_0, Z_0.
-    pub set: [Rational; 3],
+    pub set: ClaimedSet,
     pub x: Rational,
     pub e: Rational,
     pub level: Rational,
@@ -36,7 +36,7 @@ pub struct Witness {
 
 impl Witness {
     /// Takes the free numbers out of a witness; what is left there is the caller's to refuse.
-    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: [Rational; 3]) -> Outcome<Witness> {
+    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: ClaimedSet) -> Outcome<Witness> {
         let pointer = fields.pointer.clone();
         let mut number = |name: &str| fields.required(name)?.rational();
         Ok(Witness {

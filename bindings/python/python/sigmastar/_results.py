@@ -16,13 +16,15 @@ from ._report import Reported
 class InitialSet:
     """The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`, each number rounded down: the smaller set is covered too.
 
+    Without z0 the regulator sets `z = M e` at its first instant.
+
     Of a plant by its formulas it is `|L^-1 (x - x_0(t))| <= x0` in the place of `|x| <= x0`, with the orbit x_0 and the
     coordinates L of its certificate.
     """
 
     x0: Exact
     e0: Exact
-    z0: Exact
+    z0: Optional[Exact]
     ball: Optional[str]
     """Of a plant: a radius such that the set contains all x with `|x - x_0(t)|` up to it, exactly."""
 

@@ -4,7 +4,7 @@ use super::frame::OwnPlant;
 use super::sampled_claim::SampledClaim;
 use rug::Rational;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
-use sigmastar_lang::spec::{Constant, Document, SpecErrors, Specification};
+use sigmastar_lang::spec::{Constant, Document, SpecErrors, Specification, StartSizes};
 use sigmastar_prove::certificate::{StatedClaim, read_claim};
 use sigmastar_prove::certify::GivenWitness;
 use sigmastar_prove::reduction::FreeNumbers;
@@ -19,8 +19,8 @@ pub struct TriedClaim {
     pub spec: Specification,
     /// sigma*.
     pub sigma: f64,
-    /// X0, E0, Z0: the initial set.
-    pub initial: [f64; 3],
+    /// The initial set.
+    pub initial: StartSizes<f64>,
     /// Bounds of sup|x|, sup|e| and sup|zeta|_N along the periodic solution: the smaller of the claim's and the
     /// witness's.
     pub periodic: [f64; 3],
@@ -64,7 +64,7 @@ impl TriedClaim {
         };
         let error_box = error_box.map(Rational::to_f64);
         let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
-        let initial = [&set.x0, &set.e0, &set.z0].map(Rational::to_f64);
+        let initial = set.map(Rational::to_f64);
         let reach = reach(&spec, periodic, [x_p, e_p], error_box);
         let excitation = match &witness {
             FreeNumbers::Continuous(GivenWitness { witness, .. }) => {
@@ -115,7 +115,8 @@ impl TriedClaim {
     pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> TriedClaim {
         let reach = reach.map(|end| Rational::from_f64(end).unwrap());
         let (drive, own) = (None, None);
-        let (initial, periodic, error_box) = ([0.0; 3], [0.0; 3], [0.0; 2]);
+        let initial = StartSizes { x0: 0.0, e0: 0.0, z0: Some(0.0) };
+        let (periodic, error_box) = ([0.0; 3], [0.0; 2]);
         let (periodic_z, lyapunov, psi, sampled) = (0.0, None, None, None);
         TriedClaim {
             spec,

@@ -10,6 +10,7 @@ use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
 use super::random::Random;
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::StartSizes;
 use sigmastar_regulator::Regulator;
 use sigmastar_theory::data::Bound;
 
@@ -49,11 +50,16 @@ pub(super) fn no_member(claim: &TriedClaim) -> &'static str {
     }
 }
 
-/// A point of the boundary, for n states: |x| = X0, |e| = E0, |z|_N = Z0.
+/// A point of the boundary, for n states: |x| = X0, |e| = E0, |z|_N = Z0 or z = M e.
 pub(super) fn boundary(claim: &TriedClaim, n: usize, regulator: &Regulator, random: &mut Random) -> Vec<f64> {
-    let [x_0, e_0, z_0] = claim.initial;
+    let StartSizes { x0: x_0, e0: e_0, z0: z_0 } = claim.initial;
     let mut start: Vec<f64> = random.direction(n).iter().map(|part| x_0 * part.value()).collect();
-    start.push(if random.chance(0.5) { e_0 } else { -e_0 });
+    let e = if random.chance(0.5) { e_0 } else { -e_0 };
+    start.push(e);
+    let Some(z_0) = z_0 else {
+        start.extend(regulator.m().iter().map(|m| m * e));
+        return start;
+    };
     let mut z: Vec<f64> = (0..regulator.dimension()).map(|_| 2.0 * random.uniform() - 1.0).collect();
     let size = regulator.weighted_norm(&z);
     z.iter_mut().for_each(|part| *part *= if size > 0.0 { z_0 / size } else { 0.0 });
@@ -78,7 +84,7 @@ mod tests {
     fn trials_start_on_the_boundary() {
         let spec = Specification::from_json("linear", include_str!("../../../../specs/linear.json")).unwrap();
         let mut claim = TriedClaim::for_tests(spec, [3.0, 3.0]);
-        claim.initial = [2.0, 0.5, 7.0];
+        claim.initial = StartSizes { x0: 2.0, e0: 0.5, z0: Some(7.0) };
         let mut random = Random::new(3, 4);
         let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).unwrap();
         let regulator = regulator(&claim, claim.sigma, 3);
@@ -87,5 +93,9 @@ mod tests {
         assert!((norm(&start[..n]) - 2.0).abs() < 1e-5 && start[n].abs() == 0.5);
         assert!((regulator.weighted_norm(&start[n + 1..]) - 7.0).abs() < 1e-12);
         assert_eq!(start.len(), n + 1 + 7);
+        claim.initial.z0 = None;
+        let start = boundary(&claim, n, &regulator, &mut random);
+        let e = start[n];
+        assert_eq!(start[n..], [e, e, e, 0.0, e, 0.0, e, 0.0]);
     }
 }

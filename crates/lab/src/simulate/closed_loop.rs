@@ -105,12 +105,8 @@ impl ClosedLoop {
     /// (x(0), e(0), z(0)) of a plant's initial condition; `None` where its z has another dimension than the regulator.
     #[must_use]
     pub fn start_of(&self, initial: &Initial) -> Option<Vec<f64>> {
-        let mut y = self.start(&initial.x, initial.e);
-        if !initial.z.is_empty() {
-            let z = y.get_mut(self.states + 1..).filter(|z| z.len() == initial.z.len())?;
-            z.copy_from_slice(&initial.z);
-        }
-        Some(y)
+        let z = self.regulator.start(&initial.z, initial.e)?;
+        Some(initial.x.iter().copied().chain([initial.e]).chain(z).collect())
     }
 
     /// An evaluator of f and q.

@@ -5,7 +5,7 @@ use super::run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, Stead
 use super::{ClosedLoop, IntegrationFailure, SteadyState};
 use serde_json::{Value, json};
 use sigmastar_document::{Block, Readable, Table, clean};
-use sigmastar_lang::plant::{Initial, Plant};
+use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
 
 /// The report on a simulation.
 pub struct SimulationReport<'r> {
@@ -139,7 +139,12 @@ fn initial_words(plant: &Plant) -> String {
     let Initial { x, e, z } = &plant.initial;
     let states = plant.names.states().iter().zip(x).map(|(name, value)| format!("{name} = {value}"));
     let mut words: Vec<String> = states.chain([format!("e = {e}")]).collect();
-    words.push(if z.is_empty() { "with the regulator at rest" } else { "with the z of the plant file" }.to_owned());
+    let of_regulator = match z {
+        InitialRegulator::AtRest => "with the regulator at rest",
+        InitialRegulator::Aligned => "with z = M e",
+        InitialRegulator::Given(_) => "with the z of the plant file",
+    };
+    words.push(of_regulator.to_owned());
     words.join(", ")
 }
 

@@ -52,8 +52,19 @@ pub struct Initial {
     pub x: Vec<f64>,
     /// e(0).
     pub e: f64,
-    /// z(0); empty for a regulator at rest.
-    pub z: Vec<f64>,
+    /// z(0).
+    pub z: InitialRegulator,
+}
+
+/// How the regulator starts in a simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InitialRegulator {
+    /// At rest, z = 0.
+    AtRest,
+    /// With z = M e, as the initial set says.
+    Aligned,
+    /// With these components.
+    Given(Vec<f64>),
 }
 
 impl Plant {

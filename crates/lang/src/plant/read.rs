@@ -1,6 +1,6 @@
 //! From a document to a plant.
 
-use super::{Initial, Plant, periodicity};
+use super::{Initial, InitialRegulator, Plant, periodicity};
 use crate::expr::{PlantExpr, PlantNames};
 use crate::spec::{
     Constant, Document, Domain, ErrorKind, Errors, InitialSet, Reported, SpecErrors, Value, any_constant,
@@ -69,12 +69,14 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     });
     let q = q.and_then(|value| expression(&value, &names, errors).map(|q| (value, q)));
     let states = names.states().len();
+    let initial_set = initial_set.map(|set| set.unwrap_or((InitialSet::AtRest { x0: None, e0: None }, None)));
+    let aligned = initial_set.as_ref().is_ok_and(|(set, _)| set.is_aligned());
     let initial = match initial {
-        Some(value) => read_initial(&value, states, errors),
-        None => Ok(Initial { x: vec![0.0; states], e: 0.0, z: Vec::new() }),
+        Some(value) => read_initial(&value, states, aligned, errors),
+        None => Ok(Initial { x: vec![0.0; states], e: 0.0, z: InitialRegulator::AtRest }),
     };
     let ((f_values, f), (q_value, q)) = (f?, q?);
-    let (initial_set, ball) = initial_set?.unwrap_or((InitialSet::AtRest { x0: None, e0: None }, None));
+    let (initial_set, ball) = initial_set?;
     schema?;
     let (document, sha256) = value.embedded();
     let plant = Plant {
@@ -148,7 +150,8 @@ fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reporte
     Ok(Domain { x: x?, e: e? })
 }
 
-fn read_initial(value: &Value<'_>, states: usize, errors: &mut Errors) -> Result<Initial, Reported> {
+/// Reads `initial`; `aligned` says that the regulator sets z = M e.
+fn read_initial(value: &Value<'_>, states: usize, aligned: bool, errors: &mut Errors) -> Result<Initial, Reported> {
     let mut object = value.object(errors)?;
     let x = object.required("x", errors).and_then(|value| {
         let elements = of_length(&value, states, "initial values", errors)?;
@@ -157,11 +160,17 @@ fn read_initial(value: &Value<'_>, states: usize, errors: &mut Errors) -> Result
     });
     let e = object.required("e", errors).and_then(|value| double(&value, errors));
     let z = match object.optional("z") {
-        None => Ok(Vec::new()),
+        None if aligned => Ok(InitialRegulator::Aligned),
+        None => Ok(InitialRegulator::AtRest),
+        Some(value) if aligned => {
+            let message = "the regulator sets z itself: the kind of `initial_set` is `aligned`";
+            let error = value.error(ErrorKind::UnknownField, message);
+            Err(errors.report(error.help("leave `z` out, or ask for another kind of initial set")))
+        }
         Some(value) => {
             let elements = value.array(errors)?;
             let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, errors)).collect();
-            read.into_iter().collect()
+            read.into_iter().collect::<Result<Vec<f64>, Reported>>().map(InitialRegulator::Given)
         }
     };
     object.finish(errors);

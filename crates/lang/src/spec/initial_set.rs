@@ -6,7 +6,7 @@ use super::error::{ErrorKind, Errors, Reported};
 use super::object::{Object, choose};
 use super::parts::{Constant, InitialSet};
 
-/// Reads `initial_set`: `paper` has no other field, `at-rest` may have X0 and E0, `box` has X0, E0 and Z0.
+/// Reads `initial_set`: `paper` has no other field, `at-rest` and `aligned` may have X0 and E0, `box` has X0, E0 and Z0.
 ///
 /// # Errors
 /// Reports an unknown kind, fields that are missing or do not belong to the kind, and numbers that are negative.
@@ -27,7 +27,8 @@ fn read_kinds(value: &Value<'_>, balls: bool, errors: &mut Errors) -> Result<(In
     let mut object = value.object(errors)?;
     let kind = object.required("kind", errors);
     // Without a kind the other fields have no meaning to check.
-    let kind = kind.and_then(|value| choose(&value, "kind of initial set", &["paper", "at-rest", "box"], errors))?;
+    let kind =
+        kind.and_then(|value| choose(&value, "kind of initial set", &["paper", "at-rest", "aligned", "box"], errors))?;
     let ball = if balls && kind != "paper" { optional(&mut object, "ball", errors)? } else { None };
     if let (Some(_), Some(x0)) = (&ball, value.member("X0")) {
         let error = x0.error(ErrorKind::UnknownField, "`X0` and `ball` both say how far x may be from its orbit");
@@ -38,11 +39,12 @@ fn read_kinds(value: &Value<'_>, balls: bool, errors: &mut Errors) -> Result<(In
             object.finish_as("for the kind `paper`", errors);
             InitialSet::Paper
         }
-        "at-rest" => {
+        "at-rest" | "aligned" => {
             let x0 = optional(&mut object, "X0", errors);
             let e0 = optional(&mut object, "E0", errors);
-            object.finish_as("for the kind `at-rest`", errors);
-            InitialSet::AtRest { x0: ball.clone().or(x0?), e0: e0? }
+            object.finish_as(&format!("for the kind `{kind}`"), errors);
+            let (x0, e0) = (ball.clone().or(x0?), e0?);
+            if kind == "aligned" { InitialSet::Aligned { x0, e0 } } else { InitialSet::AtRest { x0, e0 } }
         }
         _ => {
             let mut number =

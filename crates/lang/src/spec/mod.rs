@@ -46,7 +46,7 @@ pub use jacobian::MAX_STATES;
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use model::{
     Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
-    RelativeDegree, Specification, TrigonometricVector,
+    RelativeDegree, SIZES, Specification, StartSizes, TrigonometricVector,
 };
 pub use notation::Notation;
 pub use object::choose;

@@ -128,13 +128,20 @@ pub struct Domain {
     pub e: Constant,
 }
 
-/// The initial conditions |x| <= X0, |e| <= E0, |z|_N <= Z0 that the domain of attraction must cover.
-#[derive(Clone, Copy, Debug)]
+/// The initial conditions that the domain of attraction must cover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InitialSet<N = Constant> {
     /// X0 = 2 X_p, E0 = 2 E_p, Z0 = 2 (Z + Nbar E_p), as in theorem 1 of the paper.
     Paper,
     /// The controller starts at rest: Z0 = 0; X0 and E0 from the user, or 2 X_p and 2 E_p.
     AtRest {
+        /// The user's X0.
+        x0: Option<N>,
+        /// The user's E0.
+        e0: Option<N>,
+    },
+    /// The controller sets z = M e at its first instant (section 13.7); X0 and E0 as at rest.
+    Aligned {
         /// The user's X0.
         x0: Option<N>,
         /// The user's E0.
@@ -151,6 +158,33 @@ pub enum InitialSet<N = Constant> {
     },
 }
 
+/// The names of X_0, E_0 and Z_0 in files.
+pub const SIZES: [&str; 3] = ["X0", "E0", "Z0"];
+
+/// The initial conditions |x| <= x0, |e| <= e0 and |z|_N <= z0, or z = M e.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StartSizes<N = Rational> {
+    /// X_0.
+    pub x0: N,
+    /// E_0.
+    pub e0: N,
+    /// Z_0; none where the controller sets z = M e at its first instant.
+    pub z0: Option<N>,
+}
+
+impl<N> StartSizes<N> {
+    /// The sizes of the same set in other numbers.
+    #[must_use]
+    pub fn map<M>(&self, mut number: impl FnMut(&N) -> M) -> StartSizes<M> {
+        StartSizes { x0: number(&self.x0), e0: number(&self.e0), z0: self.z0.as_ref().map(number) }
+    }
+
+    /// The sizes that there are, under their names in files.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, &N)> {
+        SIZES.into_iter().zip([&self.x0, &self.e0].into_iter().chain(&self.z0))
+    }
+}
+
 impl<N: Clone> InitialSet<N> {
     /// The same kind of set over other numbers.
     #[must_use]
@@ -161,27 +195,75 @@ impl<N: Clone> InitialSet<N> {
     /// The same, where it matters which number it is: 0 for X_0, 1 for E_0, 2 for Z_0.
     #[must_use]
     pub fn map_each<M>(&self, mut number: impl FnMut(usize, &N) -> M) -> InitialSet<M> {
+        let mut optional = |x0: &Option<N>, e0: &Option<N>| {
+            (x0.as_ref().map(|size| number(0, size)), e0.as_ref().map(|size| number(1, size)))
+        };
         match self {
             InitialSet::Paper => InitialSet::Paper,
-            InitialSet::AtRest { x0, e0 } => InitialSet::AtRest {
-                x0: x0.as_ref().map(|size| number(0, size)),
-                e0: e0.as_ref().map(|size| number(1, size)),
-            },
+            InitialSet::AtRest { x0, e0 } => {
+                let (x0, e0) = optional(x0, e0);
+                InitialSet::AtRest { x0, e0 }
+            }
+            InitialSet::Aligned { x0, e0 } => {
+                let (x0, e0) = optional(x0, e0);
+                InitialSet::Aligned { x0, e0 }
+            }
             InitialSet::Box { x0, e0, z0 } => {
                 InitialSet::Box { x0: number(0, x0), e0: number(1, e0), z0: number(2, z0) }
             }
         }
     }
 
-    /// X_0, E_0, Z_0: `paper`: 2 X_p, 2 E_p, 2 (Z + Nbar E_p); `at-rest`: the user's X_0, E_0 or 2 X_p, 2 E_p, and 0; `box`:
-    /// the user's. Given are 2 X_p and 2 E_p, the paper's Z_0, and 0.
+    /// The same kind of set with another X_0; the paper's set has none to replace.
     #[must_use]
-    pub fn required(&self, [x, e]: [N; 2], z: impl FnOnce() -> N, zero: N) -> [N; 3] {
+    pub fn with_x0(self, x0: N) -> InitialSet<N> {
         match self {
-            InitialSet::Paper => [x, e, z()],
-            InitialSet::AtRest { x0, e0 } => [x0.clone().unwrap_or(x), e0.clone().unwrap_or(e), zero],
-            InitialSet::Box { x0, e0, z0 } => [x0.clone(), e0.clone(), z0.clone()],
+            InitialSet::Paper => InitialSet::Paper,
+            InitialSet::AtRest { e0, .. } => InitialSet::AtRest { x0: Some(x0), e0 },
+            InitialSet::Aligned { e0, .. } => InitialSet::Aligned { x0: Some(x0), e0 },
+            InitialSet::Box { e0, z0, .. } => InitialSet::Box { x0, e0, z0 },
         }
+    }
+
+    /// The X_0 and E_0 that the user gives.
+    #[must_use]
+    pub fn given(&self) -> [Option<&N>; 2] {
+        match self {
+            InitialSet::Paper => [None, None],
+            InitialSet::AtRest { x0, e0 } | InitialSet::Aligned { x0, e0 } => [x0.as_ref(), e0.as_ref()],
+            InitialSet::Box { x0, e0, .. } => [Some(x0), Some(e0)],
+        }
+    }
+
+    /// The name of its kind in files.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            InitialSet::Paper => "paper",
+            InitialSet::AtRest { .. } => "at-rest",
+            InitialSet::Aligned { .. } => "aligned",
+            InitialSet::Box { .. } => "box",
+        }
+    }
+
+    /// Whether the controller sets z = M e at its first instant.
+    #[must_use]
+    pub fn is_aligned(&self) -> bool {
+        matches!(self, InitialSet::Aligned { .. })
+    }
+
+    /// The sizes: X_0 and E_0 as the user gives them, or 2 X_p and 2 E_p; Z_0 of `paper` 2 (Z + Nbar E_p), of `at-rest` 0, of
+    /// `box` the user's, of `aligned` none. Given are 2 X_p and 2 E_p, the paper's Z_0, and 0.
+    #[must_use]
+    pub fn required(&self, [x, e]: [N; 2], z: impl FnOnce() -> N, zero: N) -> StartSizes<N> {
+        let [x0, e0] = self.given();
+        let z0 = match self {
+            InitialSet::Paper => Some(z()),
+            InitialSet::AtRest { .. } => Some(zero),
+            InitialSet::Aligned { .. } => None,
+            InitialSet::Box { z0, .. } => Some(z0.clone()),
+        };
+        StartSizes { x0: x0.cloned().unwrap_or(x), e0: e0.cloned().unwrap_or(e), z0 }
     }
 }
 

@@ -107,7 +107,10 @@ numbers!(SampledWitness {
 
 numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and ());
 
-numbers!(ClaimedSet { x0: "X0", e0: "E0", z0: "Z0" } and ());
+/// The sizes of a claimed set as fields of JSON: without Z_0 where the regulator sets z = M e.
+pub fn set_fields(set: &ClaimedSet) -> impl Iterator<Item = (&'static str, serde_json::Value)> {
+    set.named().map(|(name, size)| (name, write_exact(size).into()))
+}
 
 /// A field that holds an exact rational number.
 pub(super) fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Rational, Reported> {

@@ -11,7 +11,7 @@ mod stated;
 mod triple;
 mod write;
 
-pub use fields::{NumberFields, RefinedSquares};
+pub use fields::{NumberFields, RefinedSquares, set_fields};
 pub use of_plant::plant_parts;
 pub use read::{read_lyapunov, read_witness};
 pub use read_plant::read_plant_witness;

@@ -135,10 +135,12 @@ fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(Rational, Claim
 pub(super) fn read_set(claim: &mut Object<'_>, errors: &mut Errors) -> Result<ClaimedSet, Reported> {
     let value = claim.required("initial_set", errors)?;
     let mut set = value.object(errors)?;
-    let _ = (set.optional("kind"), set.optional("ball"));
-    let sizes = ClaimedSet::read(&mut set, errors, |_, _| Ok(()));
+    let aligned = set.optional("kind").is_some_and(|kind| kind.text() == Some("aligned"));
+    let _ = set.optional("ball");
+    let [x0, e0] = ["X0", "E0"].map(|name| rational(&mut set, name, errors));
+    let z0 = (!aligned).then(|| rational(&mut set, "Z0", errors)).transpose();
     set.finish(errors);
-    sizes
+    Ok(ClaimedSet { x0: x0?, e0: e0?, z0: z0? })
 }
 
 fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<TransferProof, Reported> {

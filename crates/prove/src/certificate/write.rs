@@ -1,6 +1,6 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
-use super::fields::NumberFields;
+use super::fields::{NumberFields, set_fields};
 use super::of_plant::plant_parts;
 use super::triple::{lyapunov_parts, rows};
 use crate::certify::{Certification, Decided, ExceededBy, NoPlant, Outcome, Proof, Witness, claimed_ball};
@@ -8,7 +8,7 @@ use rug::{Integer, Rational};
 use serde_json::{Map, Value};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
-use sigmastar_lang::spec::model::{InitialSet, LyapunovSource};
+use sigmastar_lang::spec::model::LyapunovSource;
 use sigmastar_lang::spec::{Bound, OfPlant, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
@@ -89,7 +89,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let comparison = run.repaired.as_ref().and_then(Outcome::proved).map(|proof| {
         let RepairedWitness { sigma, set, .. } = &proof.witness;
         let witness = with_witness(proof, None);
-        let part = [("sigma_star", exact(sigma)), ("initial_set", object(set.json())), ("witness", witness)];
+        let part = [("sigma_star", exact(sigma)), ("initial_set", object(set_fields(set))), ("witness", witness)];
         ("comparison".to_owned(), object([("repaired", object(part))]))
     });
     let transfer = first_comparison(&Data::new(spec, claimed.precision), &claimed);
@@ -222,10 +222,9 @@ pub(super) fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) ->
     let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
     format!(
         "every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution of the \
-         closed loop to which every solution from |x| <= {}, |e| <= {}, sqrt(z'Nz) <= {}, {start}, converges exponentially.",
+         closed loop to which every solution from |x| <= {}, {}, {start}, converges exponentially.",
         write_exact(&set.x0),
-        write_exact(&set.e0),
-        write_exact(&set.z0),
+        of_regulator(set),
     )
 }
 
@@ -235,7 +234,7 @@ fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String
         let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.text) } else { String::new() };
         format!(" (a model that holds for {of_x}|e| <= {})", domain.e.text)
     });
-    let [x0, e0, z0] = [&set.x0, &set.e0, &set.z0].map(write_exact);
+    let x0 = write_exact(&set.x0);
     let (state, orbit) = match claimed_ball(plant, &set.x0) {
         None => (String::new(), String::new()),
         Some(ball) => (
@@ -249,19 +248,25 @@ fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String
     };
     format!(
         "the plant of these formulas{domain} has a T-periodic solution of the closed loop to which every solution from \
-         {state}|e| <= {e0}, sqrt(z'Nz) <= {z0}, {start}, converges exponentially{orbit}."
+         {state}{}, {start}, converges exponentially{orbit}.",
+        of_regulator(set)
     )
 }
 
+/// How e and the regulator may start.
+fn of_regulator(set: &ClaimedSet) -> String {
+    let e0 = write_exact(&set.e0);
+    match &set.z0 {
+        Some(z0) => format!("|e| <= {e0}, sqrt(z'Nz) <= {}", write_exact(z0)),
+        None => format!("|e| <= {e0}, z = M e"),
+    }
+}
+
 pub(super) fn set_json(spec: &Specification, set: &ClaimedSet) -> Value {
-    let kind = match spec.initial_set {
-        InitialSet::Paper => "paper",
-        InitialSet::AtRest { .. } => "at-rest",
-        InitialSet::Box { .. } => "box",
-    };
+    let kind = spec.initial_set.kind();
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
     let ball = ball.map(|ball| ("ball", exact(&ball)));
-    object([("kind", text(kind))].into_iter().chain(set.json()).chain(ball))
+    object([("kind", text(kind))].into_iter().chain(set_fields(set)).chain(ball))
 }
 
 fn transfer_json(proof: &TransferProof) -> Value {

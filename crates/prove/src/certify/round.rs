@@ -14,12 +14,12 @@ use crate::search::{
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
-use sigmastar_lang::spec::model::InitialSet;
+use sigmastar_lang::spec::model::{InitialSet, StartSizes};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::exact_regulation::{ExactWitness, steady_state_norm};
 use sigmastar_theory::derivation::existence::PeriodicBounds;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
-use sigmastar_theory::derivation::initial_set::{ClaimedSet, Size, required_set};
+use sigmastar_theory::derivation::initial_set::{ClaimedSet, Size, claimed_distances, required_set};
 use sigmastar_theory::derivation::mean_squares::{ErrorGains, Gains, MeanSquares, PeriodicSize, SetBounds};
 use sigmastar_theory::derivation::repaired::RepairedWitness;
 use sigmastar_theory::derivation::sharp::SharpWitness;
@@ -84,11 +84,11 @@ fn rounded_e(e_p: f64, largest: f64, digits: u32) -> Option<Rational> {
 /// The claimed set for X_p, E_p and Z: what the specification requires, rounded up where it is not a short rational.
 pub(super) fn claimed_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -> Option<ClaimedSet> {
     let digits = if matches!(data.spec.initial_set, InitialSet::Paper) { SHORT_DIGITS } else { LONG_DIGITS };
-    let [x0, e0, z0] = required_set(data, x_p, e_p, z).map(|size| match size {
-        Size::Exact(exact) => Some(exact),
-        Size::Enclosed(value) => upper(&value, digits),
+    let StartSizes { x0, e0, z0 } = required_set(data, x_p, e_p, z).map(|size| match size {
+        Size::Exact(exact) => Some(exact.clone()),
+        Size::Enclosed(value) => upper(value, digits),
     });
-    Some(ClaimedSet { x0: x0?, e0: e0?, z0: z0? })
+    Some(ClaimedSet { x0: x0?, e0: e0?, z0: z0.map_or(Some(None), |z0| z0.map(Some))? })
 }
 
 /// Which proof of the transfer bound the sharp derivation uses.
@@ -174,7 +174,7 @@ fn sharp_witness(
 
     // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.
     let [dist_x, dist_e, dist_z] =
-        set.distances(data, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
+        claimed_distances(data, &set, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
     let d_x = at.d_x.max(at.rho * model.c * dist_x);
     let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
     let RoundedBox { d_x, d_e, w_x, h } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
@@ -235,7 +235,7 @@ fn repaired_witness(
     let z = bounds.z_squared_printed(data, &kappa_0, &kappa_1).sqrt();
     let set = claimed_set(data, &x, &e, &z)?;
     let h = nearest(proposal.h, LONG_DIGITS)?;
-    let [dist_x, dist_e, dist_z] = set.distances(data, [&data.rational(&x), &data.rational(&e), &z]);
+    let [dist_x, dist_e, dist_z] = claimed_distances(data, &set, [&data.rational(&x), &data.rational(&e), &z]);
     let start = &data.p_up * dist_x.sqr() + dist_e.sqr() + data.rational(&h) * dist_z.sqr();
     let level = start.upper_rational()? * Rational::from_f64(1.0 + 1e-11)?;
     let sigma = rounded_sigma(proposal.sigma, slack)?;
@@ -260,7 +260,7 @@ fn repaired_witness(
 pub(super) fn exact_claim(data: &Data<'_>, model: &FloatModel, set: &ClaimedSet, ladder: Ladder) -> Option<ExactClaim> {
     let z = steady_state_norm(data);
     let [dist_x, dist_e, dist_z] =
-        set.distances(data, [&data.zero(), &data.zero(), &z]).map(|distance| distance.upper_f64());
+        claimed_distances(data, set, [&data.zero(), &data.zero(), &z]).map(|distance| distance.upper_f64());
     // Floors keep the box open where a distance is 0.
     let scale = if dist_e > 0.0 { dist_e } else { 1.0 };
     let dist_x = if dist_x > 0.0 { dist_x } else { scale * 1e-6 };

@@ -20,6 +20,7 @@ use sigmastar_lang::spec::{SampledGain, Sampling};
 use sigmastar_theory::data::{Bound, Data, Problem};
 use sigmastar_theory::derivation::condition::{Condition, all};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
+use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::mean_squares::{Gains, MeanSquares, PeriodicSize, SetBounds};
 use sigmastar_theory::derivation::sampled::{SampledGains, SampledLaw, SampledWitness, sampled_trade_off};
 
@@ -222,7 +223,7 @@ fn round(
         let set = claimed_set(data, &x_p, &e_p, &z)?;
         // From the claimed set itself, which is rounded up; the candidate's own distances keep its floors.
         let [dist_x, dist_e, dist_z] =
-            set.distances(data, [&size.x_per, &size.e_per, &z]).map(|distance| distance.upper_f64());
+            claimed_distances(data, &set, [&size.x_per, &size.e_per, &z]).map(|distance| distance.upper_f64());
         let d_x = at.d_x.max(at.rho * model.c * dist_x);
         let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
         let RoundedBox { d_x, d_e, w_x, h: eta } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;

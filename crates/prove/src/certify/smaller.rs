@@ -3,7 +3,7 @@
 use super::certification::Certification;
 use super::options::{Options, TransferChoice};
 use super::produce::certify;
-use crate::search::{FloatModel, SmallerSet, smaller_set};
+use crate::search::{FloatModel, smaller_set};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_lang::spec::model::{Constant, InitialSet, Specification};
@@ -23,16 +23,16 @@ pub enum SmallerChoice {
     /// This one is certified by itself.
     Certified {
         /// The set.
-        set: SmallerSet,
+        set: InitialSet<Rational>,
         /// Its certified gain.
         sigma: Rational,
-        /// The share of the box that was asked for, rounded down, where one was.
+        /// The least share of its sizes in those that were asked for, rounded down, where there are such.
         share: Option<Rational>,
-        /// Whether it is the very size that was proposed: the search succeeds at none that is 3 % larger.
+        /// Whether it is the largest that was proposed: the search succeeds at none that is 3 % larger.
         as_proposed: bool,
     },
     /// What the floating-point search proposes, and no certification confirms.
-    Proposed(SmallerSet),
+    Proposed(Option<InitialSet<Rational>>),
 }
 
 impl Certification<'_> {
@@ -43,26 +43,20 @@ impl Certification<'_> {
     #[must_use]
     pub fn smaller_set(&self) -> SmallerChoice {
         let proposed = self.proposed_smaller_set();
-        let certified = match &proposed {
-            SmallerSet::None => None,
-            SmallerSet::AtRest => self.with_set(InitialSet::AtRest { x0: None, e0: None }).map(|sigma| {
-                SmallerChoice::Certified { set: SmallerSet::AtRest, sigma, share: None, as_proposed: true }
-            }),
-            SmallerSet::Box(sizes) => SHARES.into_iter().find_map(|share| {
-                let part =
-                    |size: &Rational| round_rational(&(size * Rational::from((share, 100))), DIGITS, Direction::Down);
-                let sizes = sizes.each_ref().map(part);
-                let [x0, e0, z0] = sizes.each_ref().map(Constant::rational);
-                let sigma = self.with_set(InitialSet::Box { x0, e0, z0 })?;
-                let (part_of_asked, as_proposed) = (self.share(&sizes), share == 100);
-                Some(SmallerChoice::Certified { set: SmallerSet::Box(sizes), sigma, share: part_of_asked, as_proposed })
-            }),
-        };
+        let certified = proposed.as_ref().and_then(|proposed| {
+            SHARES.into_iter().find_map(|share| {
+                let part = Rational::from((share, 100));
+                let set = proposed.map(|size| round_rational(&Rational::from(size * &part), DIGITS, Direction::Down));
+                let sigma = self.with_set(set.map(Constant::rational))?;
+                let as_proposed = share == 100 && self.spec.initial_set.is_aligned();
+                Some(SmallerChoice::Certified { share: self.share(&set), set, sigma, as_proposed })
+            })
+        });
         certified.unwrap_or(SmallerChoice::Proposed(proposed))
     }
 
     /// Which smaller initial set would do, in floating point.
-    fn proposed_smaller_set(&self) -> SmallerSet {
+    fn proposed_smaller_set(&self) -> Option<InitialSet<Rational>> {
         // The working precision of what only proposes.
         let data = Data::new(self.spec, 64);
         let matched = self.options.transfer == TransferChoice::Best && self.spec.internal_model.matched;
@@ -81,12 +75,12 @@ impl Certification<'_> {
         run.sigma_star().cloned()
     }
 
-    /// The least share of a box that was asked for.
-    fn share(&self, sizes: &[Rational; 3]) -> Option<Rational> {
-        let InitialSet::Box { x0, e0, z0 } = &self.spec.initial_set else { return None };
-        let asked = [x0, e0, z0].into_iter().zip(sizes).filter(|(_, size)| **size > 0);
-        let share = asked.map(|(asked, size)| Some(Rational::from(size / asked.as_rational()?)));
+    /// The least share of the sizes that were asked for, where one of them is smaller.
+    fn share(&self, set: &InitialSet<Rational>) -> Option<Rational> {
+        let pairs = self.spec.initial_set.given().into_iter().zip(set.given());
+        let pairs = pairs.filter_map(|(asked, size)| Some((asked?, size?))).filter(|(_, size)| **size > 0);
+        let share = pairs.map(|(asked, size)| Some(Rational::from(size / asked.as_rational()?)));
         let least = share.collect::<Option<Vec<Rational>>>()?.into_iter().min()?;
-        Some(round_rational(&least, DIGITS, Direction::Down))
+        (least < 1).then(|| round_rational(&least, DIGITS, Direction::Down))
     }
 }

@@ -8,6 +8,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_matrix::semidefinite::SolverFailure;
 use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
 use sigmastar_theory::derivation::stability::DecayCondition;
 use thiserror::Error;
@@ -136,7 +137,7 @@ fn best_weights(
     decay: &DecayData,
 ) -> Result<SigmaBothWays, SolverFailure> {
     let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
-    let [dist_x, dist_e, dist_z] = witness.set.distances(data, periodic).map(|distance| distance.upper_f64());
+    let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, periodic).map(|distance| distance.upper_f64());
     let (p_low, p_up) = (data.p_low.midpoint_f64(), data.p_up.midpoint_f64());
     let (d_x, d_e) = (witness.d_x.to_f64(), witness.d_e.to_f64());
     let level = LevelData {

@@ -9,7 +9,7 @@ use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_si
 use nalgebra::DMatrix;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::model::{Constant, InitialSet, Lyapunov};
+use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
     OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
 };
@@ -162,11 +162,7 @@ fn in_frame(plant: &Plant, l: &DMatrix<f64>, model: &FloatModel) -> FloatModel {
     let mut model = model.clone();
     if let Some(ball) = &plant.ball {
         let covering = ball.to_f64() / smallest;
-        model = model.with_set(match plant.initial_set.map(Constant::to_f64) {
-            InitialSet::Paper => InitialSet::Paper,
-            InitialSet::AtRest { e0, .. } => InitialSet::AtRest { x0: Some(covering), e0 },
-            InitialSet::Box { e0, z0, .. } => InitialSet::Box { x0: covering, e0, z0 },
-        });
+        model = model.with_set(plant.initial_set.map(Constant::to_f64).with_x0(covering));
     }
     if let Some(domain) = &plant.domain {
         model.domain = (domain.x.to_f64() / largest, domain.e.to_f64());

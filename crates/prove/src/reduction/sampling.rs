@@ -34,7 +34,7 @@ impl<'a> Sampling<'a> {
     pub(super) fn new(plant: &'a Plant, curve: &'a TrigonometricVector, model: &FloatModel) -> Sampling<'a> {
         let known = model.q_0.as_ref();
         let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());
-        let [x_0, e_0, _] = model.set.required([0.0; 2], || 0.0, 0.0);
+        let [x_0, e_0] = model.set.given().map(|size| size.copied().unwrap_or(0.0));
         let by_forcing = 0.1 * squares.sqrt() * model.period;
         let unit_e = [e_0, by_forcing].into_iter().fold(0.0, f64::max);
         Sampling { plant, curve, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }

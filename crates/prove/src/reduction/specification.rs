@@ -93,12 +93,7 @@ fn initial_set(plant: &Plant, coordinates: &[Vec<Rational>]) -> Option<InitialSe
             covers_ball(coordinates, &x_0, &radius).then_some(x_0)
         })?
     };
-    let covering = Constant::rational(&covering);
-    Some(match plant.initial_set.clone() {
-        InitialSet::Paper => InitialSet::Paper,
-        InitialSet::AtRest { e0, .. } => InitialSet::AtRest { x0: Some(covering), e0 },
-        InitialSet::Box { e0, z0, .. } => InitialSet::Box { x0: covering, e0, z0 },
-    })
+    Some(plant.initial_set.clone().with_x0(Constant::rational(&covering)))
 }
 
 fn matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {

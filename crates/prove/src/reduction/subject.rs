@@ -114,6 +114,15 @@ impl Subject {
         }
     }
 
+    /// Whether the regulator is asked to set z = M e at its first instant.
+    #[must_use]
+    pub fn starts_aligned(&self) -> bool {
+        match self {
+            Subject::Specification(spec) => spec.initial_set.is_aligned(),
+            Subject::Plant(plant) => plant.initial_set.is_aligned(),
+        }
+    }
+
     /// The samples that the regulator is asked for at, if any.
     #[must_use]
     pub fn sampling(&self) -> Option<&Sampling> {

@@ -3,7 +3,6 @@
 use super::model::FloatModel;
 use super::obstacle::Obstacle;
 use super::periodic::Floors;
-use sigmastar_lang::spec::model::InitialSet;
 
 /// The share of an ordinary size below which a set is as good as a point.
 const TINY: f64 = 1e-40;
@@ -13,13 +12,9 @@ const SHARES: [f64; 10] = [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-13, 1e-17, 1e-
 
 /// X_p and E_p of ordinary size: those of the initial set or of the domain, where there is one.
 pub(super) fn ordinary(model: &FloatModel) -> Floors {
-    let (x0, e0) = match model.set {
-        InitialSet::Paper => (None, None),
-        InitialSet::AtRest { x0, e0 } => (x0, e0),
-        InitialSet::Box { x0, e0, .. } => (Some(x0), Some(e0)),
-    };
-    let size = |start: Option<f64>, domain: f64| {
-        let size = start.filter(|size| *size > 0.0).unwrap_or(1.0);
+    let [x0, e0] = model.set.given();
+    let size = |start: Option<&f64>, domain: f64| {
+        let size = start.copied().filter(|size| *size > 0.0).unwrap_or(1.0);
         size.min(0.1 * domain)
     };
     Floors { x_p: size(x0, model.domain.0), e_p: size(e0, model.domain.1) }

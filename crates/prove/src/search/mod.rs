@@ -38,4 +38,4 @@ pub use sharp::{
     SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near, sensitivities,
     without_optional_data,
 };
-pub use smaller_set::{SmallerSet, smaller_set};
+pub use smaller_set::smaller_set;

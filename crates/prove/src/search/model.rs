@@ -3,7 +3,7 @@
 use super::effort::Effort;
 use super::float_bound::FloatBound;
 use super::obstacle::{Extreme, Failing, Obstacle};
-use sigmastar_lang::spec::model::InitialSet;
+use sigmastar_lang::spec::model::{InitialSet, SIZES, StartSizes};
 use sigmastar_theory::data::{Bound, Data, ExistenceTriple, Numbers, Problem};
 use sigmastar_theory::derivation::initial_set::paper_z0;
 use sigmastar_theory::transfer::TradeOff;
@@ -70,7 +70,7 @@ impl Datum {
                 _ => bound.field().to_owned(),
             },
             Datum::Harmonics => "q_0".to_owned(),
-            Datum::Size(index) => ["X0", "E0", "Z0"].get(index).copied().unwrap_or_default().to_owned(),
+            Datum::Size(index) => SIZES.get(index).copied().unwrap_or_default().to_owned(),
             Datum::Domain => "domain".to_owned(),
             Datum::Mu { larger } => format!("mu ({})", if larger { "larger" } else { "smaller" }),
         }
@@ -220,10 +220,10 @@ impl FloatModel {
             ("base_frequency", self.base_frequency),
             ("Nbar (of the weights)", self.n_bar),
         ];
-        let [x_0, e_0, z_0] = self.set.required([0.0; 2], || 0.0, 0.0);
-        let set = [("X0", x_0), ("E0", e_0), ("Z0", z_0)];
+        let set = self.set.required([0.0; 2], || 0.0, 0.0);
         let extreme = numbers.into_iter().find(|(_, value)| !value.is_normal());
-        let extreme = extreme.or_else(|| set.into_iter().find(|(_, value)| !value.is_finite()));
+        let extreme =
+            extreme.or_else(|| set.named().map(|(name, size)| (name, *size)).find(|(_, size)| !size.is_finite()));
         let bound = || {
             let infinite = |which: &Bound| {
                 let function = self.bounds[*which as usize].function.as_ref();
@@ -373,9 +373,9 @@ impl FloatModel {
         FloatModel { set, ..self.clone() }
     }
 
-    /// X_0, E_0, Z_0 for given X_p, E_p, Z.
+    /// The sizes that are asked for, with given X_p, E_p, Z.
     #[must_use]
-    pub fn required_set(&self, x_p: f64, e_p: f64, z: f64) -> [f64; 3] {
+    pub fn required_set(&self, x_p: f64, e_p: f64, z: f64) -> StartSizes<f64> {
         self.set.required([2.0 * x_p, 2.0 * e_p], || paper_z0(self, &e_p, &z), 0.0)
     }
 }

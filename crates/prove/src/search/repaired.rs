@@ -39,8 +39,8 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     let pair = model.trade_off.best(1.0, 1.0);
     let [kappa_0, kappa_1] = model.numbers().kappas(&pair.0, &pair.1);
     let z = bounds.z_squared_printed(model, &kappa_0, &kappa_1).sqrt();
-    let [x0, e0, z0] = model.required_set(x, e, z);
-    let [dist_x, dist_e, dist_z] = distances(model, [&x0, &e0, &z0], [&x, &e, &z]);
+    let start = model.required_set(x, e, z);
+    let [dist_x, dist_e, dist_z] = distances(model, &start, [&x, &e, &z]);
     let h = weight_h(eta, dist_e, dist_z.max(1e-6 * model.n_bar * dist_e));
     let level = model.p_up * dist_x * dist_x + (1.0 + eta) * dist_e * dist_e;
     let (x_b, e_b) = (x + (level / model.p_low).sqrt(), e + level.sqrt());

@@ -157,8 +157,8 @@ impl Search<'_> {
 
 /// dX, dE, dZ of the required set from a periodic solution, kept away from 0: a larger distance only strengthens C4.
 pub(super) fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
-    let [x0, e0, z0] = model.required_set(set.x_p, set.e_p, set.z);
-    let [x, e, z] = distances(model, [&x0, &e0, &z0], [&set.x_per, &set.e_per, &set.z]);
+    let start = model.required_set(set.x_p, set.e_p, set.z);
+    let [x, e, z] = distances(model, &start, [&set.x_per, &set.e_per, &set.z]);
     let e = e.max(FLOOR * set.e_p);
     [x.max(FLOOR * set.x_p), e, z.max(FLOOR * model.n_bar * e)]
 }

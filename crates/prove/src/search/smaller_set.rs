@@ -15,66 +15,62 @@ const STEPS: u32 = 12;
 /// Digits of the sizes.
 const DIGITS: u32 = 3;
 
-/// Initial sets for which a search succeeds where it fails for the set that is asked for.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SmallerSet {
-    /// The controller at rest, the rest as in the paper's set.
-    AtRest,
-    /// A box of these sizes X_0, E_0, Z_0.
-    Box([Rational; 3]),
-    /// None: it fails for a single point too, or for all but a point.
-    None,
-}
-
-/// The largest initial set of the shape that is asked for, to about 1 %, for which the search finds a candidate; for the
-/// paper's set first the controller at rest.
+/// An initial set for which a search succeeds where it fails for the set that is asked for: where that does not have it, the
+/// same set with z = M e, which costs nothing; else the largest one of its shape, to about 1 %.
 ///
-/// Guarantee: none. This is floating point, and what it proposes has to be certified.
+/// Guarantee: none. This is floating point, and what it proposes has to be certified. `None` where it fails for a single point
+/// too, or for all but a point.
 #[must_use]
-pub fn smaller_set(model: &FloatModel) -> SmallerSet {
+pub fn smaller_set(model: &FloatModel) -> Option<InitialSet<Rational>> {
     let finds = |set: InitialSet<f64>| any_candidate(&model.with_set(set));
-    if matches!(model.set, InitialSet::Paper) && finds(InitialSet::AtRest { x0: None, e0: None }) {
-        return SmallerSet::AtRest;
+    let aligned = aligned(&model.set);
+    if !model.set.is_aligned() && finds(aligned) {
+        let rounded = |size: &f64| round_f64(*size, DIGITS, Direction::Down).unwrap_or_default();
+        return Some(aligned.map(rounded));
     }
-    let point = InitialSet::Box { x0: 0.0, e0: 0.0, z0: 0.0 };
+    let point = InitialSet::Aligned { x0: Some(0.0), e0: Some(0.0) };
     if !finds(point) {
-        return SmallerSet::None;
+        return None;
     }
-    let Some([x0, e0, z0]) = shape(model, point) else { return SmallerSet::None };
-    let scaled = |exponent: f64| [x0, e0, z0].map(|size| size * 2f64.portable_pow(exponent));
-    let succeeds = |exponent: f64| {
-        let [x0, e0, z0] = scaled(exponent);
-        finds(InitialSet::Box { x0, e0, z0 })
-    };
+    let shape = shape(model, point)?;
+    let scaled = |exponent: f64| shape.map(|size| size * 2f64.portable_pow(exponent));
     let (mut low, mut high) = (LEAST_EXPONENT, 0.0);
-    if !succeeds(low) {
-        return SmallerSet::None;
+    if !finds(scaled(low)) {
+        return None;
     }
     for _ in 0..STEPS {
         let middle = 0.5 * (low + high);
-        if succeeds(middle) { low = middle } else { high = middle }
+        if finds(scaled(middle)) { low = middle } else { high = middle }
     }
-    let rounded = scaled(low).map(|size| round_f64(size, DIGITS, Direction::Down));
-    match rounded {
-        [Some(x0), Some(e0), Some(z0)] => SmallerSet::Box([x0, e0, z0]),
-        _ => SmallerSet::None,
-    }
+    let mut ordinary = true;
+    let rounded = scaled(low).map_each(|_, size| {
+        let size = round_f64(*size, DIGITS, Direction::Down);
+        ordinary &= size.is_some();
+        size.unwrap_or_default()
+    });
+    ordinary.then_some(rounded)
 }
 
-/// The box that is scaled: the user's numbers, or twice the bounds of the periodic solution where none is given.
-fn shape(model: &FloatModel, point: InitialSet<f64>) -> Option<[f64; 3]> {
-    let twice = || {
-        let model = model.with_set(point);
-        let found = search_sharp(&model).ok()?;
-        let (set, _) = at_sigma(&model, &found.parameters, found.sigma, 1e-9).ok()?;
-        Some([2.0 * set.x_p, 2.0 * set.e_p])
-    };
-    match model.set {
-        InitialSet::Box { x0, e0, z0 } => Some([x0, e0, z0]),
-        InitialSet::AtRest { x0: Some(x0), e0: Some(e0) } => Some([x0, e0, 0.0]),
-        InitialSet::AtRest { x0, e0 } => twice().map(|[x, e]| [x0.unwrap_or(x), e0.unwrap_or(e), 0.0]),
-        InitialSet::Paper => twice().map(|[x, e]| [x, e, 0.0]),
+/// The set with the controller aligned.
+fn aligned(set: &InitialSet<f64>) -> InitialSet<f64> {
+    let [x0, e0] = set.given().map(Option::<&f64>::copied);
+    InitialSet::Aligned { x0, e0 }
+}
+
+/// The set that is scaled: the user's numbers, or twice the bounds of the periodic solution where none is given, with z = M e.
+fn shape(model: &FloatModel, point: InitialSet<f64>) -> Option<InitialSet<f64>> {
+    let given = aligned(&model.set);
+    if let InitialSet::Aligned { x0: Some(_), e0: Some(_) } = given {
+        return Some(given);
     }
+    let model = model.with_set(point);
+    let found = search_sharp(&model).ok()?;
+    let (set, _) = at_sigma(&model, &found.parameters, found.sigma, 1e-9).ok()?;
+    let [x0, e0] = given.given();
+    Some(InitialSet::Aligned {
+        x0: Some(x0.copied().unwrap_or(2.0 * set.x_p)),
+        e0: Some(e0.copied().unwrap_or(2.0 * set.e_p)),
+    })
 }
 
 #[cfg(test)]
@@ -97,12 +93,23 @@ mod tests {
     fn the_size_is_near_the_edge_of_success() {
         let asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
         assert!(search_sharp(&asked).is_err());
-        let SmallerSet::Box(sizes) = smaller_set(&asked) else { panic!("a size is expected") };
-        let [x0, e0, z0] = sizes.each_ref().map(Rational::to_f64);
-        assert!(x0 > 0.0 && (e0 / x0 - 4.0).abs() < 0.4 && z0 == 0.0, "{x0} {e0} {z0}");
-        let succeeds =
-            |factor: f64| search_sharp(&model(InitialSet::Box { x0: factor * x0, e0: factor * e0, z0: 0.0 })).is_ok();
+        let found = smaller_set(&asked).expect("a size is expected");
+        assert!(found.is_aligned());
+        let [Some(x0), Some(e0)] = found.given().map(|size| size.map(Rational::to_f64)) else { panic!("two sizes") };
+        assert!(x0 > 0.0 && (e0 / x0 - 4.0).abs() < 0.4, "{x0} {e0}");
+        let succeeds = |factor: f64| {
+            search_sharp(&model(InitialSet::Aligned { x0: Some(factor * x0), e0: Some(factor * e0) })).is_ok()
+        };
         assert!(succeeds(1.0) && !succeeds(1.15), "{x0} {e0}");
+    }
+
+    #[test]
+    fn an_aligned_start_comes_first() {
+        let asked = model(InitialSet::Box { x0: 0.1, e0: 0.1, z0: 50.0 });
+        assert!(search_sharp(&asked).is_err());
+        let found = smaller_set(&asked).expect("a set");
+        let tenth = Rational::from((1, 10));
+        assert_eq!(found, InitialSet::Aligned { x0: Some(tenth.clone()), e0: Some(tenth) });
     }
 
     #[test]
@@ -110,6 +117,6 @@ mod tests {
         let asked = model(InitialSet::Box { x0: 1.0, e0: 4.0, z0: 0.0 });
         // Data for which no comparison holds.
         let asked = asked.with_triple(1.0, f64::NAN);
-        assert_eq!(smaller_set(&asked), SmallerSet::None);
+        assert_eq!(smaller_set(&asked), None);
     }
 }

@@ -49,6 +49,7 @@ pub fn json(export: &Export<'_>) -> Value {
         "mu": regulator.mu,
         "frequencies": regulator.frequencies,
         "weights": regulator.weights,
+        "start": if export.aligned { "z = M e" } else { "z = 0" },
         "law": "z' = Phi z + Gamma e, u = -sigma e + mu M'N(z - M e)",
         "Phi": rows(&regulator.phi()),
         "Gamma": regulator.gamma(),

@@ -3,8 +3,8 @@
 use super::notice::comment;
 use super::{Export, SAMPLED_LAW, decimal, notice};
 
-/// A script that sets `sigma`, `mu`, `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N` and, with a discretisation,
-/// `step`, `K`, `weight_sum`, `decay`, `spectral_radius` (of the sampled loop on e' = u), `Phi_d`, `Gamma_d`, `C_d`, `D_d`, and
+/// A script that sets `sigma`, `mu`, `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N`, `z_start` (z at the first instant, of e
+/// there) and, with a discretisation, `step`, `K`, `weight_sum`, `decay`, `spectral_radius` (of the sampled loop on e' = u), `Phi_d`, `Gamma_d`, `C_d`, `D_d`, and
 /// `saturation` where u is clipped. It uses base functions only and runs in MATLAB and in Octave.
 #[must_use]
 pub fn matlab(export: &Export<'_>) -> String {
@@ -28,6 +28,8 @@ pub fn matlab(export: &Export<'_>) -> String {
     script.push_str(&format!("M = [{}]';\n", row(&regulator.m())));
     script.push_str(&format!("N = diag([{}]);\n", row(&regulator.n_diagonal())));
     script.push_str(&format!("Gamma = -(Phi + sigma*eye({dimension}))*M;\n"));
+    let start = if export.aligned { "M*e" } else { "0*M" };
+    script.push_str(&format!("z_start = @(e) {start};\n"));
     if let Some((discrete, sampled)) = export.discrete {
         script.push_str(&format!("% At samples, with Phi for Phi_d: {SAMPLED_LAW},\n"));
         script.push_str("% which is z_next = Phi_d*z + Gamma_d*e, u = C_d*z + D_d*e (u is held over the sample)\n");

@@ -23,6 +23,8 @@ pub struct Export<'r> {
     pub regulator: &'r Regulator,
     /// Its discretisation and what that does to the loop, where one was asked for.
     pub discrete: Option<(&'r Discrete, Convergence)>,
+    /// Whether it sets z = M e at its first instant (section 13.7); else it starts with z = 0.
+    pub aligned: bool,
     /// The certificate, where one was given for this plant.
     pub certificate: Option<&'r Provenance>,
 }

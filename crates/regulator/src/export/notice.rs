@@ -82,6 +82,9 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             }
         }
     };
+    if export.aligned {
+        lines.push("Start with z = M e, e the error at the first instant: the initial set is `aligned`.".to_owned());
+    }
     lines.push(NOT_COVERED.to_owned());
     if let Some(limit) = export.discrete.and_then(|(discrete, _)| discrete.saturation) {
         let limit = super::decimal(limit);

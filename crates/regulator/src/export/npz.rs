@@ -8,7 +8,8 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 /// The regulator as a NumPy `.npz` archive (stored, no time stamps): `sigma`, `mu`, `frequencies`, `weights`, `Phi`,
-/// `Gamma`, `M`, `N`, `notice` (what is claimed and what is not: bytes of UTF-8) and, with a discretisation, `step`, `K`,
+/// `Gamma`, `M`, `N`, `aligned` (whether z = M e at the first instant; else z = 0 there), `notice` (what is claimed and what is not:
+/// bytes of UTF-8) and, with a discretisation, `step`, `K`,
 /// `weight_sum`, `decay`, `Phi_d`, `Gamma_d`, `C_d`, `D_d`, `saturation` where u is clipped, and of the sampled loop on e' = u
 /// `spectral_radius` and `unstable` (a Boolean).
 ///
@@ -27,6 +28,7 @@ pub fn npz(export: &Export<'_>) -> ZipResult<Vec<u8>> {
     archive.vector("Gamma", &regulator.gamma())?;
     archive.vector("M", &regulator.m())?;
     archive.matrix("N", &weights)?;
+    archive.add("aligned", "|b1", &[], &[u8::from(export.aligned)])?;
     let notice = notice(export).join("\n");
     archive.add("notice", "|u1", &[notice.len()], notice.as_bytes())?;
     if let Some((discrete, sampled)) = export.discrete {

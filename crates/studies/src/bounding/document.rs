@@ -5,7 +5,7 @@ use rug::Rational;
 use serde_json::{Map, Value};
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::model::{Constant, InitialSet, KnownForcing};
+use sigmastar_lang::spec::model::{Constant, InitialSet, KnownForcing, SIZES};
 use sigmastar_lang::spec::{OfPlant, Specification};
 use sigmastar_plants::bounds::Majorant;
 use sigmastar_prove::reduction::{PlantRefusal, bounds_around};
@@ -137,17 +137,9 @@ fn forcing(known: &KnownForcing) -> Value {
 }
 
 fn initial_set(set: &InitialSet) -> Value {
-    let size = |name: &'static str, constant: &Constant| (name, Value::from(constant.text.clone()));
-    match set {
-        InitialSet::Paper => object([("kind", Value::from("paper"))]),
-        InitialSet::AtRest { x0, e0 } => {
-            let sizes = [x0.as_ref().map(|x0| size("X0", x0)), e0.as_ref().map(|e0| size("E0", e0))];
-            object([("kind", Value::from("at-rest"))].into_iter().chain(sizes.into_iter().flatten()))
-        }
-        InitialSet::Box { x0, e0, z0 } => {
-            object([("kind", Value::from("box")), size("X0", x0), size("E0", e0), size("Z0", z0)])
-        }
-    }
+    let mut fields = vec![("kind", Value::from(set.kind()))];
+    let _ = set.map_each(|place, size| fields.push((SIZES[place], Value::from(size.text.clone()))));
+    object(fields)
 }
 
 fn exact(value: &Rational) -> Value {

@@ -3,7 +3,7 @@
 use serde_json::json;
 use sigmastar_exact::enclosure::DIGITS;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{Document, Errors, Object, Reported, Sampling, SpecErrors, Value};
+use sigmastar_lang::spec::{Document, Errors, Object, Reported, SIZES, Sampling, SpecErrors, StartSizes, Value};
 use sigmastar_prove::certify::Verdict;
 use sigmastar_prove::reduction::Certified;
 
@@ -18,8 +18,8 @@ pub struct RowClaim {
     pub sigma_star: String,
     /// The sampling period, where the claim is about the regulator at samples.
     pub sampling_period: Option<String>,
-    /// X0, E0, Z0.
-    pub initial_set: [String; 3],
+    /// The initial set.
+    pub initial_set: StartSizes<String>,
     /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution, rounded up.
     pub periodic: [String; 4],
     /// Whether it is proved that no plant with a state has these data, so that the claim says nothing about any.
@@ -33,7 +33,7 @@ impl RowClaim {
         RowClaim {
             sigma_star: write_exact(certified.sigma),
             sampling_period: certified.sampling.map(Sampling::text),
-            initial_set: [&set.x0, &set.e0, &set.z0].map(write_exact),
+            initial_set: set.map(write_exact),
             periodic: certified.periodic.each_ref().map(|bound| bound.upper_decimal(DIGITS)),
             no_plant: certified.no_plant,
         }
@@ -78,12 +78,12 @@ impl Row {
             "index": self.index, "values": self.values, "sha256": self.sha256, "verdict": self.verdict.to_string(),
         });
         if let Some(claim) = &self.claim {
-            let ([x0, e0, z0], [x, e, zeta, z]) = (&claim.initial_set, &claim.periodic);
+            let [x, e, zeta, z] = &claim.periodic;
             line["sigma_star"] = json!(claim.sigma_star);
             if let Some(step) = &claim.sampling_period {
                 line["sampling_period"] = json!(step);
             }
-            line["initial_set"] = json!({ "X0": x0, "E0": e0, "Z0": z0 });
+            line["initial_set"] = claim.initial_set.named().map(|(name, size)| (name, json!(size))).collect();
             line["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             line["no_plant"] = json!(claim.no_plant);
         }
@@ -129,6 +129,16 @@ fn texts<const N: usize>(
     Ok(texts)
 }
 
+/// The sizes of an initial set; without Z0 where the regulator sets z = M e.
+fn sizes(value: &Value<'_>, errors: &mut Errors) -> Result<StartSizes<String>, Reported> {
+    if value.member("Z0").is_none() {
+        let [x0, e0] = texts(value, ["X0", "E0"], errors)?;
+        return Ok(StartSizes { x0, e0, z0: None });
+    }
+    let [x0, e0, z0] = texts(value, SIZES, errors)?;
+    Ok(StartSizes { x0, e0, z0: Some(z0) })
+}
+
 fn read(mut object: Object<'_>, errors: &mut Errors) -> Result<Row, Reported> {
     let index = object.required("index", errors).and_then(|value| value.integer(errors));
     let values = object
@@ -163,7 +173,7 @@ fn read(mut object: Object<'_>, errors: &mut Errors) -> Result<Row, Reported> {
 fn claim(object: &mut Object<'_>, errors: &mut Errors) -> Result<RowClaim, Reported> {
     let sigma_star = object.required("sigma_star", errors).and_then(|value| text(&value, errors));
     let sampling_period = object.optional("sampling_period").map(|value| text(&value, errors)).transpose();
-    let set = object.required("initial_set", errors).and_then(|value| texts(&value, ["X0", "E0", "Z0"], errors));
+    let set = object.required("initial_set", errors).and_then(|value| sizes(&value, errors));
     let periodic =
         object.required("periodic_solution", errors).and_then(|value| texts(&value, ["x", "e", "zeta", "z"], errors));
     let no_plant = object.required("no_plant", errors).and_then(|value| value.boolean(errors));

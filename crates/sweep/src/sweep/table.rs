@@ -7,6 +7,7 @@ use super::values::number;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::parse_decimal;
+use sigmastar_lang::spec::StartSizes;
 use sigmastar_prove::certify::Verdict;
 use std::cmp::Ordering;
 
@@ -25,8 +26,9 @@ pub fn csv(results: &Results) -> String {
         let none = || std::iter::repeat_n(String::new(), 9).collect::<Vec<_>>();
         let claimed = row.claim.as_ref().map_or_else(none, |claim| {
             let up = |text: &String| claimed_number(text, Enclosure::upper_f64);
-            let set = claim.initial_set.iter().map(|text| claimed_number(text, Enclosure::lower_f64));
-            let sizes = set.chain(claim.periodic.iter().map(up));
+            let StartSizes { x0, e0, z0 } = claim.initial_set.map(|text| claimed_number(text, Enclosure::lower_f64));
+            let set = [x0, e0, z0.unwrap_or_else(|| "M e".to_owned())];
+            let sizes = set.into_iter().chain(claim.periodic.iter().map(up));
             std::iter::once(up(&claim.sigma_star)).chain(sizes).chain([claim.no_plant.to_string()]).collect()
         });
         let message = row.errors.first().map(|error| error.message.clone()).or_else(|| row.reason.clone());

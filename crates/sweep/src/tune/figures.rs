@@ -2,7 +2,7 @@
 
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::{Document, Sampling, SpecErrors};
+use sigmastar_lang::spec::{Document, Sampling, SpecErrors, StartSizes};
 use sigmastar_prove::certify::{Options, Verdict, verdict_of_errors};
 use sigmastar_prove::reduction::{Prepared, Run, Subject};
 
@@ -38,8 +38,8 @@ pub struct Figures {
     pub sampling_period: Option<String>,
     /// An upper bound of sigma + mu Nbar^2; not of the regulator at samples.
     pub feedback: Option<Enclosure>,
-    /// X0, E0, Z0 of the claim.
-    pub initial_set: [Rational; 3],
+    /// The initial set of the claim.
+    pub initial_set: StartSizes,
     /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution.
     pub periodic: [Enclosure; 4],
     /// Upper bounds of rms(e) and sup|e| with the oscillators that were asked about; only where the base frequency is matched,
@@ -85,7 +85,7 @@ fn figures(run: &Run<'_>, n_o: u64) -> Option<Figures> {
         sigma: certified.sigma.clone(),
         sampling_period: certified.sampling.map(Sampling::text),
         feedback,
-        initial_set: [&set.x0, &set.e0, &set.z0].map(Rational::clone),
+        initial_set: set.clone(),
         periodic: certified.periodic,
         error,
         no_plant: certified.no_plant,

@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
 use sigmastar_document::{Block, Readable, Table, clean};
 use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_prove::certificate::set_fields;
 
 /// The format of the JSON.
 const FORMAT: &str = "sigmastar/tune";
@@ -180,7 +181,10 @@ impl TuningReport<'_> {
             all.enumerate().filter_map(|(index, name)| Some((index, name?))).collect()
         };
         for (index, name) in norms(&["|e|", "|z|_N"]) {
-            let size = |figures: &Figures| figures.initial_set.get(index).map(|size| exact(size, Direction::Down));
+            let size = |figures: &Figures| {
+                let size = figures.initial_set.named().nth(index);
+                Some(size.map_or_else(|| "z = M e".to_owned(), |(_, size)| exact(size, Direction::Down)))
+            };
             row(&format!("initial set: {name}"), &size);
         }
         for (index, name) in norms(&["|e|", "|zeta|_N", "|z|_N"]) {
@@ -253,12 +257,11 @@ impl TuningReport<'_> {
         match &tried.outcome {
             Err(verdict) => json!({ "verdict": verdict.to_string() }),
             Ok(figures) => {
-                let [x0, e0, z0] = figures.initial_set.each_ref().map(write_exact);
                 let [x, e, zeta, z] = figures.periodic.each_ref().map(full);
                 let mut value = json!({
                     "verdict": "certified", "sigma_star": write_exact(&figures.sigma),
                     "sampling_period": figures.sampling_period, "feedback": figures.feedback.as_ref().map(full),
-                    "initial_set": { "X0": x0, "E0": e0, "Z0": z0 },
+                    "initial_set": set_fields(&figures.initial_set).collect::<Value>(),
                     "periodic_solution": { "x": x, "e": e, "zeta": zeta, "z": z },
                     "no_plant": figures.no_plant,
                 });

@@ -2,7 +2,7 @@
 
 use super::condition::{self, Condition};
 use super::harmonics;
-use super::initial_set::ClaimedSet;
+use super::initial_set::{ClaimedSet, claimed_distances};
 use super::sharp::one_sided;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
@@ -91,7 +91,7 @@ impl ExactEvaluation {
         }
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
         conditions.extend(one_sided(data, "(D_x, D_e)", [&error_box.x_b, &error_box.e_b]));
-        let [dist_x, dist_e, dist_z] = set.distances(data, [&data.zero(), &data.zero(), &z]);
+        let [dist_x, dist_e, dist_z] = claimed_distances(data, set, [&data.zero(), &data.zero(), &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));
         conditions.push(Condition::less(

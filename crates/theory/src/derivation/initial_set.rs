@@ -5,26 +5,10 @@ use crate::data::{Data, Problem};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
+use sigmastar_lang::spec::StartSizes;
 
-/// The set of initial conditions |x| <= x0, |e| <= e0, |z|_N <= z0 of a claim, exactly.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ClaimedSet {
-    /// X_0.
-    pub x0: Rational,
-    /// E_0.
-    pub e0: Rational,
-    /// Z_0.
-    pub z0: Rational,
-}
-
-impl ClaimedSet {
-    /// dX, dE, dZ ([`distances`]) from a periodic solution bounded by x_per, e_per, Z.
-    #[must_use]
-    pub fn distances(&self, data: &Data<'_>, periodic: [&Enclosure; 3]) -> [Enclosure; 3] {
-        let [x0, e0, z0] = [&self.x0, &self.e0, &self.z0].map(|size| data.rational(size));
-        distances(data, [&x0, &e0, &z0], periodic)
-    }
-}
+/// The set of initial conditions of a claim, exactly.
+pub type ClaimedSet = StartSizes<Rational>;
 
 /// The paper's Z_0 = 2 (Z + Nbar E_p).
 #[must_use]
@@ -35,13 +19,24 @@ where
     R::int(2) * (z + &problem.numbers().n_bar * e_p)
 }
 
-/// dX = X_0 + x_per, dE = E_0 + e_per, dZ = Z_0 + Nbar E_0 + Z: how far an initial set is from the periodic solution.
+/// dX = X_0 + x_per, dE = E_0 + e_per, dZ = Z_0 + Nbar E_0 + Z: how far an initial set is from a periodic solution bounded by
+/// x_per, e_per, Z. With z = M e at the first instant zeta is 0 there, and dZ = Z (section 13.7).
 #[must_use]
-pub fn distances<R: Real>(problem: &impl Problem<R>, [x0, e0, z0]: [&R; 3], [x_per, e_per, z]: [&R; 3]) -> [R; 3]
+pub fn distances<R: Real>(problem: &impl Problem<R>, set: &StartSizes<R>, [x_per, e_per, z]: [&R; 3]) -> [R; 3]
 where
     for<'a> &'a R: Operand<R>,
 {
-    [x0 + x_per, e0 + e_per, z0 + &problem.numbers().n_bar * e0 + z]
+    let of_zeta = match &set.z0 {
+        Some(z0) => z0 + &problem.numbers().n_bar * &set.e0 + z,
+        None => z.clone(),
+    };
+    [&set.x0 + x_per, &set.e0 + e_per, of_zeta]
+}
+
+/// The same distances of a claimed set, enclosed.
+#[must_use]
+pub fn claimed_distances(data: &Data<'_>, set: &ClaimedSet, periodic: [&Enclosure; 3]) -> [Enclosure; 3] {
+    distances(data, &set.map(|size| data.rational(size)), periodic)
 }
 
 /// A size of the required set: exactly, so that equality is decided, or enclosed.
@@ -55,7 +50,7 @@ pub enum Size {
 
 /// The sizes that the specification asks for, given X_p, E_p and Z.
 #[must_use]
-pub fn required_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -> [Size; 3] {
+pub fn required_set(data: &Data<'_>, x_p: &Rational, e_p: &Rational, z: &Enclosure) -> StartSizes<Size> {
     let user = data.spec.initial_set.map(|constant| match constant.as_rational() {
         Some(exact) => Size::Exact(exact.clone()),
         None => Size::Enclosed(constant.enclose(data.precision)),
@@ -75,13 +70,19 @@ pub fn set_conditions(
     e_p: &Rational,
     z: &Enclosure,
 ) -> Vec<Condition> {
-    let claimed = [("X0", &set.x0), ("E0", &set.e0), ("Z0", &set.z0)];
-    let condition = |(size, (name, claimed)): (Size, (&str, &Rational))| {
-        let excess = match size {
-            Size::Exact(required) => data.rational(&(required - claimed)),
+    let required = required_set(data, x_p, e_p, z);
+    let condition = |((name, required), (_, claimed)): ((&str, &Size), (&str, &Rational))| {
+        let excess = match required {
+            Size::Exact(required) => data.rational(&Rational::from(required - claimed)),
             Size::Enclosed(required) => required - data.rational(claimed),
         };
         Condition::at_most("set", format!("the required {name} - the claimed {name} <= 0"), excess, data.zero())
     };
-    required_set(data, x_p, e_p, z).into_iter().zip(claimed).map(condition).collect()
+    let mut conditions: Vec<Condition> = required.named().zip(set.named()).map(condition).collect();
+    if required.z0.is_some() != set.z0.is_some() {
+        // One starts with z = M e, the other does not: neither set contains the other. 1 <= 0 is certainly false.
+        let what = "the start of the regulator (z = M e, or not) is the one that is asked for";
+        conditions.push(Condition::at_most("set", what, Enclosure::one(data.precision), data.zero()));
+    }
+    conditions
 }

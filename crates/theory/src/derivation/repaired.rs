@@ -3,7 +3,7 @@
 use super::condition::{self, Condition};
 use super::existence::PeriodicBounds;
 use super::gains;
-use super::initial_set::{ClaimedSet, set_conditions};
+use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
 use super::lyapunov_matrix::{LyapunovMatrix, LyapunovPoint};
 use super::{domain_conditions, sign_conditions};
 use crate::data::Data;
@@ -112,7 +112,7 @@ impl RepairedEvaluation {
         let [column_x, column_e] = bounds.contraction(data, &k, 2, &beta).weighted_columns(&p_x, &p_e);
         conditions.push(Condition::less("C3", "Y_xx p_x + Y_ex p_e < p_x", column_x, p_x));
         conditions.push(Condition::less("C3b", "Y_xe p_x + Y_ee p_e < p_e", column_e, p_e));
-        let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&x, &e, &z]);
+        let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&x, &e, &z]);
         conditions.push(Condition::less(
             "C4",
             "P_up (X_0+X)^2 + (E_0+E)^2 + h (Z_0+Nbar E_0+Z)^2 < L",

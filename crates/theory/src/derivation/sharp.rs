@@ -4,7 +4,7 @@ use super::condition::{self, Condition};
 use super::consequences::Excitation;
 use super::contraction::ContractionMatrix;
 use super::harmonics::AtOrigin;
-use super::initial_set::{ClaimedSet, set_conditions};
+use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
 use super::mean_squares::{
     DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, at_the_solution,
     sup_by_mean_squares,
@@ -132,7 +132,7 @@ impl SharpEvaluation {
             step.rhs,
         ));
         conditions.extend(existence_conditions(data, witness, &bounds, &origin, &gains));
-        let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&periodic.x_per, &periodic.e_per, &z]);
+        let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&periodic.x_per, &periodic.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less(
             "C4",

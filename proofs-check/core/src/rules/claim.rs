@@ -2,6 +2,7 @@
 
 use super::common::Sizes;
 use super::sampled::claim::{N_O, Regulator};
+use super::set::ClaimedSet;
 use crate::constant::Constant;
 use crate::data::Data;
 use crate::interval::Interval;
@@ -14,14 +15,17 @@ use rug::Rational;
 
 const RULE: &str = "claim";
 
+/// The kind of set whose regulator sets z = M e at its first instant.
+const ALIGNED: &str = "aligned";
+
 /// The numbers of a claim.
 pub struct Claim<'a> {
     /// sigma*, or the one gain of a sampled regulator.
     pub sigma: Rational,
     /// The sampled regulator that it is about, if it is.
     pub sampled: Option<Regulator<'a>>,
-    /// X_0, E_0, Z_0.
-    pub set: [Rational; 3],
+    /// The initial conditions.
+    pub set: ClaimedSet,
     /// Bounds of the periodic solution.
     pub periodic: Field<'a>,
     /// The claim in words.
@@ -29,7 +33,8 @@ pub struct Claim<'a> {
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.
     ball: Option<(Rational, Field<'a>)>,
     sigma_text: &'a str,
-    set_text: [&'a str; 3],
+    /// X_0 as it is written, and how e and the regulator start in words.
+    set_text: (&'a str, String),
     verdict: Field<'a>,
     n_o: Field<'a>,
     mu: Field<'a>,
@@ -45,14 +50,22 @@ pub fn reads(rule: &'static str, field: &Field<'_>, expected: &str) -> Outcome<(
     }
 }
 
-/// Reads X0, E0, Z0, and what is left besides.
-pub fn read_set<'a>(fields: &mut Fields<'a>) -> Outcome<([Rational; 3], [&'a str; 3])> {
-    let [x0, e0, z0] = [fields.required("X0")?, fields.required("E0")?, fields.required("Z0")?];
-    let set = [x0.rational()?, e0.rational()?, z0.rational()?];
-    if let Some(index) = set.iter().position(|value| *value < 0) {
-        return invalid("initial set", &[&x0, &e0, &z0][index].pointer, "it must not be negative");
+/// Reads X0, E0 and, unless the regulator starts aligned, Z0; with X0 as it is written, and the rest in words.
+pub fn read_set<'a>(fields: &mut Fields<'a>, aligned: bool) -> Outcome<(ClaimedSet, (&'a str, String))> {
+    let mut size = |name| {
+        let field = fields.required(name)?;
+        let value = field.rational()?;
+        if value < 0 {
+            return invalid("initial set", &field.pointer, "it must not be negative");
+        }
+        Ok((value, field.numeral()?))
+    };
+    let ((x0, x_text), (e0, e_text)) = (size("X0")?, size("E0")?);
+    if aligned {
+        return Ok((ClaimedSet { x0, e0, z0: None }, (x_text, format!("|e| <= {e_text}, z = M e"))));
     }
-    Ok((set, [x0.numeral()?, e0.numeral()?, z0.numeral()?]))
+    let (z0, z_text) = size("Z0")?;
+    Ok((ClaimedSet { x0, e0, z0: Some(z0) }, (x_text, format!("|e| <= {e_text}, sqrt(z'Nz) <= {z_text}"))))
 }
 
 impl<'a> Claim<'a> {
@@ -73,7 +86,7 @@ impl<'a> Claim<'a> {
         };
         let mut set = fields.required("initial_set")?.fields()?;
         let kind = set.required("kind")?;
-        let (numbers, set_text) = read_set(&mut set)?;
+        let (numbers, set_text) = read_set(&mut set, kind.text()? == ALIGNED)?;
         let ball = if has_ball { Some(set.required("ball")?) } else { None };
         let ball = ball.map(|field| field.rational().map(|value| (value, field))).transpose()?;
         set.finish()?;
@@ -116,6 +129,7 @@ impl<'a> Claim<'a> {
         let kind = match spec.initial_set {
             AskedSet::Paper => "paper",
             AskedSet::AtRest(_) => "at-rest",
+            AskedSet::Aligned(_) => ALIGNED,
             AskedSet::Box(_) => "box",
         };
         reads(RULE, &self.kind, kind)?;
@@ -142,7 +156,7 @@ impl<'a> Claim<'a> {
     fn check_ball(&self, plant: &OfPlant) -> Outcome<()> {
         let Some((ball, field)) = &self.ball else { return Ok(()) };
         demand(Some(*ball >= 0), coordinates::RULE, &field.pointer, "the radius is not negative")?;
-        let covered = plant.coordinates.covers_ball(&self.set[0], ball);
+        let covered = plant.coordinates.covers_ball(&self.set.x0, ball);
         demand(Some(covered), coordinates::RULE, &field.pointer, "X0^2 L L' - ball^2 I >= 0")?;
         demand(plant.asks_for(ball), coordinates::RULE, &field.pointer, "the ball that is asked for <= ball")
     }
@@ -153,7 +167,7 @@ impl<'a> Claim<'a> {
             let of_x = if plant.states > 0 { format!("|x - x_0| <= {}, ", x.text) } else { String::new() };
             format!(" (a model that holds for {of_x}|e| <= {})", e.text)
         });
-        let [x0, e0, z0] = self.set_text;
+        let (x0, start) = &self.set_text;
         let (states, orbit) = match &self.ball {
             None => (String::new(), String::new()),
             Some((_, field)) => (
@@ -168,7 +182,7 @@ impl<'a> Claim<'a> {
         let (regulator, when) = self.regulator(spec);
         Ok(format!(
             "{regulator}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
-             every solution from {states}|e| <= {e0}, sqrt(z'Nz) <= {z0}, at any {when}, converges exponentially{orbit}.",
+             every solution from {states}{start}, at any {when}, converges exponentially{orbit}.",
         ))
     }
 
@@ -201,11 +215,11 @@ impl<'a> Claim<'a> {
         let rate = if spec.rate.is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
         let harmonics =
             if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
-        let [x0, e0, z0] = self.set_text;
+        let (x0, start) = &self.set_text;
         let (regulator, when) = self.regulator(spec);
         format!(
             "{regulator}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
-             has a T-periodic solution of the closed loop to which every solution from |x| <= {x0}, |e| <= {e0}, sqrt(z'Nz) <= {z0}, at \
+             has a T-periodic solution of the closed loop to which every solution from |x| <= {x0}, {start}, at \
              any {when}, converges exponentially.",
         )
     }

@@ -2,7 +2,7 @@
 //! conditions on the set, the domain and the level, and what is said of the periodic solution.
 
 use super::mean_squares::Means;
-use super::set;
+use super::set::{self, ClaimedSet};
 use super::stability::{ErrorBox, distances, level};
 use crate::data::Data;
 use crate::interval::Interval;
@@ -16,7 +16,7 @@ pub struct Free {
     /// Where they stand in the file.
     pub pointer: String,
     /// X_0, E_0, Z_0.
-    pub set: [Rational; 3],
+    pub set: ClaimedSet,
     pub x_p: Rational,
     pub e_p: Rational,
     /// r_x, r_e, r_d.
@@ -59,7 +59,7 @@ pub struct Evaluated {
 
 impl Free {
     /// Takes the free numbers out of a witness.
-    pub fn read(fields: &mut Fields<'_>, set: [Rational; 3]) -> Outcome<Free> {
+    pub fn read(fields: &mut Fields<'_>, set: ClaimedSet) -> Outcome<Free> {
         let pointer = fields.pointer.clone();
         let mut number = |name: &str| fields.required(name)?.rational();
         Ok(Free {

@@ -5,6 +5,7 @@
 
 use super::common::{Evaluated, Free};
 use super::sampled::{self, claim::Regulator};
+use super::set::ClaimedSet;
 use super::{bounding, regulation, sharp};
 use crate::data::Data;
 use crate::interval::Interval;
@@ -29,14 +30,14 @@ pub struct Derivation {
 
 impl Derivation {
     /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
-    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: [Rational; 3]) -> Outcome<Derivation> {
+    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: ClaimedSet) -> Outcome<Derivation> {
         let witness = Witness::Sharp(Box::new(sharp::Witness::read(fields, sigma, set)?));
         let regulation = fields.optional("exact_regulation").map(|field| regulation::Witness::read(&field));
         Ok(Derivation { witness, regulation: regulation.transpose()?.map(Box::new) })
     }
 
     /// The same for a sampled regulator.
-    pub fn read_sampled(fields: &mut Fields<'_>, regulator: &Regulator<'_>, set: [Rational; 3]) -> Outcome<Derivation> {
+    pub fn read_sampled(fields: &mut Fields<'_>, regulator: &Regulator<'_>, set: ClaimedSet) -> Outcome<Derivation> {
         let witness = Witness::Sampled(Box::new(sampled::Witness::read(fields, regulator, set)?));
         Ok(Derivation { witness, regulation: None })
     }

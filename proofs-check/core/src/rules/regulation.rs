@@ -4,7 +4,7 @@
 //! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
 
 use super::mean_squares::forcing;
-use super::set;
+use super::set::{self, ClaimedSet};
 use super::stability::{ErrorBox, distances, level};
 use crate::bound::Bound;
 use crate::data::Data;
@@ -61,7 +61,7 @@ fn steady_state(d: &Data<'_>) -> Interval {
 }
 
 /// Evaluates the conditions; only `matched` and the signs are decided yet.
-pub fn evaluate(d: &Data<'_>, set: &[Rational; 3], w: &Witness) -> Outcome<Vec<Condition>> {
+pub fn evaluate(d: &Data<'_>, set: &ClaimedSet, w: &Witness) -> Outcome<Vec<Condition>> {
     if !d.spec.matched {
         return invalid("exact regulation", &w.pointer, "it needs base_frequency = 2 pi/period, asserted by `matched`");
     }

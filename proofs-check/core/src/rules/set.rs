@@ -7,31 +7,55 @@ use crate::spec::AskedSet;
 use crate::verdict::{Condition, Outcome, invalid};
 use rug::Rational;
 
+/// The initial conditions of a claim: |x| <= x0, |e| <= e0, and |z|_N <= z0; without z0 the regulator sets z = M e at its first
+/// instant (section 13.7).
+#[derive(Clone, Debug)]
+pub struct ClaimedSet {
+    pub x0: Rational,
+    pub e0: Rational,
+    pub z0: Option<Rational>,
+}
+
+impl ClaimedSet {
+    /// The sizes that there are, by their names.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, &Rational)> {
+        ["X0", "E0", "Z0"].into_iter().zip([&self.x0, &self.e0].into_iter().chain(&self.z0))
+    }
+}
+
 /// The claimed set covers what the specification asks for. Differences of rationals are exact, so equality is decided.
-pub fn covers(d: &Data<'_>, set: &[Rational; 3], [x_p, e_p]: [&Rational; 2], z: &Interval) -> Vec<Condition> {
-    let exact = |required: &Rational, i: usize| d.number(&Rational::from(required - &set[i]));
-    let twice = |value: &Rational, i| exact(&Rational::from(value * 2u32), i);
+pub fn covers(d: &Data<'_>, set: &ClaimedSet, [x_p, e_p]: [&Rational; 2], z: &Interval) -> Vec<Condition> {
+    let exact = |required: &Rational, claimed: &Rational| d.number(&Rational::from(required - claimed));
+    let twice = |value: &Rational, claimed| exact(&Rational::from(value * 2u32), claimed);
     // That a ball lies in the claimed set is decided exactly, with the claim.
     let ball = d.spec.plant.as_ref().is_some_and(|plant| plant.ball.is_some());
-    let user = |constant: &Constant, i: usize| match constant.rational() {
-        Some(required) => exact(&required, i),
-        None => constant.enclose(d.precision) - d.number(&set[i]),
+    let user = |constant: &Constant, claimed: &Rational| match constant.rational() {
+        Some(required) => exact(&required, claimed),
+        None => constant.enclose(d.precision) - d.number(claimed),
     };
-    let mut excess = match &d.spec.initial_set {
-        AskedSet::Paper => [twice(x_p, 0), twice(e_p, 1), (z + &d.n_bar * d.number(e_p)) * 2 - d.number(&set[2])],
-        AskedSet::AtRest([x0, e0]) => [
-            x0.as_ref().map_or_else(|| twice(x_p, 0), |x0| user(x0, 0)),
-            e0.as_ref().map_or_else(|| twice(e_p, 1), |e0| user(e0, 1)),
-            exact(&Rational::new(), 2),
-        ],
-        AskedSet::Box(given) => [0, 1, 2].map(|i| user(&given[i], i)),
+    let [of_x, of_e] = match &d.spec.initial_set {
+        AskedSet::Paper => [None, None],
+        AskedSet::AtRest([x0, e0]) | AskedSet::Aligned([x0, e0]) => [x0.as_ref(), e0.as_ref()],
+        AskedSet::Box([x0, e0, _]) => [Some(x0), Some(e0)],
     };
-    if ball {
-        excess[0] = exact(&Rational::new(), 0);
-    }
+    let excess_x = match of_x {
+        _ if ball => d.int(0),
+        Some(x0) => user(x0, &set.x0),
+        None => twice(x_p, &set.x0),
+    };
+    let excess_e = of_e.map_or_else(|| twice(e_p, &set.e0), |e0| user(e0, &set.e0));
+    let excess_z = match (&d.spec.initial_set, &set.z0) {
+        (AskedSet::Aligned(_), None) => None,
+        (AskedSet::Paper, Some(z0)) => Some((z + &d.n_bar * d.number(e_p)) * 2 - d.number(z0)),
+        (AskedSet::AtRest(_), Some(z0)) => Some(exact(&Rational::new(), z0)),
+        (AskedSet::Box([_, _, asked]), Some(z0)) => Some(user(asked, z0)),
+        // One starts with z = M e, the other does not: neither set contains the other, and 1 <= 0 is false.
+        (AskedSet::Aligned(_), Some(_)) | (_, None) => Some(d.int(1)),
+    };
     let what = |name| format!("the required {name} - the claimed {name} <= 0");
-    let named = ["X0", "E0", "Z0"].into_iter().zip(excess);
-    named.map(|(name, excess)| Condition::at_most("set", what(name), excess, d.int(0))).collect()
+    let named = [("X0", Some(excess_x)), ("E0", Some(excess_e)), ("Z0", excess_z)];
+    let demanded = named.into_iter().filter_map(|(name, excess)| Some((name, excess?)));
+    demanded.map(|(name, excess)| Condition::at_most("set", what(name), excess, d.int(0))).collect()
 }
 
 /// The largest arguments lie in the domain; without one the bounding functions hold everywhere.

@@ -7,6 +7,7 @@
 use super::common::{Evaluated, Free};
 use super::gains::kappas;
 use super::mean_squares::{self, Solution};
+use super::set::ClaimedSet;
 use super::stability::ErrorBox;
 use super::transfer::{self, Proof};
 use crate::data::Data;
@@ -35,7 +36,7 @@ pub struct Sharp {
 
 impl Witness {
     /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
-    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: [Rational; 3]) -> Outcome<Witness> {
+    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: ClaimedSet) -> Outcome<Witness> {
         if fields.has("p_x") && !fields.has("r_x") {
             return bad(&fields.pointer, "this witness, by p_x and p_e, is of an older form: certify again");
         }

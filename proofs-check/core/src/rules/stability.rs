@@ -1,10 +1,10 @@
 //! Rules C4 and C5 of the sharp derivation (docs/mathematics.md, sections 5, 10.1 and 10.4).
 
+use super::set::ClaimedSet;
 use crate::bound::Bound;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::verdict::Condition;
-use rug::Rational;
 
 /// What the plant's data give on the error box |xt| <= D_x, |et| <= D_e around |x| <= x_per, |e| <= e_per.
 pub struct ErrorBox {
@@ -77,10 +77,11 @@ pub fn one_sided(place: &str, q_e: &Interval, most: Option<&Interval>) -> Option
     most.map(|most| Condition::at_most("M", what, -q_e, most.clone()))
 }
 
-/// dX = X_0 + x_per, dE = E_0 + e_per, dZ = Z_0 + Nbar E_0 + Z.
-pub fn distances(d: &Data<'_>, set: &[Rational; 3], periodic: [&Interval; 3]) -> [Interval; 3] {
-    let [x0, e0, z0] = [0, 1, 2].map(|i| d.number(&set[i]));
-    [x0 + periodic[0], &e0 + periodic[1], z0 + &d.n_bar * e0 + periodic[2]]
+/// dX = X_0 + x_per, dE = E_0 + e_per, and dZ = Z_0 + Nbar E_0 + Z, or Z where zeta = z - M e starts at 0.
+pub fn distances(d: &Data<'_>, set: &ClaimedSet, [x_per, e_per, z]: [&Interval; 3]) -> [Interval; 3] {
+    let [x0, e0] = [&set.x0, &set.e0].map(|size| d.number(size));
+    let of_zeta = set.z0.as_ref().map_or_else(|| z.clone(), |z0| d.number(z0) + &d.n_bar * &e0 + z);
+    [x0 + x_per, &e0 + e_per, of_zeta]
 }
 
 /// The two sides of C4: `w_x P_up dX^2 + dE^2 + h dZ^2` and `min{w_x P_low D_x^2, D_e^2}`.

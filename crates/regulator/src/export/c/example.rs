@@ -13,6 +13,7 @@ pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) 
     let samples = (period / discrete.step).round().clamp(1.0, 1e6);
     // Half of what the control can do.
     let amplitude = discrete.saturation.map_or(1.0, |limit| limit / 2.0);
+    let argument = if export.aligned { ", e" } else { "" };
     format!(
         "/* A first run of the regulator for: {}\n\
          \x20* The plant is e' = q(t) + u; q is two arcs of a parabola in each period of {samples} samples. Prints the largest |e| of\n\
@@ -25,7 +26,7 @@ pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) 
          \x20   if (phase < 0.5) {{\n        return amplitude * 16.0 * phase * (0.5 - phase);\n    }}\n\
          \x20   return -amplitude * 16.0 * (phase - 0.5) * (1.0 - phase);\n}}\n\n\
          int main(void)\n{{\n    {prefix}_controller controller;\n    double e = 0.0;\n    int period, k;\n\n\
-         \x20   {prefix}_reset(&controller);\n\
+         \x20   {prefix}_reset(&controller{argument});\n\
          \x20   for (period = 1; period <= 20; period++) {{\n        double largest = 0.0;\n\n\
          \x20       for (k = 0; k < samples; k++) {{\n\
          \x20           double u = {prefix}_step(&controller, e);\n\

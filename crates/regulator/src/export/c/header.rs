@@ -36,6 +36,10 @@ pub(super) fn header(
     let saturation = discrete.saturation.map_or_else(String::new, |limit| {
         format!("#define {upper}_SATURATION {} /* {} */\n", hexadecimal(limit), decimal(limit))
     });
+    let (start, argument) = match export.aligned {
+        true => ("Sets z = M e, with the error e of the sample that the next step takes.", ", double e"),
+        false => ("Sets the state to rest (z = 0).", ""),
+    };
     format!(
         "/*\n{}\x20*/\n\
          #ifndef {upper}_CONTROLLER_H\n\
@@ -46,8 +50,8 @@ pub(super) fn header(
          #define {upper}_SAMPLING_TIME {} /* {} */\n{saturation}\n\
          typedef struct {{\n    double z[{upper}_STATES];\n}} {prefix}_controller;\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
-         /* Sets the state to rest (z = 0). */\n\
-         void {prefix}_reset({prefix}_controller *controller);\n\n\
+         /* {start} */\n\
+         void {prefix}_reset({prefix}_controller *controller{argument});\n\n\
          /* Takes the error of this sample, returns the control for it, and moves the state to the next sample. */\n\
          double {prefix}_step({prefix}_controller *controller, double e);\n\n\
          #ifdef __cplusplus\n}}\n#endif\n\n#endif\n",

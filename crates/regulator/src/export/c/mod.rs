@@ -41,7 +41,7 @@ pub struct CNames {
 pub fn c_sources(export: &Export<'_>, names: &CNames) -> Option<CSources> {
     let (discrete, sampled) = export.discrete?;
     let upper = names.prefix.upper();
-    let source = source::source(export.regulator, discrete, &names.prefix);
+    let source = source::source(export, discrete, &names.prefix);
     let id = identity(&source);
     let top = format!(
         "/* Regulator for: {} */\n#include \"{}\"\n\n#if {upper}_CONTROLLER_ID != {id}\n\

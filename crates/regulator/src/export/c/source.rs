@@ -2,10 +2,12 @@
 
 use super::Prefix;
 use super::literal::{array, literal};
-use crate::{Discrete, Regulator};
+use crate::Discrete;
+use crate::export::Export;
 
 /// The source below the inclusion of its header.
-pub(super) fn source(regulator: &Regulator, discrete: &Discrete, prefix: &Prefix) -> String {
+pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) -> String {
+    let regulator = export.regulator;
     let (cosines, sines): (Vec<f64>, Vec<f64>) = discrete.rotations.iter().map(|[c, s]| (*c, *s)).unzip();
     let mut source = String::from(
         "/* The same bits on every machine need each operation rounded on its own: GCC does so with -std=c99 or\n\
@@ -23,12 +25,33 @@ pub(super) fn source(regulator: &Regulator, discrete: &Discrete, prefix: &Prefix
         source.push_str(&array("sine", &sines));
     }
     let upper = prefix.upper();
-    source.push_str(&format!(
-        "\nvoid {prefix}_reset({prefix}_controller *controller)\n{{\n    int i;\n\n\
-         \x20   for (i = 0; i < {upper}_STATES; i++) {{\n        controller->z[i] = 0.0;\n    }}\n}}\n\n"
-    ));
+    source.push_str(&reset(&upper, prefix, !cosines.is_empty(), export.aligned));
     source.push_str(&step(&upper, prefix, !cosines.is_empty(), discrete.saturation.is_some()));
     source
+}
+
+/// z at the first instant: 0, or M e.
+fn reset(upper: &str, prefix: &Prefix, oscillators: bool, aligned: bool) -> String {
+    if !aligned {
+        return format!(
+            "\nvoid {prefix}_reset({prefix}_controller *controller)\n{{\n    int i;\n\n\
+             \x20   for (i = 0; i < {upper}_STATES; i++) {{\n        controller->z[i] = 0.0;\n    }}\n}}\n\n"
+        );
+    }
+    let (index, blocks) = match oscillators {
+        true => (
+            "    int l;\n\n",
+            format!(
+                "    for (l = 1; l <= {upper}_OSCILLATORS; l++) {{\n        controller->z[2 * l - 1] = e;\n\
+                 \x20       controller->z[2 * l] = 0.0;\n    }}\n"
+            ),
+        ),
+        false => ("", String::new()),
+    };
+    format!(
+        "\nvoid {prefix}_reset({prefix}_controller *controller, double e)\n{{\n{index}\
+         \x20   controller->z[0] = e;\n{blocks}}}\n\n"
+    )
 }
 
 /// The operations of the Rust stepper, in its order.

@@ -16,7 +16,7 @@ pub use stability::{DecayForms, DecayNumbers, Form, Part};
 
 use super::condition::{self, Condition};
 use super::harmonics::AtOrigin;
-use super::initial_set::{ClaimedSet, set_conditions};
+use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
 use super::mean_squares::{Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, sup_by_mean_squares};
 use super::sharp::one_sided;
 use super::stability::{ErrorBox, level_condition};
@@ -127,7 +127,7 @@ impl SampledEvaluation {
         conditions.extend(law_conditions(data, &law, &product));
         conditions.extend(too_large_a_sum(data, &law));
         conditions.extend(existence_conditions(data, &bounds, &origin, &gains, &squares));
-        let [dist_x, dist_e, dist_z] = witness.set.distances(data, [&size.x_per, &size.e_per, &z]);
+        let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&size.x_per, &size.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
         conditions.push(Condition::less(
             "C4",

@@ -2,7 +2,6 @@
 
 use super::{At, Entry, Row, Status, TableInput, infeasible, number, printed, row, sound};
 use crate::derivation::existence::LeastSigma;
-use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::lyapunov_matrix::LyapunovMatrix;
 use crate::derivation::printed::{Infeasible, PrintedEvaluation, level_condition, level_condition_infinite};
 use crate::derivation::repaired::RepairedEvaluation;
@@ -85,11 +84,10 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         ours(&s.decay.sigma_threshold, "section 5, C5"),
     );
     let claimed = |value: &Rational| sound(data.rational(value), "section 5, the set that is covered");
-    let sizes = |set: &ClaimedSet| [&set.x0, &set.e0, &set.z0].map(claimed);
-    let [xs, es, zs] = repaired.map_or_else(|| [None, None, None], |(w, _)| sizes(&w.set));
-    let [x0, e0, z0] = sizes(&w.set);
-    for (name, repaired, sharp) in [("X0", xs, x0), ("E0", es, e0), ("Z0", zs, z0)] {
-        own(name, None, repaired, sharp);
+    let repaired_set = repaired.map(|(w, _)| &w.set);
+    for (at, (name, sharp)) in w.set.named().enumerate() {
+        let repaired = repaired_set.and_then(|set| set.named().nth(at)).and_then(|(_, size)| claimed(size));
+        own(name, None, repaired, claimed(sharp));
     }
     own("zeta_a", of_paper(&|p| &p.zeta_a, "P:eq:boundzeta_item1"), None, None);
     own(

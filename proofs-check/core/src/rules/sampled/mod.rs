@@ -14,12 +14,11 @@ pub mod transfer;
 
 use super::common::Sizes;
 use super::common::{Evaluated, Free};
-use super::set;
+use super::set::{self, ClaimedSet};
 use crate::data::Data;
 use crate::json::Fields;
 use crate::verdict::{Outcome, bad, demand};
 use law::{Law, Terms};
-use rug::Rational;
 
 /// The free numbers.
 #[derive(Clone, Debug)]
@@ -30,7 +29,7 @@ pub struct Witness {
 
 impl Witness {
     /// Takes the free numbers out of a witness.
-    pub fn read(fields: &mut Fields<'_>, claimed: &claim::Regulator<'_>, set: [Rational; 3]) -> Outcome<Witness> {
+    pub fn read(fields: &mut Fields<'_>, claimed: &claim::Regulator<'_>, set: ClaimedSet) -> Outcome<Witness> {
         let mut proof = fields.required("transfer")?.fields()?;
         let kind = proof.required("proof")?;
         if kind.text()? != "sampled" {
