@@ -93,17 +93,22 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
             word("n_o", "n_o", "For which numbers of oscillators.", "every n_o >= 0"),
         ]);
     }
-    let kind = must("kind", "Kind", "What was asked for.", Shape::Word(vec!["paper", "at-rest", "box"]));
-    let mut set: Vec<Field> = [kind].into_iter().chain(sizes()).collect();
-    if of_plant {
-        set.push(may("ball", "Ball", "The set contains |x - x_0| up to this radius.", rational()));
-    }
+    let set = |kinds: &[&'static str], sizes: Vec<Field>| {
+        let kind = must("kind", "Kind", "What was asked for.", Shape::Word(kinds.to_vec()));
+        let ball = may("ball", "Ball", "The set contains |x - x_0| up to this radius.", rational());
+        Shape::Object([kind].into_iter().chain(sizes).chain(of_plant.then_some(ball)).collect())
+    };
+    let sets = Shape::OneOf(vec![
+        set(&["paper", "at-rest", "box"], sizes().into()),
+        // The regulator sets z = M e.
+        set(&["aligned"], sizes().into_iter().take(2).collect()),
+    ]);
     // Without a state x there is no bound of it.
     let orbit = [("x", "|x|"), ("e", "|e|"), ("zeta", "|zeta|_N"), ("z", "|z|_N")]
         .map(|(name, what)| may(name, what, format!("An upper bound of {what} along it."), rational()));
     fields.extend([
         must("mu", "Gain mu", "That of the specification.", rational()),
-        must("initial_set", "Initial set", "The set that is covered.", Shape::Object(set)),
+        must("initial_set", "Initial set", "The set that is covered.", sets),
         must("periodic_solution", "Periodic solution", "Bounds of it.", Shape::Object(orbit.into())),
         must("statement", "Statement", "The claim in words.", Shape::Text),
     ]);
@@ -127,7 +132,12 @@ enum Kind {
 fn proof(kind: Kind) -> Vec<Field> {
     vec![
         must("sigma_star", "sigma*", "Its gain.", rational()),
-        must("initial_set", "Initial set", "Its initial set.", Shape::Object(sizes().into())),
+        must(
+            "initial_set",
+            "Initial set",
+            "Its initial set.",
+            Shape::OneOf(vec![Shape::Object(sizes().into()), Shape::Object(sizes().into_iter().take(2).collect())]),
+        ),
         must("witness", "Witness", "Its free numbers.", Shape::Object(witness(kind, false))),
     ]
 }

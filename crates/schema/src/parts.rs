@@ -89,10 +89,12 @@ pub(super) fn initial_set(ball: bool) -> Shape {
     let mut kinds = vec![
         Shape::Object(vec![kind("paper")]),
         Shape::Object(vec![kind("at-rest"), optional(x0()), optional(e0())]),
+        Shape::Object(vec![kind("aligned"), optional(x0()), optional(e0())]),
         Shape::Object(vec![kind("box"), required(x0()), required(e0()), z0()]),
     ];
     if ball {
         kinds.push(Shape::Object(vec![kind("at-rest"), required(round()), optional(e0())]));
+        kinds.push(Shape::Object(vec![kind("aligned"), required(round()), optional(e0())]));
         kinds.push(Shape::Object(vec![kind("box"), required(round()), required(e0()), z0()]));
     }
     Shape::OneOf(kinds)
