@@ -5,10 +5,11 @@
 
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{ErrorKind, Errors, Object, Reported, SampledGain, Sampling, Value, any_constant};
+use sigmastar_lang::spec::{ErrorKind, Errors, Object, Reported, SampledGain, Sampling, Value, any_constant, choose};
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::mean_squares::MeanSquares;
+use sigmastar_theory::derivation::paths::{Path, Paths};
 use sigmastar_theory::derivation::repaired::RepairedWitness;
 use sigmastar_theory::derivation::sampled::SampledWitness;
 use sigmastar_theory::derivation::sharp::SharpWitness;
@@ -81,7 +82,7 @@ numbers!(SharpWitness {
     h: "h",
     k0: "k0",
     k1: "k1"
-} and (sigma: Rational, set: ClaimedSet, transfer: TransferProof, refined: Option<RefinedSquares>));
+} and (sigma: Rational, set: ClaimedSet, transfer: TransferProof, refined: Option<RefinedSquares>, paths: Paths));
 
 /// Mean squares of the periodic solution that are smaller than those of existence.
 pub type RefinedSquares = MeanSquares<Rational>;
@@ -103,9 +104,28 @@ numbers!(SampledWitness {
     eta: "h",
     k0: "k0",
     k1: "k1"
-} and (sigma: Rational, sampling: Sampling, law: SampledGain, set: ClaimedSet));
+} and (sigma: Rational, sampling: Sampling, law: SampledGain, set: ClaimedSet, paths: Paths));
 
-numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and ());
+numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and (paths: Paths));
+
+/// The paths of a witness as a field of JSON.
+pub(super) fn paths_json(paths: Paths) -> (&'static str, serde_json::Value) {
+    ("paths", serde_json::json!({ "f": paths.f.name(), "q": paths.q.name() }))
+}
+
+/// The paths of a witness; a certificate that names none is older than they are.
+pub(super) fn read_paths(witness: &mut Object<'_>, errors: &mut Errors) -> Result<Paths, Reported> {
+    let Some(value) = witness.optional("paths") else { return Ok(Paths::UNNAMED) };
+    let mut fields = value.object(errors)?;
+    let [f, q] = ["f", "q"].map(|name| {
+        let value = fields.required(name, errors)?;
+        let name = choose(&value, "path", &Path::ALL.map(Path::name), errors)?;
+        // `choose` knows no other names.
+        Path::ALL.into_iter().find(|path| path.name() == name).ok_or_else(|| value.wrong_type("a path", errors))
+    });
+    fields.finish(errors);
+    Ok(Paths { f: f?, q: q? })
+}
 
 /// The sizes of a claimed set as fields of JSON: without Z_0 where the regulator sets z = M e.
 pub fn set_fields(set: &ClaimedSet) -> impl Iterator<Item = (&'static str, serde_json::Value)> {

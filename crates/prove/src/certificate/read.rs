@@ -1,6 +1,6 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
-use super::fields::{NumberFields, PLANT_FIELDS, RefinedSquares, exact_rational, rational};
+use super::fields::{NumberFields, PLANT_FIELDS, RefinedSquares, exact_rational, rational, read_paths};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
 use crate::certify::GivenWitness;
@@ -185,18 +185,28 @@ fn read_sharp(
     let witness = SharpWitness::read(fields, errors, |fields, errors| {
         let transfer = read_transfer(fields, errors);
         let _ = fields.optional("lmi");
-        exact = fields.optional("exact_regulation").map(|value| read_numbers(&value, errors)).transpose();
-        let refined =
-            fields.optional("refined").map(|value| read_numbers::<RefinedSquares>(&value, errors)).transpose();
-        Ok((sigma, set, transfer?, refined?))
+        exact = fields
+            .optional("exact_regulation")
+            .map(|value| {
+                read_numbers(&value, errors, |fields, errors| read_paths(fields, errors).map(|paths| (paths,)))
+            })
+            .transpose();
+        let refined = fields.optional("refined");
+        let refined = refined.map(|value| read_numbers::<RefinedSquares>(&value, errors, |_, _| Ok(()))).transpose();
+        let paths = read_paths(fields, errors);
+        Ok((sigma, set, transfer?, refined?, paths?))
     });
     Ok(GivenWitness { witness: Box::new(witness?), exact: exact? })
 }
 
-/// An object that holds numbers and nothing else.
-fn read_numbers<N: NumberFields<Other = ()>>(value: &Value<'_>, errors: &mut Errors) -> Result<N, Reported> {
+/// An object that holds numbers, and what `other` reads.
+fn read_numbers<N: NumberFields>(
+    value: &Value<'_>,
+    errors: &mut Errors,
+    other: impl FnOnce(&mut Object<'_>, &mut Errors) -> Result<N::Other, Reported>,
+) -> Result<N, Reported> {
     let mut fields = value.object(errors)?;
-    let numbers = N::read(&mut fields, errors, |_, _| Ok(()));
+    let numbers = N::read(&mut fields, errors, other);
     fields.finish(errors);
     numbers
 }

@@ -1,6 +1,6 @@
 //! Reading the claim and the witness of a certificate of the regulator at samples.
 
-use super::fields::{NumberFields, PLANT_FIELDS, rational};
+use super::fields::{NumberFields, PLANT_FIELDS, rational, read_paths};
 use super::read::{COMMON, read_set, small_integer};
 use super::sampled::{REGULATOR, SAMPLED};
 use super::triple::{EXISTENCE, STABILITY};
@@ -48,7 +48,9 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<SampledWitness, Reporte
         let weight_sum = rational(fields, "weight_sum", errors);
         let transfer = fields.required("transfer", errors).and_then(|value| read_transfer(&value, errors));
         let law = SampledGain { gain, weight_sum: weight_sum? };
-        transfer.map(|()| (sigma, sampling, law, set))
+        let paths = read_paths(fields, errors);
+        transfer?;
+        Ok((sigma, sampling, law, set, paths?))
     });
     fields.finish(errors);
     witness

@@ -1,6 +1,6 @@
 //! The certificate of the regulator at samples: a claim about exactly one gain and one sampling period.
 
-use super::fields::NumberFields;
+use super::fields::{NumberFields, paths_json};
 use super::of_plant::plant_parts;
 use super::triple::lyapunov_parts;
 use super::write::{FORMAT, VERSION, conclusion, conditions_json, exact, object, set_json, text, upper_end};
@@ -42,7 +42,8 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         ("statement", text(sampled_statement(spec, witness))),
     ]);
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
-    let parts = further.into_iter().chain(lyapunov_parts(spec)).chain(plant_parts(spec));
+    let parts =
+        further.into_iter().chain([paths_json(witness.paths)]).chain(lyapunov_parts(spec)).chain(plant_parts(spec));
     let [embedded, digest] = match spec.plant() {
         Some(_) => ["plant", "plant_sha256"],
         None => ["specification", "specification_sha256"],

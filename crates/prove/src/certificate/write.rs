@@ -1,6 +1,6 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
-use super::fields::{NumberFields, set_fields};
+use super::fields::{NumberFields, paths_json, set_fields};
 use super::of_plant::plant_parts;
 use super::triple::{lyapunov_parts, rows};
 use crate::certify::{Certification, Decided, ExceededBy, NoPlant, Outcome, Proof, Witness, claimed_ball};
@@ -81,10 +81,14 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ),
         ("statement", text(statement(run, sigma, set))),
     ]);
-    let regulation = run.exact.as_ref().map(|exact| ("exact_regulation", object(exact.witness.json())));
+    let regulation = run.exact.as_ref().map(|exact| {
+        let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
+        ("exact_regulation", object(numbers))
+    });
     let proof = run.sharp.proved()?;
     let refined = proof.witness.refined.as_ref().map(|refined| ("refined", object(refined.json())));
-    let mut witness = with_witness(proof, refined.into_iter().chain(regulation));
+    let mut witness =
+        with_witness(proof, refined.into_iter().chain(regulation).chain([paths_json(proof.witness.paths)]));
     // The free numbers of the repaired derivation, without which its column of the constants could not be checked.
     let comparison = run.repaired.as_ref().and_then(Outcome::proved).map(|proof| {
         let RepairedWitness { sigma, set, .. } = &proof.witness;

@@ -179,7 +179,25 @@ fn sharp_witness(
     let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
     let RoundedBox { d_x, d_e, w_x, h } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
     let MeanSquares { x: r_x, e: r_e, e_rate: r_d } = existence;
-    Some(SharpWitness { sigma, x_p, e_p, r_x, r_e, r_d, kap, refined, d_x, d_e, w_x, h, k0, k1, transfer, set })
+    Some(SharpWitness {
+        sigma,
+        x_p,
+        e_p,
+        r_x,
+        r_e,
+        r_d,
+        kap,
+        refined,
+        d_x,
+        d_e,
+        w_x,
+        h,
+        k0,
+        k1,
+        transfer,
+        set,
+        paths: at.paths,
+    })
 }
 
 /// D_x, D_e, w_x, h of an error box whose level condition holds with a small slack after rounding.
@@ -269,7 +287,7 @@ pub(super) fn exact_claim(data: &Data<'_>, model: &FloatModel, set: &ClaimedSet,
     let at = search_exact(model, [dist_x, dist_e, dist_z]).ok()?;
     SLACKS.iter().find_map(|&slack| {
         let RoundedBox { d_x, d_e, w_x, h } = rounded_box(model, at.d_x, at.rho, [dist_e, dist_z], at.eta, slack)?;
-        let witness = ExactWitness { sigma: rounded_sigma(at.threshold, slack)?, d_x, d_e, w_x, h };
+        let witness = ExactWitness { sigma: rounded_sigma(at.threshold, slack)?, d_x, d_e, w_x, h, paths: at.paths };
         let evaluation = decide_exact(data.spec, set, &witness, ladder);
         evaluation.truth().is_true().then_some(ExactClaim { witness, evaluation })
     })

@@ -228,7 +228,24 @@ fn round(
         let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
         let RoundedBox { d_x, d_e, w_x, h: eta } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
         let (sampling, law) = (sampling.clone(), law.clone());
-        Some(SampledWitness { sigma, sampling, law, x_p, e_p, r_x, r_e, r_d, d_x, d_e, w_x, eta, k0, k1, set })
+        Some(SampledWitness {
+            sigma,
+            sampling,
+            law,
+            x_p,
+            e_p,
+            r_x,
+            r_e,
+            r_d,
+            d_x,
+            d_e,
+            w_x,
+            eta,
+            k0,
+            k1,
+            set,
+            paths: at.paths,
+        })
     })
 }
 

@@ -7,6 +7,7 @@ use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{Bound, ProvedValue, ProvedValues};
 use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, TABLE};
+use sigmastar_theory::derivation::paths::Paths;
 
 /// Significant digits of an argument.
 const DIGITS: u32 = 8;
@@ -24,9 +25,11 @@ const EFFORT: usize = 1 << 18;
 pub struct Needed {
     x_p: Rational,
     e_p: Rational,
+    x_per: Rational,
     e_per: Rational,
     x_b: Rational,
     e_b: Rational,
+    paths: Paths,
     /// Whether existence has a rate of its own.
     second: bool,
 }
@@ -38,9 +41,11 @@ pub(super) fn needed(set: &PeriodicSet, at: &AtSigma, enlarged: f64, second: boo
     Some(Needed {
         x_p: up(set.x_p)?,
         e_p: up(set.e_p)?,
+        x_per: up(set.x_per)?,
         e_per: up(set.e_per)?,
         x_b: up(set.x_per + at.d_x)?,
         e_b: up(set.e_per + d_e)?,
+        paths: at.paths,
         second,
     })
 }
@@ -54,13 +59,14 @@ impl Needed {
 
     /// Which bound is used where (derivation, 11.3).
     fn list(&self) -> Vec<(Bound, Rational, Rational)> {
-        let Needed { x_p, e_p, e_per, x_b, e_b, second } = self;
+        let Needed { x_p, e_p, x_per, e_per, x_b, e_b, paths: Paths { f, q }, second } = self;
         let of_existence = if *second { Bound::RateExistence } else { Bound::Rate };
         let zero = Rational::new();
-        let mut list = vec![(Bound::Fx, x_p, &zero), (of_existence, x_p, &zero), (Bound::Rate, x_b, e_per)];
-        for bound in [Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax] {
-            list.extend([(bound, x_p, e_p), (bound, x_b, e_b)]);
-        }
+        let mut list = vec![(Bound::Fx, x_p, &zero), (of_existence, x_p, &zero)];
+        list.extend([(Bound::Rate, x_b, f.e_of_dx(e_per, e_b)), (Bound::Fe, f.x_of_de(x_per, x_b), e_b)]);
+        list.push((Bound::Qx, x_b, q.e_of_dx(e_per, e_b)));
+        list.extend([Bound::Qe, Bound::QeMax].map(|bound| (bound, q.x_of_de(x_per, x_b), e_b)));
+        list.extend([Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax].map(|bound| (bound, x_p, e_p)));
         list.extend([(Bound::Qtx, x_p, e_p), (Bound::Qte, x_p, e_p)]);
         list.into_iter().map(|(bound, x, e)| (bound, x.clone(), e.clone())).collect()
     }

@@ -1,9 +1,10 @@
 //! Parts of a candidate that the derivations share, in floating point.
 
 use super::model::FloatModel;
-use super::obstacle::{Failing, Obstacle};
+use super::obstacle::{Closest, Failing, Obstacle};
 use super::scan;
 use sigmastar_theory::derivation::existence::StateBounds;
+use sigmastar_theory::derivation::paths::Paths;
 use sigmastar_theory::derivation::stability::{DecayCondition, ErrorBox};
 
 /// Strict inequalities that do not involve sigma are proposed with this much room, so that rounding to short rationals
@@ -23,6 +24,8 @@ pub struct AtSigma {
     pub dist_e: f64,
     /// dZ.
     pub dist_z: f64,
+    /// The paths of f and of q.
+    pub paths: Paths,
     /// What is made small: the right side of C5, or of the law at samples the radius of its forms, to be below 1.
     pub threshold: f64,
 }
@@ -51,23 +54,34 @@ pub fn active_level(eta: f64, dist_e: f64, rho: f64) -> f64 {
 }
 
 /// An error box with the level condition active: D_x = rho c dX, h from eta.
+#[derive(Clone)]
 pub(super) struct Shape {
     pub(super) d_x: f64,
     pub(super) w_x: f64,
     /// h, or eta of the law at samples.
     pub(super) weight: f64,
+    pub(super) paths: Paths,
     pub(super) error_box: ErrorBox<f64>,
 }
 
 impl Shape {
-    /// The box, where it lies in the domain and the rate on it is positive.
-    pub(super) fn new(
+    /// That of a candidate, along its paths.
+    pub(super) fn of(model: &FloatModel, (x_per, e_per): (f64, f64), at: &AtSigma) -> Shape {
+        let AtSigma { rho, eta, d_x, dist_e, dist_z, paths, .. } = *at;
+        let level = active_level(eta, dist_e, rho);
+        let error_box = ErrorBox::new(model, paths, [&x_per, &e_per], [&d_x, &level.sqrt()]);
+        Shape { d_x, w_x: level / (model.p_low * d_x * d_x), weight: weight_h(eta, dist_e, dist_z), paths, error_box }
+    }
+
+    /// What `evaluate` makes of the box along the paths for which that is least; the box lies in the domain, and the rates on it
+    /// are positive.
+    pub(super) fn best(
         model: &FloatModel,
         (x_per, e_per): (f64, f64),
         [dist_x, dist_e, dist_z]: [f64; 3],
-        rho: f64,
-        eta: f64,
-    ) -> Result<Shape, Obstacle> {
+        (rho, eta): (f64, f64),
+        evaluate: impl Fn(Shape) -> Result<AtSigma, Obstacle>,
+    ) -> Result<AtSigma, Obstacle> {
         let d_x = rho * model.c * dist_x;
         let level = active_level(eta, dist_e, rho);
         let d_e = level.sqrt();
@@ -78,36 +92,47 @@ impl Shape {
         if e_b > model.domain.1 * (1.0 - 1e-7) {
             return Err(Failing::DomainE.at(x_b, e_b));
         }
-        let error_box = ErrorBox::new(model, &x_per, &e_per, &d_x, &d_e);
-        let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
-        if ![rate, k_x, k_f, &sector.below, &sector.above].iter().all(|v| v.is_finite()) {
-            return Err(model.not_finite(x_b, e_b));
+        let (w_x, weight) = (level / (model.p_low * d_x * d_x), weight_h(eta, dist_e, dist_z));
+        let mut closest = Closest::default();
+        let mut best: Option<AtSigma> = None;
+        for (paths, error_box) in ErrorBox::on_paths(model, [&x_per, &e_per], [&d_x, &d_e]) {
+            let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
+            let outcome = if ![rate, k_x, k_f, &sector.below, &sector.above].iter().all(|v| v.is_finite()) {
+                Err(model.not_finite(x_b, e_b))
+            } else if *rate <= model.alpha * (1.0 - BELOW_ONE) {
+                Err(Failing::Curvature.at(x_b, e_b))
+            } else {
+                evaluate(Shape { d_x, w_x, weight, paths, error_box })
+            };
+            match outcome {
+                Ok(at) if best.is_none_or(|best| at.threshold < best.threshold) => best = Some(at),
+                Ok(_) => {}
+                Err(obstacle) => closest.record(obstacle),
+            }
         }
-        if *rate <= model.alpha * (1.0 - BELOW_ONE) {
-            return Err(Failing::Curvature.at(x_b, e_b));
-        }
-        let w_x = level / (model.p_low * d_x * d_x);
-        Ok(Shape { d_x, w_x, weight: weight_h(eta, dist_e, dist_z), error_box })
+        closest.or(best)
     }
 }
 
 /// D_x = rho c dX, h from eta, and the threshold of C5 with the level condition active.
 pub fn error_box(
     model: &FloatModel,
-    (x_per, e_per): (f64, f64),
-    [dist_x, dist_e, dist_z]: [f64; 3],
+    periodic: (f64, f64),
+    distances: [f64; 3],
     rho: f64,
     eta: f64,
 ) -> Result<AtSigma, Obstacle> {
-    let Shape { d_x, w_x, weight, error_box } = Shape::new(model, (x_per, e_per), [dist_x, dist_e, dist_z], rho, eta)?;
-    let decay = DecayCondition::new(model, &error_box, &w_x, &weight);
-    let (x_b, e_b) = (error_box.x_b, error_box.e_b);
-    let margin = decay.curvature - decay.coupling;
-    if margin.is_nan() || margin <= (1.0 - BELOW_ONE) * 4.0 * w_x * model.alpha {
-        return Err(Failing::Coupling.at(x_b, e_b));
-    }
-    if !decay.sigma_threshold.is_finite() {
-        return Err(model.not_finite(x_b, e_b));
-    }
-    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, threshold: decay.sigma_threshold })
+    let [_, dist_e, dist_z] = distances;
+    Shape::best(model, periodic, distances, (rho, eta), |Shape { d_x, w_x, weight, paths, error_box }| {
+        let decay = DecayCondition::new(model, &error_box, &w_x, &weight);
+        let (x_b, e_b) = (error_box.x_b, error_box.e_b);
+        let margin = decay.curvature - decay.coupling;
+        if margin.is_nan() || margin <= (1.0 - BELOW_ONE) * 4.0 * w_x * model.alpha {
+            return Err(Failing::Coupling.at(x_b, e_b));
+        }
+        if !decay.sigma_threshold.is_finite() {
+            return Err(model.not_finite(x_b, e_b));
+        }
+        Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths, threshold: decay.sigma_threshold })
+    })
 }

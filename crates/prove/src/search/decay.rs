@@ -1,7 +1,7 @@
 //! Which term of C5 sets sigma*.
 
 use super::binding::Binding;
-use super::candidate::{AtSigma, active_level, weight_h};
+use super::candidate::{AtSigma, Shape};
 use super::model::FloatModel;
 use super::periodic::PeriodicSet;
 use sigmastar_theory::derivation::stability::{DecayTerms, ErrorBox};
@@ -12,11 +12,9 @@ const SLOPE_SHARE: f64 = 0.3;
 impl Binding {
     /// Which term of the threshold of C5 is the larger one.
     pub(super) fn of_decay(model: &FloatModel, set: &PeriodicSet, at: &AtSigma) -> Binding {
-        let level = active_level(at.eta, at.dist_e, at.rho);
-        let error_box = ErrorBox::new(model, &set.x_per, &set.e_per, &at.d_x, &level.sqrt());
-        let (w_x, h) = (level / (model.p_low * at.d_x * at.d_x), weight_h(at.eta, at.dist_e, at.dist_z));
+        let Shape { w_x, weight, error_box, .. } = Shape::of(model, (set.x_per, set.e_per), at);
         let ErrorBox { k_x, k_f, rate, sector, .. } = &error_box;
-        let terms = DecayTerms::new([&w_x, &h], [rate, &model.mu, &model.p_up.sqrt()], [k_x, k_f], sector);
+        let terms = DecayTerms::new([&w_x, &weight], [rate, &model.mu, &model.p_up.sqrt()], [k_x, k_f], sector);
         let by_coupling = terms.cross * terms.cross / (terms.curvature - terms.coupling);
         if by_coupling > 0.5 * at.threshold {
             Binding::Coupling

@@ -158,17 +158,18 @@ impl<'m> SampledSearch<'m> {
         distances: [f64; 3],
         (rho, eta): (f64, f64),
     ) -> Result<AtSigma, Obstacle> {
-        let shape = Shape::new(self.model, (set.x_per, set.e_per), distances, rho, eta)?;
-        let forms = self.forms(sigma, &shape, None);
-        if forms.within.is_nan() || forms.within <= 0.0 {
-            return Err(Failing::Sampling.at(shape.error_box.x_b, shape.error_box.e_b));
-        }
-        let coupled = Failing::Coupling.at(shape.error_box.x_b, shape.error_box.e_b);
-        let radius = radius(&forms.start).zip(radius(&forms.end)).ok_or(coupled)?;
         let [_, dist_e, dist_z] = distances;
-        // Where nothing is coupled the radius is 0, which has no logarithm.
-        let threshold = radius.0.max(radius.1).max(1e-300);
-        Ok(AtSigma { rho, eta, d_x: shape.d_x, dist_e, dist_z, threshold })
+        Shape::best(self.model, (set.x_per, set.e_per), distances, (rho, eta), |shape| {
+            let forms = self.forms(sigma, &shape, None);
+            if forms.within.is_nan() || forms.within <= 0.0 {
+                return Err(Failing::Sampling.at(shape.error_box.x_b, shape.error_box.e_b));
+            }
+            let coupled = Failing::Coupling.at(shape.error_box.x_b, shape.error_box.e_b);
+            let radius = radius(&forms.start).zip(radius(&forms.end)).ok_or(coupled)?;
+            // Where nothing is coupled the radius is 0, which has no logarithm.
+            let threshold = radius.0.max(radius.1).max(1e-300);
+            Ok(AtSigma { rho, eta, d_x: shape.d_x, dist_e, dist_z, paths: shape.paths, threshold })
+        })
     }
 
     fn forms(&self, sigma: f64, shape: &Shape, without: Option<Part>) -> DecayForms<f64> {
@@ -301,11 +302,8 @@ impl<'m> SampledSearch<'m> {
     #[must_use]
     pub fn limit(&self, proposal: &SampledProposal) -> SampledLimit {
         let SampledProposal { sigma, floors, rho, eta, .. } = *proposal;
-        let Ok((set, _)) = self.at(sigma, floors, Some((rho, eta)), ROOM) else { return SampledLimit::Existence };
-        let distances = start_distances(self.model, &set);
-        let Ok(shape) = Shape::new(self.model, (set.x_per, set.e_per), distances, rho, eta) else {
-            return SampledLimit::Existence;
-        };
+        let Ok((set, at)) = self.at(sigma, floors, Some((rho, eta)), ROOM) else { return SampledLimit::Existence };
+        let shape = Shape::of(self.model, (set.x_per, set.e_per), &at);
         let of = |part: Option<Part>| {
             let forms = self.forms(sigma, &shape, part);
             [&forms.start, &forms.end].map(|form| radius(form).unwrap_or(f64::INFINITY))

@@ -3,6 +3,7 @@
 use super::condition::{self, Condition};
 use super::harmonics;
 use super::initial_set::{ClaimedSet, claimed_distances};
+use super::paths::Paths;
 use super::sharp::one_sided;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
@@ -24,6 +25,8 @@ pub struct ExactWitness {
     pub w_x: Rational,
     /// h > 0.
     pub h: Rational,
+    /// Along which paths f and q are split on the error box.
+    pub paths: Paths,
 }
 
 /// `z_oo = (1/mu) sqrt( b_q_rms(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt_rms(0,0)^2 )`: the norm of the steady state of the
@@ -69,7 +72,7 @@ impl ExactEvaluation {
         let z = steady_state_norm(data);
         let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
         let (w_x, h, sigma) = (number(&witness.w_x), number(&witness.h), number(&witness.sigma));
-        let error_box = ErrorBox::new(data, &data.zero(), &data.zero(), &d_x, &d_e);
+        let error_box = ErrorBox::new(data, witness.paths, [&data.zero(), &data.zero()], [&d_x, &d_e]);
         let decay = DecayCondition::new(data, &error_box, &w_x, &h);
         let mut conditions = sign_conditions(
             data,
@@ -90,7 +93,7 @@ impl ExactEvaluation {
             ));
         }
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
-        conditions.extend(one_sided(data, "(D_x, D_e)", [&error_box.x_b, &error_box.e_b]));
+        conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
         let [dist_x, dist_e, dist_z] = claimed_distances(data, set, [&data.zero(), &data.zero(), &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));

@@ -14,6 +14,7 @@ pub mod harmonics;
 pub mod initial_set;
 pub mod lyapunov_matrix;
 pub mod mean_squares;
+pub mod paths;
 pub mod printed;
 pub mod relative_degree;
 pub mod repaired;

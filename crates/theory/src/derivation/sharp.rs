@@ -9,6 +9,7 @@ use super::mean_squares::{
     DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, at_the_solution,
     sup_by_mean_squares,
 };
+use super::paths::Paths;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::uniqueness;
 use super::{domain_conditions, sign_conditions};
@@ -53,6 +54,8 @@ pub struct SharpWitness {
     pub transfer: TransferProof,
     /// The initial set to be covered.
     pub set: ClaimedSet,
+    /// Along which paths f and q are split on the error box.
+    pub paths: Paths,
 }
 
 impl SharpWitness {
@@ -118,7 +121,7 @@ impl SharpEvaluation {
 
         let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
         let (w_x, h) = (number(&witness.w_x), number(&witness.h));
-        let error_box = ErrorBox::new(data, &periodic.x_per, &periodic.e_per, &d_x, &d_e);
+        let error_box = ErrorBox::new(data, witness.paths, [&periodic.x_per, &periodic.e_per], [&d_x, &d_e]);
         let decay = DecayCondition::new(data, &error_box, &w_x, &h);
 
         let mut conditions = signs(data, witness);
@@ -140,7 +143,7 @@ impl SharpEvaluation {
             start,
             exit,
         ));
-        conditions.extend(one_sided(data, "(X_b, E_b)", [&error_box.x_b, &error_box.e_b]));
+        conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
         conditions.push(Condition::less(
             "C5",
             "(h/mu) k_x^2 < 4 w_x a_2",
@@ -194,7 +197,7 @@ fn signs(data: &Data<'_>, witness: &SharpWitness) -> Vec<Condition> {
 }
 
 /// (M) -b_qe <= q_e_max where the one-sided bound is used: otherwise no plant has it.
-pub(super) fn one_sided(data: &Data<'_>, place: &str, [x, e]: [&Enclosure; 2]) -> Option<Condition> {
+pub(super) fn one_sided(data: &Data<'_>, place: &str, [x, e]: &[Enclosure; 2]) -> Option<Condition> {
     data.given(Bound::QeMax).then(|| {
         // As it is given, even where b_qe is smaller and serves in its place.
         let [below, above] = [Bound::Qe, Bound::QeMax].map(|which| data.spec.bounds.at(which, x, e));
@@ -246,7 +249,7 @@ fn existence_conditions(
     conditions.push(Condition::at_most("S2b", rms.0, rms.1, squares.e.clone()));
     conditions.push(Condition::at_most("S2c", rate_rms.0, rate_rms.1, squares.e_rate.clone()));
     if kap.is_some() {
-        conditions.extend(one_sided(data, "(X_p, E_p)", [&bounds.x_p, &bounds.e_p]));
+        conditions.extend(one_sided(data, "(X_p, E_p)", &[bounds.x_p.clone(), bounds.e_p.clone()]));
     }
     if let Some(refined) = &witness.refined {
         let refined = refined.map(|value: &Rational| data.rational(value));

@@ -1,5 +1,6 @@
 //! Stability and domain of attraction (derivation, sections 5 and 10.4): the quadratic form of C5 and its closed form.
 
+use super::paths::{Path, Paths};
 use crate::data::{Bound, Numbers, Problem};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::real::{Operand, Real};
@@ -13,17 +14,18 @@ pub struct ErrorBox<R> {
     pub x_b: R,
     /// E_b = e_per + D_e.
     pub e_b: R,
-    /// k_x = b_qx(X_b, E_b)/sqrt(P_low).
+    /// k_x = b_qx/sqrt(P_low), where the path of q has dq/dx.
     pub k_x: R,
-    /// The sector of dq/de: from -k_l = -b_qe(X_b, E_b) up to m = min{q_e_max, b_qe}(X_b, E_b).
+    /// The sector of dq/de, where the path of q has it: from -k_l = -b_qe up to m = min{q_e_max, b_qe}.
     pub sector: Sector<R>,
-    /// k_f = b_fe(X_b, E_b).
+    /// X and E there.
+    pub sector_at: [R; 2],
+    /// k_f = b_fe, where the path of f has df/de.
     pub k_f: R,
-    /// gam = c [b_fxx(x_per,0) x_per + b_fex(x_per,e_per) e_per + b_fxx(X_b,e_per) D_x/2], in 1/time: what the
-    /// nonlinearity takes from alpha; unknown where a rate is given in the place of these bounds.
+    /// gam = c [b_fxx(x_per,0) x_per + b_fex(x_per,E) E + b_fxx(X_b,E) D_x/2], in 1/time, with E where the path of f has df/dx:
+    /// what the nonlinearity takes from alpha; unknown where a rate is given in the place of these bounds.
     pub gamma: R,
-    /// a_2 = alpha - gam, or a(X_b, e_per) where a rate is given and larger: a rate of df/dx averaged over a segment from the
-    /// periodic solution.
+    /// a_2 = alpha - gam, or a(X_b, E) where a rate is given and larger: a rate of df/dx averaged over a segment of the path.
     pub rate: R,
 }
 
@@ -41,28 +43,93 @@ where
     for<'a> &'a R: Operand<R>,
 {
     /// Evaluates the bounding functions on the error box |xt| <= D_x, |et| <= D_e around a periodic solution with
-    /// sup|x| <= x_per, sup|e| <= e_per. Hypothesis: (X_b, E_b) lies in the domain.
+    /// sup|x| <= x_per, sup|e| <= e_per, along the paths of f and of q. Hypothesis: (X_b, E_b) lies in the domain.
     #[must_use]
-    pub fn new(problem: &impl Problem<R>, x_per: &R, e_per: &R, d_x: &R, d_e: &R) -> ErrorBox<R> {
+    pub fn new(problem: &impl Problem<R>, paths: Paths, periodic: [&R; 2], radii: [&R; 2]) -> ErrorBox<R> {
+        let corner = Corner::new(periodic, radii);
+        corner.error_box(&corner.of_f(problem, paths.f), &corner.of_q(problem, paths.q))
+    }
+
+    /// The same along every pair of paths that a search chooses from.
+    pub fn on_paths(
+        problem: &impl Problem<R>,
+        periodic: [&R; 2],
+        radii: [&R; 2],
+    ) -> impl Iterator<Item = (Paths, ErrorBox<R>)> {
+        let corner = Corner::new(periodic, radii);
+        let of_f = Path::CHOICE.map(|path| corner.of_f(problem, path));
+        let of_q = Path::CHOICE.map(|path| corner.of_q(problem, path));
+        let boxes: Vec<ErrorBox<R>> =
+            of_f.iter().flat_map(|of_f| of_q.iter().map(|of_q| corner.error_box(of_f, of_q))).collect();
+        Paths::choice().zip(boxes)
+    }
+}
+
+/// An error box before anything is known on it.
+struct Corner<R> {
+    x_per: R,
+    e_per: R,
+    d_x: R,
+    x_b: R,
+    e_b: R,
+}
+
+/// gam, a_2 and k_f.
+struct OfF<R> {
+    gamma: R,
+    rate: R,
+    k_f: R,
+}
+
+/// k_x and the sector.
+struct OfQ<R> {
+    k_x: R,
+    sector: Sector<R>,
+    sector_at: [R; 2],
+}
+
+impl<R: Real> Corner<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    fn new([x_per, e_per]: [&R; 2], [d_x, d_e]: [&R; 2]) -> Corner<R> {
         let (x_b, e_b) = (x_per + d_x, e_per + d_e);
+        Corner { x_per: x_per.clone(), e_per: e_per.clone(), d_x: d_x.clone(), x_b, e_b }
+    }
+
+    fn of_f(&self, problem: &impl Problem<R>, path: Path) -> OfF<R> {
+        let Corner { x_per, e_per, d_x, x_b, e_b } = self;
+        let (x, e) = (path.x_of_de(x_per, x_b), path.e_of_dx(e_per, e_b));
         let gamma = &problem.numbers().c
             * (problem.bound(Bound::Fxx, x_per, &problem.zero()) * x_per
-                + problem.bound(Bound::Fex, x_per, e_per) * e_per
-                + problem.bound(Bound::Fxx, &x_b, e_per) * d_x / R::int(2));
+                + problem.bound(Bound::Fex, x_per, e) * e
+                + problem.bound(Bound::Fxx, x_b, e) * d_x / R::int(2));
         let by_norms = &problem.numbers().alpha - &gamma;
         // Of what is not given nothing is known.
-        let rate = by_norms.max_known(&problem.bound(Bound::Rate, &x_b, e_per));
+        let rate = by_norms.max_known(&problem.bound(Bound::Rate, x_b, e));
+        OfF { gamma, rate, k_f: problem.bound(Bound::Fe, x, e_b) }
+    }
+
+    fn of_q(&self, problem: &impl Problem<R>, path: Path) -> OfQ<R> {
+        let Corner { x_per, e_per, x_b, e_b, .. } = self;
+        let (x, e) = (path.x_of_de(x_per, x_b), path.e_of_dx(e_per, e_b));
+        OfQ {
+            k_x: problem.bound(Bound::Qx, x_b, e) / problem.numbers().p_low.sqrt(),
+            sector: Sector { below: problem.bound(Bound::Qe, x, e_b), above: problem.bound(Bound::QeMax, x, e_b) },
+            sector_at: [x.clone(), e_b.clone()],
+        }
+    }
+
+    fn error_box(&self, of_f: &OfF<R>, of_q: &OfQ<R>) -> ErrorBox<R> {
         ErrorBox {
-            k_x: problem.bound(Bound::Qx, &x_b, &e_b) / problem.numbers().p_low.sqrt(),
-            sector: Sector {
-                below: problem.bound(Bound::Qe, &x_b, &e_b),
-                above: problem.bound(Bound::QeMax, &x_b, &e_b),
-            },
-            k_f: problem.bound(Bound::Fe, &x_b, &e_b),
-            gamma,
-            rate,
-            x_b,
-            e_b,
+            x_b: self.x_b.clone(),
+            e_b: self.e_b.clone(),
+            k_x: of_q.k_x.clone(),
+            sector: of_q.sector.clone(),
+            sector_at: of_q.sector_at.clone(),
+            k_f: of_f.k_f.clone(),
+            gamma: of_f.gamma.clone(),
+            rate: of_f.rate.clone(),
         }
     }
 }

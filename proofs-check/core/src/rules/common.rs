@@ -2,6 +2,7 @@
 //! conditions on the set, the domain and the level, and what is said of the periodic solution.
 
 use super::mean_squares::Means;
+use super::paths::Paths;
 use super::set::{self, ClaimedSet};
 use super::stability::{ErrorBox, distances, level};
 use crate::data::Data;
@@ -15,7 +16,7 @@ use rug::Rational;
 pub struct Free {
     /// Where they stand in the file.
     pub pointer: String,
-    /// X_0, E_0, Z_0.
+    /// The initial conditions.
     pub set: ClaimedSet,
     pub x_p: Rational,
     pub e_p: Rational,
@@ -28,6 +29,7 @@ pub struct Free {
     pub h: Rational,
     pub k0: Rational,
     pub k1: Rational,
+    pub paths: Paths,
 }
 
 /// The sizes |x|, |e|, |zeta|_N of the periodic solution that are proved.
@@ -72,6 +74,7 @@ impl Free {
             h: number("h")?,
             k0: number("k0")?,
             k1: number("k1")?,
+            paths: Paths::read(fields)?,
             pointer,
             set,
         })
@@ -96,7 +99,7 @@ impl Free {
     ) -> (ErrorBox, Evaluated) {
         let [x_p, e_p, d_x, d_e, w_x, h] =
             [&self.x_p, &self.e_p, &self.d_x, &self.d_e, &self.w_x, &self.h].map(|value| d.number(value));
-        let error_box = ErrorBox::new(d, [&sizes.x, &sizes.e], [&d_x, &d_e]);
+        let error_box = ErrorBox::new(d, self.paths, [&sizes.x, &sizes.e], [&d_x, &d_e]);
         let arguments = [x_p.max(&error_box.x_b), e_p.max(&error_box.e_b)];
         let mut conditions = set::covers(d, &self.set, [&self.x_p, &self.e_p], &sizes.zeta);
         conditions.extend(set::domain(d, &arguments[0], &arguments[1]));

@@ -5,6 +5,7 @@ pub mod common;
 pub mod derivation;
 pub mod gains;
 pub mod mean_squares;
+pub mod paths;
 pub mod regulation;
 pub mod sampled;
 pub mod set;

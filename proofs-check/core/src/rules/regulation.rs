@@ -4,6 +4,7 @@
 //! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
 
 use super::mean_squares::forcing;
+use super::paths::Paths;
 use super::set::{self, ClaimedSet};
 use super::stability::{ErrorBox, distances, level};
 use crate::bound::Bound;
@@ -24,6 +25,7 @@ pub struct Witness {
     pub d_e: Rational,
     pub w_x: Rational,
     pub h: Rational,
+    pub paths: Paths,
 }
 
 impl Witness {
@@ -39,6 +41,7 @@ impl Witness {
             d_e: number("D_e")?,
             w_x: number("w_x")?,
             h: number("h")?,
+            paths: Paths::read(&mut fields)?,
             pointer: field.pointer.clone(),
         };
         fields.finish()?;
@@ -69,7 +72,7 @@ pub fn evaluate(d: &Data<'_>, set: &ClaimedSet, w: &Witness) -> Outcome<Vec<Cond
     set::positive(&named, &w.pointer)?;
     let [sigma, d_x, d_e, w_x, h] = named.map(|(_, value)| d.number(value));
     let zero = d.int(0);
-    let error_box = ErrorBox::new(d, [&zero, &zero], [&d_x, &d_e]);
+    let error_box = ErrorBox::new(d, w.paths, [&zero, &zero], [&d_x, &d_e]);
     let reach = distances(d, set, [&zero, &zero, &steady_state(d)]);
     let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
     let mut conditions = set::domain(d, &d_x, &d_e);

@@ -1,5 +1,6 @@
 //! Rules C4 and C5 of the sharp derivation (docs/mathematics.md, sections 5, 10.1 and 10.4).
 
+use super::paths::{Path, Paths};
 use super::set::ClaimedSet;
 use crate::bound::Bound;
 use crate::data::Data;
@@ -16,27 +17,31 @@ pub struct ErrorBox {
     pub most: Interval,
     pub k_f: Interval,
     pub gam: Interval,
-    /// a_2: alpha - gam, or the rate at (X_b, e_per) where it is larger.
+    /// a_2: alpha - gam, or the rate where it is larger.
     pub rate: Interval,
     /// The condition on q_e_max, where it is given.
     pub one_sided: Option<Condition>,
 }
 
 impl ErrorBox {
-    /// `gam = c [b_fxx(x_per,0) x_per + b_fex(x_per,e_per) e_per + b_fxx(X_b,e_per) D_x/2]`, `k_x = b_qx/sqrt(P_low)`, k_e, k_f
-    /// at (X_b, E_b) = (x_per + D_x, e_per + D_e), which must lie in the domain.
-    pub fn new(d: &Data<'_>, [x_per, e_per]: [&Interval; 2], [d_x, d_e]: [&Interval; 2]) -> ErrorBox {
+    /// `gam = c [b_fxx(x_per,0) x_per + b_fex(x_per,E) E + b_fxx(X_b,E) D_x/2]`, `k_x = b_qx/sqrt(P_low)`, k_e, k_f, with
+    /// (X_b, E_b) = (x_per + D_x, e_per + D_e), which must lie in the domain, at the arguments of the paths; E is the one where f
+    /// has d/dx.
+    pub fn new(d: &Data<'_>, paths: Paths, [x_per, e_per]: [&Interval; 2], [d_x, d_e]: [&Interval; 2]) -> ErrorBox {
         let (x_b, e_b) = (x_per + d_x, e_per + d_e);
-        let bends = d.bound(Bound::Fxx, x_per, &d.int(0)) * x_per + d.bound(Bound::Fxx, &x_b, e_per) * d_x / 2;
-        let gam = &d.c * (bends + d.bound(Bound::Fex, x_per, e_per) * e_per);
-        let k_e = d.bound(Bound::Qe, &x_b, &e_b);
-        let given = d.q_e_max(&x_b, &e_b);
+        let e_f = paths.f.e_at_dx(e_per, &e_b);
+        let bends = d.bound(Bound::Fxx, x_per, &d.int(0)) * x_per + d.bound(Bound::Fxx, &x_b, e_f) * d_x / 2;
+        let gam = &d.c * (bends + d.bound(Bound::Fex, x_per, e_f) * e_f);
+        let x_q = paths.q.x_at_de(x_per, &x_b);
+        let k_e = d.bound(Bound::Qe, x_q, &e_b);
+        let given = d.q_e_max(x_q, &e_b);
+        let place = if paths.q == Path::ErrorFirst { "(x_per, E_b)" } else { "(X_b, E_b)" };
         ErrorBox {
-            rate: d.better_rate(&(&d.alpha - &gam), false, &x_b, e_per),
+            rate: d.better_rate(&(&d.alpha - &gam), false, &x_b, e_f),
             gam,
-            k_x: d.bound(Bound::Qx, &x_b, &e_b) / d.p_low.sqrt(),
-            k_f: d.bound(Bound::Fe, &x_b, &e_b),
-            one_sided: one_sided("(X_b, E_b)", &k_e, given.as_ref()),
+            k_x: d.bound(Bound::Qx, &x_b, paths.q.e_at_dx(e_per, &e_b)) / d.p_low.sqrt(),
+            k_f: d.bound(Bound::Fe, paths.f.x_at_de(x_per, &x_b), &e_b),
+            one_sided: one_sided(place, &k_e, given.as_ref()),
             most: given.map_or_else(|| k_e.clone(), |given| given.min(&k_e)),
             k_e,
             x_b,

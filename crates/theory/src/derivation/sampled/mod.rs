@@ -18,6 +18,7 @@ use super::condition::{self, Condition};
 use super::harmonics::AtOrigin;
 use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
 use super::mean_squares::{Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, sup_by_mean_squares};
+use super::paths::Paths;
 use super::sharp::one_sided;
 use super::stability::{ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
@@ -62,6 +63,8 @@ pub struct SampledWitness {
     pub k1: Rational,
     /// The initial set to be covered.
     pub set: ClaimedSet,
+    /// Along which paths f and q are split on the error box.
+    pub paths: Paths,
 }
 
 impl SampledWitness {
@@ -117,7 +120,7 @@ impl SampledEvaluation {
         let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
         let z = gains.z_squared(data, &size.forcing, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
         let [d_x, d_e, w_x, eta] = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta].map(number);
-        let error_box = ErrorBox::new(data, &size.x_per, &size.e_per, &d_x, &d_e);
+        let error_box = ErrorBox::new(data, witness.paths, [&size.x_per, &size.e_per], [&d_x, &d_e]);
         let forms = DecayForms::new(data, &error_box, &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta });
 
         let mut conditions = signs(data, witness);
@@ -135,7 +138,7 @@ impl SampledEvaluation {
             start,
             exit,
         ));
-        conditions.extend(one_sided(data, "(X_b, E_b)", [&error_box.x_b, &error_box.e_b]));
+        conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
         conditions.extend(form_conditions(data, &forms));
         SampledEvaluation { product, law, bounds, size, z, error_box, forms, conditions }
     }
