@@ -5,8 +5,7 @@ use crate::search::FloatBound;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
 use sigmastar_plants::bounds::TABLE;
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 /// The place of the rate in [`TABLE`].
 pub const RATE: usize = 7;
@@ -20,25 +19,32 @@ pub type Values = [f64; TABLE.len()];
 /// A source of estimates at (X, E).
 pub type Source = dyn Fn(f64, f64) -> Values + Send + Sync;
 
-/// Linear interpolation between nodes at 0 and at `unit ratio^k`, k = -`DEPTH`, ...; beyond the last node nothing is known.
+/// Linear interpolation between nodes at 0 and at `unit ratio^k`, k = 0, 1, ... from the smallest one on; beyond the last node nothing is known.
 pub struct Grid {
     source: Arc<Source>,
-    units: [f64; 2],
-    ratio: f64,
-    nodes: Mutex<HashMap<[u16; 2], Values>>,
+    /// The arguments of the nodes, X and E, in increasing order.
+    arguments: [Vec<f64>; 2],
+    /// Of each node, all E of the first X first. A node is a function of its place alone, so that it does not matter who computes it.
+    nodes: Vec<OnceLock<Box<Values>>>,
 }
 
 /// The smallest node is this share of the unit.
 const SMALLEST: f64 = 1e-4;
 
-/// The largest node is so many units.
+/// The largest node is at least so many units.
 const LARGEST: f64 = 1e6;
 
 impl Grid {
     /// A grid about the size `units` of (X, E).
     #[must_use]
     pub fn new(source: Arc<Source>, units: [f64; 2], ratio: f64) -> Grid {
-        Grid { source, units, ratio, nodes: Mutex::new(HashMap::new()) }
+        let arguments = units.map(|unit| {
+            let node = |k: i32| SMALLEST * unit * ratio.portable_powi(k);
+            let within = (0..).map(node).take_while(|node| *node < LARGEST * unit * ratio);
+            std::iter::once(0.0).chain(within).collect::<Vec<f64>>()
+        });
+        let nodes = std::iter::repeat_with(OnceLock::new).take(arguments[0].len() * arguments[1].len()).collect();
+        Grid { source, arguments, nodes }
     }
 
     /// The interpolated functions as a search takes them; that of existence where there is a P for it.
@@ -47,49 +53,31 @@ impl Grid {
         let grid = Arc::new(self);
         let function = |(index, bound): (usize, &Bound)| {
             let grid = grid.clone();
-            (*bound, FloatBound::Function(Arc::new(move |x, e| grid.at(x, e)[index])))
+            (*bound, FloatBound::Function(Arc::new(move |x, e| grid.at(index, x, e).unwrap_or(f64::NAN))))
         };
         let wanted = |bound: &&Bound| existence || **bound != Bound::RateExistence;
         TABLE.iter().filter(wanted).enumerate().map(function).collect()
     }
 
-    /// Estimates at (X, E).
-    fn at(&self, x: f64, e: f64) -> Values {
-        let unknown = [f64::NAN; TABLE.len()];
-        let (Some((i, across)), Some((j, along))) = (self.cell(x, self.units[0]), self.cell(e, self.units[1])) else {
-            return unknown;
-        };
-        let corners = [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]].map(|node| self.node(node));
-        std::array::from_fn(|k| {
-            let [a, b, c, d] = corners.each_ref().map(|values| values[k]);
-            let (low, high) = (a + (b - a) * across, c + (d - c) * across);
-            low + (high - low) * along
-        })
+    /// The estimate with this place in [`TABLE`] at (X, E).
+    fn at(&self, index: usize, x: f64, e: f64) -> Option<f64> {
+        let ((i, across), (j, along)) = (self.cell(0, x)?, self.cell(1, e)?);
+        let between = |low: f64, high: f64, part: f64| low + (high - low) * part;
+        let low = between(self.node([i, j])[index], self.node([i + 1, j])[index], across);
+        let high = between(self.node([i, j + 1])[index], self.node([i + 1, j + 1])[index], across);
+        Some(between(low, high, along))
     }
 
     /// The node below an argument, and how far the argument is on the way to the next one.
-    fn cell(&self, argument: f64, unit: f64) -> Option<(u16, f64)> {
-        let steps = (argument / (SMALLEST * unit)).portable_ln() / self.ratio.portable_ln();
-        let below = if steps < 0.0 { 0 } else { 1 + steps.floor() as u16 };
-        if !(argument >= 0.0 && argument < LARGEST * unit) {
-            return None;
-        }
-        let (low, high) = (self.argument(below, unit), self.argument(below + 1, unit));
-        Some((below, ((argument - low) / (high - low)).clamp(0.0, 1.0)))
+    fn cell(&self, axis: usize, argument: f64) -> Option<(usize, f64)> {
+        let nodes = &self.arguments[axis];
+        let above = nodes.partition_point(|node| *node <= argument);
+        let (below, next) = (above.checked_sub(1)?, nodes.get(above)?);
+        Some((below, (argument - nodes[below]) / (next - nodes[below])))
     }
 
-    fn argument(&self, index: u16, unit: f64) -> f64 {
-        if index == 0 { 0.0 } else { SMALLEST * unit * self.ratio.portable_powi(i32::from(index) - 1) }
-    }
-
-    fn node(&self, [i, j]: [u16; 2]) -> Values {
-        let known = |nodes: &HashMap<[u16; 2], Values>| nodes.get(&[i, j]).copied();
-        // A node is a function of its index alone, so that it does not matter who computes it.
-        if let Some(values) = known(&self.nodes.lock().unwrap_or_else(PoisonError::into_inner)) {
-            return values;
-        }
-        let values = (self.source)(self.argument(i, self.units[0]), self.argument(j, self.units[1]));
-        self.nodes.lock().unwrap_or_else(PoisonError::into_inner).insert([i, j], values);
-        values
+    fn node(&self, [i, j]: [usize; 2]) -> &Values {
+        let [xs, es] = &self.arguments;
+        self.nodes[i * es.len() + j].get_or_init(|| Box::new((self.source)(xs[i], es[j])))
     }
 }
