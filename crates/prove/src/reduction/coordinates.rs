@@ -119,7 +119,8 @@ impl CoordinateSearch<'_> {
             let values = second.clone().symmetric_eigenvalues();
             model = model.with_existence_triple(values.max() / values.min(), at_origin[RATE_EXISTENCE]);
         }
-        (self.frame)(l, &model)
+        let model = (self.frame)(l, &model);
+        if density == Density::Fine { model } else { model.rough() }
     }
 
     /// The best of some candidates, each improved by a local search: the smallest gain at many samples.

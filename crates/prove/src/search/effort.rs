@@ -2,6 +2,10 @@
 
 use super::minimise::Descent;
 
+/// The tolerance to the last digit, and that of what is only compared.
+const TOLERANCE: f64 = 1e-11;
+const ROUGH: f64 = 1e-6;
+
 /// Operations of all bounding functions together up to which a search is thorough.
 const THOROUGH: usize = 600;
 
@@ -9,7 +13,7 @@ const THOROUGH: usize = 600;
 ///
 /// A search evaluates the bounding functions some million times. With k times [`THOROUGH`] operations each evaluation costs
 /// k times as much, so about k times fewer candidates are tried.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Every so many values of X are scanned.
     pub x_step: usize,
@@ -21,6 +25,8 @@ pub struct Effort {
     pub restarts_share: usize,
     /// Iterations of a refinement between restarts.
     pub iterations: u64,
+    /// The relative change at which a refinement has converged.
+    pub tolerance: f64,
 }
 
 impl Effort {
@@ -35,13 +41,20 @@ impl Effort {
             shape_step: less.isqrt().clamp(1, 12),
             restarts_share: less,
             iterations: (400 / less as u64).max(40),
+            tolerance: TOLERANCE,
         }
     }
 
-    /// A refinement to the last digit, for which so many restarts are asked.
+    /// That of a search whose result is only compared with others.
+    #[must_use]
+    pub fn rough(self) -> Effort {
+        Effort { restarts_share: 4 * self.restarts_share, tolerance: ROUGH, ..self }
+    }
+
+    /// A refinement, for which so many restarts are asked.
     #[must_use]
     pub fn descent(self, restarts: usize) -> Descent {
-        Descent { restarts: restarts / self.restarts_share, iterations: self.iterations, tolerance: 1e-11 }
+        Descent { restarts: restarts / self.restarts_share, iterations: self.iterations, tolerance: self.tolerance }
     }
 
     /// Whether every datum is worth a refinement of its own, to see its influence.

@@ -104,6 +104,8 @@ pub struct FloatModel {
     pub trade_off: TradeOff,
     /// In the order of [`Bound::ALL`].
     bounds: Vec<ScaledBound>,
+    /// Whether what is found with it is only compared.
+    rough: bool,
 }
 
 impl Deref for FloatModel {
@@ -166,6 +168,7 @@ impl FloatModel {
                     supremum: which.supremum(spec),
                 })
                 .collect(),
+            rough: false,
         }
     }
 
@@ -203,7 +206,8 @@ impl FloatModel {
     /// How thoroughly this model is searched.
     #[must_use]
     pub fn effort(&self) -> Effort {
-        Effort::new(self.functions().map(FloatBound::operations).sum())
+        let effort = Effort::new(self.functions().map(FloatBound::operations).sum());
+        if self.rough { effort.rough() } else { effort }
     }
 
     /// That every number, and every bounding function at X = E = 0, is one that doubles can work with.
@@ -365,6 +369,12 @@ impl FloatModel {
     #[must_use]
     pub fn with_trade_off(&self, trade_off: TradeOff) -> FloatModel {
         FloatModel { trade_off, ..self.clone() }
+    }
+
+    /// The same model for results that are only compared: a tenth of the work for six digits.
+    #[must_use]
+    pub fn rough(self) -> FloatModel {
+        FloatModel { rough: true, ..self }
     }
 
     /// The same model with another initial set.

@@ -52,8 +52,8 @@ const NEGLIGIBLE: f64 = 1e-20;
 /// The largest gain that is tried.
 const LARGEST: f64 = 1e250;
 
-/// How far the width of the last bracket of ln sigma is.
-const TOLERANCE: f64 = 1e-12;
+/// The width of the last bracket of ln sigma, as a share of the tolerance of a refinement.
+const BRACKET: f64 = 0.1;
 
 /// One way to prove existence, for every sigma.
 #[derive(Clone)]
@@ -150,7 +150,8 @@ impl Search<'_> {
         let (Some(low), Some(high)) = (low, high) else { return Err(Failing::NotFinite(None).into()) };
         let exponent = |sigma: f64| sigma.portable_ln();
         let excess = |t: f64| self.excess(t.portable_exp()).unwrap_or(f64::INFINITY);
-        let found = crossing(excess, (exponent(low.0), low.1), (exponent(high.0), high.1), TOLERANCE).portable_exp();
+        let width = BRACKET * self.model.effort().tolerance;
+        let found = crossing(excess, (exponent(low.0), low.1), (exponent(high.0), high.1), width).portable_exp();
         Ok(found.min(high.0))
     }
 }
