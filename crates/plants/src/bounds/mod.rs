@@ -21,6 +21,7 @@ mod explore;
 mod extent;
 mod majorant;
 mod pointwise;
+pub use pointwise::Asked;
 mod prove_value;
 mod quantity;
 mod region;

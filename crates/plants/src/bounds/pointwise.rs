@@ -3,6 +3,7 @@
 use super::eigen::{eigen, largest, largest_of};
 use super::entry::TABLE;
 use sigmastar_exact::number::Portable;
+use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
 
 /// Where the outputs of the program of derivatives begin: f_x (rows) at 0, then f_e, q_x, q_e, q_tx, q_te, q_xx (rows), q_xe.
@@ -23,6 +24,43 @@ impl Blocks {
         let (q_x, q_e) = (f_e + n, f_e + 2 * n);
         let (q_tx, q_te) = (q_e + 1, q_e + 1 + n);
         Blocks { f_e, q_x, q_e, q_tx, q_te, q_xx: q_te + 1, q_xe: q_te + 1 + n * n }
+    }
+}
+
+/// Which of [`TABLE`] are asked for: each kind costs something of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked(u8);
+
+impl Asked {
+    /// The norm of df/dx.
+    const NORM: Asked = Asked(1);
+    /// df/de, dq/dx and dq/de.
+    const SLOPES: Asked = Asked(2);
+    /// The derivatives of dq/dx and dq/de in time.
+    const IN_TIME: Asked = Asked(4);
+    /// The rate.
+    const RATE: Asked = Asked(8);
+    /// The rate of existence.
+    const RATE_EXISTENCE: Asked = Asked(16);
+    /// Everything.
+    pub const ALL: Asked = Asked(31);
+    /// The kinds.
+    pub const KINDS: [Asked; 5] = [Asked::NORM, Asked::SLOPES, Asked::IN_TIME, Asked::RATE, Asked::RATE_EXISTENCE];
+
+    /// The place among [`Asked::KINDS`] of the kind of a bound of the table.
+    #[must_use]
+    pub fn kind(bound: Bound) -> usize {
+        match bound {
+            Bound::Fx => 0,
+            Bound::Qtx | Bound::Qte => 2,
+            Bound::Rate => 3,
+            Bound::RateExistence => 4,
+            _ => 1,
+        }
+    }
+
+    fn has(self, other: Asked) -> bool {
+        self.0 & other.0 != 0
     }
 }
 
@@ -68,22 +106,43 @@ impl Pointwise {
     }
 
     /// What is to be bounded from above, in the order of [`TABLE`]: norms, q_e, the negatives of the local rates; NaN where
-    /// there is no P.
-    pub(super) fn all(&mut self, outputs: &[f64], velocity: &[f64], matrices: &[MatrixAt; 2]) -> [f64; TABLE.len()] {
+    /// there is no P, and for what is not asked for.
+    pub(super) fn at(
+        &mut self,
+        outputs: &[f64],
+        velocity: &[f64],
+        matrices: &[MatrixAt; 2],
+        asked: Asked,
+    ) -> [f64; TABLE.len()] {
         let (n, blocks) = (self.order, self.blocks);
-        self.transform(outputs);
-        let column = &outputs[blocks.f_e..blocks.f_e + n];
-        let f_e = (0..n).map(|i| dot(&self.inverse[i * n..(i + 1) * n], column).portable_powi(2)).sum::<f64>().sqrt();
-        let q_x = self.row_norm(|i| outputs[blocks.q_x + i]);
-        let q_e = outputs[blocks.q_e];
-        let q_tx = self.row_norm(|i| {
-            let along = &outputs[blocks.q_xx + i * n..blocks.q_xx + (i + 1) * n];
-            outputs[blocks.q_tx + i] + dot(along, velocity)
-        });
-        let q_te = (outputs[blocks.q_te] + dot(&outputs[blocks.q_xe..blocks.q_xe + n], velocity)).abs();
-        let f_x = self.spectral_norm();
-        let [rate, existence] = [0, 1].map(|which| self.growth(&matrices[which]));
-        [f_x, f_e, q_x, q_e.abs(), q_e, q_tx, q_te, rate, existence]
+        let mut values = [f64::NAN; TABLE.len()];
+        if asked.has(Asked::SLOPES) {
+            let column = &outputs[blocks.f_e..blocks.f_e + n];
+            let entry = |i: usize| dot(&self.inverse[i * n..(i + 1) * n], column).portable_powi(2);
+            values[1] = (0..n).map(entry).sum::<f64>().sqrt();
+            values[2] = self.row_norm(|i| outputs[blocks.q_x + i]);
+            let q_e = outputs[blocks.q_e];
+            (values[3], values[4]) = (q_e.abs(), q_e);
+        }
+        if asked.has(Asked::IN_TIME) {
+            values[5] = self.row_norm(|i| {
+                let along = &outputs[blocks.q_xx + i * n..blocks.q_xx + (i + 1) * n];
+                outputs[blocks.q_tx + i] + dot(along, velocity)
+            });
+            values[6] = (outputs[blocks.q_te] + dot(&outputs[blocks.q_xe..blocks.q_xe + n], velocity)).abs();
+        }
+        if asked.has(Asked::NORM) || asked.has(Asked::RATE) || asked.has(Asked::RATE_EXISTENCE) {
+            self.transform(outputs);
+        }
+        if asked.has(Asked::NORM) {
+            values[0] = self.spectral_norm();
+        }
+        for (which, of) in [Asked::RATE, Asked::RATE_EXISTENCE].into_iter().enumerate() {
+            if asked.has(of) {
+                values[7 + which] = self.growth(&matrices[which]);
+            }
+        }
+        values
     }
 
     /// L^-1 f_x L.

@@ -1,7 +1,7 @@
 //! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
 
 use super::entry::{TABLE, of_table};
-use super::pointwise::{MatrixAt, Pointwise, roots};
+use super::pointwise::{Asked, MatrixAt, Pointwise, roots};
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
@@ -168,10 +168,10 @@ impl FloatSuprema {
         self.search(kind, reach, e, ROUGH, 1).value
     }
 
-    /// The suprema of all bounds, in the order of [`TABLE`], at the points of the grid: every `stride`-th time only, and
-    /// with a stride above 1 fewer points at each time.
+    /// The suprema of the bounds that are asked for, in the order of [`TABLE`], at the points of the grid: every `stride`-th time
+    /// only, and with a stride above 1 fewer points at each time.
     #[must_use]
-    pub fn survey(&self, reach: f64, e: f64, stride: usize) -> [f64; TABLE.len()] {
+    pub fn survey(&self, reach: f64, e: f64, stride: usize, asked: Asked) -> [f64; TABLE.len()] {
         let mut largest = [f64::NEG_INFINITY; TABLE.len()];
         let errors: &[f64] = match stride {
             _ if e == 0.0 || !self.by_error => &[0.0],
@@ -179,7 +179,7 @@ impl FloatSuprema {
             _ => &[-1.0, 1.0],
         };
         let sparse = if stride > 1 && self.order > 2 { 3 } else { 1 };
-        self.at_points(reach, e, ([stride, sparse], errors), |_, values| {
+        self.at_points(reach, e, ([stride, sparse], errors), asked, |_, values| {
             for (largest, value) in largest.iter_mut().zip(values) {
                 // Where a value is undefined, so is the supremum.
                 *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
@@ -194,6 +194,7 @@ impl FloatSuprema {
         reach: f64,
         e: f64,
         (strides, errors): ([usize; 2], &[f64]),
+        asked: Asked,
         mut see: impl FnMut([usize; 3], [f64; TABLE.len()]),
     ) {
         let mut evaluator = Evaluator::new(self.program.clone());
@@ -207,7 +208,7 @@ impl FloatSuprema {
                 self.place(&moment.orbit, y, reach, &mut x);
                 for (k, error) in errors.iter().enumerate() {
                     evaluator.evaluate(&x, error * e, &mut outputs);
-                    see([i, j, k], pointwise.all(&outputs, &moment.velocity, &matrices));
+                    see([i, j, k], pointwise.at(&outputs, &moment.velocity, &matrices, asked));
                 }
             }
         }
@@ -230,12 +231,13 @@ impl FloatSuprema {
         let mut slow = Evaluator::new(self.velocity.clone());
         let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
         let mut pointwise = self.pointwise();
+        let asked = Asked::KINDS[Asked::kind(kind)];
         let value = |(time, y, part): &(f64, Vec<f64>, f64)| {
             let moment = self.moment(*time, &mut evaluator, &mut slow);
             evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, y, reach, &mut x);
             evaluator.evaluate(&x, part * e, &mut outputs);
-            of_table(kind, &pointwise.all(&outputs, &moment.velocity, &self.matrices_at(*time)))
+            of_table(kind, &pointwise.at(&outputs, &moment.velocity, &self.matrices_at(*time), asked))
         };
         points.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -243,9 +245,10 @@ impl FloatSuprema {
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Bound, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
         let errors: &[f64] = if e == 0.0 || !self.by_error { &[0.0] } else { &[-1.0, 0.0, 1.0] };
+        let asked = Asked::KINDS[Asked::kind(kind)];
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
-        self.at_points(reach, e, ([1, 1], errors), |at, values| {
+        self.at_points(reach, e, ([1, 1], errors), asked, |at, values| {
             let value = of_table(kind, &values);
             least = least.min(value);
             keep(&mut best, starts, value, at);
@@ -264,7 +267,7 @@ impl FloatSuprema {
             evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, &point.y, reach, &mut x);
             evaluator.evaluate(&x, point.e * e, &mut outputs);
-            of_table(kind, &pointwise.all(&outputs, &moment.velocity, &self.matrices_at(moment.time)))
+            of_table(kind, &pointwise.at(&outputs, &moment.velocity, &self.matrices_at(moment.time), asked))
         };
         // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
         let mut largest = f64::NAN;

@@ -138,7 +138,7 @@ fn the_papers_plant() {
     for e in ["0", "0.1", "1", "4"] {
         let (x, e) = (rational("0.5"), rational(e));
         let start = Instant::now();
-        let all = case.samples.survey(0.5, e.to_f64(), 1);
+        let all = case.samples.survey(0.5, e.to_f64(), 1, Asked::ALL);
         println!("(0.5, {e}): all sampled in {:.2} ms: {all:.4?}", start.elapsed().as_secs_f64() * 1e3);
         for kind in TABLE.into_iter().filter(|kind| *kind != Bound::RateExistence) {
             let start = Instant::now();

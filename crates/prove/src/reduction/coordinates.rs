@@ -10,6 +10,8 @@ use crate::search::{
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
+use sigmastar_lang::spec::Bound;
+use sigmastar_plants::bounds::Asked;
 use std::sync::Arc;
 
 /// How densely suprema are sampled.
@@ -111,7 +113,7 @@ impl CoordinateSearch<'_> {
             Density::Fine => FINE,
         };
         let source = (self.sampler)(shape, density);
-        let at_origin = source(0.0, 0.0);
+        let at_origin = source(0.0, 0.0, Asked::ALL);
         let grid = Grid::new(source, (self.units)(l), ratio);
         let bounds = self.base.with_bounds(grid.functions(second.is_some()));
         let mut model = bounds.with_triple(self.ratio, at_origin[RATE]);
@@ -170,7 +172,7 @@ impl CoordinateSearch<'_> {
             None => self.with(alone(l), Some(&start))?,
         };
         let worth = |sigma: f64| sigma < single.proposal.sigma * (1.0 - WORTH);
-        let second = self.second(&single).filter(|(_, sigma)| worth(*sigma));
+        let second = self.second(&single).filter(|(_, share)| *share < 1.0 - WORTH);
         let pair = second.and_then(|(second, _)| self.together(&single, second));
         Ok(pair.filter(|pair| worth(pair.proposal.sigma)).unwrap_or(single))
     }
@@ -186,22 +188,26 @@ impl CoordinateSearch<'_> {
         Ok(Chosen { l: shape.l.clone(), second: shape.second.cloned(), model, proposal })
     }
 
-    /// The best P of existence for the L of a choice, as the entries of its logarithm, and the gain with it: its rate is sampled
-    /// at the X_p of the choice alone, and all else stays.
+    /// The best P of existence for the L of a choice, as the entries of its logarithm, and the gain with it as a share of the gain
+    /// without: its rate is sampled at the X_p of the choice alone, and all else stays.
     fn second(&self, single: &Chosen) -> Option<(Vec<f64>, f64)> {
-        let Chosen { l, model, proposal, .. } = single;
+        let Chosen { l, proposal, .. } = single;
         let n = l.nrows();
+        let model = &single.model.clone().rough();
+        let asked = Asked::KINDS[Asked::kind(Bound::RateExistence)];
         let freedom = n * (n + 1) / 2 - 1;
         let x_p = at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + NEAR), NEAR).ok()?.0.x_p;
         let cost = |s: &[f64]| {
             let second = exponential(n, s);
             let values = second.clone().symmetric_eigenvalues();
-            let rate = (self.sampler)(Shape { l, second: Some(&second) }, Density::Coarse)(x_p, 0.0)[RATE_EXISTENCE];
+            let rate =
+                (self.sampler)(Shape { l, second: Some(&second) }, Density::Coarse)(x_p, 0.0, asked)[RATE_EXISTENCE];
             let model = model.with_existence_triple(values.max() / values.min(), rate).with_rate_of_existence(rate);
             search_sharp_near(&model, proposal).ok().map(|found| found.sigma.portable_ln())
         };
-        let (best, sigma) = minimise(cost, &vec![0.0; freedom], &vec![STEP; freedom], DESCENT)?;
-        Some((best, sigma.portable_exp()))
+        let (best, found) = minimise(cost, &vec![0.0; freedom], &vec![STEP; freedom], DESCENT)?;
+        let one = search_sharp_near(model, proposal).ok()?;
+        Some((best, found.portable_exp() / one.sigma))
     }
 
     /// L and the P of existence, from a choice with one P and entries of the logarithm of the other; varied together for two

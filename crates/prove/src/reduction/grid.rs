@@ -4,7 +4,7 @@
 use crate::search::FloatBound;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::TABLE;
+use sigmastar_plants::bounds::{Asked, TABLE};
 use std::sync::{Arc, OnceLock};
 
 /// The place of the rate in [`TABLE`].
@@ -16,16 +16,17 @@ pub const RATE_EXISTENCE: usize = 8;
 /// Estimates of all of [`TABLE`]; the last one is not a number without a P of existence at one (X, E).
 pub type Values = [f64; TABLE.len()];
 
-/// A source of estimates at (X, E).
-pub type Source = dyn Fn(f64, f64) -> Values + Send + Sync;
+/// A source of the estimates that are asked for at (X, E).
+pub type Source = dyn Fn(f64, f64, Asked) -> Values + Send + Sync;
 
 /// Linear interpolation between nodes at 0 and at `unit ratio^k`, k = 0, 1, ... from the smallest one on; beyond the last node nothing is known.
 pub struct Grid {
     source: Arc<Source>,
     /// The arguments of the nodes, X and E, in increasing order.
     arguments: [Vec<f64>; 2],
-    /// Of each node, all E of the first X first. A node is a function of its place alone, so that it does not matter who computes it.
-    nodes: Vec<OnceLock<Box<Values>>>,
+    /// Of each kind and node, all E of the first X first. A node is a function of its place alone, so that it does not matter who
+    /// computes it.
+    nodes: [Vec<OnceLock<Box<Values>>>; Asked::KINDS.len()],
 }
 
 /// The smallest node is this share of the unit.
@@ -43,7 +44,9 @@ impl Grid {
             let within = (0..).map(node).take_while(|node| *node < LARGEST * unit * ratio);
             std::iter::once(0.0).chain(within).collect::<Vec<f64>>()
         });
-        let nodes = std::iter::repeat_with(OnceLock::new).take(arguments[0].len() * arguments[1].len()).collect();
+        let nodes = Asked::KINDS.map(|_| {
+            std::iter::repeat_with(OnceLock::new).take(arguments[0].len() * arguments[1].len()).collect::<Vec<_>>()
+        });
         Grid { source, arguments, nodes }
     }
 
@@ -53,18 +56,19 @@ impl Grid {
         let grid = Arc::new(self);
         let function = |(index, bound): (usize, &Bound)| {
             let grid = grid.clone();
-            (*bound, FloatBound::Function(Arc::new(move |x, e| grid.at(index, x, e).unwrap_or(f64::NAN))))
+            let place = (Asked::kind(*bound), index);
+            (*bound, FloatBound::Function(Arc::new(move |x, e| grid.at(place, x, e).unwrap_or(f64::NAN))))
         };
         let wanted = |bound: &&Bound| existence || **bound != Bound::RateExistence;
         TABLE.iter().filter(wanted).enumerate().map(function).collect()
     }
 
-    /// The estimate with this place in [`TABLE`] at (X, E).
-    fn at(&self, index: usize, x: f64, e: f64) -> Option<f64> {
+    /// The estimate of this kind and with this place in [`TABLE`] at (X, E).
+    fn at(&self, (kind, index): (usize, usize), x: f64, e: f64) -> Option<f64> {
         let ((i, across), (j, along)) = (self.cell(0, x)?, self.cell(1, e)?);
         let between = |low: f64, high: f64, part: f64| low + (high - low) * part;
-        let low = between(self.node([i, j])[index], self.node([i + 1, j])[index], across);
-        let high = between(self.node([i, j + 1])[index], self.node([i + 1, j + 1])[index], across);
+        let low = between(self.node(kind, [i, j])[index], self.node(kind, [i + 1, j])[index], across);
+        let high = between(self.node(kind, [i, j + 1])[index], self.node(kind, [i + 1, j + 1])[index], across);
         Some(between(low, high, along))
     }
 
@@ -76,8 +80,8 @@ impl Grid {
         Some((below, (argument - nodes[below]) / (next - nodes[below])))
     }
 
-    fn node(&self, [i, j]: [usize; 2]) -> &Values {
+    fn node(&self, kind: usize, [i, j]: [usize; 2]) -> &Values {
         let [xs, es] = &self.arguments;
-        self.nodes[i * es.len() + j].get_or_init(|| Box::new((self.source)(xs[i], es[j])))
+        self.nodes[kind][i * es.len() + j].get_or_init(|| Box::new((self.source)(xs[i], es[j], Asked::KINDS[kind])))
     }
 }

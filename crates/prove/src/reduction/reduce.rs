@@ -13,7 +13,7 @@ use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
     OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
 };
-use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
+use sigmastar_plants::bounds::{Asked, Engine, FloatCurve, FloatSuprema, Region};
 use sigmastar_plants::orbit::{
     self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
     propose_coordinates, prove_forcing, prove_orbit, prove_second, round_orbit,
@@ -122,7 +122,7 @@ fn best_constant(
     };
     let search = search(model, plant, sampling, &sampler, 1.0);
     let chosen = search.choose(&matrices).map_err(PlantRefusal::NoGain)?;
-    let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], Density::Rough)(0.0, 0.0);
+    let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], Density::Rough)(0.0, 0.0, Asked::ALL);
     let l = rational_matrix(&chosen.l, at_origin).ok_or(PlantRefusal::NoContraction)?;
     let coordinates = Coordinates { l, p: first.p.clone(), rate: f64::NAN };
     let mut base = along(plant, curve, &coordinates)?;

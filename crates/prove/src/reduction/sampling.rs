@@ -8,7 +8,7 @@ use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
-use sigmastar_plants::bounds::{FloatCurve, FloatSuprema, TABLE};
+use sigmastar_plants::bounds::{Asked, FloatCurve, FloatSuprema, TABLE};
 use sigmastar_plants::orbit::lower_triangular;
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ impl<'a> Sampling<'a> {
 
     /// Ordinary sizes of |y| and |e|.
     pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
-        let values = self.source(l, [None; 2], Density::Rough)(0.0, 0.0);
+        let values = self.source(l, [None; 2], Density::Rough)(0.0, 0.0, Asked::ALL);
         let of = |bound| TABLE.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
         let (rate, f_e) = (of(Bound::Rate), of(Bound::Fe));
         let size = f_e / rate * self.unit_e;
@@ -73,8 +73,8 @@ impl<'a> Sampling<'a> {
             Density::Fine => 1,
         };
         let stateless = l.nrows() == 0;
-        Arc::new(move |x, e| -> Values {
-            let mut values: Values = suprema.survey(x, e, stride);
+        Arc::new(move |x, e, asked| -> Values {
+            let mut values: Values = suprema.survey(x, e, stride, asked);
             if stateless {
                 // Without states every rate is as good as any other.
                 values[RATE] = 1.0;
