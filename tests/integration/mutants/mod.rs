@@ -140,10 +140,12 @@ fn mutate(rng: &mut SmallRng, spec: &mut Value) {
             }
         }
         8 => {
-            spec["initial_set"] = match rng.random_range(0..4) {
+            spec["initial_set"] = match rng.random_range(0..6) {
                 0 => json!({ "kind": "paper" }),
                 1 => json!({ "kind": "at-rest" }),
                 2 => json!({ "kind": "at-rest", "X0": constant(rng), "E0": constant(rng) }),
+                3 => json!({ "kind": "aligned" }),
+                4 => json!({ "kind": "aligned", "X0": constant(rng), "E0": constant(rng) }),
                 _ => json!({ "kind": "box", "X0": constant(rng), "E0": constant(rng), "Z0": constant(rng) }),
             };
         }
