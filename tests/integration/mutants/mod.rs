@@ -140,12 +140,10 @@ fn mutate(rng: &mut SmallRng, spec: &mut Value) {
             }
         }
         8 => {
-            spec["initial_set"] = match rng.random_range(0..6) {
+            spec["initial_set"] = match rng.random_range(0..4) {
                 0 => json!({ "kind": "paper" }),
                 1 => json!({ "kind": "at-rest" }),
                 2 => json!({ "kind": "at-rest", "X0": constant(rng), "E0": constant(rng) }),
-                3 => json!({ "kind": "aligned" }),
-                4 => json!({ "kind": "aligned", "X0": constant(rng), "E0": constant(rng) }),
                 _ => json!({ "kind": "box", "X0": constant(rng), "E0": constant(rng), "Z0": constant(rng) }),
             };
         }
@@ -201,6 +199,11 @@ pub fn specification(seed: u64) -> Value {
     if spec["internal_model"]["matched"] == json!(true) && rng.random_bool(0.8) {
         let period = written(&spec["period"]);
         spec["internal_model"]["base_frequency"] = Value::String(format!("2*pi/({period})"));
+    }
+    // Some start aligned, with sizes where there are any; without a number drawn, which would change what the other seeds make.
+    if let Some(set) = spec["initial_set"].as_object_mut().filter(|_| seed % 5 == 4) {
+        set.remove("Z0");
+        set.insert("kind".to_owned(), json!("aligned"));
     }
     spec
 }
