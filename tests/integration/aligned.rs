@@ -208,6 +208,25 @@ fn every_export_says_the_start() {
     simulate(&law).success();
 }
 
+/// Where dq/de grows beyond all gains with |x|, q is split over e first, with dq/de at the periodic solution's |x|; no other path
+/// of q proves the claim.
+#[test]
+fn a_slope_that_grows_with_x_is_taken_along_the_other_path() {
+    let mut document: Value = serde_json::from_str(&specification_text("linear")).unwrap();
+    document["bounds"]["q_e"] = "exp(exp(X))".into();
+    document["initial_set"] = object!({ "kind": "box", "X0": "10", "E0": "1", "Z0": "0" });
+    let made = certificate(&Specification::from_json("steep", &document.to_string()).unwrap());
+    let check = |certificate: &Value| proofs_check::check(certificate.to_string().as_bytes());
+    assert_eq!(made["witness"]["paths"]["q"], "e-first");
+    assert!(check(&made).is_flawless(), "{}", check(&made).text(false));
+    for path in ["x-first", "straight"] {
+        let mut other = made.clone();
+        other["witness"]["paths"]["q"] = path.into();
+        let report = check(&other);
+        assert!(report.finding.is_some_and(|finding| finding.message.contains("C5")), "{path}");
+    }
+}
+
 /// Plants within the bounds, from the boundary of the set, where zeta is 0: nothing contradicts the claim.
 #[test]
 fn no_trial_contradicts_an_aligned_claim() {
