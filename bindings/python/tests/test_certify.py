@@ -121,6 +121,14 @@ def test_a_given_gain(document):
     assert "no sigma is certified" in str(caught.value) and "What to try" in caught.value.report()
 
 
+def test_an_aligned_start_has_no_z0(document):
+    document["initial_set"] = {"kind": "aligned"}
+    certificate = sigmastar.certify(document, compare=False)
+    assert certificate.initial_set.z0 is None and certificate.initial_set.e0 > 0
+    assert certificate.sigma_star < 26 and ", z = M e, at any" in certificate.statement
+    assert sigmastar.check(certificate)
+
+
 def test_the_regulator_at_samples(reported):
     certificate = sigmastar.certify(EXAMPLE, sampling_period="1/500")
     report = reported(EXAMPLE, "--sampling-period", "1/500")
