@@ -11,7 +11,7 @@ use sigmastar_lab::simulate::{
     ClosedLoop, FIGURE_FILES, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures,
     simulate,
 };
-use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
+use sigmastar_lang::plant::Plant;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Regulator, read_regulator};
 
@@ -62,7 +62,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     let closed_loop = ClosedLoop::new(&plant, regulator);
     let start = closed_loop.start_of(&plant.initial).ok_or_else(|| {
         let needed = closed_loop.regulator.dimension();
-        wrong_dimension(&plant.initial, needed)
+        simulate_sampled::wrong_dimension(&plant.initial, needed)
     })?;
     let runs = if power.is_some() { 2 } else { 1 };
     let bar = Bar::new(u64::from(args.periods) * runs, args.quiet);
@@ -109,14 +109,4 @@ fn remarks(plant: &Plant, regulator: &Regulator, settings: &SimulationSettings, 
             shown(path)
         ));
     }
-}
-
-/// The refusal of an initial z that is for another number of oscillators.
-pub(super) fn wrong_dimension(initial: &Initial, needed: usize) -> Failure {
-    let given = match &initial.z {
-        InitialRegulator::Given(z) => z.len(),
-        InitialRegulator::AtRest | InitialRegulator::Aligned => needed,
-    };
-    let message = format!("the initial z of the plant file has {given} components, this regulator has {needed}");
-    Failure::call(message, "give the number of oscillators that it is for, or remove z for a start at rest")
 }

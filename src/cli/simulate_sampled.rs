@@ -6,12 +6,11 @@ use super::files::Input;
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
-use super::simulate::wrong_dimension;
 use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
 };
-use sigmastar_lang::plant::{Initial, Plant};
+use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
 use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
@@ -136,4 +135,14 @@ fn start(sampled: &SampledLoop, initial: &Initial) -> Result<Vec<f64>, Failure> 
     // With a delay no control acts yet.
     start.resize(sampled.dimension(), 0.0);
     Ok(start)
+}
+
+/// The refusal of an initial z that is for another number of oscillators.
+pub(super) fn wrong_dimension(initial: &Initial, needed: usize) -> Failure {
+    let given = match &initial.z {
+        InitialRegulator::Given(z) => z.len(),
+        InitialRegulator::AtRest | InitialRegulator::Aligned => needed,
+    };
+    let message = format!("the initial z of the plant file has {given} components, this regulator has {needed}");
+    Failure::call(message, "give the number of oscillators that it is for, or remove z for a start at rest")
 }

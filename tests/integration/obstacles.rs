@@ -121,8 +121,9 @@ fn each_cause_is_told_where_it_is_one() {
     const OF_X: &str = r#"{ "kind": "box", "X0": "3", "E0": "0", "Z0": "0" }"#;
     const HIGH: &str = r#"{ "kind": "box", "X0": "1", "E0": "3", "Z0": "0" }"#;
     const UNIT: &str = r#"{ "kind": "box", "X0": "1", "E0": "1", "Z0": "0" }"#;
-    const TENFOLD: &str = r#"{ "kind": "box", "X0": "10", "E0": "1", "Z0": "0" }"#;
-    const STEEP: (&str, &str) = ("/bounds/q_e", "exp(exp(X))");
+    const TENFOLD: &str = r#"{ "kind": "box", "X0": "1", "E0": "10", "Z0": "0" }"#;
+    // On every path dq/de is taken up to E_b.
+    const STEEP: (&str, &str) = ("/bounds/q_e", "exp(exp(E))");
     const GROWING: [(&str, &str); 3] =
         [("/bounds/f", "2*X + exp(E) - 1"), ("/bounds/f_e", "exp(E)"), ("/bounds/f_ex", "exp(E)")];
     let cases: [Case; 8] = [

@@ -9,6 +9,7 @@ use sigmastar_theory::derivation::consequences::{Psi, error_bounds, smallest_n_o
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::mean_squares::MeanSquares;
+use sigmastar_theory::derivation::paths::Paths;
 use sigmastar_theory::derivation::repaired::RepairedWitness;
 use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::transfer::TransferProof;
@@ -48,7 +49,8 @@ fn witness() -> SharpWitness {
         k0: q(100, 1),
         k1: q(1000, 1),
         transfer: TransferProof::Matched { k: 1 },
-        set: ClaimedSet { x0: q(1, 1), e0: q(1, 1), z0: q(0, 1) },
+        set: ClaimedSet { x0: q(1, 1), e0: q(1, 1), z0: Some(q(0, 1)) },
+        paths: Paths::UNNAMED,
     }
 }
 
@@ -102,7 +104,7 @@ fn every_sharp_condition_is_refused_by_itself() {
         assert_eq!(broken(far, |w| refined(w, smaller.clone())), set(&[id]));
     }
     assert_eq!(broken(far, |w| w.d_e = q(2, 1)), set(&["C4"]));
-    assert_eq!(broken(far, |w| w.set.z0 = q(1000, 1)), set(&["C4"]));
+    assert_eq!(broken(far, |w| w.set.z0 = Some(q(1000, 1))), set(&["C4"]));
     assert_eq!(broken(far, |w| w.d_x = q(11_000, 1)), set(&["C5", "C5b"]));
     assert_eq!(broken(far, |w| w.sigma = q(25, 1)), set(&["C5b"]));
     assert_eq!(broken(far, |w| w.k0 = q(19, 1)), set(&["T"]));
@@ -110,7 +112,7 @@ fn every_sharp_condition_is_refused_by_itself() {
     assert_eq!(broken(far, |w| (w.transfer, w.k1) = (TransferProof::ClosedForm, q(400, 1))), set(&["T"]));
     assert_eq!(broken(far, |w| w.set.x0 = q(999, 1000)), set(&["set"]));
     assert_eq!(broken(far, |w| w.set.e0 = q(999, 1000)), set(&["set"]));
-    assert_eq!(broken(far, |w| w.set.z0 = q(-1, 1000)), set(&["set"]));
+    assert_eq!(broken(far, |w| w.set.z0 = Some(q(-1, 1000))), set(&["set"]));
     assert_eq!(broken("10", |_| ()), set(&["domain"]));
     // X_p and E_p count too, not only the error box.
     assert_eq!(broken("19", |w| w.x_p = q(20, 1)), set(&["domain"]));
@@ -183,7 +185,14 @@ fn a_one_sided_bound_below_its_norm_is_refused() {
 
 #[test]
 fn every_condition_of_exact_regulation_is_refused_by_itself() {
-    let base = ExactWitness { sigma: q(100_000, 1), d_x: q(10, 1), d_e: q(10, 1), w_x: q(1, 1), h: q(1, 100) };
+    let base = ExactWitness {
+        sigma: q(100_000, 1),
+        d_x: q(10, 1),
+        d_e: q(10, 1),
+        w_x: q(1, 1),
+        h: q(1, 100),
+        paths: Paths::UNNAMED,
+    };
     let decided = |domain: &str, matched: bool, change: &dyn Fn(&mut ExactWitness)| {
         let mut witness = base.clone();
         change(&mut witness);
@@ -214,7 +223,7 @@ fn repaired() -> RepairedWitness {
         k0: q(100, 1),
         k1: q(1000, 1),
         transfer: TransferProof::Matched { k: 1 },
-        set: ClaimedSet { x0: q(1, 1), e0: q(1, 1), z0: q(0, 1) },
+        set: ClaimedSet { x0: q(1, 1), e0: q(1, 1), z0: Some(q(0, 1)) },
     }
 }
 
@@ -233,7 +242,7 @@ fn every_repaired_condition_is_refused_by_itself() {
     assert_eq!(decided(far, &|w| w.e = q(1, 1_000_000)), ["C2"]);
     assert_eq!(decided(far, &|w| w.p_x = q(1, 10_000_000)), ["C3"]);
     assert_eq!(decided(far, &|w| w.p_x = q(10, 1)), ["C3b"]);
-    assert_eq!(decided(far, &|w| w.set.z0 = q(100_000, 1)), ["C4"]);
+    assert_eq!(decided(far, &|w| w.set.z0 = Some(q(100_000, 1))), ["C4"]);
     assert_eq!(decided(far, &|w| w.level = q(100_000_000, 1)), ["C5", "C5b"]);
     assert_eq!(decided(far, &|w| w.sigma = q(400, 1)), ["C5b"]);
     assert_eq!(decided(far, &|w| w.k1 = q(78, 1)), ["T"]);

@@ -187,7 +187,8 @@ fn the_exported_c_keeps_every_bound_of_the_claim() {
     let (w_x, eta) = (witness.w_x.to_f64(), witness.eta.to_f64());
     let [low, up] = [w_x * data.p_low.lower_f64(), w_x * data.p_up.upper_f64()];
     let (d_x, d_e) = (witness.d_x.to_f64(), witness.d_e.to_f64());
-    let set = [&witness.set.x0, &witness.set.e0, &witness.set.z0].map(rug::Rational::to_f64);
+    let z_0 = witness.set.z0.as_ref().expect("a set that does not start with z = M e");
+    let set = [&witness.set.x0, &witness.set.e0, z_0].map(rug::Rational::to_f64);
     let sigma = Constant::rational(&witness.sigma);
     for (n_o, phase) in [(0, 0.0), (1, 0.37), (5, 0.0), (20, 0.9), (SAMPLES / 2 - 1, 0.123)] {
         let program = export(folder.path(), &certificate, &sigma, n_o);

@@ -461,7 +461,7 @@ fn simulated_again(counterexample: &str, more: &[&str]) -> Value {
 fn false_certificates_are_refuted_with_a_counterexample() {
     for (name, pointer, value, quantity) in [
         // A gain that is far too small, and nothing else wrong: sigma*/50 and less.
-        ("paper-example", "/claim/sigma_star", "9/10", "|x - x_p| on the way, against D_x"),
+        ("paper-example", "/claim/sigma_star", "9/10", "|e - e_p| on the way, against D_e"),
         ("no-x", "/claim/sigma_star", "1/230", "|e - e_p| on the way, against D_e"),
         ("linear", "/claim/sigma_star", "1/50", "Lyapunov function on the way, against its start"),
         // A periodic solution far smaller than it is.

@@ -1,9 +1,10 @@
 //! What a specification means once it is read: numbers, ranges, `matched`, initial sets.
 
-use crate::support::EXAMPLE_TEXT;
+use crate::support::{EXAMPLE_TEXT, PLANT_TEXT};
 use rug::Rational;
 use sigmastar_exact::number::parse_decimal;
-use sigmastar_lang::spec::{Bound, Document, ErrorKind, InitialSet, SpecErrors, Specification, Weights};
+use sigmastar_lang::plant::{InitialRegulator, Plant};
+use sigmastar_lang::spec::{Bound, Constant, Document, ErrorKind, InitialSet, SpecErrors, Specification, Weights};
 
 /// The example with one piece of its text replaced.
 fn with(old: &str, new: &str) -> Result<Specification, SpecErrors> {
@@ -185,6 +186,63 @@ fn initial_sets_have_their_own_fields() {
     ] {
         let (found, at, _) = refused(SET, &set(text));
         assert_eq!((found, at.as_str()), (kind, pointer), "{text}");
+    }
+}
+
+/// `aligned` has the sizes of `at-rest`, and says of z itself what it is.
+#[test]
+fn an_aligned_set_has_no_z0() {
+    let set = |text: &str| format!("\"initial_set\": {text}");
+    let half = Rational::from((1, 2));
+    for (sizes, expected) in [
+        ("", [None, None]),
+        (", \"X0\": 0.5", [Some(&half), None]),
+        (", \"E0\": \"1/2\"", [None, Some(&half)]),
+        (", \"X0\": \"0.5\", \"E0\": 0.5", [Some(&half), Some(&half)]),
+    ] {
+        let found = read(SET, &set(&format!("{{ \"kind\": \"aligned\"{sizes} }}"))).initial_set;
+        assert!(matches!(found, InitialSet::Aligned { .. }) && found.is_aligned(), "{sizes}");
+        assert_eq!(found.given().map(|size| size.and_then(Constant::as_rational)), expected, "{sizes}");
+    }
+    for (field, kind) in [
+        ("\"Z0\": 0", ErrorKind::UnknownField),
+        ("\"E0\": \"-1\"", ErrorKind::Range),
+        ("\"ball\": 1", ErrorKind::UnknownField),
+    ] {
+        let name = field.split('"').nth(1).unwrap();
+        let (found, at, message) = refused(SET, &set(&format!("{{ \"kind\": \"aligned\", {field} }}")));
+        assert_eq!((found, at), (kind, format!("/initial_set/{name}")), "{field}: {message}");
+    }
+}
+
+/// A plant may ask for a ball, in the place of X0; and its `initial` has no z, which would contradict `aligned`.
+#[test]
+fn an_aligned_plant_sets_z_itself() {
+    let plant = |set: &str, z: &str| {
+        let (old, end) =
+            ("\"initial\": { \"x\": [\"1\", \"-2\"], \"e\": \"4\" }", "\"initial\": { \"x\": [1, -2], \"e\": 4");
+        assert_eq!(PLANT_TEXT.matches(old).count(), 1);
+        let new = format!("\"initial_set\": {set}, {end}{z} }}");
+        Plant::from_json("plant.json", &PLANT_TEXT.replace(old, &new))
+    };
+    let aligned = plant("{ \"kind\": \"aligned\", \"ball\": \"1/2\", \"E0\": 2 }", "").unwrap();
+    assert_eq!(aligned.initial.z, InitialRegulator::Aligned);
+    assert_eq!(aligned.ball.as_ref().and_then(Constant::as_rational), Some(&Rational::from((1, 2))));
+    assert!(aligned.initial_set.is_aligned() && aligned.initial_set.given()[1].is_some());
+    let z = ", \"z\": [4, 4, 0]";
+    let at_rest = plant("{ \"kind\": \"at-rest\" }", z).unwrap();
+    assert_eq!(at_rest.initial.z, InitialRegulator::Given(vec![4.0, 4.0, 0.0]));
+    assert_eq!(plant("{ \"kind\": \"at-rest\" }", "").unwrap().initial.z, InitialRegulator::AtRest);
+    for (set, z, at, words) in [
+        ("{ \"kind\": \"aligned\", \"ball\": 1, \"X0\": 1 }", "", "/initial_set/X0", "`X0` and `ball`"),
+        ("{ \"kind\": \"aligned\" }", z, "/initial/z", "sets z itself"),
+        ("{ \"kind\": \"aligned\" }", z, "/initial/z", "leave `z` out"),
+        ("{ \"kind\": \"aligned\", \"Z0\": 1 }", "", "/initial_set/Z0", "Z0"),
+    ] {
+        let errors = plant(set, z).unwrap_err();
+        let [error] = errors.errors() else { panic!("{set}: {errors}") };
+        assert_eq!((error.kind, error.pointer.as_str()), (ErrorKind::UnknownField, at), "{set}");
+        assert!(errors.render(false).contains(words), "{}", errors.render(false));
     }
 }
 

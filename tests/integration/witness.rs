@@ -1,10 +1,10 @@
 //! The witness of a certificate is not to be trusted: whatever is written into it, what is certified is true.
 
 use crate::plain::{self, BITS, Plain, R, Spec, parse};
-use crate::support::{Shipped, certificate, certified, options, specification};
+use crate::support::{Shipped, certificate, certified, options, specification, specification_text};
 use rayon::prelude::*;
 use rug::{Float, Rational};
-use serde_json::Value;
+use serde_json::{Value, json};
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{certificate_json, read_witness};
 use sigmastar_prove::certify::{Certification, Options, TransferChoice, Verdict, certify, recheck};
@@ -48,15 +48,15 @@ fn accepted(spec: &Specification, certificate: &Value) -> bool {
 
 /// Pointers of all numbers of a certificate's witness and claim.
 fn pointers(certificate: &Value) -> Vec<String> {
-    let mut found: Vec<String> =
-        ["/claim/sigma_star", "/claim/initial_set/X0", "/claim/initial_set/E0", "/claim/initial_set/Z0"]
-            .map(str::to_owned)
-            .to_vec();
+    let mut found = vec!["/claim/sigma_star".to_owned()];
+    let sizes = ["X0", "E0", "Z0"].into_iter().filter(|name| certificate["claim"]["initial_set"][name].is_string());
+    found.extend(sizes.map(|name| format!("/claim/initial_set/{name}")));
     for (name, value) in certificate["witness"].as_object().unwrap() {
         match value {
             Value::String(_) => found.push(format!("/witness/{name}")),
             Value::Object(part) if name == "exact_regulation" => {
-                found.extend(part.keys().map(|key| format!("/witness/{name}/{key}")));
+                let numbers = part.iter().filter(|(_, value)| value.is_string());
+                found.extend(numbers.map(|(key, _)| format!("/witness/{name}/{key}")));
             }
             _ => {}
         }
@@ -77,6 +77,25 @@ fn scaled(certificate: &Value, pointer: &str, factor: (i64, i64)) -> Value {
 
 const FACTORS: [(i64, i64); 10] =
     [(1001, 1000), (999, 1000), (101, 100), (99, 100), (2, 1), (1, 2), (1000, 1), (1, 1000), (0, 1), (-1, 1)];
+
+/// Every other pair of paths, and none.
+fn other_paths(certificate: &Value) -> Vec<(String, Value)> {
+    let parts = ["/witness", "/witness/exact_regulation"].into_iter();
+    let mut all = Vec::new();
+    for part in parts.filter(|part| certificate.pointer(part).is_some()) {
+        let mut change = |paths: Option<Value>| {
+            let (what, mut changed) = (format!("{part}/paths = {paths:?}"), certificate.clone());
+            let fields = changed.pointer_mut(part).and_then(Value::as_object_mut).unwrap();
+            fields.remove("paths").expect("a new certificate names its paths");
+            fields.extend(paths.map(|paths| ("paths".to_owned(), paths)));
+            all.push((what, changed));
+        };
+        let names = ["x-first", "e-first", "straight"];
+        names.iter().for_each(|f| names.iter().for_each(|q| change(Some(json!({ "f": f, "q": q })))));
+        change(None);
+    }
+    all
+}
 
 /// Every number moved in both directions, and, if `far`, also far away, made 0, negative and enormous.
 fn moved(certificate: &Value, far: bool) -> Vec<(String, Value)> {
@@ -183,10 +202,27 @@ fn every_condition_agrees_with_a_second_computation() {
         let plain = Spec::new(spec);
         compare(name, spec, &plain, certificate);
         assert!(accepted(spec, certificate), "{name}");
-        for (what, changed) in moved(certificate, ["paper-example", "linear"].contains(&name)) {
+        let moved = moved(certificate, ["paper-example", "linear"].contains(&name));
+        for (what, changed) in moved.into_iter().chain(other_paths(certificate)) {
             compare(&format!("{name}: {what}"), spec, &plain, &changed);
         }
     });
+}
+
+/// The same with z = M e at the first instant, where Z_0 and Nbar E_0 do not count.
+#[test]
+fn aligned_conditions_agree_with_a_second_computation() {
+    for base in ["paper-example-at-rest", "paper-example-rms-at-rest", "linear", "no-x"] {
+        let mut document: Value = serde_json::from_str(&specification_text(base)).unwrap();
+        document["initial_set"] = json!({ "kind": "aligned" });
+        let spec = Specification::from_json(base, &document.to_string()).unwrap();
+        let (certificate, plain) = (certificate(&spec), Spec::new(&spec));
+        compare(base, &spec, &plain, &certificate);
+        assert!(accepted(&spec, &certificate), "{base}");
+        for (what, changed) in moved(&certificate, false).into_iter().chain(other_paths(&certificate)) {
+            compare(&format!("{base}: {what}"), &spec, &plain, &changed);
+        }
+    }
 }
 
 #[test]

@@ -141,7 +141,7 @@ pub struct ToldCertificate {
     sigma_star: (f64, String),
     samples: Option<(String, u32, String)>,
     statement: String,
-    initial_set: [(f64, String); 3],
+    initial_set: ((f64, String), (f64, String), Option<(f64, String)>),
     ball: Option<String>,
     periodic_solution: [f64; 4],
     sha256: String,

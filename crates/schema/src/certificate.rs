@@ -5,6 +5,7 @@ use super::{plant, specification};
 use sigmastar_lang::spec::Bound;
 use sigmastar_prove::certificate::{FORMAT, NumberFields, RefinedSquares, VERSION};
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
+use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::repaired::RepairedWitness;
 use sigmastar_theory::derivation::sampled::SampledWitness;
 use sigmastar_theory::derivation::sharp::SharpWitness;
@@ -158,9 +159,13 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
     if kind == Kind::Sampled {
         fields.extend(numbers(&["weight_sum"], free));
     }
+    if kind != Kind::Repaired {
+        fields.push(paths());
+    }
     fields.push(must("transfer", "Transfer bound", "How (k0, k1) is proved.", Shape::OneOf(transfer(kind))));
     if kind == Kind::MeanSquares {
-        let regulated = numbers(ExactWitness::NAMES, "A free number of exact regulation.");
+        let mut regulated = numbers(ExactWitness::NAMES, "A free number of exact regulation.");
+        regulated.push(paths());
         fields.push(may("exact_regulation", "Exact regulation", "With infinitely many oscillators.", {
             Shape::Object(regulated)
         }));
@@ -173,6 +178,16 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
         fields.extend(of_data());
     }
     fields
+}
+
+/// Along which paths differences on the error box are split; certificates from before there were paths have none.
+fn paths() -> Field {
+    let path = |name: &'static str| {
+        must(name, name, format!("The path of {name}."), Shape::Word(Path::ALL.map(Path::name).to_vec()))
+    };
+    let text =
+        "Along which paths the differences of f and q on the error box are split; without them f x first, q straight.";
+    may("paths", "Paths", text, Shape::Object(vec![path("f"), path("q")]))
 }
 
 fn transfer(kind: Kind) -> Vec<Shape> {

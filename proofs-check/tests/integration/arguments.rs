@@ -6,6 +6,8 @@ use proofs_check::figures::existence::Existence;
 use proofs_check::figures::repaired;
 use proofs_check::interval::Interval;
 use proofs_check::json::{Field, parse};
+use proofs_check::rules::paths::{Path, Paths};
+use proofs_check::rules::set::ClaimedSet;
 use proofs_check::rules::stability::ErrorBox;
 use proofs_check::rules::transfer::{self, Proof};
 use proofs_check::spec::Specification;
@@ -57,19 +59,28 @@ fn existence() {
     close(&ex.z_squared_paper(&d, &kappa), paper);
 }
 
+/// The arguments of df/dx and dq/dx, and of df/de and dq/de, on each path; f and q each have their own.
 #[test]
 fn error_box() {
     let spec = apart();
     let d = Data::new(&spec, 128);
     let (x, e, dx, de) = (0.25, 0.125, 0.5, 1.0);
     let periodic = [&d.ratio(1, 4), &d.ratio(1, 8)];
-    let error_box = ErrorBox::new(&d, periodic, [&d.ratio(1, 2), &d.int(1)]);
     let (x_b, e_b) = (x + dx, e + de);
-    let bends = (3.0 + 5.0 * x) * x + (3.0 + 5.0 * x_b + 7.0 * e) * dx / 2.0;
-    close(&error_box.gam, 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e) * e));
-    close(&error_box.k_x, 13.0 + 17.0 * x_b + 19.0 * e_b);
-    close(&error_box.k_e, 11.0 + 13.0 * x_b + 17.0 * e_b);
-    close(&error_box.k_f, 2.0 + 3.0 * x_b + 5.0 * e_b);
+    // The e of d/dx and the x of d/de.
+    let places = [(Path::StateFirst, e, x_b), (Path::ErrorFirst, e_b, x), (Path::Straight, e_b, x_b)];
+    for (f, e_f, x_f) in places {
+        for (q, e_q, x_q) in places {
+            let error_box = ErrorBox::new(&d, Paths { f, q }, periodic, [&d.ratio(1, 2), &d.int(1)]);
+            let bends = (3.0 + 5.0 * x) * x + (3.0 + 5.0 * x_b + 7.0 * e_f) * dx / 2.0;
+            close(&error_box.gam, 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e_f) * e_f));
+            close(&error_box.k_f, 2.0 + 3.0 * x_f + 5.0 * e_b);
+            close(&error_box.k_x, 13.0 + 17.0 * x_b + 19.0 * e_q);
+            close(&error_box.k_e, 11.0 + 13.0 * x_q + 17.0 * e_b);
+            close(&error_box.x_b, x_b);
+            close(&error_box.e_b, e_b);
+        }
+    }
 }
 
 #[test]
@@ -81,7 +92,7 @@ fn repaired_form() {
     let w = repaired::Witness {
         pointer: String::new(),
         sigma: number(100, 1),
-        set: [number(1, 2), number(1, 4), number(0, 1)],
+        set: ClaimedSet { x0: number(1, 2), e0: number(1, 4), z0: Some(number(0, 1)) },
         x: number(1, 4),
         e: number(1, 8),
         level: number(9, 4),

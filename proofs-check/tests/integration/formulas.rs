@@ -6,7 +6,9 @@ use proofs_check::interval::Interval;
 use proofs_check::json::{Field, parse};
 use proofs_check::rules::gains::{beta_s, bt, damped, kappas, tau};
 use proofs_check::rules::mean_squares::{self, Witness};
+use proofs_check::rules::paths::{Path, Paths};
 use proofs_check::rules::regulation;
+use proofs_check::rules::set::ClaimedSet;
 use proofs_check::rules::stability::ErrorBox;
 use proofs_check::spec::Specification;
 use rug::Rational;
@@ -228,7 +230,11 @@ fn existence() {
 
 #[test]
 fn stability() {
-    for (most, rate) in [(false, false), (true, false), (false, true), (true, true)] {
+    let places = [Path::StateFirst, Path::ErrorFirst, Path::Straight];
+    let pairs = places.into_iter().flat_map(|f| places.map(|q| Paths { f, q }));
+    for (paths, most, rate) in pairs.flat_map(|paths| {
+        [(false, false), (true, false), (false, true), (true, true)].map(|(most, rate)| (paths, most, rate))
+    }) {
         let none = Given { f_x: false, most, bends: false, rms: false, q_0: [false; 2], matched: true };
         let mut spec = plant(none);
         if !rate {
@@ -237,18 +243,25 @@ fn stability() {
         let d = Data::new(&spec, 128);
         let (x, e, dx, de, p_up) = (0.25, 0.125, 0.5, 1.0, 4.0_f64);
         let periodic = [&d.ratio(1, 4), &d.ratio(1, 8)];
-        let error_box = ErrorBox::new(&d, periodic, [&d.ratio(1, 2), &d.int(1)]);
+        let error_box = ErrorBox::new(&d, paths, periodic, [&d.ratio(1, 2), &d.int(1)]);
         let (x_b, e_b) = (x + dx, e + de);
-        let bends = (3.0 + 5.0 * x) * x + (3.0 + 5.0 * x_b + 7.0 * e) * dx / 2.0;
-        let gam = 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e) * e);
-        let a_2 = if rate { f64::max(0.5 - gam, 3.0 - x_b - 2.0 * e) } else { 0.5 - gam };
-        let k_l = 0.5 + 2.0 * x_b + 3.0 * e_b;
-        let m = if most { f64::min(k_l, x_b / 10.0 + e_b / 10.0 - 0.4) } else { k_l };
+        // The e of d/dx and the x of d/de.
+        let place = |path| match path {
+            Path::StateFirst => (e, x_b),
+            Path::ErrorFirst => (e_b, x),
+            Path::Straight => (e_b, x_b),
+        };
+        let ((e_f, x_f), (e_q, x_q)) = (place(paths.f), place(paths.q));
+        let bends = (3.0 + 5.0 * x) * x + (3.0 + 5.0 * x_b + 7.0 * e_f) * dx / 2.0;
+        let gam = 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e_f) * e_f);
+        let a_2 = if rate { f64::max(0.5 - gam, 3.0 - x_b - 2.0 * e_f) } else { 0.5 - gam };
+        let k_l = 0.5 + 2.0 * x_q + 3.0 * e_b;
+        let m = if most { f64::min(k_l, x_q / 10.0 + e_b / 10.0 - 0.4) } else { k_l };
         close("a_2", &error_box.rate, a_2);
         assert_eq!(error_box.one_sided.is_some(), most);
         for (n, q) in [(1, 100), (1, 10), (1, 2)] {
             let (w_x, h) = (2.0, n as f64 / q as f64);
-            let (ht, k_x, k_f) = (h / 0.5, 0.3 + 0.5 * x_b + 0.7 * e_b, 0.2 + x_b + 2.0 * e_b);
+            let (ht, k_x, k_f) = (h / 0.5, 0.3 + 0.5 * x_b + 0.7 * e_q, 0.2 + x_f + 2.0 * e_b);
             let size = f64::max((1.0 + ht * m).abs(), (1.0 - ht * k_l).abs());
             let [coupling, curvature, threshold] = error_box.decay(&d, &d.int(2), &d.ratio(n, q));
             close("ht k_x^2", &coupling, ht * k_x * k_x);
@@ -316,10 +329,11 @@ fn periodic_facts() {
     }
 }
 
-/// z_oo, from the level condition of exact regulation.
+/// z_oo, from the level condition of exact regulation; and with z = M e at the first instant, when zeta is 0.
 #[test]
 fn exact_regulation() {
-    for (rms, q_0) in [(false, [false; 2]), (true, [false; 2]), (true, [true, false]), (true, [true; 2])] {
+    let cases = [(false, [false; 2]), (true, [false; 2]), (true, [true, false]), (true, [true; 2])];
+    for ((rms, q_0), aligned) in cases.into_iter().flat_map(|case| [(case, false), (case, true)]) {
         let spec = plant(Given { f_x: false, most: true, bends: false, rms, q_0, matched: true });
         let d = Data::new(&spec, 128);
         let one = || Rational::from(1);
@@ -331,8 +345,10 @@ fn exact_regulation() {
             d_e: one(),
             w_x: one(),
             h: one(),
+            paths: Paths { f: Path::StateFirst, q: Path::Straight },
         };
-        let set = [Rational::from((1, 4)), Rational::from((1, 8)), Rational::from(2)];
+        let z0 = (!aligned).then(|| Rational::from(2));
+        let set = ClaimedSet { x0: Rational::from((1, 4)), e0: Rational::from((1, 8)), z0 };
         let (mu, n_bar, om) = (0.5, (2.0_f64 + 2.612_375_348_685_488).sqrt(), std::f64::consts::PI);
         let root = |q: f64, q_t: f64| (q * q / 2.0 + 2.0 * (q_t / om).powi(2)).sqrt();
         let mut z = if rms { root(4.0, 9.0) } else { root(17.0, 37.0) };
@@ -345,9 +361,14 @@ fn exact_regulation() {
         let conditions = regulation::evaluate(&d, &set, &w).unwrap();
         let ids: Vec<&str> = conditions.iter().map(|condition| condition.id).collect();
         assert_eq!(ids, ["domain", "domain", "C4", "M", "C5", "C5b"]);
-        let reach = 2.0 + n_bar * 0.125 + z / mu;
+        let reach = if aligned { z / mu } else { 2.0 + n_bar * 0.125 + z / mu };
         close("C4", &conditions[2].lhs, 4.0 / 16.0 + 1.0 / 64.0 + reach * reach);
-        // Around the origin: (D_x, D_e), and the rate at (D_x, 0).
+        // Around the origin: (D_x, D_e), and the rate at (D_x, 0), or at (D_x, D_e) where f is not split over x first.
         close("C5", &conditions[4].rhs, 4.0 * 2.5);
+        for f in [Path::ErrorFirst, Path::Straight] {
+            let conditions =
+                regulation::evaluate(&d, &set, &regulation::Witness { paths: Paths { f, ..w.paths }, ..w.clone() });
+            close("C5", &conditions.unwrap()[4].rhs, 4.0 * 0.5);
+        }
     }
 }

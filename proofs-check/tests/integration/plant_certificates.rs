@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 
 const ALL: [&str; 3] = ["linear", "no-states", "paper-example"];
 
-fn stored(name: &str) -> Value {
+pub fn stored(name: &str) -> Value {
     let text = std::fs::read_to_string(folder("plants").join(format!("{name}.certificate.json"))).unwrap();
     serde_json::from_str(&text).unwrap()
 }
 
 /// The answer after changes at places, which need not be there yet, with the digest made right again; `null` takes away.
-fn changed(name: &str, changes: &[(&str, Value)]) -> Report {
+pub fn changed(name: &str, changes: &[(&str, Value)]) -> Report {
     let mut certificate = stored(name);
     for (at, value) in changes {
         let (object, key) = at.rsplit_once('/').unwrap();

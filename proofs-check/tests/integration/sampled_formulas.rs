@@ -4,6 +4,7 @@ use crate::common::certificate;
 use proofs_check::data::Data;
 use proofs_check::interval::Interval;
 use proofs_check::json::{Field, decimal, parse};
+use proofs_check::rules::paths::{Path, Paths};
 use proofs_check::rules::sampled::existence;
 use proofs_check::rules::sampled::gains::Gains;
 use proofs_check::rules::sampled::law::{Law, Terms};
@@ -311,17 +312,22 @@ fn parts_of_existence() {
 #[test]
 fn parts_of_stability() {
     let (x_per, e_per, d_x, d_e, w_x, eta) = (0.01, 0.02, 0.04, 0.08, 3.0, 0.7);
-    for float in laws() {
+    let (x_b, e_b) = (x_per + d_x, e_per + d_e);
+    // The e of d/dx and the x of d/de.
+    let places = [(Path::StateFirst, e_per, x_b), (Path::ErrorFirst, e_b, x_per), (Path::Straight, e_b, x_b)];
+    let pairs = places.into_iter().flat_map(|f| places.map(|q| (f, q)));
+    let cases = pairs.flat_map(|pair| laws().into_iter().map(move |float| (float, pair)));
+    for (float, ((f, e_f, x_f), (q, e_q, x_q))) in cases {
         with_law(&float, |law| {
             let number = |value: f64| law.d.number(&rational(value));
-            let error_box = ErrorBox::new(law.d, [&number(x_per), &number(e_per)], [&number(d_x), &number(d_e)]);
+            let [x_p, e_p, far_x, far_e] = [x_per, e_per, d_x, d_e].map(number);
+            let error_box = ErrorBox::new(law.d, Paths { f, q }, [&x_p, &e_p], [&far_x, &far_e]);
             let (w, zeta) = (number(w_x), number(eta));
             let found = stability::conditions(law, &error_box, &Weights { w_x: &w, eta: &zeta });
-            let (x_b, e_b) = (x_per + d_x, e_per + d_e);
             let c = 1.5512_f64.sqrt();
-            let rate = 0.58 - c * (0.2237 * x_per + e_per + 0.2237 * d_x / 2.0);
+            let rate = 0.58 - c * (0.2237 * x_per + e_f + 0.2237 * d_x / 2.0);
             let (k_x, k_l, m, k_f) =
-                (0.3 + 0.5 * x_b + 0.7 * e_b, 0.5 + 2.0 * x_b + 3.0 * e_b, 0.1 + x_b + e_b, x_b + 0.189);
+                (0.3 + 0.5 * x_b + 0.7 * e_q, 0.5 + 2.0 * x_q + 3.0 * e_b, 0.1 + x_q + e_b, x_f + 0.189);
             let (h, k_e, s) = (float.h, k_l, eta / float.gain);
             let room = 1.0 - h * k_e / PI;
             close("kp", &found[0].rhs, room, &float);

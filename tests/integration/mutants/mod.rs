@@ -200,5 +200,10 @@ pub fn specification(seed: u64) -> Value {
         let period = written(&spec["period"]);
         spec["internal_model"]["base_frequency"] = Value::String(format!("2*pi/({period})"));
     }
+    // Some start aligned, with sizes where there are any; without a number drawn, which would change what the other seeds make.
+    if let Some(set) = spec["initial_set"].as_object_mut().filter(|_| seed % 5 == 4) {
+        set.remove("Z0");
+        set.insert("kind".to_owned(), json!("aligned"));
+    }
     spec
 }

@@ -206,15 +206,27 @@ impl<'s> Spec<'s> {
 
     fn set(&self, claim: &Value, x_p: &R, e_p: &R, z: &R) -> Vec<Plain> {
         let two = r(2.0);
-        let required = match &self.spec.initial_set {
-            InitialSet::Paper => [&two * x_p, &two * e_p, &two * (z + &self.n_bar * e_p)],
-            InitialSet::AtRest { x0, e0 } => {
-                [x0.as_ref().map_or(&two * x_p, constant), e0.as_ref().map_or(&two * e_p, constant), r(0.0)]
-            }
-            InitialSet::Box { x0, e0, z0 } => [constant(x0), constant(e0), constant(z0)],
+        let size = |given: &Option<Constant>, twice: &R| given.as_ref().map_or(&two * twice, constant);
+        // The same kind of set, of sizes that are no smaller.
+        let (kind, required) = match &self.spec.initial_set {
+            InitialSet::Paper => ("paper", vec![&two * x_p, &two * e_p, &two * (z + &self.n_bar * e_p)]),
+            InitialSet::AtRest { x0, e0 } => ("at-rest", vec![size(x0, x_p), size(e0, e_p), r(0.0)]),
+            InitialSet::Aligned { x0, e0 } => ("aligned", vec![size(x0, x_p), size(e0, e_p)]),
+            InitialSet::Box { x0, e0, z0 } => ("box", vec![constant(x0), constant(e0), constant(z0)]),
         };
-        let claimed = set_of(claim);
+        let set = &claim["initial_set"];
+        assert_eq!((&set["kind"], set["Z0"].is_string()), (&Value::from(kind), required.len() == 3));
+        let claimed = ["X0", "E0", "Z0"].into_iter().map(|name| number(&set[name]));
         required.into_iter().zip(claimed).map(|(a, b)| at_most("set", a - b, r(0.0))).collect()
+    }
+
+    /// How far the claimed set is from a periodic solution of the given size: x and e by the triangle inequality, and so
+    /// zeta = z - M e, which is 0 where z starts as M e.
+    fn distances(&self, claim: &Value, [x_per, e_per, z]: [&R; 3]) -> [R; 3] {
+        let set = &claim["initial_set"];
+        let [x_0, e_0] = numbers(set, ["X0", "E0"]);
+        let zeta = if set["kind"] == "aligned" { r(0.0) } else { number(&set["Z0"]) + &self.n_bar * &e_0 };
+        [x_0 + x_per, e_0 + e_per, zeta + z]
     }
 
     fn domain(&self, x: &R, e: &R) -> Vec<Plain> {
@@ -223,18 +235,29 @@ impl<'s> Spec<'s> {
         })
     }
 
-    /// C4 and C5 around a periodic solution of the given size.
+    /// M, C4 and C5 around a periodic solution of the given size, and the largest arguments.
     fn stability(&self, [x_per, e_per]: [&R; 2], distances: &[R; 3], part: &Value, sigma: &R) -> (Vec<Plain>, [R; 2]) {
         let [d_x, d_e, w_x, h] = numbers(part, ["D_x", "D_e", "w_x", "h"]);
         let (x_b, e_b) = (x_per + &d_x, e_per + &d_e);
-        let edge = self.at(&x_b, &e_b);
+        // (x, e) of each leg of a path from the periodic solution: along the one that moves x the derivatives in x count, along
+        // the other those in e. Who names no paths has the older ones.
+        let legs = |function: &str, older: &str| match part["paths"][function].as_str().unwrap_or(older) {
+            "x-first" => [[x_b.clone(), e_per.clone()], [x_b.clone(), e_b.clone()]],
+            "e-first" => [[x_b.clone(), e_b.clone()], [x_per.clone(), e_b.clone()]],
+            "straight" => [[x_b.clone(), e_b.clone()], [x_b.clone(), e_b.clone()]],
+            path => panic!("no path {path}"),
+        };
+        let ([f_dx, f_de], [q_dx, q_de]) = (legs("f", "x-first"), legs("q", "straight"));
+        let on = |[x, e]: &[R; 2]| self.at(x, e);
+        // df/dx on its leg, against the one at x = 0, e = 0: first as x goes to the periodic solution's, then as e goes from 0.
         let gamma = &self.c
             * (self.at(x_per, &r(0.0)).fxx * x_per
-                + self.at(x_per, e_per).fex * e_per
-                + self.at(&x_b, e_per).fxx * &d_x / r(2.0));
-        let (k_x, k_f) = (edge.qx / self.p_low.sqrt(), edge.fe);
+                + self.at(x_per, &f_dx[1]).fex * &f_dx[1]
+                + on(&f_dx).fxx * &d_x / r(2.0));
+        let edge = on(&q_de);
+        let (k_x, k_f) = (on(&q_dx).qx / self.p_low.sqrt(), on(&f_de).fe);
         let rate = &self.alpha - &gamma;
-        let rate = self.at(&x_b, e_per).rate.map_or(rate.clone(), |given| given.max(&rate));
+        let rate = on(&f_dx).rate.map_or(rate.clone(), |given| given.max(&rate));
         let [a, b, c] = distances;
         let start = &w_x * &self.p_up * a.sq() + b.sq() + &h * c.sq();
         let exit = (&w_x * &self.p_low * d_x.sq()).min(&d_e.sq());
@@ -261,11 +284,12 @@ impl<'s> Spec<'s> {
             threshold = threshold.max(&(r(0.0) - determinant(&r(0.0)) / (r(2.0) * &second)));
             definite = definite && second > r(0.0) && determinant(sigma) > r(0.0);
         }
-        let conditions = vec![
+        let mut conditions: Vec<Plain> = self.one_sided(&q_de[0], &q_de[1]).into_iter().collect();
+        conditions.extend([
             less("C4", start, exit),
             less("C5", &h / &self.mu * k_x.sq(), r(4.0) * &w_x * rate),
             Plain { id: "C5b", lhs: threshold, rhs: sigma.clone(), holds: definite },
-        ];
+        ]);
         (conditions, [x_b, e_b])
     }
 
@@ -385,8 +409,7 @@ impl<'s> Spec<'s> {
             all.push(less("sign", r(0.0), value.clone()));
         }
         all.extend(self.set(claim, &x_p, &e_p, &z));
-        let claimed = set_of(claim);
-        let distances = [&claimed[0] + &x_per, &claimed[1] + &e_per, &claimed[2] + &self.n_bar * &claimed[1] + &z];
+        let distances = self.distances(claim, [&x_per, &e_per, &z]);
         let (stability, [x_b, e_b]) = self.stability([&x_per, &e_per], &distances, witness, &sigma);
         all.extend(self.domain(&x_p.max(&x_b), &e_p.max(&e_b)));
         all.push(self.transfer(witness, &k0, &k1));
@@ -414,7 +437,6 @@ impl<'s> Spec<'s> {
             all.push(less("S3b", rms, refined[1].clone()));
             all.push(less("S3c", rate, refined[2].clone()));
         }
-        all.extend(self.one_sided(&x_b, &e_b));
         all.extend(stability);
         all
     }
@@ -447,25 +469,17 @@ impl<'s> Spec<'s> {
             z = z.min(&(sum.sqrt() + norm(&rest, &rest_rate)));
         }
         let z = z / &self.mu;
-        let claimed = set_of(&certificate["claim"]);
-        let far = &claimed[2] + &self.n_bar * &claimed[1] + z;
         let zero = r(0.0);
-        let distances = [claimed[0].clone(), claimed[1].clone(), far];
+        let distances = self.distances(&certificate["claim"], [&zero, &zero, &z]);
         let (stability, [x_b, e_b]) = self.stability([&zero, &zero], &distances, part, &sigma);
         let mut all = Vec::new();
         for value in numbers(part, ["sigma_star_oo", "D_x", "D_e", "w_x", "h"]) {
             all.push(less("sign", r(0.0), value));
         }
         all.extend(self.domain(&x_b, &e_b));
-        all.extend(self.one_sided(&x_b, &e_b));
         all.extend(stability);
         all
     }
-}
-
-/// X_0, E_0, Z_0 of a claim.
-fn set_of(claim: &Value) -> [R; 3] {
-    numbers(&claim["initial_set"], ["X0", "E0", "Z0"])
 }
 
 fn number(value: &Value) -> R {

@@ -4,6 +4,7 @@ use super::*;
 use sigmastar_lang::spec::Specification;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
+use sigmastar_theory::derivation::paths::Paths;
 
 fn specification(text: &str) -> Specification {
     Specification::from_json("test", text).expect("a sound specification")
@@ -308,7 +309,7 @@ fn a_plant_without_x_is_recognised() {
     let of = |spec: &Specification| {
         let data = Data::new(spec, 128);
         let one = data.rational(&rational(1, 2));
-        LoopBounds::new(&data, &ErrorBox::new(&data, &one, &one, &one, &one)).expect("bounded")
+        LoopBounds::new(&data, &ErrorBox::new(&data, Paths::UNNAMED, [&one; 2], [&one; 2])).expect("bounded")
     };
     let without = of(&specification(include_str!("../../../../../specs/no-x.json")));
     assert!(!without.has_x);

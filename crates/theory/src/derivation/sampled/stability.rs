@@ -181,7 +181,7 @@ mod tests {
         let below = scale * next();
         let sector = Sector { below, above: below * (2.0 * next() - 1.0) };
         let (k_x, k_f, rate) = (scale * next(), scale * next(), 0.1 + scale * next());
-        ErrorBox { x_b: 1.0, e_b: 1.0, k_x, sector, k_f, gamma: 0.0, rate }
+        ErrorBox { x_b: 1.0, e_b: 1.0, k_x, sector, sector_at: [1.0; 2], k_f, gamma: 0.0, rate }
     }
 
     #[test]
