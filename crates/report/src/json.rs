@@ -59,6 +59,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("binding_advice", json!(run.binding.map(|binding| binding.advice(run.spec.plant().is_some())))),
         ("without_optional", without_optional(run)),
         ("sensitivities", sensitivities(run)),
+        ("sigma_star_aligned_estimate", json!(run.aligned.map(estimate))),
         ("consequences", consequences.map_or(Value::Null, consequences_json)),
         ("exact_regulation", exact_regulation(run)),
         ("relative_degree", gains_json(run)),

@@ -1,5 +1,6 @@
 //! What binds sigma*, and which datum would lower it most.
 
+use super::brief;
 use rug::Rational;
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::plot::Bars;
@@ -21,6 +22,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         Block::heading("What sets sigma* (estimates)"),
         Block::says(format!("sigma* is set by {}. {}", binding.describe(), binding.advice(run.spec.plant().is_some()))),
     ];
+    blocks.extend(run.aligned.map(|sigma| Block::says(format!("Aligned start: {}.", brief::aligned(sigma)))));
     blocks.extend(ingredients(run).map(Block::Bars));
     if !run.without_optional.is_empty() {
         blocks.push(Block::says("What the optional data bring: sigma* without each."));

@@ -225,6 +225,16 @@ impl<N: Clone> InitialSet<N> {
         }
     }
 
+    /// The same X_0 and E_0 with the controller aligned.
+    #[must_use]
+    pub fn aligned(self) -> InitialSet<N> {
+        match self {
+            InitialSet::Paper => InitialSet::Aligned { x0: None, e0: None },
+            InitialSet::AtRest { x0, e0 } | InitialSet::Aligned { x0, e0 } => InitialSet::Aligned { x0, e0 },
+            InitialSet::Box { x0, e0, .. } => InitialSet::Aligned { x0: Some(x0), e0: Some(e0) },
+        }
+    }
+
     /// The X_0 and E_0 that the user gives.
     #[must_use]
     pub fn given(&self) -> [Option<&N>; 2] {

@@ -81,6 +81,8 @@ pub struct Certification<'s> {
     pub without_optional: Vec<(OptionalDatum, Option<f64>)>,
     /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.
     pub sensitivities: Vec<(Datum, f64)>,
+    /// sigma* with an aligned start, where that is smaller; floating point.
+    pub aligned: Option<f64>,
     /// Bounding functions that were neither proved nor refuted.
     pub unproved_bounds: Vec<BoundingProblem>,
     /// Every constant in the three derivations.

@@ -11,7 +11,7 @@ use super::options::Options;
 use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
 use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
-use super::sensitivity::ranked;
+use super::sensitivity::{aligned, ranked};
 use super::verdict::Verdict;
 use crate::search::{Failing, FloatModel, SharpProposal, search_printed, search_repaired, without_optional_data};
 use rug::Rational;
@@ -175,6 +175,10 @@ fn assemble<'s>(
         (Outcome::Proved(proof), Some(proposal)) => ranked(spec, model, proposal, proof),
         _ => Vec::new(),
     };
+    let aligned = match (&sharp, &proposal) {
+        (Outcome::Proved(_), Some(proposal)) => aligned(model, proposal),
+        _ => None,
+    };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
     let used = reach(&sharp).or_else(|| repaired.as_ref().and_then(reach));
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
@@ -197,6 +201,7 @@ fn assemble<'s>(
         checks,
         no_plant,
         sensitivities,
+        aligned,
         without_optional,
         unproved_bounds: unproved,
         constants: constants.rows,

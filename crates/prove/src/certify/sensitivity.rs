@@ -3,7 +3,7 @@
 use super::best::model as model_of;
 use super::proof::SharpProof;
 use super::round::TransferKind;
-use crate::search::{Datum, FloatModel, SharpProposal, sensitivities};
+use crate::search::{Datum, FloatModel, SharpProposal, search_sharp_near, sensitivities};
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::Specification;
 use sigmastar_lang::spec::model::Constant;
@@ -31,6 +31,14 @@ pub(super) fn ranked(
     found.retain(|(_, gain)| *gain > 0.0);
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     found
+}
+
+/// sigma* with the controller aligned, which costs nothing, where it is not and that lowers sigma* by a share that matters; of a
+/// plant with the bounds that are proved, so that it may come out smaller still.
+pub(super) fn aligned(model: &FloatModel, proposal: &SharpProposal) -> Option<f64> {
+    let aligned = model.with_set(model.set.aligned());
+    let found = search_sharp_near(&aligned, proposal).ok().filter(|_| !model.set.is_aligned())?;
+    (found.sigma < proposal.sigma * (1.0 - STEP)).then_some(found.sigma)
 }
 
 /// The models of a smaller and of a larger mu, with the transfer bound that belongs to it. None where that bound is proved by

@@ -44,8 +44,8 @@ impl Binding {
                 "A smaller initial set lowers it, where q is steeper further out; a smaller mu hardly does."
             }
             Binding::InternalModel => {
-                "A controller started at rest or a smaller initial set lowers it; so do a mu and weights that fit the plant \
-                 (`sigmastar tune`)."
+                "An aligned start or a smaller initial set lowers it; so do a mu and weights that fit the plant (`sigmastar \
+                 tune`)."
             }
             Binding::Coupling => {
                 "A smaller initial set, in which f and q bend less, lowers it; so does less coupling between x and e, by a loop \
@@ -66,7 +66,7 @@ impl Binding {
             }
             Binding::Slope { one_sided: true } => "A smaller initial set or a smaller q_e_max lowers it.",
             Binding::InternalModel => {
-                "A controller started at rest, a smaller initial set, bounds of q in the mean (q_rms, q_t_rms) or its \
+                "An aligned start, a smaller initial set, bounds of q in the mean (q_rms, q_t_rms) or its \
                  harmonics (q_0) lower it; so does a mu that fits the plant."
             }
             Binding::Coupling => {

@@ -23,7 +23,7 @@ const DIGITS: u32 = 3;
 #[must_use]
 pub fn smaller_set(model: &FloatModel) -> Option<InitialSet<Rational>> {
     let finds = |set: InitialSet<f64>| any_candidate(&model.with_set(set));
-    let aligned = aligned(&model.set);
+    let aligned = model.set.aligned();
     if !model.set.is_aligned() && finds(aligned) {
         let rounded = |size: &f64| round_f64(*size, DIGITS, Direction::Down).unwrap_or_default();
         return Some(aligned.map(rounded));
@@ -51,15 +51,9 @@ pub fn smaller_set(model: &FloatModel) -> Option<InitialSet<Rational>> {
     ordinary.then_some(rounded)
 }
 
-/// The set with the controller aligned.
-fn aligned(set: &InitialSet<f64>) -> InitialSet<f64> {
-    let [x0, e0] = set.given().map(Option::<&f64>::copied);
-    InitialSet::Aligned { x0, e0 }
-}
-
 /// The set that is scaled: the user's numbers, or twice the bounds of the periodic solution where none is given, with z = M e.
 fn shape(model: &FloatModel, point: InitialSet<f64>) -> Option<InitialSet<f64>> {
-    let given = aligned(&model.set);
+    let given = model.set.aligned();
     if let InitialSet::Aligned { x0: Some(_), e0: Some(_) } = given {
         return Some(given);
     }
