@@ -39,7 +39,9 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     };
     let mut facts = vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next.to_owned())];
     facts.extend(set_by(run).map(|said| ("set by", said)));
-    facts.extend(run.aligned.filter(|_| run.given_gain.is_none()).map(|sigma| ("aligned start", aligned(sigma))));
+    facts.extend(
+        run.aligned.filter(|_| run.given_gain.is_none()).map(|sigma| ("aligned start", sensitivity::aligned(sigma))),
+    );
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper))));
@@ -114,11 +116,6 @@ fn set_by(run: &Certification<'_>) -> Option<String> {
         format!("; {} lowers sigma* by about {} %", sensitivity::one_per_cent(run.spec, *datum), estimate(100.0 * gain))
     });
     Some(format!("{}{} (estimates)", binding.describe(), best.unwrap_or_default()))
-}
-
-/// What a start with z = M e would bring.
-pub(super) fn aligned(sigma: f64) -> String {
-    format!("sigma* about {}, with the initial set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
 }
 
 /// The bounds of the error for a few n_o.

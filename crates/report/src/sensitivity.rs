@@ -1,6 +1,5 @@
 //! What binds sigma*, and which datum would lower it most.
 
-use super::brief;
 use rug::Rational;
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::plot::Bars;
@@ -22,7 +21,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         Block::heading("What sets sigma* (estimates)"),
         Block::says(format!("sigma* is set by {}. {}", binding.describe(), binding.advice(run.spec.plant().is_some()))),
     ];
-    blocks.extend(run.aligned.map(|sigma| Block::says(format!("Aligned start: {}.", brief::aligned(sigma)))));
+    blocks.extend(run.aligned.map(|sigma| Block::says(format!("Aligned start: {}.", aligned(sigma)))));
     blocks.extend(ingredients(run).map(Block::Bars));
     if !run.without_optional.is_empty() {
         blocks.push(Block::says("What the optional data bring: sigma* without each."));
@@ -54,6 +53,11 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         blocks.push(Block::Bars(bars));
     }
     blocks
+}
+
+/// What a start with z = M e would bring.
+pub(super) fn aligned(sigma: f64) -> String {
+    format!("sigma* about {}, with the initial set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
 }
 
 /// What a datum is called in the file; the X0 of a plant may be given by a ball.
