@@ -141,7 +141,7 @@ pub struct ToldCertificate {
     sigma_star: (f64, String),
     samples: Option<(String, u32, String)>,
     statement: String,
-    initial_set: ((f64, String), (f64, String), Option<(f64, String)>),
+    initial_set: (Size, Size, Option<Size>),
     ball: Option<String>,
     periodic_solution: [f64; 4],
     sha256: String,
@@ -177,7 +177,10 @@ impl From<&Certificate> for ToldCertificate {
     }
 }
 
-fn sizes(set: &InitialSet) -> ((f64, String), (f64, String), Option<(f64, String)>) {
+/// A size as a double, rounded down, and exactly.
+type Size = (f64, String);
+
+fn sizes(set: &InitialSet) -> (Size, Size, Option<Size>) {
     let (x0, e0, z0) = set.exact();
     let of_z = set.z0().zip(z0.map(str::to_owned));
     ((set.x0(), x0.to_owned()), (set.e0(), e0.to_owned()), of_z)
