@@ -34,6 +34,13 @@ fn read_kinds(value: &Value<'_>, balls: bool, errors: &mut Errors) -> Result<(In
         let error = x0.error(ErrorKind::UnknownField, "`X0` and `ball` both say how far x may be from its orbit");
         return Err(errors.report(error.help("leave one of them out")));
     }
+    if kind == "aligned"
+        && let Some(z0) = value.member("Z0")
+    {
+        let error =
+            z0.error(ErrorKind::UnknownField, "an aligned start has no `Z0`: the regulator sets z = M e itself");
+        return Err(errors.report(error.help("leave it out, or ask for the kind `box`")));
+    }
     let set = match kind {
         "paper" => {
             object.finish_as("for the kind `paper`", errors);
