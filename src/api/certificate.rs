@@ -173,8 +173,8 @@ pub struct Samples {
     pub gain: String,
 }
 
-/// The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`, or `z = M e` in the place of the last; of a plant by its formulas `|L^-1 (x - x_0(t))| <= x0` in the place of
-/// `|x| <= x0`, with the orbit x_0 and the coordinates L of its certificate.
+/// The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`, or `z = M e` in the place of the last; of a plant by its formulas
+/// `|L^-1 (x - x_0(t))| <= x0` in the place of `|x| <= x0`, with the orbit x_0 and the coordinates L of its certificate.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct InitialSet {

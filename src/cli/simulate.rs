@@ -60,10 +60,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         remarks(&plant, &regulator, &settings, args);
     }
     let closed_loop = ClosedLoop::new(&plant, regulator);
-    let start = closed_loop.start_of(&plant.initial).ok_or_else(|| {
-        let needed = closed_loop.regulator.dimension();
-        simulate_sampled::wrong_dimension(&plant.initial, needed)
-    })?;
+    let start = closed_loop.start_of(&plant.initial).map_err(simulate_sampled::wrong_dimension)?;
     let runs = if power.is_some() { 2 } else { 1 };
     let bar = Bar::new(u64::from(args.periods) * runs, args.quiet);
     let simulation = simulate(&closed_loop, &start, &settings, &bar);

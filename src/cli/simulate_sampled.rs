@@ -10,10 +10,10 @@ use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
 };
-use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
+use sigmastar_lang::plant::{Initial, Plant};
 use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::Verdict;
-use sigmastar_regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
+use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_discrete, read_regulator};
 
 /// Runs the command with this sampling time and returns the exit code.
 ///
@@ -129,8 +129,7 @@ fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discret
 
 /// The initial condition of the plant file.
 fn start(sampled: &SampledLoop, initial: &Initial) -> Result<Vec<f64>, Failure> {
-    let z = sampled.regulator.start(&initial.z, initial.e);
-    let z = z.ok_or_else(|| wrong_dimension(initial, sampled.regulator.dimension()))?;
+    let z = sampled.regulator.start(&initial.z, initial.e).map_err(wrong_dimension)?;
     let mut start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(z).collect();
     // With a delay no control acts yet.
     start.resize(sampled.dimension(), 0.0);
@@ -138,11 +137,6 @@ fn start(sampled: &SampledLoop, initial: &Initial) -> Result<Vec<f64>, Failure> 
 }
 
 /// The refusal of an initial z that is for another number of oscillators.
-pub(super) fn wrong_dimension(initial: &Initial, needed: usize) -> Failure {
-    let given = match &initial.z {
-        InitialRegulator::Given(z) => z.len(),
-        InitialRegulator::AtRest | InitialRegulator::Aligned => needed,
-    };
-    let message = format!("the initial z of the plant file has {given} components, this regulator has {needed}");
-    Failure::call(message, "give the number of oscillators that it is for, or remove z for a start at rest")
+pub(super) fn wrong_dimension(error: WrongDimension) -> Failure {
+    Failure::call(error.to_string(), "give the number of oscillators that it is for, or remove z for a start at rest")
 }

@@ -20,6 +20,16 @@ pub struct Regulator {
     pub weights: Vec<f64>,
 }
 
+/// An initial z for another number of oscillators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the initial z of the plant file has {given} components, this regulator has {needed}")]
+pub struct WrongDimension {
+    /// The components that the file gives.
+    pub given: usize,
+    /// Those of the regulator.
+    pub needed: usize,
+}
+
 impl Regulator {
     /// The regulator with the weights given, n_o one less than their number, and base frequency w; an empty list of
     /// weights is the high-gain feedback u = -sigma e.
@@ -84,13 +94,16 @@ impl Regulator {
         (0..self.dimension()).map(|i| if i == 0 || i % 2 == 1 { 1.0 } else { 0.0 }).collect()
     }
 
-    /// z at the first instant, where e is there; `None` where the components that are given are not as many as there are.
-    #[must_use]
-    pub fn start(&self, start: &InitialRegulator, e: f64) -> Option<Vec<f64>> {
+    /// z at the first instant, with e there.
+    ///
+    /// # Errors
+    /// As many components as the regulator does not have.
+    pub fn start(&self, start: &InitialRegulator, e: f64) -> Result<Vec<f64>, WrongDimension> {
         match start {
-            InitialRegulator::AtRest => Some(vec![0.0; self.dimension()]),
-            InitialRegulator::Aligned => Some(self.m().iter().map(|m| m * e).collect()),
-            InitialRegulator::Given(z) => (z.len() == self.dimension()).then(|| z.clone()),
+            InitialRegulator::AtRest => Ok(vec![0.0; self.dimension()]),
+            InitialRegulator::Aligned => Ok(self.m().iter().map(|m| m * e).collect()),
+            InitialRegulator::Given(z) if z.len() == self.dimension() => Ok(z.clone()),
+            InitialRegulator::Given(z) => Err(WrongDimension { given: z.len(), needed: self.dimension() }),
         }
     }
 

@@ -20,7 +20,7 @@ mod sampling;
 
 pub use design::{Design, MAX_EXPORTED_OSCILLATORS};
 pub use discrete::{Discrete, Stepper};
-pub use law::Regulator;
+pub use law::{Regulator, WrongDimension};
 pub use read::read_regulator;
 pub use read_discrete::read_discrete;
 pub use sampled::{Convergence, spectral_radius};

@@ -21,7 +21,7 @@ pub struct Witness {
     /// Where it stands in the file.
     pub pointer: String,
     pub sigma: Rational,
-    /// X_0, E_0, Z_0.
+    /// The initial conditions.
     pub set: ClaimedSet,
     pub x: Rational,
     pub e: Rational,

@@ -3,7 +3,7 @@
 use super::limits::Effort;
 use sigmastar_lang::expr::{Evaluator, Program};
 use sigmastar_lang::plant::{Initial, Plant};
-use sigmastar_regulator::Regulator;
+use sigmastar_regulator::{Regulator, WrongDimension};
 use std::sync::Arc;
 
 /// Where measurement noise v enters.
@@ -102,11 +102,13 @@ impl ClosedLoop {
         y
     }
 
-    /// (x(0), e(0), z(0)) of a plant's initial condition; `None` where its z has another dimension than the regulator.
-    #[must_use]
-    pub fn start_of(&self, initial: &Initial) -> Option<Vec<f64>> {
+    /// (x(0), e(0), z(0)) of a plant's initial condition.
+    ///
+    /// # Errors
+    /// A z of another dimension than the regulator.
+    pub fn start_of(&self, initial: &Initial) -> Result<Vec<f64>, WrongDimension> {
         let z = self.regulator.start(&initial.z, initial.e)?;
-        Some(initial.x.iter().copied().chain([initial.e]).chain(z).collect())
+        Ok(initial.x.iter().copied().chain([initial.e]).chain(z).collect())
     }
 
     /// An evaluator of f and q.

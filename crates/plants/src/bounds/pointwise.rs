@@ -59,6 +59,12 @@ impl Asked {
         }
     }
 
+    /// The kind of a bound of the table, and nothing else.
+    #[must_use]
+    pub fn only(bound: Bound) -> Asked {
+        Asked::KINDS[Asked::kind(bound)]
+    }
+
     fn has(self, other: Asked) -> bool {
         self.0 & other.0 != 0
     }

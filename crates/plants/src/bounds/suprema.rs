@@ -231,7 +231,7 @@ impl FloatSuprema {
         let mut slow = Evaluator::new(self.velocity.clone());
         let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
         let mut pointwise = self.pointwise();
-        let asked = Asked::KINDS[Asked::kind(kind)];
+        let asked = Asked::only(kind);
         let value = |(time, y, part): &(f64, Vec<f64>, f64)| {
             let moment = self.moment(*time, &mut evaluator, &mut slow);
             evaluator.load_time_values(&moment.kept);
@@ -245,7 +245,7 @@ impl FloatSuprema {
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Bound, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
         let errors: &[f64] = if e == 0.0 || !self.by_error { &[0.0] } else { &[-1.0, 0.0, 1.0] };
-        let asked = Asked::KINDS[Asked::kind(kind)];
+        let asked = Asked::only(kind);
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
         self.at_points(reach, e, ([1, 1], errors), asked, |at, values| {

@@ -36,8 +36,10 @@ pub(super) fn ranked(
 /// sigma* with the controller aligned, which costs nothing, where it is not and that lowers sigma* by a share that matters; of a
 /// plant with the bounds that are proved, so that it may come out smaller still.
 pub(super) fn aligned(model: &FloatModel, proposal: &SharpProposal) -> Option<f64> {
-    let aligned = model.with_set(model.set.aligned());
-    let found = search_sharp_near(&aligned, proposal).ok().filter(|_| !model.set.is_aligned())?;
+    if model.set.is_aligned() {
+        return None;
+    }
+    let found = search_sharp_near(&model.with_set(model.set.aligned()), proposal).ok()?;
     (found.sigma < proposal.sigma * (1.0 - STEP)).then_some(found.sigma)
 }
 

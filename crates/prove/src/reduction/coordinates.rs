@@ -194,7 +194,7 @@ impl CoordinateSearch<'_> {
         let Chosen { l, proposal, .. } = single;
         let n = l.nrows();
         let model = &single.model.clone().rough();
-        let asked = Asked::KINDS[Asked::kind(Bound::RateExistence)];
+        let asked = Asked::only(Bound::RateExistence);
         let freedom = n * (n + 1) / 2 - 1;
         let x_p = at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + NEAR), NEAR).ok()?.0.x_p;
         let cost = |s: &[f64]| {

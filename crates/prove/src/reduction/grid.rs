@@ -19,15 +19,18 @@ pub type Values = [f64; TABLE.len()];
 /// A source of the estimates that are asked for at (X, E).
 pub type Source = dyn Fn(f64, f64, Asked) -> Values + Send + Sync;
 
-/// Linear interpolation between nodes at 0 and at `unit ratio^k`, k = 0, 1, ... from the smallest one on; beyond the last node nothing is known.
+/// Linear interpolation between nodes at 0 and at `smallest ratio^k`, k = 0, 1, ...; beyond the last node nothing is known.
 pub struct Grid {
     source: Arc<Source>,
     /// The arguments of the nodes, X and E, in increasing order.
     arguments: [Vec<f64>; 2],
-    /// Of each kind and node, all E of the first X first. A node is a function of its place alone, so that it does not matter who
-    /// computes it.
-    nodes: [Vec<OnceLock<Box<Values>>>; Asked::KINDS.len()],
+    /// Of each kind a row for each X, made where a search looks: a fine grid has a million nodes. A node is a function of its place
+    /// alone, so that it does not matter who computes it.
+    nodes: [Vec<OnceLock<Row>>; Asked::KINDS.len()],
 }
+
+/// The nodes of one X.
+type Row = Box<[OnceLock<Box<Values>>]>;
 
 /// The smallest node is this share of the unit.
 const SMALLEST: f64 = 1e-4;
@@ -44,9 +47,7 @@ impl Grid {
             let within = (0..).map(node).take_while(|node| *node < LARGEST * unit * ratio);
             std::iter::once(0.0).chain(within).collect::<Vec<f64>>()
         });
-        let nodes = Asked::KINDS.map(|_| {
-            std::iter::repeat_with(OnceLock::new).take(arguments[0].len() * arguments[1].len()).collect::<Vec<_>>()
-        });
+        let nodes = Asked::KINDS.map(|_| empty(arguments[0].len()));
         Grid { source, arguments, nodes }
     }
 
@@ -82,6 +83,12 @@ impl Grid {
 
     fn node(&self, kind: usize, [i, j]: [usize; 2]) -> &Values {
         let [xs, es] = &self.arguments;
-        self.nodes[kind][i * es.len() + j].get_or_init(|| Box::new((self.source)(xs[i], es[j], Asked::KINDS[kind])))
+        let row = self.nodes[kind][i].get_or_init(|| empty(es.len()));
+        row[j].get_or_init(|| Box::new((self.source)(xs[i], es[j], Asked::KINDS[kind])))
     }
+}
+
+/// So many places with nothing in them.
+fn empty<T, C: FromIterator<OnceLock<T>>>(count: usize) -> C {
+    std::iter::repeat_with(OnceLock::new).take(count).collect()
 }

@@ -371,7 +371,7 @@ impl FloatModel {
         FloatModel { trade_off, ..self.clone() }
     }
 
-    /// The same model for results that are only compared: a tenth of the work for six digits.
+    /// The same model for results that are only compared, to six digits.
     #[must_use]
     pub fn rough(self) -> FloatModel {
         FloatModel { rough: true, ..self }

@@ -25,8 +25,7 @@ pub fn smaller_set(model: &FloatModel) -> Option<InitialSet<Rational>> {
     let finds = |set: InitialSet<f64>| any_candidate(&model.with_set(set));
     let aligned = model.set.aligned();
     if !model.set.is_aligned() && finds(aligned) {
-        let rounded = |size: &f64| round_f64(*size, DIGITS, Direction::Down).unwrap_or_default();
-        return Some(aligned.map(rounded));
+        return rounded(&aligned);
     }
     let point = InitialSet::Aligned { x0: Some(0.0), e0: Some(0.0) };
     if !finds(point) {
@@ -42,13 +41,18 @@ pub fn smaller_set(model: &FloatModel) -> Option<InitialSet<Rational>> {
         let middle = 0.5 * (low + high);
         if finds(scaled(middle)) { low = middle } else { high = middle }
     }
-    let mut ordinary = true;
-    let rounded = scaled(low).map_each(|_, size| {
+    rounded(&scaled(low))
+}
+
+/// The set with short sizes, rounded down; none where one is not finite.
+fn rounded(set: &InitialSet<f64>) -> Option<InitialSet<Rational>> {
+    let mut finite = true;
+    let rounded = set.map_each(|_, size| {
         let size = round_f64(*size, DIGITS, Direction::Down);
-        ordinary &= size.is_some();
+        finite &= size.is_some();
         size.unwrap_or_default()
     });
-    ordinary.then_some(rounded)
+    finite.then_some(rounded)
 }
 
 /// The set that is scaled: the user's numbers, or twice the bounds of the periodic solution where none is given, with z = M e.

@@ -80,7 +80,7 @@ pub fn set_conditions(
     };
     let mut conditions: Vec<Condition> = required.named().zip(set.named()).map(condition).collect();
     if required.z0.is_some() != set.z0.is_some() {
-        // One starts with z = M e, the other does not: neither set contains the other. 1 <= 0 is certainly false.
+        // One starts with z = M e, the other does not: they are not compared. 1 <= 0 is certainly false.
         let what = "the start of the regulator (z = M e, or not) is the one that is asked for";
         conditions.push(Condition::at_most("set", what, Enclosure::one(data.precision), data.zero()));
     }

@@ -49,7 +49,7 @@ pub fn covers(d: &Data<'_>, set: &ClaimedSet, [x_p, e_p]: [&Rational; 2], z: &In
         (AskedSet::Paper, Some(z0)) => Some((z + &d.n_bar * d.number(e_p)) * 2 - d.number(z0)),
         (AskedSet::AtRest(_), Some(z0)) => Some(exact(&Rational::new(), z0)),
         (AskedSet::Box([_, _, asked]), Some(z0)) => Some(user(asked, z0)),
-        // One starts with z = M e, the other does not: neither set contains the other, and 1 <= 0 is false.
+        // One starts with z = M e, the other does not: they are not compared, and 1 <= 0 is false.
         (AskedSet::Aligned(_), Some(_)) | (_, None) => Some(d.int(1)),
     };
     let what = |name| format!("the required {name} - the claimed {name} <= 0");
