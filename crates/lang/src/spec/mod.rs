@@ -53,7 +53,7 @@ pub use object::choose;
 pub use object::{MAX_UNKNOWN, Object};
 pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit};
 pub use power_tail::power_tail;
-pub use proved_values::{ProvedValue, ProvedValues};
+pub use proved_values::{MatrixInequality, ProvedValue, ProvedValues};
 pub use read::read_internal_model;
 pub use read::{FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
 pub use sampling::{MAX_SAMPLES, SampledGain, Sampling};

@@ -20,18 +20,63 @@ pub struct ProvedValue {
     pub sampled: Option<Rational>,
 }
 
+/// A matrix inequality that was proved from a plant's formulas: F of the derivation, 13.7 (M), on the straight path, with the P of
+/// stability times `w_x`, `kp = 2 h/mu`, `value` in the place of sigma and J + `rate` I in that of J, is positive semidefinite for
+/// the derivatives at every one point of `|x| <= X`, `|e| <= E`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MatrixInequality {
+    /// X >= 0.
+    pub x: Rational,
+    /// E >= 0.
+    pub e: Rational,
+    /// w_x > 0.
+    pub w_x: Rational,
+    /// h > 0.
+    pub h: Rational,
+    /// The rate that x keeps, above 0, in 1/time: with it F is positive definite at every larger sigma.
+    pub rate: Rational,
+    /// The threshold of sigma, in 1/time.
+    pub value: Rational,
+}
+
+impl MatrixInequality {
+    /// Whether (X, E) is certainly within its own.
+    #[must_use]
+    pub fn reaches(&self, x: &Enclosure, e: &Enclosure) -> bool {
+        reaches(x, &self.x) && reaches(e, &self.e)
+    }
+}
+
+/// Exact: an argument that is the rational of an entry is reached by it.
+fn reaches(argument: &Enclosure, end: &Rational) -> bool {
+    argument.upper_rational().is_some_and(|upper| upper <= *end)
+}
+
 /// All of them for one plant. The bounding function itself is the least upper bound on each box, so it is monotone by
 /// definition, and a value at larger arguments serves at smaller ones.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ProvedValues {
     entries: Vec<ProvedValue>,
+    inequality: Option<MatrixInequality>,
 }
 
 impl ProvedValues {
     /// The values, each of which is proved.
     #[must_use]
     pub fn new(entries: Vec<ProvedValue>) -> ProvedValues {
-        ProvedValues { entries }
+        ProvedValues { entries, inequality: None }
+    }
+
+    /// The same with a matrix inequality, which is proved.
+    #[must_use]
+    pub fn with_inequality(self, inequality: Option<MatrixInequality>) -> ProvedValues {
+        ProvedValues { inequality, ..self }
+    }
+
+    /// The matrix inequality, where there is one.
+    #[must_use]
+    pub fn inequality(&self) -> Option<&MatrixInequality> {
+        self.inequality.as_ref()
     }
 
     /// The values.
@@ -53,9 +98,6 @@ impl ProvedValues {
     pub fn at(&self, which: Bound, x: &Enclosure, e: &Enclosure) -> Enclosure {
         let precision = x.precision().max(e.precision());
         let exact = |value: &Rational| Enclosure::from_rational(value, precision);
-        // Exact comparisons: an argument that is the rational of an entry is reached by it.
-        let reaches =
-            |argument: &Enclosure, end: &Rational| argument.upper_rational().is_some_and(|upper| upper <= *end);
         let there = self.entries.iter().filter(|entry| entry.bound == which);
         let values = there.filter(|entry| reaches(x, &entry.x) && reaches(e, &entry.e)).map(|entry| &entry.value);
         let best = if which.is_rate() { values.max() } else { values.min() };
@@ -65,8 +107,9 @@ impl ProvedValues {
     /// The largest X and E that all values of a bounding function together reach.
     #[must_use]
     pub fn reach(&self) -> Option<[Rational; 2]> {
-        let x = self.entries.iter().map(|entry| &entry.x).max()?;
-        let e = self.entries.iter().map(|entry| &entry.e).max()?;
+        let of_inequality = || self.inequality.iter();
+        let x = self.entries.iter().map(|entry| &entry.x).chain(of_inequality().map(|entry| &entry.x)).max()?;
+        let e = self.entries.iter().map(|entry| &entry.e).chain(of_inequality().map(|entry| &entry.e)).max()?;
         Some([x.clone(), e.clone()])
     }
 }

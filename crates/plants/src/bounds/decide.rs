@@ -171,9 +171,9 @@ type BoundOnBox<'a> = dyn Fn(&Frame, &Chart, &Ball, Option<&Centred>) -> Centred
 
 /// The formulas of a bound on a box.
 pub(super) struct Values<'a> {
-    engine: &'a Engine,
+    pub(super) engine: &'a Engine,
     chart: &'a Chart,
-    frame: &'a Frame,
+    pub(super) frame: &'a Frame,
     quantity: &'a Quantity,
     outputs: Vec<Centred>,
     time: Arc<TimeCell>,
@@ -183,7 +183,7 @@ pub(super) struct Values<'a> {
 
 impl Values<'_> {
     /// The matrix of the quantity, in the coordinates y.
-    fn matrix(&self) -> Vec<Vec<Centred>> {
+    pub(super) fn matrix(&self) -> Vec<Vec<Centred>> {
         let frame = self.frame;
         let mut rows: Vec<Vec<Centred>> = self
             .quantity
@@ -220,7 +220,7 @@ impl Values<'_> {
     }
 
     /// `exact * rows`, or `rows * exact`.
-    fn product(&self, exact: &[Vec<Rational>], rows: &[Vec<Centred>], right: bool) -> Vec<Vec<Centred>> {
+    pub(super) fn product(&self, exact: &[Vec<Rational>], rows: &[Vec<Centred>], right: bool) -> Vec<Vec<Centred>> {
         let frame = self.frame;
         let columns = if right { exact.len() } else { rows.first().map_or(0, Vec::len) };
         let entry = |i: usize, j: usize| {
@@ -310,8 +310,23 @@ impl Values<'_> {
         definite(frame, &SymmetricValues { order, entries: diagonal.chain(off).collect() }, ball)
     }
 
+    /// `P v` for a column v, with the P of stability.
+    pub(super) fn times_p(&self, column: &[Vec<Centred>]) -> Option<Vec<Centred>> {
+        let frame = self.frame;
+        let [p, _] = self.time.matrices[0].as_ref()?;
+        let entry = |row: &Vec<Centred>| {
+            let zero = frame.constant(Enclosure::zero(PRECISION));
+            row.iter().zip(column.iter().flatten()).fold(zero, |sum, (p, value)| {
+                // 0 times what may be undefined is undefined.
+                let vanishes = p.is_zero() && value.range.is_defined();
+                if vanishes { sum } else { frame.add(&sum, &frame.mul(&self.chart.moving(frame, p), value)) }
+            })
+        };
+        Some(p.iter().map(entry).collect())
+    }
+
     /// `-(P' + P J + J^T P + 2 value P)`.
-    fn decay(&self, kind: Bound, jacobian: &[Vec<Centred>], value: &Centred) -> Option<SymmetricValues> {
+    pub(super) fn decay(&self, kind: Bound, jacobian: &[Vec<Centred>], value: &Centred) -> Option<SymmetricValues> {
         let frame = self.frame;
         let [p, derivative] = self.time.matrices[usize::from(kind == Bound::RateExistence)].as_ref()?;
         let order = jacobian.len();

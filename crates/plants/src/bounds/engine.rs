@@ -27,6 +27,7 @@ pub struct Engine {
     pub(super) region: Region,
     pub(super) period: Constant,
     quantities: [Option<Quantity>; Bound::ALL.len()],
+    first_derivatives: Quantity,
     pub(super) requirements: Vec<Requirement>,
     /// f.
     velocity: Walk,
@@ -70,11 +71,13 @@ impl Engine {
             Quantity::new(formulas, f, q[0], kind, moves)
         };
         let quantities = Bound::ALL.map(|kind| quantity(kind, &mut formulas));
+        let moves = matrices[0].as_ref().is_some_and(|matrix| !matrix.harmonics.is_empty());
+        let first_derivatives = Quantity::first_derivatives(&mut formulas, &sides, moves);
         let velocity = formulas.walk(f);
         let extents = (0..order).map(|_| OnceLock::new()).collect();
         let period = plant.period.clone();
         let cells = Mutex::new(HashMap::new());
-        Ok(Engine { region, period, quantities, requirements, velocity, matrices, cells, extents })
+        Ok(Engine { region, period, quantities, first_derivatives, requirements, velocity, matrices, cells, extents })
     }
 
     /// The number of states.
@@ -92,6 +95,11 @@ impl Engine {
     /// What a bound is of; `None` where it is not computed of a plant.
     pub(super) fn quantity(&self, kind: Bound) -> Option<&Quantity> {
         self.quantities[kind as usize].as_ref()
+    }
+
+    /// The derivatives of f and q.
+    pub(super) fn first_derivatives(&self) -> &Quantity {
+        &self.first_derivatives
     }
 
     /// Whether there is a P for a rate.

@@ -5,6 +5,7 @@
 //! - [`Engine`]: decides an [`Entry`] of a table of bounds, and smoothness, by subdivision;
 //! - [`Engine::decide_majorant`]: the same of a [`Majorant`], a polynomial in X and E;
 //! - [`FloatSuprema`]: the same bounds by sampling, for searches;
+//! - [`Engine::decide_inequality`]: the matrix inequality of stability;
 //! - [`Engine::prove_value`]: from a sampled supremum, and what boxes show beyond it, to a decided bound a little above.
 //!
 //! Within: `chart` (coordinates of boxes), `time_cell` (what depends on t alone), `centred` (values with slopes about the
@@ -19,12 +20,14 @@ mod engine;
 mod entry;
 mod explore;
 mod extent;
+mod inequality;
 mod majorant;
 mod pointwise;
 mod prove_value;
 mod quantity;
 mod region;
 mod requirement;
+mod sampled_threshold;
 mod side;
 mod smooth;
 mod suprema;
@@ -39,6 +42,7 @@ pub use majorant::{Majorant, Term};
 pub use pointwise::Asked;
 pub use prove_value::ProvedValue;
 pub use region::{Region, RegionError};
+pub use sampled_threshold::FloatWeights;
 pub use smooth::SmoothnessFailure;
 pub use suprema::{FloatCurve, FloatSuprema};
 

@@ -2,6 +2,7 @@
 
 use super::eigen::{eigen, largest, largest_of};
 use super::entry::TABLE;
+use super::sampled_threshold::Derivatives;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
@@ -94,6 +95,9 @@ pub(super) struct Pointwise {
     product: Vec<f64>,
     jacobian: Vec<f64>,
     square: Vec<f64>,
+    /// L^-1 f_e and q_x L.
+    column: Vec<f64>,
+    row: Vec<f64>,
 }
 
 impl Pointwise {
@@ -108,6 +112,8 @@ impl Pointwise {
             product: room.clone(),
             jacobian: room.clone(),
             square: room,
+            column: vec![0.0; n],
+            row: vec![0.0; n],
         }
     }
 
@@ -149,6 +155,17 @@ impl Pointwise {
             }
         }
         values
+    }
+
+    /// J, g, r and d.
+    pub(super) fn derivatives(&mut self, outputs: &[f64]) -> Derivatives<'_> {
+        let (n, blocks) = (self.order, self.blocks);
+        self.transform(outputs);
+        for i in 0..n {
+            self.column[i] = dot(&self.inverse[i * n..(i + 1) * n], &outputs[blocks.f_e..blocks.f_e + n]);
+            self.row[i] = (0..n).map(|k| outputs[blocks.q_x + k] * self.matrix[k * n + i]).sum();
+        }
+        Derivatives { j: &self.jacobian, g: &self.column, r: &self.row, d: outputs[blocks.q_e] }
     }
 
     /// L^-1 f_x L.

@@ -2,6 +2,7 @@
 
 use super::entry::{TABLE, of_table};
 use super::pointwise::{Asked, MatrixAt, Pointwise, roots};
+use super::sampled_threshold::Derivatives;
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
@@ -40,6 +41,9 @@ impl From<&TrigonometricVector> for FloatCurve {
         FloatCurve { mean: doubles(&orbit.mean), harmonics }
     }
 }
+
+/// The strides in time and in the ball, and the shares of E that are looked at.
+type Steps = ([usize; 2], &'static [f64]);
 
 /// A sampled supremum.
 #[derive(Clone, Copy, Debug)]
@@ -173,13 +177,7 @@ impl FloatSuprema {
     #[must_use]
     pub fn survey(&self, reach: f64, e: f64, stride: usize, asked: Asked) -> [f64; TABLE.len()] {
         let mut largest = [f64::NEG_INFINITY; TABLE.len()];
-        let errors: &[f64] = match stride {
-            _ if e == 0.0 || !self.by_error => &[0.0],
-            1 => &[-1.0, 0.0, 1.0],
-            _ => &[-1.0, 1.0],
-        };
-        let sparse = if stride > 1 && self.order > 2 { 3 } else { 1 };
-        self.at_points(reach, e, ([stride, sparse], errors), asked, |_, values| {
+        self.at_points(reach, e, self.steps(e, stride), asked, |_, values| {
             for (largest, value) in largest.iter_mut().zip(values) {
                 // Where a value is undefined, so is the supremum.
                 *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
@@ -188,19 +186,43 @@ impl FloatSuprema {
         std::array::from_fn(|index| if TABLE[index].is_rate() { -largest[index] } else { largest[index] })
     }
 
+    /// The strides in time and in the ball, and the shares of E, of a survey.
+    fn steps(&self, e: f64, stride: usize) -> Steps {
+        let errors: &[f64] = match stride {
+            _ if e == 0.0 || !self.by_error => &[0.0],
+            1 => &[-1.0, 0.0, 1.0],
+            _ => &[-1.0, 1.0],
+        };
+        let sparse = if stride > 1 && self.order > 2 { 3 } else { 1 };
+        ([stride, sparse], errors)
+    }
+
     /// Calls `see` with the place and the values of every point of the grid.
     fn at_points(
         &self,
         reach: f64,
         e: f64,
-        (strides, errors): ([usize; 2], &[f64]),
+        steps: Steps,
         asked: Asked,
         mut see: impl FnMut([usize; 3], [f64; TABLE.len()]),
+    ) {
+        let mut pointwise = self.pointwise();
+        self.outputs_at_points(reach, e, steps, |at, outputs, moment, matrices| {
+            see(at, pointwise.at(outputs, &moment.velocity, matrices, asked));
+        });
+    }
+
+    /// Calls `see` with the place of every point of the grid, the derivatives there, and what depends on t alone.
+    fn outputs_at_points(
+        &self,
+        reach: f64,
+        e: f64,
+        (strides, errors): Steps,
+        mut see: impl FnMut([usize; 3], &[f64], &Moment, &[MatrixAt; 2]),
     ) {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut outputs = vec![0.0; self.program.outputs()];
         let mut x = vec![0.0; self.order];
-        let mut pointwise = self.pointwise();
         for (i, moment) in self.moments.iter().enumerate().step_by(strides[0]) {
             evaluator.load_time_values(&moment.kept);
             let matrices = self.matrices_at(moment.time);
@@ -208,10 +230,46 @@ impl FloatSuprema {
                 self.place(&moment.orbit, y, reach, &mut x);
                 for (k, error) in errors.iter().enumerate() {
                     evaluator.evaluate(&x, error * e, &mut outputs);
-                    see([i, j, k], pointwise.at(&outputs, &moment.velocity, &matrices, asked));
+                    see([i, j, k], &outputs, moment, &matrices);
                 }
             }
         }
+    }
+
+    /// The number of states.
+    pub(super) fn order(&self) -> usize {
+        self.order
+    }
+
+    /// The largest value of the first derivatives in the coordinates y, and P, at the points of the grid of
+    /// [`FloatSuprema::survey`].
+    pub(super) fn largest_of_derivatives(
+        &self,
+        [reach, e]: [f64; 2],
+        stride: usize,
+        mut value: impl FnMut(&Derivatives<'_>, &MatrixAt) -> f64,
+    ) -> f64 {
+        let mut largest = f64::NEG_INFINITY;
+        let mut pointwise = self.pointwise();
+        self.outputs_at_points(reach, e, self.steps(e, stride), |_, outputs, _, matrices| {
+            let found = value(&pointwise.derivatives(outputs), &matrices[0]);
+            // Where a value is undefined, so is the supremum.
+            largest = if found.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(found) };
+        });
+        largest
+    }
+
+    /// The same by a longer search.
+    pub(super) fn refined_of_derivatives(
+        &self,
+        at: [f64; 2],
+        mut value: impl FnMut(&Derivatives<'_>, &MatrixAt) -> f64,
+    ) -> f64 {
+        let mut pointwise = self.pointwise();
+        let [largest, _] = self.climbed(at, (FINE, STARTS), |outputs, _, matrices| {
+            value(&pointwise.derivatives(outputs), &matrices[0])
+        });
+        largest
     }
 
     fn pointwise(&self) -> Pointwise {
@@ -244,12 +302,26 @@ impl FloatSuprema {
 
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Bound, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
-        let errors: &[f64] = if e == 0.0 || !self.by_error { &[0.0] } else { &[-1.0, 0.0, 1.0] };
         let asked = Asked::only(kind);
+        let mut pointwise = self.pointwise();
+        let [largest, least] = self.climbed([reach, e], (halvings, starts), |outputs, moment, matrices| {
+            of_table(kind, &pointwise.at(outputs, &moment.velocity, matrices, asked))
+        });
+        Sampled { value: if kind.is_rate() { -largest } else { largest }, spread: largest - least }
+    }
+
+    /// The largest value that a local search from the best points of the grid finds, and the least one on the grid.
+    fn climbed(
+        &self,
+        [reach, e]: [f64; 2],
+        (halvings, starts): (u32, usize),
+        mut value_of: impl FnMut(&[f64], &Moment, &[MatrixAt; 2]) -> f64,
+    ) -> [f64; 2] {
+        let errors: &'static [f64] = if e == 0.0 || !self.by_error { &[0.0] } else { &[-1.0, 0.0, 1.0] };
         // The best values with their points, and the least value.
         let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
-        self.at_points(reach, e, ([1, 1], errors), asked, |at, values| {
-            let value = of_table(kind, &values);
+        self.outputs_at_points(reach, e, ([1, 1], errors), |at, outputs, moment, matrices| {
+            let value = value_of(outputs, moment, matrices);
             least = least.min(value);
             keep(&mut best, starts, value, at);
         });
@@ -257,7 +329,6 @@ impl FloatSuprema {
         let mut slow = Evaluator::new(self.velocity.clone());
         let mut outputs = vec![0.0; self.program.outputs()];
         let mut x = vec![0.0; self.order];
-        let mut pointwise = self.pointwise();
         // Most steps leave the time as it is.
         let mut moment = self.moment(0.0, &mut evaluator, &mut slow);
         let mut value_at = |point: &Point| {
@@ -267,7 +338,7 @@ impl FloatSuprema {
             evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, &point.y, reach, &mut x);
             evaluator.evaluate(&x, point.e * e, &mut outputs);
-            of_table(kind, &pointwise.at(&outputs, &moment.velocity, &self.matrices_at(moment.time), asked))
+            value_of(&outputs, &moment, &self.matrices_at(moment.time))
         };
         // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
         let mut largest = f64::NAN;
@@ -275,7 +346,7 @@ impl FloatSuprema {
             let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: errors[*k] };
             largest = largest.max(climb(point, *value, halvings, e != 0.0, &mut value_at));
         }
-        Sampled { value: if kind.is_rate() { -largest } else { largest }, spread: largest - least }
+        [largest, least]
     }
 
     /// xb + (X + r) L y.

@@ -8,7 +8,7 @@ use super::decide::{decide, decide_exact};
 use super::options::Ladder;
 use super::proof::{Decidable, Proof, RepairedProof, SharpProof};
 use crate::search::{
-    FloatModel, RepairedProposal, SharpProposal, active_level, at_sigma, largest_e_repaired, perron_repaired,
+    ByMatrix, FloatModel, RepairedProposal, SharpProposal, active_level, at_sigma, largest_e_repaired, perron_repaired,
     search_exact, weight_h,
 };
 use rug::Rational;
@@ -177,7 +177,10 @@ fn sharp_witness(
         claimed_distances(data, &set, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
     let d_x = at.d_x.max(at.rho * model.c * dist_x);
     let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
-    let RoundedBox { d_x, d_e, w_x, h } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
+    let box_of = |[w_x, h]: [&Rational; 2]| box_with(model, [w_x, h], [d_x / (at.rho * model.c), far[0], far[1]], slack);
+    let given = model.by_matrix.as_ref().and_then(ByMatrix::weights).map(box_of);
+    let RoundedBox { d_x, d_e, w_x, h } =
+        given.unwrap_or_else(|| rounded_box(model, d_x, at.rho, far, at.eta, slack))?;
     let MeanSquares { x: r_x, e: r_e, e_rate: r_d } = existence;
     Some(SharpWitness {
         sigma,
@@ -217,9 +220,7 @@ pub(super) fn rounded_box(
     slack: f64,
 ) -> Option<RoundedBox> {
     let d_x = nearest(d_x, LONG_DIGITS)?;
-    // Enough for rounding, and well below the room that candidates keep.
-    let enlarged = 1.0 + (0.1 * slack).clamp(1e-11, 1e-7);
-    let level = active_level(eta, dist_e, rho) * enlarged;
+    let level = active_level(eta, dist_e, rho) * enlargement(slack);
     let width = d_x.to_f64();
     Some(RoundedBox {
         d_e: nearest(level.sqrt(), LONG_DIGITS)?,
@@ -227,6 +228,24 @@ pub(super) fn rounded_box(
         h: nearest(weight_h(eta, dist_e, dist_z), LONG_DIGITS)?,
         d_x,
     })
+}
+
+/// The same with weights that are given: the least box of their level.
+fn box_with(model: &FloatModel, [w_x, h]: [&Rational; 2], distances: [f64; 3], slack: f64) -> Option<RoundedBox> {
+    let [dist_x, dist_e, dist_z] = distances;
+    let of_x = w_x.to_f64() * model.p_up * dist_x * dist_x;
+    let level = (of_x + dist_e * dist_e + h.to_f64() * dist_z * dist_z) * enlargement(slack);
+    Some(RoundedBox {
+        d_x: nearest((level / (w_x.to_f64() * model.p_low)).sqrt(), LONG_DIGITS)?,
+        d_e: nearest(level.sqrt(), LONG_DIGITS)?,
+        w_x: w_x.clone(),
+        h: h.clone(),
+    })
+}
+
+/// Enough for rounding, and well below the room that candidates keep.
+fn enlargement(slack: f64) -> f64 {
+    1.0 + (0.1 * slack).clamp(1e-11, 1e-7)
 }
 
 /// Rounds a repaired proposal and decides it.
@@ -286,7 +305,10 @@ pub(super) fn exact_claim(data: &Data<'_>, model: &FloatModel, set: &ClaimedSet,
     let dist_z = dist_z.max(1e-6 * model.n_bar * dist_e);
     let at = search_exact(model, [dist_x, dist_e, dist_z]).ok()?;
     SLACKS.iter().find_map(|&slack| {
-        let RoundedBox { d_x, d_e, w_x, h } = rounded_box(model, at.d_x, at.rho, [dist_e, dist_z], at.eta, slack)?;
+        let given = model.by_matrix.as_ref().and_then(ByMatrix::weights);
+        let given = given.map(|weights| box_with(model, weights, [dist_x, dist_e, dist_z], slack));
+        let RoundedBox { d_x, d_e, w_x, h } =
+            given.unwrap_or_else(|| rounded_box(model, at.d_x, at.rho, [dist_e, dist_z], at.eta, slack))?;
         let witness = ExactWitness { sigma: rounded_sigma(at.threshold, slack)?, d_x, d_e, w_x, h, paths: at.paths };
         let evaluation = decide_exact(data.spec, set, &witness, ladder);
         evaluation.truth().is_true().then_some(ExactClaim { witness, evaluation })

@@ -5,7 +5,7 @@
 
 use super::grid::{Grid, RATE, RATE_EXISTENCE, Source};
 use crate::search::{
-    Closest, Descent, FloatModel, Obstacle, SharpProposal, at_sigma, minimise, search_sharp, search_sharp_near,
+    ByMatrix, Closest, Descent, FloatModel, Obstacle, SharpProposal, Threshold, at_sigma, minimise, search_sharp, search_sharp_near,
 };
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
@@ -34,8 +34,16 @@ pub struct Shape<'a> {
     pub second: Option<&'a DMatrix<f64>>,
 }
 
-/// Estimates of the bounds for given coordinates.
-pub type Sampler<'a> = dyn Fn(Shape<'_>, Density) -> Arc<Source> + Sync + 'a;
+/// Estimates for given coordinates.
+pub struct Estimates {
+    /// Of the bounds.
+    pub bounds: Arc<Source>,
+    /// Of the threshold of the matrix inequality.
+    pub threshold: Arc<Threshold>,
+}
+
+/// What estimates.
+pub type Sampler<'a> = dyn Fn(Shape<'_>, Density) -> Estimates + Sync + 'a;
 
 /// What depends on the coordinates beside the bounds: the initial set and the domain.
 pub type Frame<'a> = dyn Fn(&DMatrix<f64>, &FloatModel) -> FloatModel + Sync + 'a;
@@ -66,6 +74,9 @@ const DESCENT: Descent = Descent { restarts: 0, iterations: 40, tolerance: 1e-3 
 const DESCENTS: usize = 3;
 const APART: usize = 3;
 
+/// The share of the rate along the orbit that x keeps in a matrix inequality.
+const KEPT: f64 = 1e-6;
+
 /// How far above a gain the arguments are taken.
 const NEAR: f64 = 1e-9;
 
@@ -87,6 +98,8 @@ pub struct CoordinateSearch<'a> {
     pub units: Box<Units<'a>>,
     /// P_up/P_low of the P in the coordinates y.
     pub ratio: f64,
+    /// Whether stability is sought by a matrix inequality.
+    pub by_matrix: bool,
 }
 
 /// Coordinates, the model in them, and the smallest gain that was found.
@@ -112,14 +125,17 @@ impl CoordinateSearch<'_> {
             Density::Coarse => COARSE,
             Density::Fine => FINE,
         };
-        let source = (self.sampler)(shape, density);
-        let at_origin = source(0.0, 0.0, Asked::ALL);
-        let grid = Grid::new(source, (self.units)(l), ratio);
+        let Estimates { bounds, threshold } = (self.sampler)(shape, density);
+        let at_origin = bounds(0.0, 0.0, Asked::ALL);
+        let grid = Grid::new(bounds, (self.units)(l), ratio);
         let bounds = self.base.with_bounds(grid.functions(second.is_some()));
         let mut model = bounds.with_triple(self.ratio, at_origin[RATE]);
         if let Some(second) = second {
             let values = second.clone().symmetric_eigenvalues();
             model = model.with_existence_triple(values.max() / values.min(), at_origin[RATE_EXISTENCE]);
+        }
+        if self.by_matrix {
+            model.by_matrix = Some(ByMatrix::Sampled { threshold, rate: KEPT * at_origin[RATE] });
         }
         let model = (self.frame)(l, &model);
         if density == Density::Fine { model } else { model.rough() }
@@ -171,10 +187,28 @@ impl CoordinateSearch<'_> {
             Some(single) => single,
             None => self.with(alone(l), Some(&start))?,
         };
+        Ok(self.with_second(single))
+    }
+
+    /// The best choice near a known one: of another search for the same plant.
+    ///
+    /// # Errors
+    /// The obstacle, where no gain is found.
+    pub fn choose_near(&self, l: &DMatrix<f64>, known: &SharpProposal) -> Result<Chosen, Obstacle> {
+        let start = search_sharp_near(&self.model(alone(l), Density::Coarse), known)?;
+        if l.nrows() > MOST_STATES || l.nrows() < 2 {
+            return self.with(alone(l), Some(&start));
+        }
+        let single = self.with(alone(&self.improved(l, &start)), Some(&start))?;
+        Ok(self.with_second(single))
+    }
+
+    /// The choice with a P of existence beside it, where that is worth it.
+    fn with_second(&self, single: Chosen) -> Chosen {
         let worth = |sigma: f64| sigma < single.proposal.sigma * (1.0 - WORTH);
         let second = self.second(&single).filter(|(_, share)| *share < 1.0 - WORTH);
         let pair = second.and_then(|(second, _)| self.together(&single, second));
-        Ok(pair.filter(|pair| worth(pair.proposal.sigma)).unwrap_or(single))
+        pair.filter(|pair| worth(pair.proposal.sigma)).unwrap_or(single)
     }
 
     /// The proposal for given coordinates.
@@ -200,8 +234,8 @@ impl CoordinateSearch<'_> {
         let cost = |s: &[f64]| {
             let second = exponential(n, s);
             let values = second.clone().symmetric_eigenvalues();
-            let rate =
-                (self.sampler)(Shape { l, second: Some(&second) }, Density::Coarse)(x_p, 0.0, asked)[RATE_EXISTENCE];
+            let rate = (self.sampler)(Shape { l, second: Some(&second) }, Density::Coarse);
+            let rate = (rate.bounds)(x_p, 0.0, asked)[RATE_EXISTENCE];
             let model = model.with_existence_triple(values.max() / values.min(), rate).with_rate_of_existence(rate);
             search_sharp_near(&model, proposal).ok().map(|found| found.sigma.portable_ln())
         };

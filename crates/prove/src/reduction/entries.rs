@@ -1,11 +1,11 @@
 //! The arguments at which the sharp derivation uses a bound, and the proof of each value.
 
 use super::refusal::PlantRefusal;
-use crate::search::{AtSigma, PeriodicSet, active_level};
+use crate::search::{AtSigma, ByMatrix, FloatModel, PeriodicSet, active_level, weight_h};
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
-use sigmastar_lang::spec::{Bound, ProvedValue, ProvedValues};
+use sigmastar_lang::spec::{Bound, Constant, MatrixInequality, ProvedValue, ProvedValues};
 use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, TABLE};
 use sigmastar_theory::derivation::paths::Paths;
 
@@ -32,21 +32,50 @@ pub struct Needed {
     paths: Paths,
     /// Whether existence has a rate of its own.
     second: bool,
+    /// The matrix inequality of stability without its threshold, where there is one.
+    inequality: Option<MatrixInequality>,
 }
 
 /// Those of a candidate, enlarged by a share.
-pub(super) fn needed(set: &PeriodicSet, at: &AtSigma, enlarged: f64, second: bool) -> Option<Needed> {
+pub(super) fn needed(
+    model: &FloatModel,
+    set: &PeriodicSet,
+    at: &AtSigma,
+    enlarged: f64,
+    second: bool,
+) -> Option<Needed> {
     let up = |value: f64| round_f64(value * (1.0 + enlarged), DIGITS, Direction::Up).filter(|value| *value >= 0);
-    let d_e = active_level(at.eta, at.dist_e, at.rho).sqrt();
+    let level = active_level(at.eta, at.dist_e, at.rho);
+    let d_e = level.sqrt();
+    let (x_b, e_b) = (up(set.x_per + at.d_x)?, up(set.e_per + d_e)?);
+    let inequality = match &model.by_matrix {
+        Some(ByMatrix::Sampled { rate, .. }) => {
+            let short = |value: f64, digits: u32| round_f64(value, digits, Direction::Nearest);
+            Some(MatrixInequality {
+                x: x_b.clone(),
+                e: e_b.clone(),
+                w_x: short(level / (model.p_low * at.d_x * at.d_x), DIGITS)?,
+                h: short(weight_h(at.eta, at.dist_e, at.dist_z), DIGITS)?,
+                rate: short(*rate, 1)?,
+                value: Rational::new(),
+            })
+        }
+        // Its arguments are enlarged; its weights stay.
+        Some(ByMatrix::Proved(known)) => {
+            Some(MatrixInequality { x: x_b.clone(), e: e_b.clone(), ..known.as_ref().clone() })
+        }
+        None => None,
+    };
     Some(Needed {
         x_p: up(set.x_p)?,
         e_p: up(set.e_p)?,
         x_per: up(set.x_per)?,
         e_per: up(set.e_per)?,
-        x_b: up(set.x_per + at.d_x)?,
-        e_b: up(set.e_per + d_e)?,
+        x_b,
+        e_b,
         paths: at.paths,
         second,
+        inequality,
     })
 }
 
@@ -59,13 +88,15 @@ impl Needed {
 
     /// Which bound is used where (derivation, 11.3).
     fn list(&self) -> Vec<(Bound, Rational, Rational)> {
-        let Needed { x_p, e_p, x_per, e_per, x_b, e_b, paths: Paths { f, q }, second } = self;
+        let Needed { x_p, e_p, x_per, e_per, x_b, e_b, paths: Paths { f, q }, second, inequality } = self;
         let of_existence = if *second { Bound::RateExistence } else { Bound::Rate };
         let zero = Rational::new();
         let mut list = vec![(Bound::Fx, x_p, &zero), (of_existence, x_p, &zero)];
-        list.extend([(Bound::Rate, x_b, f.e_of_dx(e_per, e_b)), (Bound::Fe, f.x_of_de(x_per, x_b), e_b)]);
-        list.push((Bound::Qx, x_b, q.e_of_dx(e_per, e_b)));
-        list.extend([Bound::Qe, Bound::QeMax].map(|bound| (bound, q.x_of_de(x_per, x_b), e_b)));
+        if inequality.is_none() {
+            list.extend([(Bound::Rate, x_b, f.e_of_dx(e_per, e_b)), (Bound::Fe, f.x_of_de(x_per, x_b), e_b)]);
+            list.push((Bound::Qx, x_b, q.e_of_dx(e_per, e_b)));
+            list.extend([Bound::Qe, Bound::QeMax].map(|bound| (bound, q.x_of_de(x_per, x_b), e_b)));
+        }
         list.extend([Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax].map(|bound| (bound, x_p, e_p)));
         list.extend([(Bound::Qtx, x_p, e_p), (Bound::Qte, x_p, e_p)]);
         list.into_iter().map(|(bound, x, e)| (bound, x.clone(), e.clone())).collect()
@@ -80,7 +111,12 @@ pub(super) fn prove_all(
     engine: &Engine,
     suprema: &FloatSuprema,
     needed: &Needed,
+    mu: &Constant,
 ) -> Result<ProvedValues, PlantRefusal> {
+    let inequality = match &needed.inequality {
+        None => None,
+        Some(wanted) => Some(engine.prove_inequality(suprema, wanted, mu).ok_or_else(|| not_proved(wanted))?),
+    };
     let stateless = engine.states() == 0;
     let proofs: Vec<Result<ProvedValue, PlantRefusal>> = needed
         .list()
@@ -97,7 +133,11 @@ pub(super) fn prove_all(
             Ok(ProvedValue { bound, x, e, value, sampled })
         })
         .collect();
-    Ok(ProvedValues::new(proofs.into_iter().collect::<Result<_, _>>()?))
+    Ok(ProvedValues::new(proofs.into_iter().collect::<Result<_, _>>()?).with_inequality(inequality))
+}
+
+fn not_proved(MatrixInequality { x, e, .. }: &MatrixInequality) -> PlantRefusal {
+    PlantRefusal::NotProved { bound: "stability", at: [x.to_f64(), e.to_f64()] }
 }
 
 /// What a small value is multiplied with, so that another program proves it, whose bound of x_0' may be coarser.
@@ -116,7 +156,12 @@ fn smallest(engine: &Engine, bound: Bound, [x, e]: [&Rational; 2]) -> Option<Rat
 ///
 /// # Errors
 /// The first that is not proved.
-pub(super) fn decide_all(engine: &Engine, values: &ProvedValues) -> Result<(), PlantRefusal> {
+pub(super) fn decide_all(engine: &Engine, values: &ProvedValues, mu: &Constant) -> Result<(), PlantRefusal> {
+    if let Some(inequality) = values.inequality()
+        && !engine.decide_inequality(inequality, mu, EFFORT).truth.is_true()
+    {
+        return Err(not_proved(inequality));
+    }
     values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value, .. }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
         if !TABLE.contains(bound) {

@@ -39,6 +39,9 @@ const NEAR: f64 = 1.1;
 /// in its inequalities takes more than the same share of the gain, and the first that has a set is used.
 const ABOVE: [f64; 7] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 
+/// A gain by a matrix inequality is at most this share of that by norms, to be worth its proof.
+const WORTH_A_MATRIX: f64 = 0.99;
+
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
 
@@ -59,13 +62,25 @@ pub struct Reduced {
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
-    with_coordinates(plant, prove_bounds)
+    with_coordinates(plant, |along, sampling, chosen| {
+        let by_matrix = best_by_matrix((along, chosen), sampling).ok().flatten();
+        let by_matrix = by_matrix.and_then(|(along, chosen)| prove_bounds(&along, sampling, &chosen).ok());
+        match by_matrix {
+            Some(found) if found.proposal.sigma < chosen.proposal.sigma => Ok(found),
+            // What norms prove is above the samples.
+            Some(found) => Ok(prove_bounds(along, sampling, chosen)
+                .ok()
+                .filter(|other| other.proposal.sigma < found.proposal.sigma)
+                .unwrap_or(found)),
+            None => prove_bounds(along, sampling, chosen),
+        }
+    })
 }
 
 /// Finds and proves the orbit, chooses the coordinates, and goes on from there.
 pub(super) fn with_coordinates<T>(
     plant: &Plant,
-    prove: impl FnOnce(&Plant, &Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
+    prove: impl FnOnce(&Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     if plant.states() > MAX_STATES {
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
@@ -83,7 +98,7 @@ pub(super) fn with_coordinates<T>(
     let sampling = Sampling::new(plant, &curve, &model);
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
     let by_constant = match constant.is_empty() {
-        false => best_constant(plant, &curve, &constant, &model, &sampling),
+        false => best_constant(&constant, &sampling),
         true => Err(PlantRefusal::NoContraction),
     };
     let moving: Vec<Coordinates> =
@@ -92,12 +107,12 @@ pub(super) fn with_coordinates<T>(
         Ok(found) => found,
         // Where no constant P leads to a gain, one that moves may.
         Err(_) if !moving.is_empty() => {
-            let (coordinates, chosen) = best_periodic(plant, &curve, &moving, &model, &sampling)?;
+            let (coordinates, chosen) = best_periodic(&moving, &sampling)?;
             (along(plant, &curve, &coordinates)?, chosen)
         }
         Err(refusal) => return Err(refusal),
     };
-    prove(plant, &base, &sampling, &chosen)
+    prove(&base, &sampling, &chosen)
 }
 
 /// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger
@@ -107,24 +122,43 @@ fn trade_off(data: &Data<'_>) -> TradeOff {
 }
 
 /// The best coordinates for a constant P, and a P of existence where one helps; rounded, and proved along the orbit.
-fn best_constant(
-    plant: &Plant,
-    curve: &TrigonometricVector,
-    candidates: &[&Coordinates],
-    model: &FloatModel,
-    sampling: &Sampling<'_>,
-) -> Result<(Along, Chosen), PlantRefusal> {
+fn best_constant(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result<(Along, Chosen), PlantRefusal> {
     let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
     let matrices: Vec<DMatrix<f64>> = candidates.iter().map(|candidate| float_matrix(&candidate.l)).collect();
+    with_constant(&first.p, sampling, false, |search| search.choose(&matrices))
+}
+
+/// The best coordinates near a choice, and the gain with them, where stability is proved by a matrix inequality; none where P moves,
+/// and where the gain is not smaller by what is worth it.
+fn best_by_matrix(
+    (along, chosen): (&Along, &Chosen),
+    sampling: &Sampling<'_>,
+) -> Result<Option<(Along, Chosen)>, PlantRefusal> {
+    let p = &along.coordinates.p;
+    if !p.harmonics.is_empty() {
+        return Ok(None);
+    }
+    let found = with_constant(p, sampling, true, |search| search.choose_near(&chosen.l, &chosen.proposal))?;
+    Ok(Some(found).filter(|(_, found)| found.proposal.sigma < chosen.proposal.sigma * WORTH_A_MATRIX))
+}
+
+/// A choice for the constant P that is given, rounded, and proved along the orbit.
+fn with_constant(
+    p: &PeriodicMatrix,
+    sampling: &Sampling<'_>,
+    by_matrix: bool,
+    choose: impl FnOnce(&CoordinateSearch<'_>) -> Result<Chosen, Obstacle>,
+) -> Result<(Along, Chosen), PlantRefusal> {
+    let (plant, curve) = (sampling.plant, sampling.curve);
     let sampler = |Shape { l, second }: Shape<'_>, density: Density| {
         let second = second.and_then(rational_symmetric);
-        sampling.source(l, [None, second.as_ref()], density)
+        sampling.estimates(l, [None, second.as_ref()], density)
     };
-    let search = search(model, plant, sampling, &sampler, 1.0);
-    let chosen = search.choose(&matrices).map_err(PlantRefusal::NoGain)?;
+    let search = CoordinateSearch { by_matrix, ..search(sampling, &sampler, 1.0) };
+    let chosen = choose(&search).map_err(PlantRefusal::NoGain)?;
     let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], Density::Rough)(0.0, 0.0, Asked::ALL);
     let l = rational_matrix(&chosen.l, at_origin).ok_or(PlantRefusal::NoContraction)?;
-    let coordinates = Coordinates { l, p: first.p.clone(), rate: f64::NAN };
+    let coordinates = Coordinates { l, p: p.clone(), rate: f64::NAN };
     let mut base = along(plant, curve, &coordinates)?;
     // The rounded L, which is L times a rotation, is the one that counts.
     let rounded = float_matrix(&coordinates.l);
@@ -143,16 +177,11 @@ fn best_constant(
     Ok((base, chosen))
 }
 
-fn search<'a>(
-    model: &'a FloatModel,
-    plant: &'a Plant,
-    sampling: &'a Sampling<'a>,
-    sampler: &'a Sampler<'a>,
-    ratio: f64,
-) -> CoordinateSearch<'a> {
-    let frame = |l: &DMatrix<f64>, model: &FloatModel| in_frame(plant, l, model);
+fn search<'a>(sampling: &'a Sampling<'a>, sampler: &'a Sampler<'a>, ratio: f64) -> CoordinateSearch<'a> {
+    let frame = |l: &DMatrix<f64>, model: &FloatModel| in_frame(sampling.plant, l, model);
     let units = |l: &DMatrix<f64>| sampling.units(l);
-    CoordinateSearch { base: model, sampler, frame: Box::new(frame), units: Box::new(units), ratio }
+    let (frame, units) = (Box::new(frame), Box::new(units));
+    CoordinateSearch { base: sampling.model, sampler, frame, units, ratio, by_matrix: false }
 }
 
 /// The initial set and the domain in the norm of y.
@@ -172,16 +201,13 @@ fn in_frame(plant: &Plant, l: &DMatrix<f64>, model: &FloatModel) -> FloatModel {
 
 /// The best of the candidates with a P(t).
 fn best_periodic(
-    plant: &Plant,
-    curve: &TrigonometricVector,
     candidates: &[Coordinates],
-    model: &FloatModel,
     sampling: &Sampling<'_>,
 ) -> Result<(Coordinates, Chosen), PlantRefusal> {
     let mut best: Option<(Coordinates, Chosen)> = None;
     let mut failure = PlantRefusal::NoContraction;
     for candidate in candidates {
-        let proved = match prove_orbit(plant, curve, candidate) {
+        let proved = match prove_orbit(sampling.plant, sampling.curve, candidate) {
             Ok(proved) => proved,
             Err(error) => {
                 failure = PlantRefusal::OrbitNotProved(error);
@@ -190,8 +216,8 @@ fn best_periodic(
         };
         let ratio = Rational::from(&proved.p_up / &proved.p_low).to_f64();
         let sampler =
-            |Shape { l, .. }: Shape<'_>, density: Density| sampling.source(l, [Some(&candidate.p), None], density);
-        let search = search(model, plant, sampling, &sampler, ratio);
+            |Shape { l, .. }: Shape<'_>, density: Density| sampling.estimates(l, [Some(&candidate.p), None], density);
+        let search = search(sampling, &sampler, ratio);
         match search.with(Shape { l: &float_matrix(&candidate.l), second: None }, None) {
             Ok(chosen) if best.as_ref().is_none_or(|(_, known)| chosen.proposal.sigma < known.proposal.sigma) => {
                 best = Some((candidate.clone(), chosen));
@@ -297,12 +323,8 @@ pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, Float
 }
 
 /// Proves the bounds at the arguments of a proposal, looks for the best proposal with them, and once more near its arguments.
-fn prove_bounds(
-    plant: &Plant,
-    along: &Along,
-    sampling: &Sampling<'_>,
-    chosen: &Chosen,
-) -> Result<Reduced, PlantRefusal> {
+fn prove_bounds(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
+    let plant = sampling.plant;
     let proofs = Proofs { plant, along, engine: along.engine(plant)?, suprema: along.suprema(sampling) };
     let (model, proposal) = (&chosen.model, &chosen.proposal);
     let (mut best, mut closest): (Option<(FloatModel, Reduced)>, _) = (None, Closest::default());
@@ -353,7 +375,8 @@ impl Proofs<'_> {
         let at = arguments(model, proposal, above, enlarged, self.along.second().is_some())?;
         let [x, e] = at.largest();
         self.engine.smooth(&x, &e)?;
-        let spec = self.along.specification(self.plant, prove_all(&self.engine, &self.suprema, &at)?)?;
+        let values = prove_all(&self.engine, &self.suprema, &at, &self.plant.internal_model.mu)?;
+        let spec = self.along.specification(self.plant, values)?;
         let data = Data::new(&spec, PRECISION);
         let with_values = FloatModel::new(&data, trade_off(&data));
         Ok(search_sharp_near(&with_values, proposal).map(|proposal| (with_values, Reduced { spec, proposal })))
@@ -379,7 +402,7 @@ fn arguments(
     let mut last = PlantRefusal::NoGain(Failing::NotFinite(None).into());
     for little in ABOVE {
         match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above + little), ABOVE[0]) {
-            Ok((set, at)) => return needed(&set, &at, enlarged, second).ok_or(last),
+            Ok((set, at)) => return needed(model, &set, &at, enlarged, second).ok_or(last),
             Err(obstacle) => last = PlantRefusal::NoGain(obstacle),
         }
     }
@@ -426,6 +449,6 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
     if let Some([x, e]) = values.reach() {
         engine.smooth(&x, &e)?;
     }
-    decide_all(&engine, &values)?;
+    decide_all(&engine, &values, &plant.internal_model.mu)?;
     along.specification(plant, values)
 }

@@ -55,7 +55,7 @@ pub fn reduce_sampled(
 /// # Errors
 /// What could not be proved or found of those.
 pub fn with_sampled_pairs<T>(plant: &Plant, with: impl FnOnce(&SampledPairs<'_>) -> T) -> Result<T, PlantRefusal> {
-    with_coordinates(plant, |plant, along, sampled, chosen| {
+    with_coordinates(plant, |along, sampled, chosen| {
         SampledPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
     })
 }
@@ -116,11 +116,11 @@ impl<'p> SampledPairs<'p> {
             if only_without && best.is_some() {
                 break;
             }
-            let at = needed(&set, &at, enlarged, self.along.second().is_some())
+            let at = needed(&self.chosen.model, &set, &at, enlarged, self.along.second().is_some())
                 .ok_or(PlantRefusal::NoGain(Failing::NotFinite(None).into()))?;
             let [x, e] = at.largest();
             engine.smooth(&x, &e)?;
-            let values = match prove_all(&engine, &suprema, &at) {
+            let values = match prove_all(&engine, &suprema, &at, &self.plant.internal_model.mu) {
                 Ok(values) => values,
                 Err(error) => {
                     refusal = error;

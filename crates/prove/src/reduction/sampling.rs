@@ -1,8 +1,8 @@
 //! Sampled suprema of a plant's derivatives as a search takes them.
 
-use super::coordinates::Density;
+use super::coordinates::{Density, Estimates};
 use super::grid::{RATE, Source, Values};
-use crate::search::FloatModel;
+use crate::search::{FloatModel, Threshold};
 use nalgebra::DMatrix;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -21,8 +21,10 @@ const LOST: f64 = 1e-3;
 
 /// The suprema along one orbit, for any coordinates.
 pub(super) struct Sampling<'a> {
-    plant: &'a Plant,
-    curve: &'a TrigonometricVector,
+    pub(super) plant: &'a Plant,
+    pub(super) curve: &'a TrigonometricVector,
+    /// The model, but for what depends on the coordinates.
+    pub(super) model: &'a FloatModel,
     /// Of |e|.
     unit_e: f64,
     /// X_0 and E_0 that were asked for; 0 where none was.
@@ -31,13 +33,13 @@ pub(super) struct Sampling<'a> {
 
 impl<'a> Sampling<'a> {
     /// The ordinary size of e is what q makes of it over a period, or the initial set.
-    pub(super) fn new(plant: &'a Plant, curve: &'a TrigonometricVector, model: &FloatModel) -> Sampling<'a> {
+    pub(super) fn new(plant: &'a Plant, curve: &'a TrigonometricVector, model: &'a FloatModel) -> Sampling<'a> {
         let known = model.q_0.as_ref();
         let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());
         let [x_0, e_0] = model.set.given().map(|size| size.copied().unwrap_or(0.0));
         let by_forcing = 0.1 * squares.sqrt() * model.period;
         let unit_e = [e_0, by_forcing].into_iter().fold(0.0, f64::max);
-        Sampling { plant, curve, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
+        Sampling { plant, curve, model, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
     }
 
     /// Ordinary sizes of |y| and |e|.
@@ -59,28 +61,41 @@ impl<'a> Sampling<'a> {
         FloatSuprema::new(self.plant, FloatCurve::from(self.curve), rows(l), [Some(p.unwrap_or(&identity)), second])
     }
 
-    /// The same as a function of (X, E).
-    pub(super) fn source(
+    /// The same as functions of (X, E).
+    pub(super) fn estimates(
         &self,
         l: &DMatrix<f64>,
         matrices: [Option<&PeriodicMatrix>; 2],
         density: Density,
-    ) -> Arc<Source> {
-        let suprema = self.suprema(l, matrices);
+    ) -> Estimates {
+        let suprema = Arc::new(self.suprema(l, matrices));
         let stride = match density {
             Density::Rough => 6,
             Density::Coarse => 3,
             Density::Fine => 1,
         };
         let stateless = l.nrows() == 0;
-        Arc::new(move |x, e, asked| -> Values {
+        let of_inequality = suprema.clone();
+        let bounds: Arc<Source> = Arc::new(move |x, e, asked| -> Values {
             let mut values: Values = suprema.survey(x, e, stride, asked);
             if stateless {
                 // Without states every rate is as good as any other.
                 values[RATE] = 1.0;
             }
             values
-        })
+        });
+        let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_inequality.threshold(at, stride, weights));
+        Estimates { bounds, threshold }
+    }
+
+    /// Those of the bounds.
+    pub(super) fn source(
+        &self,
+        l: &DMatrix<f64>,
+        matrices: [Option<&PeriodicMatrix>; 2],
+        density: Density,
+    ) -> Arc<Source> {
+        self.estimates(l, matrices, density).bounds
     }
 }
 

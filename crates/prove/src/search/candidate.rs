@@ -86,12 +86,7 @@ impl Shape {
         let level = active_level(eta, dist_e, rho);
         let d_e = level.sqrt();
         let (x_b, e_b) = (x_per + d_x, e_per + d_e);
-        if x_b > model.domain.0 * (1.0 - 1e-7) {
-            return Err(Failing::DomainX.at(x_b, e_b));
-        }
-        if e_b > model.domain.1 * (1.0 - 1e-7) {
-            return Err(Failing::DomainE.at(x_b, e_b));
-        }
+        model.contains([x_b, e_b])?;
         let (w_x, weight) = (level / (model.p_low * d_x * d_x), weight_h(eta, dist_e, dist_z));
         let mut closest = Closest::default();
         let mut best: Option<AtSigma> = None;
@@ -122,6 +117,9 @@ pub fn error_box(
     rho: f64,
     eta: f64,
 ) -> Result<AtSigma, Obstacle> {
+    if let Some(by_matrix) = &model.by_matrix {
+        return by_matrix.error_box(model, periodic, distances, (rho, eta));
+    }
     let [_, dist_e, dist_z] = distances;
     Shape::best(model, periodic, distances, (rho, eta), |Shape { d_x, w_x, weight, paths, error_box }| {
         let decay = DecayCondition::new(model, &error_box, &w_x, &weight);

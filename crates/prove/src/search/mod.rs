@@ -4,6 +4,7 @@
 //! that order, so that the number of threads does not change the result.
 
 mod binding;
+mod by_matrix;
 mod candidate;
 mod decay;
 mod effort;
@@ -24,6 +25,7 @@ mod sharp;
 mod smaller_set;
 
 pub use binding::Binding;
+pub use by_matrix::{ByMatrix, Threshold};
 pub use candidate::{AtSigma, active_level, weight_h};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;

@@ -1,5 +1,6 @@
 //! The specification in floating point, for searches only.
 
+use super::by_matrix::ByMatrix;
 use super::effort::Effort;
 use super::float_bound::FloatBound;
 use super::obstacle::{Extreme, Failing, Obstacle};
@@ -9,6 +10,9 @@ use sigmastar_theory::derivation::initial_set::paper_z0;
 use sigmastar_theory::transfer::TradeOff;
 use std::ops::Deref;
 use std::sync::Arc;
+
+/// How far inside of the domain an error box stays, so that rounding does not lead beyond.
+const INSIDE: f64 = 1.0 - 1e-7;
 
 /// A datum of the specification whose influence on sigma* is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,6 +110,8 @@ pub struct FloatModel {
     bounds: Vec<ScaledBound>,
     /// Whether what is found with it is only compared.
     rough: bool,
+    /// What stands in the place of C5, if anything.
+    pub by_matrix: Option<ByMatrix>,
 }
 
 impl Deref for FloatModel {
@@ -169,6 +175,10 @@ impl FloatModel {
                 })
                 .collect(),
             rough: false,
+            by_matrix: {
+                let inequality = spec.bounds.proved_values().inequality();
+                inequality.map(|inequality| ByMatrix::Proved(Arc::new(inequality.clone())))
+            },
         }
     }
 
@@ -208,6 +218,20 @@ impl FloatModel {
     pub fn effort(&self) -> Effort {
         let effort = Effort::new(self.functions().map(FloatBound::operations).sum());
         if self.rough { effort.rough() } else { effort }
+    }
+
+    /// That an error box lies in the domain.
+    ///
+    /// # Errors
+    /// The side on which it reaches out.
+    pub(super) fn contains(&self, [x, e]: [f64; 2]) -> Result<(), Obstacle> {
+        if x > self.domain.0 * INSIDE {
+            return Err(Failing::DomainX.at(x, e));
+        }
+        if e > self.domain.1 * INSIDE {
+            return Err(Failing::DomainE.at(x, e));
+        }
+        Ok(())
     }
 
     /// That every number, and every bounding function at X = E = 0, is one that doubles can work with.

@@ -3,6 +3,7 @@
 use super::condition::{self, Condition};
 use super::harmonics;
 use super::initial_set::{ClaimedSet, claimed_distances};
+use super::matrix_inequality;
 use super::paths::Paths;
 use super::sharp::one_sided;
 use super::stability::{DecayCondition, ErrorBox, level_condition};
@@ -93,10 +94,18 @@ impl ExactEvaluation {
             ));
         }
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
-        conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
+        let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
+        if inequality.is_none() {
+            conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
+        }
         let [dist_x, dist_e, dist_z] = claimed_distances(data, set, [&data.zero(), &data.zero(), &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));
+        if let Some(inequality) = inequality {
+            let of = "exact regulation: ";
+            conditions.extend(matrix_inequality::conditions(data, inequality, &error_box, &sigma, of));
+            return ExactEvaluation { z, conditions };
+        }
         conditions.push(Condition::less(
             "C5",
             "exact regulation: (h/mu) k_x^2 < 4 w_x a_2",

@@ -13,6 +13,7 @@ pub mod gains;
 pub mod harmonics;
 pub mod initial_set;
 pub mod lyapunov_matrix;
+pub mod matrix_inequality;
 pub mod mean_squares;
 pub mod paths;
 pub mod printed;

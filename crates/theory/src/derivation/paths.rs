@@ -67,6 +67,9 @@ impl Paths {
     /// Those of a certificate that names none.
     pub const UNNAMED: Paths = Paths { f: Path::StateFirst, q: Path::Straight };
 
+    /// Both at once, for both: what (M) needs.
+    pub const STRAIGHT: Paths = Paths { f: Path::Straight, q: Path::Straight };
+
     /// The pairs that a search chooses from.
     pub fn choice() -> impl Iterator<Item = Paths> {
         Path::CHOICE.into_iter().flat_map(|f| Path::CHOICE.into_iter().map(move |q| Paths { f, q }))
@@ -80,8 +83,6 @@ mod tests {
     use crate::derivation::stability::{ErrorBox, Sector};
     use proptest::prelude::*;
     use sigmastar_lang::spec::Specification;
-
-    const STRAIGHT: Paths = Paths { f: Path::Straight, q: Path::Straight };
 
     /// The paper's numbers, with P = 1.
     fn numbers(alpha: f64) -> Numbers<f64> {
@@ -133,7 +134,7 @@ mod tests {
         ) {
             let problem = Nondecreasing { numbers: numbers(3.0), terms, rate };
             let (periodic, radii) = (periodic.each_ref(), radii.each_ref());
-            let straight = ErrorBox::new(&problem, STRAIGHT, periodic, radii);
+            let straight = ErrorBox::new(&problem, Paths::STRAIGHT, periodic, radii);
             let mut seen = Vec::new();
             for (paths, of_path) in ErrorBox::on_paths(&problem, periodic, radii) {
                 seen.push(paths);

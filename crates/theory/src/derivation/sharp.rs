@@ -5,6 +5,7 @@ use super::consequences::Excitation;
 use super::contraction::ContractionMatrix;
 use super::harmonics::AtOrigin;
 use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
+use super::matrix_inequality;
 use super::mean_squares::{
     DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, at_the_solution,
     sup_by_mean_squares,
@@ -95,8 +96,10 @@ pub struct SharpEvaluation {
     pub contraction: ContractionMatrix<Enclosure>,
     /// The error box.
     pub error_box: ErrorBox<Enclosure>,
-    /// C5.
+    /// C5 by norms, of which nothing is asked where there is a matrix inequality.
     pub decay: DecayCondition<Enclosure>,
+    /// The threshold of sigma by a matrix inequality, where there is one for the weights of the witness (derivation, 13.7).
+    pub by_matrix: Option<Enclosure>,
     /// All conditions in order.
     pub conditions: Vec<Condition>,
 }
@@ -143,26 +146,40 @@ impl SharpEvaluation {
             start,
             exit,
         ));
-        conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
-        conditions.push(Condition::less(
-            "C5",
-            "(h/mu) k_x^2 < 4 w_x a_2",
-            decay.coupling.clone(),
-            decay.curvature.clone(),
-        ));
-        conditions.push(Condition::less(
-            "C5b",
-            "threshold of the quadratic form < sigma",
-            decay.sigma_threshold.clone(),
-            sigma.clone(),
-        ));
+        let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
+        match inequality {
+            Some(inequality) => conditions.extend(matrix_inequality::conditions(data, inequality, &error_box, &sigma, "")),
+            None => {
+                conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
+                conditions.extend(by_norms_conditions(&decay, &sigma));
+            }
+        }
+        let by_matrix = inequality.map(|inequality| number(&inequality.value));
         let contraction = uniqueness::contraction(data, &bounds, &gains);
         let excitation = Excitation {
             q_rms: periodic.forcing.q_rms.clone(),
             q_rate_rms: periodic.forcing.q_rate_rms.clone(),
             x_gain: bounds.x_gain.clone(),
         };
-        SharpEvaluation { sigma, bounds, squares, periodic, excitation, z, contraction, error_box, decay, conditions }
+        SharpEvaluation {
+            sigma,
+            bounds,
+            squares,
+            periodic,
+            excitation,
+            z,
+            contraction,
+            error_box,
+            decay,
+            by_matrix,
+            conditions,
+        }
+    }
+
+    /// What sigma must exceed for stability.
+    #[must_use]
+    pub fn threshold(&self) -> &Enclosure {
+        self.by_matrix.as_ref().unwrap_or(&self.decay.sigma_threshold)
     }
 
     /// The truth of all conditions together.
@@ -170,6 +187,16 @@ impl SharpEvaluation {
     pub fn truth(&self) -> Truth {
         condition::all(&self.conditions)
     }
+}
+
+/// C5 by norms.
+fn by_norms_conditions(decay: &DecayCondition<Enclosure>, sigma: &Enclosure) -> [Condition; 2] {
+    let (coupling, curvature) = (decay.coupling.clone(), decay.curvature.clone());
+    let what = "threshold of the quadratic form < sigma";
+    [
+        Condition::less("C5", "(h/mu) k_x^2 < 4 w_x a_2", coupling, curvature),
+        Condition::less("C5b", what, decay.sigma_threshold.clone(), sigma.clone()),
+    ]
 }
 
 /// The signs of the witness: all numbers are positive, kap may be 0.
