@@ -244,7 +244,7 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     }
     let label = "section 4, C2 and C3 with beta, K_alpha";
     row("sigma_p*", [None, r.map(|(_, r)| (sigma_p(d, &r.existence), true, label)), None]);
-    let threshold = sound(&s.threshold, "section 5, C5");
+    let threshold = sound(&s.threshold, if w.inequality.is_some() { "section 13.7, (M)" } else { "section 5, C5" });
     row("sigma_a*", [None, r.and_then(|(_, r)| sound(&r.sigma_a, "section 5")), threshold]);
     for (i, (name, size)) in w.free.set.named().enumerate() {
         let covered = |size: &Rational| sound(&d.number(size), "section 5, the set that is covered");

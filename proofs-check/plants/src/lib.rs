@@ -9,6 +9,7 @@ pub mod bounds;
 mod derivative;
 pub mod formula;
 pub mod harmonics;
+pub mod inequality;
 pub mod jacobian;
 pub mod machine;
 pub mod model;
@@ -26,8 +27,9 @@ pub mod time;
 
 use machine::{Cell, Machine, Values};
 use model::{Frame, Model};
-use proofs_core::interval::Interval;
+use proofs_core::interval::{Interval, above};
 use proofs_core::plant::entries;
+use proofs_core::rules::inequality::Inequality;
 use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, Verdict, demand, finding};
 use question::{Answer, Question};
@@ -40,6 +42,8 @@ use std::rc::Rc;
 const PRECISION: u32 = 64;
 /// Those of Taylor arithmetic and of the Jacobian over time, each tried where the one before does not decide.
 const TAYLOR_PRECISIONS: [u32; 2] = [128, 320];
+/// The precision, in bits, at which the ends of a region are rounded up.
+const ARGUMENT_PRECISION: u32 = 128;
 /// How many cells of t there are for the bound of the drift.
 const DRIFT_CELLS_LOG: u32 = 6;
 
@@ -52,8 +56,15 @@ struct Asked {
     what: String,
 }
 
-/// Proves everything that section 11 demands of the formulas; `arguments`: the largest X and E at which they are used.
-pub fn prove(spec: &Specification, plant: &Plant, arguments: [&Float; 2], lines: &mut Vec<String>) -> Outcome<()> {
+/// Proves everything that section 11 demands of the formulas, and the inequality of section 13.7 where stability rests on one;
+/// `arguments`: the largest X and E at which they are used.
+pub fn prove(
+    spec: &Specification,
+    plant: &Plant,
+    arguments: [&Float; 2],
+    inequality: Option<&Inequality>,
+    lines: &mut Vec<String>,
+) -> Outcome<()> {
     for formula in plant.f.iter().chain([&plant.q]) {
         let what = "t occurs only inside sin, cos and tan, as A t + B with A period/(2 pi) a whole number";
         demand(
@@ -75,6 +86,7 @@ pub fn prove(spec: &Specification, plant: &Plant, arguments: [&Float; 2], lines:
     for entry in &plant.known.entries.list {
         asked.push(of_entry(plant, &mut model, entry));
     }
+    asked.extend(inequality.map(|inequality| of_inequality(plant, &mut model, inequality, spec)));
     let still = still::Still::new(plant);
     if model.formulas.is_too_large() {
         return too_large("formulas", "/plant");
@@ -90,7 +102,8 @@ pub fn prove(spec: &Specification, plant: &Plant, arguments: [&Float; 2], lines:
     let mut machine = Machine::new(&model.formulas, &curves, &om);
     let root = machine.period(&period);
     let mut values = machine.values();
-    let count = smoothness(plant, &model, &machine, &root, arguments, &mut values)?;
+    let used = largest(plant, arguments, inequality);
+    let count = smoothness(plant, &model, &machine, &root, used.each_ref(), &mut values)?;
     lines.push(format!("formulas: smooth where they are used, by {count} boxes"));
     if plant.states() > 0 {
         let cells = at_rising_precision(|p| {
@@ -161,6 +174,34 @@ fn of_entry(plant: &Plant, model: &mut Model, entry: &entries::Entry) -> Asked {
     }
 }
 
+fn of_inequality(plant: &Plant, model: &mut Model, inequality: &Inequality, spec: &Specification) -> Asked {
+    let [x, e] = place(inequality);
+    Asked {
+        question: inequality::question(model, inequality, &spec.mu),
+        region: region(plant, &x, &e),
+        rule: inequality::RULE,
+        pointer: inequality.pointer.clone(),
+        what: format!("F >= 0 at X = {}, E = {}", x.to_f64(), e.to_f64()),
+    }
+}
+
+/// X and E of an inequality, rounded up.
+fn place(inequality: &Inequality) -> [Float; 2] {
+    [&inequality.x, &inequality.e].map(|end| above(end, ARGUMENT_PRECISION))
+}
+
+/// The largest X and E that anything is used at.
+fn largest(plant: &Plant, arguments: [&Float; 2], inequality: Option<&Inequality>) -> [Float; 2] {
+    let mut largest = plant.known.entries.largest();
+    let others = [arguments.map(Clone::clone)].into_iter().chain(inequality.map(place));
+    for (end, other) in others.flat_map(|other| [0, 1].map(|i| (i, other[i].clone()))) {
+        if other > largest[end] {
+            largest[end] = other;
+        }
+    }
+    largest
+}
+
 fn end(value: &Float) -> Interval {
     Interval::new(value.clone(), value.clone()).round(PRECISION)
 }
@@ -181,11 +222,10 @@ fn smoothness(
     model: &Model,
     machine: &Machine<'_>,
     root: &Rc<Cell>,
-    arguments: [&Float; 2],
+    used: [&Float; 2],
     values: &mut Values,
 ) -> Outcome<usize> {
-    let largest = plant.known.entries.largest();
-    let [x, e] = [0, 1].map(|i| if *arguments[i] > largest[i] { arguments[i] } else { &largest[i] });
+    let [x, e] = used;
     let whole = region(plant, x, e);
     let count = smooth::prove(&model.formulas, &model.demands, "/plant", machine, root, &whole, values)?;
     let tube_region = Region { shape: Shape::Ball(tube(plant)), output: Interval::int(0, PRECISION), ..whole };

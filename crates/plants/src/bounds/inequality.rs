@@ -83,8 +83,7 @@ impl Engine {
     ) -> Option<MatrixInequality> {
         let MatrixInequality { x, e, w_x, h, rate, .. } = inequality;
         let at = [Rational::from(x + self.region.radius()).to_f64(), e.to_f64()];
-        let weights =
-            FloatWeights { w_x: w_x.to_f64(), k_p: 2.0 * h.to_f64() / mu.to_f64(), rate: rate.to_f64() };
+        let weights = FloatWeights { w_x: w_x.to_f64(), k_p: 2.0 * h.to_f64() / mu.to_f64(), rate: rate.to_f64() };
         let sampled = samples.refined_threshold(at, weights);
         ATTEMPTS.into_iter().find_map(|(slack, effort)| {
             let value = round_f64(sampled * (1.0 + slack), DIGITS, Direction::Up)?;
@@ -122,10 +121,13 @@ impl Form {
             entries.extend(decay.entries.into_iter().map(|(i, j, value)| (i, j, frame.scale(&value, &self.w_x))));
             let columns: Vec<Vec<Centred>> = columns.into_iter().map(|mut row| row.split_off(n)).collect();
             let moved = values.times_p(&columns)?;
-            entries.extend(moved.into_iter().enumerate().map(|(i, value)| (i, n, negated(&frame.scale(&value, &self.w_x)))));
+            entries.extend(
+                moved.into_iter().enumerate().map(|(i, value)| (i, n, negated(&frame.scale(&value, &self.w_x)))),
+            );
         }
         entries.push((n, n, constant(&(&self.value * 2))));
-        entries.extend(row.iter().enumerate().map(|(i, value)| (i, n + 1, negated(&frame.scale(value, &self.half_k_p)))));
+        entries
+            .extend(row.iter().enumerate().map(|(i, value)| (i, n + 1, negated(&frame.scale(value, &self.half_k_p)))));
         let slope = frame.add(&constant(&Enclosure::one(PRECISION)), &frame.scale(&d[0], &self.half_k_p));
         entries.push((n, n + 1, negated(&slope)));
         entries.push((n + 1, n + 1, constant(&(&self.half_k_p * 2))));

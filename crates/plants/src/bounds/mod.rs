@@ -44,7 +44,7 @@ pub use prove_value::ProvedValue;
 pub use region::{Region, RegionError};
 pub use sampled_threshold::FloatWeights;
 pub use smooth::SmoothnessFailure;
-pub use suprema::{FloatCurve, FloatSuprema};
+pub use suprema::{FloatCurve, FloatSuprema, Places};
 
 /// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.
 const PRECISION: u32 = 64;

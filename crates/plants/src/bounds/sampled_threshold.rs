@@ -1,7 +1,7 @@
 //! The least sigma of the matrix inequality (M) at sampled points, in doubles: it proposes, and nothing rests on it.
 
 use super::pointwise::MatrixAt;
-use super::suprema::FloatSuprema;
+use super::suprema::{FloatSuprema, Places};
 
 /// The free numbers of (M) in doubles (derivation, 13.7).
 #[derive(Clone, Copy, Debug)]
@@ -16,13 +16,31 @@ pub struct FloatWeights {
 
 impl FloatSuprema {
     /// The least sigma at which F of [`Engine::decide_inequality`](super::Engine::decide_inequality) is positive semidefinite at
-    /// the points of the grid, every `stride`-th time, with P = 1: half of `b' G^-1 b` for the column b that e has beside its
+    /// points of the grid, with P = 1: half of `b' G^-1 b` for the column b that e has beside its
     /// diagonal, and G what F is without e. Infinite where G is not positive definite at one of them; not a number where P is not
     /// the identity.
     #[must_use]
-    pub fn threshold(&self, at: [f64; 2], stride: usize, weights: FloatWeights) -> f64 {
+    pub fn threshold(&self, at: [f64; 2], places: &Places, weights: FloatWeights) -> f64 {
+        let mut largest = f64::NEG_INFINITY;
+        self.thresholds_at_points(at, places, weights, |_, value| {
+            // Where a value is undefined, so is the supremum.
+            largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
+        });
+        largest
+    }
+
+    /// Calls `see` with every place and the least sigma there.
+    pub(super) fn thresholds_at_points(
+        &self,
+        at: [f64; 2],
+        places: &Places,
+        weights: FloatWeights,
+        mut see: impl FnMut([usize; 3], f64),
+    ) {
         let mut form = Form::new(self.order());
-        self.largest_of_derivatives(at, stride, |derivatives, matrix| form.threshold(derivatives, matrix, weights))
+        self.derivatives_at_points(at, places, |place, derivatives, matrix| {
+            see(place, form.threshold(derivatives, matrix, weights));
+        });
     }
 
     /// The same by a longer search.
@@ -103,7 +121,8 @@ mod tests {
     /// F = [[2 sigma, -1 - kp d/2], [., kp]].
     #[test]
     fn without_states() {
-        let found = Form::new(0).threshold(&Derivatives { j: &[], g: &[], r: &[], d: 3.0 }, &MatrixAt::Missing, WEIGHTS);
+        let found =
+            Form::new(0).threshold(&Derivatives { j: &[], g: &[], r: &[], d: 3.0 }, &MatrixAt::Missing, WEIGHTS);
         assert!((found - (1.0_f64 + 1.95).powi(2) / 2.6).abs() < 1e-14);
     }
 
@@ -120,8 +139,11 @@ mod tests {
         assert!(determinant(found).abs() < 1e-12 && determinant(1.01 * found) > 1e-3, "{found}");
         let grows = threshold(&[-0.05], &[0.4], &[0.3], -0.5, WEIGHTS);
         assert_eq!(grows, f64::INFINITY);
-        let moving = Form::new(1)
-            .threshold(&Derivatives { j: &[-2.0], g: &[0.4], r: &[0.3], d: 0.0 }, &MatrixAt::Missing, WEIGHTS);
+        let moving = Form::new(1).threshold(
+            &Derivatives { j: &[-2.0], g: &[0.4], r: &[0.3], d: 0.0 },
+            &MatrixAt::Missing,
+            WEIGHTS,
+        );
         assert!(moving.is_nan());
     }
 

@@ -2,7 +2,7 @@
 
 use super::entry::{TABLE, of_table};
 use super::pointwise::{Asked, MatrixAt, Pointwise, roots};
-use super::sampled_threshold::Derivatives;
+use super::sampled_threshold::{Derivatives, FloatWeights};
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
@@ -21,6 +21,9 @@ const MOVES: u32 = 4;
 
 /// The first step of the local search, in coordinates of the cube.
 const FIRST_STEP: f64 = 0.15;
+
+/// So many times more points are listed for the threshold of the matrix inequality, which all derivatives enter.
+const OF_THRESHOLD: usize = 6;
 
 /// The best points from which a fine local search starts.
 const STARTS: usize = 6;
@@ -42,8 +45,20 @@ impl From<&TrigonometricVector> for FloatCurve {
     }
 }
 
-/// The strides in time and in the ball, and the shares of E that are looked at.
-type Steps = ([usize; 2], &'static [f64]);
+/// The shares of E that are looked at.
+const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
+
+/// A place in the grid: of the time, of the point of the ball, and of the share of E.
+type Place = [usize; 3];
+
+/// Which points of the grid are looked at.
+#[derive(Clone, Debug)]
+pub enum Places {
+    /// Every so many times; where that is above 1, fewer points at each time.
+    Stride(usize),
+    /// Those of a list, as [`FloatSuprema::extreme`] makes it.
+    Listed(Arc<Vec<Place>>),
+}
 
 /// A sampled supremum.
 #[derive(Clone, Copy, Debug)]
@@ -75,9 +90,9 @@ pub struct FloatSuprema {
     inverse: Vec<Vec<f64>>,
     matrices: [Option<FloatMatrix>; 2],
     program: Arc<Program>,
-    moments: Vec<Moment>,
+    moments: Arc<Vec<Moment>>,
     /// Points of the unit ball.
-    ball: Vec<Vec<f64>>,
+    ball: Arc<Vec<Vec<f64>>>,
     /// Whether anything depends on e.
     by_error: bool,
     velocity: Arc<Program>,
@@ -143,16 +158,34 @@ impl FloatSuprema {
             matrix,
             matrices,
             program,
-            moments: Vec::new(),
-            ball: if by_states { ball_points(n) } else { vec![vec![0.0; n]] },
+            moments: Arc::default(),
+            ball: Arc::new(if by_states { ball_points(n) } else { vec![vec![0.0; n]] }),
             by_error,
             velocity,
         };
         let mut evaluator = Evaluator::new(suprema.program.clone());
         let mut slow = Evaluator::new(suprema.velocity.clone());
-        suprema.moments =
-            (0..times).map(|i| suprema.moment((i as f64 + 0.5) / TIMES as f64, &mut evaluator, &mut slow)).collect();
+        let moment = |i: usize| suprema.moment((i as f64 + 0.5) / TIMES as f64, &mut evaluator, &mut slow);
+        suprema.moments = Arc::new((0..times).map(moment).collect());
         suprema
+    }
+
+    /// The same in other coordinates, with other P, which are constant: the formulas are not differentiated again.
+    #[must_use]
+    pub fn in_coordinates(&self, matrix: Vec<Vec<f64>>, lyapunov: [Option<&PeriodicMatrix>; 2]) -> FloatSuprema {
+        FloatSuprema {
+            order: self.order,
+            period: self.period,
+            orbit: self.orbit.clone(),
+            inverse: inverse(&matrix),
+            matrix,
+            matrices: lyapunov.map(|matrix| matrix.map(FloatMatrix::new)),
+            program: self.program.clone(),
+            moments: self.moments.clone(),
+            ball: self.ball.clone(),
+            by_error: self.by_error,
+            velocity: self.velocity.clone(),
+        }
     }
 
     fn moment(&self, time: f64, evaluator: &mut Evaluator, slow: &mut Evaluator) -> Moment {
@@ -172,12 +205,11 @@ impl FloatSuprema {
         self.search(kind, reach, e, ROUGH, 1).value
     }
 
-    /// The suprema of the bounds that are asked for, in the order of [`TABLE`], at the points of the grid: every `stride`-th time
-    /// only, and with a stride above 1 fewer points at each time.
+    /// The suprema of the bounds that are asked for, in the order of [`TABLE`], at points of the grid.
     #[must_use]
-    pub fn survey(&self, reach: f64, e: f64, stride: usize, asked: Asked) -> [f64; TABLE.len()] {
+    pub fn survey(&self, reach: f64, e: f64, places: &Places, asked: Asked) -> [f64; TABLE.len()] {
         let mut largest = [f64::NEG_INFINITY; TABLE.len()];
-        self.at_points(reach, e, self.steps(e, stride), asked, |_, values| {
+        self.at_points([reach, e], places, asked, |_, values| {
             for (largest, value) in largest.iter_mut().zip(values) {
                 // Where a value is undefined, so is the supremum.
                 *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
@@ -186,54 +218,87 @@ impl FloatSuprema {
         std::array::from_fn(|index| if TABLE[index].is_rate() { -largest[index] } else { largest[index] })
     }
 
-    /// The strides in time and in the ball, and the shares of E, of a survey.
-    fn steps(&self, e: f64, stride: usize) -> Steps {
-        let errors: &[f64] = match stride {
-            _ if e == 0.0 || !self.by_error => &[0.0],
-            1 => &[-1.0, 0.0, 1.0],
-            _ => &[-1.0, 1.0],
+    /// The places of the grid that are looked at for these sizes, in the order of their times.
+    fn places(&self, e: f64, places: &Places) -> Vec<Place> {
+        let errors: &[usize] = match places {
+            _ if e == 0.0 || !self.by_error => &[1],
+            Places::Stride(1) | Places::Listed(_) => &[0, 1, 2],
+            Places::Stride(_) => &[0, 2],
         };
-        let sparse = if stride > 1 && self.order > 2 { 3 } else { 1 };
-        ([stride, sparse], errors)
+        match places {
+            Places::Listed(listed) => {
+                let mut own: Vec<Place> = listed.to_vec();
+                if errors.len() == 1 {
+                    own.iter_mut().for_each(|place| place[2] = 1);
+                    own.dedup();
+                }
+                own
+            }
+            Places::Stride(stride) => {
+                let sparse = if *stride > 1 && self.order > 2 { 3 } else { 1 };
+                let times = (0..self.moments.len()).step_by(*stride);
+                let points = |i: usize| (0..self.ball.len()).step_by(sparse).map(move |j| (i, j));
+                times.flat_map(points).flat_map(|(i, j)| errors.iter().map(move |k| [i, j, *k])).collect()
+            }
+        }
     }
 
-    /// Calls `see` with the place and the values of every point of the grid.
-    fn at_points(
-        &self,
-        reach: f64,
-        e: f64,
-        steps: Steps,
-        asked: Asked,
-        mut see: impl FnMut([usize; 3], [f64; TABLE.len()]),
-    ) {
+    /// Calls `see` with the place and the values of every point.
+    fn at_points(&self, at: [f64; 2], places: &Places, asked: Asked, mut see: impl FnMut(Place, [f64; TABLE.len()])) {
         let mut pointwise = self.pointwise();
-        self.outputs_at_points(reach, e, steps, |at, outputs, moment, matrices| {
-            see(at, pointwise.at(outputs, &moment.velocity, matrices, asked));
+        self.outputs_at_points(at, places, |place, outputs, moment, matrices| {
+            see(place, pointwise.at(outputs, &moment.velocity, matrices, asked));
         });
     }
 
-    /// Calls `see` with the place of every point of the grid, the derivatives there, and what depends on t alone.
+    /// Calls `see` with every place, the derivatives there, and what depends on t alone.
     fn outputs_at_points(
         &self,
-        reach: f64,
-        e: f64,
-        (strides, errors): Steps,
-        mut see: impl FnMut([usize; 3], &[f64], &Moment, &[MatrixAt; 2]),
+        [reach, e]: [f64; 2],
+        places: &Places,
+        mut see: impl FnMut(Place, &[f64], &Moment, &[MatrixAt; 2]),
     ) {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut outputs = vec![0.0; self.program.outputs()];
         let mut x = vec![0.0; self.order];
-        for (i, moment) in self.moments.iter().enumerate().step_by(strides[0]) {
-            evaluator.load_time_values(&moment.kept);
-            let matrices = self.matrices_at(moment.time);
-            for (j, y) in self.ball.iter().enumerate().step_by(strides[1]) {
-                self.place(&moment.orbit, y, reach, &mut x);
-                for (k, error) in errors.iter().enumerate() {
-                    evaluator.evaluate(&x, error * e, &mut outputs);
-                    see([i, j, k], &outputs, moment, &matrices);
-                }
+        let mut last = None;
+        let mut matrices = [MatrixAt::Missing, MatrixAt::Missing];
+        for place @ [i, j, k] in self.places(e, places) {
+            let moment = &self.moments[i];
+            if last != Some(i) {
+                evaluator.load_time_values(&moment.kept);
+                matrices = self.matrices_at(moment.time);
+                last = Some(i);
             }
+            self.place(&moment.orbit, &self.ball[j], reach, &mut x);
+            evaluator.evaluate(&x, ERRORS[k] * e, &mut outputs);
+            see(place, &outputs, moment, &matrices);
         }
+    }
+
+    /// The places where bounds are largest on some `G(X, E)`: so many for each bound of [`TABLE`] and each (X, E), and as many where
+    /// `value` is largest at the last of them.
+    #[must_use]
+    pub fn extreme(&self, boxes: &[[f64; 2]], each: usize, weights: Option<FloatWeights>) -> Places {
+        let mut kept: Vec<Vec<(f64, Place)>> = Vec::new();
+        for at in boxes {
+            let mut best = vec![Vec::new(); TABLE.len()];
+            self.at_points(*at, &Places::Stride(1), Asked::ALL, |place, values| {
+                best.iter_mut().zip(values).for_each(|(best, value)| keep(best, each, value, place));
+            });
+            kept.append(&mut best);
+        }
+        if let (Some(at), Some(weights)) = (boxes.last(), weights) {
+            let mut best = Vec::new();
+            self.thresholds_at_points(*at, &Places::Stride(1), weights, |place, value| {
+                keep(&mut best, OF_THRESHOLD * each, value, place);
+            });
+            kept.push(best);
+        }
+        let mut listed: Vec<Place> = kept.into_iter().flatten().map(|(_, place)| place).collect();
+        listed.sort_unstable();
+        listed.dedup();
+        Places::Listed(Arc::new(listed))
     }
 
     /// The number of states.
@@ -241,34 +306,28 @@ impl FloatSuprema {
         self.order
     }
 
-    /// The largest value of the first derivatives in the coordinates y, and P, at the points of the grid of
-    /// [`FloatSuprema::survey`].
-    pub(super) fn largest_of_derivatives(
+    /// Calls `see` with every place, the first derivatives in the coordinates y, and P.
+    pub(super) fn derivatives_at_points(
         &self,
-        [reach, e]: [f64; 2],
-        stride: usize,
-        mut value: impl FnMut(&Derivatives<'_>, &MatrixAt) -> f64,
-    ) -> f64 {
-        let mut largest = f64::NEG_INFINITY;
+        at: [f64; 2],
+        places: &Places,
+        mut see: impl FnMut(Place, &Derivatives<'_>, &MatrixAt),
+    ) {
         let mut pointwise = self.pointwise();
-        self.outputs_at_points(reach, e, self.steps(e, stride), |_, outputs, _, matrices| {
-            let found = value(&pointwise.derivatives(outputs), &matrices[0]);
-            // Where a value is undefined, so is the supremum.
-            largest = if found.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(found) };
+        self.outputs_at_points(at, places, |place, outputs, _, matrices| {
+            see(place, &pointwise.derivatives(outputs), &matrices[0]);
         });
-        largest
     }
 
-    /// The same by a longer search.
+    /// The largest value of them by a longer search.
     pub(super) fn refined_of_derivatives(
         &self,
         at: [f64; 2],
         mut value: impl FnMut(&Derivatives<'_>, &MatrixAt) -> f64,
     ) -> f64 {
         let mut pointwise = self.pointwise();
-        let [largest, _] = self.climbed(at, (FINE, STARTS), |outputs, _, matrices| {
-            value(&pointwise.derivatives(outputs), &matrices[0])
-        });
+        let [largest, _] = self
+            .climbed(at, (FINE, STARTS), |outputs, _, matrices| value(&pointwise.derivatives(outputs), &matrices[0]));
         largest
     }
 
@@ -317,10 +376,9 @@ impl FloatSuprema {
         (halvings, starts): (u32, usize),
         mut value_of: impl FnMut(&[f64], &Moment, &[MatrixAt; 2]) -> f64,
     ) -> [f64; 2] {
-        let errors: &'static [f64] = if e == 0.0 || !self.by_error { &[0.0] } else { &[-1.0, 0.0, 1.0] };
         // The best values with their points, and the least value.
-        let (mut best, mut least): (Vec<(f64, [usize; 3])>, f64) = (Vec::new(), f64::INFINITY);
-        self.outputs_at_points(reach, e, ([1, 1], errors), |at, outputs, moment, matrices| {
+        let (mut best, mut least): (Vec<(f64, Place)>, f64) = (Vec::new(), f64::INFINITY);
+        self.outputs_at_points([reach, e], &Places::Stride(1), |at, outputs, moment, matrices| {
             let value = value_of(outputs, moment, matrices);
             least = least.min(value);
             keep(&mut best, starts, value, at);
@@ -343,7 +401,7 @@ impl FloatSuprema {
         // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
         let mut largest = f64::NAN;
         for (value, [i, j, k]) in &best {
-            let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: errors[*k] };
+            let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: ERRORS[*k] };
             largest = largest.max(climb(point, *value, halvings, e != 0.0, &mut value_at));
         }
         [largest, least]
@@ -413,7 +471,7 @@ impl FloatMatrix {
 }
 
 /// Keeps the largest values.
-fn keep(best: &mut Vec<(f64, [usize; 3])>, count: usize, value: f64, at: [usize; 3]) {
+fn keep(best: &mut Vec<(f64, Place)>, count: usize, value: f64, at: Place) {
     if value.is_nan() || (best.len() == count && best.last().is_some_and(|(least, _)| value <= *least)) {
         return;
     }

@@ -4,7 +4,7 @@ use super::triple::rows;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification};
+use sigmastar_lang::spec::{MatrixInequality, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification};
 
 fn exact(value: &Rational) -> Value {
     Value::from(write_exact(value))
@@ -24,12 +24,22 @@ fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
 pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     let Some(plant) = spec.plant() else { return Vec::new() };
     let OfPlant { coordinates, orbit, forcing, .. } = plant;
-    vec![
+    let values = spec.bounds.proved_values();
+    let mut parts = vec![
         ("coordinates", rows(coordinates)),
         ("orbit", orbit_json(orbit)),
         ("forcing", forcing_json(forcing)),
-        ("bounds", values_json(spec.bounds.proved_values())),
-    ]
+        ("bounds", values_json(values)),
+    ];
+    parts.extend(values.inequality().map(|inequality| (INEQUALITY, inequality_json(inequality))));
+    parts
+}
+
+/// The field of the matrix inequality; its weights are those of the witness.
+pub(super) const INEQUALITY: &str = "matrix_inequality";
+
+fn inequality_json(MatrixInequality { x, e, rate, value, .. }: &MatrixInequality) -> Value {
+    object([("X", x), ("E", e), ("rate", rate), ("sigma", value)].map(|(name, value)| (name, exact(value))))
 }
 
 fn orbit_json(orbit: &ProvedOrbit) -> Value {

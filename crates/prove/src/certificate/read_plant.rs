@@ -1,14 +1,15 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
 use super::fields::{exact_rational, rational};
+use super::of_plant::INEQUALITY;
 use super::read::{read_rows, read_triple};
 use super::triple::{EXISTENCE, STABILITY};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    Bound, Document, ErrorKind, Errors, Object, OfPlant, ProvedForcing, ProvedOrbit, ProvedValue, ProvedValues,
-    Reported, SpecErrors, TrigonometricVector, Value,
+    Bound, Document, ErrorKind, Errors, MatrixInequality, Object, OfPlant, ProvedForcing, ProvedOrbit, ProvedValue,
+    ProvedValues, Reported, SpecErrors, TrigonometricVector, Value,
 };
 use sigmastar_plants::lyapunov::ProvedTriple;
 
@@ -49,6 +50,10 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
     let triple = witness.required(STABILITY, errors).and_then(|value| read_triple(&value, errors));
     let forcing = witness.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
     let values = witness.required("bounds", errors).and_then(|value| read_values(&value, errors));
+    let inequality = match witness.optional(INEQUALITY) {
+        None => None,
+        Some(value) => Some(read_inequality(&value, witness, errors)),
+    };
     let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose();
     let parts = |ProvedTriple { matrix, p_low, p_up, alpha }: ProvedTriple| {
         let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));
@@ -65,7 +70,20 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
         domain: plant.domain.clone(),
         ball: plant.ball.clone(),
     };
-    Ok((of_plant, values?))
+    Ok((of_plant, values?.with_inequality(inequality.transpose()?)))
+}
+
+/// The matrix inequality, with the weights of the witness.
+fn read_inequality(
+    value: &Value<'_>,
+    witness: &mut Object<'_>,
+    errors: &mut Errors,
+) -> Result<MatrixInequality, Reported> {
+    let [w_x, h] = ["w_x", "h"].map(|name| rational(witness, name, errors));
+    let mut fields = value.object(errors)?;
+    let [x, e, rate, value] = ["X", "E", "rate", "sigma"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    Ok(MatrixInequality { x: x?, e: e?, w_x: w_x?, h: h?, rate: rate?, value: value? })
 }
 
 fn vector(value: &Value<'_>, length: usize, errors: &mut Errors) -> Result<Vec<Rational>, Reported> {

@@ -56,7 +56,9 @@ impl MatrixChecks {
     pub fn new(spec: &Specification, sharp: Option<&SharpProof>, repaired: Option<&RepairedProof>) -> MatrixChecks {
         MatrixChecks {
             // With a matrix inequality of its own C5 is not asked for.
-            decay: sharp.filter(|proof| proof.evaluation.by_matrix.is_none()).map(|proof| cross_check(&proof.evaluation, &proof.witness, &Data::new(spec, proof.precision))),
+            decay: sharp
+                .filter(|proof| proof.evaluation.by_matrix.is_none())
+                .map(|proof| cross_check(&proof.evaluation, &proof.witness, &Data::new(spec, proof.precision))),
             contraction: sharp.and_then(contraction),
             sylvester: repaired.and_then(|proof| sylvester(spec, proof)),
         }

@@ -177,7 +177,8 @@ fn sharp_witness(
         claimed_distances(data, &set, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
     let d_x = at.d_x.max(at.rho * model.c * dist_x);
     let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
-    let box_of = |[w_x, h]: [&Rational; 2]| box_with(model, [w_x, h], [d_x / (at.rho * model.c), far[0], far[1]], slack);
+    let box_of =
+        |[w_x, h]: [&Rational; 2]| box_with(model, [w_x, h], [d_x / (at.rho * model.c), far[0], far[1]], slack);
     let given = model.by_matrix.as_ref().and_then(ByMatrix::weights).map(box_of);
     let RoundedBox { d_x, d_e, w_x, h } =
         given.unwrap_or_else(|| rounded_box(model, d_x, at.rho, far, at.eta, slack))?;

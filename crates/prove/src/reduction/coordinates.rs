@@ -5,22 +5,25 @@
 
 use super::grid::{Grid, RATE, RATE_EXISTENCE, Source};
 use crate::search::{
-    ByMatrix, Closest, Descent, FloatModel, Obstacle, SharpProposal, Threshold, at_sigma, minimise, search_sharp, search_sharp_near,
+    Binding, ByMatrix, Closest, Descent, Failing, FloatModel, Obstacle, SharpParameters, SharpProposal, Threshold,
+    active_level, at_sigma, minimise, search_sharp, search_sharp_near, weight_h,
 };
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::Asked;
+use sigmastar_plants::bounds::{Asked, FloatWeights, Places};
 use std::sync::Arc;
 
 /// How densely suprema are sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Density {
     /// To find a gain at all.
     Rough,
     /// To compare coordinates.
     Coarse,
+    /// To compare coordinates near some, at the points that are the most extreme ones there.
+    Focused(Places),
     /// For the coordinates that are taken.
     Fine,
 }
@@ -40,10 +43,15 @@ pub struct Estimates {
     pub bounds: Arc<Source>,
     /// Of the threshold of the matrix inequality.
     pub threshold: Arc<Threshold>,
+    /// Where they are the most extreme ones.
+    pub extreme: Arc<Extreme>,
 }
 
+/// The points that are the most extreme ones on some `G(X, E)`; of the threshold on the last of them.
+pub type Extreme = dyn Fn(&[[f64; 2]], Option<FloatWeights>) -> Places + Send + Sync;
+
 /// What estimates.
-pub type Sampler<'a> = dyn Fn(Shape<'_>, Density) -> Estimates + Sync + 'a;
+pub type Sampler<'a> = dyn Fn(Shape<'_>, &Density) -> Estimates + Sync + 'a;
 
 /// What depends on the coordinates beside the bounds: the initial set and the domain.
 pub type Frame<'a> = dyn Fn(&DMatrix<f64>, &FloatModel) -> FloatModel + Sync + 'a;
@@ -76,6 +84,21 @@ const APART: usize = 3;
 
 /// The share of the rate along the orbit that x keeps in a matrix inequality.
 const KEPT: f64 = 1e-6;
+
+/// The first steps of ln (rho - 1) and of ln eta.
+const SHAPE_STEP: f64 = 0.4;
+
+/// The shares of rho - 1 from which it is sought.
+const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
+
+/// A descent over L and the shape together.
+const TOGETHER: Descent = Descent { restarts: 1, iterations: 120, tolerance: 1e-3 };
+
+/// A gain that is so many times that of norms is not sought further, before the shape is sought and after; one that existence sets
+/// if it is so near.
+const TOO_FAR: f64 = 3.0;
+const FAR: f64 = 1.3;
+const NEARLY: f64 = 0.98;
 
 /// How far above a gain the arguments are taken.
 const NEAR: f64 = 1e-9;
@@ -117,15 +140,15 @@ pub struct Chosen {
 impl CoordinateSearch<'_> {
     /// The model for a given L.
     #[must_use]
-    pub fn model(&self, shape: Shape<'_>, density: Density) -> FloatModel {
+    pub fn model(&self, shape: Shape<'_>, density: &Density) -> FloatModel {
         let Shape { l, second } = shape;
         let ratio = match density {
             _ if l.nrows() == 0 => ALONE,
             Density::Rough => ROUGH,
-            Density::Coarse => COARSE,
+            Density::Coarse | Density::Focused(_) => COARSE,
             Density::Fine => FINE,
         };
-        let Estimates { bounds, threshold } = (self.sampler)(shape, density);
+        let Estimates { bounds, threshold, .. } = (self.sampler)(shape, density);
         let at_origin = bounds(0.0, 0.0, Asked::ALL);
         let grid = Grid::new(bounds, (self.units)(l), ratio);
         let bounds = self.base.with_bounds(grid.functions(second.is_some()));
@@ -138,7 +161,7 @@ impl CoordinateSearch<'_> {
             model.by_matrix = Some(ByMatrix::Sampled { threshold, rate: KEPT * at_origin[RATE] });
         }
         let model = (self.frame)(l, &model);
-        if density == Density::Fine { model } else { model.rough() }
+        if matches!(density, &Density::Fine) { model } else { model.rough() }
     }
 
     /// The best of some candidates, each improved by a local search: the smallest gain at many samples.
@@ -149,11 +172,11 @@ impl CoordinateSearch<'_> {
         // The first one that has a gain leads to those of the others by local steps.
         let mut closest = Closest::default();
         let first = candidates.iter().find_map(|l| {
-            let found = search_sharp(&self.model(alone(l), Density::Rough));
+            let found = search_sharp(&self.model(alone(l), &Density::Rough));
             found.map_err(|obstacle| closest.record(obstacle)).ok()
         });
         let first = closest.or(first)?;
-        let near = |l: &DMatrix<f64>| search_sharp_near(&self.model(alone(l), Density::Coarse), &first);
+        let near = |l: &DMatrix<f64>| search_sharp_near(&self.model(alone(l), &Density::Coarse), &first);
         let found: Vec<Result<SharpProposal, Obstacle>> = candidates.par_iter().map(near).collect();
         let mut closest = Closest::default();
         let mut best: Option<(SharpProposal, usize)> = None;
@@ -171,7 +194,7 @@ impl CoordinateSearch<'_> {
         }
         let (start, at) = closest.or(best)?;
         let l = &candidates[at];
-        if l.nrows() > MOST_STATES || l.nrows() < 2 {
+        if !(2..=MOST_STATES).contains(&l.nrows()) {
             return self.with(alone(l), Some(&start));
         }
         starts.retain(|other| other.abs_diff(at).is_multiple_of(APART));
@@ -190,21 +213,69 @@ impl CoordinateSearch<'_> {
         Ok(self.with_second(single))
     }
 
-    /// The best choice near a known one: of another search for the same plant.
+    /// The best choice near a known one, of another search for the same plant: L and the shape of the error box are sought together,
+    /// at the points that are the most extreme ones.
     ///
     /// # Errors
-    /// The obstacle, where no gain is found.
+    /// The obstacle, where no gain is found, or one that is far larger.
     pub fn choose_near(&self, l: &DMatrix<f64>, known: &SharpProposal) -> Result<Chosen, Obstacle> {
-        let start = search_sharp_near(&self.model(alone(l), Density::Coarse), known)?;
-        if l.nrows() > MOST_STATES || l.nrows() < 2 {
-            return self.with(alone(l), Some(&start));
+        let n = l.nrows();
+        let freedom = if (2..=MOST_STATES).contains(&n) { n * (n + 1) / 2 - 1 } else { 0 };
+        let (mut l, mut start) = (l.clone(), *known);
+        // First the shape alone.
+        for freedom in [0, freedom, freedom] {
+            let density = self.focused(&l, &start).unwrap_or(Density::Coarse);
+            let with = |p: &[f64]| {
+                let parameters =
+                    SharpParameters { rho: 1.0 + p[0].portable_exp(), eta: p[1].portable_exp(), ..start.parameters };
+                let l = if freedom == 0 { l.clone() } else { &l * exponential(n, &p[2..]) };
+                let found = search_sharp_near(&self.model(alone(&l), &density), &SharpProposal { parameters, ..start });
+                found.ok().map(|found| (l, found))
+            };
+            let cost = |p: &[f64]| with(p).map(|(_, found)| found.sigma.portable_ln());
+            // The box of the norms may be too large.
+            let from = |share: f64| -> Vec<f64> {
+                let shape = [((start.parameters.rho - 1.0) * share).portable_ln(), start.parameters.eta.portable_ln()];
+                shape.into_iter().chain(std::iter::repeat_n(0.0, freedom)).collect()
+            };
+            let from = SHARES.map(from).into_iter().find_map(|from| Some((cost(&from)?, from)));
+            let Some((_, from)) = from.filter(|(cost, _)| cost.portable_exp() < TOO_FAR * known.sigma) else {
+                return Err(Failing::Gain { given: known.sigma, smallest: None }.into());
+            };
+            let steps: Vec<f64> = (0..freedom + 2).map(|i| if i < 2 { SHAPE_STEP } else { STEP }).collect();
+            if let Some((best, _)) = minimise(cost, &from, &steps, TOGETHER)
+                && let Some(found) = with(&best)
+            {
+                (l, start) = found;
+            }
+            let hopeless = start.binding == Binding::Existence && start.sigma > NEARLY * known.sigma;
+            if hopeless || start.sigma > FAR * known.sigma {
+                return Err(Failing::Gain { given: known.sigma, smallest: None }.into());
+            }
         }
-        let single = self.with(alone(&self.improved(l, &start)), Some(&start))?;
-        Ok(self.with_second(single))
+        Ok(self.with_second(self.with(alone(&l), Some(&start))?))
+    }
+
+    /// The points that matter near a proposal.
+    fn focused(&self, l: &DMatrix<f64>, known: &SharpProposal) -> Result<Density, Obstacle> {
+        let model = self.model(alone(l), &Density::Coarse);
+        let estimates = (self.sampler)(alone(l), &Density::Coarse);
+        let (set, at) = at_sigma(&model, &known.parameters, known.sigma * (1.0 + NEAR), NEAR)?;
+        let level = active_level(at.eta, at.dist_e, at.rho);
+        let weights = FloatWeights {
+            w_x: level / (model.p_low * at.d_x * at.d_x),
+            k_p: 2.0 * weight_h(at.eta, at.dist_e, at.dist_z) / model.mu,
+            rate: 0.0,
+        };
+        let boxes = [[set.x_p, set.e_p], [set.x_per + at.d_x, set.e_per + level.sqrt()]];
+        Ok(Density::Focused((estimates.extreme)(&boxes, self.by_matrix.then_some(weights))))
     }
 
     /// The choice with a P of existence beside it, where that is worth it.
     fn with_second(&self, single: Chosen) -> Chosen {
+        if !(2..=MOST_STATES).contains(&single.l.nrows()) {
+            return single;
+        }
         let worth = |sigma: f64| sigma < single.proposal.sigma * (1.0 - WORTH);
         let second = self.second(&single).filter(|(_, share)| *share < 1.0 - WORTH);
         let pair = second.and_then(|(second, _)| self.together(&single, second));
@@ -216,7 +287,7 @@ impl CoordinateSearch<'_> {
     /// # Errors
     /// The obstacle, where no gain is found.
     pub fn with(&self, shape: Shape<'_>, near: Option<&SharpProposal>) -> Result<Chosen, Obstacle> {
-        let model = self.model(shape, Density::Fine);
+        let model = self.model(shape, &Density::Fine);
         let near = near.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
         Ok(Chosen { l: shape.l.clone(), second: shape.second.cloned(), model, proposal })
@@ -234,7 +305,7 @@ impl CoordinateSearch<'_> {
         let cost = |s: &[f64]| {
             let second = exponential(n, s);
             let values = second.clone().symmetric_eigenvalues();
-            let rate = (self.sampler)(Shape { l, second: Some(&second) }, Density::Coarse);
+            let rate = (self.sampler)(Shape { l, second: Some(&second) }, &Density::Coarse);
             let rate = (rate.bounds)(x_p, 0.0, asked)[RATE_EXISTENCE];
             let model = model.with_existence_triple(values.max() / values.min(), rate).with_rate_of_existence(rate);
             search_sharp_near(&model, proposal).ok().map(|found| found.sigma.portable_ln())
@@ -254,7 +325,7 @@ impl CoordinateSearch<'_> {
             let cost = |s: &[f64]| {
                 let second = exponential(n, &s[freedom..]);
                 let shape = Shape { l: &(&single.l * exponential(n, &s[..freedom])), second: Some(&second) };
-                let found = search_sharp_near(&self.model(shape, Density::Coarse), &single.proposal);
+                let found = search_sharp_near(&self.model(shape, &Density::Coarse), &single.proposal);
                 found.ok().map(|found| found.sigma.portable_ln())
             };
             let from: Vec<f64> = std::iter::repeat_n(0.0, freedom).chain(second.iter().copied()).collect();
@@ -273,8 +344,9 @@ impl CoordinateSearch<'_> {
         if freedom == 0 {
             return l.clone();
         }
+        let density = self.focused(l, start).unwrap_or(Density::Coarse);
         let cost = |s: &[f64]| {
-            let model = self.model(alone(&(l * exponential(n, s))), Density::Coarse);
+            let model = self.model(alone(&(l * exponential(n, s))), &density);
             search_sharp_near(&model, start).ok().map(|found| found.sigma.portable_ln())
         };
         let (zero, steps) = (vec![0.0; freedom], vec![STEP; freedom]);

@@ -30,7 +30,7 @@ pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
 /// In between, while the proved values lead to no gain near the proposal: at so much larger a gain (where the least set there is
 /// ceases to be one, the set of a somewhat larger gain has room for proved values), and so far beyond the arguments there.
-const FURTHER: [(f64, f64); 4] = [(5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
+const FURTHER: [(f64, f64); 5] = [(1e-2, 2e-2), (5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
 
 /// A gain from proved values that is at most so many times the proposal is near it.
 const NEAR: f64 = 1.1;
@@ -150,13 +150,13 @@ fn with_constant(
     choose: impl FnOnce(&CoordinateSearch<'_>) -> Result<Chosen, Obstacle>,
 ) -> Result<(Along, Chosen), PlantRefusal> {
     let (plant, curve) = (sampling.plant, sampling.curve);
-    let sampler = |Shape { l, second }: Shape<'_>, density: Density| {
+    let sampler = |Shape { l, second }: Shape<'_>, density: &Density| {
         let second = second.and_then(rational_symmetric);
         sampling.estimates(l, [None, second.as_ref()], density)
     };
     let search = CoordinateSearch { by_matrix, ..search(sampling, &sampler, 1.0) };
     let chosen = choose(&search).map_err(PlantRefusal::NoGain)?;
-    let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], Density::Rough)(0.0, 0.0, Asked::ALL);
+    let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], &Density::Rough)(0.0, 0.0, Asked::ALL);
     let l = rational_matrix(&chosen.l, at_origin).ok_or(PlantRefusal::NoContraction)?;
     let coordinates = Coordinates { l, p: p.clone(), rate: f64::NAN };
     let mut base = along(plant, curve, &coordinates)?;
@@ -200,10 +200,7 @@ fn in_frame(plant: &Plant, l: &DMatrix<f64>, model: &FloatModel) -> FloatModel {
 }
 
 /// The best of the candidates with a P(t).
-fn best_periodic(
-    candidates: &[Coordinates],
-    sampling: &Sampling<'_>,
-) -> Result<(Coordinates, Chosen), PlantRefusal> {
+fn best_periodic(candidates: &[Coordinates], sampling: &Sampling<'_>) -> Result<(Coordinates, Chosen), PlantRefusal> {
     let mut best: Option<(Coordinates, Chosen)> = None;
     let mut failure = PlantRefusal::NoContraction;
     for candidate in candidates {
@@ -216,7 +213,7 @@ fn best_periodic(
         };
         let ratio = Rational::from(&proved.p_up / &proved.p_low).to_f64();
         let sampler =
-            |Shape { l, .. }: Shape<'_>, density: Density| sampling.estimates(l, [Some(&candidate.p), None], density);
+            |Shape { l, .. }: Shape<'_>, density: &Density| sampling.estimates(l, [Some(&candidate.p), None], density);
         let search = search(sampling, &sampler, ratio);
         match search.with(Shape { l: &float_matrix(&candidate.l), second: None }, None) {
             Ok(chosen) if best.as_ref().is_none_or(|(_, known)| chosen.proposal.sigma < known.proposal.sigma) => {

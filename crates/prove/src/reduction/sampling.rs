@@ -1,6 +1,6 @@
 //! Sampled suprema of a plant's derivatives as a search takes them.
 
-use super::coordinates::{Density, Estimates};
+use super::coordinates::{Density, Estimates, Extreme};
 use super::grid::{RATE, Source, Values};
 use crate::search::{FloatModel, Threshold};
 use nalgebra::DMatrix;
@@ -8,9 +8,12 @@ use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
-use sigmastar_plants::bounds::{Asked, FloatCurve, FloatSuprema, TABLE};
+use sigmastar_plants::bounds::{Asked, FloatCurve, FloatSuprema, Places, TABLE};
 use sigmastar_plants::orbit::lower_triangular;
 use std::sync::Arc;
+
+/// The points that are listed for each bound, where only the most extreme ones are looked at.
+const EXTREME: usize = 4;
 
 /// Significant digits of a P of existence.
 const DIGITS: u32 = 4;
@@ -25,6 +28,8 @@ pub(super) struct Sampling<'a> {
     pub(super) curve: &'a TrigonometricVector,
     /// The model, but for what depends on the coordinates.
     pub(super) model: &'a FloatModel,
+    /// In the coordinates x themselves.
+    plain: FloatSuprema,
     /// Of |e|.
     unit_e: f64,
     /// X_0 and E_0 that were asked for; 0 where none was.
@@ -34,17 +39,19 @@ pub(super) struct Sampling<'a> {
 impl<'a> Sampling<'a> {
     /// The ordinary size of e is what q makes of it over a period, or the initial set.
     pub(super) fn new(plant: &'a Plant, curve: &'a TrigonometricVector, model: &'a FloatModel) -> Sampling<'a> {
+        let n = plant.states();
         let known = model.q_0.as_ref();
         let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());
         let [x_0, e_0] = model.set.given().map(|size| size.copied().unwrap_or(0.0));
         let by_forcing = 0.1 * squares.sqrt() * model.period;
         let unit_e = [e_0, by_forcing].into_iter().fold(0.0, f64::max);
-        Sampling { plant, curve, model, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
+        let plain = FloatSuprema::new(plant, FloatCurve::from(curve), rows(&DMatrix::identity(n, n)), [None; 2]);
+        Sampling { plant, curve, model, plain, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
     }
 
     /// Ordinary sizes of |y| and |e|.
     pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
-        let values = self.source(l, [None; 2], Density::Rough)(0.0, 0.0, Asked::ALL);
+        let values = self.source(l, [None; 2], &Density::Rough)(0.0, 0.0, Asked::ALL);
         let of = |bound| TABLE.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
         let (rate, f_e) = (of(Bound::Rate), of(Bound::Fe));
         let size = f_e / rate * self.unit_e;
@@ -54,11 +61,12 @@ impl<'a> Sampling<'a> {
 
     /// The sampler for these coordinates: with P, which is the identity without one, and that of existence.
     pub(super) fn suprema(&self, l: &DMatrix<f64>, [p, second]: [Option<&PeriodicMatrix>; 2]) -> FloatSuprema {
-        let rows = |matrix: &DMatrix<f64>| -> Vec<Vec<f64>> {
-            (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
-        };
         let identity = identity(l.nrows());
-        FloatSuprema::new(self.plant, FloatCurve::from(self.curve), rows(l), [Some(p.unwrap_or(&identity)), second])
+        let matrices = [Some(p.unwrap_or(&identity)), second];
+        if matrices.into_iter().flatten().all(|matrix| matrix.harmonics.is_empty()) {
+            return self.plain.in_coordinates(rows(l), matrices);
+        }
+        FloatSuprema::new(self.plant, FloatCurve::from(self.curve), rows(l), matrices)
     }
 
     /// The same as functions of (X, E).
@@ -66,26 +74,29 @@ impl<'a> Sampling<'a> {
         &self,
         l: &DMatrix<f64>,
         matrices: [Option<&PeriodicMatrix>; 2],
-        density: Density,
+        density: &Density,
     ) -> Estimates {
         let suprema = Arc::new(self.suprema(l, matrices));
-        let stride = match density {
-            Density::Rough => 6,
-            Density::Coarse => 3,
-            Density::Fine => 1,
+        let places = match density {
+            Density::Rough => Places::Stride(6),
+            Density::Coarse => Places::Stride(3),
+            Density::Focused(places) => places.clone(),
+            Density::Fine => Places::Stride(1),
         };
         let stateless = l.nrows() == 0;
-        let of_inequality = suprema.clone();
+        let (of_inequality, its_places) = (suprema.clone(), places.clone());
+        let all = suprema.clone();
+        let extreme: Arc<Extreme> = Arc::new(move |boxes, weights| all.extreme(boxes, EXTREME, weights));
         let bounds: Arc<Source> = Arc::new(move |x, e, asked| -> Values {
-            let mut values: Values = suprema.survey(x, e, stride, asked);
+            let mut values: Values = suprema.survey(x, e, &places, asked);
             if stateless {
                 // Without states every rate is as good as any other.
                 values[RATE] = 1.0;
             }
             values
         });
-        let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_inequality.threshold(at, stride, weights));
-        Estimates { bounds, threshold }
+        let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_inequality.threshold(at, &its_places, weights));
+        Estimates { bounds, threshold, extreme }
     }
 
     /// Those of the bounds.
@@ -93,10 +104,15 @@ impl<'a> Sampling<'a> {
         &self,
         l: &DMatrix<f64>,
         matrices: [Option<&PeriodicMatrix>; 2],
-        density: Density,
+        density: &Density,
     ) -> Arc<Source> {
         self.estimates(l, matrices, density).bounds
     }
+}
+
+/// A matrix by rows.
+fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
 }
 
 /// P = I.

@@ -1,7 +1,7 @@
 //! The search of the sharp derivation: the smallest sigma at which the smallest set with a periodic solution has an error box.
 
 use super::binding::Binding;
-use super::candidate::AtSigma;
+use super::candidate::{AtSigma, error_box};
 use super::error_box::{best_error_box, error_box_near};
 use super::floors::{ordinary, raised, tiny};
 use super::model::{Datum, FloatModel, OptionalDatum};
@@ -72,10 +72,13 @@ impl Search<'_> {
         let set = PeriodicSet::least(self.model, &self.origin, sigma, (self.form, self.floors), room)?;
         let distances = start_distances(self.model, &set);
         let periodic = (set.x_per, set.e_per);
-        let near = self.near.and_then(|shape| error_box_near(self.model, periodic, distances, shape));
-        let at = match near {
-            Some(at) => at,
-            None => best_error_box(self.model, periodic, distances)?,
+        let at = match self.near {
+            // A shape is sought together with the coordinates where it is dear.
+            Some((rho, eta)) if self.model.by_matrix.is_some() => error_box(self.model, periodic, distances, rho, eta)?,
+            near => {
+                let near = near.and_then(|shape| error_box_near(self.model, periodic, distances, shape));
+                near.map_or_else(|| best_error_box(self.model, periodic, distances), Ok)?
+            }
         };
         Ok((set, at))
     }
@@ -248,8 +251,8 @@ fn first_guess(model: &FloatModel) -> f64 {
     if guess.is_finite() && guess > 0.0 { guess } else { 1.0 }
 }
 
-/// The proposal that local steps reach from the free numbers of a neighbouring problem. For many similar problems, of which
-/// only the first is worth a search.
+/// The proposal that local steps reach from the free numbers of a neighbouring problem; with a matrix inequality that of its shape.
+/// For many similar problems, of which only the first is worth a search.
 ///
 /// # Errors
 /// The obstacle, where they are not feasible here.

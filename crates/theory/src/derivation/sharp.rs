@@ -148,7 +148,9 @@ impl SharpEvaluation {
         ));
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         match inequality {
-            Some(inequality) => conditions.extend(matrix_inequality::conditions(data, inequality, &error_box, &sigma, "")),
+            Some(inequality) => {
+                conditions.extend(matrix_inequality::conditions(data, inequality, &error_box, &sigma, ""))
+            }
             None => {
                 conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
                 conditions.extend(by_norms_conditions(&decay, &sigma));

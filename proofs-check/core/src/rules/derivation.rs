@@ -4,6 +4,7 @@
 //! as they must be up to every argument that is used, and so the claim at `sigma` and `set` is proved.
 
 use super::common::{Evaluated, Free};
+use super::inequality::Inequality;
 use super::sampled::{self, claim::Regulator};
 use super::set::ClaimedSet;
 use super::{bounding, regulation, sharp};
@@ -47,6 +48,14 @@ impl Derivation {
         self.regulation.as_ref().map(|w| [d.number(&w.d_x), d.number(&w.d_e)])
     }
 
+    /// What has to be proved of the plant's formulas besides their bounds, where stability rests on it.
+    pub fn inequality(&self) -> Option<&Inequality> {
+        match &self.witness {
+            Witness::Sharp(w) => w.inequality.as_ref(),
+            Witness::Sampled(_) => None,
+        }
+    }
+
     /// The numbers that both regulators have. X_p and E_p bound the periodic solution exactly.
     pub fn free(&self) -> &Free {
         match &self.witness {
@@ -76,7 +85,7 @@ impl Derivation {
         without_domain(d, &evaluated.arguments, lines)?;
         if let Some(exact) = &self.regulation {
             lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
-            let conditions = regulation::evaluate(d, set, exact)?;
+            let conditions = regulation::evaluate(d, set, exact, self.inequality())?;
             all("exact regulation", &exact.pointer, conditions.iter(), lines)?;
             without_domain(d, &[d.number(&exact.d_x), d.number(&exact.d_e)], lines)?;
         }

@@ -4,6 +4,7 @@ pub mod claim;
 pub mod common;
 pub mod derivation;
 pub mod gains;
+pub mod inequality;
 pub mod mean_squares;
 pub mod paths;
 pub mod regulation;

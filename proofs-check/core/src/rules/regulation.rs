@@ -3,6 +3,7 @@
 //! Guarantee, for a matched base frequency: with n_o infinite, for every sigma' >= sigma, solutions from the claimed
 //! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
 
+use super::inequality::Inequality;
 use super::mean_squares::forcing;
 use super::paths::Paths;
 use super::set::{self, ClaimedSet};
@@ -63,8 +64,14 @@ fn steady_state(d: &Data<'_>) -> Interval {
     generic.least(&forced) / &d.mu
 }
 
-/// Evaluates the conditions; only `matched` and the signs are decided yet.
-pub fn evaluate(d: &Data<'_>, set: &ClaimedSet, w: &Witness) -> Outcome<Vec<Condition>> {
+/// Evaluates the conditions; only `matched` and the signs are decided yet. An inequality of the claim serves here too, where it is
+/// about the same weights.
+pub fn evaluate(
+    d: &Data<'_>,
+    set: &ClaimedSet,
+    w: &Witness,
+    inequality: Option<&Inequality>,
+) -> Outcome<Vec<Condition>> {
     if !d.spec.matched {
         return invalid("exact regulation", &w.pointer, "it needs base_frequency = 2 pi/period, asserted by `matched`");
     }
@@ -77,6 +84,9 @@ pub fn evaluate(d: &Data<'_>, set: &ClaimedSet, w: &Witness) -> Outcome<Vec<Cond
     let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
     let mut conditions = set::domain(d, &d_x, &d_e);
     conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
-    conditions.extend(error_box.conditions(error_box.decay(d, &w_x, &h), sigma, "sigma_oo"));
+    match inequality.filter(|inequality| inequality.is_for([&w.w_x, &w.h])) {
+        Some(inequality) => conditions.extend(inequality.conditions(d, &error_box, sigma, "sigma_oo")),
+        None => conditions.extend(error_box.conditions(error_box.decay(d, &w_x, &h), sigma, "sigma_oo")),
+    }
     Ok(conditions)
 }

@@ -6,6 +6,7 @@
 
 use super::common::{Evaluated, Free};
 use super::gains::kappas;
+use super::inequality::Inequality;
 use super::mean_squares::{self, Solution};
 use super::set::ClaimedSet;
 use super::stability::ErrorBox;
@@ -24,6 +25,8 @@ pub struct Witness {
     pub sigma: Rational,
     pub existence: mean_squares::Witness,
     pub transfer: Proof,
+    /// What stands in the place of C5, where it is given.
+    pub inequality: Option<Inequality>,
 }
 
 /// What the conditions and the constants are about.
@@ -47,7 +50,9 @@ impl Witness {
             refined: fields.optional("refined").map(|field| mean_squares::read(&field)).transpose()?,
         };
         let transfer = Proof::read(&fields.required("transfer")?)?;
-        Ok(Witness { free, sigma, existence, transfer })
+        let inequality = fields.optional("matrix_inequality");
+        let inequality = inequality.map(|field| Inequality::read(&field, [&free.w_x, &free.h])).transpose()?;
+        Ok(Witness { free, sigma, existence, transfer, inequality })
     }
 
     fn signs(&self) -> Outcome<()> {
@@ -72,8 +77,20 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     let transfer = transfer::check(d, &free.k0, &free.k1, &w.transfer, &format!("{}/transfer", free.pointer))?;
     let sizes = Sizes { x: solution.x.clone(), e: solution.e.clone(), zeta: solution.z_squared.sqrt() };
     let (error_box, mut evaluated) = free.evaluate(d, sizes, transfer, solution.conditions.iter().cloned());
-    let decay = error_box.decay(d, &w_x, &h);
-    let threshold = decay[2].clone();
-    evaluated.conditions.extend(error_box.conditions(decay, sigma, "sigma"));
+    let threshold = match &w.inequality {
+        Some(inequality) if d.spec.plant.is_none() => {
+            return bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant");
+        }
+        Some(inequality) => {
+            evaluated.conditions.extend(inequality.conditions(d, &error_box, sigma, "sigma"));
+            d.number(&inequality.sigma)
+        }
+        None => {
+            let decay = error_box.decay(d, &w_x, &h);
+            let threshold = decay[2].clone();
+            evaluated.conditions.extend(error_box.conditions(decay, sigma, "sigma"));
+            threshold
+        }
+    };
     Ok(Sharp { evaluated, solution, error_box, threshold })
 }
