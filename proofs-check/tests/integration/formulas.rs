@@ -358,7 +358,7 @@ fn exact_regulation() {
             let rest_t = if q_0[1] { REST[1] } else { 9.0 + slope };
             z = f64::min(z, harmonics.sqrt() + root(REST[0], rest_t));
         }
-        let conditions = regulation::evaluate(&d, &set, &w).unwrap();
+        let conditions = regulation::evaluate(&d, &set, &w, None).unwrap();
         let ids: Vec<&str> = conditions.iter().map(|condition| condition.id).collect();
         assert_eq!(ids, ["domain", "domain", "C4", "M", "C5", "C5b"]);
         let reach = if aligned { z / mu } else { 2.0 + n_bar * 0.125 + z / mu };
@@ -366,8 +366,12 @@ fn exact_regulation() {
         // Around the origin: (D_x, D_e), and the rate at (D_x, 0), or at (D_x, D_e) where f is not split over x first.
         close("C5", &conditions[4].rhs, 4.0 * 2.5);
         for f in [Path::ErrorFirst, Path::Straight] {
-            let conditions =
-                regulation::evaluate(&d, &set, &regulation::Witness { paths: Paths { f, ..w.paths }, ..w.clone() });
+            let conditions = regulation::evaluate(
+                &d,
+                &set,
+                &regulation::Witness { paths: Paths { f, ..w.paths }, ..w.clone() },
+                None,
+            );
             close("C5", &conditions.unwrap()[4].rhs, 4.0 * 0.5);
         }
     }

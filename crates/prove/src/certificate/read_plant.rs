@@ -50,10 +50,7 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
     let triple = witness.required(STABILITY, errors).and_then(|value| read_triple(&value, errors));
     let forcing = witness.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
     let values = witness.required("bounds", errors).and_then(|value| read_values(&value, errors));
-    let inequality = match witness.optional(INEQUALITY) {
-        None => None,
-        Some(value) => Some(read_inequality(&value, witness, errors)),
-    };
+    let inequality = witness.optional(INEQUALITY).map(|value| read_inequality(&value, witness, errors));
     let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose();
     let parts = |ProvedTriple { matrix, p_low, p_up, alpha }: ProvedTriple| {
         let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));

@@ -344,9 +344,8 @@ impl CoordinateSearch<'_> {
         if freedom == 0 {
             return l.clone();
         }
-        let density = self.focused(l, start).unwrap_or(Density::Coarse);
         let cost = |s: &[f64]| {
-            let model = self.model(alone(&(l * exponential(n, s))), &density);
+            let model = self.model(alone(&(l * exponential(n, s))), &Density::Coarse);
             search_sharp_near(&model, start).ok().map(|found| found.sigma.portable_ln())
         };
         let (zero, steps) = (vec![0.0; freedom], vec![STEP; freedom]);

@@ -30,7 +30,7 @@ pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
 /// In between, while the proved values lead to no gain near the proposal: at so much larger a gain (where the least set there is
 /// ceases to be one, the set of a somewhat larger gain has room for proved values), and so far beyond the arguments there.
-const FURTHER: [(f64, f64); 5] = [(1e-2, 2e-2), (5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
+const FURTHER: [(f64, f64); 4] = [(5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
 
 /// A gain from proved values that is at most so many times the proposal is near it.
 const NEAR: f64 = 1.1;

@@ -13,7 +13,7 @@ use sigmastar_plants::orbit::lower_triangular;
 use std::sync::Arc;
 
 /// The points that are listed for each bound, where only the most extreme ones are looked at.
-const EXTREME: usize = 4;
+const EXTREME: usize = 6;
 
 /// Significant digits of a P of existence.
 const DIGITS: u32 = 4;
