@@ -14,6 +14,7 @@ mod intervals;
 mod linear_plants;
 mod lmi;
 mod lyapunov;
+mod matrix_inequality;
 mod mean_squares;
 mod monotone;
 mod mutations;

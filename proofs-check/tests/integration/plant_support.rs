@@ -2,9 +2,10 @@
 
 use super::common::folder;
 use proofs_check::effort;
-use proofs_check::json::{Field, Json, parse};
+use proofs_check::json::{Field, Json, decimal, parse};
 use proofs_check::plants as plant;
 use proofs_check::plants::read::Plant;
+use proofs_check::rules::inequality::Inequality;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
 use rug::Float;
@@ -24,12 +25,22 @@ fn read(parts: &Value) -> Outcome<(Specification, Plant)> {
     fields.finish().map(|()| read)
 }
 
+/// A matrix inequality as a witness has it, beside its weights.
+fn inequality(parts: &Value) -> Outcome<Inequality> {
+    let json = parse(parts["part"].to_string().as_bytes()).unwrap();
+    let weight = |name: &str| decimal(parts[name].as_str().unwrap()).unwrap();
+    let field = Field { json: &json, pointer: "/witness/matrix_inequality".to_owned() };
+    Inequality::read(&field, [&weight("w_x"), &weight("h")])
+}
+
 /// Applies the rules of section 11; the lines of the argument.
 pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
     let (spec, plant) = read(parts)?;
+    let inequality = parts.get("inequality").map(inequality).transpose()?;
     let none = Float::new(128);
     let mut lines = Vec::new();
-    let (answer, steps) = effort::limited(effort::LIMIT, || plant::prove(&spec, &plant, [&none, &none], &mut lines));
+    let (answer, steps) =
+        effort::limited(effort::LIMIT, || plant::prove(&spec, &plant, [&none, &none], inequality.as_ref(), &mut lines));
     lines.push(format!("{steps} steps"));
     answer.map(|()| lines)
 }
@@ -78,6 +89,12 @@ impl Parts {
         let entry =
             |(bound, x, e, value): &(&str, &str, &str, &str)| json!({ "bound": bound, "X": x, "E": e, "value": value });
         self.with("/witness/bounds", entries.iter().map(entry).collect())
+    }
+
+    /// The inequality with the weights w_x and h, on `|y| <= x`, `|e| <= e`.
+    pub fn inequality(self, [w_x, h]: [&str; 2], [x, e]: [&str; 2], rate: &str, sigma: f64) -> Parts {
+        let part = json!({ "X": x, "E": e, "rate": rate, "sigma": format!("{sigma:.12}") });
+        self.with("/inequality", json!({ "w_x": w_x, "h": h, "part": part }))
     }
 
     /// Another value at a place, which need not be there yet.

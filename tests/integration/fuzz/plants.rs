@@ -261,7 +261,7 @@ impl Drawn {
         let (spec, plant) = proofs_check::plants::read::read(&field, &mut fields)?;
         fields.finish()?;
         let none = Float::new(128);
-        proofs_check::plants::prove(&spec, &plant, [&none, &none], &mut Vec::new())
+        proofs_check::plants::prove(&spec, &plant, [&none, &none], None, &mut Vec::new())
     }
 
     pub fn name(&self) -> String {

@@ -43,6 +43,13 @@ impl FloatSuprema {
         });
     }
 
+    /// The same at these points: t/T, y in the unit ball, e/E.
+    #[must_use]
+    pub fn threshold_at(&self, at: [f64; 2], points: &[(f64, Vec<f64>, f64)], weights: FloatWeights) -> f64 {
+        let mut form = Form::new(self.order());
+        self.largest_of_derivatives_at(at, points, |derivatives, matrix| form.threshold(derivatives, matrix, weights))
+    }
+
     /// The same by a longer search.
     #[must_use]
     pub fn refined_threshold(&self, at: [f64; 2], weights: FloatWeights) -> f64 {

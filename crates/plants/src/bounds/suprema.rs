@@ -343,18 +343,40 @@ impl FloatSuprema {
 
     /// The largest value at these points: t/T, y in the unit ball, e/E; of a rate the negative.
     #[must_use]
-    pub fn largest_at(&self, kind: Bound, [reach, e]: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
+    pub fn largest_at(&self, kind: Bound, at: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
+        let mut pointwise = self.pointwise();
+        let asked = Asked::only(kind);
+        self.largest_of(at, points, |outputs, moment, matrices| {
+            of_table(kind, &pointwise.at(outputs, &moment.velocity, matrices, asked))
+        })
+    }
+
+    /// The largest value of the first derivatives and P at these points.
+    pub(super) fn largest_of_derivatives_at(
+        &self,
+        at: [f64; 2],
+        points: &[(f64, Vec<f64>, f64)],
+        mut value: impl FnMut(&Derivatives<'_>, &MatrixAt) -> f64,
+    ) -> f64 {
+        let mut pointwise = self.pointwise();
+        self.largest_of(at, points, |outputs, _, matrices| value(&pointwise.derivatives(outputs), &matrices[0]))
+    }
+
+    fn largest_of(
+        &self,
+        [reach, e]: [f64; 2],
+        points: &[(f64, Vec<f64>, f64)],
+        mut value_of: impl FnMut(&[f64], &Moment, &[MatrixAt; 2]) -> f64,
+    ) -> f64 {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut slow = Evaluator::new(self.velocity.clone());
         let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
-        let mut pointwise = self.pointwise();
-        let asked = Asked::only(kind);
         let value = |(time, y, part): &(f64, Vec<f64>, f64)| {
             let moment = self.moment(*time, &mut evaluator, &mut slow);
             evaluator.load_time_values(&moment.kept);
             self.place(&moment.orbit, y, reach, &mut x);
             evaluator.evaluate(&x, part * e, &mut outputs);
-            of_table(kind, &pointwise.at(&outputs, &moment.velocity, &self.matrices_at(*time), asked))
+            value_of(&outputs, &moment, &self.matrices_at(*time))
         };
         points.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
     }

@@ -1,5 +1,6 @@
 //! Decided bounds against samples, and the paper's plant.
 
+mod inequality;
 mod outside;
 mod random_points;
 
@@ -138,11 +139,11 @@ fn the_papers_plant() {
     for e in ["0", "0.1", "1", "4"] {
         let (x, e) = (rational("0.5"), rational(e));
         let start = Instant::now();
-        let all = case.samples.survey(0.5, e.to_f64(), 1, Asked::ALL);
+        let all = case.samples.survey(0.5, e.to_f64(), &Places::Stride(1), Asked::ALL);
         println!("(0.5, {e}): all sampled in {:.2} ms: {all:.4?}", start.elapsed().as_secs_f64() * 1e3);
         for (index, kind) in TABLE.into_iter().enumerate().filter(|(_, kind)| *kind != Bound::RateExistence) {
             // What is asked for by itself is what all have.
-            let alone = case.samples.survey(0.5, e.to_f64(), 1, Asked::only(kind))[index];
+            let alone = case.samples.survey(0.5, e.to_f64(), &Places::Stride(1), Asked::only(kind))[index];
             assert_eq!(alone.to_bits(), all[index].to_bits(), "{kind:?}: {alone}");
             let start = Instant::now();
             let sampled = case.samples.refined(kind, 0.5, e.to_f64());

@@ -88,17 +88,22 @@ impl Needed {
 
     /// Which bound is used where (derivation, 11.3).
     fn list(&self) -> Vec<(Bound, Rational, Rational)> {
-        let Needed { x_p, e_p, x_per, e_per, x_b, e_b, paths: Paths { f, q }, second, inequality } = self;
+        let Needed { x_p, e_p, second, .. } = self;
         let of_existence = if *second { Bound::RateExistence } else { Bound::Rate };
         let zero = Rational::new();
         let mut list = vec![(Bound::Fx, x_p, &zero), (of_existence, x_p, &zero)];
-        if inequality.is_none() {
-            list.extend([(Bound::Rate, x_b, f.e_of_dx(e_per, e_b)), (Bound::Fe, f.x_of_de(x_per, x_b), e_b)]);
-            list.push((Bound::Qx, x_b, q.e_of_dx(e_per, e_b)));
-            list.extend([Bound::Qe, Bound::QeMax].map(|bound| (bound, q.x_of_de(x_per, x_b), e_b)));
-        }
         list.extend([Bound::Fe, Bound::Qx, Bound::Qe, Bound::QeMax].map(|bound| (bound, x_p, e_p)));
         list.extend([(Bound::Qtx, x_p, e_p), (Bound::Qte, x_p, e_p)]);
+        list.into_iter().map(|(bound, x, e)| (bound, x.clone(), e.clone())).collect()
+    }
+
+    /// Those of the error box: C5 uses them, or, where a matrix inequality stands in its place, nothing but what is said beside the
+    /// claim (rates of convergence).
+    fn of_error_box(&self) -> Vec<(Bound, Rational, Rational)> {
+        let Needed { x_per, e_per, x_b, e_b, paths: Paths { f, q }, .. } = self;
+        let mut list = vec![(Bound::Rate, x_b, f.e_of_dx(e_per, e_b)), (Bound::Fe, f.x_of_de(x_per, x_b), e_b)];
+        list.push((Bound::Qx, x_b, q.e_of_dx(e_per, e_b)));
+        list.extend([Bound::Qe, Bound::QeMax].map(|bound| (bound, q.x_of_de(x_per, x_b), e_b)));
         list.into_iter().map(|(bound, x, e)| (bound, x.clone(), e.clone())).collect()
     }
 }
@@ -117,23 +122,36 @@ pub(super) fn prove_all(
         None => None,
         Some(wanted) => Some(engine.prove_inequality(suprema, wanted, mu).ok_or_else(|| not_proved(wanted))?),
     };
-    let stateless = engine.states() == 0;
-    let proofs: Vec<Result<ProvedValue, PlantRefusal>> = needed
-        .list()
+    let asked = needed.list().into_iter().map(|entry| (entry, true));
+    let beside = needed.of_error_box().into_iter().map(|entry| (entry, inequality.is_none()));
+    let proofs: Vec<(Result<ProvedValue, PlantRefusal>, bool)> = asked
+        .chain(beside)
+        .collect::<Vec<_>>()
         .into_par_iter()
-        .map(|(bound, x, e)| {
-            let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
-            let (value, sampled) = match engine.prove_value(suprema, bound, &x, &e) {
-                Some(proved) => (proved.value, Rational::from_f64(proved.sampled)),
-                // Without states every rate is as good as any other, and the checker asks for none.
-                None if bound.is_rate() && stateless => (Rational::from(1), None),
-                None if bound.is_rate() => return Err(refusal()),
-                None => (smallest(engine, bound, [&x, &e]).ok_or_else(refusal)?, None),
-            };
-            Ok(ProvedValue { bound, x, e, value, sampled })
-        })
+        .map(|((bound, x, e), is_used)| (value_of(engine, suprema, bound, [x, e]), is_used))
         .collect();
-    Ok(ProvedValues::new(proofs.into_iter().collect::<Result<_, _>>()?).with_inequality(inequality))
+    // What no condition uses may be missing.
+    let proofs = proofs.into_iter().filter(|(proof, is_used)| *is_used || proof.is_ok()).map(|(proof, _)| proof);
+    Ok(ProvedValues::new(proofs.collect::<Result<_, _>>()?).with_inequality(inequality))
+}
+
+/// The value of a bound at one argument.
+fn value_of(
+    engine: &Engine,
+    suprema: &FloatSuprema,
+    bound: Bound,
+    [x, e]: [Rational; 2],
+) -> Result<ProvedValue, PlantRefusal> {
+    let stateless = engine.states() == 0;
+    let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
+    let (value, sampled) = match engine.prove_value(suprema, bound, &x, &e) {
+        Some(proved) => (proved.value, Rational::from_f64(proved.sampled)),
+        // Without states every rate is as good as any other, and the checker asks for none.
+        None if bound.is_rate() && stateless => (Rational::from(1), None),
+        None if bound.is_rate() => return Err(refusal()),
+        None => (smallest(engine, bound, [&x, &e]).ok_or_else(refusal)?, None),
+    };
+    Ok(ProvedValue { bound, x, e, value, sampled })
 }
 
 fn not_proved(MatrixInequality { x, e, .. }: &MatrixInequality) -> PlantRefusal {
