@@ -8,7 +8,7 @@ use super::{input, output};
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
-use sigmastar_prove::reduction::reduce;
+use sigmastar_prove::reduction::reduce_by_norms;
 use sigmastar_studies::bounding::bounding_specification;
 
 /// Runs the command and returns the exit code.
@@ -23,7 +23,7 @@ fn attempt(args: &BoundArgs) -> Result<u8, Failure> {
     let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };
     let working = Working::new("finding the orbit and proving the plant's bounds", audience);
     let refused = |refusal: sigmastar_prove::reduction::PlantRefusal| Failure::Documents(refusal.errors(&plant));
-    let reduced = reduce(&plant).map_err(refused)?;
+    let reduced = reduce_by_norms(&plant).map_err(refused)?;
     let bounded = bounding_specification(&plant, &reduced.spec, asked).map_err(refused)?;
     drop(working);
     let text = format!("{:#}\n", bounded.document);

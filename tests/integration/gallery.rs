@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// What the gallery calls the mechanisms of a report, and how the report's words start.
-const MECHANISMS: [(&str, &str); 3] = [
+const MECHANISMS: [(&str, &str); 4] = [
+    ("matrix inequality", "(M): the matrix inequality of stability"),
     ("loop through x", "C5: the loop through x in the error box"),
     ("dq/de", "C5: dq/de in the error box"),
     ("start of z", "C5: how far the state of the internal model starts"),

@@ -287,7 +287,7 @@ fn the_rate_of_stability_is_none_in_the_p_of_existence() {
 #[test]
 fn a_false_matrix_of_existence_is_refused() {
     let folder = TempDir::new().unwrap();
-    let (certificate, _) = certified(folder.path(), "duffing");
+    let (certificate, _) = certified(folder.path(), "pendulum");
     let document: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
     let bounds = document["witness"]["bounds"].as_array().unwrap();
     let at = bounds.iter().position(|entry| entry["bound"] == "rate_existence").unwrap();
@@ -304,7 +304,7 @@ fn a_false_matrix_of_existence_is_refused() {
     .step_by(every(2))
     {
         let false_one = altered(&certificate, pointer, &value);
-        let call = ["certify", "specs/plants/duffing.json", "--quiet", "--witness"];
+        let call = ["certify", "specs/plants/pendulum.json", "--quiet", "--witness"];
         let output = program().args(call).arg(&false_one).output().unwrap();
         assert_ne!(output.status.code(), Some(0), "{pointer}");
         let answer = checked(&false_one);

@@ -231,6 +231,8 @@ fn of_data() -> Vec<Field> {
     let names = Bound::ALL.map(Bound::field).to_vec();
     let mut value = vec![must("bound", "Bound", "Which bounding function.", Shape::Word(names))];
     value.extend(numbers(&["X", "E", "value"], "An argument, or the bound there."));
+    let inequality = numbers(&["X", "E", "rate", "sigma"], "An argument, the rate that x keeps, or the threshold.");
+    let inequality = inequality.into_iter().collect();
     vec![
         may("lyapunov", "Lyapunov triple", "P(t) and the triple of stability, proved.", triple()),
         may("lyapunov_existence", "Second triple", "That of the existence of the periodic solution.", triple()),
@@ -242,6 +244,12 @@ fn of_data() -> Vec<Field> {
             "Bounds",
             "The bounds that are proved from the formulas.",
             any_list(named("bound", Shape::Object(value))),
+        ),
+        may(
+            "matrix_inequality",
+            "Matrix inequality",
+            "That of stability in the place of C5, proved from the formulas for w_x and h of the witness.",
+            named("matrix_inequality", Shape::Object(inequality)),
         ),
     ]
 }

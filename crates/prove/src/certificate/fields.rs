@@ -16,7 +16,10 @@ use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::transfer::TransferProof;
 
 /// The fields of a witness that only a certificate of a plant has.
-pub(super) const PLANT_FIELDS: [&str; 4] = ["coordinates", "orbit", "forcing", "bounds"];
+pub(super) const PLANT_FIELDS: [&str; 5] = ["coordinates", "orbit", "forcing", "bounds", INEQUALITY];
+
+/// The field of the matrix inequality of a plant; its weights are those of the witness.
+pub(super) const INEQUALITY: &str = "matrix_inequality";
 
 /// A part of a certificate that consists of exact rational numbers, each with a name.
 pub trait NumberFields: Sized {

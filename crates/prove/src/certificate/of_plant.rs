@@ -1,5 +1,6 @@
 //! What a certificate of a plant adds to the witness (derivation, 11).
 
+use super::fields::INEQUALITY;
 use super::triple::rows;
 use rug::Rational;
 use serde_json::Value;
@@ -34,9 +35,6 @@ pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     parts.extend(values.inequality().map(|inequality| (INEQUALITY, inequality_json(inequality))));
     parts
 }
-
-/// The field of the matrix inequality; its weights are those of the witness.
-pub(super) const INEQUALITY: &str = "matrix_inequality";
 
 fn inequality_json(MatrixInequality { x, e, rate, value, .. }: &MatrixInequality) -> Value {
     object([("X", x), ("E", e), ("rate", rate), ("sigma", value)].map(|(name, value)| (name, exact(value))))

@@ -1,7 +1,6 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
-use super::fields::{exact_rational, rational};
-use super::of_plant::INEQUALITY;
+use super::fields::{INEQUALITY, exact_rational, rational};
 use super::read::{read_rows, read_triple};
 use super::triple::{EXISTENCE, STABILITY};
 use rug::Rational;

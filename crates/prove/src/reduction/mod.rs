@@ -20,7 +20,7 @@ mod subject;
 mod tests;
 mod witness;
 
-pub use reduce::{Reduced, bounds_around, decide_again, reduce};
+pub use reduce::{Reduced, bounds_around, decide_again, reduce, reduce_by_norms};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use run::{Certified, Prepared, Run};
 pub use sampled::{ReducedSampled, SampledPairs, reduce_sampled, with_sampled_pairs};

@@ -42,6 +42,9 @@ const ABOVE: [f64; 7] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 /// A gain by a matrix inequality is at most this share of that by norms, to be worth its proof.
 const WORTH_A_MATRIX: f64 = 0.99;
 
+/// A gain that in a period does no more than this needs not be smaller.
+const AS_GOOD_AS_NONE: f64 = 1e-6;
+
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
 
@@ -75,6 +78,14 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
             None => prove_bounds(along, sampling, chosen),
         }
     })
+}
+
+/// The same with C5 by norms: what a bounding specification of the plant can have.
+///
+/// # Errors
+/// What could not be proved or found.
+pub fn reduce_by_norms(plant: &Plant) -> Result<Reduced, PlantRefusal> {
+    with_coordinates(plant, prove_bounds)
 }
 
 /// Finds and proves the orbit, chooses the coordinates, and goes on from there.
@@ -129,13 +140,13 @@ fn best_constant(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
 }
 
 /// The best coordinates near a choice, and the gain with them, where stability is proved by a matrix inequality; none where P moves,
-/// and where the gain is not smaller by what is worth it.
+/// where there is nothing to gain, and where the gain is not smaller by what is worth it.
 fn best_by_matrix(
     (along, chosen): (&Along, &Chosen),
     sampling: &Sampling<'_>,
 ) -> Result<Option<(Along, Chosen)>, PlantRefusal> {
     let p = &along.coordinates.p;
-    if !p.harmonics.is_empty() {
+    if !p.harmonics.is_empty() || chosen.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE {
         return Ok(None);
     }
     let found = with_constant(p, sampling, true, |search| search.choose_near(&chosen.l, &chosen.proposal))?;

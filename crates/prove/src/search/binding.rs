@@ -14,6 +14,8 @@ pub enum Binding {
     InternalModel,
     /// The other term of C5: the loop through x, by df/de and dq/dx.
     Coupling,
+    /// The matrix inequality that stands in the place of C5.
+    MatrixInequality,
 }
 
 impl Binding {
@@ -25,6 +27,7 @@ impl Binding {
             Binding::Slope { .. } => "C5: dq/de in the error box",
             Binding::InternalModel => "C5: how far the state of the internal model starts from the periodic solution",
             Binding::Coupling => "C5: the loop through x in the error box, by df/de and dq/dx against the decay rate",
+            Binding::MatrixInequality => "(M): the matrix inequality of stability in the error box",
         }
     }
 
@@ -51,6 +54,10 @@ impl Binding {
                 "A smaller initial set, in which f and q bend less, lowers it; so does less coupling between x and e, by a loop \
                  around x or by another output e."
             }
+            Binding::MatrixInequality => {
+                "An aligned start or a smaller initial set, in which f and q bend less, lowers it; so do a mu and weights that \
+                 fit the plant (`sigmastar tune`)."
+            }
         }
     }
 
@@ -72,6 +79,8 @@ impl Binding {
             Binding::Coupling => {
                 "Smaller f_e or q_x, a larger alpha or a rate on the box, or coordinates of x in which they are, lower it."
             }
+            // Only a plant's formulas have one.
+            Binding::MatrixInequality => self.of_plant(),
         }
     }
 }

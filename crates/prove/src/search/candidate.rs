@@ -110,16 +110,13 @@ impl Shape {
 }
 
 /// D_x = rho c dX, h from eta, and the threshold of C5 with the level condition active.
-pub fn error_box(
+pub(super) fn error_box_by_norms(
     model: &FloatModel,
     periodic: (f64, f64),
     distances: [f64; 3],
     rho: f64,
     eta: f64,
 ) -> Result<AtSigma, Obstacle> {
-    if let Some(by_matrix) = &model.by_matrix {
-        return by_matrix.error_box(model, periodic, distances, (rho, eta));
-    }
     let [_, dist_e, dist_z] = distances;
     Shape::best(model, periodic, distances, (rho, eta), |Shape { d_x, w_x, weight, paths, error_box }| {
         let decay = DecayCondition::new(model, &error_box, &w_x, &weight);

@@ -1,7 +1,8 @@
 //! The error box in floating point: rho and eta that make the threshold of C5 (or what the law at samples has in its place)
 //! small, for given distances.
 
-use super::candidate::{AtSigma, error_box};
+use super::by_matrix::error_box_by_matrix;
+use super::candidate::{AtSigma, error_box_by_norms};
 use super::minimise::minimise;
 use super::model::FloatModel;
 use super::obstacle::{Closest, Obstacle};
@@ -18,6 +19,23 @@ const FAR: usize = 60;
 
 /// So many values in a row that do not help end that.
 const PATIENCE: usize = 3;
+
+/// The error box of a shape, and the threshold of C5, or of what stands in its place.
+///
+/// # Errors
+/// What stands in the way.
+pub fn error_box(
+    model: &FloatModel,
+    periodic: (f64, f64),
+    distances: [f64; 3],
+    rho: f64,
+    eta: f64,
+) -> Result<AtSigma, Obstacle> {
+    match &model.by_matrix {
+        Some(by_matrix) => error_box_by_matrix(by_matrix, model, periodic, distances, (rho, eta)),
+        None => error_box_by_norms(model, periodic, distances, rho, eta),
+    }
+}
 
 /// The best error box around a periodic solution of size (x_per, e_per), for distances dX, dE, dZ: a scan over many orders of
 /// magnitude, then a local minimisation.

@@ -23,9 +23,9 @@ mod sampled;
 mod scan;
 mod sharp;
 mod smaller_set;
+mod threshold;
 
 pub use binding::Binding;
-pub use by_matrix::{ByMatrix, Threshold};
 pub use candidate::{AtSigma, active_level, weight_h};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;
@@ -41,3 +41,4 @@ pub use sharp::{
     without_optional_data,
 };
 pub use smaller_set::smaller_set;
+pub use threshold::{ByMatrix, Threshold};

@@ -1,9 +1,9 @@
 //! The specification in floating point, for searches only.
 
-use super::by_matrix::ByMatrix;
 use super::effort::Effort;
 use super::float_bound::FloatBound;
 use super::obstacle::{Extreme, Failing, Obstacle};
+use super::threshold::ByMatrix;
 use sigmastar_lang::spec::model::{InitialSet, SIZES, StartSizes};
 use sigmastar_theory::data::{Bound, Data, ExistenceTriple, Numbers, Problem};
 use sigmastar_theory::derivation::initial_set::paper_z0;

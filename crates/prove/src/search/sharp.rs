@@ -1,8 +1,8 @@
 //! The search of the sharp derivation: the smallest sigma at which the smallest set with a periodic solution has an error box.
 
 use super::binding::Binding;
-use super::candidate::{AtSigma, error_box};
-use super::error_box::{best_error_box, error_box_near};
+use super::candidate::AtSigma;
+use super::error_box::{best_error_box, error_box, error_box_near};
 use super::floors::{ordinary, raised, tiny};
 use super::model::{Datum, FloatModel, OptionalDatum};
 use super::obstacle::{Closest, Failing, Obstacle};
@@ -277,6 +277,7 @@ fn proposal(search: &Search<'_>, sigma: f64) -> Result<SharpProposal, Obstacle> 
     let parameters = SharpParameters { form: search.form, floors: search.floors, rho: at.rho, eta: at.eta };
     let binding = match search.at(sigma * (1.0 - 1e-6), ROOM) {
         Err(Obstacle { failing: Failing::Existence, .. }) => Binding::Existence,
+        _ if search.model.by_matrix.is_some() => Binding::MatrixInequality,
         _ => Binding::of_decay(search.model, &set, &at),
     };
     Ok(SharpProposal { parameters, sigma, binding })

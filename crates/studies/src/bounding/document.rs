@@ -33,7 +33,7 @@ pub struct BoundedPlant {
     pub limited: bool,
 }
 
-/// The bounding specification of a plant that [`reduce()`](sigmastar_prove::reduction::reduce()) has led to `spec`, on `|y| <= X`,
+/// The bounding specification of a plant that [`reduce_by_norms`](sigmastar_prove::reduction::reduce_by_norms()) has led to `spec`, on `|y| <= X`,
 /// `|e| <= E` with the domain that is asked for, or one quarter larger than what the gain of `spec` needs; never beyond the domain
 /// of the plant.
 ///

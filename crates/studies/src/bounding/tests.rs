@@ -10,7 +10,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Evaluator, Program};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, Document, OfPlant, Specification, TrigonometricVector};
-use sigmastar_prove::reduction::reduce;
+use sigmastar_prove::reduction::reduce_by_norms;
 use std::sync::Arc;
 
 /// The whole domain has what no part of it has: every bound is met at a corner, with x_0 = 0.
@@ -92,7 +92,7 @@ impl<'p> Formulas<'p> {
 
 /// No bound is below what its points reach; the largest parts of each that are reached.
 fn reached(plant: &Plant, domain: Option<[Rational; 2]>) -> [f64; 5] {
-    let reduced = reduce(plant).unwrap();
+    let reduced = reduce_by_norms(plant).unwrap();
     let of_plant = reduced.spec.plant().unwrap();
     let bounded = bounding_specification(plant, &reduced.spec, domain).unwrap();
     let document = Document::parse("bounded", &bounded.document.to_string()).unwrap();
