@@ -2,7 +2,6 @@
 
 use super::eigen::{eigen, largest, largest_of};
 use super::entry::TABLE;
-use super::sampled_threshold::Derivatives;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
@@ -82,6 +81,14 @@ pub(super) enum MatrixAt {
     Constant(Arc<[Vec<f64>; 2]>),
     /// P(t) and its derivative.
     Moving([Vec<Vec<f64>>; 2]),
+}
+
+/// J by rows, g, r and d at a point, in the coordinates y.
+pub(super) struct Derivatives<'a> {
+    pub(super) j: &'a [f64],
+    pub(super) g: &'a [f64],
+    pub(super) r: &'a [f64],
+    pub(super) d: f64,
 }
 
 /// The coordinates, with the memory that an evaluation works in.

@@ -1,7 +1,12 @@
 //! The least sigma of the matrix inequality (M) at sampled points, in doubles: it proposes, and nothing rests on it.
 
-use super::pointwise::MatrixAt;
-use super::suprema::{FloatSuprema, Places};
+use super::entry::TABLE;
+use super::pointwise::{Asked, Derivatives, MatrixAt};
+use super::suprema::{FloatSuprema, Place, Places, keep};
+use std::sync::Arc;
+
+/// So many times more points are listed for the threshold of the matrix inequality, which all derivatives enter.
+const OF_THRESHOLD: usize = 6;
 
 /// The free numbers of (M) in doubles (derivation, 13.7).
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +20,31 @@ pub struct FloatWeights {
 }
 
 impl FloatSuprema {
+    /// The places where bounds are largest on some `G(X, E)`: so many for each bound of [`TABLE`] and each (X, E), and as many where
+    /// `value` is largest at the last of them.
+    #[must_use]
+    pub fn extreme(&self, boxes: &[[f64; 2]], each: usize, weights: Option<FloatWeights>) -> Places {
+        let mut kept: Vec<Vec<(f64, Place)>> = Vec::new();
+        for at in boxes {
+            let mut best = vec![Vec::new(); TABLE.len()];
+            self.at_points(*at, &Places::Stride(1), Asked::ALL, |place, values| {
+                best.iter_mut().zip(values).for_each(|(best, value)| keep(best, each, value, place));
+            });
+            kept.append(&mut best);
+        }
+        if let (Some(at), Some(weights)) = (boxes.last(), weights) {
+            let mut best = Vec::new();
+            self.thresholds_at_points(*at, &Places::Stride(1), weights, |place, value| {
+                keep(&mut best, OF_THRESHOLD * each, value, place);
+            });
+            kept.push(best);
+        }
+        let mut listed: Vec<Place> = kept.into_iter().flatten().map(|(_, place)| place).collect();
+        listed.sort_unstable();
+        listed.dedup();
+        Places::Listed(Arc::new(listed))
+    }
+
     /// The least sigma at which F of [`Engine::decide_inequality`](super::Engine::decide_inequality) is positive semidefinite at
     /// points of the grid, with P = 1: half of `b' G^-1 b` for the column b that e has beside its
     /// diagonal, and G what F is without e. Infinite where G is not positive definite at one of them; not a number where P is not
@@ -35,7 +65,7 @@ impl FloatSuprema {
         at: [f64; 2],
         places: &Places,
         weights: FloatWeights,
-        mut see: impl FnMut([usize; 3], f64),
+        mut see: impl FnMut(Place, f64),
     ) {
         let mut form = Form::new(self.order());
         self.derivatives_at_points(at, places, |place, derivatives, matrix| {
@@ -56,14 +86,6 @@ impl FloatSuprema {
         let mut form = Form::new(self.order());
         self.refined_of_derivatives(at, |derivatives, matrix| form.threshold(derivatives, matrix, weights))
     }
-}
-
-/// J by rows, g, r and d at a point, in the coordinates y.
-pub(super) struct Derivatives<'a> {
-    pub(super) j: &'a [f64],
-    pub(super) g: &'a [f64],
-    pub(super) r: &'a [f64],
-    pub(super) d: f64,
 }
 
 /// The lower triangle of G and b beside it, by rows, as working memory.

@@ -1,8 +1,7 @@
 //! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
 
 use super::entry::{TABLE, of_table};
-use super::pointwise::{Asked, MatrixAt, Pointwise, roots};
-use super::sampled_threshold::{Derivatives, FloatWeights};
+use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise, roots};
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
@@ -21,9 +20,6 @@ const MOVES: u32 = 4;
 
 /// The first step of the local search, in coordinates of the cube.
 const FIRST_STEP: f64 = 0.15;
-
-/// So many times more points are listed for the threshold of the matrix inequality, which all derivatives enter.
-const OF_THRESHOLD: usize = 6;
 
 /// The best points from which a fine local search starts.
 const STARTS: usize = 6;
@@ -49,7 +45,7 @@ impl From<&TrigonometricVector> for FloatCurve {
 const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
 
 /// A place in the grid: of the time, of the point of the ball, and of the share of E.
-type Place = [usize; 3];
+pub(super) type Place = [usize; 3];
 
 /// Which points of the grid are looked at.
 #[derive(Clone, Debug)]
@@ -244,7 +240,13 @@ impl FloatSuprema {
     }
 
     /// Calls `see` with the place and the values of every point.
-    fn at_points(&self, at: [f64; 2], places: &Places, asked: Asked, mut see: impl FnMut(Place, [f64; TABLE.len()])) {
+    pub(super) fn at_points(
+        &self,
+        at: [f64; 2],
+        places: &Places,
+        asked: Asked,
+        mut see: impl FnMut(Place, [f64; TABLE.len()]),
+    ) {
         let mut pointwise = self.pointwise();
         self.outputs_at_points(at, places, |place, outputs, moment, matrices| {
             see(place, pointwise.at(outputs, &moment.velocity, matrices, asked));
@@ -274,31 +276,6 @@ impl FloatSuprema {
             evaluator.evaluate(&x, ERRORS[k] * e, &mut outputs);
             see(place, &outputs, moment, &matrices);
         }
-    }
-
-    /// The places where bounds are largest on some `G(X, E)`: so many for each bound of [`TABLE`] and each (X, E), and as many where
-    /// `value` is largest at the last of them.
-    #[must_use]
-    pub fn extreme(&self, boxes: &[[f64; 2]], each: usize, weights: Option<FloatWeights>) -> Places {
-        let mut kept: Vec<Vec<(f64, Place)>> = Vec::new();
-        for at in boxes {
-            let mut best = vec![Vec::new(); TABLE.len()];
-            self.at_points(*at, &Places::Stride(1), Asked::ALL, |place, values| {
-                best.iter_mut().zip(values).for_each(|(best, value)| keep(best, each, value, place));
-            });
-            kept.append(&mut best);
-        }
-        if let (Some(at), Some(weights)) = (boxes.last(), weights) {
-            let mut best = Vec::new();
-            self.thresholds_at_points(*at, &Places::Stride(1), weights, |place, value| {
-                keep(&mut best, OF_THRESHOLD * each, value, place);
-            });
-            kept.push(best);
-        }
-        let mut listed: Vec<Place> = kept.into_iter().flatten().map(|(_, place)| place).collect();
-        listed.sort_unstable();
-        listed.dedup();
-        Places::Listed(Arc::new(listed))
     }
 
     /// The number of states.
@@ -493,7 +470,7 @@ impl FloatMatrix {
 }
 
 /// Keeps the largest values.
-fn keep(best: &mut Vec<(f64, Place)>, count: usize, value: f64, at: Place) {
+pub(super) fn keep(best: &mut Vec<(f64, Place)>, count: usize, value: f64, at: Place) {
     if value.is_nan() || (best.len() == count && best.last().is_some_and(|(least, _)| value <= *least)) {
         return;
     }
