@@ -7,7 +7,7 @@ use sigmastar_document::number::exact;
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
-use sigmastar_lang::spec::{OfPlant, ProvedValue, Specification};
+use sigmastar_lang::spec::{MatrixInequality, OfPlant, ProvedValue, Specification};
 use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -41,6 +41,15 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         table.push(names.into_iter().chain(arguments).chain([exact(value, direction)]));
     }
     blocks.push(Block::Table(table));
+    blocks.extend(spec.bounds.proved_values().inequality().map(|inequality| {
+        let [x, e] = [&inequality.x, &inequality.e].map(|end| exact(end, Direction::Down));
+        let where_ = if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") };
+        Block::says(format!(
+            "Stability rests on the matrix inequality (M) over the derivatives (section 13.7), which holds from sigma = {} on, at \
+             every point of {where_} and every t. No condition uses the bounds at the same X and E; rates of convergence do.",
+            exact(&inequality.value, Direction::Up)
+        ))
+    }));
     blocks
 }
 
@@ -130,5 +139,12 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
             "tube": write_exact(&plant.orbit.tube), "radius": write_exact(&plant.orbit.radius),
         },
         "alpha": plant.triple.alpha.text, "ball": ball.as_ref().map(write_exact), "bounds": values,
+        "matrix_inequality": spec.bounds.proved_values().inequality().map(|inequality| {
+            let MatrixInequality { x, e, w_x, h, rate, value } = inequality;
+            json!({
+                "X": write_exact(x), "E": write_exact(e), "w_x": write_exact(w_x), "h": write_exact(h),
+                "rate": write_exact(rate), "sigma": write_exact(value),
+            })
+        }),
     })
 }

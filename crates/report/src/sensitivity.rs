@@ -100,9 +100,10 @@ fn compared(run: &Certification<'_>) -> String {
     }
 }
 
-/// The two terms of the threshold of C5 beside sigma*. They are drawn from doubles and claim nothing.
+/// The two terms of the threshold of C5 by norms beside sigma*. They are drawn from doubles and claim nothing.
 fn ingredients(run: &Certification<'_>) -> Option<Bars> {
-    let proof = run.sharp.proved()?;
+    // A matrix inequality has no such terms.
+    let proof = run.sharp.proved().filter(|proof| proof.evaluation.by_matrix.is_none())?;
     let decay = &proof.evaluation.decay;
     let [slope, all] = [&decay.by_slope, &decay.sigma_threshold].map(Enclosure::midpoint_f64);
     let term = |name: &str, value: f64| (name.to_owned(), value, estimate(value));
