@@ -114,8 +114,7 @@ pub(super) fn error_box_by_norms(
     model: &FloatModel,
     periodic: (f64, f64),
     distances: [f64; 3],
-    rho: f64,
-    eta: f64,
+    (rho, eta): (f64, f64),
 ) -> Result<AtSigma, Obstacle> {
     let [_, dist_e, dist_z] = distances;
     Shape::best(model, periodic, distances, (rho, eta), |Shape { d_x, w_x, weight, paths, error_box }| {

@@ -24,16 +24,15 @@ const PATIENCE: usize = 3;
 ///
 /// # Errors
 /// What stands in the way.
-pub fn error_box(
+pub(super) fn error_box(
     model: &FloatModel,
     periodic: (f64, f64),
     distances: [f64; 3],
-    rho: f64,
-    eta: f64,
+    shape: (f64, f64),
 ) -> Result<AtSigma, Obstacle> {
     match &model.by_matrix {
-        Some(by_matrix) => error_box_by_matrix(by_matrix, model, periodic, distances, (rho, eta)),
-        None => error_box_by_norms(model, periodic, distances, rho, eta),
+        Some(by_matrix) => error_box_by_matrix(by_matrix, model, periodic, distances, shape),
+        None => error_box_by_norms(model, periodic, distances, shape),
     }
 }
 
@@ -43,7 +42,7 @@ pub fn error_box(
 /// # Errors
 /// The obstacle of the candidate that came closest, when none is feasible.
 pub fn best_error_box(model: &FloatModel, periodic: (f64, f64), distances: [f64; 3]) -> Result<AtSigma, Obstacle> {
-    best_shape(model, |rho, eta| error_box(model, periodic, distances, rho, eta))
+    best_shape(model, |rho, eta| error_box(model, periodic, distances, (rho, eta)))
 }
 
 /// The best rho and eta of any boxes.
@@ -102,7 +101,7 @@ pub fn error_box_near(
     distances: [f64; 3],
     (rho, eta): (f64, f64),
 ) -> Option<AtSigma> {
-    shape_near(model, |rho, eta| error_box(model, periodic, distances, rho, eta), (rho, eta))
+    shape_near(model, |rho, eta| error_box(model, periodic, distances, (rho, eta)), (rho, eta))
 }
 
 /// The best shape that local minimisation reaches from a known one; `None` where that is not feasible here.

@@ -74,7 +74,7 @@ impl Search<'_> {
         let periodic = (set.x_per, set.e_per);
         let at = match self.near {
             // A shape is sought together with the coordinates where it is dear.
-            Some((rho, eta)) if self.model.by_matrix.is_some() => error_box(self.model, periodic, distances, rho, eta)?,
+            Some(shape) if self.model.by_matrix.is_some() => error_box(self.model, periodic, distances, shape)?,
             near => {
                 let near = near.and_then(|shape| error_box_near(self.model, periodic, distances, shape));
                 near.map_or_else(|| best_error_box(self.model, periodic, distances), Ok)?
