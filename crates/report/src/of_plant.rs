@@ -7,7 +7,7 @@ use sigmastar_document::number::exact;
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
-use sigmastar_lang::spec::{MatrixInequality, OfPlant, ProvedValue, Specification};
+use sigmastar_lang::spec::{MatrixInequality, OfPlant, ProvedValue, Specification, Splitting};
 use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -42,11 +42,18 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     }
     blocks.push(Block::Table(table));
     blocks.extend(spec.bounds.proved_values().inequality().map(|inequality| {
-        let [x, e] = [&inequality.x, &inequality.e].map(|end| exact(end, Direction::Down));
-        let where_ = if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") };
+        let where_ = inequality.arguments().map(|ends| {
+            let [x, e] = ends.map(|end| exact(end, Direction::Down));
+            if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") }
+        });
+        let [states, error] = &where_;
+        let place = match inequality.splitting {
+            None => format!("at every point of {states}"),
+            Some(_) => format!("with df/dx, dq/dx at every point of {states}, df/de, dq/de at every one of {error},"),
+        };
         Block::says(format!(
-            "Stability rests on the matrix inequality (M) over the derivatives (section 13.7), which holds from sigma = {} on, at \
-             every point of {where_} and every t. No condition uses the bounds at the same X and E; rates of convergence do.",
+            "Stability rests on the matrix inequality (M) over the derivatives (section 13.7), which holds from sigma = {} on, \
+             {place} and every t. No condition uses the bounds at the same X and E; rates of convergence do.",
             exact(&inequality.value, Direction::Up)
         ))
     }));
@@ -140,10 +147,13 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
         },
         "alpha": plant.triple.alpha.text, "ball": ball.as_ref().map(write_exact), "bounds": values,
         "matrix_inequality": spec.bounds.proved_values().inequality().map(|inequality| {
-            let MatrixInequality { x, e, w_x, h, rate, value } = inequality;
+            let MatrixInequality { x, e, w_x, h, rate, value, splitting } = inequality;
             json!({
                 "X": write_exact(x), "E": write_exact(e), "w_x": write_exact(w_x), "h": write_exact(h),
                 "rate": write_exact(rate), "sigma": write_exact(value),
+                "splitting": splitting.as_ref().map(|Splitting { x, e, matrix }| {
+                    json!({ "X": write_exact(x), "E": write_exact(e), "S": rows(matrix) })
+                }),
             })
         }),
     })

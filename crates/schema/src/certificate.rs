@@ -232,7 +232,11 @@ fn of_data() -> Vec<Field> {
     let mut value = vec![must("bound", "Bound", "Which bounding function.", Shape::Word(names))];
     value.extend(numbers(&["X", "E", "value"], "An argument, or the bound there."));
     let inequality = numbers(&["X", "E", "rate", "sigma"], "An argument, the rate that x keeps, or the threshold.");
-    let inequality = inequality.into_iter().collect();
+    let mut splitting: Vec<Field> = numbers(&["X", "E"], "X of (g, d), or E of (J, r).").into_iter().collect();
+    splitting.push(must("S", "S", "Below F without e, and above what e adds; in (x, y).", matrix()));
+    let splitting = named("splitting", Shape::Object(splitting));
+    let about = "With it (J, r) and (g, d) are taken at two points.";
+    let inequality = inequality.into_iter().chain([may("splitting", "Splitting", about, splitting)]).collect();
     vec![
         may("lyapunov", "Lyapunov triple", "P(t) and the triple of stability, proved.", triple()),
         may("lyapunov_existence", "Second triple", "That of the existence of the periodic solution.", triple()),

@@ -86,7 +86,9 @@ pub fn prove(
     for entry in &plant.known.entries.list {
         asked.push(of_entry(plant, &mut model, entry));
     }
-    asked.extend(inequality.map(|inequality| of_inequality(plant, &mut model, inequality, spec)));
+    if let Some(inequality) = inequality {
+        asked.extend(of_inequality(plant, &mut model, inequality, spec)?);
+    }
     let still = still::Still::new(plant);
     if model.formulas.is_too_large() {
         return too_large("formulas", "/plant");
@@ -174,26 +176,35 @@ fn of_entry(plant: &Plant, model: &mut Model, entry: &entries::Entry) -> Asked {
     }
 }
 
-fn of_inequality(plant: &Plant, model: &mut Model, inequality: &Inequality, spec: &Specification) -> Asked {
-    let [x, e] = place(inequality);
-    Asked {
-        question: inequality::question(model, inequality, &spec.mu),
-        region: region(plant, &x, &e),
-        rule: inequality::RULE,
-        pointer: inequality.pointer.clone(),
-        what: format!("F >= 0 at X = {}, E = {}", x.to_f64(), e.to_f64()),
-    }
+fn of_inequality(
+    plant: &Plant,
+    model: &mut Model,
+    inequality: &Inequality,
+    spec: &Specification,
+) -> Outcome<Vec<Asked>> {
+    let questions = inequality::questions(model, inequality, &spec.mu)?;
+    let asked = |(what, at, question): (&str, [&Rational; 2], Question)| {
+        let [x, e] = place(at);
+        Asked {
+            question,
+            region: region(plant, &x, &e),
+            rule: inequality::RULE,
+            pointer: inequality.pointer.clone(),
+            what: format!("{what} at X = {}, E = {}", x.to_f64(), e.to_f64()),
+        }
+    };
+    Ok(questions.into_iter().map(asked).collect())
 }
 
-/// X and E of an inequality, rounded up.
-fn place(inequality: &Inequality) -> [Float; 2] {
-    [&inequality.x, &inequality.e].map(|end| above(end, ARGUMENT_PRECISION))
+/// X and E, rounded up.
+fn place(at: [&Rational; 2]) -> [Float; 2] {
+    at.map(|end| above(end, ARGUMENT_PRECISION))
 }
 
 /// The largest X and E that anything is used at.
 fn largest(plant: &Plant, arguments: [&Float; 2], inequality: Option<&Inequality>) -> [Float; 2] {
     let mut largest = plant.known.entries.largest();
-    let others = [arguments.map(Clone::clone)].into_iter().chain(inequality.map(place));
+    let others = [arguments.map(Clone::clone)].into_iter().chain(inequality.into_iter().flat_map(|known| known.arguments().map(place)));
     for (end, other) in others.flat_map(|other| [0, 1].map(|i| (i, other[i].clone()))) {
         if other > largest[end] {
             largest[end] = other;

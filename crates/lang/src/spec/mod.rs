@@ -17,6 +17,7 @@ mod initial_set;
 mod jacobian;
 mod json;
 mod limits;
+mod matrix_inequality;
 pub mod model;
 mod notation;
 mod object;
@@ -44,6 +45,7 @@ pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
 pub use initial_set::read_with_ball;
 pub use jacobian::MAX_STATES;
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
+pub use matrix_inequality::{MatrixInequality, Splitting};
 pub use model::{
     Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
     RelativeDegree, SIZES, Specification, StartSizes, TrigonometricVector,
@@ -53,7 +55,7 @@ pub use object::choose;
 pub use object::{MAX_UNKNOWN, Object};
 pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit};
 pub use power_tail::power_tail;
-pub use proved_values::{MatrixInequality, ProvedValue, ProvedValues};
+pub use proved_values::{ProvedValue, ProvedValues};
 pub use read::read_internal_model;
 pub use read::{FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
 pub use sampling::{MAX_SAMPLES, SampledGain, Sampling};

@@ -1,6 +1,7 @@
 //! Bounding functions of a plant that is known by its formulas: least upper bounds, proved at a few arguments.
 
 use super::bound::Bound;
+use super::matrix_inequality::MatrixInequality;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 
@@ -18,33 +19,6 @@ pub struct ProvedValue {
     pub value: Rational,
     /// What samples reach, where it was sought from them; no claim rests on it.
     pub sampled: Option<Rational>,
-}
-
-/// A matrix inequality that was proved from a plant's formulas: F of the derivation, 13.7 (M), on the straight path, with the P of
-/// stability times `w_x`, `kp = 2 h/mu`, `value` in the place of sigma and J + `rate` I in that of J, is positive semidefinite for
-/// the derivatives at every one point of `|x| <= X`, `|e| <= E`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MatrixInequality {
-    /// X >= 0.
-    pub x: Rational,
-    /// E >= 0.
-    pub e: Rational,
-    /// w_x > 0.
-    pub w_x: Rational,
-    /// h > 0.
-    pub h: Rational,
-    /// The rate that x keeps, above 0, in 1/time: with it F is positive definite at every larger sigma.
-    pub rate: Rational,
-    /// The threshold of sigma, in 1/time.
-    pub value: Rational,
-}
-
-impl MatrixInequality {
-    /// Whether (X, E) is certainly within its own.
-    #[must_use]
-    pub fn reaches(&self, x: &Enclosure, e: &Enclosure) -> bool {
-        reaches(x, &self.x) && reaches(e, &self.e)
-    }
 }
 
 /// Exact: an argument that is the rational of an entry is reached by it.
@@ -107,10 +81,10 @@ impl ProvedValues {
     /// The largest X and E that all values of a bounding function together reach.
     #[must_use]
     pub fn reach(&self) -> Option<[Rational; 2]> {
-        let of_inequality = || self.inequality.iter();
-        let x = self.entries.iter().map(|entry| &entry.x).chain(of_inequality().map(|entry| &entry.x)).max()?;
-        let e = self.entries.iter().map(|entry| &entry.e).chain(of_inequality().map(|entry| &entry.e)).max()?;
-        Some([x.clone(), e.clone()])
+        let of_inequality = self.inequality.iter().flat_map(MatrixInequality::arguments);
+        let all = self.entries.iter().map(|entry| [&entry.x, &entry.e]).chain(of_inequality);
+        let larger = |[x, e]: [_; 2], [other_x, other_e]: [_; 2]| [Ord::max(x, other_x), Ord::max(e, other_e)];
+        all.reduce(larger).map(|largest| largest.map(Clone::clone))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox};
 use super::extent::extent;
-use super::quantity::Quantity;
+use super::quantity::{Part, Quantity};
 use super::region::{Region, RegionError};
 use super::requirement::Requirement;
 use super::side::Side;
@@ -27,7 +27,7 @@ pub struct Engine {
     pub(super) region: Region,
     pub(super) period: Constant,
     quantities: [Option<Quantity>; Bound::ALL.len()],
-    first_derivatives: Quantity,
+    first_derivatives: [Quantity; Part::EACH.len()],
     pub(super) requirements: Vec<Requirement>,
     /// f.
     velocity: Walk,
@@ -72,7 +72,7 @@ impl Engine {
         };
         let quantities = Bound::ALL.map(|kind| quantity(kind, &mut formulas));
         let moves = matrices[0].as_ref().is_some_and(|matrix| !matrix.harmonics.is_empty());
-        let first_derivatives = Quantity::first_derivatives(&mut formulas, &sides, moves);
+        let first_derivatives = Part::EACH.map(|part| Quantity::first_derivatives(&mut formulas, &sides, part, moves));
         let velocity = formulas.walk(f);
         let extents = (0..order).map(|_| OnceLock::new()).collect();
         let period = plant.period.clone();
@@ -97,9 +97,9 @@ impl Engine {
         self.quantities[kind as usize].as_ref()
     }
 
-    /// The derivatives of f and q.
-    pub(super) fn first_derivatives(&self) -> &Quantity {
-        &self.first_derivatives
+    /// First derivatives of f and q.
+    pub(super) fn first_derivatives(&self, part: Part) -> &Quantity {
+        &self.first_derivatives[part as usize]
     }
 
     /// Whether there is a P for a rate.

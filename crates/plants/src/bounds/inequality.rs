@@ -1,95 +1,76 @@
-//! The matrix inequality (M) of stability, on the straight path (derivation, 13.7): decided with enclosures by subdivision.
+//! The matrix inequality (M) of stability (derivation, 13.7): decided with enclosures by subdivision.
 
 use super::PRECISION;
-use super::centred::{Centred, negated};
-use super::chart::{Active, Chart};
+use super::centred::{Centred, Frame, negated};
+use super::chart::{Ball, Chart};
 use super::decide::{Decision, OnBoxes, Values, subdivide};
 use super::definite::{SymmetricValues, Verdict, definite};
 use super::engine::Engine;
-use super::quantity::{Quantity, Right};
-use super::sampled_threshold::FloatWeights;
-use super::suprema::FloatSuprema;
+use super::quantity::Part;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
-use sigmastar_exact::number::{Direction, round_f64};
-use sigmastar_lang::expr::{Formula, Formulas, PlantVariable};
-use sigmastar_lang::spec::{Bound, Constant, MatrixInequality};
-
-/// What the least sigma at samples is enlarged by, until it is proved, and the boxes that each attempt may take.
-const ATTEMPTS: [(f64, usize); 5] = [(0.001, 1500), (0.003, 3000), (0.01, 6000), (0.03, 12_000), (0.1, 20_000)];
-
-/// Significant digits of a threshold.
-const DIGITS: u32 = 6;
-
-impl Quantity {
-    /// The first derivatives `[[f_x, f_e], [q_x, q_e]]`, by the formulas themselves.
-    pub(super) fn first_derivatives(formulas: &mut Formulas, sides: &[Formula], moves: bool) -> Quantity {
-        let order = sides.len() - 1;
-        let variables = (0..order).map(PlantVariable::State).chain([PlantVariable::Error]);
-        let columns: Vec<Vec<Formula>> = variables.map(|variable| formulas.derivatives(sides, variable)).collect();
-        let outputs: Vec<Formula> = (0..=order).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
-        let walk = formulas.walk(&outputs);
-        let used = walk.all_variables();
-        let active = Active {
-            time: used.has(PlantVariable::Time) || moves,
-            states: (0..order).filter(|&index| used.has(PlantVariable::State(index))).collect(),
-            error: used.has(PlantVariable::Error),
-        };
-        let row = |row: usize| (0..=order).map(|column| row * (order + 1) + column).collect();
-        let plain = (0..=order).map(row).collect();
-        Quantity { walk, plain, along: Vec::new(), inverse: false, right: Right::One, active }
-    }
-}
+use sigmastar_lang::spec::{Bound, Constant, MatrixInequality, Splitting};
 
 impl Engine {
-    /// Decides the inequality, with so many boxes at most; mu is that of the internal model.
+    /// Decides the inequality, with so many boxes for each of its parts at most; mu is that of the internal model.
     ///
     /// Guarantee: `True` only if, for every t, every point of `|y| <= X`, `|e| <= E` around any x_0 within r of xb, and the
     /// derivatives (J, g, r, d) of f and q there in the coordinates y, with `kp = 2 h/mu` and `J_+ = J + rate I`,
-    /// `[[-w_x (P' + P J_+ + J_+'P), -w_x P g, -(kp/2) r'], [., 2 value, -1 - (kp/2) d], [., ., kp]]` is positive definite, and
-    /// `w_x`, `h` and `rate` are positive. `False` only if it is not at a point of it. For the caller to prove: what
-    /// [`Engine::decide`] leaves to him.
+    /// `F = [[-w_x (P' + P J_+ + J_+'P), -w_x P g, -(kp/2) r'], [., 2 value, -1 - (kp/2) d], [., ., kp]]` is positive definite; with a
+    /// splitting for (J, r) at every point of one region and (g, d) at every point of another one, at the same t; and `w_x`, `h` and
+    /// `rate` are positive. `False` only if it, or what the splitting asks for, is not so at a point. For the caller to prove:
+    /// what [`Engine::decide`] leaves to him.
     #[must_use]
     pub fn decide_inequality(&self, inequality: &MatrixInequality, mu: &Constant, effort: usize) -> Decision {
-        let MatrixInequality { x, e, w_x, h, rate, value } = inequality;
+        let MatrixInequality { w_x, h, rate, splitting, .. } = inequality;
         if [w_x, h, rate].into_iter().any(|weight| *weight <= 0) {
             return Decision { truth: Truth::False, boxes: 0 };
         }
-        if *x < 0 || *e < 0 || (self.states() > 0 && !self.has_matrix(Bound::Rate)) {
-            return Decision { truth: Truth::Undecided, boxes: 0 };
+        let undecided = Decision { truth: Truth::Undecided, boxes: 0 };
+        let [of_states, of_error] = inequality.arguments();
+        let negative = of_states.iter().chain(&of_error).any(|end| **end < 0);
+        if negative || (self.states() > 0 && !self.has_matrix(Bound::Rate)) {
+            return undecided;
         }
-        let exact = |number: &Rational| Enclosure::from_rational(number, PRECISION);
-        let half_k_p = exact(h) / mu.enclose(PRECISION);
-        let form = Form { w_x: exact(w_x), half_k_p, rate: exact(rate), value: exact(value) };
-        let quantity = self.first_derivatives();
-        let chart = Chart::new(&self.region, self.period(), &quantity.active, [x, e], |index| self.extent(index));
-        let mut boxes = OnBoxes::new(self, quantity, &chart);
-        subdivide(&chart, effort, |cell, ball| {
-            boxes.with(cell, ball, |values, frame| match form.on_box(values) {
-                Some(form) => definite(frame, &form, ball),
-                None => Verdict::Stuck,
-            })
-        })
+        let form = Form::new(inequality, mu);
+        let Some(Splitting { matrix, .. }) = splitting else {
+            return self.decide_part(Part::All, of_states, effort, |values| form.whole(values));
+        };
+        let order = self.states() + 1;
+        let is_symmetric = matrix.len() == order
+            && matrix.iter().all(|row| row.len() == order)
+            && (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
+        if !is_symmetric {
+            return undecided;
+        }
+        // With the first, F is at least what the second is about.
+        let first = self.decide_part(Part::States, of_states, effort, |values| form.beyond(matrix, values));
+        if !first.truth.is_true() {
+            return first;
+        }
+        let second = self.decide_part(Part::Error, of_error, effort, |values| form.beside(matrix, values));
+        Decision { boxes: first.boxes + second.boxes, ..second }
     }
 
-    /// The inequality with the smallest threshold that is proved and little above that of the samples: by 0.1 %, 0.3 %, 1 %, 3 % or
-    /// 10 %; `None` if none is. `samples` must be of the same plant and region, with P = 1; `value` is not used.
-    #[must_use]
-    pub fn prove_inequality(
+    /// Decides that a matrix of these derivatives is positive definite on `G(X, E)`.
+    fn decide_part(
         &self,
-        samples: &FloatSuprema,
-        inequality: &MatrixInequality,
-        mu: &Constant,
-    ) -> Option<MatrixInequality> {
-        let MatrixInequality { x, e, w_x, h, rate, .. } = inequality;
-        let at = [Rational::from(x + self.region.radius()).to_f64(), e.to_f64()];
-        let weights = FloatWeights { w_x: w_x.to_f64(), k_p: 2.0 * h.to_f64() / mu.to_f64(), rate: rate.to_f64() };
-        let sampled = samples.refined_threshold(at, weights);
-        ATTEMPTS.into_iter().find_map(|(slack, effort)| {
-            let value = round_f64(sampled * (1.0 + slack), DIGITS, Direction::Up)?;
-            let inequality = MatrixInequality { value, ..inequality.clone() };
-            self.decide_inequality(&inequality, mu, effort).truth.is_true().then_some(inequality)
-        })
+        part: Part,
+        at: [&Rational; 2],
+        effort: usize,
+        matrix: impl Fn(&Values<'_>) -> Option<SymmetricValues>,
+    ) -> Decision {
+        let quantity = self.first_derivatives(part);
+        let chart = Chart::new(&self.region, self.period(), &quantity.active, at, |index| self.extent(index));
+        let mut boxes = OnBoxes::new(self, quantity, &chart);
+        let examine = |values: &Values<'_>, frame: &Frame, ball: &Ball| match matrix(values) {
+            Some(mut matrix) => {
+                matrix.entries.retain(|(i, j, value)| i == j || !value.is_zero());
+                definite(frame, &matrix, ball)
+            }
+            None => Verdict::Stuck,
+        };
+        subdivide(&chart, effort, |cell, ball| boxes.with(cell, ball, |values, frame| examine(values, frame, ball)))
     }
 }
 
@@ -101,37 +82,93 @@ struct Form {
     value: Enclosure,
 }
 
+/// Entries (row, column, value) on and above the diagonal.
+type Entries = Vec<(usize, usize, Centred)>;
+
 impl Form {
-    /// F on a box, with x in the first places, then e and y.
-    fn on_box(&self, values: &Values<'_>) -> Option<SymmetricValues> {
+    fn new(MatrixInequality { w_x, h, rate, value, .. }: &MatrixInequality, mu: &Constant) -> Form {
+        let exact = |number: &Rational| Enclosure::from_rational(number, PRECISION);
+        let half_k_p = exact(h) / mu.enclose(PRECISION);
+        Form { w_x: exact(w_x), half_k_p, rate: exact(rate), value: exact(value) }
+    }
+
+    /// F in (x, e, y), from all derivatives.
+    fn whole(&self, values: &Values<'_>) -> Option<SymmetricValues> {
+        let matrix = values.matrix();
+        let n = matrix.len() - 1;
+        let halves: Vec<(Vec<Centred>, Vec<Centred>)> = matrix
+            .into_iter()
+            .map(|mut row| {
+                let last = row.split_off(n);
+                (row, last)
+            })
+            .collect();
+        let (of_states, of_error): (Vec<_>, Vec<_>) = halves.into_iter().unzip();
+        let mut entries = self.of_states(values, of_states, n + 1)?;
+        entries.extend(self.of_error(values, of_error)?);
+        Some(SymmetricValues { order: n + 2, entries })
+    }
+
+    /// F without the row of e, less S, from (J, r).
+    fn beyond(&self, s: &[Vec<Rational>], values: &Values<'_>) -> Option<SymmetricValues> {
         let frame = values.frame;
-        let mut first = values.matrix();
-        let last = first.pop()?;
-        let n = first.len();
-        let (row, d) = last.split_at(n);
-        let columns = values.product(values.engine.region.inverse(), &first, false);
-        let jacobian: Vec<Vec<Centred>> = columns.iter().map(|row| row[..n].to_vec()).collect();
-        let matrix = values.engine.region.matrix();
-        let jacobian = values.product(matrix, &jacobian, true);
-        let row = values.product(matrix, &[row.to_vec()], true).concat();
-        let constant = |value: &Enclosure| frame.constant(value.clone());
-        let mut entries = Vec::new();
+        let of_states = values.matrix();
+        let n = of_states.len() - 1;
+        let mut entries = self.of_states(values, of_states, n)?;
+        for (i, j, value) in &mut entries {
+            *value = frame.sub(value, &frame.rational(&s[*i][*j]));
+        }
+        Some(SymmetricValues { order: n + 1, entries })
+    }
+
+    /// `[[S, v], [v', 2 value]]` in the order (x, e, y), from (g, d).
+    fn beside(&self, s: &[Vec<Rational>], values: &Values<'_>) -> Option<SymmetricValues> {
+        let frame = values.frame;
+        let of_error = values.matrix();
+        let n = of_error.len() - 1;
+        let mut entries = self.of_error(values, of_error)?;
+        let place = |index: usize| if index == n { n + 1 } else { index };
+        let upper = (0..=n).flat_map(|i| (i..=n).map(move |j| (i, j)));
+        entries.extend(upper.map(|(i, j)| (place(i), place(j), frame.rational(&s[i][j]))));
+        Some(SymmetricValues { order: n + 2, entries })
+    }
+
+    /// The block of x and y, which stands in the row `y`: all of it, zeros too.
+    fn of_states(&self, values: &Values<'_>, mut derivatives: Vec<Vec<Centred>>, y: usize) -> Option<Entries> {
+        let frame = values.frame;
+        let region = &values.engine.region;
+        let row = derivatives.pop()?;
+        let n = row.len();
+        let mut entries = Entries::new();
         if n > 0 {
-            let decay = values.decay(Bound::Rate, &jacobian, &constant(&self.rate))?;
+            let jacobian = values.product(region.inverse(), &derivatives, false);
+            let jacobian = values.product(region.matrix(), &jacobian, true);
+            let decay = values.decay(Bound::Rate, &jacobian, &frame.constant(self.rate.clone()))?;
             entries.extend(decay.entries.into_iter().map(|(i, j, value)| (i, j, frame.scale(&value, &self.w_x))));
-            let columns: Vec<Vec<Centred>> = columns.into_iter().map(|mut row| row.split_off(n)).collect();
-            let moved = values.times_p(&columns)?;
+            let row = values.product(region.matrix(), &[row], true).concat();
+            entries
+                .extend(row.iter().enumerate().map(|(i, value)| (i, y, negated(&frame.scale(value, &self.half_k_p)))));
+        }
+        entries.push((y, y, frame.constant(&self.half_k_p * 2)));
+        Some(entries)
+    }
+
+    /// The row of e, which is the last but one.
+    fn of_error(&self, values: &Values<'_>, mut derivatives: Vec<Vec<Centred>>) -> Option<Entries> {
+        let frame = values.frame;
+        let slope = derivatives.pop()?.pop()?;
+        let n = derivatives.len();
+        let mut entries = Entries::new();
+        if n > 0 {
+            let column = values.product(values.engine.region.inverse(), &derivatives, false);
+            let moved = values.times_p(&column)?;
             entries.extend(
                 moved.into_iter().enumerate().map(|(i, value)| (i, n, negated(&frame.scale(&value, &self.w_x)))),
             );
         }
-        entries.push((n, n, constant(&(&self.value * 2))));
-        entries
-            .extend(row.iter().enumerate().map(|(i, value)| (i, n + 1, negated(&frame.scale(value, &self.half_k_p)))));
-        let slope = frame.add(&constant(&Enclosure::one(PRECISION)), &frame.scale(&d[0], &self.half_k_p));
-        entries.push((n, n + 1, negated(&slope)));
-        entries.push((n + 1, n + 1, constant(&(&self.half_k_p * 2))));
-        entries.retain(|(i, j, value)| i == j || !value.is_zero());
-        Some(SymmetricValues { order: n + 2, entries })
+        entries.push((n, n, frame.constant(&self.value * 2)));
+        let one = frame.constant(Enclosure::one(PRECISION));
+        entries.push((n, n + 1, negated(&frame.add(&one, &frame.scale(&slope, &self.half_k_p)))));
+        Some(entries)
     }
 }

@@ -27,9 +27,11 @@ mod prove_value;
 mod quantity;
 mod region;
 mod requirement;
+mod sampled_pairs;
 mod sampled_threshold;
 mod side;
 mod smooth;
+mod splitting;
 mod suprema;
 #[cfg(test)]
 mod tests;
@@ -42,7 +44,8 @@ pub use majorant::{Majorant, Term};
 pub use pointwise::Asked;
 pub use prove_value::ProvedValue;
 pub use region::{Region, RegionError};
-pub use sampled_threshold::FloatWeights;
+pub use sampled_pairs::{Corners, MatrixArguments};
+pub use sampled_threshold::{FloatWeights, Focus};
 pub use smooth::SmoothnessFailure;
 pub use suprema::{FloatCurve, FloatSuprema, Places};
 

@@ -20,6 +20,22 @@ pub(super) struct Quantity {
     pub(super) active: Active,
 }
 
+/// Which of the first derivatives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// `[[f_x, f_e], [q_x, q_e]]`.
+    All,
+    /// `[[f_x], [q_x]]`.
+    States,
+    /// `[[f_e], [q_e]]`.
+    Error,
+}
+
+impl Part {
+    /// Each of them, in order.
+    pub(super) const EACH: [Part; 3] = [Part::All, Part::States, Part::Error];
+}
+
 /// The factor on the right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Right {
@@ -115,5 +131,24 @@ impl Quantity {
             _ => Right::One,
         };
         Some(Quantity { walk, plain, along, inverse, right, active })
+    }
+
+    /// First derivatives, by the formulas themselves.
+    pub(super) fn first_derivatives(formulas: &mut Formulas, sides: &[Formula], part: Part, moves: bool) -> Quantity {
+        let order = sides.len() - 1;
+        let states = (0..order).filter(|_| part != Part::Error).map(PlantVariable::State);
+        let variables = states.chain((part != Part::States).then_some(PlantVariable::Error));
+        let columns: Vec<Vec<Formula>> = variables.map(|variable| formulas.derivatives(sides, variable)).collect();
+        let outputs: Vec<Formula> = (0..=order).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
+        let walk = formulas.walk(&outputs);
+        let used = walk.all_variables();
+        let active = Active {
+            time: used.has(PlantVariable::Time) || moves,
+            states: (0..order).filter(|&index| used.has(PlantVariable::State(index))).collect(),
+            error: used.has(PlantVariable::Error),
+        };
+        let row = |row: usize| (0..columns.len()).map(|column| row * columns.len() + column).collect();
+        let plain = (0..=order).map(row).collect();
+        Quantity { walk, plain, along: Vec::new(), inverse: false, right: Right::One, active }
     }
 }

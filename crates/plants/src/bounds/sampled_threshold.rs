@@ -2,11 +2,25 @@
 
 use super::entry::TABLE;
 use super::pointwise::{Asked, Derivatives, MatrixAt};
+use super::sampled_pairs::{Corners, MatrixArguments};
 use super::suprema::{FloatSuprema, Place, Places, keep};
 use std::sync::Arc;
 
 /// So many times more points are listed for the threshold of the matrix inequality, which all derivatives enter.
 const OF_THRESHOLD: usize = 6;
+
+/// The same of pairs of points, and where they are sought for one set of weights alone.
+const OF_PAIRS: usize = 2;
+const AT_ONCE: usize = 6;
+
+/// Which points are looked at.
+#[derive(Clone, Debug)]
+pub struct Focus {
+    /// For bounds, and for the matrix inequality with all derivatives at one point.
+    pub places: Places,
+    /// For the matrix inequality at pairs of points.
+    pub corners: Option<Corners>,
+}
 
 /// The free numbers of (M) in doubles (derivation, 13.7).
 #[derive(Clone, Copy, Debug)]
@@ -20,10 +34,15 @@ pub struct FloatWeights {
 }
 
 impl FloatSuprema {
-    /// The places where bounds are largest on some `G(X, E)`: so many for each bound of [`TABLE`] and each (X, E), and as many where
-    /// `value` is largest at the last of them.
+    /// The places where bounds are largest on some `G(X, E)`: so many for each bound of [`TABLE`] and each (X, E), and more where the
+    /// threshold of the matrix inequality is.
     #[must_use]
-    pub fn extreme(&self, boxes: &[[f64; 2]], each: usize, weights: Option<FloatWeights>) -> Places {
+    pub fn extreme(
+        &self,
+        boxes: &[[f64; 2]],
+        each: usize,
+        inequality: Option<(MatrixArguments, FloatWeights)>,
+    ) -> Focus {
         let mut kept: Vec<Vec<(f64, Place)>> = Vec::new();
         for at in boxes {
             let mut best = vec![Vec::new(); TABLE.len()];
@@ -32,21 +51,39 @@ impl FloatSuprema {
             });
             kept.append(&mut best);
         }
-        if let (Some(at), Some(weights)) = (boxes.last(), weights) {
-            let mut best = Vec::new();
-            self.thresholds_at_points(*at, &Places::Stride(1), weights, |place, value| {
-                keep(&mut best, OF_THRESHOLD * each, value, place);
-            });
-            kept.push(best);
+        let mut corners = None;
+        match inequality {
+            Some((at, weights)) if at.apart => {
+                corners = Some(self.corners(at, &Places::Stride(1), weights, OF_PAIRS * each));
+            }
+            Some((at, weights)) => {
+                let mut best = Vec::new();
+                self.thresholds_at_points(at.states, &Places::Stride(1), weights, |place, value| {
+                    keep(&mut best, OF_THRESHOLD * each, value, place);
+                });
+                kept.push(best);
+            }
+            None => {}
         }
         let mut listed: Vec<Place> = kept.into_iter().flatten().map(|(_, place)| place).collect();
         listed.sort_unstable();
         listed.dedup();
-        Places::Listed(Arc::new(listed))
+        Focus { places: Places::Listed(Arc::new(listed)), corners }
+    }
+
+    /// The least sigma of (M): [`FloatSuprema::threshold`], or [`FloatSuprema::threshold_of_pairs`] at the corners that are known, else
+    /// at those of the grid.
+    #[must_use]
+    pub fn least_sigma(&self, at: MatrixArguments, focus: &Focus, weights: FloatWeights) -> f64 {
+        match &focus.corners {
+            _ if !at.apart => self.threshold(at.states, &focus.places, weights),
+            Some(corners) => self.threshold_of_pairs(at, corners, weights),
+            None => self.threshold_of_pairs(at, &self.corners(at, &focus.places, weights, AT_ONCE), weights),
+        }
     }
 
     /// The least sigma at which F of [`Engine::decide_inequality`](super::Engine::decide_inequality) is positive semidefinite at
-    /// points of the grid, with P = 1: half of `b' G^-1 b` for the column b that e has beside its
+    /// points of the grid, with P = 1: half of `v' G^-1 v` for the column v that e has beside its
     /// diagonal, and G what F is without e. Infinite where G is not positive definite at one of them; not a number where P is not
     /// the identity.
     #[must_use]
@@ -67,71 +104,95 @@ impl FloatSuprema {
         weights: FloatWeights,
         mut see: impl FnMut(Place, f64),
     ) {
-        let mut form = Form::new(self.order());
         self.derivatives_at_points(at, places, |place, derivatives, matrix| {
-            see(place, form.threshold(derivatives, matrix, weights));
+            see(place, threshold(derivatives, matrix, weights));
         });
     }
 
     /// The same at these points: t/T, y in the unit ball, e/E.
     #[must_use]
     pub fn threshold_at(&self, at: [f64; 2], points: &[(f64, Vec<f64>, f64)], weights: FloatWeights) -> f64 {
-        let mut form = Form::new(self.order());
-        self.largest_of_derivatives_at(at, points, |derivatives, matrix| form.threshold(derivatives, matrix, weights))
+        self.largest_of_derivatives_at(at, points, |derivatives, matrix| threshold(derivatives, matrix, weights))
     }
 
     /// The same by a longer search.
     #[must_use]
     pub fn refined_threshold(&self, at: [f64; 2], weights: FloatWeights) -> f64 {
-        let mut form = Form::new(self.order());
-        self.refined_of_derivatives(at, |derivatives, matrix| form.threshold(derivatives, matrix, weights))
+        self.refined_of_derivatives(at, |derivatives, matrix| threshold(derivatives, matrix, weights))
     }
 }
 
-/// The lower triangle of G and b beside it, by rows, as working memory.
-struct Form {
-    states: usize,
-    rows: Vec<f64>,
+/// That of one point.
+fn threshold(at: &Derivatives<'_>, matrix: &MatrixAt, weights: FloatWeights) -> f64 {
+    match Root::new(&weights.of_states(at, matrix)) {
+        Ok(root) => root.threshold(&weights.of_error(at)),
+        Err(without) => without,
+    }
 }
 
-impl Form {
-    fn new(states: usize) -> Form {
-        Form { states, rows: vec![0.0; (states + 1) * (states + 2)] }
-    }
-
-    fn threshold(&mut self, at: &Derivatives<'_>, matrix: &MatrixAt, weights: FloatWeights) -> f64 {
-        let n = self.states;
-        if n > 0 && !matches!(matrix, MatrixAt::Identity) {
-            return f64::NAN;
-        }
-        let FloatWeights { w_x, k_p, rate } = weights;
-        // The column b is the last one.
-        let width = n + 2;
+impl FloatWeights {
+    /// G: the lower triangle by rows, of x and y. Not a number where P is not the identity.
+    pub(super) fn of_states(self, at: &Derivatives<'_>, matrix: &MatrixAt) -> Vec<f64> {
+        let FloatWeights { w_x, k_p, rate } = self;
+        let n = at.r.len();
+        let mut rows = Vec::with_capacity((n + 1) * (n + 2) / 2);
+        let known = if n == 0 || matches!(matrix, MatrixAt::Identity) { -w_x } else { f64::NAN };
         for i in 0..n {
             for k in 0..=i {
                 let own = if i == k { 2.0 * rate } else { 0.0 };
-                self.rows[i * width + k] = -w_x * (at.j[i * n + k] + at.j[k * n + i] + own);
+                rows.push(known * (at.j[i * n + k] + at.j[k * n + i] + own));
             }
-            self.rows[n * width + i] = -0.5 * k_p * at.r[i];
-            self.rows[i * width + n + 1] = -w_x * at.g[i];
         }
-        self.rows[n * width + n] = k_p;
-        self.rows[n * width + n + 1] = -1.0 - 0.5 * k_p * at.d;
-        // Cholesky, and what it makes of b.
-        let mut square = 0.0;
-        for i in 0..=n {
-            for k in (0..=i).chain([n + 1]) {
-                let column = |m: usize| if k <= n { self.rows[k * width + m] } else { self.rows[m * width + n + 1] };
-                let sum: f64 = (0..k.min(i)).map(|m| self.rows[i * width + m] * column(m)).sum();
-                let rest = self.rows[i * width + k] - sum;
-                self.rows[i * width + k] = match k {
-                    _ if k == i && rest > 0.0 => rest.sqrt(),
-                    _ if k == i => return if rest.is_nan() { f64::NAN } else { f64::INFINITY },
-                    _ if k <= n => rest / self.rows[k * width + k],
-                    _ => rest / self.rows[i * width + i],
+        rows.extend(at.r.iter().map(|slope| -0.5 * k_p * slope));
+        rows.push(k_p);
+        rows
+    }
+
+    /// v: the column of e, in x and y, with P = 1.
+    pub(super) fn of_error(self, at: &Derivatives<'_>) -> Vec<f64> {
+        let of_states = at.g.iter().map(|slope| -self.w_x * slope);
+        of_states.chain([-1.0 - 0.5 * self.k_p * at.d]).collect()
+    }
+}
+
+/// A positive definite matrix by its Cholesky factor, the lower triangle by rows.
+pub(super) struct Root(Vec<f64>);
+
+impl Root {
+    /// Of the lower triangle of a matrix.
+    ///
+    /// # Errors
+    /// What stands for the threshold of a matrix that is not positive definite: infinity, or what is not a number.
+    pub(super) fn new(lower: &[f64]) -> Result<Root, f64> {
+        let mut rows = lower.to_vec();
+        let at = |i: usize, k: usize| i * (i + 1) / 2 + k;
+        let mut i = 0;
+        while at(i, 0) < rows.len() {
+            for k in 0..=i {
+                let sum: f64 = (0..k).map(|m| rows[at(i, m)] * rows[at(k, m)]).sum();
+                let rest = rows[at(i, k)] - sum;
+                rows[at(i, k)] = match k < i {
+                    true => rest / rows[at(k, k)],
+                    false if rest > 0.0 => rest.sqrt(),
+                    false => return Err(if rest.is_nan() { f64::NAN } else { f64::INFINITY }),
                 };
             }
-            square += self.rows[i * width + n + 1] * self.rows[i * width + n + 1];
+            i += 1;
+        }
+        Ok(Root(rows))
+    }
+
+    /// Half of `v' G^-1 v`.
+    pub(super) fn threshold(&self, v: &[f64]) -> f64 {
+        let (mut solved, mut square) = (Vec::with_capacity(v.len()), 0.0);
+        let mut rows = self.0.as_slice();
+        for (i, value) in v.iter().enumerate() {
+            let (row, rest) = rows.split_at(i + 1);
+            let sum: f64 = row.iter().zip(&solved).map(|(a, b)| a * b).sum();
+            let next = (value - sum) / row[i];
+            square += next * next;
+            solved.push(next);
+            rows = rest;
         }
         0.5 * square
     }
@@ -144,14 +205,13 @@ mod tests {
     const WEIGHTS: FloatWeights = FloatWeights { w_x: 0.7, k_p: 1.3, rate: 0.1 };
 
     fn threshold(j: &[f64], g: &[f64], r: &[f64], d: f64, weights: FloatWeights) -> f64 {
-        Form::new(g.len()).threshold(&Derivatives { j, g, r, d }, &MatrixAt::Identity, weights)
+        super::threshold(&Derivatives { j, g, r, d }, &MatrixAt::Identity, weights)
     }
 
     /// F = [[2 sigma, -1 - kp d/2], [., kp]].
     #[test]
     fn without_states() {
-        let found =
-            Form::new(0).threshold(&Derivatives { j: &[], g: &[], r: &[], d: 3.0 }, &MatrixAt::Missing, WEIGHTS);
+        let found = super::threshold(&Derivatives { j: &[], g: &[], r: &[], d: 3.0 }, &MatrixAt::Missing, WEIGHTS);
         assert!((found - (1.0_f64 + 1.95).powi(2) / 2.6).abs() < 1e-14);
     }
 
@@ -168,11 +228,8 @@ mod tests {
         assert!(determinant(found).abs() < 1e-12 && determinant(1.01 * found) > 1e-3, "{found}");
         let grows = threshold(&[-0.05], &[0.4], &[0.3], -0.5, WEIGHTS);
         assert_eq!(grows, f64::INFINITY);
-        let moving = Form::new(1).threshold(
-            &Derivatives { j: &[-2.0], g: &[0.4], r: &[0.3], d: 0.0 },
-            &MatrixAt::Missing,
-            WEIGHTS,
-        );
+        let moving = Derivatives { j: &[-2.0], g: &[0.4], r: &[0.3], d: 0.0 };
+        let moving = super::threshold(&moving, &MatrixAt::Missing, WEIGHTS);
         assert!(moving.is_nan());
     }
 

@@ -20,6 +20,8 @@ pub(super) const PLANT_FIELDS: [&str; 5] = ["coordinates", "orbit", "forcing", "
 
 /// The field of the matrix inequality of a plant; its weights are those of the witness.
 pub(super) const INEQUALITY: &str = "matrix_inequality";
+/// And within it what its two halves are compared with.
+pub(super) const SPLITTING: &str = "splitting";
 
 /// A part of a certificate that consists of exact rational numbers, each with a name.
 pub trait NumberFields: Sized {

@@ -1,11 +1,13 @@
 //! What a certificate of a plant adds to the witness (derivation, 11).
 
-use super::fields::INEQUALITY;
+use super::fields::{INEQUALITY, SPLITTING};
 use super::triple::rows;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{MatrixInequality, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification};
+use sigmastar_lang::spec::{
+    MatrixInequality, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, Splitting,
+};
 
 fn exact(value: &Rational) -> Value {
     Value::from(write_exact(value))
@@ -36,8 +38,12 @@ pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     parts
 }
 
-fn inequality_json(MatrixInequality { x, e, rate, value, .. }: &MatrixInequality) -> Value {
-    object([("X", x), ("E", e), ("rate", rate), ("sigma", value)].map(|(name, value)| (name, exact(value))))
+fn inequality_json(MatrixInequality { x, e, rate, value, splitting, .. }: &MatrixInequality) -> Value {
+    let numbers = [("X", x), ("E", e), ("rate", rate), ("sigma", value)].map(|(name, value)| (name, exact(value)));
+    let splitting = splitting.iter().map(|Splitting { x, e, matrix }| {
+        (SPLITTING, object([("X", exact(x)), ("E", exact(e)), ("S", rows(matrix))]))
+    });
+    object(numbers.into_iter().chain(splitting))
 }
 
 fn orbit_json(orbit: &ProvedOrbit) -> Value {

@@ -1,6 +1,6 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
-use super::fields::{INEQUALITY, exact_rational, rational};
+use super::fields::{INEQUALITY, SPLITTING, exact_rational, rational};
 use super::read::{read_rows, read_triple};
 use super::triple::{EXISTENCE, STABILITY};
 use rug::Rational;
@@ -8,7 +8,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
     Bound, Document, ErrorKind, Errors, MatrixInequality, Object, OfPlant, ProvedForcing, ProvedOrbit, ProvedValue,
-    ProvedValues, Reported, SpecErrors, TrigonometricVector, Value,
+    ProvedValues, Reported, SpecErrors, Splitting, TrigonometricVector, Value,
 };
 use sigmastar_plants::lyapunov::ProvedTriple;
 
@@ -78,8 +78,17 @@ fn read_inequality(
     let [w_x, h] = ["w_x", "h"].map(|name| rational(witness, name, errors));
     let mut fields = value.object(errors)?;
     let [x, e, rate, value] = ["X", "E", "rate", "sigma"].map(|name| rational(&mut fields, name, errors));
+    let splitting = fields.optional(SPLITTING).map(|value| read_splitting(&value, errors)).transpose();
     fields.finish(errors);
-    Ok(MatrixInequality { x: x?, e: e?, w_x: w_x?, h: h?, rate: rate?, value: value? })
+    Ok(MatrixInequality { x: x?, e: e?, w_x: w_x?, h: h?, rate: rate?, value: value?, splitting: splitting? })
+}
+
+fn read_splitting(value: &Value<'_>, errors: &mut Errors) -> Result<Splitting, Reported> {
+    let mut fields = value.object(errors)?;
+    let [x, e] = ["X", "E"].map(|name| rational(&mut fields, name, errors));
+    let matrix = fields.required("S", errors).and_then(|value| read_rows(&value, "an entry of S", errors));
+    fields.finish(errors);
+    Ok(Splitting { x: x?, e: e?, matrix: matrix? })
 }
 
 fn vector(value: &Value<'_>, length: usize, errors: &mut Errors) -> Result<Vec<Rational>, Reported> {

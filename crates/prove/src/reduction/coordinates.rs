@@ -12,7 +12,8 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::{Asked, FloatWeights, Places};
+use sigmastar_plants::bounds::{Asked, FloatWeights, Focus, MatrixArguments};
+use sigmastar_theory::derivation::paths::Path;
 use std::sync::Arc;
 
 /// How densely suprema are sampled.
@@ -23,7 +24,7 @@ pub enum Density {
     /// To compare coordinates.
     Coarse,
     /// To compare coordinates near some, at the points that are the most extreme ones there.
-    Focused(Places),
+    Focused(Focus),
     /// For the coordinates that are taken.
     Fine,
 }
@@ -47,8 +48,8 @@ pub struct Estimates {
     pub extreme: Arc<Extreme>,
 }
 
-/// The points that are the most extreme ones on some `G(X, E)`; of the threshold on the last of them.
-pub type Extreme = dyn Fn(&[[f64; 2]], Option<FloatWeights>) -> Places + Send + Sync;
+/// The points that are the most extreme ones on some `G(X, E)`, and of the matrix inequality.
+pub type Extreme = dyn Fn(&[[f64; 2]], Option<(MatrixArguments, FloatWeights)>) -> Focus + Send + Sync;
 
 /// What estimates.
 pub type Sampler<'a> = dyn Fn(Shape<'_>, &Density) -> Estimates + Sync + 'a;
@@ -121,8 +122,8 @@ pub struct CoordinateSearch<'a> {
     pub units: Box<Units<'a>>,
     /// P_up/P_low of the P in the coordinates y.
     pub ratio: f64,
-    /// Whether stability is sought by a matrix inequality.
-    pub by_matrix: bool,
+    /// The path of the matrix inequality by which stability is sought; by norms without.
+    pub by_matrix: Option<Path>,
 }
 
 /// Coordinates, the model in them, and the smallest gain that was found.
@@ -157,8 +158,8 @@ impl CoordinateSearch<'_> {
             let values = second.clone().symmetric_eigenvalues();
             model = model.with_existence_triple(values.max() / values.min(), at_origin[RATE_EXISTENCE]);
         }
-        if self.by_matrix {
-            model.by_matrix = Some(ByMatrix::Sampled { threshold, rate: KEPT * at_origin[RATE] });
+        if let Some(path) = self.by_matrix {
+            model.by_matrix = Some(ByMatrix::Sampled { path, threshold, rate: KEPT * at_origin[RATE] });
         }
         let model = (self.frame)(l, &model);
         if matches!(density, &Density::Fine) { model } else { model.rough() }
@@ -267,8 +268,10 @@ impl CoordinateSearch<'_> {
             k_p: 2.0 * weight_h(at.eta, at.dist_e, at.dist_z) / model.mu,
             rate: 0.0,
         };
-        let boxes = [[set.x_p, set.e_p], [set.x_per + at.d_x, set.e_per + level.sqrt()]];
-        Ok(Density::Focused((estimates.extreme)(&boxes, self.by_matrix.then_some(weights))))
+        let error_box = [set.x_per + at.d_x, set.e_per + level.sqrt()];
+        let inequality =
+            self.by_matrix.map(|path| (ByMatrix::arguments(path, [set.x_per, set.e_per], error_box), weights));
+        Ok(Density::Focused((estimates.extreme)(&[[set.x_p, set.e_p], error_box], inequality)))
     }
 
     /// The choice with a P of existence beside it, where that is worth it.

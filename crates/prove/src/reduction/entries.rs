@@ -5,9 +5,9 @@ use crate::search::{AtSigma, ByMatrix, FloatModel, PeriodicSet, active_level, we
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
-use sigmastar_lang::spec::{Bound, Constant, MatrixInequality, ProvedValue, ProvedValues};
+use sigmastar_lang::spec::{Bound, Constant, MatrixInequality, ProvedValue, ProvedValues, Splitting};
 use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, TABLE};
-use sigmastar_theory::derivation::paths::Paths;
+use sigmastar_theory::derivation::paths::{Path, Paths};
 
 /// Significant digits of an argument.
 const DIGITS: u32 = 8;
@@ -48,8 +48,15 @@ pub(super) fn needed(
     let level = active_level(at.eta, at.dist_e, at.rho);
     let d_e = level.sqrt();
     let (x_b, e_b) = (up(set.x_per + at.d_x)?, up(set.e_per + d_e)?);
+    let (x_per, e_per) = (up(set.x_per)?, up(set.e_per)?);
+    // S is sought with the threshold.
+    let split = |path: Path, matrix: &[Vec<Rational>]| Splitting {
+        e: path.e_of_dx(&e_per, &e_b).clone(),
+        x: path.x_of_de(&x_per, &x_b).clone(),
+        matrix: matrix.to_vec(),
+    };
     let inequality = match &model.by_matrix {
-        Some(ByMatrix::Sampled { rate, .. }) => {
+        Some(ByMatrix::Sampled { path, rate, .. }) => {
             let short = |value: f64, digits: u32| round_f64(value, digits, Direction::Nearest);
             Some(MatrixInequality {
                 x: x_b.clone(),
@@ -58,19 +65,21 @@ pub(super) fn needed(
                 h: short(weight_h(at.eta, at.dist_e, at.dist_z), DIGITS)?,
                 rate: short(*rate, 1)?,
                 value: Rational::new(),
+                splitting: (*path != Path::Straight).then(|| split(*path, &[])),
             })
         }
         // Its arguments are enlarged; its weights stay.
         Some(ByMatrix::Proved(known)) => {
-            Some(MatrixInequality { x: x_b.clone(), e: e_b.clone(), ..known.as_ref().clone() })
+            let splitting = known.splitting.as_ref().map(|known| split(at.paths.common(), &known.matrix));
+            Some(MatrixInequality { x: x_b.clone(), e: e_b.clone(), splitting, ..known.as_ref().clone() })
         }
         None => None,
     };
     Some(Needed {
         x_p: up(set.x_p)?,
         e_p: up(set.e_p)?,
-        x_per: up(set.x_per)?,
-        e_per: up(set.e_per)?,
+        x_per,
+        e_per,
         x_b,
         e_b,
         paths: at.paths,

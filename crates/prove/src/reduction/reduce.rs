@@ -19,6 +19,7 @@ use sigmastar_plants::orbit::{
     propose_coordinates, prove_forcing, prove_orbit, prove_second, round_orbit,
 };
 use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::transfer::TradeOff;
 
 /// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
@@ -136,7 +137,7 @@ fn trade_off(data: &Data<'_>) -> TradeOff {
 fn best_constant(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result<(Along, Chosen), PlantRefusal> {
     let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
     let matrices: Vec<DMatrix<f64>> = candidates.iter().map(|candidate| float_matrix(&candidate.l)).collect();
-    with_constant(&first.p, sampling, false, |search| search.choose(&matrices))
+    with_constant(&first.p, sampling, None, |search| search.choose(&matrices))
 }
 
 /// The best coordinates near a choice, and the gain with them, where stability is proved by a matrix inequality; none where P moves,
@@ -149,15 +150,24 @@ fn best_by_matrix(
     if !p.harmonics.is_empty() || chosen.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE {
         return Ok(None);
     }
-    let found = with_constant(p, sampling, true, |search| search.choose_near(&chosen.l, &chosen.proposal))?;
-    Ok(Some(found).filter(|(_, found)| found.proposal.sigma < chosen.proposal.sigma * WORTH_A_MATRIX))
+    let mut best: Option<(Along, Chosen)> = None;
+    for path in Path::ALL.into_iter().rev() {
+        let known = best.as_ref().map_or(chosen, |(_, best)| best);
+        let found = with_constant(p, sampling, Some(path), |search| search.choose_near(&known.l, &known.proposal));
+        if let Ok(found) = found
+            && found.1.proposal.sigma < known.proposal.sigma * WORTH_A_MATRIX
+        {
+            best = Some(found);
+        }
+    }
+    Ok(best)
 }
 
 /// A choice for the constant P that is given, rounded, and proved along the orbit.
 fn with_constant(
     p: &PeriodicMatrix,
     sampling: &Sampling<'_>,
-    by_matrix: bool,
+    by_matrix: Option<Path>,
     choose: impl FnOnce(&CoordinateSearch<'_>) -> Result<Chosen, Obstacle>,
 ) -> Result<(Along, Chosen), PlantRefusal> {
     let (plant, curve) = (sampling.plant, sampling.curve);
@@ -192,7 +202,7 @@ fn search<'a>(sampling: &'a Sampling<'a>, sampler: &'a Sampler<'a>, ratio: f64) 
     let frame = |l: &DMatrix<f64>, model: &FloatModel| in_frame(sampling.plant, l, model);
     let units = |l: &DMatrix<f64>| sampling.units(l);
     let (frame, units) = (Box::new(frame), Box::new(units));
-    CoordinateSearch { base: sampling.model, sampler, frame, units, ratio, by_matrix: false }
+    CoordinateSearch { base: sampling.model, sampler, frame, units, ratio, by_matrix: None }
 }
 
 /// The initial set and the domain in the norm of y.

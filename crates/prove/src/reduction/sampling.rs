@@ -8,7 +8,7 @@ use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
-use sigmastar_plants::bounds::{Asked, FloatCurve, FloatSuprema, Places, TABLE};
+use sigmastar_plants::bounds::{Asked, FloatCurve, FloatSuprema, Focus, Places, TABLE};
 use sigmastar_plants::orbit::lower_triangular;
 use std::sync::Arc;
 
@@ -77,16 +77,18 @@ impl<'a> Sampling<'a> {
         density: &Density,
     ) -> Estimates {
         let suprema = Arc::new(self.suprema(l, matrices));
-        let places = match density {
-            Density::Rough => Places::Stride(6),
-            Density::Coarse => Places::Stride(3),
-            Density::Focused(places) => places.clone(),
-            Density::Fine => Places::Stride(1),
+        let grid = |stride: usize| Focus { places: Places::Stride(stride), corners: None };
+        let focus = match density {
+            Density::Rough => grid(6),
+            Density::Coarse => grid(3),
+            Density::Focused(focus) => focus.clone(),
+            Density::Fine => grid(1),
         };
         let stateless = l.nrows() == 0;
-        let (of_inequality, its_places) = (suprema.clone(), places.clone());
+        let places = focus.places.clone();
+        let of_inequality = suprema.clone();
         let all = suprema.clone();
-        let extreme: Arc<Extreme> = Arc::new(move |boxes, weights| all.extreme(boxes, EXTREME, weights));
+        let extreme: Arc<Extreme> = Arc::new(move |boxes, inequality| all.extreme(boxes, EXTREME, inequality));
         let bounds: Arc<Source> = Arc::new(move |x, e, asked| -> Values {
             let mut values: Values = suprema.survey(x, e, &places, asked);
             if stateless {
@@ -95,7 +97,7 @@ impl<'a> Sampling<'a> {
             }
             values
         });
-        let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_inequality.threshold(at, &its_places, weights));
+        let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_inequality.least_sigma(at, &focus, weights));
         Estimates { bounds, threshold, extreme }
     }
 

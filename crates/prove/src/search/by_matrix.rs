@@ -4,12 +4,8 @@ use super::candidate::{AtSigma, active_level, weight_h};
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
 use super::threshold::ByMatrix;
-use rug::Rational;
 use sigmastar_plants::bounds::FloatWeights;
-use sigmastar_theory::derivation::paths::Paths;
-
-/// A proved inequality ends where it ends: a search stays so far inside that rounding does not lead beyond.
-const EDGE: f64 = 1.0 - 1e-6;
+use sigmastar_theory::derivation::paths::{Path, Paths};
 
 /// Of the shape (rho, eta), or with the weights that are proved: the error box with the level condition active, and the threshold
 /// there.
@@ -34,21 +30,20 @@ pub(super) fn error_box_by_matrix(
     let level = active_level(eta, dist_e, rho);
     let at = [x_per + d_x, e_per + level.sqrt()];
     model.contains(at)?;
-    let threshold = match by_matrix {
-        ByMatrix::Sampled { threshold, rate } => {
-            let (w_x, h) = (level / (model.p_low * d_x * d_x), weight_h(eta, dist_e, dist_z));
-            threshold(at, FloatWeights { w_x, k_p: 2.0 * h / model.mu, rate: *rate })
-        }
-        ByMatrix::Proved(inequality) => {
-            let within = |at: f64, end: &Rational| at <= end.to_f64() * EDGE;
-            if !(within(at[0], &inequality.x) && within(at[1], &inequality.e)) {
-                return Err(Failing::Bounds.at(at[0], at[1]));
-            }
-            inequality.value.to_f64()
-        }
+    let weights = FloatWeights {
+        w_x: level / (model.p_low * d_x * d_x),
+        k_p: 2.0 * weight_h(eta, dist_e, dist_z) / model.mu,
+        rate: by_matrix.rate(),
     };
+    let on_path = |path: Path| {
+        let arguments = ByMatrix::arguments(path, [x_per, e_per], at);
+        by_matrix.threshold(arguments, weights).map(|threshold| (path, threshold))
+    };
+    // None where nothing is proved of them.
+    let found = by_matrix.paths().into_iter().find_map(on_path);
+    let (path, threshold) = found.ok_or_else(|| Failing::Bounds.at(at[0], at[1]))?;
     if !threshold.is_finite() {
         return Err(Failing::Curvature.at(at[0], at[1]));
     }
-    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::STRAIGHT, threshold })
+    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(path), threshold })
 }

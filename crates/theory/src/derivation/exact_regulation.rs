@@ -96,14 +96,15 @@ impl ExactEvaluation {
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         if inequality.is_none() {
-            conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
+            conditions.extend(one_sided(data, &witness.paths.q.place_of_de(), &error_box.sector_at));
         }
         let [dist_x, dist_e, dist_z] = claimed_distances(data, set, [&data.zero(), &data.zero(), &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));
         if let Some(inequality) = inequality {
             let of = "exact regulation: ";
-            conditions.extend(matrix_inequality::conditions(data, inequality, &error_box, &sigma, of));
+            let place = (witness.paths, [&data.zero(), &data.zero()], &error_box);
+            conditions.extend(matrix_inequality::conditions(data, inequality, place, &sigma, of));
             return ExactEvaluation { z, conditions };
         }
         conditions.push(Condition::less(

@@ -37,8 +37,18 @@ impl Path {
     }
 
     /// The arguments where d/de is taken, in words.
-    pub(super) fn place_of_de(self) -> &'static str {
-        if self == Path::ErrorFirst { "(x_per, E_b)" } else { "(X_b, E_b)" }
+    pub(super) fn place_of_de(self) -> String {
+        format!("({}, E_b)", self.places()[0])
+    }
+
+    /// The largest |x| where d/de is taken, and the largest |e| where d/dx is, in symbols.
+    #[must_use]
+    pub fn places(self) -> [&'static str; 2] {
+        match self {
+            Path::StateFirst => ["X_b", "e_per"],
+            Path::ErrorFirst => ["x_per", "E_b"],
+            Path::Straight => ["X_b", "E_b"],
+        }
     }
 
     /// The largest |e| where d/dx is taken.
@@ -67,8 +77,17 @@ impl Paths {
     /// Those of a certificate that names none.
     pub const UNNAMED: Paths = Paths { f: Path::StateFirst, q: Path::Straight };
 
-    /// Both at once, for both: what (M) needs.
-    pub const STRAIGHT: Paths = Paths { f: Path::Straight, q: Path::Straight };
+    /// The same for both.
+    #[must_use]
+    pub const fn both(path: Path) -> Paths {
+        Paths { f: path, q: path }
+    }
+
+    /// One for both: where they differ the straight one, which is open to both.
+    #[must_use]
+    pub fn common(self) -> Path {
+        if self.f == self.q { self.f } else { Path::Straight }
+    }
 
     /// The pairs that a search chooses from.
     pub fn choice() -> impl Iterator<Item = Paths> {
@@ -134,7 +153,7 @@ mod tests {
         ) {
             let problem = Nondecreasing { numbers: numbers(3.0), terms, rate };
             let (periodic, radii) = (periodic.each_ref(), radii.each_ref());
-            let straight = ErrorBox::new(&problem, Paths::STRAIGHT, periodic, radii);
+            let straight = ErrorBox::new(&problem, Paths::both(Path::Straight), periodic, radii);
             let mut seen = Vec::new();
             for (paths, of_path) in ErrorBox::on_paths(&problem, periodic, radii) {
                 seen.push(paths);

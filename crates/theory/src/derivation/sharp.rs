@@ -149,10 +149,11 @@ impl SharpEvaluation {
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         match inequality {
             Some(inequality) => {
-                conditions.extend(matrix_inequality::conditions(data, inequality, &error_box, &sigma, ""))
+                let place = (witness.paths, [&periodic.x_per, &periodic.e_per], &error_box);
+                conditions.extend(matrix_inequality::conditions(data, inequality, place, &sigma, ""));
             }
             None => {
-                conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
+                conditions.extend(one_sided(data, &witness.paths.q.place_of_de(), &error_box.sector_at));
                 conditions.extend(by_norms_conditions(&decay, &sigma));
             }
         }

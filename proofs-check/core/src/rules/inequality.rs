@@ -3,14 +3,17 @@
 //! Guarantee: with the conditions, and the inequality proved of the plant's formulas (whoever reads them does: the crate
 //! `proofs-plants`), what C5 is there for holds at every gain from sigma on: U decreases in the error box.
 
+use super::paths::{Path, Paths};
 use super::stability::ErrorBox;
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::json::Field;
+use crate::json::{Field, Fields};
 use crate::verdict::{Condition, Outcome, bad};
 use rug::Rational;
 
-/// That F with `sigma` and with J + `rate` I is positive semidefinite on `|y| <= X`, `|e| <= E`, for the weights of the witness.
+/// That F with `sigma` and with J + `rate` I is positive semidefinite for the weights of the witness: for all derivatives at one point
+/// of `|y| <= X`, `|e| <= E`; with a splitting for (J, r) at a point with X and the E of the splitting, and (g, d) at a point with E
+/// and the X of the splitting.
 #[derive(Clone, Debug)]
 pub struct Inequality {
     pub pointer: String,
@@ -20,25 +23,55 @@ pub struct Inequality {
     pub sigma: Rational,
     pub w_x: Rational,
     pub h: Rational,
+    pub splitting: Option<Splitting>,
+}
+
+/// S in (x, y), which `F` without e is not below, and which leaves `[[S, v], [v', 2 sigma]] >= 0` for the column v of e.
+#[derive(Clone, Debug)]
+pub struct Splitting {
+    pub x: Rational,
+    pub e: Rational,
+    pub matrix: Vec<Vec<Rational>>,
+}
+
+impl Splitting {
+    fn read(field: &Field<'_>) -> Outcome<Splitting> {
+        let mut fields = field.fields()?;
+        let rows = fields.required("S")?;
+        let row = |row: Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<Rational>>>();
+        let matrix = rows.elements()?.into_iter().map(row).collect::<Outcome<Vec<_>>>()?;
+        let order = matrix.len();
+        let symmetric = || (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
+        if matrix.iter().any(|row| row.len() != order) || !symmetric() {
+            return bad(&rows.pointer, "expected a symmetric matrix");
+        }
+        let splitting =
+            Splitting { x: number(&mut fields, "X", false)?, e: number(&mut fields, "E", false)?, matrix };
+        fields.finish()?;
+        Ok(splitting)
+    }
+}
+
+/// A number above 0, or one that is not negative.
+fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Outcome<Rational> {
+    let field = fields.required(name)?;
+    let value = field.rational()?;
+    match value > 0 || (!positive && value == 0) {
+        true => Ok(value),
+        false => bad(&field.pointer, if positive { "expected a number above 0" } else { "it is negative" }),
+    }
 }
 
 impl Inequality {
     /// Reads the part `matrix_inequality`; the weights are those of the witness that it is a part of.
     pub fn read(field: &Field<'_>, [w_x, h]: [&Rational; 2]) -> Outcome<Inequality> {
         let mut fields = field.fields()?;
-        let mut number = |name: &str, positive: bool| {
-            let field = fields.required(name)?;
-            let value = field.rational()?;
-            match value > 0 || (!positive && value == 0) {
-                true => Ok(value),
-                false => bad(&field.pointer, if positive { "expected a number above 0" } else { "it is negative" }),
-            }
-        };
         let inequality = Inequality {
-            x: number("X", false)?,
-            e: number("E", false)?,
-            rate: number("rate", true)?,
-            sigma: number("sigma", true)?,
+            x: number(&mut fields, "X", false)?,
+            e: number(&mut fields, "E", false)?,
+            rate: number(&mut fields, "rate", true)?,
+            sigma: number(&mut fields, "sigma", true)?,
+            splitting: fields.optional("splitting").map(|field| Splitting::read(&field)).transpose()?,
             w_x: w_x.clone(),
             h: h.clone(),
             pointer: field.pointer.clone(),
@@ -52,14 +85,35 @@ impl Inequality {
         self.w_x == *w_x && self.h == *h
     }
 
-    /// That the error box lies where it is proved, and that the gain that is named is larger.
-    pub fn conditions(&self, d: &Data<'_>, error_box: &ErrorBox, sigma: Interval, name: &str) -> [Condition; 3] {
-        let [x, e, threshold] = [&self.x, &self.e, &self.sigma].map(|value| d.number(value));
+    /// (X, E) of (J, r), and of (g, d).
+    pub fn arguments(&self) -> [[&Rational; 2]; 2] {
+        let other = self.splitting.as_ref();
+        [[&self.x, other.map_or(&self.e, |other| &other.e)], [other.map_or(&self.x, |other| &other.x), &self.e]]
+    }
+
+    /// That the error box around a periodic solution of the sizes `periodic` lies where it is proved, on the path of f and q, and
+    /// that the gain that is named is larger. Where their paths differ, the straight one is open to both.
+    pub fn conditions(
+        &self,
+        d: &Data<'_>,
+        (paths, [x_per, e_per], error_box): (Paths, [&Interval; 2], &ErrorBox),
+        (sigma, name): (Interval, &str),
+    ) -> Vec<Condition> {
+        let path = if paths.f == paths.q { paths.f } else { Path::Straight };
+        let ErrorBox { x_b, e_b, .. } = error_box;
+        let within = |name, what, at: &Interval, end| Condition::at_most(name, what, at.clone(), d.number(end));
+        let mut conditions = vec![
+            within("C5x", "X_b <= X of the matrix inequality", x_b, &self.x),
+            within("C5e", "E_b <= E of the matrix inequality", e_b, &self.e),
+        ];
+        conditions.extend(self.splitting.iter().flat_map(|other| {
+            [
+                within("C5j", "E of df/dx <= E of the splitting", path.e_at_dx(e_per, e_b), &other.e),
+                within("C5g", "X of df/de <= X of the splitting", path.x_at_de(x_per, x_b), &other.x),
+            ]
+        }));
         let what = format!("threshold of the matrix inequality < {name}");
-        [
-            Condition::at_most("C5x", "X_b <= X of the matrix inequality", error_box.x_b.clone(), x),
-            Condition::at_most("C5e", "E_b <= E of the matrix inequality", error_box.e_b.clone(), e),
-            Condition::less("C5m", what, threshold, sigma),
-        ]
+        conditions.push(Condition::less("C5m", what, d.number(&self.sigma), sigma));
+        conditions
     }
 }

@@ -85,7 +85,10 @@ pub fn evaluate(
     let mut conditions = set::domain(d, &d_x, &d_e);
     conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
     match inequality.filter(|inequality| inequality.is_for([&w.w_x, &w.h])) {
-        Some(inequality) => conditions.extend(inequality.conditions(d, &error_box, sigma, "sigma_oo")),
+        Some(inequality) => {
+            let place = (w.paths, [&zero, &zero], &error_box);
+            conditions.extend(inequality.conditions(d, place, (sigma, "sigma_oo")));
+        }
         None => conditions.extend(error_box.conditions(error_box.decay(d, &w_x, &h), sigma, "sigma_oo")),
     }
     Ok(conditions)

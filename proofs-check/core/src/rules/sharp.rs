@@ -82,7 +82,8 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
             return bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant");
         }
         Some(inequality) => {
-            evaluated.conditions.extend(inequality.conditions(d, &error_box, sigma, "sigma"));
+            let place = (free.paths, [&solution.x, &solution.e], &error_box);
+            evaluated.conditions.extend(inequality.conditions(d, place, (sigma, "sigma")));
             d.number(&inequality.sigma)
         }
         None => {

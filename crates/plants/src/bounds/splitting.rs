@@ -1,0 +1,217 @@
+//! A splitting S of the matrix inequality (M) (derivation, 13.7), proposed by a semidefinite program over sampled points, and
+//! inequalities with the smallest threshold that is proved.
+
+use super::eigen::largest as largest_eigenvalue;
+use super::engine::Engine;
+use super::pointwise::{product, roots};
+use super::sampled_pairs::MatrixArguments;
+use super::sampled_threshold::{FloatWeights, Root};
+use super::suprema::{FloatSuprema, Place, Places, keep};
+use rug::Rational;
+use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::spec::{Constant, MatrixInequality, Splitting};
+use sigmastar_matrix::AffineMatrix;
+use sigmastar_matrix::semidefinite::propose;
+use std::sync::Arc;
+
+/// What the least sigma at samples is enlarged by, until it is proved, and the boxes that each attempt may take.
+const ATTEMPTS: [(f64, usize); 5] = [(0.001, 1500), (0.003, 3000), (0.01, 6000), (0.03, 12_000), (0.1, 20_000)];
+
+/// Significant digits of a threshold, and of S in units of its diagonal.
+const DIGITS: u32 = 6;
+
+/// Points of either kind that a semidefinite program begins with, and that are added where S fails.
+const POINTS: usize = 8;
+
+/// How often points are added, and by what share S may fail at a point.
+const ROUNDS: usize = 6;
+const TOLERANCE: f64 = 1e-3;
+
+impl Engine {
+    /// The inequality with the smallest threshold that is proved and little above that of the samples: by 0.1 %, 0.3 %, 1 %, 3 % or
+    /// 10 %; `None` if none is. `samples` must be of the same plant and region, with P = 1; `value` is not used, and of a
+    /// splitting nothing but its arguments: S is sought.
+    #[must_use]
+    pub fn prove_inequality(
+        &self,
+        samples: &FloatSuprema,
+        inequality: &MatrixInequality,
+        mu: &Constant,
+    ) -> Option<MatrixInequality> {
+        let MatrixInequality { w_x, h, rate, .. } = inequality;
+        let [states, error] = inequality.arguments();
+        let reach = |[x, e]: [&Rational; 2]| [Rational::from(x + self.region.radius()).to_f64(), e.to_f64()];
+        let apart = inequality.splitting.is_some();
+        let at = MatrixArguments { apart, states: reach(states), error: reach(error) };
+        let weights = FloatWeights { w_x: w_x.to_f64(), k_p: 2.0 * h.to_f64() / mu.to_f64(), rate: rate.to_f64() };
+        let Some(splitting) = &inequality.splitting else {
+            let sampled = samples.refined_threshold(at.states, weights);
+            return ATTEMPTS.into_iter().find_map(|(slack, effort)| {
+                let value = round_f64(sampled * (1.0 + slack), DIGITS, Direction::Up)?;
+                let inequality = MatrixInequality { value, ..inequality.clone() };
+                self.decide_inequality(&inequality, mu, effort).truth.is_true().then_some(inequality)
+            });
+        };
+        let s = samples.propose_splitting(at, weights)?;
+        ATTEMPTS.into_iter().find_map(|(slack, effort)| {
+            // A smaller S has room on its own side, and takes it from the other.
+            let s = s.iter().map(|row| row.iter().map(|entry| entry * (1.0 - slack)).collect()).collect::<Vec<Vec<_>>>();
+            let value = samples.refined_threshold_with(&s, at.error, weights)? * (1.0 + slack);
+            let inequality = MatrixInequality {
+                value: round_f64(value, DIGITS, Direction::Up)?,
+                splitting: Some(Splitting { matrix: rounded(&s)?, ..splitting.clone() }),
+                ..inequality.clone()
+            };
+            self.decide_inequality(&inequality, mu, effort).truth.is_true().then_some(inequality)
+        })
+    }
+}
+
+impl FloatSuprema {
+    /// S that makes the threshold small; `F >= S` as far as a search sees. `None` where there is none.
+    fn propose_splitting(&self, at: MatrixArguments, weights: FloatWeights) -> Option<Vec<Vec<f64>>> {
+        let all = Places::Stride(1);
+        let corners = self.corners(at, &all, weights, POINTS);
+        let expected = self.threshold_of_pairs(at, &corners, weights);
+        if !(expected.is_finite() && expected > 0.0) {
+            return None;
+        }
+        let mut program = Program::new(expected);
+        program.add(self, at, weights, [&corners.states, &corners.error]);
+        let mut s = program.solve()?;
+        for _ in 0..ROUNDS {
+            let (Some(root), Ok(cholesky)) = (inverse_root(&s), Root::new(&lower(&s))) else { return None };
+            let (mut of_states, mut of_error): (Vec<(f64, Place)>, Vec<_>) = (Vec::new(), Vec::new());
+            self.derivatives_at_points(at.states, &all, |place, derivatives, matrix| {
+                let need = share(&root, &weights.of_states(derivatives, matrix));
+                keep(&mut of_states, POINTS, need, place);
+            });
+            let so_far = program.threshold;
+            self.derivatives_at_points(at.error, &all, |place, derivatives, _| {
+                keep(&mut of_error, POINTS, cholesky.threshold(&weights.of_error(derivatives)) / so_far, place);
+            });
+            let beyond = |list: Vec<(f64, Place)>| {
+                let mut places: Vec<Place> =
+                    list.into_iter().filter(|(value, _)| *value > 1.0 + TOLERANCE).map(|(_, place)| place).collect();
+                places.sort_unstable();
+                places
+            };
+            let (of_states, of_error) = (beyond(of_states), beyond(of_error));
+            if of_states.is_empty() && of_error.is_empty() {
+                break;
+            }
+            let [of_states, of_error] = [of_states, of_error].map(|places| Places::Listed(Arc::new(places)));
+            program.add(self, at, weights, [&of_states, &of_error]);
+            s = program.solve()?;
+        }
+        let root = inverse_root(&s)?;
+        let need = self.refined_of_derivatives(at.states, |derivatives, matrix| {
+            share(&root, &weights.of_states(derivatives, matrix))
+        });
+        let fits = need.is_finite() && need > 0.0;
+        fits.then(|| s.iter().map(|row| row.iter().map(|entry| entry / need).collect()).collect())
+    }
+
+    /// The least sigma for a given S, by a longer search.
+    fn refined_threshold_with(&self, s: &[Vec<f64>], at: [f64; 2], weights: FloatWeights) -> Option<f64> {
+        let root = Root::new(&lower(s)).ok()?;
+        let found = self.refined_of_derivatives(at, |derivatives, _| root.threshold(&weights.of_error(derivatives)));
+        (found.is_finite() && found > 0.0).then_some(found)
+    }
+}
+
+/// The semidefinite program: S, and the least `2 sigma`.
+struct Program {
+    /// The matrices that S must not exceed, by rows.
+    above: Vec<Vec<Vec<f64>>>,
+    /// The columns beside S.
+    columns: Vec<Vec<f64>>,
+    /// What sigma is expected to be, and then is.
+    threshold: f64,
+}
+
+impl Program {
+    fn new(expected: f64) -> Program {
+        Program { above: Vec::new(), columns: Vec::new(), threshold: expected }
+    }
+
+    fn add(&mut self, samples: &FloatSuprema, at: MatrixArguments, weights: FloatWeights, places: [&Places; 2]) {
+        samples.derivatives_at_points(at.states, places[0], |_, derivatives, matrix| {
+            self.above.push(full(&weights.of_states(derivatives, matrix), derivatives.r.len() + 1));
+        });
+        samples.derivatives_at_points(at.error, places[1], |_, derivatives, _| {
+            self.columns.push(weights.of_error(derivatives));
+        });
+    }
+
+    /// S; all is scaled so that its diagonal and `2 sigma` are about 1.
+    fn solve(&mut self) -> Option<Vec<Vec<f64>>> {
+        let first = self.above.first()?;
+        let order = first.len();
+        let scale: Vec<f64> = (0..order).map(|i| first[i][i].sqrt().recip()).collect();
+        let unit = (2.0 * self.threshold).sqrt().recip();
+        let pairs: Vec<(usize, usize)> = (0..order).flat_map(|i| (i..order).map(move |j| (i, j))).collect();
+        let is_entry = |variable: usize, i: usize, j: usize| f64::from(pairs.get(variable) == Some(&(i, j)));
+        let above = self.above.iter().map(|matrix| {
+            let constant = |i: usize, j: usize| matrix[i][j] * scale[i] * scale[j];
+            AffineMatrix::from_fn(order, pairs.len() + 1, constant, |variable, i, j| -is_entry(variable, i, j))
+        });
+        let beside = self.columns.iter().map(|column| {
+            let constant = |i: usize, j: usize| if j == order && i < order { column[i] * scale[i] * unit } else { 0.0 };
+            let term = |variable: usize, i: usize, j: usize| match (variable == pairs.len(), i == order && j == order) {
+                (true, corner) => f64::from(corner),
+                (false, _) => is_entry(variable, i, j),
+            };
+            AffineMatrix::from_fn(order + 1, pairs.len() + 1, constant, term)
+        });
+        let constraints: Vec<AffineMatrix<f64>> = above.chain(beside).collect();
+        let mut cost = vec![0.0; pairs.len() + 1];
+        cost[pairs.len()] = 1.0;
+        let found = propose(&cost, &constraints).ok()?.x;
+        self.threshold *= found[pairs.len()];
+        let mut s = vec![vec![0.0; order]; order];
+        for ((i, j), value) in pairs.iter().zip(&found) {
+            let value = value / (scale[*i] * scale[*j]);
+            (s[*i][*j], s[*j][*i]) = (value, value);
+        }
+        (self.threshold > 0.0).then_some(s)
+    }
+}
+
+/// The lower triangle of a symmetric matrix, by rows.
+fn lower(matrix: &[Vec<f64>]) -> Vec<f64> {
+    matrix.iter().enumerate().flat_map(|(i, row)| row[..=i].iter().copied()).collect()
+}
+
+/// A symmetric matrix from its lower triangle.
+fn full(lower: &[f64], order: usize) -> Vec<Vec<f64>> {
+    let at = |i: usize, j: usize| if j <= i { lower[i * (i + 1) / 2 + j] } else { lower[j * (j + 1) / 2 + i] };
+    (0..order).map(|i| (0..order).map(|j| at(i, j)).collect()).collect()
+}
+
+/// The inverse of the symmetric root; `None` where the matrix is not positive definite.
+fn inverse_root(s: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let [_, inverse] = roots(s);
+    inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)
+}
+
+/// The largest share of S that the matrix with this lower triangle is not below, as its reciprocal; infinite where there is none.
+fn share(inverse_root: &[Vec<f64>], of: &[f64]) -> f64 {
+    let matrix = full(of, inverse_root.len());
+    let mut form = product(inverse_root, &product(&matrix, inverse_root));
+    form.iter_mut().flatten().for_each(|entry| *entry = -*entry);
+    let least = -largest_eigenvalue(form);
+    if least > 0.0 { least.recip() } else { f64::INFINITY }
+}
+
+/// With short entries.
+fn rounded(s: &[Vec<f64>]) -> Option<Vec<Vec<Rational>>> {
+    let entry = |i: usize, j: usize| {
+        let value = s[i.max(j)][i.min(j)];
+        let size = (s[i][i] * s[j][j]).sqrt();
+        // So many digits of the size that it could have.
+        let digits = f64::from(DIGITS) + libm::log10(value.abs() / size).floor() + 1.0;
+        if value == 0.0 || digits < 1.0 { Some(Rational::new()) } else { round_f64(value, digits as u32, Direction::Nearest) }
+    };
+    (0..s.len()).map(|i| (0..s.len()).map(|j| entry(i, j)).collect()).collect()
+}
