@@ -15,6 +15,7 @@ mod centred;
 mod chart;
 mod decide;
 mod definite;
+mod directions;
 mod eigen;
 mod engine;
 mod entry;
@@ -38,6 +39,7 @@ mod tests;
 mod time_cell;
 
 pub use decide::Decision;
+pub use directions::Directions;
 pub use engine::Engine;
 pub use entry::{Entry, TABLE};
 pub use majorant::{Majorant, Term};

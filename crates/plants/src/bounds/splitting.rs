@@ -27,6 +27,9 @@ const POINTS: usize = 8;
 const ROUNDS: usize = 6;
 const TOLERANCE: f64 = 1e-3;
 
+/// The share of the threshold that is given for the distance of S from what it must not exceed.
+const ROOM: f64 = 2e-3;
+
 impl Engine {
     /// The inequality with the smallest threshold that is proved and little above that of the samples: by 0.1 %, 0.3 %, 1 %, 3 % or
     /// 10 %; `None` if none is. `samples` must be of the same plant and region, with P = 1; `value` is not used, and of a
@@ -104,10 +107,12 @@ impl FloatSuprema {
             program.add(self, at, weights, [&of_states, &of_error]);
             s = program.solve()?;
         }
+        let s = program.centred(ROOM)?;
         let root = inverse_root(&s)?;
         let need = self.refined_of_derivatives(at.states, |derivatives, matrix| {
             share(&root, &weights.of_states(derivatives, matrix))
         });
+        let need = need.max(1.0);
         let fits = need.is_finite() && need > 0.0;
         fits.then(|| s.iter().map(|row| row.iter().map(|entry| entry / need).collect()).collect())
     }
@@ -144,8 +149,21 @@ impl Program {
         });
     }
 
-    /// S; all is scaled so that its diagonal and `2 sigma` are about 1.
+    /// S with the least threshold.
     fn solve(&mut self) -> Option<Vec<Vec<f64>>> {
+        let (s, share) = self.solution(None)?;
+        self.threshold *= share;
+        (self.threshold > 0.0).then_some(s)
+    }
+
+    /// S that is far from what it must not exceed, with a threshold that is larger by this share.
+    fn centred(&self, room: f64) -> Option<Vec<Vec<f64>>> {
+        self.solution(Some(1.0 + room)).map(|(s, _)| s)
+    }
+
+    /// S, and the least sigma as a share of what it is expected to be; where that share is given, the distance of S from what it
+    /// must not exceed instead, which is made large. All is scaled so that the diagonal of S and `2 sigma` are about 1.
+    fn solution(&self, given: Option<f64>) -> Option<(Vec<Vec<f64>>, f64)> {
         let first = self.above.first()?;
         let order = first.len();
         let scale: Vec<f64> = (0..order).map(|i| first[i][i].sqrt().recip()).collect();
@@ -154,27 +172,34 @@ impl Program {
         let is_entry = |variable: usize, i: usize, j: usize| f64::from(pairs.get(variable) == Some(&(i, j)));
         let above = self.above.iter().map(|matrix| {
             let constant = |i: usize, j: usize| matrix[i][j] * scale[i] * scale[j];
-            AffineMatrix::from_fn(order, pairs.len() + 1, constant, |variable, i, j| -is_entry(variable, i, j))
+            let term = |variable: usize, i: usize, j: usize| match variable == pairs.len() {
+                true => if given.is_some() && i == j { -1.0 } else { 0.0 },
+                false => -is_entry(variable, i, j),
+            };
+            AffineMatrix::from_fn(order, pairs.len() + 1, constant, term)
         });
         let beside = self.columns.iter().map(|column| {
-            let constant = |i: usize, j: usize| if j == order && i < order { column[i] * scale[i] * unit } else { 0.0 };
+            let constant = |i: usize, j: usize| match (i == order, j == order) {
+                (true, true) => given.unwrap_or(0.0),
+                (false, true) => column[i] * scale[i] * unit,
+                _ => 0.0,
+            };
             let term = |variable: usize, i: usize, j: usize| match (variable == pairs.len(), i == order && j == order) {
-                (true, corner) => f64::from(corner),
+                (true, corner) => f64::from(corner && given.is_none()),
                 (false, _) => is_entry(variable, i, j),
             };
             AffineMatrix::from_fn(order + 1, pairs.len() + 1, constant, term)
         });
         let constraints: Vec<AffineMatrix<f64>> = above.chain(beside).collect();
         let mut cost = vec![0.0; pairs.len() + 1];
-        cost[pairs.len()] = 1.0;
+        cost[pairs.len()] = if given.is_some() { -1.0 } else { 1.0 };
         let found = propose(&cost, &constraints).ok()?.x;
-        self.threshold *= found[pairs.len()];
         let mut s = vec![vec![0.0; order]; order];
         for ((i, j), value) in pairs.iter().zip(&found) {
             let value = value / (scale[*i] * scale[*j]);
             (s[*i][*j], s[*j][*i]) = (value, value);
         }
-        (self.threshold > 0.0).then_some(s)
+        Some((s, found[pairs.len()]))
     }
 }
 

@@ -278,6 +278,11 @@ impl FloatSuprema {
         }
     }
 
+    /// The number of states.
+    pub(super) fn states(&self) -> usize {
+        self.order
+    }
+
     /// Calls `see` with every place, the first derivatives in the coordinates y, and P.
     pub(super) fn derivatives_at_points(
         &self,

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::{Asked, FloatWeights, Focus, MatrixArguments};
+use sigmastar_plants::bounds::{Asked, Corners, FloatWeights, Focus, MatrixArguments};
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::Arc;
 
@@ -25,8 +25,8 @@ pub enum Density {
     Coarse,
     /// To compare coordinates near some, at the points that are the most extreme ones there.
     Focused(Focus),
-    /// For the coordinates that are taken.
-    Fine,
+    /// For the coordinates that are taken; with the corners of the matrix inequality near a proposal, where it is sought.
+    Fine(Option<Corners>),
 }
 
 /// L, and in its coordinates the P of existence, where it is not that of stability.
@@ -95,6 +95,9 @@ const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
 /// A descent over L and the shape together.
 const TOGETHER: Descent = Descent { restarts: 1, iterations: 120, tolerance: 1e-3 };
 
+/// A gain by a matrix inequality is at most this share of what is known, to be worth its proof.
+const WORTH_A_MATRIX: f64 = 0.99;
+
 /// A gain that is so many times that of norms is not sought further, before the shape is sought and after; one that existence sets
 /// if it is so near.
 const TOO_FAR: f64 = 3.0;
@@ -147,7 +150,7 @@ impl CoordinateSearch<'_> {
             _ if l.nrows() == 0 => ALONE,
             Density::Rough => ROUGH,
             Density::Coarse | Density::Focused(_) => COARSE,
-            Density::Fine => FINE,
+            Density::Fine(_) => FINE,
         };
         let Estimates { bounds, threshold, .. } = (self.sampler)(shape, density);
         let at_origin = bounds(0.0, 0.0, Asked::ALL);
@@ -162,7 +165,7 @@ impl CoordinateSearch<'_> {
             model.by_matrix = Some(ByMatrix::Sampled { path, threshold, rate: KEPT * at_origin[RATE] });
         }
         let model = (self.frame)(l, &model);
-        if matches!(density, &Density::Fine) { model } else { model.rough() }
+        if matches!(density, Density::Fine(_)) { model } else { model.rough() }
     }
 
     /// The best of some candidates, each improved by a local search: the smallest gain at many samples.
@@ -215,25 +218,29 @@ impl CoordinateSearch<'_> {
     }
 
     /// The best choice near a known one, of another search for the same plant: L and the shape of the error box are sought together,
-    /// at the points that are the most extreme ones.
+    /// at the points that are the most extreme ones. The P of existence stays what it is in the coordinates x.
     ///
     /// # Errors
-    /// The obstacle, where no gain is found, or one that is far larger.
-    pub fn choose_near(&self, l: &DMatrix<f64>, known: &SharpProposal) -> Result<Chosen, Obstacle> {
+    /// The obstacle, where no gain is found, or none that is smaller by what is worth it.
+    pub fn choose_near(&self, Chosen { l, second, proposal: known, .. }: &Chosen) -> Result<Chosen, Obstacle> {
         let n = l.nrows();
         let freedom = if (2..=MOST_STATES).contains(&n) { n * (n + 1) / 2 - 1 } else { 0 };
-        let (mut l, mut start) = (l.clone(), *known);
+        let (mut l, mut second, mut start) = (l.clone(), second.clone(), *known);
         // First the shape alone.
         for freedom in [0, freedom, freedom] {
-            let density = self.focused(&l, &start).unwrap_or(Density::Coarse);
+            let shape = Shape { l: &l, second: second.as_ref() };
+            let density = self.focus(shape, &start).map_or(Density::Coarse, Density::Focused);
             let with = |p: &[f64]| {
                 let parameters =
                     SharpParameters { rho: 1.0 + p[0].portable_exp(), eta: p[1].portable_exp(), ..start.parameters };
-                let l = if freedom == 0 { l.clone() } else { &l * exponential(n, &p[2..]) };
-                let found = search_sharp_near(&self.model(alone(&l), &density), &SharpProposal { parameters, ..start });
-                found.ok().map(|found| (l, found))
+                let turn = if freedom == 0 { DMatrix::identity(n, n) } else { exponential(n, &p[2..]) };
+                let l = &l * &turn;
+                let second = second.as_ref().map(|second| &turn * second * &turn);
+                let model = self.model(Shape { l: &l, second: second.as_ref() }, &density);
+                let found = search_sharp_near(&model, &SharpProposal { parameters, ..start });
+                found.ok().map(|found| (l, second, found))
             };
-            let cost = |p: &[f64]| with(p).map(|(_, found)| found.sigma.portable_ln());
+            let cost = |p: &[f64]| with(p).map(|(.., found)| found.sigma.portable_ln());
             // The box of the norms may be too large.
             let from = |share: f64| -> Vec<f64> {
                 let shape = [((start.parameters.rho - 1.0) * share).portable_ln(), start.parameters.eta.portable_ln()];
@@ -247,20 +254,24 @@ impl CoordinateSearch<'_> {
             if let Some((best, _)) = minimise(cost, &from, &steps, TOGETHER)
                 && let Some(found) = with(&best)
             {
-                (l, start) = found;
+                (l, second, start) = found;
             }
             let hopeless = start.binding == Binding::Existence && start.sigma > NEARLY * known.sigma;
             if hopeless || start.sigma > FAR * known.sigma {
                 return Err(Failing::Gain { given: known.sigma, smallest: None }.into());
             }
         }
-        Ok(self.with_second(self.with(alone(&l), Some(&start))?))
+        if start.sigma > WORTH_A_MATRIX * known.sigma {
+            return Err(Failing::Gain { given: known.sigma, smallest: None }.into());
+        }
+        let found = self.with(Shape { l: &l, second: second.as_ref() }, Some(&start))?;
+        Ok(if second.is_some() { found } else { self.with_second(found) })
     }
 
     /// The points that matter near a proposal.
-    fn focused(&self, l: &DMatrix<f64>, known: &SharpProposal) -> Result<Density, Obstacle> {
-        let model = self.model(alone(l), &Density::Coarse);
-        let estimates = (self.sampler)(alone(l), &Density::Coarse);
+    fn focus(&self, shape: Shape<'_>, known: &SharpProposal) -> Result<Focus, Obstacle> {
+        let model = self.model(shape, &Density::Coarse);
+        let estimates = (self.sampler)(shape, &Density::Coarse);
         let (set, at) = at_sigma(&model, &known.parameters, known.sigma * (1.0 + NEAR), NEAR)?;
         let level = active_level(at.eta, at.dist_e, at.rho);
         let weights = FloatWeights {
@@ -271,7 +282,7 @@ impl CoordinateSearch<'_> {
         let error_box = [set.x_per + at.d_x, set.e_per + level.sqrt()];
         let inequality =
             self.by_matrix.map(|path| (ByMatrix::arguments(path, [set.x_per, set.e_per], error_box), weights));
-        Ok(Density::Focused((estimates.extreme)(&[[set.x_p, set.e_p], error_box], inequality)))
+        Ok((estimates.extreme)(&[[set.x_p, set.e_p], error_box], inequality))
     }
 
     /// The choice with a P of existence beside it, where that is worth it.
@@ -290,7 +301,8 @@ impl CoordinateSearch<'_> {
     /// # Errors
     /// The obstacle, where no gain is found.
     pub fn with(&self, shape: Shape<'_>, near: Option<&SharpProposal>) -> Result<Chosen, Obstacle> {
-        let model = self.model(shape, &Density::Fine);
+        let focus = near.and_then(|known| self.focus(shape, known).ok());
+        let model = self.model(shape, &Density::Fine(focus.and_then(|focus| focus.corners)));
         let near = near.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
         Ok(Chosen { l: shape.l.clone(), second: shape.second.cloned(), model, proposal })

@@ -40,9 +40,6 @@ const NEAR: f64 = 1.1;
 /// in its inequalities takes more than the same share of the gain, and the first that has a set is used.
 const ABOVE: [f64; 7] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 
-/// A gain by a matrix inequality is at most this share of that by norms, to be worth its proof.
-const WORTH_A_MATRIX: f64 = 0.99;
-
 /// A gain that in a period does no more than this needs not be smaller.
 const AS_GOOD_AS_NONE: f64 = 1e-6;
 
@@ -153,9 +150,9 @@ fn best_by_matrix(
     let mut best: Option<(Along, Chosen)> = None;
     for path in Path::ALL.into_iter().rev() {
         let known = best.as_ref().map_or(chosen, |(_, best)| best);
-        let found = with_constant(p, sampling, Some(path), |search| search.choose_near(&known.l, &known.proposal));
+        let found = with_constant(p, sampling, Some(path), |search| search.choose_near(known));
         if let Ok(found) = found
-            && found.1.proposal.sigma < known.proposal.sigma * WORTH_A_MATRIX
+            && found.1.proposal.sigma < known.proposal.sigma
         {
             best = Some(found);
         }
@@ -178,7 +175,7 @@ fn with_constant(
     let search = CoordinateSearch { by_matrix, ..search(sampling, &sampler, 1.0) };
     let chosen = choose(&search).map_err(PlantRefusal::NoGain)?;
     let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], &Density::Rough)(0.0, 0.0, Asked::ALL);
-    let l = rational_matrix(&chosen.l, at_origin).ok_or(PlantRefusal::NoContraction)?;
+    let l = rational_matrix(&sampling.turned(&chosen.l), at_origin).ok_or(PlantRefusal::NoContraction)?;
     let coordinates = Coordinates { l, p: p.clone(), rate: f64::NAN };
     let mut base = along(plant, curve, &coordinates)?;
     // The rounded L, which is L times a rotation, is the one that counts.

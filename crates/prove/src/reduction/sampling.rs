@@ -22,6 +22,12 @@ const DIGITS: u32 = 4;
 const DIGITS_OF_L: [u32; 4] = [4, 6, 9, 14];
 const LOST: f64 = 1e-3;
 
+/// An entry of L that is a smaller share of its row is 0.
+const NEGLIGIBLE: f64 = 1e-9;
+
+/// The share of the changes along the axes that a rotation of y must leave at most.
+const WORTH_A_TURN: f64 = 0.9;
+
 /// The suprema along one orbit, for any coordinates.
 pub(super) struct Sampling<'a> {
     pub(super) plant: &'a Plant,
@@ -82,7 +88,7 @@ impl<'a> Sampling<'a> {
             Density::Rough => grid(6),
             Density::Coarse => grid(3),
             Density::Focused(focus) => focus.clone(),
-            Density::Fine => grid(1),
+            Density::Fine(corners) => Focus { corners: corners.clone(), ..grid(1) },
         };
         let stateless = l.nrows() == 0;
         let places = focus.places.clone();
@@ -99,6 +105,22 @@ impl<'a> Sampling<'a> {
         });
         let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_inequality.least_sigma(at, &focus, weights));
         Estimates { bounds, threshold, extreme }
+    }
+
+    /// L times a rotation, with which the derivatives change along few axes of y; lower triangular where that serves as well. No norm
+    /// of y changes.
+    pub(super) fn turned(&self, l: &DMatrix<f64>) -> DMatrix<f64> {
+        let n = l.nrows();
+        let lower = lower_triangular(l);
+        if n < 2 {
+            return lower;
+        }
+        let [x, _] = self.units(&lower);
+        let directions = |l: &DMatrix<f64>| self.suprema(l, [None; 2]).directions([x, self.unit_e]);
+        let known = directions(&lower);
+        let turned = &lower * DMatrix::from_fn(n, n, |i, j| known.principal[i][j]);
+        let better = directions(&turned).along_axes < known.along_axes * WORTH_A_TURN;
+        if better { turned } else { lower }
     }
 
     /// Those of the bounds.
@@ -136,8 +158,7 @@ pub(super) fn float_matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {
     DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j].to_f64())
 }
 
-/// L with short entries, lower triangular: what is right of it, a rotation, changes no norm of y. `at_origin` are the bounds on
-/// the orbit in given coordinates.
+/// L with short entries. `at_origin` are the bounds on the orbit in given coordinates.
 pub(super) fn rational_matrix(
     l: &DMatrix<f64>,
     at_origin: impl Fn(&DMatrix<f64>) -> Values,
@@ -146,13 +167,14 @@ pub(super) fn rational_matrix(
     if n == 0 {
         return Some(Vec::new());
     }
-    let triangular = lower_triangular(l);
-    let wanted = at_origin(&triangular);
+    let wanted = at_origin(l);
     let mut last = None;
     for digits in DIGITS_OF_L {
-        let entry = |i: usize, j: usize| match j > i {
+        // Beside the others of its row it does nothing.
+        let is_none = |i: usize, j: usize| l[(i, j)].abs() < NEGLIGIBLE * l.row(i).amax();
+        let entry = |i: usize, j: usize| match is_none(i, j) {
             true => Some(Rational::new()),
-            false => round_f64(triangular[(i, j)], digits, Direction::Nearest),
+            false => round_f64(l[(i, j)], digits, Direction::Nearest),
         };
         let rows: Vec<Vec<Rational>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect::<Option<_>>()?;
         let found = at_origin(&float_matrix(&rows));
