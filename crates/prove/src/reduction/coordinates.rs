@@ -11,7 +11,6 @@ use crate::search::{
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
-use sigmastar_lang::spec::Bound;
 use sigmastar_plants::bounds::{Asked, Corners, FloatWeights, Focus, MatrixArguments};
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::Arc;
@@ -75,13 +74,16 @@ const ALONE: f64 = 1.02;
 /// The first step of S.
 const STEP: f64 = 0.15;
 
-/// A descent over S or S'; a relative change of sigma* by the tolerance is none.
-const DESCENT: Descent = Descent { restarts: 0, iterations: 40, tolerance: 1e-3 };
+/// A descent over L and the like; a relative change of sigma* by the tolerance is none.
+const DESCENT: Descent = Descent { restarts: 0, iterations: 60, tolerance: 1e-3 };
 
 /// How many descents there are, and how far apart in the list of candidates they start: what looks smallest at few samples need not
 /// be so at many.
 const DESCENTS: usize = 3;
 const APART: usize = 3;
+
+/// How often a descent looks again for the points that matter.
+const TURNS: usize = 2;
 
 /// The share of the rate along the orbit that x keeps in a matrix inequality.
 const KEPT: f64 = 1e-6;
@@ -92,15 +94,13 @@ const SHAPE_STEP: f64 = 0.4;
 /// The shares of rho - 1 from which it is sought.
 const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
 
-/// A descent over L and the shape together.
+/// A descent over the shape as well.
 const TOGETHER: Descent = Descent { restarts: 1, iterations: 120, tolerance: 1e-3 };
 
 /// A gain by a matrix inequality is at most this share of what is known, to be worth its proof.
 const WORTH_A_MATRIX: f64 = 0.99;
 
-/// A gain that is so many times that of norms is not sought further, before the shape is sought and after; one that existence sets
-/// if it is so near.
-const TOO_FAR: f64 = 3.0;
+/// A gain that is so many times that of norms is not sought further; one that existence sets if it is so near.
 const FAR: f64 = 1.3;
 const NEARLY: f64 = 0.98;
 
@@ -141,6 +141,48 @@ pub struct Chosen {
     pub proposal: SharpProposal,
 }
 
+/// Where a descent is: L, the P of existence where it is another one, and the free numbers.
+#[derive(Clone)]
+pub struct Start {
+    /// L.
+    pub l: DMatrix<f64>,
+    /// The P of existence.
+    pub second: Option<DMatrix<f64>>,
+    /// The free numbers.
+    pub proposal: SharpProposal,
+}
+
+/// What candidates promise at few samples: from where descents start, and the best of them.
+pub struct Rough {
+    /// The starts.
+    pub starts: Vec<Start>,
+    /// The best one.
+    pub best: Start,
+}
+
+impl From<&Chosen> for Start {
+    fn from(chosen: &Chosen) -> Self {
+        Start { l: chosen.l.clone(), second: chosen.second.clone(), proposal: chosen.proposal }
+    }
+}
+
+impl Start {
+    fn shape(&self) -> Shape<'_> {
+        Shape { l: &self.l, second: self.second.as_ref() }
+    }
+}
+
+/// What a descent varies, beside the shape of the error box, which it does with a matrix inequality.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Varied {
+    /// Nothing else.
+    Shape,
+    /// L.
+    Coordinates,
+    /// L and the P of existence.
+    Both,
+}
+
 impl CoordinateSearch<'_> {
     /// The model for a given L.
     #[must_use]
@@ -168,11 +210,11 @@ impl CoordinateSearch<'_> {
         if matches!(density, Density::Fine(_)) { model } else { model.rough() }
     }
 
-    /// The best of some candidates, each improved by a local search: the smallest gain at many samples.
+    /// What some candidates promise at few samples.
     ///
     /// # Errors
     /// The obstacle of the candidate that came closest.
-    pub fn choose(&self, candidates: &[DMatrix<f64>]) -> Result<Chosen, Obstacle> {
+    pub fn rough(&self, candidates: &[DMatrix<f64>]) -> Result<Rough, Obstacle> {
         // The first one that has a gain leads to those of the others by local steps.
         let mut closest = Closest::default();
         let first = candidates.iter().find_map(|l| {
@@ -196,83 +238,123 @@ impl CoordinateSearch<'_> {
                 Err(obstacle) => closest.record(obstacle),
             }
         }
-        let (start, at) = closest.or(best)?;
-        let l = &candidates[at];
-        if !(2..=MOST_STATES).contains(&l.nrows()) {
-            return self.with(alone(l), Some(&start));
-        }
+        let (proposal, at) = closest.or(best)?;
         starts.retain(|other| other.abs_diff(at).is_multiple_of(APART));
         starts.sort_by_key(|other| (other.abs_diff(at), *other));
         starts.truncate(DESCENTS);
+        let start = |at: &usize| Start { l: candidates[*at].clone(), second: None, proposal };
+        Ok(Rough { starts: starts.iter().map(start).collect(), best: start(&at) })
+    }
+
+    /// The best of these starts, each improved by a local search: the smallest gain at many samples.
+    ///
+    /// # Errors
+    /// The obstacle, where no gain is found.
+    pub fn choose(&self, rough: &Rough) -> Result<Chosen, Obstacle> {
+        let Rough { starts, best } = rough;
+        if !(2..=MOST_STATES).contains(&best.l.nrows()) {
+            return self.with(best.shape(), Some(&best.proposal));
+        }
         let descents = starts.par_iter().map(|from| {
-            let improved = self.improved(&candidates[*from], &start);
-            self.with(alone(&improved), Some(&start)).ok()
+            let mut at = from.clone();
+            for _ in 0..TURNS {
+                at = self.descend(&at, Varied::Coordinates)?;
+            }
+            self.with(at.shape(), Some(&at.proposal)).ok()
         });
         let descents: Vec<Option<Chosen>> = descents.collect();
         let smallest = descents.into_iter().flatten().min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma));
         let single = match smallest {
             Some(single) => single,
-            None => self.with(alone(l), Some(&start))?,
+            None => self.with(best.shape(), Some(&best.proposal))?,
         };
         Ok(self.with_second(single))
     }
 
-    /// The best choice near a known one, of another search for the same plant: L and the shape of the error box are sought together,
-    /// at the points that are the most extreme ones. The P of existence stays what it is in the coordinates x.
+    /// The best choice near a known one, of another search for the same plant.
     ///
     /// # Errors
     /// The obstacle, where no gain is found, or none that is smaller by what is worth it.
-    pub fn choose_near(&self, Chosen { l, second, proposal: known, .. }: &Chosen) -> Result<Chosen, Obstacle> {
+    pub fn choose_near(&self, known: &Start) -> Result<Chosen, Obstacle> {
+        let proposal = &known.proposal;
+        let too_large = || Obstacle::from(Failing::Gain { given: proposal.sigma, smallest: None });
+        let mut at = known.clone();
+        for varied in [Varied::Shape, Varied::Coordinates, Varied::Coordinates] {
+            at = self.descend(&at, varied).ok_or_else(too_large)?;
+            let hopeless = at.proposal.binding == Binding::Existence && at.proposal.sigma > NEARLY * proposal.sigma;
+            if hopeless || at.proposal.sigma > FAR * proposal.sigma {
+                return Err(too_large());
+            }
+        }
+        if at.proposal.sigma > WORTH_A_MATRIX * proposal.sigma {
+            return Err(too_large());
+        }
+        let found = self.with(at.shape(), Some(&at.proposal))?;
+        Ok(self.with_second(found))
+    }
+
+    /// The best that is reached from there, at the points that are the most extreme ones there; `None` where there is no gain.
+    fn descend(&self, from: &Start, varied: Varied) -> Option<Start> {
+        let Start { l, second, proposal } = from;
         let n = l.nrows();
-        let freedom = if (2..=MOST_STATES).contains(&n) { n * (n + 1) / 2 - 1 } else { 0 };
-        let (mut l, mut second, mut start) = (l.clone(), second.clone(), *known);
-        // First the shape alone.
-        for freedom in [0, freedom, freedom] {
-            let shape = Shape { l: &l, second: second.as_ref() };
-            let density = self.focus(shape, &start).map_or(Density::Coarse, Density::Focused);
-            let with = |p: &[f64]| {
-                let parameters =
-                    SharpParameters { rho: 1.0 + p[0].portable_exp(), eta: p[1].portable_exp(), ..start.parameters };
-                let turn = if freedom == 0 { DMatrix::identity(n, n) } else { exponential(n, &p[2..]) };
-                let l = &l * &turn;
-                let second = second.as_ref().map(|second| &turn * second * &turn);
-                let model = self.model(Shape { l: &l, second: second.as_ref() }, &density);
-                let found = search_sharp_near(&model, &SharpProposal { parameters, ..start });
-                found.ok().map(|found| (l, second, found))
-            };
-            let cost = |p: &[f64]| with(p).map(|(.., found)| found.sigma.portable_ln());
-            // The box of the norms may be too large.
-            let from = |share: f64| -> Vec<f64> {
-                let shape = [((start.parameters.rho - 1.0) * share).portable_ln(), start.parameters.eta.portable_ln()];
-                shape.into_iter().chain(std::iter::repeat_n(0.0, freedom)).collect()
-            };
-            let from = SHARES.map(from).into_iter().find_map(|from| Some((cost(&from)?, from)));
-            let Some((_, from)) = from.filter(|(cost, _)| cost.portable_exp() < TOO_FAR * known.sigma) else {
-                return Err(Failing::Gain { given: known.sigma, smallest: None }.into());
-            };
-            let steps: Vec<f64> = (0..freedom + 2).map(|i| if i < 2 { SHAPE_STEP } else { STEP }).collect();
-            if let Some((best, _)) = minimise(cost, &from, &steps, TOGETHER)
-                && let Some(found) = with(&best)
-            {
-                (l, second, start) = found;
+        let of_matrix = if (2..=MOST_STATES).contains(&n) { n * (n + 1) / 2 - 1 } else { 0 };
+        let [of_l, of_second] = match varied {
+            Varied::Shape => [0, 0],
+            Varied::Coordinates => [of_matrix, 0],
+            Varied::Both => [of_matrix, of_matrix],
+        };
+        // The P of stability as another one, to begin with.
+        let second = second.clone().or_else(|| (of_second > 0).then(|| DMatrix::identity(n, n)));
+        let density = self.focus(Shape { l, second: second.as_ref() }, proposal).map_or(Density::Coarse, Density::Focused);
+        let of_shape = if self.by_matrix.is_some() { 2 } else { 0 };
+        // Where L stays, what was sampled serves again.
+        let same = (of_l == 0).then(|| self.model(Shape { l, second: second.as_ref() }, &density));
+        let with = |p: &[f64]| {
+            let (shape, matrices) = p.split_at(of_shape);
+            let mut parameters = proposal.parameters;
+            if let [rho, eta] = shape {
+                parameters = SharpParameters { rho: 1.0 + rho.portable_exp(), eta: eta.portable_exp(), ..parameters };
             }
-            let hopeless = start.binding == Binding::Existence && start.sigma > NEARLY * known.sigma;
-            if hopeless || start.sigma > FAR * known.sigma {
-                return Err(Failing::Gain { given: known.sigma, smallest: None }.into());
-            }
-        }
-        if start.sigma > WORTH_A_MATRIX * known.sigma {
-            return Err(Failing::Gain { given: known.sigma, smallest: None }.into());
-        }
-        let found = self.with(Shape { l: &l, second: second.as_ref() }, Some(&start))?;
-        Ok(if second.is_some() { found } else { self.with_second(found) })
+            let turn = |entries: &[f64]| match entries {
+                [] => DMatrix::identity(n, n),
+                entries => exponential(n, entries),
+            };
+            let (first, other) = (turn(&matrices[..of_l]), turn(&matrices[of_l..]));
+            // The P of existence stays what it is in the coordinates x, but for what is varied of it.
+            let second = second.as_ref().map(|second| &other * &first * second * &first * &other);
+            let l = l * &first;
+            let other = same.is_none().then(|| self.model(Shape { l: &l, second: second.as_ref() }, &density));
+            let model = same.as_ref().or(other.as_ref())?;
+            let found = search_sharp_near(model, &SharpProposal { parameters, ..*proposal }).ok()?;
+            Some(Start { l, second, proposal: found })
+        };
+        let cost = |p: &[f64]| with(p).map(|found| found.proposal.sigma.portable_ln());
+        // The box of the norms may be too large.
+        let start = |share: f64| -> Vec<f64> {
+            let SharpParameters { rho, eta, .. } = proposal.parameters;
+            let shape = [((rho - 1.0) * share).portable_ln(), eta.portable_ln()];
+            shape.into_iter().take(of_shape).chain(std::iter::repeat_n(0.0, of_l + of_second)).collect()
+        };
+        let shares = if of_shape > 0 { &SHARES[..] } else { &SHARES[..1] };
+        let start = shares.iter().map(|share| start(*share)).find(|start| cost(start).is_some())?;
+        let steps: Vec<f64> = (0..start.len()).map(|i| if i < of_shape { SHAPE_STEP } else { STEP }).collect();
+        let descent = if of_shape > 0 { TOGETHER } else { DESCENT };
+        let best = minimise(cost, &start, &steps, descent).map_or(start, |(best, _)| best);
+        with(&best)
     }
 
     /// The points that matter near a proposal.
     fn focus(&self, shape: Shape<'_>, known: &SharpProposal) -> Result<Focus, Obstacle> {
         let model = self.model(shape, &Density::Coarse);
         let estimates = (self.sampler)(shape, &Density::Coarse);
-        let (set, at) = at_sigma(&model, &known.parameters, known.sigma * (1.0 + NEAR), NEAR)?;
+        let near = |model: &FloatModel| at_sigma(model, &known.parameters, known.sigma * (1.0 + NEAR), NEAR);
+        // What norms promise need not be there by the matrix inequality.
+        let by_norms = |_| {
+            let mut model = model.clone();
+            model.by_matrix = None;
+            near(&model)
+        };
+        let (set, at) = near(&model).or_else(by_norms)?;
         let level = active_level(at.eta, at.dist_e, at.rho);
         let weights = FloatWeights {
             w_x: level / (model.p_low * at.d_x * at.d_x),
@@ -285,15 +367,21 @@ impl CoordinateSearch<'_> {
         Ok((estimates.extreme)(&[[set.x_p, set.e_p], error_box], inequality))
     }
 
-    /// The choice with a P of existence beside it, where that is worth it.
+    /// The choice with a P of existence of its own, where that is worth it.
     fn with_second(&self, single: Chosen) -> Chosen {
         if !(2..=MOST_STATES).contains(&single.l.nrows()) {
             return single;
         }
-        let worth = |sigma: f64| sigma < single.proposal.sigma * (1.0 - WORTH);
-        let second = self.second(&single).filter(|(_, share)| *share < 1.0 - WORTH);
-        let pair = second.and_then(|(second, _)| self.together(&single, second));
-        pair.filter(|pair| worth(pair.proposal.sigma)).unwrap_or(single)
+        let mut at = Start { l: single.l.clone(), second: single.second.clone(), proposal: single.proposal };
+        for _ in 0..TURNS {
+            match self.descend(&at, Varied::Both) {
+                Some(next) => at = next,
+                None => return single,
+            }
+        }
+        let worth = |found: &Chosen| found.proposal.sigma < single.proposal.sigma * (1.0 - WORTH);
+        let pair = self.with(at.shape(), Some(&at.proposal)).ok();
+        pair.filter(worth).unwrap_or(single)
     }
 
     /// The proposal for given coordinates.
@@ -306,68 +394,6 @@ impl CoordinateSearch<'_> {
         let near = near.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
         Ok(Chosen { l: shape.l.clone(), second: shape.second.cloned(), model, proposal })
-    }
-
-    /// The best P of existence for the L of a choice, as the entries of its logarithm, and the gain with it as a share of the gain
-    /// without: its rate is sampled at the X_p of the choice alone, and all else stays.
-    fn second(&self, single: &Chosen) -> Option<(Vec<f64>, f64)> {
-        let Chosen { l, proposal, .. } = single;
-        let n = l.nrows();
-        let model = &single.model.clone().rough();
-        let asked = Asked::only(Bound::RateExistence);
-        let freedom = n * (n + 1) / 2 - 1;
-        let x_p = at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + NEAR), NEAR).ok()?.0.x_p;
-        let cost = |s: &[f64]| {
-            let second = exponential(n, s);
-            let values = second.clone().symmetric_eigenvalues();
-            let rate = (self.sampler)(Shape { l, second: Some(&second) }, &Density::Coarse);
-            let rate = (rate.bounds)(x_p, 0.0, asked)[RATE_EXISTENCE];
-            let model = model.with_existence_triple(values.max() / values.min(), rate).with_rate_of_existence(rate);
-            search_sharp_near(&model, proposal).ok().map(|found| found.sigma.portable_ln())
-        };
-        let (best, found) = minimise(cost, &vec![0.0; freedom], &vec![STEP; freedom], DESCENT)?;
-        let one = search_sharp_near(model, proposal).ok()?;
-        Some((best, found.portable_exp() / one.sigma))
-    }
-
-    /// L and the P of existence, from a choice with one P and entries of the logarithm of the other; varied together for two
-    /// states.
-    fn together(&self, single: &Chosen, mut second: Vec<f64>) -> Option<Chosen> {
-        let n = single.l.nrows();
-        let mut l = single.l.clone();
-        if n == 2 {
-            let freedom = second.len();
-            let cost = |s: &[f64]| {
-                let second = exponential(n, &s[freedom..]);
-                let shape = Shape { l: &(&single.l * exponential(n, &s[..freedom])), second: Some(&second) };
-                let found = search_sharp_near(&self.model(shape, &Density::Coarse), &single.proposal);
-                found.ok().map(|found| found.sigma.portable_ln())
-            };
-            let from: Vec<f64> = std::iter::repeat_n(0.0, freedom).chain(second.iter().copied()).collect();
-            if let Some((best, _)) = minimise(cost, &from, &vec![STEP; 2 * freedom], DESCENT) {
-                l = &l * exponential(n, &best[..freedom]);
-                second = best[freedom..].to_vec();
-            }
-        }
-        self.with(Shape { l: &l, second: Some(&exponential(n, &second)) }, Some(&single.proposal)).ok()
-    }
-
-    fn improved(&self, l: &DMatrix<f64>, start: &SharpProposal) -> DMatrix<f64> {
-        let n = l.nrows();
-        // The multiples of I change nothing.
-        let freedom = (n * (n + 1) / 2).saturating_sub(1);
-        if freedom == 0 {
-            return l.clone();
-        }
-        let cost = |s: &[f64]| {
-            let model = self.model(alone(&(l * exponential(n, s))), &Density::Coarse);
-            search_sharp_near(&model, start).ok().map(|found| found.sigma.portable_ln())
-        };
-        let (zero, steps) = (vec![0.0; freedom], vec![STEP; freedom]);
-        match minimise(cost, &zero, &steps, DESCENT) {
-            Some((best, _)) => l * exponential(n, &best),
-            None => l.clone(),
-        }
     }
 }
 

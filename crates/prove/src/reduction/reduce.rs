@@ -1,12 +1,13 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
-use super::coordinates::{Chosen, CoordinateSearch, Density, Sampler, Shape};
+use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start};
 use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::specification::specification;
 use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
@@ -25,13 +26,18 @@ use sigmastar_theory::transfer::TradeOff;
 /// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
 pub(super) const PRECISION: u32 = 64;
 
-/// How far beyond the arguments of a proposal the bounds are proved, in turn: first with room for what the proved values are
-/// larger than the sampled ones, then close to the arguments that are used.
+/// How far beyond the arguments of a proposal the bounds are proved, in turn: with room for what the proved values are larger than
+/// the sampled ones, and close to the arguments.
 pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
-/// In between, while the proved values lead to no gain near the proposal: at so much larger a gain (where the least set there is
-/// ceases to be one, the set of a somewhat larger gain has room for proved values), and so far beyond the arguments there.
-const FURTHER: [(f64, f64); 4] = [(5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
+/// The same for a gain that may become larger in return: at so much larger a gain (where the least set there is ceases to be one,
+/// the set of a somewhat larger gain has room for proved values), and so far beyond the arguments there, while the proved values
+/// lead to no gain near the proposal.
+const FURTHER: [(f64, f64); 6] = [(0.0, 5e-3), (0.0, 1e-2), (5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
+
+/// How often the arguments are taken again half way between the gain of samples and that of proved values, and how far beyond.
+const AGAIN: usize = 2;
+const CLOSE: f64 = 1e-4;
 
 /// A gain from proved values that is at most so many times the proposal is near it.
 const NEAR: f64 = 1.1;
@@ -42,6 +48,9 @@ const ABOVE: [f64; 7] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 
 /// A gain that in a period does no more than this needs not be smaller.
 const AS_GOOD_AS_NONE: f64 = 1e-6;
+
+/// By what share of the gain of norms, at few samples, one by a matrix inequality is far better.
+const FAR_BETTER: f64 = 0.9;
 
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
@@ -63,17 +72,27 @@ pub struct Reduced {
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
-    with_coordinates(plant, |along, sampling, chosen| {
-        let by_matrix = best_by_matrix((along, chosen), sampling).ok().flatten();
+    with_candidates(plant, |candidates, sampling| {
+        let starts = starts(candidates, sampling);
+        // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
+        if let Ok((p, rough)) = &starts
+            && let Some((along, chosen)) = best_by_matrix(p, &rough.best, sampling)
+            && chosen.proposal.sigma < FAR_BETTER * rough.best.proposal.sigma
+            && let Ok(found) = prove_bounds(&along, sampling, &chosen)
+        {
+            return Ok(found);
+        }
+        let (along, chosen) = best_by_norms(candidates, starts, sampling)?;
+        let by_matrix = best_by_matrix(&along.coordinates.p, &Start::from(&chosen), sampling);
         let by_matrix = by_matrix.and_then(|(along, chosen)| prove_bounds(&along, sampling, &chosen).ok());
         match by_matrix {
             Some(found) if found.proposal.sigma < chosen.proposal.sigma => Ok(found),
             // What norms prove is above the samples.
-            Some(found) => Ok(prove_bounds(along, sampling, chosen)
+            Some(found) => Ok(prove_bounds(&along, sampling, &chosen)
                 .ok()
                 .filter(|other| other.proposal.sigma < found.proposal.sigma)
                 .unwrap_or(found)),
-            None => prove_bounds(along, sampling, chosen),
+            None => prove_bounds(&along, sampling, &chosen),
         }
     })
 }
@@ -86,10 +105,21 @@ pub fn reduce_by_norms(plant: &Plant) -> Result<Reduced, PlantRefusal> {
     with_coordinates(plant, prove_bounds)
 }
 
-/// Finds and proves the orbit, chooses the coordinates, and goes on from there.
+/// Finds and proves the orbit, chooses the coordinates by norms, and goes on from there.
 pub(super) fn with_coordinates<T>(
     plant: &Plant,
     prove: impl FnOnce(&Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
+) -> Result<T, PlantRefusal> {
+    with_candidates(plant, |candidates, sampling| {
+        let (along, chosen) = best_by_norms(candidates, starts(candidates, sampling), sampling)?;
+        prove(&along, sampling, &chosen)
+    })
+}
+
+/// Finds the orbit, proposes coordinates, and goes on from there.
+fn with_candidates<T>(
+    plant: &Plant,
+    prove: impl FnOnce(&[Coordinates], &Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     if plant.states() > MAX_STATES {
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
@@ -104,24 +134,34 @@ pub(super) fn with_coordinates<T>(
     let spec = base.specification(plant, ProvedValues::default())?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    let sampling = Sampling::new(plant, &curve, &model);
+    prove(&candidates, &Sampling::new(plant, &curve, &model))
+}
+
+/// What those candidates with a constant P promise by norms, and that P.
+fn starts(candidates: &[Coordinates], sampling: &Sampling<'_>) -> Result<(PeriodicMatrix, Rough), PlantRefusal> {
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
-    let by_constant = match constant.is_empty() {
-        false => best_constant(&constant, &sampling),
-        true => Err(PlantRefusal::NoContraction),
-    };
-    let moving: Vec<Coordinates> =
-        candidates.iter().filter(|candidate| !candidate.p.harmonics.is_empty()).cloned().collect();
-    let (base, chosen) = match by_constant {
-        Ok(found) => found,
-        // Where no constant P leads to a gain, one that moves may.
+    let first = constant.first().ok_or(PlantRefusal::NoContraction)?;
+    let matrices: Vec<DMatrix<f64>> = constant.iter().map(|candidate| float_matrix(&candidate.l)).collect();
+    let rough = with_search(sampling, None, |search| search.rough(&matrices)).map_err(PlantRefusal::NoGain)?;
+    Ok((first.p.clone(), rough))
+}
+
+/// The best coordinates by norms, rounded, and proved along the orbit: with a constant P, and a P of existence where one helps; where
+/// none leads to a gain, one that moves may.
+fn best_by_norms(
+    candidates: &[Coordinates],
+    starts: Result<(PeriodicMatrix, Rough), PlantRefusal>,
+    sampling: &Sampling<'_>,
+) -> Result<(Along, Chosen), PlantRefusal> {
+    let by_constant = starts.and_then(|(p, rough)| with_constant(&p, sampling, None, |search| search.choose(&rough)));
+    let moving: Vec<&Coordinates> = candidates.iter().filter(|candidate| !candidate.p.harmonics.is_empty()).collect();
+    match by_constant {
         Err(_) if !moving.is_empty() => {
-            let (coordinates, chosen) = best_periodic(&moving, &sampling)?;
-            (along(plant, &curve, &coordinates)?, chosen)
+            let (coordinates, chosen) = best_periodic(&moving, sampling)?;
+            Ok((along(sampling.plant, sampling.curve, &coordinates)?, chosen))
         }
-        Err(refusal) => return Err(refusal),
-    };
-    prove(&base, &sampling, &chosen)
+        found => found,
+    }
 }
 
 /// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger
@@ -130,34 +170,18 @@ fn trade_off(data: &Data<'_>) -> TradeOff {
     if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
 }
 
-/// The best coordinates for a constant P, and a P of existence where one helps; rounded, and proved along the orbit.
-fn best_constant(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result<(Along, Chosen), PlantRefusal> {
-    let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
-    let matrices: Vec<DMatrix<f64>> = candidates.iter().map(|candidate| float_matrix(&candidate.l)).collect();
-    with_constant(&first.p, sampling, None, |search| search.choose(&matrices))
-}
-
-/// The best coordinates near a choice, and the gain with them, where stability is proved by a matrix inequality; none where P moves,
+/// The best coordinates near a start, and the gain with them, where stability is proved by a matrix inequality; none where P moves,
 /// where there is nothing to gain, and where the gain is not smaller by what is worth it.
-fn best_by_matrix(
-    (along, chosen): (&Along, &Chosen),
-    sampling: &Sampling<'_>,
-) -> Result<Option<(Along, Chosen)>, PlantRefusal> {
-    let p = &along.coordinates.p;
-    if !p.harmonics.is_empty() || chosen.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE {
-        return Ok(None);
+fn best_by_matrix(p: &PeriodicMatrix, start: &Start, sampling: &Sampling<'_>) -> Option<(Along, Chosen)> {
+    if !p.harmonics.is_empty() || start.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE {
+        return None;
     }
-    let mut best: Option<(Along, Chosen)> = None;
-    for path in Path::ALL.into_iter().rev() {
-        let known = best.as_ref().map_or(chosen, |(_, best)| best);
-        let found = with_constant(p, sampling, Some(path), |search| search.choose_near(known));
-        if let Ok(found) = found
-            && found.1.proposal.sigma < known.proposal.sigma
-        {
-            best = Some(found);
-        }
-    }
-    Ok(best)
+    let paths: Vec<Path> = Path::ALL.into_iter().rev().collect();
+    let found = paths.into_par_iter().map(|path| {
+        with_constant(p, sampling, Some(path), |search| search.choose_near(start)).ok()
+    });
+    let found: Vec<Option<(Along, Chosen)>> = found.collect();
+    found.into_iter().flatten().min_by(|(_, a), (_, b)| a.proposal.sigma.total_cmp(&b.proposal.sigma))
 }
 
 /// A choice for the constant P that is given, rounded, and proved along the orbit.
@@ -168,12 +192,7 @@ fn with_constant(
     choose: impl FnOnce(&CoordinateSearch<'_>) -> Result<Chosen, Obstacle>,
 ) -> Result<(Along, Chosen), PlantRefusal> {
     let (plant, curve) = (sampling.plant, sampling.curve);
-    let sampler = |Shape { l, second }: Shape<'_>, density: &Density| {
-        let second = second.and_then(rational_symmetric);
-        sampling.estimates(l, [None, second.as_ref()], density)
-    };
-    let search = CoordinateSearch { by_matrix, ..search(sampling, &sampler, 1.0) };
-    let chosen = choose(&search).map_err(PlantRefusal::NoGain)?;
+    let chosen = with_search(sampling, by_matrix, choose).map_err(PlantRefusal::NoGain)?;
     let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], &Density::Rough)(0.0, 0.0, Asked::ALL);
     let l = rational_matrix(&sampling.turned(&chosen.l), at_origin).ok_or(PlantRefusal::NoContraction)?;
     let coordinates = Coordinates { l, p: p.clone(), rate: f64::NAN };
@@ -191,8 +210,21 @@ fn with_constant(
     }
     let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
     let both = Shape { l: &rounded, second: second.as_ref() };
-    let chosen = search.with(both, Some(&chosen.proposal)).map_err(PlantRefusal::NoGain)?;
-    Ok((base, chosen))
+    let chosen = with_search(sampling, by_matrix, |search| search.with(both, Some(&chosen.proposal)));
+    Ok((base, chosen.map_err(PlantRefusal::NoGain)?))
+}
+
+/// A search with P = I in the coordinates y, and some P of existence.
+fn with_search<T>(
+    sampling: &Sampling<'_>,
+    by_matrix: Option<Path>,
+    run: impl FnOnce(&CoordinateSearch<'_>) -> Result<T, Obstacle>,
+) -> Result<T, Obstacle> {
+    let sampler = |Shape { l, second }: Shape<'_>, density: &Density| {
+        let second = second.and_then(rational_symmetric);
+        sampling.estimates(l, [None, second.as_ref()], density)
+    };
+    run(&CoordinateSearch { by_matrix, ..search(sampling, &sampler, 1.0) })
 }
 
 fn search<'a>(sampling: &'a Sampling<'a>, sampler: &'a Sampler<'a>, ratio: f64) -> CoordinateSearch<'a> {
@@ -218,7 +250,7 @@ fn in_frame(plant: &Plant, l: &DMatrix<f64>, model: &FloatModel) -> FloatModel {
 }
 
 /// The best of the candidates with a P(t).
-fn best_periodic(candidates: &[Coordinates], sampling: &Sampling<'_>) -> Result<(Coordinates, Chosen), PlantRefusal> {
+fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result<(Coordinates, Chosen), PlantRefusal> {
     let mut best: Option<(Coordinates, Chosen)> = None;
     let mut failure = PlantRefusal::NoContraction;
     for candidate in candidates {
@@ -235,7 +267,7 @@ fn best_periodic(candidates: &[Coordinates], sampling: &Sampling<'_>) -> Result<
         let search = search(sampling, &sampler, ratio);
         match search.with(Shape { l: &float_matrix(&candidate.l), second: None }, None) {
             Ok(chosen) if best.as_ref().is_none_or(|(_, known)| chosen.proposal.sigma < known.proposal.sigma) => {
-                best = Some((candidate.clone(), chosen));
+                best = Some(((*candidate).clone(), chosen));
             }
             Ok(_) => {}
             Err(obstacle) => failure = PlantRefusal::NoGain(obstacle),
@@ -343,8 +375,7 @@ fn prove_bounds(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Resu
     let proofs = Proofs { plant, along, engine: along.engine(plant)?, suprema: along.suprema(sampling) };
     let (model, proposal) = (&chosen.model, &chosen.proposal);
     let (mut best, mut closest): (Option<(FloatModel, Reduced)>, _) = (None, Closest::default());
-    let [first, last] = ENLARGED;
-    for (above, enlarged) in [(0.0, first)].into_iter().chain(FURTHER) {
+    for (above, enlarged) in FURTHER {
         match proofs.with_values(model, proposal, above, enlarged) {
             Ok(Ok(found)) if smaller(&found.1, best.as_ref()) => best = Some(found),
             Ok(Ok(_)) => {}
@@ -356,11 +387,13 @@ fn prove_bounds(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Resu
             break;
         }
     }
-    if let Some((model, found)) = &best
-        && let Ok(Ok(closer)) = proofs.with_values(model, &found.proposal, 0.0, last)
-        && smaller(&closer.1, best.as_ref())
-    {
-        best = Some(closer);
+    for _ in 0..AGAIN {
+        let Some((values, found)) = &best else { break };
+        let between = (proposal.sigma / found.proposal.sigma).sqrt().min(1.0) - 1.0;
+        match proofs.with_values(values, &found.proposal, between, CLOSE) {
+            Ok(Ok(closer)) if smaller(&closer.1, best.as_ref()) => best = Some(closer),
+            _ => break,
+        }
     }
     closest.or(best.map(|(_, found)| found)).map_err(PlantRefusal::NoGain)
 }
