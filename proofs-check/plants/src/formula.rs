@@ -6,6 +6,7 @@
 //! written asks of its operands is written down apart, when a formula is read ([`Formulas::read`]); and what is differentiated
 //! on a set is asked once more there ([`Formulas::corners`]).
 
+use super::linear::Linear;
 use proofs_core::exact::Exact;
 use proofs_core::expr::{Expr, Op, exact_op};
 use proofs_core::interval::Interval;
@@ -109,6 +110,8 @@ pub struct Formulas {
     nodes: Vec<Node>,
     places: HashMap<Kind, Id>,
     pub(super) derivatives: HashMap<(Id, Axis), Id>,
+    /// Those that are sums of leaves times numbers.
+    pub(super) linear: HashMap<Id, Linear>,
     overflow: bool,
 }
 
@@ -133,7 +136,7 @@ impl Formulas {
         self.nodes[id].depends
     }
 
-    fn insert(&mut self, kind: Kind, depends: u16, exact: Option<Exact>) -> Id {
+    pub(super) fn insert(&mut self, kind: Kind, depends: u16, exact: Option<Exact>) -> Id {
         if let Some(id) = self.places.get(&kind) {
             return *id;
         }
@@ -150,7 +153,9 @@ impl Formulas {
     /// A rational number.
     pub fn number(&mut self, value: &Rational) -> Id {
         let op = Op::Number(value.clone());
-        self.insert(Kind::Apply(op, [0; 2]), 0, Exact::rational(value))
+        let id = self.insert(Kind::Apply(op, [0; 2]), 0, Exact::rational(value));
+        self.linear.insert(id, Linear::number(value));
+        id
     }
 
     /// A whole number.
@@ -166,7 +171,9 @@ impl Formulas {
             Leaf::Output => Axis::Output.bit(),
             Leaf::Drift(_) => DRIFT,
         };
-        self.insert(Kind::Leaf(leaf), depends, None)
+        let id = self.insert(Kind::Leaf(leaf), depends, None);
+        self.linear.insert(id, Linear::leaf(id));
+        id
     }
 
     /// The sign of a node.
@@ -186,6 +193,11 @@ impl Formulas {
     /// An operation, simplified where an operand is 0 or 1.
     pub fn apply(&mut self, op: &Op, [a, b]: [Id; 2]) -> Id {
         let (a, b) = (a, if operands(op) == 2 { b } else { 0 });
+        if operands(op) > 0
+            && let Some(sum) = Linear::apply(op, self.linear.get(&a), self.linear.get(&b))
+        {
+            return self.sum(sum);
+        }
         let simpler = match op {
             Op::Add if self.is(a, 0) => Some(b),
             Op::Add | Op::Sub if self.is(b, 0) => Some(a),

@@ -11,6 +11,7 @@ pub mod formula;
 pub mod harmonics;
 pub mod inequality;
 pub mod jacobian;
+mod linear;
 pub mod machine;
 pub mod model;
 mod narrowing;
