@@ -31,4 +31,5 @@ mod sampled_plants;
 mod sampled_rules;
 mod sampled_support;
 mod specification;
+mod splitting;
 mod transfer;

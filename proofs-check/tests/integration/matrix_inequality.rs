@@ -10,8 +10,8 @@ use rug::Rational;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
-const RULE: &str = "matrix inequality";
-const PLACE: &str = "/witness/matrix_inequality";
+pub const RULE: &str = "matrix inequality";
+pub const PLACE: &str = "/witness/matrix_inequality";
 
 /// The least sigma of F for one state: `b' G^-1 b/2` with `G = [[-p' - 2 p (j + rate), -(h/mu) r], [., 2 h/mu]]`, times w_x where P
 /// is, and `b = (-p g, -1 - (h/mu) d)`; mu = 1.
@@ -22,7 +22,7 @@ fn threshold([w_x, h, rate]: [f64; 3], [p, p_rate]: [f64; 2], [j, g, r, d]: [f64
 }
 
 /// A plant with the orbit 0, whose forcing is 0.
-fn at_rest(f: &str, q: &str) -> Parts {
+pub fn at_rest(f: &str, q: &str) -> Parts {
     let orbit = json!({ "mean": ["0"], "defect": "0", "tube": "0.01", "radius": "0" });
     let forcing = json!({ "mean": "0", "rest": "1e-9", "rest_t": "1e-9" });
     Parts::scalar(f, q).with("/witness/orbit", orbit).with("/witness/forcing", forcing)
@@ -114,11 +114,15 @@ fn parts_that_are_no_inequality() {
 
 /// The pendulum, whose claim rests on a matrix inequality.
 fn pendulum() -> Value {
-    let text = std::fs::read_to_string(folder("plants").join("pendulum.certificate.json")).unwrap();
+    stored("pendulum")
+}
+
+pub fn stored(name: &str) -> Value {
+    let text = std::fs::read_to_string(folder("plants").join(format!("{name}.certificate.json"))).unwrap();
     serde_json::from_str(&text).unwrap()
 }
 
-fn times(certificate: &mut Value, pointer: &str, factor: f64) {
+pub fn times(certificate: &mut Value, pointer: &str, factor: f64) {
     let place = certificate.pointer_mut(pointer).unwrap();
     let exact = decimal(place.as_str().unwrap()).unwrap() * Rational::from_f64(factor).unwrap();
     *place = json!(exact.to_string());

@@ -68,6 +68,7 @@ fn leaves_of_a_certificate_of_a_plant() {
 #[test]
 fn leaves_of_a_certificate_by_a_matrix_inequality() {
     mutate("pendulum", every(9));
+    mutate("splitting", every(5));
 }
 
 fn mutate(name: &str, stride: usize) {

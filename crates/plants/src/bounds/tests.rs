@@ -1,8 +1,10 @@
 //! Decided bounds against samples, and the paper's plant.
 
+mod directions;
 mod inequality;
 mod outside;
 mod random_points;
+mod splitting;
 
 use super::*;
 use random_points::random_points;

@@ -43,9 +43,8 @@ pub fn conditions(
     within("C5e", "E_b <= E of the matrix inequality", e_b, &inequality.e);
     if let Some(splitting) = &inequality.splitting {
         let path = paths.common();
-        let [at_x, at_e] = path.places();
-        within("C5j", &format!("{at_e} <= E of the splitting"), path.e_of_dx(e_per, e_b), &splitting.e);
-        within("C5g", &format!("{at_x} <= X of the splitting"), path.x_of_de(x_per, x_b), &splitting.x);
+        within("C5j", "E of df/dx <= E of the splitting", path.e_of_dx(e_per, e_b), &splitting.e);
+        within("C5g", "X of df/de <= X of the splitting", path.x_of_de(x_per, x_b), &splitting.x);
     }
     let what = format!("{of}threshold of the matrix inequality < sigma");
     conditions.push(Condition::less("C5m", what, number(&inequality.value), sigma.clone()));

@@ -37,18 +37,8 @@ impl Path {
     }
 
     /// The arguments where d/de is taken, in words.
-    pub(super) fn place_of_de(self) -> String {
-        format!("({}, E_b)", self.places()[0])
-    }
-
-    /// The largest |x| where d/de is taken, and the largest |e| where d/dx is, in symbols.
-    #[must_use]
-    pub fn places(self) -> [&'static str; 2] {
-        match self {
-            Path::StateFirst => ["X_b", "e_per"],
-            Path::ErrorFirst => ["x_per", "E_b"],
-            Path::Straight => ["X_b", "E_b"],
-        }
+    pub(super) fn place_of_de(self) -> &'static str {
+        if self == Path::ErrorFirst { "(x_per, E_b)" } else { "(X_b, E_b)" }
     }
 
     /// The largest |e| where d/dx is taken.

@@ -5,7 +5,7 @@ use sigmastar_lang::spec::{Constant, MatrixInequality};
 
 fn inequality(x: &str, e: &str, [w_x, h]: [&str; 2], value: f64) -> MatrixInequality {
     let [x, e, w_x, h, rate] = [x, e, w_x, h, "0.001"].map(rational);
-    MatrixInequality { x, e, w_x, h, rate, value: round_f64(value, 12, Direction::Nearest).unwrap() }
+    MatrixInequality { x, e, w_x, h, rate, value: round_f64(value, 12, Direction::Nearest).unwrap(), splitting: None }
 }
 
 fn one() -> Constant {
