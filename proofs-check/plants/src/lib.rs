@@ -90,7 +90,7 @@ pub fn prove(
     if let Some(inequality) = inequality {
         asked.extend(of_inequality(plant, &mut model, inequality, spec)?);
     }
-    let still = still::Still::new(plant);
+    let still = still::Still::new(plant, inequality.map(|inequality| (inequality, &spec.mu)))?;
     if model.formulas.is_too_large() {
         return too_large("formulas", "/plant");
     }
@@ -123,8 +123,8 @@ pub fn prove(
     machine.drift = drift(plant, &model, &machine, &root, &mut values);
     let mut in_states = still.prepared(&curves, &om, &period);
     for (at, Asked { question, region, rule, pointer, what }) in asked.into_iter().enumerate() {
-        let entry = at.checked_sub(of_the_orbit);
-        if let Some(count) = entry.and_then(|entry| in_states.proves(plant, entry)) {
+        let which = at.checked_sub(of_the_orbit);
+        if let Some(count) = which.and_then(|which| in_states.proves(plant, which)) {
             lines.push(format!("{rule}: {what}, by {count} boxes of the states"));
             continue;
         }

@@ -1,4 +1,4 @@
-//! Bounds decided in the states themselves (docs/mathematics.md, section 11.6).
+//! Bounds, and the matrix inequality of stability, decided in the states themselves (docs/mathematics.md, section 11.6).
 //!
 //! A derivative that t enters through the orbit alone is a function of those states and e that it names: where three coordinates
 //! and t move one state, one side is to be cut in the place of four. The set is larger than G(X,E), each state over all that it is
@@ -6,29 +6,33 @@
 
 use super::around::Around;
 use super::bounds;
+use super::inequality;
 use super::machine::{At, Cell, Curves, Machine, Values};
 use super::model::{Frame, Model};
 use super::question::{Answer, Question};
 use super::read::Plant;
 use super::region::{Region, Shape};
 use super::time::around;
-use super::{end, formula::Leaf, radius};
+use super::{end, formula::Leaf, place, radius};
+use proofs_core::constant::Constant;
 use proofs_core::interval::Interval;
 use proofs_core::plant::entries;
+use proofs_core::rules::inequality::Inequality;
+use proofs_core::verdict::Outcome;
 use rug::Float;
 use std::rc::Rc;
 
 /// The most boxes that an attempt may take.
 const MAX_PIECES: usize = 4_000;
 /// How many cells of t there are for the range of the orbit.
-const RANGE_CELLS_LOG: u32 = 6;
+const RANGE_CELLS_LOG: u32 = 8;
 
-/// The entries as questions in x; `None` where one moves with t.
+/// The entries and the parts of the inequality as questions in x, with X and E; `None` where one moves with t.
 pub struct Still {
     model: Model,
     /// The components of xb.
     orbit: Vec<usize>,
-    questions: Vec<Option<Question>>,
+    questions: Vec<Option<(Question, [Float; 2])>>,
 }
 
 /// The same with what is needed for deciding.
@@ -42,16 +46,21 @@ pub struct Prepared<'s> {
 }
 
 impl Still {
-    /// For all entries of a plant.
-    pub fn new(plant: &Plant) -> Still {
+    /// For all entries of a plant, and for its inequality, with mu.
+    pub fn new(plant: &Plant, inequality: Option<(&Inequality, &Constant)>) -> Outcome<Still> {
         let mut model = Model::new(plant, Frame::Still);
         let orbit = (0..plant.states()).map(|state| model.formulas.leaf(Leaf::Orbit { state, order: 0 })).collect();
         let question = |entry: &entries::Entry| {
             let moves = entry.name.is_of_motion();
-            (!moves).then(|| bounds::question(&mut model, entry)).filter(|question| !question.moves())
+            (!moves).then(|| (bounds::question(&mut model, entry), entry.arguments.clone()))
         };
-        let questions = plant.known.entries.list.iter().map(question).collect();
-        Still { model, orbit, questions }
+        let mut questions: Vec<_> = plant.known.entries.list.iter().map(question).collect();
+        if let Some((inequality, mu)) = inequality {
+            let parts = inequality::questions(&mut model, inequality, mu)?.into_iter();
+            questions.extend(parts.map(|(_, at, question)| Some((question, place(at)))));
+        }
+        let questions = questions.into_iter().map(|asked| asked.filter(|(question, _)| !question.moves())).collect();
+        Ok(Still { model, orbit, questions })
     }
 
     /// With the orbit; `om` has the precision.
@@ -77,13 +86,12 @@ impl Still {
 }
 
 impl Prepared<'_> {
-    /// Whether an entry is proved on all states that G(X,E) has; by how many boxes. `None` says nothing.
-    pub fn proves(&mut self, plant: &Plant, entry: usize) -> Option<usize> {
-        let question = self.still.questions.get(entry)?.as_ref()?;
+    /// Whether one of them is proved on all states that G(X,E) has; by how many boxes. `None` says nothing.
+    pub fn proves(&mut self, plant: &Plant, which: usize) -> Option<usize> {
+        let (question, [x, e]) = self.still.questions.get(which)?.as_ref()?;
         if self.still.model.formulas.is_too_large() {
             return None;
         }
-        let [x, e] = &plant.known.entries.list.get(entry)?.arguments;
         let shape = Shape::Sides(self.sides(plant, x)?, self.around(plant, x, question)?);
         let region = Region { states: plant.states(), shape, output: end(e) };
         match question.decide(&self.machine, &self.root, &region, MAX_PIECES, &mut self.values) {
