@@ -156,7 +156,7 @@ fn reports_on_claims_are_pages() {
     every(&[
         (vec!["certify", EXAMPLE, "--target-sup", "1e-3"], 0, [4, 2]),
         (vec!["certify", EXAMPLE, "--witness", refuted_witness()], 1, [0, 1]),
-        (vec!["certify", PLANT, "-q"], 0, [3, 1]),
+        (vec!["certify", PLANT, "-q"], 0, [2, 1]),
         (vec!["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0, [1, 0]),
         (vec!["sampling", AT_REST, "-q", "--sampling-period", "1/1000", "--sigma", "1,25"], 0, [1, 0]),
         (vec!["transfer", EXAMPLE, "-q", "--n-o", "0,1,inf"], 0, [1, 1]),

@@ -205,7 +205,9 @@ fn place(at: [&Rational; 2]) -> [Float; 2] {
 /// The largest X and E that anything is used at.
 fn largest(plant: &Plant, arguments: [&Float; 2], inequality: Option<&Inequality>) -> [Float; 2] {
     let mut largest = plant.known.entries.largest();
-    let others = [arguments.map(Clone::clone)].into_iter().chain(inequality.into_iter().flat_map(|known| known.arguments().map(place)));
+    let others = [arguments.map(Clone::clone)]
+        .into_iter()
+        .chain(inequality.into_iter().flat_map(|known| known.arguments().map(place)));
     for (end, other) in others.flat_map(|other| [0, 1].map(|i| (i, other[i].clone()))) {
         if other > largest[end] {
             largest[end] = other;

@@ -99,7 +99,8 @@ impl Formulas {
     }
 
     fn insert_operation(&mut self, op: Op, operands: [Id; 2]) -> Id {
-        let depends = operands.into_iter().take(super::formula::operands(&op)).fold(0, |all, id| all | self.depends(id));
+        let depends =
+            operands.into_iter().take(super::formula::operands(&op)).fold(0, |all, id| all | self.depends(id));
         self.insert(Kind::Apply(op, operands), depends, None)
     }
 }

@@ -32,9 +32,7 @@ fn with_s(f: &str, q: &str, [x_of_s, e_of_s]: [&str; 2], s: Value, sigma: f64) -
 /// dq/de is largest at an end of E: S is all of F without e, and then a little more than that.
 #[test]
 fn against_a_threshold_by_hand() {
-    let made = |factor: f64, sigma: f64| {
-        with_s("-2*x + 3*e/10", "x/2 + e^2/4", ["1", "1/2"], s(factor), sigma)
-    };
+    let made = |factor: f64, sigma: f64| with_s("-2*x + 3*e/10", "x/2 + e^2/4", ["1", "1/2"], s(factor), sigma);
     let least = threshold(0.5);
     made(1.0 - 1e-6, 1.0001 * least).accepted();
     made(1.0 - 1e-6, 0.9999 * least).refused(Verdict::Invalid, RULE, PLACE);

@@ -37,6 +37,7 @@ mod suprema;
 #[cfg(test)]
 mod tests;
 mod time_cell;
+mod weights;
 
 pub use decide::Decision;
 pub use directions::Directions;
@@ -47,9 +48,10 @@ pub use pointwise::Asked;
 pub use prove_value::ProvedValue;
 pub use region::{Region, RegionError};
 pub use sampled_pairs::{Corners, MatrixArguments};
-pub use sampled_threshold::{FloatWeights, Focus};
+pub use sampled_threshold::Focus;
 pub use smooth::SmoothnessFailure;
 pub use suprema::{FloatCurve, FloatSuprema, Places};
+pub use weights::FloatWeights;
 
 /// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.
 const PRECISION: u32 = 64;

@@ -5,8 +5,8 @@
 
 use super::entry::of_table;
 use super::pointwise::Asked;
-use super::sampled_threshold::{FloatWeights, Root};
 use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::weights::{FloatWeights, Root};
 use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
 
@@ -92,7 +92,9 @@ impl FloatSuprema {
         self.at_points(at, places, Asked::ALL, |place, values| {
             let values = bounds.map(|bound| of_table(bound, &values));
             let least = values.last().map(|value| -value);
-            best.iter_mut().zip(values.into_iter().chain(least)).for_each(|(best, value)| keep(best, OF_A_BOUND, value, place));
+            best.iter_mut()
+                .zip(values.into_iter().chain(least))
+                .for_each(|(best, value)| keep(best, OF_A_BOUND, value, place));
         });
         best.into_iter().flatten().map(|(_, place)| place).collect()
     }

@@ -5,8 +5,8 @@ use super::eigen::largest as largest_eigenvalue;
 use super::engine::Engine;
 use super::pointwise::{product, roots};
 use super::sampled_pairs::MatrixArguments;
-use super::sampled_threshold::{FloatWeights, Root};
 use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::weights::{FloatWeights, Root};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::{Constant, MatrixInequality, Splitting};
@@ -58,7 +58,8 @@ impl Engine {
         let s = samples.propose_splitting(at, weights)?;
         ATTEMPTS.into_iter().find_map(|(slack, effort)| {
             // A smaller S has room on its own side, and takes it from the other.
-            let s = s.iter().map(|row| row.iter().map(|entry| entry * (1.0 - slack)).collect()).collect::<Vec<Vec<_>>>();
+            let s =
+                s.iter().map(|row| row.iter().map(|entry| entry * (1.0 - slack)).collect()).collect::<Vec<Vec<_>>>();
             let value = samples.refined_threshold_with(&s, at.error, weights)? * (1.0 + slack);
             let inequality = MatrixInequality {
                 value: round_f64(value, DIGITS, Direction::Up)?,
@@ -173,7 +174,13 @@ impl Program {
         let above = self.above.iter().map(|matrix| {
             let constant = |i: usize, j: usize| matrix[i][j] * scale[i] * scale[j];
             let term = |variable: usize, i: usize, j: usize| match variable == pairs.len() {
-                true => if given.is_some() && i == j { -1.0 } else { 0.0 },
+                true => {
+                    if given.is_some() && i == j {
+                        -1.0
+                    } else {
+                        0.0
+                    }
+                }
                 false => -is_entry(variable, i, j),
             };
             AffineMatrix::from_fn(order, pairs.len() + 1, constant, term)
@@ -236,7 +243,11 @@ fn rounded(s: &[Vec<f64>]) -> Option<Vec<Vec<Rational>>> {
         let size = (s[i][i] * s[j][j]).sqrt();
         // So many digits of the size that it could have.
         let digits = f64::from(DIGITS) + libm::log10(value.abs() / size).floor() + 1.0;
-        if value == 0.0 || digits < 1.0 { Some(Rational::new()) } else { round_f64(value, digits as u32, Direction::Nearest) }
+        if value == 0.0 || digits < 1.0 {
+            Some(Rational::new())
+        } else {
+            round_f64(value, digits as u32, Direction::Nearest)
+        }
     };
     (0..s.len()).map(|i| (0..s.len()).map(|j| entry(i, j)).collect()).collect()
 }

@@ -40,9 +40,9 @@ pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
 
 fn inequality_json(MatrixInequality { x, e, rate, value, splitting, .. }: &MatrixInequality) -> Value {
     let numbers = [("X", x), ("E", e), ("rate", rate), ("sigma", value)].map(|(name, value)| (name, exact(value)));
-    let splitting = splitting.iter().map(|Splitting { x, e, matrix }| {
-        (SPLITTING, object([("X", exact(x)), ("E", exact(e)), ("S", rows(matrix))]))
-    });
+    let splitting = splitting
+        .iter()
+        .map(|Splitting { x, e, matrix }| (SPLITTING, object([("X", exact(x)), ("E", exact(e)), ("S", rows(matrix))])));
     object(numbers.into_iter().chain(splitting))
 }
 

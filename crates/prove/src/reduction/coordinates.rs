@@ -152,12 +152,20 @@ pub struct Start {
     pub proposal: SharpProposal,
 }
 
-/// What candidates promise at few samples: from where descents start, and the best of them.
+/// What candidates promise at few samples: from where descents start, which are all of them where L is not varied, and the best.
 pub struct Rough {
     /// The starts.
     pub starts: Vec<Start>,
     /// The best one.
     pub best: Start,
+}
+
+impl Rough {
+    /// From where a search starts that finds its own coordinates: the best, or all where L is not varied.
+    #[must_use]
+    pub fn for_shapes(&self) -> &[Start] {
+        if self.best.l.nrows() <= MOST_STATES { std::slice::from_ref(&self.best) } else { &self.starts }
+    }
 }
 
 impl From<&Chosen> for Start {
@@ -239,9 +247,12 @@ impl CoordinateSearch<'_> {
             }
         }
         let (proposal, at) = closest.or(best)?;
-        starts.retain(|other| other.abs_diff(at).is_multiple_of(APART));
-        starts.sort_by_key(|other| (other.abs_diff(at), *other));
-        starts.truncate(DESCENTS);
+        // Where L is not varied, each of them may be the best.
+        if candidates[at].nrows() <= MOST_STATES {
+            starts.retain(|other| other.abs_diff(at).is_multiple_of(APART));
+            starts.sort_by_key(|other| (other.abs_diff(at), *other));
+            starts.truncate(DESCENTS);
+        }
         let start = |at: &usize| Start { l: candidates[*at].clone(), second: None, proposal };
         Ok(Rough { starts: starts.iter().map(start).collect(), best: start(&at) })
     }
@@ -279,7 +290,10 @@ impl CoordinateSearch<'_> {
         let proposal = &known.proposal;
         let too_large = || Obstacle::from(Failing::Gain { given: proposal.sigma, smallest: None });
         let mut at = known.clone();
-        for varied in [Varied::Shape, Varied::Coordinates, Varied::Coordinates] {
+        for (turn, varied) in [Varied::Shape, Varied::Coordinates, Varied::Coordinates].into_iter().enumerate() {
+            if turn == TURNS && at.l.nrows() > MOST_STATES {
+                break;
+            }
             at = self.descend(&at, varied).ok_or_else(too_large)?;
             let hopeless = at.proposal.binding == Binding::Existence && at.proposal.sigma > NEARLY * proposal.sigma;
             if hopeless || at.proposal.sigma > FAR * proposal.sigma {
@@ -305,7 +319,8 @@ impl CoordinateSearch<'_> {
         };
         // The P of stability as another one, to begin with.
         let second = second.clone().or_else(|| (of_second > 0).then(|| DMatrix::identity(n, n)));
-        let density = self.focus(Shape { l, second: second.as_ref() }, proposal).map_or(Density::Coarse, Density::Focused);
+        let density =
+            self.focus(Shape { l, second: second.as_ref() }, proposal).map_or(Density::Coarse, Density::Focused);
         let of_shape = if self.by_matrix.is_some() { 2 } else { 0 };
         // Where L stays, what was sampled serves again.
         let same = (of_l == 0).then(|| self.model(Shape { l, second: second.as_ref() }, &density));

@@ -75,17 +75,7 @@ pub(super) fn needed(
         }
         None => None,
     };
-    Some(Needed {
-        x_p: up(set.x_p)?,
-        e_p: up(set.e_p)?,
-        x_per,
-        e_per,
-        x_b,
-        e_b,
-        paths: at.paths,
-        second,
-        inequality,
-    })
+    Some(Needed { x_p: up(set.x_p)?, e_p: up(set.e_p)?, x_per, e_per, x_b, e_b, paths: at.paths, second, inequality })
 }
 
 impl Needed {

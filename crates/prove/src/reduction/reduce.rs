@@ -76,14 +76,14 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
         if let Ok((p, rough)) = &starts
-            && let Some((along, chosen)) = best_by_matrix(p, &rough.best, sampling)
+            && let Some((along, chosen)) = best_by_matrix(p, rough.for_shapes(), sampling)
             && chosen.proposal.sigma < FAR_BETTER * rough.best.proposal.sigma
             && let Ok(found) = prove_bounds(&along, sampling, &chosen)
         {
             return Ok(found);
         }
         let (along, chosen) = best_by_norms(candidates, starts, sampling)?;
-        let by_matrix = best_by_matrix(&along.coordinates.p, &Start::from(&chosen), sampling);
+        let by_matrix = best_by_matrix(&along.coordinates.p, &[Start::from(&chosen)], sampling);
         let by_matrix = by_matrix.and_then(|(along, chosen)| prove_bounds(&along, sampling, &chosen).ok());
         match by_matrix {
             Some(found) if found.proposal.sigma < chosen.proposal.sigma => Ok(found),
@@ -170,18 +170,28 @@ fn trade_off(data: &Data<'_>) -> TradeOff {
     if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
 }
 
-/// The best coordinates near a start, and the gain with them, where stability is proved by a matrix inequality; none where P moves,
+/// The best coordinates near one of these starts, and the gain with them, where stability is proved by a matrix inequality; none where P moves,
 /// where there is nothing to gain, and where the gain is not smaller by what is worth it.
-fn best_by_matrix(p: &PeriodicMatrix, start: &Start, sampling: &Sampling<'_>) -> Option<(Along, Chosen)> {
-    if !p.harmonics.is_empty() || start.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE {
+fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>) -> Option<(Along, Chosen)> {
+    let is_small = |start: &Start| start.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE;
+    if !p.harmonics.is_empty() || starts.iter().any(is_small) {
         return None;
     }
-    let paths: Vec<Path> = Path::ALL.into_iter().rev().collect();
-    let found = paths.into_par_iter().map(|path| {
-        with_constant(p, sampling, Some(path), |search| search.choose_near(start)).ok()
-    });
-    let found: Vec<Option<(Along, Chosen)>> = found.collect();
-    found.into_iter().flatten().min_by(|(_, a), (_, b)| a.proposal.sigma.total_cmp(&b.proposal.sigma))
+    let near =
+        |start: &Start, path: Path| with_constant(p, sampling, Some(path), |search| search.choose_near(start)).ok();
+    let smaller = |(_, a): &(Along, Chosen), (_, b): &(Along, Chosen)| a.proposal.sigma.total_cmp(&b.proposal.sigma);
+    let found: Vec<Option<(Along, Chosen)>> = match starts {
+        [start] => Path::ALL.into_par_iter().map(|path| near(start, path)).collect(),
+        // The straight one says which of the starts is the best.
+        _ => {
+            let straight: Vec<_> = starts.par_iter().filter_map(|start| near(start, Path::Straight)).collect();
+            let best = straight.into_iter().min_by(smaller);
+            let start = best.as_ref().map(|(_, chosen)| Start::from(chosen)).or_else(|| starts.first().cloned())?;
+            let others = Path::CHOICE.into_par_iter().map(|path| near(&start, path));
+            others.chain(rayon::iter::once(best)).collect()
+        }
+    };
+    found.into_iter().flatten().min_by(smaller)
 }
 
 /// A choice for the constant P that is given, rounded, and proved along the orbit.

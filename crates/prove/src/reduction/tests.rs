@@ -10,14 +10,16 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::ProvedValue;
 use std::path::Path;
 
-/// A value may exceed what random points reach by this part of it.
+/// A value may exceed what random points reach by this part of it; one of the error box beside a matrix inequality, which no
+/// condition uses, by as much as a proof tries.
 const SLACK: f64 = 0.05;
+const SLACK_BESIDE: f64 = 0.11;
 
 /// What no relative comparison can see: q_tx and q_te where they vanish but for the radius of the orbit.
 const NOTHING: f64 = 1e-5;
 
 /// No value is below what 20,000 points reach (with `SIGMASTAR_CASES=all` 100,000, and of every plant), and none is more than 5 % above, but for those
-/// that vanish on the orbit.
+/// that vanish on the orbit, and those that no condition uses.
 #[test]
 fn values_are_above_random_points_and_near_them() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/plants");
@@ -39,7 +41,8 @@ fn values_are_above_random_points_and_near_them() {
         let (_, samples) = bounds_around(&plant, reduced.spec.plant().unwrap()).unwrap();
         let radius = reduced.spec.plant().unwrap().orbit.radius.to_f64();
         let points = random_points(plant.states(), if all { 100_000 } else { 20_000 });
-        for ProvedValue { bound, x, e, value, .. } in reduced.spec.bounds.proved_values().entries() {
+        let values = reduced.spec.bounds.proved_values();
+        for ProvedValue { bound, x, e, value, .. } in values.entries() {
             let place = format!("{name}: {} at ({}, {})", bound.field(), x.to_f64(), e.to_f64());
             if plant.states() == 0 && bound.is_rate() {
                 continue;
@@ -47,7 +50,9 @@ fn values_are_above_random_points_and_near_them() {
             let found = samples.largest_at(*bound, [x.to_f64() + radius, e.to_f64()], &points);
             let value = if bound.is_rate() { -value.to_f64() } else { value.to_f64() };
             assert!(value >= found, "{place}: {value} is below {found}");
-            let near = value - found <= SLACK * found.abs() || value.abs() < NOTHING;
+            let is_beside = values.inequality().is_some_and(|inequality| inequality.e == *e);
+            let slack = if is_beside { SLACK_BESIDE } else { SLACK };
+            let near = value - found <= slack * found.abs() || value.abs() < NOTHING;
             assert!(near, "{place}: {value} for {found}");
         }
     });

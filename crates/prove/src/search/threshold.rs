@@ -55,9 +55,8 @@ impl ByMatrix {
             ByMatrix::Sampled { threshold, .. } => return Some(threshold(at, weights)),
             ByMatrix::Proved(inequality) => inequality,
         };
-        let within = |[x, e]: [f64; 2], [end_x, end_e]: [&Rational; 2]| {
-            x <= end_x.to_f64() * EDGE && e <= end_e.to_f64() * EDGE
-        };
+        let within =
+            |[x, e]: [f64; 2], [end_x, end_e]: [&Rational; 2]| x <= end_x.to_f64() * EDGE && e <= end_e.to_f64() * EDGE;
         let [of_states, of_error] = inequality.arguments();
         (within(at.states, of_states) && within(at.error, of_error)).then(|| inequality.value.to_f64())
     }

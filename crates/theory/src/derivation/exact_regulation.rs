@@ -96,7 +96,7 @@ impl ExactEvaluation {
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         if inequality.is_none() {
-            conditions.extend(one_sided(data, &witness.paths.q.place_of_de(), &error_box.sector_at));
+            conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
         }
         let [dist_x, dist_e, dist_z] = claimed_distances(data, set, [&data.zero(), &data.zero(), &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);

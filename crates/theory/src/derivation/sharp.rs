@@ -153,7 +153,7 @@ impl SharpEvaluation {
                 conditions.extend(matrix_inequality::conditions(data, inequality, place, &sigma, ""));
             }
             None => {
-                conditions.extend(one_sided(data, &witness.paths.q.place_of_de(), &error_box.sector_at));
+                conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
                 conditions.extend(by_norms_conditions(&decay, &sigma));
             }
         }

@@ -45,8 +45,7 @@ impl Splitting {
         if matrix.iter().any(|row| row.len() != order) || !symmetric() {
             return bad(&rows.pointer, "expected a symmetric matrix");
         }
-        let splitting =
-            Splitting { x: number(&mut fields, "X", false)?, e: number(&mut fields, "E", false)?, matrix };
+        let splitting = Splitting { x: number(&mut fields, "X", false)?, e: number(&mut fields, "E", false)?, matrix };
         fields.finish()?;
         Ok(splitting)
     }

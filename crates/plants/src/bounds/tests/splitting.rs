@@ -1,6 +1,6 @@
 //! A splitting matrix: what is proved with one holds at random pairs of points, and what does not hold is not proved.
 
-use super::super::sampled_threshold::Root;
+use super::super::weights::Root;
 use super::*;
 use sigmastar_lang::spec::{Constant, MatrixInequality, Splitting};
 
@@ -63,8 +63,11 @@ fn a_proved_splitting_holds_at_random_pairs() {
         let known = proved.splitting.clone().unwrap();
         let times = |factor: &str| {
             let factor = rational(factor);
-            let matrix =
-                known.matrix.iter().map(|row| row.iter().map(|entry| Rational::from(entry * &factor)).collect()).collect();
+            let matrix = known
+                .matrix
+                .iter()
+                .map(|row| row.iter().map(|entry| Rational::from(entry * &factor)).collect())
+                .collect();
             MatrixInequality { splitting: Some(Splitting { matrix, ..known.clone() }), ..proved.clone() }
         };
         for factor in ["1.05", "0.9", "-1"] {

@@ -138,7 +138,7 @@ impl SampledEvaluation {
             start,
             exit,
         ));
-        conditions.extend(one_sided(data, &witness.paths.q.place_of_de(), &error_box.sector_at));
+        conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
         conditions.extend(form_conditions(data, &forms));
         SampledEvaluation { product, law, bounds, size, z, error_box, forms, conditions }
     }
