@@ -49,6 +49,9 @@ const ABOVE: [f64; 7] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 /// A gain that in a period does no more than this needs not be smaller.
 const AS_GOOD_AS_NONE: f64 = 1e-6;
 
+/// What a path with a corner must take from the gain of the straight one: a splitting costs room in proofs and in certificates.
+const WORTH_A_CORNER: f64 = 5e-3;
+
 /// By what share of the gain of norms, at few samples, one by a matrix inequality is far better.
 const FAR_BETTER: f64 = 0.9;
 
@@ -170,28 +173,35 @@ fn trade_off(data: &Data<'_>) -> TradeOff {
     if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
 }
 
-/// The best coordinates near one of these starts, and the gain with them, where stability is proved by a matrix inequality; none where P moves,
-/// where there is nothing to gain, and where the gain is not smaller by what is worth it.
+/// A gain with what a corner has to take from it, and what has it.
+type Found = (f64, (Along, Chosen));
+
+/// The best coordinates near one of these starts, and the gain with them, where stability is proved by a matrix
+/// inequality; none where P moves, where there is nothing to gain, and where the gain is not smaller by what is worth it.
 fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>) -> Option<(Along, Chosen)> {
     let is_small = |start: &Start| start.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE;
     if !p.harmonics.is_empty() || starts.iter().any(is_small) {
         return None;
     }
-    let near =
-        |start: &Start, path: Path| with_constant(p, sampling, Some(path), |search| search.choose_near(start)).ok();
-    let smaller = |(_, a): &(Along, Chosen), (_, b): &(Along, Chosen)| a.proposal.sigma.total_cmp(&b.proposal.sigma);
-    let found: Vec<Option<(Along, Chosen)>> = match starts {
+    let near = |start: &Start, path: Path| {
+        let found = with_constant(p, sampling, Some(path), |search| search.choose_near(start)).ok()?;
+        let corner = if path == Path::Straight { 1.0 } else { 1.0 + WORTH_A_CORNER };
+        Some((found.1.proposal.sigma * corner, found))
+    };
+    let smaller = |a: &Found, b: &Found| a.0.total_cmp(&b.0);
+    let found: Vec<Option<Found>> = match starts {
         [start] => Path::ALL.into_par_iter().map(|path| near(start, path)).collect(),
         // The straight one says which of the starts is the best.
         _ => {
             let straight: Vec<_> = starts.par_iter().filter_map(|start| near(start, Path::Straight)).collect();
             let best = straight.into_iter().min_by(smaller);
-            let start = best.as_ref().map(|(_, chosen)| Start::from(chosen)).or_else(|| starts.first().cloned())?;
+            let start =
+                best.as_ref().map(|(_, (_, chosen))| Start::from(chosen)).or_else(|| starts.first().cloned())?;
             let others = Path::CHOICE.into_par_iter().map(|path| near(&start, path));
             others.chain(rayon::iter::once(best)).collect()
         }
     };
-    found.into_iter().flatten().min_by(smaller)
+    found.into_iter().flatten().min_by(smaller).map(|(_, found)| found)
 }
 
 /// A choice for the constant P that is given, rounded, and proved along the orbit.
