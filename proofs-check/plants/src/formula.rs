@@ -111,7 +111,7 @@ pub struct Formulas {
     places: HashMap<Kind, Id>,
     pub(super) derivatives: HashMap<(Id, Axis), Id>,
     /// Those that are sums of leaves times numbers.
-    pub(super) linear: HashMap<Id, Linear>,
+    linear: HashMap<Id, Linear>,
     overflow: bool,
 }
 
@@ -136,7 +136,7 @@ impl Formulas {
         self.nodes[id].depends
     }
 
-    pub(super) fn insert(&mut self, kind: Kind, depends: u16, exact: Option<Exact>) -> Id {
+    fn insert(&mut self, kind: Kind, depends: u16, exact: Option<Exact>) -> Id {
         if let Some(id) = self.places.get(&kind) {
             return *id;
         }
@@ -233,6 +233,41 @@ impl Formulas {
             Some(value) => self.number(&value),
             None => self.insert(Kind::Apply(op.clone(), [a, b]), 0, exact),
         }
+    }
+
+    /// The node of a sum of leaves times numbers.
+    fn sum(&mut self, linear: Linear) -> Id {
+        let mut sum = None;
+        for (leaf, factor) in linear.terms() {
+            let term = match *factor == 1 || *factor == -1 {
+                true => *leaf,
+                false => {
+                    let size = self.number(&factor.clone().abs());
+                    self.insert_operation(Op::Mul, [size, *leaf])
+                }
+            };
+            sum = Some(match (sum, *factor > 0) {
+                (None, true) => term,
+                (None, false) => self.insert_operation(Op::Neg, [term, 0]),
+                (Some(sum), true) => self.insert_operation(Op::Add, [sum, term]),
+                (Some(sum), false) => self.insert_operation(Op::Sub, [sum, term]),
+            });
+        }
+        let Some(sum) = sum else { return self.number(linear.constant()) };
+        let sum = match *linear.constant() == 0 {
+            true => sum,
+            false => {
+                let constant = self.number(linear.constant());
+                self.insert_operation(Op::Add, [sum, constant])
+            }
+        };
+        self.linear.insert(sum, linear);
+        sum
+    }
+
+    fn insert_operation(&mut self, op: Op, both: [Id; 2]) -> Id {
+        let depends = both.into_iter().take(operands(&op)).fold(0, |all, id| all | self.depends(id));
+        self.insert(Kind::Apply(op, both), depends, None)
     }
 
     /// A sum.
@@ -355,3 +390,6 @@ pub fn operands(op: &Op) -> usize {
         _ => 1,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -3,7 +3,6 @@
 //! With `x = xb(t) + L v` a state is such a sum, and what a formula adds up of several states is one again. Intervals of
 //! `a x_1 + b x_2` forget that both move with the same v; those of one term for each v_j do not.
 
-use super::formula::{Formulas, Id, Kind};
 use proofs_core::expr::Op;
 use rug::Rational;
 
@@ -11,7 +10,7 @@ use rug::Rational;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Linear {
     constant: Rational,
-    terms: Vec<(Id, Rational)>,
+    terms: Vec<(usize, Rational)>,
 }
 
 impl Linear {
@@ -21,8 +20,18 @@ impl Linear {
     }
 
     /// A leaf.
-    pub fn leaf(id: Id) -> Linear {
+    pub fn leaf(id: usize) -> Linear {
         Linear { constant: Rational::new(), terms: vec![(id, Rational::from(1))] }
+    }
+
+    /// The leaves with their factors.
+    pub fn terms(&self) -> &[(usize, Rational)] {
+        &self.terms
+    }
+
+    /// What stands beside them.
+    pub fn constant(&self) -> &Rational {
+        &self.constant
     }
 
     fn as_number(&self) -> Option<&Rational> {
@@ -64,93 +73,5 @@ impl Linear {
             Op::Div => b?.as_number().filter(|divisor| **divisor != 0).map(|divisor| a.times(&divisor.clone().recip())),
             _ => None,
         }
-    }
-}
-
-impl Formulas {
-    /// The node of such a sum.
-    pub(super) fn sum(&mut self, linear: Linear) -> Id {
-        let mut sum = None;
-        for (leaf, factor) in &linear.terms {
-            let term = match *factor == 1 || *factor == -1 {
-                true => *leaf,
-                false => {
-                    let size = self.number(&factor.clone().abs());
-                    self.insert_operation(Op::Mul, [size, *leaf])
-                }
-            };
-            sum = Some(match (sum, *factor > 0) {
-                (None, true) => term,
-                (None, false) => self.insert_operation(Op::Neg, [term, 0]),
-                (Some(sum), true) => self.insert_operation(Op::Add, [sum, term]),
-                (Some(sum), false) => self.insert_operation(Op::Sub, [sum, term]),
-            });
-        }
-        let Some(sum) = sum else { return self.number(&linear.constant) };
-        let sum = match linear.constant == 0 {
-            true => sum,
-            false => {
-                let constant = self.number(&linear.constant);
-                self.insert_operation(Op::Add, [sum, constant])
-            }
-        };
-        self.linear.insert(sum, linear);
-        sum
-    }
-
-    fn insert_operation(&mut self, op: Op, operands: [Id; 2]) -> Id {
-        let depends =
-            operands.into_iter().take(super::formula::operands(&op)).fold(0, |all, id| all | self.depends(id));
-        self.insert(Kind::Apply(op, operands), depends, None)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::formula::Leaf;
-    use super::*;
-
-    /// The same sum in two orders is one node, with one term for each leaf, whatever was added on the way.
-    #[test]
-    fn one_term_for_each_leaf() {
-        let mut formulas = Formulas::default();
-        let [x, y] = [Leaf::State(0), Leaf::State(1)].map(|leaf| formulas.leaf(leaf));
-        let [two, three] = [2, 3].map(|value| formulas.int(value));
-        let double = formulas.mul(two, x);
-        let first = formulas.add(double, y);
-        let second = formulas.sub(y, x);
-        let triple = formulas.mul(x, three);
-        let second = formulas.add(triple, second);
-        assert_eq!(first, second);
-        let rest = formulas.sub(first, double);
-        assert_eq!(rest, y);
-        let none = formulas.sub(second, first);
-        assert!(formulas.is_zero(none));
-        let other = formulas.sub(first, y);
-        assert_ne!(other, x, "2 x is not x");
-        let half = formulas.apply(&Op::Div, [double, two]);
-        assert_eq!(half, x);
-        // With a constant, and a factor that is not rational.
-        let shifted = formulas.add(x, three);
-        let back = formulas.sub(shifted, three);
-        assert_eq!(back, x);
-        let pi = formulas.apply(&Op::Pi, [0, 0]);
-        let turned = formulas.mul(pi, x);
-        let apart = formulas.sub(turned, x);
-        assert_ne!(apart, turned);
-    }
-
-    /// What is no such sum stays what it is: a product, and a quotient by 0.
-    #[test]
-    fn products_and_quotients_by_zero_are_left() {
-        let mut formulas = Formulas::default();
-        let [x, y] = [Leaf::State(0), Leaf::State(1)].map(|leaf| formulas.leaf(leaf));
-        let zero = formulas.int(0);
-        for id in [formulas.mul(x, y), formulas.apply(&Op::Div, [x, zero])] {
-            assert!(!formulas.linear.contains_key(&id), "{:?}", formulas.node(id));
-        }
-        let product = formulas.mul(x, y);
-        let twice = formulas.add(product, product);
-        assert!(!formulas.is_zero(twice) && twice != product);
     }
 }
