@@ -59,6 +59,9 @@ pub struct PeriodicSet {
 /// Steps of the iteration at most.
 const STEPS: usize = 1000;
 
+/// Steps down from beyond the limit at most: what is left of the way is a share of that.
+const STEPS_DOWN: usize = 24;
+
 /// The largest relative step at which it has converged.
 const NEAR: f64 = 1e-14;
 
@@ -201,7 +204,7 @@ impl Iteration<'_> {
         }
         // From there down, which removes what it is too large; every point on the way is as good.
         let mut at = limit;
-        for _ in 0..STEPS {
+        for _ in 0..STEPS_DOWN {
             let next = self.image(at).ok()?;
             if next.iter().zip(&at).any(|(next, at)| *next > at * (1.0 + NEAR)) {
                 return None;
