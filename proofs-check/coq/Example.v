@@ -3,7 +3,7 @@
 
 From Coq Require Import Reals ZArith Lra Lia.
 From Interval Require Import Tactic.
-From SigmaStar Require Import Sums Weights Transfer Matched.
+From SigmaStar Require Import Sums Weights Transfer Matched Enclose.
 Local Open Scope R_scope.
 
 Definition example_weights : nat -> R := power 2 (1 / 2).
@@ -13,7 +13,7 @@ Lemma example_W : weights example_weights.
 Proof. apply power_weights; lra. Qed.
 
 Lemma example_nu_pos : 0 < example_nu.
-Proof. unfold example_nu. interval. Qed.
+Proof. unfold example_nu. interval with (i_prec 60). Qed.
 
 (** Section 2.3 with numbers: a closed statement, for every number N of oscillators and every integer k. *)
 Theorem example_transfer_bound :
@@ -25,6 +25,6 @@ Proof.
   - lia.
   - unfold example_weights, example_nu. simpl (power _ _ _). interval with (i_prec 60).
   - intros k Hk. assert (k = 1%nat) by lia. subst k.
-    unfold example_weights, example_nu, power, Rpower. simpl INR. rewrite ln_1. interval.
+    unfold example_weights, example_nu, power, Rpower. simpl INR. rewrite ln_1. interval with (i_prec 60).
   - unfold example_weights, example_nu, power, Rpower. simpl INR. interval with (i_prec 60).
 Qed.
