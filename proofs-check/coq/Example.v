@@ -2,7 +2,6 @@
     and K = 2. *)
 
 From Coq Require Import Reals ZArith Lra Lia.
-From Interval Require Import Tactic.
 From SigmaStar Require Import Sums Weights Transfer Matched Enclose.
 Local Open Scope R_scope.
 
