@@ -173,9 +173,11 @@ Proof.
 Qed.
 
 (** The terms below m. *)
-Lemma below_le m x :
+Lemma below_sum m x :
   (1 <= m)%nat -> Rabs (x - INR m) <= 1 / 2 ->
-  n O / x + n m / 2 / (INR m + x) + sum (m - 1) (fun i => n (S i) * x / (x ^ 2 - INR (S i) ^ 2)) <= Rh (INR m).
+  n O / x + n m / 2 / (INR m + x) + sum (m - 1) (fun i => n (S i) * x / (x ^ 2 - INR (S i) ^ 2))
+  <= n O / (INR m - 1 / 2) + n 1%nat / (INR m * (4 * INR m - 1))
+     + n 1%nat / (INR m - 1 / 2) * sum (m - 1) (fun i => / (INR i + 1) + / 2 * / (INR i + 1 / 2)).
 Proof.
   intros Hm Hx. pose proof (near m x Hm Hx) as Hn. pose proof (n_pos O) as H0. pose proof (n_pos 1%nat) as H1.
   set (y := INR m - 1 / 2) in *. assert (Ey : y = INR m - 1 / 2) by reflexivity.
@@ -188,7 +190,7 @@ Proof.
       replace (n 1%nat / (INR m * (4 * INR m - 1))) with (n 1%nat / INR m * / (4 * INR m - 1)) by (field; lra).
       apply Rmult_le_compat_l; [left; apply Rdiv_lt_0_compat; lra|]. apply Rinv_le_contravar; lra. }
   assert (B3 : sum (m - 1) (fun i => n (S i) * x / (x ^ 2 - INR (S i) ^ 2))
-               <= n 1%nat / y * (2.35 + 1.5 * ln (INR m))).
+               <= n 1%nat / y * sum (m - 1) (fun i => / (INR i + 1) + / 2 * / (INR i + 1 / 2))).
   { apply Rle_trans with (sum (m - 1) (fun i => n 1%nat / y * (/ INR (S i) + / 2 * / (y - INR (S i))))).
     - apply sum_le. intros i Hi.
       assert (INR (S i) + 1 <= INR m) by (rewrite <- S_INR; apply le_INR; lia).
@@ -211,20 +213,33 @@ Proof.
       assert (0 <= n 1%nat / y * / 2 * / (y + l)); [|lra].
       repeat apply Rmult_le_pos; try lra; left; apply Rinv_0_lt_compat; lra.
     - rewrite sum_scal. apply Rmult_le_compat_l; [left; apply Rdiv_lt_0_compat; unfold y; lra|].
-      pose proof (logarithms (m - 1)) as L. rewrite minus_INR in L by lia. change (INR 1) with 1 in L.
-      replace (INR m - 1 + 1) with (INR m) in L by ring.
-      apply Rle_trans with (2 := L). right. rewrite !sum_plus, !sum_scal. f_equal; [|f_equal].
+      right. rewrite !sum_plus, !sum_scal. f_equal; [|f_equal].
       + apply sum_ext. intros i _. rewrite S_INR. reflexivity.
       + rewrite sum_rev. apply sum_ext. intros i Hi. f_equal. unfold y.
         rewrite S_INR, !minus_INR by lia. change (INR 1) with 1. field. }
+  lra.
+Qed.
+
+Lemma below_le m x :
+  (1 <= m)%nat -> Rabs (x - INR m) <= 1 / 2 ->
+  n O / x + n m / 2 / (INR m + x) + sum (m - 1) (fun i => n (S i) * x / (x ^ 2 - INR (S i) ^ 2)) <= Rh (INR m).
+Proof.
+  intros Hm Hx. pose proof (near m x Hm Hx) as Hn. pose proof (n_pos 1%nat) as H1.
+  apply Rle_trans with (1 := below_sum m x Hm Hx). set (y := INR m - 1 / 2) in *.
+  pose proof (logarithms (m - 1)) as L. rewrite minus_INR in L by lia. change (INR 1) with 1 in L.
+  replace (INR m - 1 + 1) with (INR m) in L by ring. assert (Ey : y = INR m - 1 / 2) by reflexivity.
+  assert (B : n 1%nat / y * sum (m - 1) (fun i => / (INR i + 1) + / 2 * / (INR i + 1 / 2))
+              <= n 1%nat / y * (2.35 + 1.5 * ln (INR m))).
+  { apply Rmult_le_compat_l; [left; apply Rdiv_lt_0_compat; lra | exact L]. }
   unfold Rh. fold y. replace ((n O + n 1%nat * (2.35 + 1.5 * ln (INR m))) / y)
-    with (n O / y + n 1%nat / y * (2.35 + 1.5 * ln (INR m))) by (field; unfold y; lra). lra.
+    with (n O / y + n 1%nat / y * (2.35 + 1.5 * ln (INR m))) by (field; lra). lra.
 Qed.
 
 (** The terms above m. *)
-Lemma above_le m N x :
+Lemma above_sum m N x :
   (1 <= m <= N)%nat -> Rabs (x - INR m) <= 1 / 2 ->
-  sum (N - m) (fun i => n (m + 1 + i)%nat * x / (INR (m + 1 + i) ^ 2 - x ^ 2)) <= Rh (INR m).
+  sum (N - m) (fun i => n (m + 1 + i)%nat * x / (INR (m + 1 + i) ^ 2 - x ^ 2))
+  <= n 1%nat / 2 * (2 / (INR m + 1) + ln (2 * (INR m + 1)) / (INR m + 1 / 2)).
 Proof.
   intros Hm Hx. pose proof (near m x ltac:(lia) Hx) as Hn. pose proof (n_pos 1%nat) as H1.
   pose proof (W4 n H) as H4. set (y := INR m + 1 / 2). set (M := INR m) in *.
@@ -277,7 +292,16 @@ Proof.
       replace ((ln (M + 1 + INR J - y) - ln (M + 1 + INR J)) / y - (- ln 2 - ln (M + 1)) / y)
         with ((ln (M + 1 + INR J - y) - ln (M + 1 + INR J) + (ln 2 + ln (M + 1))) / y) by (field; unfold y; lra).
       unfold Rdiv. apply Rmult_le_compat_r; [left; apply Rinv_0_lt_compat; unfold y; lra|]. lra. }
-  specialize (Sum (N - m)%nat).
+  apply Rmult_le_compat_l; [lra | apply Sum].
+Qed.
+
+Lemma above_le m N x :
+  (1 <= m <= N)%nat -> Rabs (x - INR m) <= 1 / 2 ->
+  sum (N - m) (fun i => n (m + 1 + i)%nat * x / (INR (m + 1 + i) ^ 2 - x ^ 2)) <= Rh (INR m).
+Proof.
+  intros Hm Hx. pose proof (near m x ltac:(lia) Hx) as Hn. pose proof (n_pos 1%nat) as H1.
+  pose proof (W4 n H) as H4. apply Rle_trans with (1 := above_sum m N x Hm Hx).
+  set (y := INR m + 1 / 2). set (M := INR m) in *.
   assert (L1 : ln (2 * (M + 1)) <= 1.4 + ln M).
   { apply Rle_trans with (ln (4 * M)); [apply ln_mono; lra|]. rewrite ln_mult by lra.
     assert (ln 4 <= 1.4) by (interval with (i_prec 60)). lra. }
@@ -297,8 +321,7 @@ Proof.
       - rewrite <- (Rmult_1_r ((1.4 + ln M) / 2)) at 2. apply Rmult_le_compat_l; [lra | exact Y2]. }
     apply Rle_trans with (n 1%nat * (1 + (1.4 + ln M) / 2)); [apply Rmult_le_compat_l; lra|]. nra. }
   assert (0 < n 1%nat / (M * (4 * M - 1))) by (apply Rdiv_lt_0_compat; [lra | nra]).
-  unfold Rh. fold M. apply Rle_trans with (n 1%nat / 2 * (2 / (M + 1) + ln (2 * (M + 1)) / y)); [|lra].
-  apply Rmult_le_compat_l; [lra | exact Sum].
+  unfold Rh. fold M. lra.
 Qed.
 
 (** |R| <= Rh_m. *)
