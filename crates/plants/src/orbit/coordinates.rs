@@ -9,6 +9,7 @@ use super::balance::balance;
 use super::failure::OrbitFailure;
 use super::field::Field;
 use super::find::FloatOrbit;
+use super::least_gain::least_gain_shapes;
 use super::modes::modes;
 use super::series::{FloatSeries, Turn};
 use super::shape::{Channel, decay, largest_rate, most_matrices, narrow_shapes, round_shapes};
@@ -40,7 +41,7 @@ const NEGLIGIBLE: f64 = 1e-5;
 /// Matrices that differ by less, relative to the size of all, are one.
 const SAME: f64 = 1e-10;
 
-/// Vectors f_e and q_x for which coordinates are sought.
+/// Times of f_e, q_x and q_e for which coordinates are sought.
 const CHANNELS: usize = 6;
 
 /// The least singular value of L that doubles tell from 0, relative to the largest.
@@ -80,7 +81,7 @@ pub fn propose_coordinates(
     let series = field.own(&orbit.series);
     let along = sample(&mut field, &series, &[vec![0.0; n]], &[0.0], most_matrices(n));
     let scale = balance(&along);
-    let (f_e, q_x) = channels(&mut field, &series, &scale);
+    let Channel { inputs: f_e, outputs: q_x, slopes } = channel(&mut field, &series, &scale);
     let balanced = |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] * (scale[j] / scale[i]));
     let mut matrices = along;
     if states > 0.0 || error > 0.0 {
@@ -105,6 +106,7 @@ pub fn propose_coordinates(
     let channel = Channel {
         inputs: f_e.iter().map(|vector| &inverse * vector).collect(),
         outputs: q_x.iter().map(|vector| basis.transpose() * vector).collect(),
+        slopes,
     };
     let limit = orbit.floquet.first().map_or(f64::NAN, |first| -first[0]);
     let units: Vec<f64> = scale.iter().zip(field.units()).map(|(scale, unit)| scale * unit).collect();
@@ -118,7 +120,8 @@ pub fn propose_coordinates(
         false => Vec::new(),
     };
     let identity = DMatrix::identity(n, n);
-    let shapes = round.into_iter().map(|p| (p, &identity)).chain(in_modes.into_iter().map(|p| (p, &basis)));
+    let in_modes = in_modes.into_iter().chain(least_gain_shapes(&own, &channel, largest));
+    let shapes = round.into_iter().map(|p| (p, &identity)).chain(in_modes.map(|p| (p, &basis)));
     for (p, axes) in shapes {
         let root = p.try_inverse().and_then(|inverse| inverse.cholesky());
         if let Some(candidate) = root.and_then(|root| constant(&matrices, &(axes * root.l()), &units))
@@ -145,19 +148,22 @@ fn distinct(matrices: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
     kept
 }
 
-/// f_e and q_x at a few times, with the states in units of `scale`.
-fn channels(field: &mut Field, series: &FloatSeries, scale: &[f64]) -> (Vec<DVector<f64>>, Vec<DVector<f64>>) {
+/// f_e, q_x and q_e at a few times, with the states in units of `scale`.
+fn channel(field: &mut Field, series: &FloatSeries, scale: &[f64]) -> Channel {
     let turn = Turn::new(CHANNELS);
-    let vectors = |j: usize| {
+    let mut channel = Channel { inputs: Vec::new(), outputs: Vec::new(), slopes: Vec::new() };
+    for j in 0..CHANNELS {
         field.set(j as f64 / CHANNELS as f64, &series.at_part(&turn, j).0, 0.0);
         let (mut f_e, mut q_x) = (field.f_e(), field.q_x());
         for (i, scale) in scale.iter().enumerate() {
             f_e[i] /= scale;
             q_x[i] *= scale;
         }
-        (f_e, q_x)
-    };
-    (0..CHANNELS).map(vectors).unzip()
+        channel.inputs.push(f_e);
+        channel.outputs.push(q_x);
+        channel.slopes.push(field.q_e());
+    }
+    channel
 }
 
 /// Jacobians at so many times, with each shift of the state and each error.

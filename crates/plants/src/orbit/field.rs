@@ -118,6 +118,11 @@ impl Field {
         DVector::from_fn(self.states, |j, _| self.derivative(self.states, j))
     }
 
+    /// That of q with respect to e.
+    pub(super) fn q_e(&self) -> f64 {
+        self.derivative(self.states, self.states)
+    }
+
     /// q.
     pub(super) fn q(&self) -> f64 {
         self.outputs[self.states]

@@ -3,7 +3,7 @@
 //!
 //! - `balance`, `modes`: units and axes that do not depend on how a plant is written;
 //! - `field`, `series`, `collocation`, `floquet`, `find`: the orbit in doubles;
-//! - `round`, `shape`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
+//! - `round`, `shape`, `least_gain`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
 //! - `recurrences`, `taylor`, `cells`, `curve`: Taylor series of formulas along a curve, over enclosures;
 //! - `defect`, `rate`, `prove`: the orbit, proved;
 //! - `forcing`: the harmonics of q, proposed and proved.
@@ -19,6 +19,7 @@ mod field;
 mod find;
 mod floquet;
 mod forcing;
+mod least_gain;
 mod linear;
 mod modes;
 mod prove;

@@ -76,8 +76,10 @@ fn roundest(matrices: &[DMatrix<f64>], size: f64, alpha: f64) -> Option<DMatrix<
 pub(super) struct Channel {
     /// f_e at a few times.
     pub(super) inputs: Vec<DVector<f64>>,
-    /// q_x at a few times.
+    /// q_x at the same times.
     pub(super) outputs: Vec<DVector<f64>>,
+    /// q_e at the same times.
+    pub(super) slopes: Vec<f64>,
 }
 
 /// The P of a rate with the least product of `|f_e|` and `|q_x|` in its norm: minimise the largest `f_e^T P f_e` subject to
@@ -130,23 +132,28 @@ fn decays(
     let identity = |i: usize, j: usize| f64::from(u8::from(i == j));
     let tolerance = margin(0.0, n);
     let decay = |matrix: &DMatrix<f64>| {
-        let term = |variable: usize, i: usize, j: usize| {
-            let Some(&(a, b)) = triangle.get(variable) else { return -1e-6 * round * identity(i, j) };
-            // (E J)_ij for the unit matrix E of (a, b).
-            let half = |i: usize, j: usize| {
-                let first = if i == a { matrix[(b, j)] } else { 0.0 };
-                first + if i == b && a != b { matrix[(a, j)] } else { 0.0 }
-            };
-            let own = f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i)));
-            -(half(i, j) + half(j, i) + 2.0 * alpha * own) / size
+        let term = |variable: usize, i: usize, j: usize| match triangle.get(variable) {
+            Some(&at) => decay_entry(matrix, alpha, at, (i, j)) / size,
+            None => -1e-6 * round * identity(i, j),
         };
         AffineMatrix::from_fn(n, unknowns, |i, j| -tolerance * identity(i, j), term)
     };
     matrices.iter().map(decay).collect()
 }
 
+/// The entry (i, j) of `-(P J + J^T P) - 2 alpha P` for the symmetric P that has 1 at (a, b) alone.
+pub(super) fn decay_entry(matrix: &DMatrix<f64>, alpha: f64, (a, b): (usize, usize), (i, j): (usize, usize)) -> f64 {
+    // (P J)_ij.
+    let half = |i: usize, j: usize| {
+        let first = if i == a { matrix[(b, j)] } else { 0.0 };
+        first + if i == b && a != b { matrix[(a, j)] } else { 0.0 }
+    };
+    let own = f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i)));
+    -(half(i, j) + half(j, i) + 2.0 * alpha * own)
+}
+
 /// The matrix with these entries of its upper triangle.
-fn symmetric(n: usize, triangle: &[(usize, usize)], entries: &[f64]) -> DMatrix<f64> {
+pub(super) fn symmetric(n: usize, triangle: &[(usize, usize)], entries: &[f64]) -> DMatrix<f64> {
     let mut p = DMatrix::zeros(n, n);
     for ((i, j), value) in triangle.iter().zip(entries) {
         p[(*i, *j)] = *value;
@@ -201,7 +208,7 @@ pub(super) fn largest_rate(matrices: &[DMatrix<f64>], limit: f64) -> f64 {
 }
 
 /// The size of the matrices, as a unit.
-fn size(matrices: &[DMatrix<f64>]) -> f64 {
+pub(super) fn size(matrices: &[DMatrix<f64>]) -> f64 {
     matrices.iter().map(DMatrix::norm).fold(f64::MIN_POSITIVE, f64::max)
 }
 
@@ -254,7 +261,7 @@ mod tests {
     fn the_narrowest_matrix_sees_what_the_channel_sees() {
         let matrices = [DMatrix::from_row_slice(2, 2, &[-1.0, 10.0, 0.0, -2.0])];
         let vector = || DVector::from_vec(vec![0.0, 1.0]);
-        let channel = Channel { inputs: vec![vector()], outputs: vec![vector()] };
+        let channel = Channel { inputs: vec![vector()], outputs: vec![vector()], slopes: vec![0.0] };
         let product = |p: &DMatrix<f64>| {
             let inverse = p.clone().try_inverse().unwrap();
             (p[(1, 1)] * inverse[(1, 1)]).sqrt()
