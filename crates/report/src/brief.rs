@@ -40,7 +40,10 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let mut facts = vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next.to_owned())];
     facts.extend(set_by(run).map(|said| ("set by", said)));
     facts.extend(
-        run.aligned.filter(|_| run.given_gain.is_none()).map(|sigma| ("aligned start", sensitivity::aligned(sigma))),
+        run.alternatives
+            .aligned
+            .filter(|_| run.given_gain.is_none())
+            .map(|sigma| ("aligned start", sensitivity::aligned(sigma))),
     );
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));

@@ -21,7 +21,14 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         Block::heading("What sets sigma* (estimates)"),
         Block::says(format!("sigma* is set by {}. {}", binding.describe(), binding.advice(run.spec.plant().is_some()))),
     ];
-    blocks.extend(run.aligned.map(|sigma| Block::says(format!("Aligned start: {}.", aligned(sigma)))));
+    blocks.extend(run.alternatives.by_norms.map(|sigma| {
+        Block::says(format!(
+            "By norms in the place of the matrix inequality: sigma* about {} (an estimate at few samples; better coordinates may \
+             bring less).",
+            estimate(sigma)
+        ))
+    }));
+    blocks.extend(run.alternatives.aligned.map(|sigma| Block::says(format!("Aligned start: {}.", aligned(sigma)))));
     blocks.extend(ingredients(run).map(Block::Bars));
     if !run.without_optional.is_empty() {
         blocks.push(Block::says("What the optional data bring: sigma* without each."));

@@ -48,6 +48,16 @@ pub struct RelativeDegreeGains {
     pub k_2: Enclosure,
 }
 
+/// sigma* in other ways; floating point, claimed by nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Alternatives {
+    /// With stability by norms, where it is proved by a matrix inequality: at few samples, and in coordinates that are no further
+    /// improved where the inequality does far better.
+    pub by_norms: Option<f64>,
+    /// With an aligned start, where the start is another one and that lowers sigma* by a share that matters.
+    pub aligned: Option<f64>,
+}
+
 /// Everything a run found out.
 #[derive(Clone, Debug)]
 pub struct Certification<'s> {
@@ -81,8 +91,8 @@ pub struct Certification<'s> {
     pub without_optional: Vec<(OptionalDatum, Option<f64>)>,
     /// By how much sigma* falls (relatively) when a datum improves by 1 %, largest first; floating point.
     pub sensitivities: Vec<(Datum, f64)>,
-    /// sigma* with an aligned start, where that is smaller; floating point.
-    pub aligned: Option<f64>,
+    /// sigma* in other ways.
+    pub alternatives: Alternatives,
     /// Bounding functions that were neither proved nor refuted.
     pub unproved_bounds: Vec<BoundingProblem>,
     /// Every constant in the three derivations.

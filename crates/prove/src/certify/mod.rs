@@ -26,7 +26,7 @@ mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
 pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
-pub use certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
+pub use certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 pub use decide::{decide, decide_exact};
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};

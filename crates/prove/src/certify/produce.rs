@@ -2,7 +2,7 @@
 
 use super::best::{BestSharp, Wanted, best_sharp, model};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
-use super::certification::{Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
+use super::certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 use super::constants::Columns;
 use super::decide::{decide, decide_exact};
 use super::matrix_checks::MatrixChecks;
@@ -179,6 +179,7 @@ fn assemble<'s>(
         (Outcome::Proved(_), Some(proposal)) => aligned(model, proposal),
         _ => None,
     };
+    let alternatives = Alternatives { by_norms: None, aligned };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
     let used = reach(&sharp).or_else(|| repaired.as_ref().and_then(reach));
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
@@ -201,7 +202,7 @@ fn assemble<'s>(
         checks,
         no_plant,
         sensitivities,
-        aligned,
+        alternatives,
         without_optional,
         unproved_bounds: unproved,
         constants: constants.rows,

@@ -307,6 +307,12 @@ impl CoordinateSearch<'_> {
         Ok(self.with_second(found))
     }
 
+    /// The gain near a choice in its coordinates, of another search for the same plant; an estimate, at few samples.
+    #[must_use]
+    pub fn estimate_near(&self, known: &Start) -> Option<f64> {
+        self.descend(known, Varied::Shape).map(|found| found.proposal.sigma)
+    }
+
     /// The best that is reached from there, at the points that are the most extreme ones there; `None` where there is no gain.
     fn descend(&self, from: &Start, varied: Varied) -> Option<Start> {
         let Start { l, second, proposal } = from;

@@ -5,6 +5,7 @@ use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::specification::specification;
+use crate::certify::Alternatives;
 use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -55,6 +56,9 @@ const WORTH_A_CORNER: f64 = 5e-3;
 /// By what share of the gain of norms, at few samples, one by a matrix inequality is far better.
 const FAR_BETTER: f64 = 0.9;
 
+/// What an aligned start must take from a gain to be worth a remark.
+const WORTH_A_REMARK: f64 = 0.01;
+
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
 
@@ -64,6 +68,8 @@ pub struct Reduced {
     pub spec: Specification,
     /// Free numbers for it, in floating point.
     pub proposal: SharpProposal,
+    /// What else was looked at.
+    pub alternatives: Alternatives,
 }
 
 /// Proves the data that the sharp derivation needs, at the arguments where it will need them.
@@ -79,15 +85,15 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
         if let Ok((p, rough)) = &starts
-            && let Some((along, chosen)) = best_by_matrix(p, rough.for_shapes(), sampling)
-            && chosen.proposal.sigma < FAR_BETTER * rough.best.proposal.sigma
-            && let Ok(found) = prove_bounds(&along, sampling, &chosen)
+            && let Some(found) = best_by_matrix(p, rough.for_shapes(), sampling)
+            && found.chosen.proposal.sigma < FAR_BETTER * rough.best.proposal.sigma
+            && let Ok(proved) = found.proved(sampling, rough.best.proposal.sigma)
         {
-            return Ok(found);
+            return Ok(proved);
         }
         let (along, chosen) = best_by_norms(candidates, starts, sampling)?;
         let by_matrix = best_by_matrix(&along.coordinates.p, &[Start::from(&chosen)], sampling);
-        let by_matrix = by_matrix.and_then(|(along, chosen)| prove_bounds(&along, sampling, &chosen).ok());
+        let by_matrix = by_matrix.and_then(|found| found.proved(sampling, chosen.proposal.sigma).ok());
         match by_matrix {
             Some(found) if found.proposal.sigma < chosen.proposal.sigma => Ok(found),
             // What norms prove is above the samples.
@@ -173,35 +179,67 @@ fn trade_off(data: &Data<'_>) -> TradeOff {
     if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
 }
 
-/// A gain with what a corner has to take from it, and what has it.
-type Found = (f64, (Along, Chosen));
+/// What was found by a matrix inequality.
+struct FoundByMatrix {
+    along: Along,
+    chosen: Chosen,
+    path: Path,
+}
+
+impl FoundByMatrix {
+    /// The gain with what a corner has to take from it.
+    fn cost(&self) -> f64 {
+        let corner = if self.path == Path::Straight { 1.0 } else { 1.0 + WORTH_A_CORNER };
+        self.chosen.proposal.sigma * corner
+    }
+
+    /// The data of it, proved, and what norms and an aligned start would give beside.
+    fn proved(&self, sampling: &Sampling<'_>, by_norms: f64) -> Result<Reduced, PlantRefusal> {
+        let FoundByMatrix { along, chosen, path } = self;
+        let proved = prove_bounds(along, sampling, chosen)?;
+        let aligned = aligned(sampling, chosen, *path);
+        Ok(Reduced { alternatives: Alternatives { by_norms: Some(by_norms), aligned }, ..proved })
+    }
+}
+
+/// The gain near a choice with an aligned start, in its coordinates.
+fn aligned(sampling: &Sampling<'_>, chosen: &Chosen, path: Path) -> Option<f64> {
+    let set = &sampling.plant.initial_set;
+    if set.is_aligned() {
+        return None;
+    }
+    let plant = Plant { initial_set: set.clone().aligned(), ..sampling.plant.clone() };
+    let model = sampling.model.with_set(sampling.model.set.aligned());
+    let sampling = Sampling::new(&plant, sampling.curve, &model);
+    let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
+    let sigma = with_search(&sampling, Some(path), search).ok().flatten()?;
+    (sigma < chosen.proposal.sigma * (1.0 - WORTH_A_REMARK)).then_some(sigma)
+}
 
 /// The best coordinates near one of these starts, and the gain with them, where stability is proved by a matrix
 /// inequality; none where P moves, where there is nothing to gain, and where the gain is not smaller by what is worth it.
-fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>) -> Option<(Along, Chosen)> {
+fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>) -> Option<FoundByMatrix> {
     let is_small = |start: &Start| start.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE;
     if !p.harmonics.is_empty() || starts.iter().any(is_small) {
         return None;
     }
     let near = |start: &Start, path: Path| {
-        let found = with_constant(p, sampling, Some(path), |search| search.choose_near(start)).ok()?;
-        let corner = if path == Path::Straight { 1.0 } else { 1.0 + WORTH_A_CORNER };
-        Some((found.1.proposal.sigma * corner, found))
+        let (along, chosen) = with_constant(p, sampling, Some(path), |search| search.choose_near(start)).ok()?;
+        Some(FoundByMatrix { along, chosen, path })
     };
-    let smaller = |a: &Found, b: &Found| a.0.total_cmp(&b.0);
-    let found: Vec<Option<Found>> = match starts {
+    let smaller = |a: &FoundByMatrix, b: &FoundByMatrix| a.cost().total_cmp(&b.cost());
+    let found: Vec<Option<FoundByMatrix>> = match starts {
         [start] => Path::ALL.into_par_iter().map(|path| near(start, path)).collect(),
         // The straight one says which of the starts is the best.
         _ => {
             let straight: Vec<_> = starts.par_iter().filter_map(|start| near(start, Path::Straight)).collect();
             let best = straight.into_iter().min_by(smaller);
-            let start =
-                best.as_ref().map(|(_, (_, chosen))| Start::from(chosen)).or_else(|| starts.first().cloned())?;
+            let start = best.as_ref().map(|found| Start::from(&found.chosen)).or_else(|| starts.first().cloned())?;
             let others = Path::CHOICE.into_par_iter().map(|path| near(&start, path));
             others.chain(rayon::iter::once(best)).collect()
         }
     };
-    found.into_iter().flatten().min_by(smaller).map(|(_, found)| found)
+    found.into_iter().flatten().min_by(smaller)
 }
 
 /// A choice for the constant P that is given, rounded, and proved along the orbit.
@@ -447,7 +485,8 @@ impl Proofs<'_> {
         let spec = self.along.specification(self.plant, values)?;
         let data = Data::new(&spec, PRECISION);
         let with_values = FloatModel::new(&data, trade_off(&data));
-        Ok(search_sharp_near(&with_values, proposal).map(|proposal| (with_values, Reduced { spec, proposal })))
+        Ok(search_sharp_near(&with_values, proposal)
+            .map(|proposal| (with_values, Reduced { spec, proposal, alternatives: Alternatives::default() })))
     }
 }
 

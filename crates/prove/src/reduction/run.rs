@@ -2,8 +2,8 @@
 
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
-    Certification, Options, Refusal, SampledCertification, Verdict, certify_at, certify_near, certify_sampled, recheck,
-    recheck_sampled,
+    Alternatives, Certification, Options, Refusal, SampledCertification, Verdict, certify_at, certify_near,
+    certify_sampled, recheck, recheck_sampled,
 };
 use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
@@ -15,7 +15,7 @@ use sigmastar_theory::derivation::sampled::SampledWitness;
 
 /// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
 enum Start {
-    Continuous(Option<SharpProposal>),
+    Continuous(Option<(SharpProposal, Alternatives)>),
     Sampled(Box<Sampling>, Option<SampledProposal>),
     Given(FreeNumbers),
 }
@@ -59,7 +59,7 @@ impl Prepared {
     pub fn new(subject: Subject, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
         match subject.sampling().cloned() {
             None => {
-                let (spec, start) = subject.proved()?;
+                let (spec, start) = subject.proved_with_alternatives()?;
                 Ok(Prepared { spec, start: Start::Continuous(start), gain })
             }
             Some(sampling) => {
@@ -85,11 +85,20 @@ impl Prepared {
     pub fn certify(&self, options: Options) -> Result<Run<'_>, Vec<SpecErrors>> {
         let (spec, gain) = (&self.spec, self.gain.as_ref());
         let run = match &self.start {
-            Start::Continuous(start) => match gain {
-                None => certify_near(spec, options, start.as_ref()),
-                Some(gain) => certify_at(spec, options, start.as_ref(), gain),
+            Start::Continuous(start) => {
+                let proposal = start.as_ref().map(|(proposal, _)| proposal);
+                match gain {
+                    None => certify_near(spec, options, proposal),
+                    Some(gain) => certify_at(spec, options, proposal, gain),
+                }
+                .map(|mut run| {
+                    if let Some((_, Alternatives { by_norms, aligned })) = start {
+                        run.alternatives.by_norms = *by_norms;
+                        run.alternatives.aligned = run.alternatives.aligned.or(*aligned);
+                    }
+                    Run::Continuous(Box::new(run))
+                })
             }
-            .map(|run| Run::Continuous(Box::new(run))),
             Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
                 .map(|run| Run::Sampled(Box::new(run))),
             Start::Given(FreeNumbers::Continuous(witness)) => {

@@ -1,7 +1,7 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
 use super::{reduce, reduce_sampled};
-use crate::certify::with_triple;
+use crate::certify::{Alternatives, with_triple};
 use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
@@ -141,6 +141,14 @@ impl Subject {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn proved(self) -> Result<(Specification, Option<SharpProposal>), Vec<SpecErrors>> {
+        let (spec, start) = self.proved_with_alternatives()?;
+        Ok((spec, start.map(|(proposal, _)| proposal)))
+    }
+
+    /// The same, with what the search of a plant saw beside.
+    pub(super) fn proved_with_alternatives(
+        self,
+    ) -> Result<(Specification, Option<(SharpProposal, Alternatives)>), Vec<SpecErrors>> {
         match self {
             Subject::Specification(spec) => {
                 let proved = with_triple(&spec, None).map_err(|refusal| refusal.errors(&spec))?;
@@ -148,7 +156,7 @@ impl Subject {
             }
             Subject::Plant(plant) => {
                 let reduced = reduce(&plant).map_err(|refusal| refusal.errors(&plant))?;
-                Ok((reduced.spec, Some(reduced.proposal)))
+                Ok((reduced.spec, Some((reduced.proposal, reduced.alternatives))))
             }
         }
     }
