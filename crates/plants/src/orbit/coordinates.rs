@@ -25,7 +25,7 @@ use sigmastar_lang::spec::PeriodicMatrix;
 /// Significant digits of L, tried in turn.
 const DIGITS: [u32; 6] = [3, 4, 5, 7, 10, 14];
 
-/// What rounding L may take from the rate.
+/// By what share rounding L may change the rate, and the product of |f_e| and |q_x|.
 const KEPT: f64 = 0.999;
 
 /// Where no constant P has this share of the Floquet rate, P(t) are looked for as well.
@@ -81,7 +81,8 @@ pub fn propose_coordinates(
     let series = field.own(&orbit.series);
     let along = sample(&mut field, &series, &[vec![0.0; n]], &[0.0], most_matrices(n));
     let scale = balance(&along);
-    let Channel { inputs: f_e, outputs: q_x, slopes } = channel(&mut field, &series, &scale);
+    let balanced_channel = channel(&mut field, &series, &scale);
+    let Channel { inputs: f_e, outputs: q_x, slopes } = &balanced_channel;
     let balanced = |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] * (scale[j] / scale[i]));
     let mut matrices = along;
     if states > 0.0 || error > 0.0 {
@@ -100,13 +101,13 @@ pub fn propose_coordinates(
     let matrices = distinct(matrices.iter().map(balanced).collect());
     let mean = |vectors: &[DVector<f64>]| vectors.iter().fold(DVector::zeros(n), |sum, vector| sum + vector);
     let middle = matrices.iter().fold(DMatrix::zeros(n, n), |sum, matrix| sum + matrix) / matrices.len() as f64;
-    let basis = modes(&middle, &mean(&f_e), &mean(&q_x)).unwrap_or_else(|| DMatrix::identity(n, n));
+    let basis = modes(&middle, &mean(f_e), &mean(q_x)).unwrap_or_else(|| DMatrix::identity(n, n));
     let inverse = basis.clone().try_inverse().ok_or(OrbitFailure::NotFinite)?;
     let own: Vec<DMatrix<f64>> = matrices.iter().map(|matrix| &inverse * matrix * &basis).collect();
     let channel = Channel {
         inputs: f_e.iter().map(|vector| &inverse * vector).collect(),
         outputs: q_x.iter().map(|vector| basis.transpose() * vector).collect(),
-        slopes,
+        slopes: slopes.clone(),
     };
     let limit = orbit.floquet.first().map_or(f64::NAN, |first| -first[0]);
     let units: Vec<f64> = scale.iter().zip(field.units()).map(|(scale, unit)| scale * unit).collect();
@@ -124,7 +125,8 @@ pub fn propose_coordinates(
     let shapes = round.into_iter().map(|p| (p, &identity)).chain(in_modes.map(|p| (p, &basis)));
     for (p, axes) in shapes {
         let root = p.try_inverse().and_then(|inverse| inverse.cholesky());
-        if let Some(candidate) = root.and_then(|root| constant(&matrices, &(axes * root.l()), &units))
+        if let Some(candidate) =
+            root.and_then(|root| constant(&matrices, &balanced_channel, &(axes * root.l()), &units))
             && !found.iter().any(|other| other.l == candidate.l)
         {
             found.push(candidate);
@@ -234,26 +236,31 @@ fn doubles(l: &[Vec<Rational>], scale: &[f64]) -> Option<[DMatrix<f64>; 2]> {
     Some([own, inverse])
 }
 
-/// The coordinates of a constant P, from those before they are rounded, in the units of the matrices.
-fn constant(matrices: &[DMatrix<f64>], own: &DMatrix<f64>, scale: &[f64]) -> Option<Coordinates> {
-    let rate_in = |own: &DMatrix<f64>, inverse: &DMatrix<f64>| {
-        let rates: Option<Vec<f64>> = matrices.iter().map(|matrix| decay(&(inverse * matrix * own))).collect();
-        rates.map(|rates| rates.into_iter().fold(f64::INFINITY, f64::min))
-    };
-    let exact = rate_in(own, &own.clone().try_inverse()?)?;
+/// The coordinates of a constant P, from those before they are rounded, in the units of the matrices and of the channel.
+fn constant(matrices: &[DMatrix<f64>], channel: &Channel, own: &DMatrix<f64>, scale: &[f64]) -> Option<Coordinates> {
+    let inverse = own.clone().try_inverse()?;
+    let [exact, narrow] = [rate_in(matrices, own, &inverse)?, channel.product_in(own, &inverse)];
     let mut last = None;
     for digits in DIGITS {
         let Some(l) = coordinates_of(own, scale, digits) else { continue };
         let Some([rounded, inverse]) = doubles(&l, scale) else { continue };
-        let rate = rate_in(&rounded, &inverse)?;
+        let rate = rate_in(matrices, &rounded, &inverse)?;
         if rate > 0.0 {
             last = Some(Coordinates { p: identity(l.len()), l, rate });
         }
-        if rate >= KEPT * exact {
+        // A rate that is larger by chance would not be in other units.
+        let is_kept = |value: f64, of: f64| value >= KEPT * of && KEPT * value <= of;
+        if is_kept(rate, exact) && is_kept(channel.product_in(&rounded, &inverse), narrow) {
             break;
         }
     }
     last
+}
+
+/// The rate in coordinates L.
+fn rate_in(matrices: &[DMatrix<f64>], l: &DMatrix<f64>, inverse: &DMatrix<f64>) -> Option<f64> {
+    let rates: Option<Vec<f64>> = matrices.iter().map(|matrix| decay(&(inverse * matrix * l))).collect();
+    rates.map(|rates| rates.into_iter().fold(f64::INFINITY, f64::min))
 }
 
 fn identity(order: usize) -> PeriodicMatrix {

@@ -7,7 +7,7 @@ use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::{margin, propose};
 
 /// Shares of the largest rate that the states keep: the existence of the periodic solution needs more of it than stability.
-const SHARES: [f64; 3] = [0.02, 0.4, 0.75];
+const SHARES: [f64; 5] = [0.02, 0.3, 0.45, 0.6, 0.75];
 
 /// What keeps P open: its least eigenvalue, and the weight of its trace.
 const LEAST: f64 = 1e-6;

@@ -82,6 +82,15 @@ pub(super) struct Channel {
     pub(super) slopes: Vec<f64>,
 }
 
+impl Channel {
+    /// The largest `|f_e|` times the largest `|q_x|` in coordinates L.
+    pub(super) fn product_in(&self, l: &DMatrix<f64>, inverse: &DMatrix<f64>) -> f64 {
+        let input = self.inputs.iter().map(|vector| (inverse * vector).norm()).fold(0.0, f64::max);
+        let output = self.outputs.iter().map(|vector| (l.transpose() * vector).norm()).fold(0.0, f64::max);
+        input * output
+    }
+}
+
 /// The P of a rate with the least product of `|f_e|` and `|q_x|` in its norm: minimise the largest `f_e^T P f_e` subject to
 /// `q_x^T q_x <= P` and `-(P J + J^T P) - 2 alpha P >= 0` for every J. For a linear plant it is what the gain grows with.
 fn narrowest(matrices: &[DMatrix<f64>], channel: &Channel, size: f64, alpha: f64) -> Option<DMatrix<f64>> {

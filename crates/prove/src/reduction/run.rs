@@ -1,11 +1,12 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
+use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
     Alternatives, Certification, Options, Refusal, SampledCertification, Verdict, certify_at, certify_near,
     certify_sampled, recheck, recheck_sampled,
 };
-use crate::search::{SampledProposal, SharpProposal};
+use crate::search::SampledProposal;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::{Sampling, SpecErrors, Specification};
@@ -15,7 +16,7 @@ use sigmastar_theory::derivation::sampled::SampledWitness;
 
 /// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
 enum Start {
-    Continuous(Option<(SharpProposal, Alternatives)>),
+    Continuous(Option<Sought>),
     Sampled(Box<Sampling>, Option<SampledProposal>),
     Given(FreeNumbers),
 }

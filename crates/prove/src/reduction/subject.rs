@@ -7,6 +7,9 @@ use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{Constant, Document, ErrorKind, InternalModel, Sampling, SpecErrors, Specification, Value};
 
+/// Where the search for a gain may start, and what it saw beside.
+pub(super) type Sought = (SharpProposal, Alternatives);
+
 /// The document with another sampling period, which is called `name` in the label of the errors; itself where it has no internal
 /// model, for what is wrong with it is told as ever.
 ///
@@ -146,9 +149,7 @@ impl Subject {
     }
 
     /// The same, with what the search of a plant saw beside.
-    pub(super) fn proved_with_alternatives(
-        self,
-    ) -> Result<(Specification, Option<(SharpProposal, Alternatives)>), Vec<SpecErrors>> {
+    pub(super) fn proved_with_alternatives(self) -> Result<(Specification, Option<Sought>), Vec<SpecErrors>> {
         match self {
             Subject::Specification(spec) => {
                 let proved = with_triple(&spec, None).map_err(|refusal| refusal.errors(&spec))?;
