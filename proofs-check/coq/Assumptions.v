@@ -1,6 +1,6 @@
 (** What every theorem of README.md rests on. *)
 
-From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics.
+From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response MatrixInequality.
 
 Print Assumptions power_weights.
 Print Assumptions T_is_phase_derivative.
@@ -71,3 +71,11 @@ Print Assumptions bt_bound.
 Print Assumptions tau_bound.
 Print Assumptions sup_e.
 Print Assumptions sup_e_derivative.
+Print Assumptions response_regular.
+Print Assumptions response.
+Print Assumptions response_y.
+Print Assumptions F_mix.
+Print Assumptions F_hull.
+Print Assumptions F_between_sigma.
+Print Assumptions F_between_b.
+Print Assumptions U_m_derive.
