@@ -290,10 +290,9 @@ impl CoordinateSearch<'_> {
         let proposal = &known.proposal;
         let too_large = || Obstacle::from(Failing::Gain { given: proposal.sigma, smallest: None });
         let mut at = known.clone();
-        for (turn, varied) in [Varied::Shape, Varied::Coordinates, Varied::Coordinates].into_iter().enumerate() {
-            if turn == TURNS && at.l.nrows() > MOST_STATES {
-                break;
-            }
+        // Where L is not varied, the third descent would repeat the second.
+        let descents = if at.l.nrows() > MOST_STATES { TURNS } else { TURNS + 1 };
+        for varied in [Varied::Shape, Varied::Coordinates, Varied::Coordinates].into_iter().take(descents) {
             at = self.descend(&at, varied).ok_or_else(too_large)?;
             let hopeless = at.proposal.binding == Binding::Existence && at.proposal.sigma > NEARLY * proposal.sigma;
             if hopeless || at.proposal.sigma > FAR * proposal.sigma {

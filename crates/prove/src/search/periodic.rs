@@ -59,7 +59,7 @@ pub struct PeriodicSet {
 /// Steps of the iteration at most.
 const STEPS: usize = 1000;
 
-/// Steps down from beyond the limit at most: what is left of the way is a share of that.
+/// Steps down from beyond the limit at most. Each of them leaves a point that G maps below itself, so that none of them is needed.
 const STEPS_DOWN: usize = 24;
 
 /// The largest relative step at which it has converged.
