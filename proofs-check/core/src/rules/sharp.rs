@@ -5,6 +5,7 @@
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
 use super::common::{Evaluated, Free};
+use super::existence::Existence;
 use super::gains::kappas;
 use super::inequality::Inequality;
 use super::mean_squares::{self, Solution};
@@ -48,6 +49,7 @@ impl Witness {
             r: free.r.clone(),
             kap: fields.required("kap")?.rational()?,
             refined: fields.optional("refined").map(|field| mean_squares::read(&field)).transpose()?,
+            inequality: fields.optional("existence_inequality").map(|field| Existence::read(&field)).transpose()?,
         };
         let transfer = Proof::read(&fields.required("transfer")?)?;
         let inequality = fields.optional("matrix_inequality");
@@ -69,6 +71,7 @@ impl Witness {
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
+    w.existence.inequality.iter().try_for_each(|inequality| inequality.demand_plant(d))?;
     let free = &w.free;
     let [sigma, w_x, h, x_p, e_p, k0, k1] =
         [&w.sigma, &free.w_x, &free.h, &free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
