@@ -88,7 +88,18 @@ impl Existence {
         Answer { rms_x: by(c_x), rms_e: by(excess), rms_y: &force / &c_y }
     }
 
-    /// E1 to E3, S1, and what stands in the place of S1b to S2c; `means` and `sup_e` are what is known of a solution at r.
+    /// E1 and E2: X_p and E_p lie where the inequality is proved. Differences of rationals are exact, so equality is decided.
+    pub fn covers(&self, d: &Data<'_>, [x_p, e_p]: [&Rational; 2]) -> [Condition; 2] {
+        let within = |id, what, inner: &Rational, outer: &Rational| {
+            Condition::at_most(id, what, d.number(&Rational::from(inner - outer)), d.int(0))
+        };
+        [
+            within("E1", "X_p - X of the existence inequality <= 0", x_p, &self.x),
+            within("E2", "E_p - E of the existence inequality <= 0", e_p, &self.e),
+        ]
+    }
+
+    /// E3, S1, and what stands in the place of S1b to S2c; `means` and `sup_e` are what is known of a solution at r.
     pub fn conditions(
         &self,
         bounds: &Bounds<'_>,
@@ -97,17 +108,11 @@ impl Existence {
         sigma: &Rational,
         with_kap: bool,
     ) -> Vec<Condition> {
-        let (number, [x_p, e_p]) = (|value| bounds.d.number(value), [&bounds.x_p, &bounds.e_p]);
+        let [x_p, e_p] = [&bounds.x_p, &bounds.e_p];
         let ([r_x, r_e, r_d], [rms_x, rms_e, rms_e_t]) = (r, means);
+        let [threshold, gain] = [&self.threshold, sigma].map(|value| bounds.d.number(value));
         let mut conditions = vec![
-            Condition::at_most("E1", "X_p <= X of the existence inequality", x_p.clone(), number(&self.x)),
-            Condition::at_most("E2", "E_p <= E of the existence inequality", e_p.clone(), number(&self.e)),
-            Condition::less(
-                "E3",
-                "threshold of the existence inequality < sigma",
-                number(&self.threshold),
-                number(sigma),
-            ),
+            Condition::less("E3", "threshold of the existence inequality < sigma", threshold, gain),
             bounds.contracts(),
         ];
         let [damped, damped_t] = if with_kap { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };

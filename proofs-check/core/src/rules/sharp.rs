@@ -71,15 +71,17 @@ impl Witness {
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
-    w.existence.inequality.iter().try_for_each(|inequality| inequality.demand_plant(d))?;
-    let free = &w.free;
+    let (free, inequality) = (&w.free, w.existence.inequality.iter());
+    inequality.clone().try_for_each(|inequality| inequality.demand_plant(d))?;
+    let covers = inequality.flat_map(|inequality| inequality.covers(d, [&free.x_p, &free.e_p]));
     let [sigma, w_x, h, x_p, e_p, k0, k1] =
         [&w.sigma, &free.w_x, &free.h, &free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
     let kappa = kappas(d, &k0, &k1);
     let solution = mean_squares::evaluate(d, &w.existence, &w.sigma, [&x_p, &e_p], [&k0, &k1], &kappa);
     let transfer = transfer::check(d, &free.k0, &free.k1, &w.transfer, &format!("{}/transfer", free.pointer))?;
     let sizes = Sizes { x: solution.x.clone(), e: solution.e.clone(), zeta: solution.z_squared.sqrt() };
-    let (error_box, mut evaluated) = free.evaluate(d, sizes, transfer, solution.conditions.iter().cloned());
+    let existence = covers.chain(solution.conditions.iter().cloned());
+    let (error_box, mut evaluated) = free.evaluate(d, sizes, transfer, existence);
     let threshold = match &w.inequality {
         Some(inequality) if d.spec.plant.is_none() => {
             return bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant");
