@@ -537,16 +537,15 @@ fn is_true(certificate: &Value) -> bool {
         let j = |i: usize, m: usize| sum(&|b| moved(i, b) * l(b, m));
         let g = |i: usize| inverse[i][0] * 1000.0;
         let r = |m: usize| 500.0 * l(0, m);
-        let mut a = [[0.0; 4]; 4];
-        for i in 0..2 {
-            for m in 0..2 {
-                a[i][m] = -sum(&|b| p(i, b) * j(b, m) + j(b, i) * p(b, m));
-            }
-            a[i][i] -= c_x;
-            a[i][2] = -sum(&|b| p(i, b) * g(b));
-            a[i][3] = -k / 2.0 * r(i);
-        }
-        (a[2][2], a[2][3], a[3][3]) = (2.0 * of("sigma"), -1.0 - k / 2.0 * 800.0, k - c_y);
+        let entry = |i: usize, m: usize| match (i, m) {
+            (0..2, 0..2) => -sum(&|b| p(i, b) * j(b, m) + j(b, i) * p(b, m)) - if i == m { c_x } else { 0.0 },
+            (0..2, 2) => -sum(&|b| p(i, b) * g(b)),
+            (0..2, 3) => -k / 2.0 * r(i),
+            (2, 2) => 2.0 * of("sigma"),
+            (2, 3) => -1.0 - k / 2.0 * 800.0,
+            _ => k - c_y,
+        };
+        let mut a: Vec<Vec<f64>> = (0..4).map(|i| (0..4).map(|m| entry(i, m)).collect()).collect();
         // Elimination; the rows are the columns.
         (0..4).all(|i| {
             let pivot = a[i][i];

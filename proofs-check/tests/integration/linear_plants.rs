@@ -219,7 +219,7 @@ fn no_exact_solution_is_larger_than_what_is_proved() {
         let sign = if trial % 3 == 0 { 1.0 } else { -1.0 };
         let (a, b, k_x) = (random(0.2, 5.0), random(0.1, 5.0), random(0.01, 1.0));
         // A coupling that is skew, which norms do not see.
-        let k_x = if trial % 2 == 1 { -20.0 * k_x } else { k_x };
+        let k_x = if trial % 2 == 1 { -60.0 * k_x } else { k_x };
         let k_e = sign * random(0.05, 5.0);
         let one = trial % 4 == 1;
         let c = (0..4).map(|k| if one && k != 1 { 0.0 } else { random(0.01, 3.0) }).collect();
