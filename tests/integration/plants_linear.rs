@@ -7,9 +7,9 @@
 use crate::support::{cases, json, program};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+use serde_json::{Value, json as value};
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
-use serde_json::{Value, json as value};
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -121,7 +121,13 @@ impl Linear {
         let term = |variable: usize, i: usize, j: usize| {
             let (i, j) = (i.min(j), i.max(j));
             match (i < n, j < n) {
-                _ if variable == sigma => if (i, j) == (n, n) { 2.0 } else { 0.0 },
+                _ if variable == sigma => {
+                    if (i, j) == (n, n) {
+                        2.0
+                    } else {
+                        0.0
+                    }
+                }
                 _ if variable == k => match (i < n, i == n, j == n + 1) {
                     (true, _, true) => -0.5 * self.c[i].value() / unit,
                     (_, true, true) => -0.5 * self.d.value() / unit,
@@ -131,7 +137,8 @@ impl Linear {
                 (first, second) => {
                     let (row, column) = places[variable];
                     // Entry (i, m) of the matrix with ones there.
-                    let one = |i: usize, m: usize| f64::from(u8::from((i, m) == (row, column) || (m, i) == (row, column)));
+                    let one =
+                        |i: usize, m: usize| f64::from(u8::from((i, m) == (row, column) || (m, i) == (row, column)));
                     let times = |i: usize, j: usize| (0..n).map(|m| one(i, m) * self.a[m][j].value()).sum::<f64>();
                     match (first, second) {
                         (true, true) => -(times(i, j) + times(j, i)) / unit,

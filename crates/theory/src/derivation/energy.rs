@@ -4,6 +4,7 @@
 use super::condition::Condition;
 use super::harmonics::AtOrigin;
 use crate::data::Data;
+use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 use sigmastar_lang::spec::ExistenceInequality;
@@ -62,18 +63,20 @@ pub fn proved(data: &Data<'_>, origin: &AtOrigin<Enclosure>, sigma: &Enclosure) 
 }
 
 /// What is left to decide of it: that (X_p, E_p) lies where it holds, and that sigma is larger than its threshold.
+///
+/// Differences of rationals are exact, so that equality is decided.
 #[must_use]
-pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Enclosure; 2], sigma: &Enclosure) -> Vec<Condition> {
-    let Some(known) = data.spec.bounds.proved_values().existence() else { return Vec::new() };
-    let number = |number| data.rational(number);
+pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Enclosure) -> Vec<Condition> {
+    let Some(ExistenceInequality { x, e, value, .. }) = data.spec.bounds.proved_values().existence() else {
+        return Vec::new();
+    };
+    let within = |id, what: &str, inner: &Rational, outer: &Rational| {
+        Condition::at_most(id, what, data.rational(&Rational::from(inner - outer)), data.zero())
+    };
+    let threshold = data.rational(value);
     vec![
-        Condition::at_most("E1", "X_p <= X of the matrix inequality of existence", x_p.clone(), number(&known.x)),
-        Condition::at_most("E2", "E_p <= E of the matrix inequality of existence", e_p.clone(), number(&known.e)),
-        Condition::less(
-            "E3",
-            "threshold of the matrix inequality of existence < sigma",
-            number(&known.value),
-            sigma.clone(),
-        ),
+        within("E1", "X_p - X of the existence inequality <= 0", x_p, x),
+        within("E2", "E_p - E of the existence inequality <= 0", e_p, e),
+        Condition::less("E3", "threshold of the existence inequality < sigma", threshold, sigma.clone()),
     ]
 }

@@ -138,7 +138,7 @@ impl SharpEvaluation {
             step.lhs,
             step.rhs,
         ));
-        conditions.extend(energy::conditions(data, [&bounds.x_p, &bounds.e_p], &sigma));
+        conditions.extend(energy::conditions(data, [&witness.x_p, &witness.e_p], &sigma));
         conditions.extend(match gains.has_energy() {
             true => strict_existence_conditions(data, witness, &bounds, &origin, &gains),
             false => existence_conditions(data, witness, &bounds, &origin, &gains),
@@ -305,7 +305,7 @@ fn strict_existence_conditions(
     let image = at_the_solution(&of_changes, origin, gains, kap.as_ref(), &squares);
     let response = gains.response(origin, &Forcing::new(&of_changes, origin, &squares));
     let sup = response.sup.min(&sup_by_mean_squares(data, &squares));
-    let damped = if kap.is_some() { ", g_k Rt" } else { "" };
+    let [damped, damped_rate] = if kap.is_some() { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
     let mut conditions = vec![
         Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
         Condition::less(
@@ -318,11 +318,18 @@ fn strict_existence_conditions(
         Condition::less("S2", "min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y} < E_p", sup, bounds.e_p.clone()),
         Condition::less(
             "S2b",
-            format!("min{{R_q/sg, R_1/(Om sg), q_0 form, r_y/sg, k_p Q_m/(2 sqrt(c_e c_y)){damped}}} < r_e"),
+            format!(
+                "min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt(2 (sigma - threshold) c_y))}} < r_e"
+            ),
             image.e,
             squares.e.clone(),
         ),
-        Condition::less("S2c", "least bound of rms(e') < r_d", image.e_rate, squares.e_rate.clone()),
+        Condition::less(
+            "S2c",
+            format!("min{{R_q, R_1/sg, {damped_rate}r_y}} < r_d"),
+            image.e_rate,
+            squares.e_rate.clone(),
+        ),
     ];
     conditions.extend(refined_conditions(data, witness, bounds, origin, gains));
     conditions
