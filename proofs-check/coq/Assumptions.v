@@ -1,6 +1,6 @@
 (** What every theorem of README.md rests on. *)
 
-From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response MatrixInequality.
+From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response Answers MatrixInequality.
 
 Print Assumptions power_weights.
 Print Assumptions T_is_phase_derivative.
@@ -74,6 +74,16 @@ Print Assumptions sup_e_derivative.
 Print Assumptions response_regular.
 Print Assumptions response.
 Print Assumptions response_y.
+Print Assumptions answer_regular.
+Print Assumptions answer_pole.
+Print Assumptions answer.
+Print Assumptions e_answer.
+Print Assumptions om_e_answer.
+Print Assumptions y_answer.
+Print Assumptions e_answer_kap.
+Print Assumptions u_answer.
+Print Assumptions sup_e_answer.
+Print Assumptions sup_e_answer_derivative.
 Print Assumptions F_mix.
 Print Assumptions F_hull.
 Print Assumptions F_between_sigma.
