@@ -92,4 +92,5 @@ Print Assumptions SigmaStar.MatrixInequality.F_mix.
 Print Assumptions SigmaStar.MatrixInequality.F_hull.
 Print Assumptions SigmaStar.MatrixInequality.F_between_sigma.
 Print Assumptions SigmaStar.MatrixInequality.F_between_b.
+Print Assumptions SigmaStar.MatrixInequality.F_margin.
 Print Assumptions SigmaStar.MatrixInequality.U_m_derive.
