@@ -14,8 +14,10 @@ use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::ExistenceInequality;
 
-/// The shares that c_y at samples loses until it is proved, and the boxes that each attempt may take.
-const ATTEMPTS: [(f64, usize); 5] = [(0.002, 1500), (0.01, 3000), (0.04, 6000), (0.15, 12_000), (0.5, 20_000)];
+/// The shares that c_y at samples loses until it is proved, and the boxes that each attempt may take; the first is for derivatives that
+/// do not vary.
+const ATTEMPTS: [(f64, usize); 6] =
+    [(1e-5, 8), (0.002, 1500), (0.01, 3000), (0.04, 6000), (0.15, 12_000), (0.5, 20_000)];
 
 /// Significant digits of c_y.
 const DIGITS: u32 = 6;

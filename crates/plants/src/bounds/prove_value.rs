@@ -7,13 +7,14 @@ use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::Bound;
 
-/// What a sampled supremum is enlarged by, until a bound is proved, and the boxes that each attempt may take.
-const ATTEMPTS: [(f64, usize); 6] =
-    [(0.001, 1500), (0.003, 3000), (0.01, 4000), (0.03, 6000), (0.1, 6000), (0.3, 20_000)];
+/// What a sampled supremum is enlarged by, until a bound is proved, and the boxes that each attempt may take. The first is for what does
+/// not vary.
+const ATTEMPTS: [(f64, usize); 7] =
+    [(1e-5, 8), (0.001, 1500), (0.003, 3000), (0.01, 4000), (0.03, 6000), (0.1, 6000), (0.3, 20_000)];
 
 /// The same from three states on: another program, which may need some ten times as many boxes, is to decide the value again.
-const MODEST_ATTEMPTS: [(f64, usize); 6] =
-    [(0.001, 100), (0.003, 200), (0.01, 400), (0.03, 800), (0.1, 2000), (0.3, 20_000)];
+const MODEST_ATTEMPTS: [(f64, usize); 7] =
+    [(1e-5, 8), (0.001, 100), (0.003, 200), (0.01, 400), (0.03, 800), (0.1, 2000), (0.3, 20_000)];
 
 /// An attempt with this slack that is refuted sends the search to where it was: the samples have missed something.
 const MISSED: f64 = 0.01;
@@ -35,7 +36,7 @@ const LAST_EFFORT: usize = 40_000;
 const DIGITS: u32 = 6;
 
 /// So many of the attempts take the value alone for its size first, where what follows would take much of it.
-const OWN: usize = 3;
+const OWN: usize = 4;
 
 /// What an attempt adds at least otherwise, relative to the spread of the local rates over the region: a rate may be near 0.
 const PART_OF_SPREAD: f64 = 0.1;
@@ -52,7 +53,7 @@ pub struct ProvedValue {
 }
 
 impl Engine {
-    /// A bound for `G(X,E)` that is proved and little larger than the supremum (little less for a rate): by 0.1 %, 0.3 %, 1 %,
+    /// A bound for `G(X,E)` that is proved and little larger than the supremum (little less for a rate): by 0.001 %, 0.1 %, 0.3 %, 1 %,
     /// 3 %, 10 % or 30 %. The supremum is sampled; where an attempt is refuted, what is met on boxes corrects it. Where all of
     /// these fail, a norm is bounded by the least value above that is proved, to 5 %. `None` if none is. `samples` must be of the
     /// same plant and region.

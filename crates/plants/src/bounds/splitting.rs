@@ -14,8 +14,10 @@ use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
 use std::sync::Arc;
 
-/// What the least sigma at samples is enlarged by, until it is proved, and the boxes that each attempt may take.
-const ATTEMPTS: [(f64, usize); 5] = [(0.001, 1500), (0.003, 3000), (0.01, 6000), (0.03, 12_000), (0.1, 20_000)];
+/// What the least sigma at samples is enlarged by, until it is proved, and the boxes that each attempt may take; the first is for
+/// derivatives that do not vary.
+const ATTEMPTS: [(f64, usize); 6] =
+    [(1e-5, 8), (0.001, 1500), (0.003, 3000), (0.01, 6000), (0.03, 12_000), (0.1, 20_000)];
 
 /// Significant digits of a threshold, and of S in units of its diagonal.
 const DIGITS: u32 = 6;
@@ -31,8 +33,8 @@ const TOLERANCE: f64 = 1e-3;
 const ROOM: f64 = 2e-3;
 
 impl Engine {
-    /// The inequality with the smallest threshold that is proved and little above that of the samples: by 0.1 %, 0.3 %, 1 %, 3 % or
-    /// 10 %; `None` if none is. `samples` must be of the same plant and region, with P = 1; `value` is not used, and of a
+    /// The inequality with the smallest threshold that is proved and little above that of the samples: by 0.001 %, 0.1 %, 0.3 %, 1 %,
+    /// 3 % or 10 %; `None` if none is. `samples` must be of the same plant and region, with P = 1; `value` is not used, and of a
     /// splitting nothing but its arguments: S is sought.
     #[must_use]
     pub fn prove_inequality(

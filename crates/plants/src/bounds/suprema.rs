@@ -207,7 +207,8 @@ impl FloatSuprema {
                 let (mut e, mut largest) = (grid[best], value(&best));
                 let mut step = 0.5 * (grid[(best + 1).min(grid.len() - 1)] - grid[best.saturating_sub(1)]);
                 for _ in 0..STEPS_BETWEEN {
-                    let next = [e - step, e + step].map(|e| (sign * slope(e), e));
+                    let next = [e - step, e + step].map(|e| e.clamp(grid[0], -grid[0]));
+                    let next = next.map(|e| (sign * slope(e), e));
                     let (other, place) = if next[0].0 > next[1].0 { next[0] } else { next[1] };
                     if other > largest {
                         (largest, e) = (other, place);
@@ -350,6 +351,12 @@ impl FloatSuprema {
             evaluator.evaluate(&x, self.error(place, e), &mut outputs);
             see(place, &outputs, moment, &matrices);
         }
+    }
+
+    /// Whether the derivatives depend on the states or on the error.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        self.by_error || self.ball.len() > 1
     }
 
     /// The number of states.

@@ -12,7 +12,8 @@ use crate::search::{
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
-use sigmastar_plants::bounds::{Asked, Corners, EnergyAt, EnergyWeights, FloatWeights, Focus, MatrixArguments};
+use sigmastar_lang::spec::Bound;
+use sigmastar_plants::bounds::{Asked, Corners, EnergyAt, EnergyWeights, FloatWeights, Focus, MatrixArguments, TABLE};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::Arc;
@@ -111,7 +112,7 @@ const WORTH_AN_ENERGY: f64 = 0.05;
 
 /// How many descents there are at most, and by what share one has to lower the gain for another one.
 const MOST_TURNS: usize = 10;
-const WORTH_A_TURN: f64 = 0.01;
+const WORTH_A_TURN: f64 = 0.02;
 
 /// The first steps of ln (rho - 1) and of ln eta.
 const SHAPE_STEP: f64 = 0.4;
@@ -121,6 +122,10 @@ const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
 
 /// A descent over the shape as well.
 const TOGETHER: Descent = Descent { restarts: 1, iterations: 120, tolerance: 1e-3 };
+
+/// One over the weights on the orbit, and the share by which a candidate has to be better there to be worth a look.
+const ON_ORBIT: Descent = Descent { restarts: 1, iterations: 60, tolerance: 1e-3 };
+const WORTH_ANOTHER_START: f64 = 0.05;
 
 /// A gain by a matrix inequality is at most this share of what is known, to be worth its proof.
 const WORTH_A_MATRIX: f64 = 0.99;
@@ -181,20 +186,15 @@ pub struct Start {
     pub proposal: SharpProposal,
 }
 
-/// What candidates promise at few samples: from where descents start, which are all of them where L is not varied, and the best.
+/// What candidates promise at few samples: all of them, from where descents by norms start, which are all where L is not varied, and the
+/// best.
 pub struct Rough {
+    /// All.
+    pub all: Vec<Start>,
     /// The starts.
     pub starts: Vec<Start>,
     /// The best one.
     pub best: Start,
-}
-
-impl Rough {
-    /// From where a search starts that finds its own coordinates: the best, or all where L is not varied.
-    #[must_use]
-    pub fn for_shapes(&self) -> &[Start] {
-        if self.best.l.nrows() <= MOST_STATES { std::slice::from_ref(&self.best) } else { &self.starts }
-    }
 }
 
 impl From<&Chosen> for Start {
@@ -285,11 +285,12 @@ impl CoordinateSearch<'_> {
         let found: Vec<Result<SharpProposal, Obstacle>> = candidates.par_iter().map(near).collect();
         let mut closest = Closest::default();
         let mut best: Option<(SharpProposal, usize)> = None;
-        let mut starts = Vec::new();
+        let (mut starts, mut all) = (Vec::new(), Vec::new());
         for (at, found) in found.into_iter().enumerate() {
             match found {
                 Ok(found) => {
                     starts.push(at);
+                    all.push(Start { l: candidates[at].clone(), second: None, energy: None, proposal: found });
                     if best.as_ref().is_none_or(|(known, _)| found.sigma < known.sigma) {
                         best = Some((found, at));
                     }
@@ -305,7 +306,7 @@ impl CoordinateSearch<'_> {
             starts.truncate(DESCENTS);
         }
         let start = |at: &usize| Start { l: candidates[*at].clone(), second: None, energy: None, proposal };
-        Ok(Rough { starts: starts.iter().map(start).collect(), best: start(&at) })
+        Ok(Rough { all, starts: starts.iter().map(start).collect(), best: start(&at) })
     }
 
     /// The best of these starts, each improved by a local search: the smallest gain at many samples.
@@ -313,7 +314,7 @@ impl CoordinateSearch<'_> {
     /// # Errors
     /// The obstacle, where no gain is found.
     pub fn choose(&self, rough: &Rough) -> Result<Chosen, Obstacle> {
-        let Rough { starts, best } = rough;
+        let Rough { starts, best, .. } = rough;
         if !(2..=MOST_STATES).contains(&best.l.nrows()) {
             return self.with(best.shape(), Some(&best.proposal));
         }
@@ -331,6 +332,47 @@ impl CoordinateSearch<'_> {
             None => self.with(best.shape(), Some(&best.proposal))?,
         };
         Ok(self.with_second(single))
+    }
+
+    /// From where a search by a matrix inequality starts: all candidates where L is not varied, else one of two, the best by norms and the
+    /// one whose inequality asks for the least gain on the orbit, whichever does better with its own shape of the error box.
+    #[must_use]
+    pub fn for_matrix(&self, rough: &Rough) -> Vec<Start> {
+        if rough.best.l.nrows() > MOST_STATES {
+            return rough.starts.clone();
+        }
+        let on_orbit: Vec<f64> = rough.all.par_iter().map(|start| self.least_on_orbit(&start.l)).collect();
+        let least = on_orbit.iter().zip(&rough.all).min_by(|(a, _), (b, _)| a.total_cmp(b));
+        let own = self.least_on_orbit(&rough.best.l);
+        let other = least.filter(|(least, _)| **least < own * (1.0 - WORTH_ANOTHER_START)).map(|(_, start)| start);
+        let Some(other) = other else { return vec![rough.best.clone()] };
+        let gain = |start: &Start| {
+            let at = if self.energy_helps(start) { self.with_energy(start, &FIRST_THRESHOLDS) } else { start.clone() };
+            self.descend(&at, Varied::Shape).map_or(f64::INFINITY, |found| found.proposal.sigma)
+        };
+        let (by_norms, by_orbit) = rayon::join(|| gain(&rough.best), || gain(other));
+        let better = by_orbit < by_norms * (1.0 - WORTH_ANOTHER_START);
+        vec![if better { other.clone() } else { rough.best.clone() }]
+    }
+
+    /// The least gain of the matrix inequality for the derivatives on the orbit, with any weights.
+    fn least_on_orbit(&self, l: &DMatrix<f64>) -> f64 {
+        let Estimates { bounds, threshold, .. } = (self.sampler)(alone(l), &Density::Coarse);
+        let values = bounds(0.0, 0.0, Asked::ALL);
+        let of = |bound: Bound| TABLE.iter().position(|kind| *kind == bound).map_or(f64::NAN, |at| values[at]);
+        let [f_e, q_x, q_e] = [Bound::Fe, Bound::Qx, Bound::Qe].map(of);
+        let gain = q_e + f_e * q_x / values[RATE];
+        // So large that the inequality holds without e, or as large as norms have it.
+        let least = 0.25 * q_x * q_x / values[RATE];
+        let balance = if f_e > 0.0 && q_x > 0.0 { least.max(0.5 * q_x / f_e) } else { 1.0 };
+        let at = MatrixArguments { apart: false, states: [0.0; 2], error: [0.0; 2] };
+        let cost = |p: &[f64]| {
+            let k_p = p[0].portable_exp() / gain;
+            let weights = FloatWeights { w_x: p[1].portable_exp() * balance * k_p, k_p, rate: 0.0 };
+            Some(threshold(at, weights)).filter(|value| value.is_finite()).map(Portable::portable_ln)
+        };
+        let best = minimise(cost, &[0.0; 2], &[SHAPE_STEP; 2], ON_ORBIT);
+        best.map_or(f64::INFINITY, |(_, least)| least.portable_exp())
     }
 
     /// The best choice near a known one, of another search for the same plant.
@@ -385,6 +427,15 @@ impl CoordinateSearch<'_> {
             let sizes = |set: &PeriodicSet| [set.x_per, set.e_per, set.z];
             sizes(set).into_iter().zip(sizes(&smaller)).any(|(size, smaller)| smaller < size * (1.0 - WORTH_AN_ENERGY))
         })
+    }
+
+    /// Whether the inequality of existence of a model says anything of the set of a proposal.
+    fn energy_serves(&self, model: &FloatModel, proposal: &SharpProposal) -> bool {
+        let SharpParameters { form, floors, .. } = proposal.parameters;
+        let (origin, sigma) = (AtOrigin::new(model), proposal.sigma * (1.0 + NEAR));
+        let set = PeriodicSet::least(model, &origin, sigma, (form, floors), NEAR);
+        let Some((known, set)) = model.by_energy.as_ref().zip(set.ok()) else { return false };
+        known.bounds([set.x_p, set.e_p], &origin, sigma).is_ok()
     }
 
     /// The least set of a start.
@@ -527,6 +578,10 @@ impl CoordinateSearch<'_> {
         let near = near.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
         let Shape { l, second, energy } = shape;
+        // Where it says nothing of the set, the search has gone on without it.
+        let energy = energy.filter(|_| self.energy_serves(&model, &proposal));
+        let mut model = model;
+        model.by_energy = model.by_energy.filter(|_| energy.is_some());
         Ok(Chosen { l: l.clone(), second: second.cloned(), energy: energy.cloned(), model, proposal })
     }
 }

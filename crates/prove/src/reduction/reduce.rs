@@ -36,9 +36,9 @@ pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 /// lead to no gain near the proposal.
 const FURTHER: [(f64, f64); 6] = [(0.0, 5e-3), (0.0, 1e-2), (5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
 
-/// How often the arguments are taken again half way between the gain of samples and that of proved values, and how far beyond.
-const AGAIN: usize = 2;
-const CLOSE: f64 = 1e-4;
+/// How often the arguments are taken again half way between the gain of samples and that of proved values, and how far beyond, in turn.
+const AGAIN: usize = 3;
+const CLOSE: [f64; 2] = [1e-4, 2e-3];
 
 /// A gain from proved values that is at most so many times the proposal is near it.
 const NEAR: f64 = 1.1;
@@ -85,7 +85,8 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
         if let Ok((p, rough)) = &starts
-            && let Some(found) = best_by_matrix(p, rough.for_shapes(), sampling)
+            && let Ok(starts) = with_search(sampling, Some(Path::Straight), |search| Ok(search.for_matrix(rough)))
+            && let Some(found) = best_by_matrix(p, &starts, sampling)
             && found.chosen.proposal.sigma < FAR_BETTER * rough.best.proposal.sigma
             && let Ok(proved) = found.proved(sampling, rough.best.proposal.sigma)
         {
@@ -229,11 +230,15 @@ fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>)
     };
     let smaller = |a: &FoundByMatrix, b: &FoundByMatrix| a.cost().total_cmp(&b.cost());
     let found: Vec<Option<FoundByMatrix>> = match starts {
+        [start] if !sampling.varies() => vec![near(start, Path::Straight)],
         [start] => Path::ALL.into_par_iter().map(|path| near(start, path)).collect(),
         // The straight one says which of the starts is the best.
         _ => {
             let straight: Vec<_> = starts.par_iter().filter_map(|start| near(start, Path::Straight)).collect();
             let best = straight.into_iter().min_by(smaller);
+            if !sampling.varies() {
+                return best;
+            }
             let start = best.as_ref().map(|found| Start::from(&found.chosen)).or_else(|| starts.first().cloned())?;
             let others = Path::CHOICE.into_par_iter().map(|path| near(&start, path));
             others.chain(rayon::iter::once(best)).collect()
@@ -450,10 +455,12 @@ fn prove_bounds(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Resu
     for _ in 0..AGAIN {
         let Some((values, found)) = &best else { break };
         let between = (proposal.sigma / found.proposal.sigma).sqrt().min(1.0) - 1.0;
-        match proofs.with_values(values, &found.proposal, between, CLOSE) {
-            Ok(Ok(closer)) if smaller(&closer.1, best.as_ref()) => best = Some(closer),
-            _ => break,
-        }
+        let closer = CLOSE.into_iter().find_map(|close| {
+            let closer = proofs.with_values(values, &found.proposal, between, close).ok()?.ok()?;
+            smaller(&closer.1, best.as_ref()).then_some(closer)
+        });
+        let Some(closer) = closer else { break };
+        best = Some(closer);
     }
     closest.or(best.map(|(_, found)| found)).map_err(PlantRefusal::NoGain)
 }

@@ -55,6 +55,11 @@ impl<'a> Sampling<'a> {
         Sampling { plant, curve, model, plain, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
     }
 
+    /// Whether the derivatives depend on the states or on the error: else all paths are one.
+    pub(super) fn varies(&self) -> bool {
+        self.plain.varies()
+    }
+
     /// Ordinary sizes of |y| and |e|.
     pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
         let values = self.source(l, [None; 2], &Density::Rough)(0.0, 0.0, Asked::ALL);

@@ -46,7 +46,7 @@ impl ByEnergy {
     ///
     /// # Errors
     /// That the inequality is not proved there, does not hold there, or needs a larger sigma.
-    pub(super) fn bounds(
+    pub fn bounds(
         &self,
         [x_p, e_p]: [f64; 2],
         origin: &AtOrigin<f64>,
