@@ -1,0 +1,162 @@
+(** How the conditions of a certificate are decided: every quantity of [Sizes.v] is enclosed once, from the enclosures of those before
+    it, and then every condition. All by [interval] in Coq's own integers ([Enclose.v]); what a tactic here does wrong leaves a
+    statement unproved. *)
+
+From Coq Require Import Reals ZArith Lra Lia.
+From SigmaStar Require Import Sums Weights WeightSum Transfer Matched Claim.
+From SigmaStar Require Export Enclose Sizes.
+Local Open Scope R_scope.
+
+(** [b] with [new] in the place of [old], and the choices that this decides made. *)
+Ltac put old new b :=
+  match b with
+  | context [old] =>
+      let p := eval pattern old in b in
+      match p with ?g _ => eval cbv beta iota delta [fst snd] in (g new) end
+  | _ => b
+  end.
+
+(** [b] with those fields of the record [R], which is what [c] stands for, that are functions or choices. *)
+Ltac opened c R b :=
+  let v := eval cbv beta iota delta [rate] in (rate R) in let b := put (rate c) v b in
+  let v := eval cbv beta iota delta [b_q_rms] in (b_q_rms R) in let b := put (b_q_rms c) v b in
+  let v := eval cbv beta iota delta [b_qt_rms] in (b_qt_rms R) in let b := put (b_qt_rms c) v b in
+  let v := eval cbv beta iota delta [b_fx] in (b_fx R) in let b := put (b_fx c) v b in
+  let v := eval cbv beta iota delta [q_e_max] in (q_e_max R) in let b := put (q_e_max c) v b in
+  let v := eval cbv beta iota delta [Z_0] in (Z_0 R) in let b := put (Z_0 c) v b in
+  let v := eval cbv beta iota delta [refined] in (refined R) in let b := put (refined c) v b in
+  let v := eval cbv beta iota delta [damped] in (damped R) in let b := put (damped c) v b in
+  let v := eval cbv beta iota delta [domain] in (domain R) in let b := put (domain c) v b in
+  let v := eval cbv beta iota delta [path_f] in (path_f R) in let b := put (path_f c) v b in
+  let v := eval cbv beta iota delta [path_q] in (path_q R) in let b := put (path_q c) v b in
+  let v := eval cbv beta iota delta [b_f] in (b_f R) in let b := put (b_f c) v b in
+  let v := eval cbv beta iota delta [b_fe] in (b_fe R) in let b := put (b_fe c) v b in
+  let v := eval cbv beta iota delta [b_fxx] in (b_fxx R) in let b := put (b_fxx c) v b in
+  let v := eval cbv beta iota delta [b_fex] in (b_fex R) in let b := put (b_fex c) v b in
+  let v := eval cbv beta iota delta [b_q] in (b_q R) in let b := put (b_q c) v b in
+  let v := eval cbv beta iota delta [b_qe] in (b_qe R) in let b := put (b_qe c) v b in
+  let v := eval cbv beta iota delta [b_qx] in (b_qx R) in let b := put (b_qx c) v b in
+  let v := eval cbv beta iota delta [b_qt] in (b_qt R) in let b := put (b_qt c) v b in
+  let b := eval cbv beta iota delta [kap kap_small fst snd] in b in b.
+
+(** Encloses [v], which is [b] by definition. *)
+Ltac note v b :=
+  let H := fresh "enclosed" in
+  interval_intro b with (i_prec 120) as H;
+  match type of H with
+  | ?lo <= _ <= ?hi => change (lo <= v <= hi) in H
+  | _ => fail 1 "no enclosure of" v
+  end.
+
+(** A number of the record. *)
+Ltac note_number c R field :=
+  let b := eval cbv beta iota delta [period p_low p_up alpha p_low' p_up' alpha' mu w sigma X_0 E_0 X_p E_p r_x r_e r_d D_x D_e w_x h
+                                     k_0 k_1] in (field R) in
+  let v := constr:(field c) in note v b.
+
+(** What is computed of others, by its definition. *)
+Ltac note_computed c R v :=
+  let b := eval red in v in
+  let b := opened c R b in
+  let b := eval cbv beta iota zeta delta [least E_at X_at coth min2 max2 Rpower] in b in
+  note v b.
+
+(** The mean squares [r], which are [means c] or [last c], and what follows of them. *)
+Ltac note_means c R r :=
+  let part p :=
+    let v := constr:(p r) in
+    let b := eval cbv beta iota delta [R_x R_e R_d means last fst snd] in v in
+    let b := opened c R b in note v b in
+  part R_x; part R_e; part R_d;
+  note_computed c R constr:(R_q c r); note_computed c R constr:(R_1 c r);
+  note_computed c R constr:(sup_e c r); note_computed c R constr:(rms_e c r); note_computed c R constr:(rms_d c r).
+
+(** The sum of the weights; for eps = 1/2 in square roots. *)
+Ltac note_weight_sum c R :=
+  let v := eval cbv beta iota delta [n_bar2] in (n_bar2 R) in
+  lazymatch v with
+  | power_total ?n0 ?eps ?L =>
+      let E := fresh "E" in
+      first [assert (E := power_total_roots n0 L : v = _) | assert (E := power_total_powers n0 eps L)];
+      match type of E with
+      | _ = ?b =>
+          let b' := eval cbv beta iota delta [roots powers tail_sum Rpower Z.succ Z.add Z.of_nat Pos.of_succ_nat Pos.succ Pos.add Pos.add_carry]
+            in b in
+          let H := fresh "enclosed" in
+          interval_intro b' with (i_prec 90) as H;
+          match type of H with ?lo <= _ <= ?hi => change (lo <= b <= hi) in H; rewrite <- E in H; change (lo <= n_bar2 c <= hi) in H end
+      end; clear E
+  end.
+
+(** Enclosures of everything. *)
+Ltac note_all c :=
+  let R := eval red in c in
+  note_number c R period; note_number c R p_low; note_number c R p_up; note_number c R alpha;
+  note_number c R p_low'; note_number c R p_up'; note_number c R alpha'; note_number c R mu; note_number c R w;
+  note_number c R sigma; note_number c R X_0; note_number c R E_0;
+  note_number c R X_p; note_number c R E_p; note_number c R r_x; note_number c R r_e; note_number c R r_d;
+  note_number c R D_x; note_number c R D_e; note_number c R w_x; note_number c R h; note_number c R k_0; note_number c R k_1;
+  note_weight_sum c R;
+  note_computed c R constr:(Om c); note_computed c R constr:(sg c); note_computed c R constr:(beta2 c (sigma c));
+  note_computed c R constr:(bt c); note_computed c R constr:(tau c);
+  note_computed c R constr:(c_ex c); note_computed c R constr:(F_p c); note_computed c R constr:(bent c);
+  note_computed c R constr:(a_1 c); note_computed c R constr:(Fe_p c); note_computed c R constr:(Qe_p c);
+  note_computed c R constr:(Qx_p c); note_computed c R constr:(Q_p c); note_computed c R constr:(Qt_p c);
+  note_computed c R constr:(Q_start c); note_computed c R constr:(Fx_p c); note_computed c R constr:(beta2 c (a_1 c));
+  note_computed c R constr:(x_gain c); note_computed c R constr:(from_rms c);
+  note_means c R constr:(means c); note_means c R constr:(last c);
+  let d := eval cbv beta iota delta [damped] in (damped R) in
+  match d with
+  | None => idtac
+  | Some ?k =>
+      note_computed c R constr:(most_p c); note_computed c R constr:(slope c k); note_computed c R constr:(g_k c k);
+      note_computed c R constr:(R_t c k (means c)); note_computed c R constr:(R_t c k (last c))
+  end;
+  note_computed c R constr:(e_per c); note_computed c R constr:(x_per c); note_computed c R constr:(Z_per c);
+  note_computed c R constr:(X_b c); note_computed c R constr:(E_b c);
+  note_computed c R constr:(E_f c); note_computed c R constr:(E_q c); note_computed c R constr:(X_f c); note_computed c R constr:(X_q c);
+  note_computed c R constr:(k_x c); note_computed c R constr:(k_l c); note_computed c R constr:(most c); note_computed c R constr:(k_f c);
+  note_computed c R constr:(gam c); note_computed c R constr:(a_2 c); note_computed c R constr:(ht c); note_computed c R constr:(size c);
+  note_computed c R constr:(d_X c); note_computed c R constr:(d_E c); note_computed c R constr:(d_Z c); note_computed c R constr:(level c).
+
+(** An inequality between two quantities with enclosures: as one of their difference. *)
+Ltac decide_difference :=
+  match goal with |- _ < _ => apply Rminus_lt | |- _ <= _ => apply Rminus_le end; interval with (i_prec 120).
+
+(** One condition. *)
+Ltac decide_one c :=
+  let R := eval red in c in
+  match goal with |- ?g =>
+    let b := eval cbv beta delta [in_domain G_x G_e G_d] in g in
+    let b := opened c R b in
+    let b := eval cbv beta iota zeta delta [min2 max2 R_x R_e R_d fst snd] in b in
+    change b
+  end;
+  repeat match goal with |- _ /\ _ => split | |- True => exact I | |- false = true -> _ => discriminate | |- true = true -> _ => intros _ end;
+  decide_difference.
+
+(** All conditions on existence, or on stability. *)
+Ltac decide_conditions c := constructor; decide_one c.
+
+(** ** The transfer bound *)
+
+Lemma below_S (Q : nat -> Prop) K :
+  (forall k, (1 <= k < K)%nat -> Q k) -> Q K -> forall k, (1 <= k < S K)%nat -> Q k.
+Proof. intros H HK k Hk. destruct (Nat.eq_dec k K) as [->|E]; [exact HK | apply H; lia]. Qed.
+
+(** A comparison with a weight of the power family. *)
+Ltac decide_weight c :=
+  let R := eval red in c in
+  let v := eval cbv beta iota delta [n] in (n R) in
+  change (n c) with v; cbv beta iota delta [power Rpower];
+  rewrite ?INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ];
+  decide_difference.
+
+(** (2.3) with the tail from K on. *)
+Ltac decide_matched c K :=
+  let R := eval red in c in
+  note_number c R mu; note_number c R w; note_number c R k_0; note_number c R k_1;
+  split; [let E := fresh in match goal with |- ?g => let b := eval cbv beta iota delta [w period] in (w R * period R = 2 * PI) in change b end; field
+         |apply (fun H1 H2 => matched_criterion _ _ H1 H2 _ _ K);
+          [|unfold Rdiv; interval with (i_prec 120)|lia|decide_weight c| |decide_weight c]];
+  [|repeat (apply below_S; [|decide_weight c]); intros k Hk; exfalso; lia].
