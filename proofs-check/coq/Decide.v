@@ -58,7 +58,7 @@ Ltac note_number c R field :=
 Ltac note_computed c R v :=
   let b := eval red in v in
   let b := opened c R b in
-  let b := eval cbv beta iota zeta delta [least E_at X_at coth min2 max2 Rpower] in b in
+  let b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 Rpower] in b in
   note v b.
 
 (** The mean squares [r], which are [means c] or [last c], and what follows of them. *)
@@ -152,11 +152,26 @@ Ltac decide_weight c :=
   rewrite ?INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ];
   decide_difference.
 
+(** The power family has W1 to W4, and its sum. *)
+Ltac decide_power c :=
+  let R := eval red in c in
+  let v := eval cbv beta iota delta [n] in (n R) in
+  change (weights v); apply power_weights; [|split]; decide_difference.
+
+Ltac decide_weight_sum c :=
+  let R := eval red in c in
+  let v := eval cbv beta iota delta [n] in (n R) in
+  let b := eval cbv beta iota delta [n_bar2] in (n_bar2 R) in
+  change (forall N, v O + sum1 N v <= b); apply power_sum; apply Rminus_lt; interval with (i_prec 120).
+
 (** (2.3) with the tail from K on. *)
-Ltac decide_matched c K :=
+Ltac decide_matched c W K :=
   let R := eval red in c in
   note_number c R mu; note_number c R w; note_number c R k_0; note_number c R k_1;
-  split; [let E := fresh in match goal with |- ?g => let b := eval cbv beta iota delta [w period] in (w R * period R = 2 * PI) in change b end; field
-         |apply (fun H1 H2 => matched_criterion _ _ H1 H2 _ _ K);
-          [|unfold Rdiv; interval with (i_prec 120)|lia|decide_weight c| |decide_weight c]];
-  [|repeat (apply below_S; [|decide_weight c]); intros k Hk; exfalso; lia].
+  unfold transfer_bound;
+  let m := eval cbv beta iota delta [matched] in (matched R) in change (matched c) with m; cbv beta iota;
+  split;
+  [let b := eval cbv beta iota delta [w period] in (w R * period R = 2 * PI) in change b; field
+  |apply (fun nu => matched_criterion _ _ W nu _ _ K);
+   [unfold Rdiv; interval with (i_prec 120)|lia|decide_weight c| |decide_weight c];
+   repeat (apply below_S; [|decide_weight c]); intros k Hk; exfalso; lia].

@@ -17,6 +17,16 @@ Proof. unfold max2, Rmax. destruct (Rle_dec a b); [rewrite Rabs_left1 | rewrite 
 (** coth(y) for y > 0. *)
 Definition coth (y : R) : R := (1 + exp (- 2 * y)) / (1 - exp (- 2 * y)).
 
+(** tanh, in a form of which enclosures are known. *)
+Definition tanh_exp (x : R) : R := 1 - 2 / (exp (2 * x) + 1).
+
+Lemma tanh_exp_tanh x : tanh_exp x = tanh x.
+Proof.
+  unfold tanh_exp, tanh, sinh, cosh. pose proof (exp_pos x). pose proof (exp_pos (- x)).
+  assert (E : exp (2 * x) = exp x * exp x) by (rewrite <- exp_plus; f_equal; ring).
+  assert (I : exp (- x) = / exp x) by apply exp_Ropp. rewrite E, I. field. nra.
+Qed.
+
 (** Along which corner a difference is split (section 5); the straight path has the bounds of both. *)
 Inductive path := x_first | e_first | straight.
 

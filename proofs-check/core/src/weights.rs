@@ -56,6 +56,12 @@ impl Weights {
         Ok(weights)
     }
 
+    /// n_0 and eps of the power family; `None` for explicit weights.
+    pub fn power_family(&self) -> Option<[&Constant; 2]> {
+        let family = self.coefficient.is_none();
+        self.values.first().filter(|_| family).map(|n_0| [n_0, &self.exponent])
+    }
+
     fn prove(&self, pointer: &str) -> Outcome<()> {
         let whole = |n: usize| Number::rational(Rational::from(n));
         // eps for the power family, p - 1 is eps otherwise.
