@@ -141,8 +141,6 @@ Proof. rewrite <- Rsqr_pow2. apply Rsqr_sqrt, P_nonneg. Qed.
 
 Let D_x_pos : 0 < D_x c. Proof. apply (signs_b _ conditions). Qed.
 Let D_e_pos : 0 < D_e c. Proof. apply (signs_b _ conditions). Qed.
-Let x_per_nonneg : 0 <= x_per c. Proof. apply (nonneg _ conditions). Qed.
-Let e_per_nonneg : 0 <= e_per c. Proof. apply (nonneg _ conditions). Qed.
 
 (** A smaller box is in the domain too. *)
 Lemma in_domain_le a b a' b' : in_domain c a b -> a' <= a -> b' <= b -> in_domain c a' b'.
@@ -242,7 +240,7 @@ Proof.
   assert (Ux : Rabs u_x <= k_x c * xi).
   { assert (B : Rabs u_x <= b_qx c (X_b c) (E_q c) * norm (minus v xp)).
     { apply (within_qx plant (X_b c) (E_q c)); [apply DomX | exact Nv | exact Nxp | exact H1]. }
-    pose proof (proj1 (proj2 (proj2 (nonneg _ conditions)))) as K0. unfold k_x in *.
+    pose proof (proj1 (nonneg _ conditions)) as K0. unfold k_x in *.
     assert (B0 : 0 <= b_qx c (X_b c) (E_q c)).
     { apply Rmult_le_reg_r with (/ sqrt (p_low c)); [apply Rinv_0_lt_compat, Sl|]. rewrite Rmult_0_l. exact K0. }
     apply Rle_trans with (1 := B).
@@ -287,7 +285,7 @@ Lemma C5_of s : sigma c <= s ->
   C5 (w_x c * a_2 c) (w_x c * sqrt (p_up c) * k_f c) (k_x c) (ht c) (size c) s.
 Proof.
   intros Hs. apply C5_larger with (sigma c); [|exact Hs].
-  destruct (nonneg _ conditions) as [_ [_ [Kx Kf]]]. split.
+  destruct (nonneg _ conditions) as [Kx Kf]. split.
   - apply ht_pos.
   - apply Rmult_le_pos; [|exact Kf]. apply Rmult_le_pos; [lra | apply sqrt_pos].
   - exact Kx.

@@ -123,13 +123,21 @@ Ltac note_all c :=
 Ltac decide_difference :=
   match goal with |- _ < _ => apply Rminus_lt | |- _ <= _ => apply Rminus_le end; interval with (i_prec 120).
 
+(** That a size of the periodic solution is at most a number: by one of the bounds of which it is the smallest where that is
+    exact, as it is where there is no x. *)
+Ltac decide_size :=
+  first
+  [ decide_difference
+  | match goal with |- ?v <= _ => let b := eval red in v in change v with b end;
+    repeat first [apply min2_l; decide_difference | apply min2_r] ].
+
 (** One condition. *)
 Ltac decide_one c :=
   let R := eval red in c in
   match goal with |- ?g =>
     let b := eval cbv beta delta [in_domain G_x G_e G_d] in g in
     let b := opened c R b in
-    let b := eval cbv beta iota zeta delta [min2 max2 R_x R_e R_d fst snd] in b in
+    let b := eval cbv beta iota zeta delta [min2 max2] in b in
     change b
   end;
   repeat match goal with |- _ /\ _ => split | |- True => exact I | |- false = true -> _ => discriminate | |- true = true -> _ => intros _ end;
@@ -171,7 +179,8 @@ Ltac decide_matched c W K :=
   unfold transfer_bound;
   let m := eval cbv beta iota delta [matched] in (matched R) in change (matched c) with m; cbv beta iota;
   split;
-  [let b := eval cbv beta iota delta [w period] in (w R * period R = 2 * PI) in change b; field
+  [let b := eval cbv beta iota delta [w period] in (w R * period R = 2 * PI) in change b;
+   first [lra | field; repeat split; apply Rgt_not_eq; interval with (i_prec 60)]
   |apply (fun nu => matched_criterion _ _ W nu _ _ K);
    [unfold Rdiv; interval with (i_prec 120)|lia|decide_weight c| |decide_weight c];
    repeat (apply below_S; [|decide_weight c]); intros k Hk; exfalso; lia].

@@ -14,6 +14,12 @@ Proof. unfold min2, Rmin. destruct (Rle_dec a b); [rewrite Rabs_left1 | rewrite 
 Lemma max2_Rmax a b : max2 a b = Rmax a b.
 Proof. unfold max2, Rmax. destruct (Rle_dec a b); [rewrite Rabs_left1 | rewrite Rabs_right]; lra. Qed.
 
+Lemma min2_l a b d : a <= d -> min2 a b <= d.
+Proof. rewrite min2_Rmin. intros H. apply Rle_trans with (2 := H), Rmin_l. Qed.
+
+Lemma min2_r a b d : b <= d -> min2 a b <= d.
+Proof. rewrite min2_Rmin. intros H. apply Rle_trans with (2 := H), Rmin_r. Qed.
+
 (** coth(y) for y > 0. *)
 Definition coth (y : R) : R := (1 + exp (- 2 * y)) / (1 - exp (- 2 * y)).
 
@@ -142,7 +148,8 @@ Record existence_conditions : Prop := {
        end;
   S3 : match refined c with
        | None => True
-       | Some r => (0 < R_x r /\ 0 < R_e r /\ 0 < R_d r) /\ G_x r < R_x r /\ G_e r < R_e r /\ G_d r < R_d r
+       | Some _ =>
+           (0 < R_x last /\ 0 < R_e last /\ 0 < R_d last) /\ G_x last < R_x last /\ G_e last < R_e last /\ G_d last < R_d last
        end
 }.
 
@@ -183,7 +190,7 @@ Definition level : R := w_x c * p_up c * d_X ^ 2 + d_E ^ 2 + h c * d_Z ^ 2.
 Record stability_conditions : Prop := {
   signs_b : 0 < mu c /\ 0 < p_low c /\ 0 < p_up c /\ 0 < D_x c /\ 0 < D_e c /\ 0 < w_x c /\ 0 < h c;
   signs_0 : 0 <= X_0 c /\ 0 <= E_0 c /\ match Z_0 c with None => True | Some z => 0 <= z end;
-  nonneg : 0 <= x_per /\ 0 <= e_per /\ 0 <= k_x /\ 0 <= k_f;
+  nonneg : 0 <= k_x /\ 0 <= k_f;
   domain_b : in_domain c X_b E_b;
   C4 : level < min2 (w_x c * p_low c * D_x c ^ 2) (D_e c ^ 2);
   C5_ : ht * k_x ^ 2 < 4 * (w_x c * a_2);

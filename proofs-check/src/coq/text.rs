@@ -41,7 +41,7 @@ Lemma conditions :
   (x_per cert <= {x} /\\ e_per cert <= {e} /\\ Z_per cert <= {zeta}).
 Proof.
   note_all cert.
-  split; [decide_conditions cert | split; [decide_conditions cert | split; [|split]; decide_difference]].
+  split; [decide_conditions cert | split; [decide_conditions cert | split; [|split]; decide_size]].
 Qed.
 
 Lemma the_weights : weights (n cert).
