@@ -131,17 +131,21 @@ Ltac decide_size :=
   | match goal with |- ?v <= _ => let b := eval red in v in change v with b end;
     repeat first [apply min2_l; decide_difference | apply min2_r] ].
 
-(** One condition. *)
+(** One condition; where it is not proved, Coq shows it. *)
 Ltac decide_one c :=
-  let R := eval red in c in
-  match goal with |- ?g =>
-    let b := eval cbv beta delta [in_domain G_x G_e G_d] in g in
-    let b := opened c R b in
-    let b := eval cbv beta iota zeta delta [min2 max2] in b in
-    change b
-  end;
-  repeat match goal with |- _ /\ _ => split | |- True => exact I | |- false = true -> _ => discriminate | |- true = true -> _ => intros _ end;
-  decide_difference.
+  lazymatch goal with
+  | |- ?g =>
+      first
+      [ let R := eval red in c in
+        let b := eval cbv beta delta [in_domain G_x G_e G_d] in g in
+        let b := opened c R b in
+        let b := eval cbv beta iota zeta delta [min2 max2] in b in
+        change b;
+        repeat match goal with
+          |- _ /\ _ => split | |- True => exact I | |- false = true -> _ => discriminate | |- true = true -> _ => intros _ end;
+        decide_difference
+      | fail 1 "this condition is not proved:" g ]
+  end.
 
 (** All conditions on existence, or on stability. *)
 Ltac decide_conditions c := constructor; decide_one c.
@@ -156,9 +160,14 @@ Proof. intros H HK k Hk. destruct (Nat.eq_dec k K) as [->|E]; [exact HK | apply 
 Ltac decide_weight c :=
   let R := eval red in c in
   let v := eval cbv beta iota delta [n] in (n R) in
-  change (n c) with v; cbv beta iota delta [power Rpower];
-  rewrite ?INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ];
-  decide_difference.
+  lazymatch goal with
+  | |- ?g =>
+      first
+      [ change (n c) with v; cbv beta iota delta [power Rpower];
+        rewrite ?INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ];
+        decide_difference
+      | fail 1 "this comparison of the transfer bound is not proved:" g ]
+  end.
 
 (** The power family has W1 to W4, and its sum. *)
 Ltac decide_power c :=
