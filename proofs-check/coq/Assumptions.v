@@ -1,6 +1,6 @@
 (** What every theorem of README.md rests on. *)
 
-From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response MatrixInequality WeightSum Claim.
+From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response MatrixInequality WeightSum Vanish Claim.
 
 Print Assumptions power_weights.
 Print Assumptions T_is_phase_derivative.
@@ -81,4 +81,6 @@ Print Assumptions F_between_b.
 Print Assumptions U_m_derive.
 Print Assumptions power_sum.
 Print Assumptions stays_and_falls.
+Print Assumptions vanishes.
+Print Assumptions errors_tend.
 Print Assumptions claim.

@@ -1,12 +1,12 @@
 (** Sections 5 and 10.4: what a certificate in continuous time says, with every number in it a parameter ([Sizes.v]). From its
     conditions C4, C5, C5b, a plant within its bounding functions and a periodic solution of the stated size follows: every
-    solution from the initial set stays in the error box, U does not grow, and xi, et and s are square integrable; for every N
-    and every sigma' >= sigma. With the existence of the periodic solution (section 10.3), which is a hypothesis here, follows
+    solution from the initial set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of x and
+    e tend to 0; for every N and every sigma' >= sigma. With the existence of the periodic solution (section 10.3), which is a hypothesis here, follows
     [certified]. *)
 
 From Coq Require Import Reals Lra Lia.
 From Coquelicot Require Import Coquelicot.
-From SigmaStar Require Import Sums Weights Transfer Loop Stability Containment Sizes Differences.
+From SigmaStar Require Import Sums Weights Transfer Loop Stability Containment Vanish Sizes Differences.
 Local Open Scope R_scope.
 
 Section Claim.
@@ -99,12 +99,20 @@ Definition Ut (N : nat) (y p : state) (t : R) : R := w_x c * P t (xt y p t) + et
 (** xi^2 + et^2 + s^2. *)
 Definition dissipated (N : nat) (y p : state) (t : R) : R := P t (xt y p t) + et y p t ^ 2 + st N y p t ^ 2.
 
-(** What is claimed of the periodic solution p, with rho: whatever solves the loop on [t0, t1] and starts in the set. *)
-Definition attracts (N : nat) (s : R) (p : state) (rho : R) : Prop :=
+(** What is claimed of the periodic solution p, with rho: whatever solves the loop on [t0, t1] and starts in the set stays in the error
+    box, and U falls by what is dissipated. *)
+Definition falls (N : nat) (s : R) (p : state) (rho : R) : Prop :=
   forall y t0 t1, t0 <= t1 -> (forall t, t0 <= t <= t1 -> solves N s y t) -> starts N y t0 ->
   forall t, t0 <= t <= t1 ->
   norm (xt y p t) < D_x c /\ Rabs (et y p t) < D_e c /\ Ut N y p t <= level c /\
   forall r, t0 <= r <= t -> Ut N y p t + rho * RInt (dissipated N y p) r t <= Ut N y p r.
+
+(** And if it solves the loop for all time, the errors tend to 0. *)
+Definition errors_vanish (N : nat) (s : R) (p : state) : Prop :=
+  forall y t0, (forall t, t0 <= t -> solves N s y t) -> starts N y t0 ->
+  forall eps, 0 < eps -> exists t1, forall t, t1 <= t -> norm (xt y p t) < eps /\ Rabs (et y p t) < eps.
+
+Definition attracts (N : nat) (s : R) (p : state) (rho : R) : Prop := falls N s p rho /\ errors_vanish N s p.
 
 (** ** The proof *)
 
@@ -513,9 +521,9 @@ Proof.
   unfold clamp. apply Rle_trans with (1 := M _ _ _). apply m.
 Qed.
 
-(** Theorem 5 without its last step: in the set, in the box, U falls by what is dissipated. *)
+(** Theorem 5 up to its last step: a start in the set stays in the box, and U falls by what is dissipated. *)
 Theorem stays_and_falls s : sigma c <= s -> exists rho, 0 < rho /\
-  forall N p, n c O + sum1 N (n c) <= n_bar2 c -> (forall t, solves N s p t) -> sized N p -> attracts N s p rho.
+  forall N p, n c O + sum1 N (n c) <= n_bar2 c -> (forall t, solves N s p t) -> sized N p -> falls N s p rho.
 Proof.
   intros Hs. destruct (decay s Hs) as [rho [Hrho Dec]]. exists rho. split; [exact Hrho|].
   intros N p Hn Hp Hsz y t0 t1 H01 Hy Hst.
@@ -581,6 +589,147 @@ Proof.
     change (W t <= Ut N y p r). lra.
 Qed.
 
+(** ** Convergence *)
+
+Lemma Vt_nonneg N p y t : 0 <= Vt N y p t.
+Proof.
+  unfold Vt. unfold et at 1. rewrite (V_difference (n c) N (of_e y) (of_z0 y) (of_e p) (of_z0 p) (of_za y) (of_zb y) (of_za p) (of_zb p)).
+  apply square_nonneg, n_pos.
+Qed.
+
+Lemma st_square N p y t : n c O + sum1 N (n c) <= n_bar2 c -> st N y p t ^ 2 <= n_bar2 c * Vt N y p t.
+Proof.
+  intros Hn.
+  assert (E : st N y p t ^ 2 <= (n c O + sum1 N (n c)) * Vt N y p t) by (apply (s_square (n c) n_pos)).
+  apply Rle_trans with (1 := E). apply Rmult_le_compat_r; [apply Vt_nonneg | exact Hn].
+Qed.
+
+(** The integral of what is dissipated is bounded, and neither xi^2 nor et^2 rises too fast: both tend to 0. *)
+Theorem errors_tend s rho N p : 0 < rho -> n c O + sum1 N (n c) <= n_bar2 c -> (forall t, solves N s p t) -> sized N p ->
+  falls N s p rho -> errors_vanish N s p.
+Proof.
+  intros Hrho Hn Hp Hsz Hf y t0 Hy Hst eps He.
+  assert (In : forall t, t0 <= t ->
+            norm (xt y p t) < D_x c /\ Rabs (et y p t) < D_e c /\ Ut N y p t <= level c /\
+            RInt (dissipated N y p) t0 t <= level c / rho).
+  { intros t Ht.
+    destruct (Hf y t0 t Ht (fun r Hr => Hy r (proj1 Hr)) Hst t ltac:(lra)) as [B1 [B2 [B3 B4]]].
+    specialize (B4 t0 ltac:(lra)). pose proof (U_start N p y Hn Hsz t0 Hst) as B5.
+    repeat split; try assumption. apply le_div; [exact Hrho|].
+    assert (U0 : 0 <= Ut N y p t).
+    { unfold Ut. pose proof (Vt_nonneg N p y t) as V0. pose proof (P_nonneg t (xt y p t)) as P0. pose proof (pow2_ge_0 (et y p t)).
+      assert (0 <= h c * Vt N y p t) by (apply Rmult_le_pos; lra). assert (0 <= w_x c * P t (xt y p t)) by (apply Rmult_le_pos; lra). lra. }
+    lra. }
+  destruct (nonneg _ conditions) as [Kx Kf].
+  assert (Sup : 0 <= sqrt (p_up c)) by apply sqrt_pos.
+  assert (Xi : forall t, t0 <= t -> sqrt (P t (xt y p t)) <= sqrt (p_up c) * D_x c).
+  { intros t Ht. destruct (In t Ht) as [B1 _]. apply Rle_trans with (1 := xi_le_norm t _). apply Rmult_le_compat_l; lra. }
+  assert (A2 : 0 < a_2 c).
+  { pose proof (C5_ _ conditions) as Q. pose proof ht_pos. pose proof (pow2_ge_0 (k_x c)).
+    assert (0 <= ht c * k_x c ^ 2) by (apply Rmult_le_pos; lra). apply Rnot_le_lt. intros L.
+    assert (w_x c * a_2 c <= w_x c * 0) by (apply Rmult_le_compat_l; lra). lra. }
+  assert (Part : forall t, t0 <= t -> exists u_x delta phi,
+    q t (of_x y t) (of_e y t) - q t (of_x p t) (of_e p t) = u_x + delta * et y p t /\
+    Rabs u_x <= k_x c * sqrt (P t (xt y p t)) /\ - k_l c <= delta <= most c /\ Rabs phi <= k_f c * Rabs (et y p t) /\
+    P' t (xt y p t) (minus (f t (of_x y t) (of_e y t)) (f t (of_x p t) (of_e p t)))
+    <= - 2 * a_2 c * P t (xt y p t) + 2 * sqrt (p_up c) * sqrt (P t (xt y p t)) * phi).
+  { intros t Ht. destruct (In t Ht) as [B1 [B2 _]]. destruct (Hsz t) as [S1 [S2 _]]. apply plant_part; assumption. }
+  assert (Int : forall g : R -> R, (forall t, t0 <= t -> continuous g t) -> (forall t, g t <= dissipated N y p t) ->
+            forall t, t0 <= t -> RInt g t0 t <= level c / rho).
+  { intros g Hc Hg t Ht. apply Rle_trans with (2 := proj2 (proj2 (proj2 (In t Ht)))).
+    apply RInt_le; [exact Ht | | | intros; apply Hg];
+      apply (ex_RInt_continuous (V := R_CompleteNormedModule)); intros r Hr; rewrite Rmin_left, Rmax_right in Hr by lra.
+    - apply Hc. lra.
+    - apply (dissipated_continuous N s p y Hp r (Hy r ltac:(lra))). }
+  (* xi *)
+  set (C1 := 2 * sqrt (p_up c) * (sqrt (p_up c) * D_x c) * (k_f c * D_e c) + 1).
+  assert (HC1 : 0 < C1).
+  { unfold C1. assert (0 <= 2 * sqrt (p_up c) * (sqrt (p_up c) * D_x c) * (k_f c * D_e c)); [|lra].
+    repeat apply Rmult_le_pos; lra. }
+  assert (D1 : forall t, t0 <= t -> is_derive (fun t => P t (xt y p t)) t
+            (P' t (xt y p t) (minus (f t (of_x y t) (of_e y t)) (f t (of_x p t) (of_e p t))))).
+  { intros t Ht. apply (form_derive form t (xt y p)), (xt_derive N s p y Hp t (Hy t Ht)). }
+  destruct (vanishes (fun t => P t (xt y p t))
+              (fun t => P' t (xt y p t) (minus (f t (of_x y t) (of_e y t)) (f t (of_x p t) (of_e p t)))) t0 C1 (level c / rho) HC1) with (eps := p_low c * eps ^ 2) as [t1 [T1 V1]].
+  - intros t _. apply P_nonneg.
+  - exact D1.
+  - intros t Ht. destruct (Part t Ht) as [u_x [delta [phi [_ [_ [_ [Q4 Q5]]]]]]]. destruct (In t Ht) as [_ [B2 _]].
+    apply Rle_trans with (1 := Q5). pose proof (P_nonneg t (xt y p t)) as P0.
+    assert (0 <= a_2 c * P t (xt y p t)) by (apply Rmult_le_pos; lra).
+    assert (phi <= k_f c * D_e c).
+    { apply Rle_trans with (1 := Rle_abs phi). apply Rle_trans with (1 := Q4). apply Rmult_le_compat_l; lra. }
+    assert (0 <= k_f c * D_e c) by (apply Rmult_le_pos; lra).
+    assert (sqrt (P t (xt y p t)) * phi <= sqrt (p_up c) * D_x c * (k_f c * D_e c)).
+    { apply Rle_trans with (sqrt (P t (xt y p t)) * (k_f c * D_e c)).
+      - apply Rmult_le_compat_l; [apply sqrt_pos | assumption].
+      - apply Rmult_le_compat_r; [assumption | apply Xi, Ht]. }
+    assert (sqrt (p_up c) * (sqrt (P t (xt y p t)) * phi) <= sqrt (p_up c) * (sqrt (p_up c) * D_x c * (k_f c * D_e c)))
+      by (apply Rmult_le_compat_l; assumption).
+    unfold C1. lra.
+  - apply Int.
+    + intros t Ht. apply (ex_derive_continuous (V := R_NormedModule)). eexists. apply D1, Ht.
+    + intros t. unfold dissipated. pose proof (pow2_ge_0 (et y p t)). pose proof (pow2_ge_0 (st N y p t)). lra.
+  - apply Rmult_lt_0_compat; [lra | apply pow_lt, He].
+  - (* et *)
+    set (Y := k_x c * (sqrt (p_up c) * D_x c) + (Rabs (k_l c) + Rabs (most c)) * D_e c + mu c * sqrt (n_bar2 c * (level c / h c))).
+    set (C2 := 2 * D_e c * (Y + Rabs s * D_e c) + 1).
+    set (g' := fun t => 2 * et y p t * (Loop.y (n c) N s (mu c) 1 (et y p)
+                      (fun t => q t (of_x y t) (of_e y t) - q t (of_x p t) (of_e p t))
+                      (fun t => of_z0 y t - of_z0 p t) (fun l t => of_za y l t - of_za p l t) t - s * et y p t)).
+    assert (D2 : forall t, t0 <= t -> is_derive (fun t => et y p t ^ 2) t (g' t)).
+    { intros t Ht. unfold g'. evar_last; [apply (is_derive_pow (et y p) 2 t _ (loop_e _ _ _ _ _ _ _ _ _ _ _ t (difference_loop N s p y Hp t (Hy t Ht))))|].
+      simpl. ring. }
+    assert (Slope : forall t, t0 <= t -> g' t <= C2 /\ 0 < C2).
+    { intros t Ht. destruct (Part t Ht) as [u_x [delta [phi [Q1 [Q2 [Q3 _]]]]]]. destruct (In t Ht) as [_ [B2 [B3 _]]].
+      unfold g'. unfold Loop.y. rewrite Q1. change (s_ (n c) N (et y p) (fun t => of_z0 y t - of_z0 p t) (fun l t => of_za y l t - of_za p l t) t) with (st N y p t).
+      assert (Z1 : Rabs (st N y p t) <= sqrt (n_bar2 c * (level c / h c))).
+      { rewrite <- (sqrt_pow2 (Rabs (st N y p t))) by apply Rabs_pos. apply sqrt_le_1_alt. rewrite pow2_abs.
+        assert (B0 : 0 <= n_bar2 c).
+        { apply Rle_trans with (2 := Hn). apply Rplus_le_le_0_compat; [left; apply n_pos | apply sum_nonneg; intros; left; apply n_pos]. }
+        apply Rle_trans with (1 := st_square N p y t Hn). apply Rmult_le_compat_l; [exact B0|].
+        apply le_div; [exact h_pos|]. unfold Ut in B3.
+        pose proof (P_nonneg t (xt y p t)) as P0. pose proof (pow2_ge_0 (et y p t)).
+        assert (0 <= w_x c * P t (xt y p t)) by (apply Rmult_le_pos; lra). lra. }
+      assert (Z2 : Rabs u_x <= k_x c * (sqrt (p_up c) * D_x c)).
+      { apply Rle_trans with (1 := Q2). apply Rmult_le_compat_l; [exact Kx | apply Xi, Ht]. }
+      assert (Z3 : Rabs delta <= Rabs (k_l c) + Rabs (most c)).
+      { pose proof (Rle_abs (k_l c)). pose proof (Rle_abs (most c)). pose proof (Rabs_pos (k_l c)). pose proof (Rabs_pos (most c)).
+        apply Rabs_le_between. lra. }
+      set (e := et y p t) in *. set (m := st N y p t) in *.
+      assert (E0 : 0 <= Rabs e) by apply Rabs_pos.
+      assert (Z4 : Rabs (u_x + delta * e + (1 - 1) * s * e + 1 * mu c * m) <= Y).
+      { replace (u_x + delta * e + (1 - 1) * s * e + 1 * mu c * m) with (u_x + delta * e + mu c * m) by ring.
+        apply Rle_trans with (1 := Rabs_triang _ _). unfold Y. apply Rplus_le_compat.
+        - apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; [exact Z2|]. rewrite Rabs_mult.
+          apply Rmult_le_compat; [apply Rabs_pos | exact E0 | exact Z3 | lra].
+        - rewrite Rabs_mult, (Rabs_right (mu c)) by lra. apply Rmult_le_compat_l; [lra | exact Z1]. }
+      set (v := u_x + delta * e + (1 - 1) * s * e + 1 * mu c * m) in *.
+      assert (Y0 : 0 <= Y) by (apply Rle_trans with (2 := Z4), Rabs_pos).
+      assert (Z5 : Rabs (v - s * e) <= Y + Rabs s * D_e c).
+      { unfold Rminus. apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp, Rabs_mult. apply Rplus_le_compat; [exact Z4|].
+        apply Rmult_le_compat_l; [apply Rabs_pos | lra]. }
+      assert (S0 : 0 <= Rabs s * D_e c) by (apply Rmult_le_pos; [apply Rabs_pos | lra]).
+      assert (Z6 : e * (v - s * e) <= D_e c * (Y + Rabs s * D_e c)).
+      { apply Rle_trans with (1 := Rle_abs _). rewrite Rabs_mult. apply Rmult_le_compat; [exact E0 | apply Rabs_pos | lra | exact Z5]. }
+      assert (0 <= D_e c * (Y + Rabs s * D_e c)) by (apply Rmult_le_pos; lra).
+      unfold C2. split; lra. }
+    destruct (vanishes (fun t => et y p t ^ 2) g' t0 C2 (level c / rho) (proj2 (Slope t0 ltac:(lra)))) with (eps := eps ^ 2) as [t2 [T2 V2]].
+    + intros t _. apply pow2_ge_0.
+    + exact D2.
+    + intros t Ht. apply Slope, Ht.
+    + apply Int.
+      * intros t Ht. apply (ex_derive_continuous (V := R_NormedModule)). eexists. apply D2, Ht.
+      * intros t. unfold dissipated. pose proof (P_nonneg t (xt y p t)). pose proof (pow2_ge_0 (st N y p t)). lra.
+    + apply pow_lt, He.
+    + exists (Rmax t1 t2). intros t Ht. pose proof (Rmax_l t1 t2). pose proof (Rmax_r t1 t2).
+      specialize (V1 t ltac:(lra)). specialize (V2 t ltac:(lra)). simpl in V1. cbv beta in V2.
+      split; apply Rnot_le_lt; intros L.
+      * assert (eps ^ 2 <= norm (xt y p t) ^ 2) by (apply pow_incr; lra).
+        pose proof (form_low form t (xt y p t)).
+        assert (p_low c * eps ^ 2 <= p_low c * norm (xt y p t) ^ 2) by (apply Rmult_le_compat_l; lra). lra.
+      * assert (eps ^ 2 <= Rabs (et y p t) ^ 2) by (apply pow_incr; lra). rewrite pow2_abs in *. lra.
+Qed.
+
 (** ** With the existence of the periodic solution *)
 
 (** T_N <= k_0 + k_1 x^2: at integers where the base frequency is matched, else everywhere. *)
@@ -608,7 +757,7 @@ Proof.
   intros Ex H1 H2 H3 H4 s Hs. destruct (stays_and_falls s Hs) as [rho [Hrho A]].
   exists rho. split; [exact Hrho|]. intros N. destruct (Ex H1 H2 H3 N s Hs) as [p [P1 [P2 P3]]].
   exists p. split; [exact P1|]. split; [exact P2|]. split; [exact P3|].
-  apply A; [apply H4 | exact P1 | exact P3].
+  pose proof (A N p (H4 N) P1 P3) as Fa. split; [exact Fa|]. apply (errors_tend s rho N p Hrho (H4 N) P1 P3 Fa).
 Qed.
 
 End Claim.

@@ -93,6 +93,28 @@ Proof.
   rewrite sum_scal. ring.
 Qed.
 
+(** Cauchy-Schwarz: s^2 <= |M|_N^2 |zeta|_N^2. *)
+Lemma s_square N v0 va vb :
+  (n O * v0 + sum1 N (fun l => n l * va l)) ^ 2 <= (n O + sum1 N n) * square N v0 va vb.
+Proof.
+  set (W := n O + sum1 N n). set (s := n O * v0 + sum1 N (fun l => n l * va l)).
+  assert (HW : 0 < W).
+  { unfold W, sum1. pose proof (n_pos O). assert (0 <= sum N (fun i => n (S i))) by (apply sum_nonneg; intros; left; apply n_pos). lra. }
+  pose proof (square_nonneg N (v0 - s / W) (fun l => va l - s / W) vb) as Q.
+  assert (E : square N (v0 - s / W) (fun l => va l - s / W) vb = square N v0 va vb - 2 * (s / W) * s + (s / W) ^ 2 * W).
+  { unfold square, sum1.
+    rewrite (sum_ext N (fun i => n (S i) * ((va (S i) - s / W) ^ 2 + vb (S i) ^ 2))
+      (fun i => (n (S i) * (va (S i) ^ 2 + vb (S i) ^ 2) - 2 * (s / W) * (n (S i) * va (S i))) + (s / W) ^ 2 * n (S i))) by (intros; ring).
+    rewrite sum_plus, sum_minus, !sum_scal.
+    assert (Es : sum N (fun i => n (S i) * va (S i)) = s - n O * v0) by (unfold s, sum1; ring).
+    assert (Ew : sum N (fun i => n (S i)) = W - n O) by (unfold W, sum1; ring).
+    rewrite Es, Ew. ring. }
+  rewrite E in Q. replace (square N v0 va vb - 2 * (s / W) * s + (s / W) ^ 2 * W) with ((W * square N v0 va vb - s ^ 2) / W) in Q by (field; lra).
+  assert (0 <= W * square N v0 va vb - s ^ 2); [|lra].
+  replace (W * square N v0 va vb - s ^ 2) with ((W * square N v0 va vb - s ^ 2) / W * W) by (field; lra).
+  apply Rmult_le_pos; lra.
+Qed.
+
 End Size.
 
 (** ** The difference of two solutions *)

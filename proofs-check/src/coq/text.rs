@@ -51,7 +51,8 @@ Lemma weight_sum : forall N, n cert O + sum1 N (n cert) <= n_bar2 cert.
 Proof. decide_weight_sum cert. Qed.
 {lemma}
 (** For every plant within the bounding functions, every N and every gain from sigma on: each solution p of the stated size attracts,
-    in that what starts in the set stays in the error box, U does not grow, and xi, et and s are square integrable. *)
+    in that what starts in the set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of x
+    and e tend to 0. *)
 Theorem certificate_attracts :
   forall (X : NormedModule R_AbsRing) f q F P P', within (X := X) cert f q F P P' ->
   forall s, sigma cert <= s -> exists rho, 0 < rho /\\
@@ -59,7 +60,9 @@ Theorem certificate_attracts :
 Proof.
   intros X f q F P P' Within s Hs.
   destruct (stays_and_falls cert f q F P P' (n_pos _ the_weights) Within (proj1 (proj2 conditions)) s Hs) as [rho [Hrho A]].
-  exists rho. split; [exact Hrho|]. intros N p. apply A, weight_sum.
+  exists rho. split; [exact Hrho|]. intros N p Solves Sized. pose proof (A N p (weight_sum N) Solves Sized) as Falls. split; [exact Falls|].
+  apply (errors_tend cert f q F P P' (n_pos _ the_weights) Within (proj1 (proj2 conditions)) s rho N p Hrho (weight_sum N) Solves Sized
+           Falls).
 Qed.
 
 (** The certificate. That the periodic solution exists, [existence_10_3], is a hypothesis: its conditions are proved here, section 10.3
