@@ -1,6 +1,6 @@
 (** What every theorem of README.md rests on. *)
 
-From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response MatrixInequality WeightSum Vanish Claim.
+From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response MatrixInequality WeightSum Vanish Claim ScalarPlant.
 
 Print Assumptions power_weights.
 Print Assumptions T_is_phase_derivative.
@@ -84,3 +84,4 @@ Print Assumptions stays_and_falls.
 Print Assumptions vanishes.
 Print Assumptions errors_tend.
 Print Assumptions claim.
+Print Assumptions scalar_plant_within.
