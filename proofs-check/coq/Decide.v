@@ -2,42 +2,43 @@
     it, and then every condition. All by [interval] in Coq's own integers ([Enclose.v]); what a tactic here does wrong leaves a
     statement unproved. *)
 
-From Coq Require Import Reals ZArith Lra Lia.
+From Coq Require Import Reals ZArith List Lra Lia.
 From SigmaStar Require Import Sums Weights WeightSum Transfer Matched Claim.
 From SigmaStar Require Export Enclose Sizes.
 Local Open Scope R_scope.
 
 (** [b] with [new] in the place of [old], and the choices that this decides made. *)
 Ltac put old new b :=
-  match b with
-  | context [old] =>
-      let p := eval pattern old in b in
-      match p with ?g _ => eval cbv beta iota delta [fst snd] in (g new) end
-  | _ => b
-  end.
+  let p := eval pattern old in b in
+  match p with ?g _ => eval cbv beta iota delta [fst snd] in (g new) end.
 
 (** [b] with those fields of the record [R], which is what [c] stands for, that are functions or choices. *)
 Ltac opened c R b :=
-  let v := eval cbv beta iota delta [rate] in (rate R) in let b := put (rate c) v b in
-  let v := eval cbv beta iota delta [b_q_rms] in (b_q_rms R) in let b := put (b_q_rms c) v b in
-  let v := eval cbv beta iota delta [b_qt_rms] in (b_qt_rms R) in let b := put (b_qt_rms c) v b in
-  let v := eval cbv beta iota delta [b_fx] in (b_fx R) in let b := put (b_fx c) v b in
-  let v := eval cbv beta iota delta [q_e_max] in (q_e_max R) in let b := put (q_e_max c) v b in
-  let v := eval cbv beta iota delta [Z_0] in (Z_0 R) in let b := put (Z_0 c) v b in
-  let v := eval cbv beta iota delta [refined] in (refined R) in let b := put (refined c) v b in
-  let v := eval cbv beta iota delta [damped] in (damped R) in let b := put (damped c) v b in
-  let v := eval cbv beta iota delta [domain] in (domain R) in let b := put (domain c) v b in
-  let v := eval cbv beta iota delta [path_f] in (path_f R) in let b := put (path_f c) v b in
-  let v := eval cbv beta iota delta [path_q] in (path_q R) in let b := put (path_q c) v b in
-  let v := eval cbv beta iota delta [b_f] in (b_f R) in let b := put (b_f c) v b in
-  let v := eval cbv beta iota delta [b_fe] in (b_fe R) in let b := put (b_fe c) v b in
-  let v := eval cbv beta iota delta [b_fxx] in (b_fxx R) in let b := put (b_fxx c) v b in
-  let v := eval cbv beta iota delta [b_fex] in (b_fex R) in let b := put (b_fex c) v b in
-  let v := eval cbv beta iota delta [b_q] in (b_q R) in let b := put (b_q c) v b in
-  let v := eval cbv beta iota delta [b_qe] in (b_qe R) in let b := put (b_qe c) v b in
-  let v := eval cbv beta iota delta [b_qx] in (b_qx R) in let b := put (b_qx c) v b in
-  let v := eval cbv beta iota delta [b_qt] in (b_qt R) in let b := put (b_qt c) v b in
-  let b := eval cbv beta iota delta [kap kap_small fst snd] in b in b.
+  let b := lazymatch b with context [rate c] => let v := eval cbv beta iota delta [rate] in (rate R) in put (rate c) v b | _ => b end in
+  let b := lazymatch b with context [b_q_rms c] => let v := eval cbv beta iota delta [b_q_rms] in (b_q_rms R) in put (b_q_rms c) v b | _ => b end in
+  let b := lazymatch b with context [b_qt_rms c] => let v := eval cbv beta iota delta [b_qt_rms] in (b_qt_rms R) in put (b_qt_rms c) v b | _ => b end in
+  let b := lazymatch b with context [b_fx c] => let v := eval cbv beta iota delta [b_fx] in (b_fx R) in put (b_fx c) v b | _ => b end in
+  let b := lazymatch b with context [q_e_max c] => let v := eval cbv beta iota delta [q_e_max] in (q_e_max R) in put (q_e_max c) v b | _ => b end in
+  let b := lazymatch b with context [q_tx c] => let v := eval cbv beta iota delta [q_tx] in (q_tx R) in put (q_tx c) v b | _ => b end in
+  let b := lazymatch b with context [q_te c] => let v := eval cbv beta iota delta [q_te] in (q_te R) in put (q_te c) v b | _ => b end in
+  let b := lazymatch b with context [forcing c] => let v := eval cbv beta iota delta [forcing] in (forcing R) in put (forcing c) v b | _ => b end in
+  let b := lazymatch b with context [matched c] => let v := eval cbv beta iota delta [matched] in (matched R) in put (matched c) v b | _ => b end in
+  let b := lazymatch b with context [n c] => let v := eval cbv beta iota delta [n] in (n R) in put (n c) v b | _ => b end in
+  let b := lazymatch b with context [Z_0 c] => let v := eval cbv beta iota delta [Z_0] in (Z_0 R) in put (Z_0 c) v b | _ => b end in
+  let b := lazymatch b with context [refined c] => let v := eval cbv beta iota delta [refined] in (refined R) in put (refined c) v b | _ => b end in
+  let b := lazymatch b with context [damped c] => let v := eval cbv beta iota delta [damped] in (damped R) in put (damped c) v b | _ => b end in
+  let b := lazymatch b with context [domain c] => let v := eval cbv beta iota delta [domain] in (domain R) in put (domain c) v b | _ => b end in
+  let b := lazymatch b with context [path_f c] => let v := eval cbv beta iota delta [path_f] in (path_f R) in put (path_f c) v b | _ => b end in
+  let b := lazymatch b with context [path_q c] => let v := eval cbv beta iota delta [path_q] in (path_q R) in put (path_q c) v b | _ => b end in
+  let b := lazymatch b with context [b_f c] => let v := eval cbv beta iota delta [b_f] in (b_f R) in put (b_f c) v b | _ => b end in
+  let b := lazymatch b with context [b_fe c] => let v := eval cbv beta iota delta [b_fe] in (b_fe R) in put (b_fe c) v b | _ => b end in
+  let b := lazymatch b with context [b_fxx c] => let v := eval cbv beta iota delta [b_fxx] in (b_fxx R) in put (b_fxx c) v b | _ => b end in
+  let b := lazymatch b with context [b_fex c] => let v := eval cbv beta iota delta [b_fex] in (b_fex R) in put (b_fex c) v b | _ => b end in
+  let b := lazymatch b with context [b_q c] => let v := eval cbv beta iota delta [b_q] in (b_q R) in put (b_q c) v b | _ => b end in
+  let b := lazymatch b with context [b_qe c] => let v := eval cbv beta iota delta [b_qe] in (b_qe R) in put (b_qe c) v b | _ => b end in
+  let b := lazymatch b with context [b_qx c] => let v := eval cbv beta iota delta [b_qx] in (b_qx R) in put (b_qx c) v b | _ => b end in
+  let b := lazymatch b with context [b_qt c] => let v := eval cbv beta iota delta [b_qt] in (b_qt R) in put (b_qt c) v b | _ => b end in
+  eval cbv beta iota delta [kap kap_small fst snd] in b.
 
 (** Encloses [v], which is [b] by definition. *)
 Ltac note v b :=
@@ -58,7 +59,15 @@ Ltac note_number c R field :=
 Ltac note_computed c R v :=
   let b := eval red in v in
   let b := opened c R b in
-  let b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 Rpower] in b in
+  let b := eval cbv beta iota zeta delta [least E_at X_at sup_of rms_of z_mean coth tanh_exp min2 max2 power Rpower C_k r_0 r_t] in b in
+  note v b.
+
+(** A sum over the harmonics [f]. *)
+Ltac note_harmonics c R v :=
+  let b := eval red in v in
+  let b := eval cbv beta iota zeta delta [of_harmonics C_0 C_k r_0 hd tl twice_sum T_bar Z.succ Z.add Pos.succ Pos.add Pos.add_carry] in b in
+  let b := opened c R b in
+  let b := eval cbv beta iota zeta delta [min2 power Rpower Z.to_nat Pos.to_nat Pos.iter_op Nat.add INR] in b in
   note v b.
 
 (** The mean squares [r], which are [means c] or [last c], and what follows of them. *)
@@ -68,6 +77,7 @@ Ltac note_means c R r :=
     let b := eval cbv beta iota delta [R_x R_e R_d means last fst snd] in v in
     let b := opened c R b in note v b in
   part R_x; part R_e; part R_d;
+  note_computed c R constr:(along c r); note_computed c R constr:(d_0 c r); note_computed c R constr:(d_1 c r);
   note_computed c R constr:(R_q c r); note_computed c R constr:(R_1 c r);
   note_computed c R constr:(sup_e c r); note_computed c R constr:(rms_e c r); note_computed c R constr:(rms_d c r).
 
@@ -102,6 +112,14 @@ Ltac note_all c :=
   note_computed c R constr:(c_ex c); note_computed c R constr:(F_p c); note_computed c R constr:(bent c);
   note_computed c R constr:(a_1 c); note_computed c R constr:(Fe_p c); note_computed c R constr:(Qe_p c);
   note_computed c R constr:(Qx_p c); note_computed c R constr:(Q_p c); note_computed c R constr:(Qt_p c);
+  note_computed c R constr:(Qt_start c);
+  let f := eval cbv beta iota delta [forcing] in (forcing R) in
+  match f with
+  | None => idtac
+  | Some ?f =>
+      note_harmonics c R constr:(sup_h c f); note_harmonics c R constr:(rms_h c f); note_harmonics c R constr:(rate_h c f);
+      note_computed c R constr:(rest_t c f); note_harmonics c R constr:(rms_0 f); note_harmonics c R constr:(z_harmonics c f)
+  end;
   note_computed c R constr:(Q_start c); note_computed c R constr:(Fx_p c); note_computed c R constr:(beta2 c (a_1 c));
   note_computed c R constr:(x_gain c); note_computed c R constr:(from_rms c);
   note_means c R constr:(means c); note_means c R constr:(last c);
@@ -112,7 +130,8 @@ Ltac note_all c :=
       note_computed c R constr:(most_p c); note_computed c R constr:(slope c k); note_computed c R constr:(g_k c k);
       note_computed c R constr:(R_t c k (means c)); note_computed c R constr:(R_t c k (last c))
   end;
-  note_computed c R constr:(e_per c); note_computed c R constr:(x_per c); note_computed c R constr:(Z_per c);
+  note_computed c R constr:(e_per c); note_computed c R constr:(x_per c);
+  note_computed c R constr:(swing c); note_computed c R constr:(Z_per c);
   note_computed c R constr:(X_b c); note_computed c R constr:(E_b c);
   note_computed c R constr:(E_f c); note_computed c R constr:(E_q c); note_computed c R constr:(X_f c); note_computed c R constr:(X_q c);
   note_computed c R constr:(k_x c); note_computed c R constr:(k_l c); note_computed c R constr:(most c); note_computed c R constr:(k_f c);

@@ -1,7 +1,7 @@
 (** Sections 5, 10.3 and 10.4: the numbers of a certificate in continuous time, and what is computed of them. Nothing is proved here:
     these are the formulas in which a certificate's theorem ([Claim.v]) is stated. *)
 
-From Coq Require Import Reals Lra.
+From Coq Require Import Reals ZArith List Lra.
 Local Open Scope R_scope.
 
 (** The smaller and the larger of two numbers, in operations of which enclosures are known. *)
@@ -42,6 +42,18 @@ Definition bound := R -> R -> R.
 (** The term -kap e of the map of existence (10.4), and whether kap <= sigma is used. *)
 Record damping := { kap : R; kap_small : bool }.
 
+(** q(t,0,0) = sum of c_k e^(ik Om t) + rest (10.1): C_0, C_1, ... bound |c_k|, r_0 and r_t the root mean squares of the rest and of its
+    derivative. *)
+Record harmonics := { C_k : list R; r_0 : R; r_t : option R }.
+
+(** 2 (term(k, a) + term(k+1, b) + ...) for the list a, b, ... *)
+Fixpoint twice_sum (term : Z -> R -> R) (k : Z) (l : list R) : R :=
+  match l with nil => 0 | cons a l => 2 * term k a + twice_sum term (Z.succ k) l end.
+
+(** The sum over k >= 1. *)
+Definition of_harmonics (f : harmonics) (term : Z -> R -> R) : R := twice_sum term 1 (tl (C_k f)).
+Definition C_0 (f : harmonics) : R := hd 0 (C_k f).
+
 (** The specification, the claim and the witness of a certificate. *)
 Record numbers := {
   (* The specification: section 1 and 10.1. The second triple is that of existence. *)
@@ -52,6 +64,7 @@ Record numbers := {
   b_f : bound; b_fe : bound; b_fxx : bound; b_fex : bound;
   b_q : bound; b_qe : bound; b_qx : bound; b_qt : bound;
   b_q_rms : option bound; b_qt_rms : option bound; b_fx : option bound; q_e_max : option bound; rate : option bound;
+  q_tx : option bound; q_te : option bound; forcing : option harmonics;
   domain : option (R * R);
   (* The claim. Without Z_0 the regulator sets z = M e at its first instant (13.7). *)
   sigma : R; X_0 : R; E_0 : R; Z_0 : option R;
@@ -93,7 +106,19 @@ Definition Qe_p : R := b_qe c (X_p c) (E_p c).
 Definition Qx_p : R := b_qx c (X_p c) (E_p c).
 Definition Q_p : R := least (b_q_rms c) (b_q c) (X_p c) (E_p c).
 Definition Qt_p : R := least (b_qt_rms c) (b_qt c) (X_p c) (E_p c).
-Definition Q_start : R := least (b_q_rms c) (b_q c) 0 0.
+Definition Qt_start : R := least (b_qt_rms c) (b_qt c) 0 0.
+
+(** With q_0: what the answer to the harmonics is at most, and the derivative of the harmonics and of the rest. *)
+Definition sup_h (f : harmonics) : R := of_harmonics f (fun k a => a / sqrt (sigma c ^ 2 + (IZR k * Om) ^ 2)).
+Definition rms_h (f : harmonics) : R := sqrt (of_harmonics f (fun k a => a ^ 2 / (sigma c ^ 2 + (IZR k * Om) ^ 2))).
+Definition rate_h (f : harmonics) : R := sqrt (of_harmonics f (fun k a => (IZR k * Om * a) ^ 2)).
+Definition rest_t (f : harmonics) : R :=
+  match r_t f with None => Qt_start + rate_h f | Some r => min2 r (Qt_start + rate_h f) end.
+Definition rms_0 (f : harmonics) : R := sqrt (C_0 f ^ 2 + of_harmonics f (fun _ a => a ^ 2)) + r_0 f.
+
+(** Q_0. *)
+Definition Q_start : R :=
+  let q := least (b_q_rms c) (b_q c) 0 0 in match forcing c with None => q | Some f => min2 (rms_0 f) q end.
 Definition Fx_p : R :=
   let secant := b_f c (X_p c) 0 / X_p c + F_p * X_p c in
   match b_fx c with None => secant | Some b => min2 (b (X_p c) 0) secant end.
@@ -109,12 +134,36 @@ Definition R_e (r : R * R * R) : R := snd (fst r).
 Definition R_d (r : R * R * R) : R := snd r.
 
 Definition R_q (r : R * R * R) : R := min2 Q_p (Q_start + Qx_p * R_x r + Qe_p * R_e r).
-Definition R_1 (r : R * R * R) : R := Qt_p + Qx_p * (Fx_p * R_x r + Fe_p * R_e r) + Qe_p * R_d r.
+Definition along (r : R * R * R) : R := Qx_p * (Fx_p * R_x r + Fe_p * R_e r) + Qe_p * R_d r.
+(** d_0 and d_1: of q - q(t,0,0). *)
+Definition d_0 (r : R * R * R) : R := Qx_p * R_x r + Qe_p * R_e r.
+Definition d_1 (r : R * R * R) : R :=
+  let generic := Qt_p + Qt_start + along r in
+  match q_tx c with
+  | None => generic
+  | Some q_tx => match q_te c with
+                 | None => generic
+                 | Some q_te => min2 generic (q_tx (X_p c) (E_p c) * R_x r + q_te (X_p c) (E_p c) * R_e r + along r)
+                 end
+  end.
+Definition R_1 (r : R * R * R) : R :=
+  match forcing c with None => Qt_p + along r | Some f => min2 (Qt_p + along r) (rate_h f + rest_t f + d_1 r) end.
 
-(** What follows of sup|e|, rms(e), rms(e'). *)
+(** What follows of sup|e|, rms(e), rms(e') for an input with these root mean squares of itself and of its derivative, and at r. *)
+Definition sup_of (q q' : R) : R := min2 (bt * q) (tau * q').
+Definition rms_of (q q' : R) : R := min2 (q / sg) (q' / (Om * sg)).
 Definition sup_e (r : R * R * R) : R :=
-  min2 (min2 (bt * R_q r) (tau * R_1 r)) (sqrt (period c * R_e r * R_d r)).
-Definition rms_e (r : R * R * R) : R := min2 (R_q r / sg) (R_1 r / (Om * sg)).
+  let e := min2 (sup_of (R_q r) (R_1 r)) (sqrt (period c * R_e r * R_d r)) in
+  match forcing c with
+  | None => e
+  | Some f => min2 e (sup_h f + sup_of (r_0 f) (rest_t f) + sup_of (d_0 r) (d_1 r))
+  end.
+Definition rms_e (r : R * R * R) : R :=
+  let e := rms_of (R_q r) (R_1 r) in
+  match forcing c with
+  | None => e
+  | Some f => min2 e (rms_h f + rms_of (r_0 f) (rest_t f) + rms_of (d_0 r) (d_1 r))
+  end.
 Definition rms_d (r : R * R * R) : R := min2 (R_q r) (R_1 r / sg).
 
 (** ** Section 10.4: with -kap e in the linear part *)
@@ -156,8 +205,21 @@ Record existence_conditions : Prop := {
 (** The sizes of the periodic solution. *)
 Definition e_per : R := min2 (E_p c) (sup_e last).
 Definition x_per : R := min2 (X_p c) (min2 (x_gain * e_per) (from_rms * R_e last)).
+(** (3.2), and its form for q_0: T_N at k Om/w is at most T_bar(k). *)
+Definition T_bar (k : Z) : R :=
+  let line := k_0 c + k_1 c * (IZR k * Om / w c) ^ 2 in
+  if matched c then min2 line (2 / ((mu c / w c) ^ 2 * n c (Z.to_nat k))) else line.
+Definition z_mean (q q' : R) : R := k_0 c / w c ^ 2 * q ^ 2 + k_1 c / w c ^ 4 * q' ^ 2.
+Definition z_harmonics (f : harmonics) : R :=
+  sqrt (1 / ((mu c / w c) ^ 2 * n c O) * C_0 f ^ 2 + of_harmonics f (fun k a => T_bar k * a ^ 2)) / w c.
+Definition swing : R := period c / (2 * mu c) * R_q last ^ 2.
 Definition Z_per : R :=
-  sqrt ((period c / (2 * mu c) + k_0 c / w c ^ 2) * R_q last ^ 2 + k_1 c / w c ^ 4 * R_1 last ^ 2).
+  let plain := swing + z_mean (R_q last) (R_1 last) in
+  sqrt match forcing c with
+       | None => plain
+       | Some f =>
+           min2 plain (swing + (z_harmonics f + sqrt (z_mean (r_0 f) (rest_t f)) + sqrt (z_mean (d_0 last) (d_1 last))) ^ 2)
+       end.
 
 (** ** Section 5 *)
 

@@ -72,10 +72,6 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
     let Witness::Sharp(witness) = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?.witness else {
         return unsupported("/witness", "no theorem is written of this kind of witness");
     };
-    if spec.q_0.is_some() {
-        let message = "no theorem is written of a claim that uses harmonics of q(t,0,0): certify without `q_0`";
-        return unsupported("/specification/q_0", message);
-    }
     if let Some(inequality) = &witness.inequality {
         return unsupported(&inequality.pointer, "no theorem is written of a matrix inequality in the place of C5");
     }

@@ -6,6 +6,7 @@ use proofs_core::bound::{BOUND_NAMES, Bound};
 use proofs_core::expr::Expr;
 use proofs_core::rules::paths::Path;
 use proofs_core::rules::transfer::Proof;
+use proofs_core::spec::{Forcing, Size};
 use proofs_core::verdict::Outcome;
 
 /// How many weights are added up before the rest is bounded by three terms (`WeightSum.v`): square roots are quick to enclose, other
@@ -80,12 +81,29 @@ fn of_specification(parts: &Parts) -> Outcome<Fields> {
     }
     let rate = spec.rate.as_ref().map(|expr| function(expr, &at("lyapunov/rate"))).transpose()?;
     fields.push(("rate", option(rate)));
+    for (name, which) in [("q_tx", Bound::Qtx), ("q_te", Bound::Qte)] {
+        fields.push((name, option(bound(which)?)));
+    }
+    fields.push(("forcing", option(spec.q_0.as_ref().map(harmonics).transpose()?)));
     let domain = match &spec.domain {
         Some([x, e]) => Some(format!("{}, {}", constant(x, &at("domain/X"))?, constant(e, &at("domain/E"))?)),
         None => None,
     };
     fields.push(("domain", option(domain)));
     Ok(fields)
+}
+
+/// The bounds of `q_0`.
+fn harmonics(given: &Forcing) -> Outcome<String> {
+    let size = |size: &Size| match size {
+        Size::Constant(value) => constant(value, "/specification/q_0"),
+        Size::Number(value) => Ok(number(value)),
+        Size::Root(square) => Ok(format!("(sqrt {})", number(square))),
+    };
+    let sizes = given.harmonics.iter().map(size).collect::<Outcome<Vec<_>>>()?;
+    let list = sizes.iter().rfold("nil".to_owned(), |rest, size| format!("(cons {size} {rest})"));
+    let rest_t = option(given.rest_t_rms.as_ref().map(size).transpose()?);
+    Ok(format!("{{| C_k := {list}; r_0 := {}; r_t := {rest_t} |}}", size(&given.rest_rms)?))
 }
 
 fn of_witness(parts: &Parts) -> Fields {

@@ -76,8 +76,9 @@ Proof.
            (proj1 conditions) the_weights {transfer} weight_sum).
 Qed.
 
-Print Assumptions certificate_attracts.
-Print Assumptions certificate_holds.
+(** What both rest on. *)
+Definition certificate := (certificate_attracts, certificate_holds).
+Print Assumptions certificate.
 "
     )
 }
