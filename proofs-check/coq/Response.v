@@ -206,40 +206,38 @@ Proof.
     replace (snd v) with (- (mu * (n O * snd z0))) by lra. ring.
 Qed.
 
+(** Every frequency om >= 0 is 0, that of an oscillator, or none of the internal model. *)
+Lemma frequencies : x = 0 \/ (exists m, (1 <= m <= N)%nat /\ x = INR m) \/ regular N x.
+Proof.
+  destruct (Req_dec x 0) as [Ex|Ex]; [left; exact Ex | right].
+  destruct (Classical_Prop.classic (exists m, (1 <= m <= N)%nat /\ x = INR m)) as [Pole|No]; [left; exact Pole | right].
+  assert (Hx : 0 <= x) by (apply Rmult_le_pos; [exact om_nonneg | left; apply Rinv_0_lt_compat, w_pos]).
+  intros l Hl E. apply No. exists (Z.to_nat l).
+  assert (0 <= l)%Z by (apply le_IZR; lra).
+  assert (l <> 0)%Z by (intros E0; subst l; lra).
+  split; [lia|]. rewrite INR_IZR_INZ, Z2Nat.id by lia. lra.
+Qed.
+
 (** (2.1) and (2.2), at every frequency om >= 0. *)
 Theorem response : energy_c = T n nu N x / w ^ 2 * Cmod v ^ 2.
 Proof.
-  destruct (Req_dec x 0) as [Ex|Ex].
+  destruct frequencies as [Ex|[[m [Hm Em]]|Reg]].
   - destruct (response_zero Ex) as [_ [_ [E1 E2]]]. rewrite E1, E2, Ex, T_at_0. unfold nu. pose proof (n_pos O). field. repeat split; lra.
-  - destruct (Classical_Prop.classic (exists m, (1 <= m <= N)%nat /\ x = INR m)) as [[m [Hm Em]]|No].
-    + destruct (response_pole m Hm Em) as [_ [_ [E1 E2]]]. rewrite E1, E2, Em, (T_at_pole n nu n_pos nu_pos) by exact Hm.
-      unfold nu. pose proof (n_pos m). field. repeat split; lra.
-    + assert (Hx : 0 <= x) by (apply Rmult_le_pos; [exact om_nonneg | left; apply Rinv_0_lt_compat, w_pos]).
-      assert (Reg : regular N x).
-      { intros l Hl E. apply No. exists (Z.to_nat l).
-        assert (0 <= l)%Z by (apply le_IZR; lra).
-        assert (l <> 0)%Z by (intros E0; subst l; lra).
-        split; [lia|]. rewrite INR_IZR_INZ, Z2Nat.id by lia. lra. }
-      destruct (response_regular Reg) as [_ [E1 E2]]. rewrite E1, E2, (T_regular n nu N x Reg). unfold quotient.
-      assert (0 < 1 + nu ^ 2 * g n N x ^ 2) by (pose proof (pow2_ge_0 (nu * g n N x)); nra). field. split; lra.
+  - destruct (response_pole m Hm Em) as [_ [_ [E1 E2]]]. rewrite E1, E2, Em, (T_at_pole n nu n_pos nu_pos) by exact Hm.
+    unfold nu. pose proof (n_pos m). field. repeat split; lra.
+  - destruct (response_regular Reg) as [_ [E1 E2]]. rewrite E1, E2, (T_regular n nu N x Reg). unfold quotient.
+    assert (0 < 1 + nu ^ 2 * g n N x ^ 2) by (pose proof (pow2_ge_0 (nu * g n N x)); nra). field. split; lra.
 Qed.
 
-(** Section 3: |y| <= |v| at every frequency, and y = 0 at the poles of the internal model. *)
+(** Section 3: |y| <= |v| at every frequency. *)
 Theorem response_y : Cmod y_c <= Cmod v.
 Proof.
   apply square_le; [apply Cmod_ge_0|].
-  destruct (Req_dec x 0) as [Ex|Ex].
+  destruct frequencies as [Ex|[[m [Hm Em]]|Reg]].
   - destruct (response_zero Ex) as [Y1 [Y2 _]]. rewrite (Cmod2 y_c), Y1, Y2. pose proof (pow2_ge_0 (Cmod v)). lra.
-  - destruct (Classical_Prop.classic (exists m, (1 <= m <= N)%nat /\ x = INR m)) as [[m [Hm Em]]|No].
-    + destruct (response_pole m Hm Em) as [Y1 [Y2 _]]. rewrite (Cmod2 y_c), Y1, Y2. pose proof (pow2_ge_0 (Cmod v)). lra.
-    + assert (Hx : 0 <= x) by (apply Rmult_le_pos; [exact om_nonneg | left; apply Rinv_0_lt_compat, w_pos]).
-      assert (Reg : regular N x).
-      { intros l Hl E. apply No. exists (Z.to_nat l).
-        assert (0 <= l)%Z by (apply le_IZR; lra).
-        assert (l <> 0)%Z by (intros E0; subst l; lra).
-        split; [lia|]. rewrite INR_IZR_INZ, Z2Nat.id by lia. lra. }
-      destruct (response_regular Reg) as [_ [_ E2]]. rewrite E2. pose proof (pow2_ge_0 (nu * g n N x)).
-      pose proof (pow2_ge_0 (Cmod y_c)). nra.
+  - destruct (response_pole m Hm Em) as [Y1 [Y2 _]]. rewrite (Cmod2 y_c), Y1, Y2. pose proof (pow2_ge_0 (Cmod v)). lra.
+  - destruct (response_regular Reg) as [_ [_ E2]]. rewrite E2. pose proof (pow2_ge_0 (nu * g n N x)).
+    pose proof (pow2_ge_0 (Cmod y_c)). nra.
 Qed.
 
 End Response.

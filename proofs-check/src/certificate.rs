@@ -94,7 +94,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     let shown = arguments.each_ref().map(Float::to_f64);
     // Last, because it may take the longest.
     if let Some(plant) = &plant {
-        proofs_plants::prove(&spec, plant, arguments.each_ref(), derivation.inequality(), lines)?;
+        proofs_plants::prove(&spec, plant, arguments.each_ref(), derivation.inequalities(), lines)?;
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
         for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {

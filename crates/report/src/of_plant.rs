@@ -7,7 +7,7 @@ use sigmastar_document::number::exact;
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
-use sigmastar_lang::spec::{MatrixInequality, OfPlant, ProvedValue, Specification, Splitting};
+use sigmastar_lang::spec::{ExistenceInequality, MatrixInequality, OfPlant, ProvedValue, Specification, Splitting};
 use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -55,6 +55,18 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             "Stability rests on the matrix inequality (M) over the derivatives (section 13.7), which holds from sigma = {} on, \
              {place} and every t. No condition uses the bounds at the same X and E; rates of convergence do.",
             exact(&inequality.value, Direction::Up)
+        ))
+    }));
+    blocks.extend(spec.bounds.proved_values().existence().map(|existence| {
+        let ExistenceInequality { x, e, k_p, c_y, value, .. } = existence;
+        let [x, e] = [x, e].map(|end| exact(end, Direction::Down));
+        let place = if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") };
+        Block::says(format!(
+            "Existence rests on the matrix inequality (E) over the derivatives (section 13.7), which holds from sigma = {} on, at \
+             every point of {place} and every t: along the periodic solution the root mean square of q + mu s is at most {} times \
+             that of q(t,0,0) without its mean.",
+            exact(value, Direction::Up),
+            exact(&Rational::from(k_p / c_y), Direction::Up)
         ))
     }));
     blocks
@@ -154,6 +166,13 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
                 "splitting": splitting.as_ref().map(|Splitting { x, e, matrix }| {
                     json!({ "X": write_exact(x), "E": write_exact(e), "S": rows(matrix) })
                 }),
+            })
+        }),
+        "existence_inequality": spec.bounds.proved_values().existence().map(|existence| {
+            let ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value } = existence;
+            json!({
+                "X": write_exact(x), "E": write_exact(e), "P": rows(matrix), "k_p": write_exact(k_p),
+                "c_x": write_exact(c_x), "c_y": write_exact(c_y), "sigma": write_exact(value),
             })
         }),
     })

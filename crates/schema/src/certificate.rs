@@ -237,6 +237,9 @@ fn of_data() -> Vec<Field> {
     let splitting = named("splitting", Shape::Object(splitting));
     let about = "With it (J, r) and (g, d) are taken at two points.";
     let inequality = inequality.into_iter().chain([may("splitting", "Splitting", about, splitting)]).collect();
+    let mut existence: Vec<Field> = numbers(&["X", "E"], "An argument.").into_iter().collect();
+    existence.push(must("P", "P", "A symmetric matrix for y, by rows.", matrix()));
+    existence.extend(numbers(&["k_p", "c_x", "c_y", "sigma"], "A weight, a margin, or the threshold."));
     vec![
         may("lyapunov", "Lyapunov triple", "P(t) and the triple of stability, proved.", triple()),
         may("lyapunov_existence", "Second triple", "That of the existence of the periodic solution.", triple()),
@@ -254,6 +257,12 @@ fn of_data() -> Vec<Field> {
             "Matrix inequality",
             "That of stability in the place of C5, proved from the formulas for w_x and h of the witness.",
             named("matrix_inequality", Shape::Object(inequality)),
+        ),
+        may(
+            "existence_inequality",
+            "Matrix inequality of existence",
+            "What bounds the periodic solution beside the gains of loops, proved from the formulas.",
+            named("existence_inequality", Shape::Object(existence)),
         ),
     ]
 }

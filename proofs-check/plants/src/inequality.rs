@@ -1,58 +1,113 @@
-//! The questions of the matrix inequality of stability (docs/mathematics.md, section 13.7).
+//! The questions of the matrix inequalities of stability and of existence (docs/mathematics.md, section 13.7).
 
 use super::bounds::rate;
-use super::formula::{Axis, Id};
+use super::formula::{Axis, Formulas, Id};
 use super::model::Model;
 use super::question::Question;
 use proofs_core::constant::Constant;
+use proofs_core::rules::derivation::Inequalities;
+use proofs_core::rules::existence::Existence;
 use proofs_core::rules::inequality::Inequality;
 use proofs_core::verdict::{Outcome, bad};
 use rug::Rational;
 
-/// The name of this rule.
+/// The name of the rule of stability.
 pub const RULE: &str = "matrix inequality";
+/// The name of the rule of existence.
+pub const EXISTENCE_RULE: &str = "existence inequality";
 
-/// What a question says, X and E, and the question.
-type Said<'i> = (&'static str, [&'i Rational; 2], Question);
+/// A question, and what it is about.
+pub struct Said<'i> {
+    pub rule: &'static str,
+    pub pointer: &'i str,
+    pub what: &'static str,
+    /// X and E.
+    pub at: [&'i Rational; 2],
+    pub question: Question,
+}
 
-/// In (x, y/mu, e), which divides by nothing, with the P of stability, `J_+ = J + rate I` and the threshold of sigma the rows of F are
-/// `-w_x (P' + P J_+ + J_+'P), -h r', -w_x P g`; `2 h mu, -(mu + h d)`; `2 sigma`. Without a splitting the question is `F >= 0`;
-/// with one, S in the place of its first rows, there are two: that F without the last row is not below S, and that S with the
-/// last row is not below 0.
-pub fn questions<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
+/// The numbers of a matrix F, in (x, y/unit, e). Its rows are `-weight (P' + P J_+ + J_+'P), -half r', -weight P g`;
+/// `2 half unit, -(unit + half d)`; `2 sigma`, with `J_+ = J + rate I`.
+struct Form<'i> {
+    p: Vec<Vec<Id>>,
+    weight: &'i Rational,
+    rate: Rational,
+    half: Rational,
+    unit: Id,
+    sigma: &'i Rational,
+}
+
+impl Form<'_> {
+    /// The rows of x and y, and that of e.
+    fn rows(&self, model: &mut Model) -> (Vec<Vec<Id>>, Vec<Id>) {
+        let (f, q, row, jacobian) = (model.f.clone(), model.q, model.row.clone(), model.jacobian.clone());
+        let formulas = &mut model.formulas;
+        let [minus_weight, minus_half] =
+            [self.weight, &self.half].map(|value| formulas.number(&Rational::from(-value)));
+        let mut block = rate(formulas, &self.rate, &self.p, &jacobian);
+        let weight = formulas.number(self.weight);
+        for entry in block.iter_mut().flatten() {
+            *entry = formulas.mul(weight, *entry);
+        }
+        let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
+        let twice = formulas.number(&(self.half.clone() * 2u32));
+        of_y.push(formulas.mul(twice, self.unit));
+        block.push(of_y);
+
+        let column: Vec<Id> = f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
+        let mut of_e: Vec<Id> = Vec::new();
+        for line in self.p.iter().take(column.len()) {
+            let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
+            of_e.push(formulas.mul(minus_weight, moved));
+        }
+        let slope = formulas.derivative(q, Axis::Output);
+        let weighted = formulas.mul(minus_half, slope);
+        of_e.push(formulas.sub(weighted, self.unit));
+        of_e.push(formulas.number(&(self.sigma.clone() * 2u32)));
+        (block, of_e)
+    }
+}
+
+/// The questions of all inequalities that there are, with mu.
+pub fn questions<'i>(model: &mut Model, inequalities: Inequalities<'i>, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
+    let mut all = Vec::new();
+    if let Some(inequality) = inequalities.stability {
+        all.extend(of_stability(model, inequality, mu)?);
+    }
+    if let Some(inequality) = inequalities.existence {
+        all.push(of_existence(model, inequality)?);
+    }
+    Ok(all)
+}
+
+/// Where they are asked: X and E of each.
+pub fn arguments<'i>(inequalities: Inequalities<'i>) -> impl Iterator<Item = [&'i Rational; 2]> {
+    let of_stability = inequalities.stability.into_iter().flat_map(Inequality::arguments);
+    of_stability.chain(inequalities.existence.map(|known| [&known.x, &known.e]))
+}
+
+/// With the P of stability, w_x, h, the threshold of sigma, and y/mu, which divides by nothing. Without a splitting the question is
+/// `F >= 0`; with one, S in the place of its first rows, there are two: that F without the last row is not below S, and that S with
+/// the last row is not below 0.
+fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
     let order = model.states();
-    let (p, jacobian) = (model.lyapunov[0].clone(), model.jacobian.clone());
-    let (f, q, row) = (model.f.clone(), model.q, model.row.clone());
-    let formulas = &mut model.formulas;
-    let [minus_w_x, minus_h] = [&inequality.w_x, &inequality.h].map(|value| formulas.number(&Rational::from(-value)));
     // A constant asks for nothing on the region: it has a value, or nothing is proved with it.
-    let mu = formulas.read(mu.expr(), &[], &mut Vec::new());
-
-    let mut block = rate(formulas, &inequality.rate, &p, &jacobian);
-    let w_x = formulas.number(&inequality.w_x);
-    for entry in block.iter_mut().flatten() {
-        *entry = formulas.mul(w_x, *entry);
-    }
-    let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_h, *slope)).collect();
-    let twice = formulas.number(&(inequality.h.clone() * 2u32));
-    of_y.push(formulas.mul(twice, mu));
-    block.push(of_y);
-
-    let column: Vec<Id> = f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
-    let mut of_e: Vec<Id> = Vec::new();
-    for line in p.iter().take(order) {
-        let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
-        of_e.push(formulas.mul(minus_w_x, moved));
-    }
-    let slope = formulas.derivative(q, Axis::Output);
-    let weighted = formulas.mul(minus_h, slope);
-    of_e.push(formulas.sub(weighted, mu));
-    of_e.push(formulas.number(&(inequality.sigma.clone() * 2u32)));
-
+    let mu = model.formulas.read(mu.expr(), &[], &mut Vec::new());
+    let form = Form {
+        p: model.lyapunov[0].clone(),
+        weight: &inequality.w_x,
+        rate: inequality.rate.clone(),
+        half: inequality.h.clone(),
+        unit: mu,
+        sigma: &inequality.sigma,
+    };
+    let (mut block, of_e) = form.rows(model);
+    let formulas = &mut model.formulas;
+    let said = |what, at, question| Said { rule: RULE, pointer: &inequality.pointer, what, at, question };
     let [of_states, of_error] = inequality.arguments();
     let Some(splitting) = &inequality.splitting else {
         block.push(of_e);
-        return Ok(vec![("F >= 0", of_states, Question::new(formulas, block, order))]);
+        return Ok(vec![said("F >= 0", of_states, Question::new(formulas, block, order))]);
     };
     if splitting.matrix.len() != order + 1 {
         return bad(&format!("{}/splitting/S", inequality.pointer), "expected a row for each state, and one more");
@@ -74,7 +129,35 @@ pub fn questions<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constan
     }
     s.push(of_e);
     Ok(vec![
-        ("F without e >= S", of_states, Question::new(formulas, block, order)),
-        ("S with e >= 0", of_error, Question::new(formulas, s, order)),
+        said("F without e >= S", of_states, Question::new(formulas, block, order)),
+        said("S with e >= 0", of_error, Question::new(formulas, s, order)),
     ])
+}
+
+/// With a constant P of its own, `half = k_p/2` and y itself: `F >= diag(c_x I, 0, c_y)` with the threshold of sigma.
+fn of_existence<'i>(model: &mut Model, inequality: &'i Existence) -> Outcome<Said<'i>> {
+    let order = model.states();
+    if inequality.p.len() != order {
+        return bad(&format!("{}/P", inequality.pointer), "expected a row for each state");
+    }
+    let number = |formulas: &mut Formulas, value: &Rational| formulas.number(value);
+    let p = inequality.p.iter().map(|row| row.iter().map(|value| number(&mut model.formulas, value)).collect());
+    let form = Form {
+        p: p.collect(),
+        weight: &Rational::from(1),
+        rate: Rational::new(),
+        half: Rational::from(&inequality.k_p / 2u32),
+        unit: model.formulas.int(1),
+        sigma: &inequality.threshold,
+    };
+    let (mut rows, of_e) = form.rows(model);
+    let formulas = &mut model.formulas;
+    for (i, row) in rows.iter_mut().enumerate() {
+        let taken = formulas.number(if i < order { &inequality.c_x } else { &inequality.c_y });
+        row[i] = formulas.sub(row[i], taken);
+    }
+    rows.push(of_e);
+    let at = [&inequality.x, &inequality.e];
+    let (rule, pointer) = (EXISTENCE_RULE, inequality.pointer.as_str());
+    Ok(Said { rule, pointer, what: "F >= diag(c_x, 0, c_y)", at, question: Question::new(formulas, rows, order) })
 }

@@ -30,7 +30,7 @@ use machine::{Cell, Machine, Values};
 use model::{Frame, Model};
 use proofs_core::interval::{Interval, above};
 use proofs_core::plant::entries;
-use proofs_core::rules::inequality::Inequality;
+use proofs_core::rules::derivation::Inequalities;
 use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, Verdict, demand, finding};
 use question::{Answer, Question};
@@ -57,13 +57,13 @@ struct Asked {
     what: String,
 }
 
-/// Proves everything that section 11 demands of the formulas, and the inequality of section 13.7 where stability rests on one;
+/// Proves everything that section 11 demands of the formulas, and the inequalities of section 13.7 that a claim rests on;
 /// `arguments`: the largest X and E at which they are used.
 pub fn prove(
     spec: &Specification,
     plant: &Plant,
     arguments: [&Float; 2],
-    inequality: Option<&Inequality>,
+    inequalities: Inequalities<'_>,
     lines: &mut Vec<String>,
 ) -> Outcome<()> {
     for formula in plant.f.iter().chain([&plant.q]) {
@@ -87,10 +87,9 @@ pub fn prove(
     for entry in &plant.known.entries.list {
         asked.push(of_entry(plant, &mut model, entry));
     }
-    if let Some(inequality) = inequality {
-        asked.extend(of_inequality(plant, &mut model, inequality, spec)?);
-    }
-    let still = still::Still::new(plant, inequality.map(|inequality| (inequality, &spec.mu)))?;
+    let questions = inequality::questions(&mut model, inequalities, &spec.mu)?;
+    asked.extend(questions.into_iter().map(|said| of_inequality(plant, said)));
+    let still = still::Still::new(plant, inequalities, &spec.mu)?;
     if model.formulas.is_too_large() {
         return too_large("formulas", "/plant");
     }
@@ -105,7 +104,7 @@ pub fn prove(
     let mut machine = Machine::new(&model.formulas, &curves, &om);
     let root = machine.period(&period);
     let mut values = machine.values();
-    let used = largest(plant, arguments, inequality);
+    let used = largest(plant, arguments, inequalities);
     let count = smoothness(plant, &model, &machine, &root, used.each_ref(), &mut values)?;
     lines.push(format!("formulas: smooth where they are used, by {count} boxes"));
     if plant.states() > 0 {
@@ -177,24 +176,15 @@ fn of_entry(plant: &Plant, model: &mut Model, entry: &entries::Entry) -> Asked {
     }
 }
 
-fn of_inequality(
-    plant: &Plant,
-    model: &mut Model,
-    inequality: &Inequality,
-    spec: &Specification,
-) -> Outcome<Vec<Asked>> {
-    let questions = inequality::questions(model, inequality, &spec.mu)?;
-    let asked = |(what, at, question): (&str, [&Rational; 2], Question)| {
-        let [x, e] = place(at);
-        Asked {
-            question,
-            region: region(plant, &x, &e),
-            rule: inequality::RULE,
-            pointer: inequality.pointer.clone(),
-            what: format!("{what} at X = {}, E = {}", x.to_f64(), e.to_f64()),
-        }
-    };
-    Ok(questions.into_iter().map(asked).collect())
+fn of_inequality(plant: &Plant, said: inequality::Said<'_>) -> Asked {
+    let [x, e] = place(said.at);
+    Asked {
+        question: said.question,
+        region: region(plant, &x, &e),
+        rule: said.rule,
+        pointer: said.pointer.to_owned(),
+        what: format!("{} at X = {}, E = {}", said.what, x.to_f64(), e.to_f64()),
+    }
 }
 
 /// X and E, rounded up.
@@ -203,11 +193,9 @@ fn place(at: [&Rational; 2]) -> [Float; 2] {
 }
 
 /// The largest X and E that anything is used at.
-fn largest(plant: &Plant, arguments: [&Float; 2], inequality: Option<&Inequality>) -> [Float; 2] {
+fn largest(plant: &Plant, arguments: [&Float; 2], inequalities: Inequalities<'_>) -> [Float; 2] {
     let mut largest = plant.known.entries.largest();
-    let others = [arguments.map(Clone::clone)]
-        .into_iter()
-        .chain(inequality.into_iter().flat_map(|known| known.arguments().map(place)));
+    let others = [arguments.map(Clone::clone)].into_iter().chain(inequality::arguments(inequalities).map(place));
     for (end, other) in others.flat_map(|other| [0, 1].map(|i| (i, other[i].clone()))) {
         if other > largest[end] {
             largest[end] = other;

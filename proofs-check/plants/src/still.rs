@@ -1,4 +1,4 @@
-//! Bounds, and the matrix inequality of stability, decided in the states themselves (docs/mathematics.md, section 11.6).
+//! Bounds, and the matrix inequalities, decided in the states themselves (docs/mathematics.md, section 11.6).
 //!
 //! A derivative that t enters through the orbit alone is a function of those states and e that it names: where three coordinates
 //! and t move one state, one side is to be cut in the place of four. The set is larger than G(X,E), each state over all that it is
@@ -17,7 +17,7 @@ use super::{end, formula::Leaf, place, radius};
 use proofs_core::constant::Constant;
 use proofs_core::interval::Interval;
 use proofs_core::plant::entries;
-use proofs_core::rules::inequality::Inequality;
+use proofs_core::rules::derivation::Inequalities;
 use proofs_core::verdict::Outcome;
 use rug::Float;
 use std::rc::Rc;
@@ -27,7 +27,7 @@ const MAX_PIECES: usize = 4_000;
 /// How many cells of t there are for the range of the orbit.
 const RANGE_CELLS_LOG: u32 = 8;
 
-/// The entries and the parts of the inequality as questions in x, with X and E; `None` where one moves with t.
+/// The entries and the parts of the inequalities as questions in x, with X and E; `None` where one moves with t.
 pub struct Still {
     model: Model,
     /// The components of xb.
@@ -46,8 +46,8 @@ pub struct Prepared<'s> {
 }
 
 impl Still {
-    /// For all entries of a plant, and for its inequality, with mu.
-    pub fn new(plant: &Plant, inequality: Option<(&Inequality, &Constant)>) -> Outcome<Still> {
+    /// For all entries of a plant, and for the inequalities that there are, with mu.
+    pub fn new(plant: &Plant, inequalities: Inequalities<'_>, mu: &Constant) -> Outcome<Still> {
         let mut model = Model::new(plant, Frame::Still);
         let orbit = (0..plant.states()).map(|state| model.formulas.leaf(Leaf::Orbit { state, order: 0 })).collect();
         let question = |entry: &entries::Entry| {
@@ -55,10 +55,8 @@ impl Still {
             (!moves).then(|| (bounds::question(&mut model, entry), entry.arguments.clone()))
         };
         let mut questions: Vec<_> = plant.known.entries.list.iter().map(question).collect();
-        if let Some((inequality, mu)) = inequality {
-            let parts = inequality::questions(&mut model, inequality, mu)?.into_iter();
-            questions.extend(parts.map(|(_, at, question)| Some((question, place(at)))));
-        }
+        let parts = inequality::questions(&mut model, inequalities, mu)?.into_iter();
+        questions.extend(parts.map(|said| Some((said.question, place(said.at)))));
         let questions = questions.into_iter().map(|asked| asked.filter(|(question, _)| !question.moves())).collect();
         Ok(Still { model, orbit, questions })
     }

@@ -75,6 +75,10 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
     if let Some(inequality) = &witness.inequality {
         return unsupported(&inequality.pointer, "no theorem is written of a matrix inequality in the place of C5");
     }
+    if witness.existence.inequality.is_some() {
+        let pointer = "/witness/existence_inequality";
+        return unsupported(pointer, "no theorem is written of an inequality in the place of S1b to S2c");
+    }
     let mut periodic = claim.periodic.fields()?;
     let mut size = |name| periodic.required(name)?.rational();
     let sizes = [size("x")?, size("e")?, size("zeta")?];

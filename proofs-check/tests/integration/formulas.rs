@@ -87,7 +87,7 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     let d = Data::new(&spec, 128);
     let (k0, k1) = (11.0, 7.0);
     let pair = [d.int(11), d.int(7)];
-    let w = Witness { r: r.clone(), kap: kap.clone(), refined: last.clone() };
+    let w = Witness { r: r.clone(), kap: kap.clone(), refined: last.clone(), inequality: None };
     let kappa = kappas(&d, &pair[0], &pair[1]);
     let solution =
         mean_squares::evaluate(&d, &w, &sigma, [&d.ratio(1, 4), &d.ratio(3, 8)], [&pair[0], &pair[1]], &kappa);

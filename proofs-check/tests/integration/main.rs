@@ -7,6 +7,7 @@ mod arguments;
 mod claim;
 mod common;
 mod coq;
+mod existence_inequality;
 mod forged;
 mod formulas;
 mod fuzz;

@@ -5,6 +5,8 @@ use proofs_check::effort;
 use proofs_check::json::{Field, Json, decimal, parse};
 use proofs_check::plants as plant;
 use proofs_check::plants::read::Plant;
+use proofs_check::rules::derivation::Inequalities;
+use proofs_check::rules::existence::Existence;
 use proofs_check::rules::inequality::Inequality;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
@@ -33,14 +35,22 @@ fn inequality(parts: &Value) -> Outcome<Inequality> {
     Inequality::read(&field, [&weight("w_x"), &weight("h")])
 }
 
+/// An inequality of existence as a witness has it.
+fn existence(part: &Value) -> Outcome<Existence> {
+    let json = parse(part.to_string().as_bytes()).unwrap();
+    Existence::read(&Field { json: &json, pointer: "/witness/existence_inequality".to_owned() })
+}
+
 /// Applies the rules of section 11; the lines of the argument.
 pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
     let (spec, plant) = read(parts)?;
     let inequality = parts.get("inequality").map(inequality).transpose()?;
+    let existence = parts.get("existence").map(existence).transpose()?;
+    let inequalities = Inequalities { stability: inequality.as_ref(), existence: existence.as_ref() };
     let none = Float::new(128);
     let mut lines = Vec::new();
     let (answer, steps) =
-        effort::limited(effort::LIMIT, || plant::prove(&spec, &plant, [&none, &none], inequality.as_ref(), &mut lines));
+        effort::limited(effort::LIMIT, || plant::prove(&spec, &plant, [&none, &none], inequalities, &mut lines));
     lines.push(format!("{steps} steps"));
     answer.map(|()| lines)
 }

@@ -8,6 +8,7 @@
 use super::{any, decimal};
 use proofs_check::effort;
 use proofs_check::json::{Field, Json, parse};
+use proofs_check::rules::derivation::Inequalities;
 use proofs_check::verdict::Outcome;
 use rand::RngExt;
 use rand::rngs::StdRng;
@@ -261,7 +262,7 @@ impl Drawn {
         let (spec, plant) = proofs_check::plants::read::read(&field, &mut fields)?;
         fields.finish()?;
         let none = Float::new(128);
-        proofs_check::plants::prove(&spec, &plant, [&none, &none], None, &mut Vec::new())
+        proofs_check::plants::prove(&spec, &plant, [&none, &none], Inequalities::default(), &mut Vec::new())
     }
 
     pub fn name(&self) -> String {

@@ -1,6 +1,7 @@
 //! Bounding functions of a plant that is known by its formulas: least upper bounds, proved at a few arguments.
 
 use super::bound::Bound;
+use super::existence_inequality::ExistenceInequality;
 use super::matrix_inequality::MatrixInequality;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -32,19 +33,32 @@ fn reaches(argument: &Enclosure, end: &Rational) -> bool {
 pub struct ProvedValues {
     entries: Vec<ProvedValue>,
     inequality: Option<MatrixInequality>,
+    existence: Option<ExistenceInequality>,
 }
 
 impl ProvedValues {
     /// The values, each of which is proved.
     #[must_use]
     pub fn new(entries: Vec<ProvedValue>) -> ProvedValues {
-        ProvedValues { entries, inequality: None }
+        ProvedValues { entries, inequality: None, existence: None }
     }
 
     /// The same with a matrix inequality, which is proved.
     #[must_use]
     pub fn with_inequality(self, inequality: Option<MatrixInequality>) -> ProvedValues {
         ProvedValues { inequality, ..self }
+    }
+
+    /// The same with a matrix inequality of existence, which is proved.
+    #[must_use]
+    pub fn with_existence(self, existence: Option<ExistenceInequality>) -> ProvedValues {
+        ProvedValues { existence, ..self }
+    }
+
+    /// The matrix inequality of existence, where there is one.
+    #[must_use]
+    pub fn existence(&self) -> Option<&ExistenceInequality> {
+        self.existence.as_ref()
     }
 
     /// The matrix inequality, where there is one.
@@ -82,7 +96,8 @@ impl ProvedValues {
     #[must_use]
     pub fn reach(&self) -> Option<[Rational; 2]> {
         let of_inequality = self.inequality.iter().flat_map(MatrixInequality::arguments);
-        let all = self.entries.iter().map(|entry| [&entry.x, &entry.e]).chain(of_inequality);
+        let of_existence = self.existence.iter().map(|existence| [&existence.x, &existence.e]);
+        let all = self.entries.iter().map(|entry| [&entry.x, &entry.e]).chain(of_inequality).chain(of_existence);
         let larger = |[x, e]: [_; 2], [other_x, other_e]: [_; 2]| [Ord::max(x, other_x), Ord::max(e, other_e)];
         all.reduce(larger).map(|largest| largest.map(Clone::clone))
     }

@@ -53,7 +53,7 @@ impl Engine {
     }
 
     /// Decides that a matrix of these derivatives is positive definite on `G(X, E)`.
-    fn decide_part(
+    pub(super) fn decide_part(
         &self,
         part: Part,
         at: [&Rational; 2],

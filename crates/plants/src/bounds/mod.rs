@@ -17,8 +17,10 @@ mod decide;
 mod definite;
 mod directions;
 mod eigen;
+mod energy_program;
 mod engine;
 mod entry;
+mod existence;
 mod explore;
 mod extent;
 mod inequality;
@@ -51,7 +53,7 @@ pub use sampled_pairs::{Corners, MatrixArguments};
 pub use sampled_threshold::Focus;
 pub use smooth::SmoothnessFailure;
 pub use suprema::{FloatCurve, FloatSuprema, Places};
-pub use weights::FloatWeights;
+pub use weights::{EnergyAt, EnergyWeights, FloatWeights};
 
 /// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.
 const PRECISION: u32 = 64;

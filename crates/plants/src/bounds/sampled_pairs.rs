@@ -87,7 +87,12 @@ impl FloatSuprema {
     }
 
     /// The places where these of the table are largest, and where the last of them is least.
-    fn where_largest<const N: usize>(&self, at: [f64; 2], places: &Places, bounds: [Bound; N]) -> Vec<Place> {
+    pub(super) fn where_largest<const N: usize>(
+        &self,
+        at: [f64; 2],
+        places: &Places,
+        bounds: [Bound; N],
+    ) -> Vec<Place> {
         let mut best = vec![Vec::new(); N + 1];
         self.at_points(at, places, Asked::ALL, |place, values| {
             let values = bounds.map(|bound| of_table(bound, &values));

@@ -174,13 +174,8 @@ impl Program {
         let above = self.above.iter().map(|matrix| {
             let constant = |i: usize, j: usize| matrix[i][j] * scale[i] * scale[j];
             let term = |variable: usize, i: usize, j: usize| match variable == pairs.len() {
-                true => {
-                    if given.is_some() && i == j {
-                        -1.0
-                    } else {
-                        0.0
-                    }
-                }
+                true if given.is_some() && i == j => -1.0,
+                true => 0.0,
                 false => -is_entry(variable, i, j),
             };
             AffineMatrix::from_fn(order, pairs.len() + 1, constant, term)

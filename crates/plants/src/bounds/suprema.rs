@@ -3,6 +3,7 @@
 use super::entry::{TABLE, of_table};
 use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise, roots};
 use rug::Rational;
+use sigmastar_exact::number::Portable;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
@@ -44,7 +45,16 @@ impl From<&TrigonometricVector> for FloatCurve {
 /// The shares of E that are looked at.
 const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
 
-/// A place in the grid: of the time, of the point of the ball, and of the share of E.
+/// Where dq/de is largest and least on the orbit: sought at these powers of ten of e, of either sign, so many to each, and by so many
+/// steps between neighbours.
+const DECADES: std::ops::RangeInclusive<i32> = -6..=6;
+const IN_A_DECADE: i32 = 4;
+const STEPS_BETWEEN: u32 = 24;
+
+/// The share of the changes of dq/de that is worth a place of its own.
+const WORTH_A_PLACE: f64 = 0.01;
+
+/// A place in the grid: of the time, of the point of the ball, and of the share of E, or of the errors of [`FloatSuprema::narrow`].
 pub(super) type Place = [usize; 3];
 
 /// Which points of the grid are looked at.
@@ -91,6 +101,9 @@ pub struct FloatSuprema {
     ball: Arc<Vec<Vec<f64>>>,
     /// Whether anything depends on e.
     by_error: bool,
+    /// At each time the errors at which dq/de is largest and least, where it is so at others than 0 and the largest ones: a friction that
+    /// changes over a small part of the errors is not seen by shares of them.
+    narrow: Option<Arc<Vec<[f64; 2]>>>,
     velocity: Arc<Program>,
 }
 
@@ -157,13 +170,71 @@ impl FloatSuprema {
             moments: Arc::default(),
             ball: Arc::new(if by_states { ball_points(n) } else { vec![vec![0.0; n]] }),
             by_error,
+            narrow: None,
             velocity,
         };
         let mut evaluator = Evaluator::new(suprema.program.clone());
         let mut slow = Evaluator::new(suprema.velocity.clone());
         let moment = |i: usize| suprema.moment((i as f64 + 0.5) / TIMES as f64, &mut evaluator, &mut slow);
         suprema.moments = Arc::new((0..times).map(moment).collect());
+        suprema.narrow = if by_error { suprema.sought_narrow() } else { None };
         suprema
+    }
+
+    /// See [`FloatSuprema::narrow`].
+    fn sought_narrow(&self) -> Option<Arc<Vec<[f64; 2]>>> {
+        let mut evaluator = Evaluator::new(self.program.clone());
+        let mut outputs = vec![0.0; self.program.outputs()];
+        let at = self.order * self.order + 2 * self.order;
+        let sizes = DECADES.flat_map(|k| (0..IN_A_DECADE).map(move |part| (k, part)));
+        let size = |(k, part): (i32, i32)| {
+            10f64.portable_powi(k) * 10f64.portable_pow(f64::from(part) / f64::from(IN_A_DECADE))
+        };
+        let positive: Vec<f64> = sizes.map(size).collect();
+        let negative = positive.iter().rev().map(|size| -size);
+        let grid: Vec<f64> = negative.chain([0.0]).chain(positive.iter().copied()).collect();
+        let (mut found, mut gain, mut spread) = (Vec::new(), 0.0_f64, 0.0_f64);
+        for moment in self.moments.iter() {
+            evaluator.load_time_values(&moment.kept);
+            let mut slope = |e: f64| {
+                evaluator.evaluate(&moment.orbit, e, &mut outputs);
+                outputs[at]
+            };
+            let values: Vec<f64> = grid.iter().map(|e| slope(*e)).collect();
+            let extreme = [1.0, -1.0].map(|sign| {
+                let value = |i: &usize| if values[*i].is_finite() { sign * values[*i] } else { f64::NEG_INFINITY };
+                let best = (0..grid.len()).max_by(|i, j| value(i).total_cmp(&value(j))).unwrap_or(0);
+                let (mut e, mut largest) = (grid[best], value(&best));
+                let mut step = 0.5 * (grid[(best + 1).min(grid.len() - 1)] - grid[best.saturating_sub(1)]);
+                for _ in 0..STEPS_BETWEEN {
+                    let next = [e - step, e + step].map(|e| (sign * slope(e), e));
+                    let (other, place) = if next[0].0 > next[1].0 { next[0] } else { next[1] };
+                    if other > largest {
+                        (largest, e) = (other, place);
+                    } else {
+                        step *= 0.5;
+                    }
+                }
+                let seen = [0, grid.len() / 2, grid.len() - 1]
+                    .map(|i| value(&i))
+                    .into_iter()
+                    .fold(f64::NEG_INFINITY, f64::max);
+                gain = gain.max(largest - seen);
+                (e, sign * largest)
+            });
+            spread = spread.max(extreme[0].1 - extreme[1].1);
+            found.push(extreme.map(|(e, _)| e));
+        }
+        (gain > WORTH_A_PLACE * spread).then(|| Arc::new(found))
+    }
+
+    /// The error at a place.
+    fn error(&self, [i, _, k]: Place, e: f64) -> f64 {
+        match (ERRORS.get(k), &self.narrow) {
+            (Some(share), _) => share * e,
+            (None, Some(narrow)) => narrow[i][k - ERRORS.len()].clamp(-e, e),
+            (None, None) => 0.0,
+        }
     }
 
     /// The same in other coordinates, with other P, which are constant: the formulas are not differentiated again.
@@ -180,6 +251,7 @@ impl FloatSuprema {
             moments: self.moments.clone(),
             ball: self.ball.clone(),
             by_error: self.by_error,
+            narrow: self.narrow.clone(),
             velocity: self.velocity.clone(),
         }
     }
@@ -218,7 +290,9 @@ impl FloatSuprema {
     fn places(&self, e: f64, places: &Places) -> Vec<Place> {
         let errors: &[usize] = match places {
             _ if e == 0.0 || !self.by_error => &[1],
+            Places::Stride(1) | Places::Listed(_) if self.narrow.is_some() => &[0, 1, 2, 3, 4],
             Places::Stride(1) | Places::Listed(_) => &[0, 1, 2],
+            Places::Stride(_) if self.narrow.is_some() => &[0, 2, 3, 4],
             Places::Stride(_) => &[0, 2],
         };
         match places {
@@ -265,7 +339,7 @@ impl FloatSuprema {
         let mut x = vec![0.0; self.order];
         let mut last = None;
         let mut matrices = [MatrixAt::Missing, MatrixAt::Missing];
-        for place @ [i, j, k] in self.places(e, places) {
+        for place @ [i, j, _] in self.places(e, places) {
             let moment = &self.moments[i];
             if last != Some(i) {
                 evaluator.load_time_values(&moment.kept);
@@ -273,7 +347,7 @@ impl FloatSuprema {
                 last = Some(i);
             }
             self.place(&moment.orbit, &self.ball[j], reach, &mut x);
-            evaluator.evaluate(&x, ERRORS[k] * e, &mut outputs);
+            evaluator.evaluate(&x, self.error(place, e), &mut outputs);
             see(place, &outputs, moment, &matrices);
         }
     }
@@ -399,8 +473,9 @@ impl FloatSuprema {
         };
         // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
         let mut largest = f64::NAN;
-        for (value, [i, j, k]) in &best {
-            let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: ERRORS[*k] };
+        for (value, place @ [i, j, _]) in &best {
+            let share = if e > 0.0 { self.error(*place, e) / e } else { 0.0 };
+            let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: share };
             largest = largest.max(climb(point, *value, halvings, e != 0.0, &mut value_at));
         }
         [largest, least]

@@ -1,6 +1,8 @@
 //! F of the matrix inequality (M) at one point in doubles: without e, the column of e, and the least sigma of both (derivation, 13.7).
 
 use super::pointwise::{Derivatives, MatrixAt};
+use rug::Rational;
+use sigmastar_lang::spec::ExistenceInequality;
 
 /// The free numbers of (M) in doubles (derivation, 13.7).
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +40,78 @@ impl FloatWeights {
     }
 }
 
+/// The free numbers of (E) in doubles (derivation, 13.7).
+#[derive(Clone, Debug)]
+pub struct EnergyWeights {
+    /// P by rows, in the coordinates y.
+    pub p: Vec<Vec<f64>>,
+    /// k_p.
+    pub k_p: f64,
+    /// c_x.
+    pub c_x: f64,
+    /// The threshold of sigma.
+    pub value: f64,
+}
+
+impl From<&ExistenceInequality> for EnergyWeights {
+    fn from(ExistenceInequality { matrix, k_p, c_x, value, .. }: &ExistenceInequality) -> EnergyWeights {
+        let p = matrix.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+        EnergyWeights { p, k_p: k_p.to_f64(), c_x: c_x.to_f64(), value: value.to_f64() }
+    }
+}
+
+impl EnergyWeights {
+    /// The largest c_y at one point.
+    pub(super) fn margin(&self, at: &Derivatives<'_>) -> f64 {
+        self.at(at).margin(self.k_p, self.value)
+    }
+
+    /// c_y at one point as a function of the threshold.
+    pub(super) fn at(&self, at: &Derivatives<'_>) -> EnergyAt {
+        let EnergyWeights { p, k_p, c_x, .. } = self;
+        let n = at.r.len();
+        let moved = |i: usize, k: usize| -> f64 { (0..n).map(|m| p[i][m] * at.j[m * n + k]).sum() };
+        let mut rows = Vec::with_capacity(n * (n + 1) / 2);
+        for i in 0..n {
+            rows.extend((0..=i).map(|k| -(moved(i, k) + moved(k, i)) - if i == k { *c_x } else { 0.0 }));
+        }
+        let root = match Root::new(&rows) {
+            Ok(root) => root,
+            Err(without) => return EnergyAt { of_y: without, between: 0.0, of_e: 0.0 },
+        };
+        let of_e = root.solved(&(0..n).map(|i| -(0..n).map(|m| p[i][m] * at.g[m]).sum::<f64>()).collect::<Vec<f64>>());
+        let of_y = root.solved(&at.r.iter().map(|slope| -0.5 * k_p * slope).collect::<Vec<f64>>());
+        EnergyAt {
+            between: -1.0 - 0.5 * k_p * at.d - dot(&of_e, &of_y),
+            of_e: dot(&of_e, &of_e),
+            of_y: dot(&of_y, &of_y),
+        }
+    }
+}
+
+/// What is left of the rows of e and y of (E) where those of x are eliminated: `[[2 sigma - of_e, between], [., k_p - of_y]]`.
+#[derive(Clone, Copy, Debug)]
+pub struct EnergyAt {
+    of_y: f64,
+    between: f64,
+    of_e: f64,
+}
+
+impl EnergyAt {
+    /// The largest c_y at a threshold of sigma; negative and infinite where there is none.
+    #[must_use]
+    pub fn margin(self, k_p: f64, value: f64) -> f64 {
+        let EnergyAt { of_y, between, of_e } = self;
+        let left = 2.0 * value - of_e;
+        let margin = k_p - of_y - between * between / left;
+        if left > 0.0 || left.is_nan() { margin } else { f64::NEG_INFINITY }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 /// A positive definite matrix by its Cholesky factor, the lower triangle by rows.
 pub(super) struct Root(Vec<f64>);
 
@@ -65,18 +139,21 @@ impl Root {
         Ok(Root(rows))
     }
 
-    /// Half of `v' G^-1 v`.
-    pub(super) fn threshold(&self, v: &[f64]) -> f64 {
-        let (mut solved, mut square) = (Vec::with_capacity(v.len()), 0.0);
+    /// The solution of `R s = v` for the factor R, of which `|s|^2 = v' G^-1 v`.
+    fn solved(&self, v: &[f64]) -> Vec<f64> {
+        let mut solved = Vec::with_capacity(v.len());
         let mut rows = self.0.as_slice();
         for (i, value) in v.iter().enumerate() {
             let (row, rest) = rows.split_at(i + 1);
-            let sum: f64 = row.iter().zip(&solved).map(|(a, b)| a * b).sum();
-            let next = (value - sum) / row[i];
-            square += next * next;
-            solved.push(next);
+            solved.push((value - dot(row, &solved)) / row[i]);
             rows = rest;
         }
-        0.5 * square
+        solved
+    }
+
+    /// Half of `v' G^-1 v`.
+    pub(super) fn threshold(&self, v: &[f64]) -> f64 {
+        let solved = self.solved(v);
+        0.5 * dot(&solved, &solved)
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn least_gain_shapes(matrices: &[DMatrix<f64>], channel: &Channel, la
 }
 
 /// Minimise sigma subject to `[[-(P J + J'P) - 2 alpha P, -P g, -(kp/2) r'], [., 2 sigma, -1 - (kp/2) d], [., ., kp]] >= 0` for every
-/// J, with P, kp and sigma as unknowns, in units of `|J|` and of `s = |d| + |g| |r|/|J|`.
+/// J, each with (g, r, d) of one time in turn; P, kp and sigma are unknown. In units of `|J|` and of `s = |d| + |g| |r|/|J|`.
 fn least_gain(matrices: &[DMatrix<f64>], channel: &Channel, alpha: f64) -> Option<DMatrix<f64>> {
     let n = matrices.first()?.nrows();
     let unit = size(matrices);

@@ -1,12 +1,12 @@
 //! What a certificate of a plant adds to the witness (derivation, 11).
 
-use super::fields::{INEQUALITY, SPLITTING};
+use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, SPLITTING};
 use super::triple::rows;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{
-    MatrixInequality, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, Splitting,
+    ExistenceInequality, MatrixInequality, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, Splitting,
 };
 
 fn exact(value: &Rational) -> Value {
@@ -22,7 +22,7 @@ fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
     Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
-/// `coordinates`, `orbit`, `forcing` and `bounds`; none where the data do not come from a plant's formulas.
+/// `coordinates`, `orbit`, `forcing` and `bounds`, and the matrix inequalities that are used; none where the data do not come from a plant's formulas.
 #[must_use]
 pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     let Some(plant) = spec.plant() else { return Vec::new() };
@@ -35,7 +35,14 @@ pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
         ("bounds", values_json(values)),
     ];
     parts.extend(values.inequality().map(|inequality| (INEQUALITY, inequality_json(inequality))));
+    parts.extend(values.existence().map(|existence| (EXISTENCE_INEQUALITY, existence_json(existence))));
     parts
+}
+
+fn existence_json(ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value }: &ExistenceInequality) -> Value {
+    let arguments = [("X", exact(x)), ("E", exact(e)), ("P", rows(matrix))];
+    let numbers = [("k_p", k_p), ("c_x", c_x), ("c_y", c_y), ("sigma", value)];
+    object(arguments.into_iter().chain(numbers.map(|(name, value)| (name, exact(value)))))
 }
 
 fn inequality_json(MatrixInequality { x, e, rate, value, splitting, .. }: &MatrixInequality) -> Value {

@@ -1,14 +1,14 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
-use super::fields::{INEQUALITY, SPLITTING, exact_rational, rational};
+use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, SPLITTING, exact_rational, rational};
 use super::read::{read_rows, read_triple};
 use super::triple::{EXISTENCE, STABILITY};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    Bound, Document, ErrorKind, Errors, MatrixInequality, Object, OfPlant, ProvedForcing, ProvedOrbit, ProvedValue,
-    ProvedValues, Reported, SpecErrors, Splitting, TrigonometricVector, Value,
+    Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, ProvedForcing,
+    ProvedOrbit, ProvedValue, ProvedValues, Reported, SpecErrors, Splitting, TrigonometricVector, Value,
 };
 use sigmastar_plants::lyapunov::ProvedTriple;
 
@@ -50,6 +50,7 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
     let forcing = witness.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
     let values = witness.required("bounds", errors).and_then(|value| read_values(&value, errors));
     let inequality = witness.optional(INEQUALITY).map(|value| read_inequality(&value, witness, errors));
+    let of_existence = witness.optional(EXISTENCE_INEQUALITY).map(|value| read_existence(&value, errors));
     let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose();
     let parts = |ProvedTriple { matrix, p_low, p_up, alpha }: ProvedTriple| {
         let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));
@@ -66,7 +67,17 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
         domain: plant.domain.clone(),
         ball: plant.ball.clone(),
     };
-    Ok((of_plant, values?.with_inequality(inequality.transpose()?)))
+    let values = values?.with_inequality(inequality.transpose()?).with_existence(of_existence.transpose()?);
+    Ok((of_plant, values))
+}
+
+fn read_existence(value: &Value<'_>, errors: &mut Errors) -> Result<ExistenceInequality, Reported> {
+    let mut fields = value.object(errors)?;
+    let [x, e] = ["X", "E"].map(|name| rational(&mut fields, name, errors));
+    let matrix = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of P", errors));
+    let [k_p, c_x, c_y, value] = ["k_p", "c_x", "c_y", "sigma"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    Ok(ExistenceInequality { x: x?, e: e?, matrix: matrix?, k_p: k_p?, c_x: c_x?, c_y: c_y?, value: value? })
 }
 
 /// The matrix inequality, with the weights of the witness.

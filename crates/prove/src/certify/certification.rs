@@ -52,7 +52,7 @@ pub struct RelativeDegreeGains {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Alternatives {
     /// With stability by norms, where it is proved by a matrix inequality: at few samples, and in coordinates that are no further
-    /// improved where the inequality does far better.
+    /// improved where the inequality does far better. None where that is not above sigma*.
     pub by_norms: Option<f64>,
     /// With an aligned start, where the start is another one and that lowers sigma* by a share that matters.
     pub aligned: Option<f64>,

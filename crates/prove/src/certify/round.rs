@@ -16,6 +16,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::{InitialSet, StartSizes};
 use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::energy;
 use sigmastar_theory::derivation::exact_regulation::{ExactWitness, steady_state_norm};
 use sigmastar_theory::derivation::existence::PeriodicBounds;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
@@ -165,10 +166,12 @@ fn sharp_witness(
         Some(refined) => Some(squares(refined)?),
         None => None,
     };
-    let gains = ErrorGains::new(data, &data.rational(&sigma));
+    let origin = AtOrigin::new(data);
+    let gain = data.rational(&sigma);
+    let gains = ErrorGains::new(data, &gain).with_energy(energy::proved(data, &origin, &gain));
     let bounds = SetBounds::new(data, data.rational(&x_p), data.rational(&e_p));
     let at_the_solution = refined.as_ref().unwrap_or(&existence).map(|value| data.rational(value));
-    let periodic = PeriodicSize::new(data, &bounds, &AtOrigin::new(data), &gains, &at_the_solution);
+    let periodic = PeriodicSize::new(data, &bounds, &origin, &gains, &at_the_solution);
     let z = gains.z_squared(data, &periodic.forcing, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
     let set = claimed_set(data, &x_p, &e_p, &z)?;
 

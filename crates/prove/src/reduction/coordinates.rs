@@ -3,15 +3,17 @@
 //! With a constant P nothing is lost by P = I in the coordinates y (derivation, 11.5), so L stands for P. Rotations of y change
 //! nothing: L varies as `L exp(S)` with symmetric S. The existence of the periodic solution may rest on a P of its own, `exp(S')`.
 
-use super::grid::{Grid, RATE, RATE_EXISTENCE, Source};
+use super::grid::{Grid, RATE, RATE_EXISTENCE, Source, functions};
 use crate::search::{
-    Binding, ByMatrix, Closest, Descent, Failing, FloatModel, Obstacle, SharpParameters, SharpProposal, Threshold,
-    active_level, at_sigma, minimise, search_sharp, search_sharp_near, weight_h,
+    Binding, ByEnergy, ByMatrix, Closest, Descent, EnergyMargin, Failing, FloatModel, Obstacle, PeriodicSet,
+    SharpParameters, SharpProposal, Threshold, active_level, at_sigma, minimise, search_sharp, search_sharp_near,
+    weight_h,
 };
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
-use sigmastar_plants::bounds::{Asked, Corners, FloatWeights, Focus, MatrixArguments};
+use sigmastar_plants::bounds::{Asked, Corners, EnergyAt, EnergyWeights, FloatWeights, Focus, MatrixArguments};
+use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::Arc;
 
@@ -35,6 +37,8 @@ pub struct Shape<'a> {
     pub l: &'a DMatrix<f64>,
     /// The other P.
     pub second: Option<&'a DMatrix<f64>>,
+    /// What existence rests on beside it, in its coordinates.
+    pub energy: Option<&'a EnergyWeights>,
 }
 
 /// Estimates for given coordinates.
@@ -45,7 +49,17 @@ pub struct Estimates {
     pub threshold: Arc<Threshold>,
     /// Where they are the most extreme ones.
     pub extreme: Arc<Extreme>,
+    /// c_y of the matrix inequality of existence.
+    pub energy_at: Arc<Energies>,
+    /// Its free numbers.
+    pub energy: Arc<ProposeEnergy>,
 }
+
+/// c_y at points of `G(X, E)`, as functions of the threshold.
+pub type Energies = dyn Fn([f64; 2], &EnergyWeights) -> Vec<EnergyAt> + Send + Sync;
+
+/// Free numbers of the inequality of existence on `G(X, E)` at a threshold.
+pub type ProposeEnergy = dyn Fn([f64; 2], f64) -> Option<EnergyWeights> + Send + Sync;
 
 /// The points that are the most extreme ones on some `G(X, E)`, and of the matrix inequality.
 pub type Extreme = dyn Fn(&[[f64; 2]], Option<(MatrixArguments, FloatWeights)>) -> Focus + Send + Sync;
@@ -87,6 +101,17 @@ const TURNS: usize = 2;
 
 /// The share of the rate along the orbit that x keeps in a matrix inequality.
 const KEPT: f64 = 1e-6;
+
+/// The shares of a gain at which the threshold of an inequality of existence is tried, first and later.
+const FIRST_THRESHOLDS: [f64; 4] = [0.15, 0.3, 0.6, 0.9];
+const THRESHOLDS: [f64; 3] = [0.6, 0.8, 1.0];
+
+/// By what share it has to make the periodic solution smaller.
+const WORTH_AN_ENERGY: f64 = 0.05;
+
+/// How many descents there are at most, and by what share one has to lower the gain for another one.
+const MOST_TURNS: usize = 10;
+const WORTH_A_TURN: f64 = 0.01;
 
 /// The first steps of ln (rho - 1) and of ln eta.
 const SHAPE_STEP: f64 = 0.4;
@@ -135,6 +160,8 @@ pub struct Chosen {
     pub l: DMatrix<f64>,
     /// The P of existence, where it is another one.
     pub second: Option<DMatrix<f64>>,
+    /// What existence rests on beside it, if anything.
+    pub energy: Option<EnergyWeights>,
     /// The model with finely sampled bounds.
     pub model: FloatModel,
     /// The free numbers.
@@ -148,6 +175,8 @@ pub struct Start {
     pub l: DMatrix<f64>,
     /// The P of existence.
     pub second: Option<DMatrix<f64>>,
+    /// What existence rests on beside it, if anything.
+    pub energy: Option<EnergyWeights>,
     /// The free numbers.
     pub proposal: SharpProposal,
 }
@@ -170,14 +199,25 @@ impl Rough {
 
 impl From<&Chosen> for Start {
     fn from(chosen: &Chosen) -> Self {
-        Start { l: chosen.l.clone(), second: chosen.second.clone(), proposal: chosen.proposal }
+        Start {
+            l: chosen.l.clone(),
+            second: chosen.second.clone(),
+            energy: chosen.energy.clone(),
+            proposal: chosen.proposal,
+        }
     }
 }
 
 impl Start {
     fn shape(&self) -> Shape<'_> {
-        Shape { l: &self.l, second: self.second.as_ref() }
+        Shape { l: &self.l, second: self.second.as_ref(), energy: self.energy.as_ref() }
     }
+}
+
+/// A least set with a periodic solution, and the points that were looked at.
+struct SampledSet {
+    set: PeriodicSet,
+    density: Density,
 }
 
 /// What a descent varies, beside the shape of the error box, which it does with a matrix inequality.
@@ -195,17 +235,17 @@ impl CoordinateSearch<'_> {
     /// The model for a given L.
     #[must_use]
     pub fn model(&self, shape: Shape<'_>, density: &Density) -> FloatModel {
-        let Shape { l, second } = shape;
+        let Shape { l, second, energy } = shape;
         let ratio = match density {
             _ if l.nrows() == 0 => ALONE,
             Density::Rough => ROUGH,
             Density::Coarse | Density::Focused(_) => COARSE,
             Density::Fine(_) => FINE,
         };
-        let Estimates { bounds, threshold, .. } = (self.sampler)(shape, density);
+        let Estimates { bounds, threshold, energy_at, .. } = (self.sampler)(shape, density);
         let at_origin = bounds(0.0, 0.0, Asked::ALL);
-        let grid = Grid::new(bounds, (self.units)(l), ratio);
-        let bounds = self.base.with_bounds(grid.functions(second.is_some()));
+        let units = (self.units)(l);
+        let bounds = self.base.with_bounds(functions(&bounds, units, ratio, second.is_some()));
         let mut model = bounds.with_triple(self.ratio, at_origin[RATE]);
         if let Some(second) = second {
             let values = second.clone().symmetric_eigenvalues();
@@ -213,6 +253,17 @@ impl CoordinateSearch<'_> {
         }
         if let Some(path) = self.by_matrix {
             model.by_matrix = Some(ByMatrix::Sampled { path, threshold, rate: KEPT * at_origin[RATE] });
+        }
+        if let Some(energy) = energy {
+            let weights = Arc::new(energy.clone());
+            let (known, k_p) = (weights.clone(), weights.k_p);
+            let grid = Grid::new(move |x, e| energy_at([x, e], &known), units, ratio);
+            let least = move |points: &Vec<EnergyAt>, value: f64| {
+                points.iter().map(|point| point.margin(k_p, value)).fold(f64::INFINITY, f64::min)
+            };
+            let margin: Arc<EnergyMargin> =
+                Arc::new(move |at, value| grid.at(at, |points| least(points, value)).unwrap_or(f64::NAN));
+            model.by_energy = Some(ByEnergy::Sampled { weights, margin });
         }
         let model = (self.frame)(l, &model);
         if matches!(density, Density::Fine(_)) { model } else { model.rough() }
@@ -253,7 +304,7 @@ impl CoordinateSearch<'_> {
             starts.sort_by_key(|other| (other.abs_diff(at), *other));
             starts.truncate(DESCENTS);
         }
-        let start = |at: &usize| Start { l: candidates[*at].clone(), second: None, proposal };
+        let start = |at: &usize| Start { l: candidates[*at].clone(), second: None, energy: None, proposal };
         Ok(Rough { starts: starts.iter().map(start).collect(), best: start(&at) })
     }
 
@@ -290,21 +341,78 @@ impl CoordinateSearch<'_> {
         let proposal = &known.proposal;
         let too_large = || Obstacle::from(Failing::Gain { given: proposal.sigma, smallest: None });
         let mut at = known.clone();
-        for (turn, varied) in [Varied::Shape, Varied::Coordinates, Varied::Coordinates].into_iter().enumerate() {
-            if turn == TURNS && at.l.nrows() > MOST_STATES {
-                break;
+        // Where L is not varied, the third descent would repeat the second.
+        let descents = if at.l.nrows() > MOST_STATES { TURNS } else { TURNS + 1 };
+        let mut helps = self.energy_helps(&at);
+        for turn in 0..MOST_TURNS {
+            let before = at.proposal.sigma;
+            if helps {
+                at = self.with_energy(&at, if turn == 0 { &FIRST_THRESHOLDS } else { &THRESHOLDS });
             }
+            let varied = if turn == 0 { Varied::Shape } else { Varied::Coordinates };
             at = self.descend(&at, varied).ok_or_else(too_large)?;
             let hopeless = at.proposal.binding == Binding::Existence && at.proposal.sigma > NEARLY * proposal.sigma;
             if hopeless || at.proposal.sigma > FAR * proposal.sigma {
                 return Err(too_large());
             }
+            if turn + 1 >= descents && at.proposal.sigma > before * (1.0 - WORTH_A_TURN) {
+                break;
+            }
+            helps = helps || self.energy_helps(&at);
         }
         if at.proposal.sigma > WORTH_A_MATRIX * proposal.sigma {
             return Err(too_large());
         }
         let found = self.with(at.shape(), Some(&at.proposal))?;
         Ok(self.with_second(found))
+    }
+
+    /// Whether a matrix inequality of existence makes the periodic solution that is proved smaller by a share that matters.
+    fn energy_helps(&self, at: &Start) -> bool {
+        let Some(sampled) = self.sampled(at) else { return false };
+        let SampledSet { set, density } = &sampled;
+        let Some(energy) = self.energy(at, &sampled, 1.0) else { return false };
+        let model = self.model(Shape { energy: Some(&energy), ..at.shape() }, density);
+        let sigma = at.proposal.sigma * (1.0 + NEAR);
+        let smaller = PeriodicSet::least(
+            &model,
+            &AtOrigin::new(&model),
+            sigma,
+            (at.proposal.parameters.form, at.proposal.parameters.floors),
+            NEAR,
+        );
+        smaller.is_ok_and(|smaller| {
+            let sizes = |set: &PeriodicSet| [set.x_per, set.e_per, set.z];
+            sizes(set).into_iter().zip(sizes(&smaller)).any(|(size, smaller)| smaller < size * (1.0 - WORTH_AN_ENERGY))
+        })
+    }
+
+    /// The least set of a start.
+    fn sampled(&self, at: &Start) -> Option<SampledSet> {
+        let density = self.focus(at.shape(), &at.proposal).map_or(Density::Coarse, Density::Focused);
+        let model = self.model(at.shape(), &density);
+        let SharpParameters { form, floors, .. } = at.proposal.parameters;
+        let sigma = at.proposal.sigma * (1.0 + NEAR);
+        let set = PeriodicSet::least(&model, &AtOrigin::new(&model), sigma, (form, floors), NEAR).ok()?;
+        Some(SampledSet { set, density })
+    }
+
+    /// An inequality of existence on that set, with this share of the gain as its threshold.
+    fn energy(&self, at: &Start, SampledSet { set, density }: &SampledSet, share: f64) -> Option<EnergyWeights> {
+        ((self.sampler)(at.shape(), density).energy)([set.x_p, set.e_p], share * at.proposal.sigma)
+    }
+
+    /// The same with another matrix inequality of existence, where the gain is smaller with it after the shape of the error box has been
+    /// sought again.
+    fn with_energy(&self, at: &Start, shares: &[f64]) -> Start {
+        let Some(sampled) = self.sampled(at) else { return at.clone() };
+        let with = |share: &f64| {
+            let energy = self.energy(at, &sampled, *share)?;
+            let found = self.descend(&Start { energy: Some(energy), ..at.clone() }, Varied::Shape);
+            found
+        };
+        let least = shares.iter().filter_map(with).min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma));
+        least.filter(|found| found.proposal.sigma < at.proposal.sigma * FAR).unwrap_or_else(|| at.clone())
     }
 
     /// The gain near a choice in its coordinates, of another search for the same plant; an estimate, at few samples.
@@ -315,7 +423,8 @@ impl CoordinateSearch<'_> {
 
     /// The best that is reached from there, at the points that are the most extreme ones there; `None` where there is no gain.
     fn descend(&self, from: &Start, varied: Varied) -> Option<Start> {
-        let Start { l, second, proposal } = from;
+        let Start { l, second, energy, proposal } = from;
+        let energy = energy.as_ref();
         let n = l.nrows();
         let of_matrix = if (2..=MOST_STATES).contains(&n) { n * (n + 1) / 2 - 1 } else { 0 };
         let [of_l, of_second] = match varied {
@@ -325,11 +434,12 @@ impl CoordinateSearch<'_> {
         };
         // The P of stability as another one, to begin with.
         let second = second.clone().or_else(|| (of_second > 0).then(|| DMatrix::identity(n, n)));
-        let density =
-            self.focus(Shape { l, second: second.as_ref() }, proposal).map_or(Density::Coarse, Density::Focused);
+        let density = self
+            .focus(Shape { l, second: second.as_ref(), energy }, proposal)
+            .map_or(Density::Coarse, Density::Focused);
         let of_shape = if self.by_matrix.is_some() { 2 } else { 0 };
         // Where L stays, what was sampled serves again.
-        let same = (of_l == 0).then(|| self.model(Shape { l, second: second.as_ref() }, &density));
+        let same = (of_l == 0).then(|| self.model(Shape { l, second: second.as_ref(), energy }, &density));
         let with = |p: &[f64]| {
             let (shape, matrices) = p.split_at(of_shape);
             let mut parameters = proposal.parameters;
@@ -343,11 +453,13 @@ impl CoordinateSearch<'_> {
             let (first, other) = (turn(&matrices[..of_l]), turn(&matrices[of_l..]));
             // The P of existence stays what it is in the coordinates x, but for what is varied of it.
             let second = second.as_ref().map(|second| &other * &first * second * &first * &other);
+            let energy = energy.map(|energy| energy_in(energy, &first));
             let l = l * &first;
-            let other = same.is_none().then(|| self.model(Shape { l: &l, second: second.as_ref() }, &density));
+            let shape = Shape { l: &l, second: second.as_ref(), energy: energy.as_ref() };
+            let other = same.is_none().then(|| self.model(shape, &density));
             let model = same.as_ref().or(other.as_ref())?;
             let found = search_sharp_near(model, &SharpProposal { parameters, ..*proposal }).ok()?;
-            Some(Start { l, second, proposal: found })
+            Some(Start { l, second, energy, proposal: found })
         };
         let cost = |p: &[f64]| with(p).map(|found| found.proposal.sigma.portable_ln());
         // The box of the norms may be too large.
@@ -393,7 +505,7 @@ impl CoordinateSearch<'_> {
         if !(2..=MOST_STATES).contains(&single.l.nrows()) {
             return single;
         }
-        let mut at = Start { l: single.l.clone(), second: single.second.clone(), proposal: single.proposal };
+        let mut at = Start::from(&single);
         for _ in 0..TURNS {
             match self.descend(&at, Varied::Both) {
                 Some(next) => at = next,
@@ -414,13 +526,25 @@ impl CoordinateSearch<'_> {
         let model = self.model(shape, &Density::Fine(focus.and_then(|focus| focus.corners)));
         let near = near.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
-        Ok(Chosen { l: shape.l.clone(), second: shape.second.cloned(), model, proposal })
+        let Shape { l, second, energy } = shape;
+        Ok(Chosen { l: l.clone(), second: second.cloned(), energy: energy.cloned(), model, proposal })
     }
 }
 
 /// The same P for both.
 fn alone(l: &DMatrix<f64>) -> Shape<'_> {
-    Shape { l, second: None }
+    Shape { l, second: None, energy: None }
+}
+
+/// The weights of existence in the coordinates in which y is `change` times the new one.
+#[must_use]
+pub fn energy_in(energy: &EnergyWeights, change: &DMatrix<f64>) -> EnergyWeights {
+    let n = change.nrows();
+    let p = DMatrix::from_fn(n, n, |i, j| energy.p[i][j]);
+    let p = change.transpose() * p * change;
+    let smallest = if n == 0 { 1.0 } else { change.singular_values().min() };
+    let rows = (0..n).map(|i| (0..n).map(|j| 0.5 * (p[(i, j)] + p[(j, i)])).collect()).collect();
+    EnergyWeights { p: rows, c_x: energy.c_x * smallest * smallest, ..energy.clone() }
 }
 
 /// exp(S) for the symmetric S of trace 0 with these entries: the diagonal but for its last, then what is above it.

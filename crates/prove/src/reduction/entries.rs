@@ -1,12 +1,14 @@
 //! The arguments at which the sharp derivation uses a bound, and the proof of each value.
 
 use super::refusal::PlantRefusal;
-use crate::search::{AtSigma, ByMatrix, FloatModel, PeriodicSet, active_level, weight_h};
+use crate::search::{AtSigma, ByEnergy, ByMatrix, FloatModel, PeriodicSet, SHARE, active_level, weight_h};
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
-use sigmastar_lang::spec::{Bound, Constant, MatrixInequality, ProvedValue, ProvedValues, Splitting};
-use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, TABLE};
+use sigmastar_lang::spec::{
+    Bound, Constant, ExistenceInequality, MatrixInequality, ProvedValue, ProvedValues, Splitting,
+};
+use sigmastar_plants::bounds::{EnergyWeights, Engine, Entry, FloatSuprema, TABLE};
 use sigmastar_theory::derivation::paths::{Path, Paths};
 
 /// Significant digits of an argument.
@@ -34,15 +36,17 @@ pub struct Needed {
     second: bool,
     /// The matrix inequality of stability without its threshold, where there is one.
     inequality: Option<MatrixInequality>,
+    /// That of existence without c_y.
+    existence: Option<ExistenceInequality>,
 }
 
-/// Those of a candidate, enlarged by a share.
+/// Those of a candidate, enlarged by a share; sigma is the gain that is aimed at.
 pub(super) fn needed(
     model: &FloatModel,
     set: &PeriodicSet,
     at: &AtSigma,
     enlarged: f64,
-    second: bool,
+    (second, sigma): (bool, f64),
 ) -> Option<Needed> {
     let up = |value: f64| round_f64(value * (1.0 + enlarged), DIGITS, Direction::Up).filter(|value| *value >= 0);
     let level = active_level(at.eta, at.dist_e, at.rho);
@@ -75,7 +79,32 @@ pub(super) fn needed(
         }
         None => None,
     };
-    Some(Needed { x_p: up(set.x_p)?, e_p: up(set.e_p)?, x_per, e_per, x_b, e_b, paths: at.paths, second, inequality })
+    let (x_p, e_p) = (up(set.x_p)?, up(set.e_p)?);
+    let existence = match &model.by_energy {
+        Some(ByEnergy::Sampled { weights, .. }) => Some(existence([&x_p, &e_p], weights, SHARE * sigma)?),
+        // Its arguments are enlarged; its numbers stay.
+        Some(ByEnergy::Proved(known)) => {
+            Some(ExistenceInequality { x: x_p.clone(), e: e_p.clone(), ..known.as_ref().clone() })
+        }
+        None => None,
+    };
+    Some(Needed { x_p, e_p, x_per, e_per, x_b, e_b, paths: at.paths, second, inequality, existence })
+}
+
+/// The inequality of existence with short numbers, without c_y.
+fn existence([x_p, e_p]: [&Rational; 2], weights: &EnergyWeights, value: f64) -> Option<ExistenceInequality> {
+    let EnergyWeights { p, k_p, c_x, .. } = weights;
+    let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
+    let row = |row: &Vec<f64>| row.iter().map(|entry| short(*entry)).collect::<Option<Vec<Rational>>>();
+    Some(ExistenceInequality {
+        x: x_p.clone(),
+        e: e_p.clone(),
+        matrix: p.iter().map(row).collect::<Option<_>>()?,
+        k_p: short(*k_p)?,
+        c_x: round_f64(*c_x, 3, Direction::Down)?,
+        c_y: Rational::new(),
+        value: short(value)?,
+    })
 }
 
 impl Needed {
@@ -121,6 +150,10 @@ pub(super) fn prove_all(
         None => None,
         Some(wanted) => Some(engine.prove_inequality(suprema, wanted, mu).ok_or_else(|| not_proved(wanted))?),
     };
+    let existence = match &needed.existence {
+        None => None,
+        Some(wanted) => Some(engine.prove_existence(suprema, wanted).ok_or_else(|| existence_not_proved(wanted))?),
+    };
     let asked = needed.list().into_iter().map(|entry| (entry, true));
     let beside = needed.of_error_box().into_iter().map(|entry| (entry, inequality.is_none()));
     let proofs: Vec<(Result<ProvedValue, PlantRefusal>, bool)> = asked
@@ -131,7 +164,8 @@ pub(super) fn prove_all(
         .collect();
     // What no condition uses may be missing.
     let proofs = proofs.into_iter().filter(|(proof, is_used)| *is_used || proof.is_ok()).map(|(proof, _)| proof);
-    Ok(ProvedValues::new(proofs.collect::<Result<_, _>>()?).with_inequality(inequality))
+    let values = ProvedValues::new(proofs.collect::<Result<_, _>>()?);
+    Ok(values.with_inequality(inequality).with_existence(existence))
 }
 
 /// The value of a bound at one argument.
@@ -157,6 +191,10 @@ fn not_proved(MatrixInequality { x, e, .. }: &MatrixInequality) -> PlantRefusal 
     PlantRefusal::NotProved { bound: "stability", at: [x.to_f64(), e.to_f64()] }
 }
 
+fn existence_not_proved(ExistenceInequality { x, e, .. }: &ExistenceInequality) -> PlantRefusal {
+    PlantRefusal::NotProved { bound: "existence", at: [x.to_f64(), e.to_f64()] }
+}
+
 /// What a small value is multiplied with, so that another program proves it, whose bound of x_0' may be coarser.
 const ROOM: u32 = 1000;
 
@@ -178,6 +216,11 @@ pub(super) fn decide_all(engine: &Engine, values: &ProvedValues, mu: &Constant) 
         && !engine.decide_inequality(inequality, mu, EFFORT).truth.is_true()
     {
         return Err(not_proved(inequality));
+    }
+    if let Some(existence) = values.existence()
+        && !engine.decide_existence(existence, EFFORT).truth.is_true()
+    {
+        return Err(existence_not_proved(existence));
     }
     values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value, .. }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };

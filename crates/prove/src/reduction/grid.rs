@@ -20,17 +20,20 @@ pub type Values = [f64; TABLE.len()];
 pub type Source = dyn Fn(f64, f64, Asked) -> Values + Send + Sync;
 
 /// Linear interpolation between nodes at 0 and at `smallest ratio^k`, k = 0, 1, ...; beyond the last node nothing is known.
-pub struct Grid {
-    source: Arc<Source>,
+pub struct Grid<V> {
+    source: Box<Make<V>>,
     /// The arguments of the nodes, X and E, in increasing order.
     arguments: [Vec<f64>; 2],
-    /// Of each kind a row for each X, made where a search looks: a fine grid has a million nodes. A node is a function of its place
-    /// alone, so that it does not matter who computes it.
-    nodes: [Vec<OnceLock<Row>>; Asked::KINDS.len()],
+    /// A row for each X, made where a search looks: a fine grid has a million nodes. A node is a function of its place alone, so that it
+    /// does not matter who computes it.
+    nodes: Vec<OnceLock<Row<V>>>,
 }
 
+/// What makes a node.
+type Make<V> = dyn Fn(f64, f64) -> V + Send + Sync;
+
 /// The nodes of one X.
-type Row = Box<[OnceLock<Box<Values>>]>;
+type Row<V> = Box<[OnceLock<Box<V>>]>;
 
 /// The smallest node is this share of the unit.
 const SMALLEST: f64 = 1e-4;
@@ -38,38 +41,27 @@ const SMALLEST: f64 = 1e-4;
 /// The largest node is at least so many units.
 const LARGEST: f64 = 1e6;
 
-impl Grid {
+impl<V> Grid<V> {
     /// A grid about the size `units` of (X, E).
     #[must_use]
-    pub fn new(source: Arc<Source>, units: [f64; 2], ratio: f64) -> Grid {
+    pub fn new(source: impl Fn(f64, f64) -> V + Send + Sync + 'static, units: [f64; 2], ratio: f64) -> Grid<V> {
         let arguments = units.map(|unit| {
             let node = |k: i32| SMALLEST * unit * ratio.portable_powi(k);
             let within = (0..).map(node).take_while(|node| *node < LARGEST * unit * ratio);
             std::iter::once(0.0).chain(within).collect::<Vec<f64>>()
         });
-        let nodes = Asked::KINDS.map(|_| empty(arguments[0].len()));
-        Grid { source, arguments, nodes }
+        let nodes = empty(arguments[0].len());
+        Grid { source: Box::new(source), arguments, nodes }
     }
 
-    /// The interpolated functions as a search takes them; that of existence where there is a P for it.
+    /// What `value` says of the nodes, at (X, E).
     #[must_use]
-    pub fn functions(self, existence: bool) -> Vec<(Bound, FloatBound)> {
-        let grid = Arc::new(self);
-        let function = |(index, bound): (usize, &Bound)| {
-            let grid = grid.clone();
-            let place = (Asked::kind(*bound), index);
-            (*bound, FloatBound::Function(Arc::new(move |x, e| grid.at(place, x, e).unwrap_or(f64::NAN))))
-        };
-        let wanted = |bound: &&Bound| existence || **bound != Bound::RateExistence;
-        TABLE.iter().filter(wanted).enumerate().map(function).collect()
-    }
-
-    /// The estimate of this kind and with this place in [`TABLE`] at (X, E).
-    fn at(&self, (kind, index): (usize, usize), x: f64, e: f64) -> Option<f64> {
+    pub fn at(&self, [x, e]: [f64; 2], value: impl Fn(&V) -> f64) -> Option<f64> {
         let ((i, across), (j, along)) = (self.cell(0, x)?, self.cell(1, e)?);
         let between = |low: f64, high: f64, part: f64| low + (high - low) * part;
-        let low = between(self.node(kind, [i, j])[index], self.node(kind, [i + 1, j])[index], across);
-        let high = between(self.node(kind, [i, j + 1])[index], self.node(kind, [i + 1, j + 1])[index], across);
+        let node = |i: usize, j: usize| value(self.node([i, j]));
+        let low = between(node(i, j), node(i + 1, j), across);
+        let high = between(node(i, j + 1), node(i + 1, j + 1), across);
         Some(between(low, high, along))
     }
 
@@ -81,11 +73,28 @@ impl Grid {
         Some((below, (argument - nodes[below]) / (next - nodes[below])))
     }
 
-    fn node(&self, kind: usize, [i, j]: [usize; 2]) -> &Values {
+    fn node(&self, [i, j]: [usize; 2]) -> &V {
         let [xs, es] = &self.arguments;
-        let row = self.nodes[kind][i].get_or_init(|| empty(es.len()));
-        row[j].get_or_init(|| Box::new((self.source)(xs[i], es[j], Asked::KINDS[kind])))
+        let row = self.nodes[i].get_or_init(|| empty(es.len()));
+        row[j].get_or_init(|| Box::new((self.source)(xs[i], es[j])))
     }
+}
+
+/// The bounds between the nodes of grids about the size `units` of (X, E), one for each kind, as a search takes them; that of existence
+/// where there is a P for it.
+#[must_use]
+pub fn functions(source: &Arc<Source>, units: [f64; 2], ratio: f64, existence: bool) -> Vec<(Bound, FloatBound)> {
+    let grids = Asked::KINDS.map(|kind| {
+        let source = source.clone();
+        Arc::new(Grid::new(move |x, e| source(x, e, kind), units, ratio))
+    });
+    let function = |(index, bound): (usize, &Bound)| {
+        let grid = grids[Asked::kind(*bound)].clone();
+        let at = move |x: f64, e: f64| grid.at([x, e], |values: &Values| values[index]).unwrap_or(f64::NAN);
+        (*bound, FloatBound::Function(Arc::new(at)))
+    };
+    let wanted = |bound: &&Bound| existence || **bound != Bound::RateExistence;
+    TABLE.iter().filter(wanted).enumerate().map(function).collect()
 }
 
 /// So many places with nothing in them.

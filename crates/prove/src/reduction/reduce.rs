@@ -1,6 +1,6 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
-use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start};
+use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, energy_in};
 use super::entries::{Needed, decide_all, needed, prove_all};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
@@ -257,8 +257,9 @@ fn with_constant(
     let mut base = along(plant, curve, &coordinates)?;
     // The rounded L, which is L times a rotation, is the one that counts.
     let rounded = float_matrix(&coordinates.l);
+    let rotation = chosen.l.clone().try_inverse().map(|inverse| inverse * &rounded);
     let turned = |second: &DMatrix<f64>| {
-        let rotation = chosen.l.clone().try_inverse()? * &rounded;
+        let rotation = rotation.as_ref()?;
         rational_symmetric(&(rotation.transpose() * second * rotation))
     };
     if let Some(p) = chosen.second.as_ref().and_then(turned) {
@@ -267,7 +268,8 @@ fn with_constant(
         base.existence = prove_second(plant, &base.orbit, &with_second).ok().map(|triple| (with_second.p, triple));
     }
     let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
-    let both = Shape { l: &rounded, second: second.as_ref() };
+    let energy = rotation.as_ref().zip(chosen.energy.as_ref()).map(|(rotation, energy)| energy_in(energy, rotation));
+    let both = Shape { l: &rounded, second: second.as_ref(), energy: energy.as_ref() };
     let chosen = with_search(sampling, by_matrix, |search| search.with(both, Some(&chosen.proposal)));
     Ok((base, chosen.map_err(PlantRefusal::NoGain)?))
 }
@@ -278,7 +280,7 @@ fn with_search<T>(
     by_matrix: Option<Path>,
     run: impl FnOnce(&CoordinateSearch<'_>) -> Result<T, Obstacle>,
 ) -> Result<T, Obstacle> {
-    let sampler = |Shape { l, second }: Shape<'_>, density: &Density| {
+    let sampler = |Shape { l, second, .. }: Shape<'_>, density: &Density| {
         let second = second.and_then(rational_symmetric);
         sampling.estimates(l, [None, second.as_ref()], density)
     };
@@ -323,7 +325,7 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
         let sampler =
             |Shape { l, .. }: Shape<'_>, density: &Density| sampling.estimates(l, [Some(&candidate.p), None], density);
         let search = search(sampling, &sampler, ratio);
-        match search.with(Shape { l: &float_matrix(&candidate.l), second: None }, None) {
+        match search.with(Shape { l: &float_matrix(&candidate.l), second: None, energy: None }, None) {
             Ok(chosen) if best.as_ref().is_none_or(|(_, known)| chosen.proposal.sigma < known.proposal.sigma) => {
                 best = Some(((*candidate).clone(), chosen));
             }
@@ -509,7 +511,7 @@ fn arguments(
     let mut last = PlantRefusal::NoGain(Failing::NotFinite(None).into());
     for little in ABOVE {
         match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above + little), ABOVE[0]) {
-            Ok((set, at)) => return needed(model, &set, &at, enlarged, second).ok_or(last),
+            Ok((set, at)) => return needed(model, &set, &at, enlarged, (second, proposal.sigma)).ok_or(last),
             Err(obstacle) => last = PlantRefusal::NoGain(obstacle),
         }
     }

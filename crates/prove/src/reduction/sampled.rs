@@ -116,7 +116,7 @@ impl<'p> SampledPairs<'p> {
             if only_without && best.is_some() {
                 break;
             }
-            let at = needed(&self.chosen.model, &set, &at, enlarged, self.along.second().is_some())
+            let at = needed(&self.chosen.model, &set, &at, enlarged, (self.along.second().is_some(), proposal.sigma))
                 .ok_or(PlantRefusal::NoGain(Failing::NotFinite(None).into()))?;
             let [x, e] = at.largest();
             engine.smooth(&x, &e)?;

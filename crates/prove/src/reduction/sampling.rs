@@ -1,6 +1,6 @@
 //! Sampled suprema of a plant's derivatives as a search takes them.
 
-use super::coordinates::{Density, Estimates, Extreme};
+use super::coordinates::{Density, Energies, Estimates, Extreme, ProposeEnergy};
 use super::grid::{RATE, Source, Values};
 use crate::search::{FloatModel, Threshold};
 use nalgebra::DMatrix;
@@ -94,6 +94,7 @@ impl<'a> Sampling<'a> {
         let places = focus.places.clone();
         let of_inequality = suprema.clone();
         let all = suprema.clone();
+        let suprema_again = suprema.clone();
         let extreme: Arc<Extreme> = Arc::new(move |boxes, inequality| all.extreme(boxes, EXTREME, inequality));
         let bounds: Arc<Source> = Arc::new(move |x, e, asked| -> Values {
             let mut values: Values = suprema.survey(x, e, &places, asked);
@@ -103,8 +104,12 @@ impl<'a> Sampling<'a> {
             }
             values
         });
+        let (of_existence, of_energy) = (suprema_again.clone(), suprema_again);
+        let everywhere = focus.places.clone();
+        let energy_at: Arc<Energies> = Arc::new(move |at, weights| of_existence.energy_at(at, &everywhere, weights));
+        let energy: Arc<ProposeEnergy> = Arc::new(move |at, value| of_energy.propose_energy(at, value));
         let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_inequality.least_sigma(at, &focus, weights));
-        Estimates { bounds, threshold, extreme }
+        Estimates { bounds, threshold, extreme, energy_at, energy }
     }
 
     /// L times a rotation, with which the derivatives change along few axes of y; lower triangular where that serves as well. No norm

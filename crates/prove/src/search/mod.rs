@@ -4,6 +4,7 @@
 //! that order, so that the number of threads does not change the result.
 
 mod binding;
+mod by_energy;
 mod by_matrix;
 mod candidate;
 mod decay;
@@ -26,6 +27,7 @@ mod smaller_set;
 mod threshold;
 
 pub use binding::Binding;
+pub use by_energy::{ByEnergy, EnergyMargin, SHARE};
 pub use candidate::{AtSigma, active_level, weight_h};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;

@@ -1,5 +1,6 @@
 //! The specification in floating point, for searches only.
 
+use super::by_energy::ByEnergy;
 use super::effort::Effort;
 use super::float_bound::FloatBound;
 use super::obstacle::{Extreme, Failing, Obstacle};
@@ -112,6 +113,8 @@ pub struct FloatModel {
     rough: bool,
     /// What stands in the place of C5, if anything.
     pub by_matrix: Option<ByMatrix>,
+    /// What bounds the periodic solution beside the gains of loops, if anything.
+    pub by_energy: Option<ByEnergy>,
 }
 
 impl Deref for FloatModel {
@@ -178,6 +181,10 @@ impl FloatModel {
             by_matrix: {
                 let inequality = spec.bounds.proved_values().inequality();
                 inequality.map(|inequality| ByMatrix::Proved(Arc::new(inequality.clone())))
+            },
+            by_energy: {
+                let inequality = spec.bounds.proved_values().existence();
+                inequality.map(|inequality| ByEnergy::Proved(Arc::new(inequality.clone())))
             },
         }
     }

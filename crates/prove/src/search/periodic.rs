@@ -4,6 +4,7 @@
 //! point is the smallest, in every component at once; and everything that section 5 makes of w grows with it. So nothing is
 //! left to choose: the iteration of G from below finds it.
 
+use super::by_energy::ByEnergy;
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
 use sigmastar_exact::number::Portable;
@@ -59,7 +60,7 @@ pub struct PeriodicSet {
 /// Steps of the iteration at most.
 const STEPS: usize = 1000;
 
-/// Steps down from beyond the limit at most: what is left of the way is a share of that.
+/// Steps down from beyond the limit at most. Each of them leaves a point that G maps below itself, so that none of them is needed.
 const STEPS_DOWN: usize = 24;
 
 /// The largest relative step at which it has converged.
@@ -113,16 +114,27 @@ impl Iteration<'_> {
         let by_squares = sup_by_mean_squares(self.model, &squares);
         let kap = self.kap(&bounds);
         let forcing = || Forcing::new(&bounds, self.origin, &squares);
+        let mut x_rms = bounds.x_rms(&squares);
         let undamped = |response: Response<f64>| [response.sup.min(by_squares), response.rms, response.rate_rms];
         let [sup, rms, rate_rms] = match self.regulated {
-            Regulated::Continuous { gains, .. } if kap > 0.0 => {
-                let damped = DampedResponse::new(&bounds, self.origin, [&gains.sigma, &kap], &squares);
-                [by_squares, damped.rms, damped.rate_rms]
-            }
-            Regulated::Continuous { gains, .. } => undamped(gains.response(self.origin, &forcing())),
+            Regulated::Continuous { gains, .. } => match self.by_energy(gains, [x_p, e_p])? {
+                // With it all bounds hold together.
+                Some(gains) => {
+                    let sup = gains.response(self.origin, &forcing()).sup.min(by_squares);
+                    let known = (kap > 0.0).then_some(&kap);
+                    let image = at_the_solution(&bounds, self.origin, &gains, known, &squares);
+                    x_rms = image.x;
+                    [sup, image.e, image.e_rate]
+                }
+                None if kap > 0.0 => {
+                    let damped = DampedResponse::new(&bounds, self.origin, [&gains.sigma, &kap], &squares);
+                    [by_squares, damped.rms, damped.rate_rms]
+                }
+                None => undamped(gains.response(self.origin, &forcing())),
+            },
             Regulated::Sampled(gains) => undamped(gains.response(self.origin, &forcing())),
         };
-        let next = [bounds.x_sup(&squares), sup, bounds.x_rms(&squares), rms, rate_rms].map(|v| v * self.enlarged);
+        let next = [bounds.x_sup(&squares), sup, x_rms, rms, rate_rms].map(|v| v * self.enlarged);
         if !next.iter().all(|value| value.is_finite() && *value < 1e140) {
             return Err(if next.iter().any(|value| value.is_nan()) {
                 self.model.not_finite(x_p, e_p)
@@ -136,18 +148,18 @@ impl Iteration<'_> {
         Ok([x_p, e_p, least(next[2], x_p), least(next[3], e_p), least(next[4], rate)])
     }
 
-    /// The smallest set, with mean squares that `refine` makes smaller.
+    /// The set of a point that G maps below itself, with mean squares that `refine` makes smaller.
     fn set(
         &self,
+        [x_p, e_p, x, e, e_rate]: Point,
         gains: &impl Gains<f64>,
-        refine: impl Fn(&Self, &SetBounds<f64>, f64) -> Option<MeanSquares<f64>>,
+        refine: impl Fn(&SetBounds<f64>, f64) -> Option<MeanSquares<f64>>,
     ) -> Result<PeriodicSet, Obstacle> {
         let model = self.model;
-        let [x_p, e_p, x, e, e_rate] = self.least()?;
         let bounds = SetBounds::new(model, x_p, e_p);
         let squares = MeanSquares { x, e, e_rate };
         let kap = self.kap(&bounds);
-        let refined = refine(self, &bounds, kap);
+        let refined = refine(&bounds, kap);
         let size = PeriodicSize::new(model, &bounds, self.origin, gains, refined.as_ref().unwrap_or(&squares));
         let pair = cheapest_pair(model, &size.forcing);
         let z = gains.z_squared(model, &size.forcing, [&pair.0, &pair.1]).sqrt();
@@ -155,6 +167,21 @@ impl Iteration<'_> {
             return Err(model.not_finite(x_p, e_p));
         }
         Ok(PeriodicSet { x_p, e_p, squares, kap, refined, x_per: size.x_per, e_per: size.e_per, z, pair })
+    }
+
+    /// The gains with what a matrix inequality says on (X_p, E_p), where there is one there.
+    fn by_energy(
+        &self,
+        gains: &ErrorGains<f64>,
+        at @ [x_p, e_p]: [f64; 2],
+    ) -> Result<Option<ErrorGains<f64>>, Obstacle> {
+        let Some(known) = &self.model.by_energy else { return Ok(None) };
+        match (known.bounds(at, self.origin, gains.sigma), known) {
+            (Ok(bounds), _) => Ok(Some(gains.clone().with_energy(Some(bounds)))),
+            (Err(_), ByEnergy::Sampled { .. }) => Ok(None),
+            // A claim with an inequality that is proved has to use it.
+            (Err(failing), ByEnergy::Proved(_)) => Err(failing.at(x_p, e_p)),
+        }
     }
 
     fn kap(&self, bounds: &SetBounds<f64>) -> f64 {
@@ -260,8 +287,19 @@ impl PeriodicSet {
     ) -> Result<PeriodicSet, Obstacle> {
         let gains = ErrorGains::new(model, &sigma);
         let regulated = Regulated::Continuous { gains: &gains, form };
-        Iteration { model, origin, regulated, floors, enlarged: 1.0 + room }
-            .set(&gains, |iteration, bounds, kap| if kap > 0.0 { iteration.refined(&gains, bounds, kap) } else { None })
+        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
+        let at = iteration.least()?;
+        match iteration.by_energy(&gains, [at[0], at[1]])? {
+            // It has been found with all bounds together.
+            Some(gains) => iteration.set(at, &gains, |_, _| None),
+            None => iteration.set(
+                at,
+                &gains,
+                |bounds, kap| {
+                    if kap > 0.0 { iteration.refined(&gains, bounds, kap) } else { None }
+                },
+            ),
+        }
     }
 
     /// The same under the law at samples.
@@ -277,7 +315,8 @@ impl PeriodicSet {
     ) -> Result<PeriodicSet, Obstacle> {
         let gains = SampledGains::new(law, &sigma, &model.period);
         let regulated = Regulated::Sampled(&gains);
-        Iteration { model, origin, regulated, floors, enlarged: 1.0 + room }.set(&gains, |_, _, _| None)
+        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
+        iteration.set(iteration.least()?, &gains, |_, _| None)
     }
 }
 

@@ -17,6 +17,8 @@ pub struct AtOrigin<R> {
 /// Sizes of the known harmonics and of the rest.
 #[derive(Clone, Debug)]
 pub struct Known<R> {
+    /// Q_m = sqrt(2 sum_{k>=1} C_k^2) + r_0, of the rms of q(t,0,0) without its mean.
+    pub rms_without_mean: R,
     /// sqrt(sum_{k>=1} 2 (k Om C_k)^2), of the rms of the harmonics' derivative.
     pub rate_rms: R,
     /// r_0.
@@ -36,12 +38,13 @@ where
         let q_rms = problem.bound(Bound::QRms, &zero, &zero);
         let q_t_rms = problem.bound(Bound::QtRms, &zero, &zero);
         let Some(known) = &problem.numbers().q_0 else { return AtOrigin { q_rms, q_t_rms, known: None } };
-        let squares = sum_of_harmonics(known, &zero, |_, c| c.sqr());
-        let by_harmonics = (mean(known).sqr() + R::int(2) * squares).sqrt() + &known.rest_rms;
+        let squares = R::int(2) * sum_of_harmonics(known, &zero, |_, c| c.sqr());
+        let by_harmonics = (mean(known).sqr() + &squares).sqrt() + &known.rest_rms;
         AtOrigin {
             q_rms: q_rms.min_known(&by_harmonics),
             q_t_rms,
             known: Some(Known {
+                rms_without_mean: squares.sqrt() + &known.rest_rms,
                 rate_rms: rate_rms(problem, known),
                 rest_rms: known.rest_rms.clone(),
                 rest_t_rms: rest_t_rms(problem, known),

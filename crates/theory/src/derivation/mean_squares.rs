@@ -1,5 +1,6 @@
 //! Existence and size of the periodic solution by mean squares (derivation, 10.1 to 10.4): no contraction is asked for.
 
+use super::energy::EnergyBounds;
 use super::gains;
 use super::harmonics::{self, AtOrigin};
 use crate::data::{Bound, Numbers, Problem};
@@ -39,6 +40,8 @@ pub struct ErrorGains<R> {
     pub rms_by_rate: R,
     /// The responses to the known harmonics of q(t,0,0), where some are known.
     known: Option<harmonics::Response<R>>,
+    /// What a matrix inequality says of the periodic solution, where there is one (derivation, 13.7, (E)).
+    energy: Option<EnergyBounds<R>>,
 }
 
 impl<R: Real> ErrorGains<R>
@@ -57,7 +60,21 @@ where
             rms,
             known: q_0.as_ref().map(|known| harmonics::Response::new(problem, known, sigma)),
             sigma: sigma.clone(),
+            energy: None,
         }
+    }
+
+    /// The same with the bounds of a matrix inequality, which are taken where they are smaller. What bounds a solution with q(t,0,0)
+    /// times a number in [0, 1] then is only strictly below what it shows.
+    #[must_use]
+    pub fn with_energy(self, energy: Option<EnergyBounds<R>>) -> ErrorGains<R> {
+        ErrorGains { energy, ..self }
+    }
+
+    /// Whether there are such bounds.
+    #[must_use]
+    pub fn has_energy(&self) -> bool {
+        self.energy.is_some()
     }
 
     /// min{bt size, tau rate}: sup|e| for rms(q) <= size and rms(q') <= rate.
@@ -145,6 +162,12 @@ where
         }
     }
 
+    /// The same without bounds of q as a whole: what is left bounds q(t,0,0) and the change of q from there, each by itself.
+    #[must_use]
+    pub fn of_changes(self) -> SetBounds<R> {
+        SetBounds { q_rms: R::unknown(), q_t_rms: R::unknown(), ..self }
+    }
+
     /// The left side of (S1b): `min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p`.
     #[must_use]
     pub fn x_sup(&self, squares: &MeanSquares<R>) -> R {
@@ -221,6 +244,11 @@ pub trait Gains<R: Real> {
     /// Bounds of the error, from those of q.
     fn response(&self, origin: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R>;
 
+    /// A bound of rms(x) that needs none of rms(e); unknown where there is none.
+    fn rms_of_states(&self) -> R {
+        R::unknown()
+    }
+
     /// Z^2, a bound of zeta'N zeta at every instant (or at every sample) of the periodic solution; k0, k1 in units of
     /// x = omega/w.
     fn z_squared(&self, problem: &impl Problem<R>, forcing: &Forcing<R>, k: [&R; 2]) -> R;
@@ -231,12 +259,17 @@ where
     for<'a> &'a R: Operand<R>,
 {
     /// `min{bt R_q, tau R_1}`, `min{R_q/sg, R_1/(Om sg)}`, `min{R_q, R_1/sg}`; superposed with the known harmonics of
-    /// q(t,0,0) where that is smaller.
+    /// q(t,0,0) where that is smaller; and `bt r_y`, `min{r_y/sg, .}`, `r_y` of a matrix inequality.
     fn response(&self, origin: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R> {
         let Forcing { q_rms, q_rate_rms, change: [change, change_rate] } = forcing;
-        let sup = self.sup_of(q_rms, q_rate_rms);
-        let rms = self.rms_of(q_rms, q_rate_rms);
-        let rate_rms = q_rms.min(&(q_rate_rms * &self.rms));
+        let mut sup = self.sup_of(q_rms, q_rate_rms);
+        let mut rms = self.rms_of(q_rms, q_rate_rms);
+        let mut rate_rms = q_rms.min(&(q_rate_rms * &self.rms));
+        if let Some(EnergyBounds { y, e, .. }) = &self.energy {
+            sup = sup.min_known(&(&self.sup * y));
+            rms = rms.min_known(&(&self.rms * y)).min_known(e);
+            rate_rms = rate_rms.min_known(y);
+        }
         let (Some(known), Some(response)) = (&origin.known, &self.known) else {
             return Response { sup, rms, rate_rms };
         };
@@ -245,6 +278,10 @@ where
         let superposed_rms =
             &response.rms + self.rms_of(&known.rest_rms, &known.rest_t_rms) + self.rms_of(change, change_rate);
         Response { sup: sup.min(&superposed_sup), rms: rms.min(&superposed_rms), rate_rms }
+    }
+
+    fn rms_of_states(&self) -> R {
+        self.energy.as_ref().map_or_else(R::unknown, |energy| energy.x.clone())
     }
 
     /// `Z^2 = (T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2`, or the superposed form where harmonics of q(t,0,0) are known.
@@ -309,7 +346,7 @@ where
 }
 
 /// The right sides of all bounds of rms(x), rms(e), rms(e') that hold at the periodic solution, in terms of themselves:
-/// those of [`SetBounds`] and [`Response`], and of [`DampedResponse`] where kap > 0.
+/// those of [`SetBounds`] and [`Response`], of a matrix inequality where there is one, and of [`DampedResponse`] where kap > 0.
 ///
 /// Guarantee: G is nondecreasing and concave with G(0) >= 0, so mean squares r' with G(r') < r' in every component bound those
 /// of the solution: for rho <= G(rho) and lam = max rho_i/r'_i > 1 there would be rho <= G(lam r') <= lam G(r') < lam r'.
@@ -330,7 +367,7 @@ where
         let damped = DampedResponse::new(bounds, origin, [&gains.sigma, kap], squares);
         (e, e_rate) = (e.min(&damped.rms), e_rate.min(&damped.rate_rms));
     }
-    MeanSquares { x: bounds.x_rms(squares), e, e_rate }
+    MeanSquares { x: bounds.x_rms(squares).min_known(&gains.rms_of_states()), e, e_rate }
 }
 
 /// The size of the periodic solution (derivation, 10.3), from mean squares that bound it.

@@ -3,6 +3,7 @@
 use super::condition::{self, Condition};
 use super::consequences::Excitation;
 use super::contraction::ContractionMatrix;
+use super::energy;
 use super::harmonics::AtOrigin;
 use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
 use super::matrix_inequality;
@@ -117,7 +118,7 @@ impl SharpEvaluation {
         let sigma = number(&witness.sigma);
         let origin = AtOrigin::new(data);
         let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
-        let gains = ErrorGains::new(data, &sigma);
+        let gains = ErrorGains::new(data, &sigma).with_energy(energy::proved(data, &origin, &sigma));
         let squares = witness.squares_at_the_solution().map(|value| number(value));
         let periodic = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
         let z = gains.z_squared(data, &periodic.forcing, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
@@ -137,7 +138,11 @@ impl SharpEvaluation {
             step.lhs,
             step.rhs,
         ));
-        conditions.extend(existence_conditions(data, witness, &bounds, &origin, &gains));
+        conditions.extend(energy::conditions(data, [&witness.x_p, &witness.e_p], &sigma));
+        conditions.extend(match gains.has_energy() {
+            true => strict_existence_conditions(data, witness, &bounds, &origin, &gains),
+            false => existence_conditions(data, witness, &bounds, &origin, &gains),
+        });
         let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&periodic.x_per, &periodic.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
         conditions.push(Condition::less(
@@ -278,6 +283,68 @@ fn existence_conditions(
     conditions.push(Condition::at_most("S2", sup.0, sup.1, bounds.e_p.clone()));
     conditions.push(Condition::at_most("S2b", rms.0, rms.1, squares.e.clone()));
     conditions.push(Condition::at_most("S2c", rate_rms.0, rate_rms.1, squares.e_rate.clone()));
+    conditions.extend(refined_conditions(data, witness, bounds, origin, gains));
+    conditions
+}
+
+/// (S1), (S2), (S3) with a matrix inequality of existence (derivation, 13.7, (E)).
+///
+/// All that bounds a periodic solution bounds those with l q(t,0,0) in the place of q(t,0,0), 0 < l <= 1, as long as no bound of q
+/// as a whole is used, of which part of q(t,0,0) may be missing. Where each of them is strictly inside of the sizes X_p, E_p, r_x,
+/// r_e, r_d, no such solution is on their boundary, and there is one for l = 1 (Leray and Schauder).
+fn strict_existence_conditions(
+    data: &Data<'_>,
+    witness: &SharpWitness,
+    bounds: &SetBounds<Enclosure>,
+    origin: &AtOrigin<Enclosure>,
+    gains: &ErrorGains<Enclosure>,
+) -> Vec<Condition> {
+    let squares = witness.squares().map(|value| data.rational(value));
+    let kap = (witness.kap != 0).then(|| data.rational(&witness.kap));
+    let of_changes = bounds.clone().of_changes();
+    let image = at_the_solution(&of_changes, origin, gains, kap.as_ref(), &squares);
+    let response = gains.response(origin, &Forcing::new(&of_changes, origin, &squares));
+    let sup = response.sup.min(&sup_by_mean_squares(data, &squares));
+    let [damped, damped_rate] = if kap.is_some() { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
+    let mut conditions = vec![
+        Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
+        Condition::less(
+            "S1b",
+            "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} < X_p",
+            bounds.x_sup(&squares),
+            bounds.x_p.clone(),
+        ),
+        Condition::less("S1c", "min{(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))} < r_x", image.x, squares.x.clone()),
+        Condition::less("S2", "min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y} < E_p", sup, bounds.e_p.clone()),
+        Condition::less(
+            "S2b",
+            format!(
+                "min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt(2 (sigma - threshold) c_y))}} < r_e"
+            ),
+            image.e,
+            squares.e.clone(),
+        ),
+        Condition::less(
+            "S2c",
+            format!("min{{R_q, R_1/sg, {damped_rate}r_y}} < r_d"),
+            image.e_rate,
+            squares.e_rate.clone(),
+        ),
+    ];
+    conditions.extend(refined_conditions(data, witness, bounds, origin, gains));
+    conditions
+}
+
+/// (S3), and (M) of section 10 where kap > 0.
+fn refined_conditions(
+    data: &Data<'_>,
+    witness: &SharpWitness,
+    bounds: &SetBounds<Enclosure>,
+    origin: &AtOrigin<Enclosure>,
+    gains: &ErrorGains<Enclosure>,
+) -> Vec<Condition> {
+    let kap = (witness.kap != 0).then(|| data.rational(&witness.kap));
+    let mut conditions = Vec::new();
     if kap.is_some() {
         conditions.extend(one_sided(data, "(X_p, E_p)", &[bounds.x_p.clone(), bounds.e_p.clone()]));
     }

@@ -4,6 +4,7 @@
 //! as they must be up to every argument that is used, and so the claim at `sigma` and `set` is proved.
 
 use super::common::{Evaluated, Free};
+use super::existence::Existence;
 use super::inequality::Inequality;
 use super::sampled::{self, claim::Regulator};
 use super::set::ClaimedSet;
@@ -20,6 +21,13 @@ pub enum Witness {
     Sharp(Box<sharp::Witness>),
     /// A sampled regulator: section 12.
     Sampled(Box<sampled::Witness>),
+}
+
+/// What has to be proved of a plant's formulas besides their bounds, where stability or existence rests on it.
+#[derive(Clone, Copy, Default)]
+pub struct Inequalities<'w> {
+    pub stability: Option<&'w Inequality>,
+    pub existence: Option<&'w Existence>,
 }
 
 /// One derivation with its witness.
@@ -48,11 +56,13 @@ impl Derivation {
         self.regulation.as_ref().map(|w| [d.number(&w.d_x), d.number(&w.d_e)])
     }
 
-    /// What has to be proved of the plant's formulas besides their bounds, where stability rests on it.
-    pub fn inequality(&self) -> Option<&Inequality> {
+    /// Those of the witness.
+    pub fn inequalities(&self) -> Inequalities<'_> {
         match &self.witness {
-            Witness::Sharp(w) => w.inequality.as_ref(),
-            Witness::Sampled(_) => None,
+            Witness::Sharp(w) => {
+                Inequalities { stability: w.inequality.as_ref(), existence: w.existence.inequality.as_ref() }
+            }
+            Witness::Sampled(_) => Inequalities::default(),
         }
     }
 
@@ -85,7 +95,7 @@ impl Derivation {
         without_domain(d, &evaluated.arguments, lines)?;
         if let Some(exact) = &self.regulation {
             lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
-            let conditions = regulation::evaluate(d, set, exact, self.inequality())?;
+            let conditions = regulation::evaluate(d, set, exact, self.inequalities().stability)?;
             all("exact regulation", &exact.pointer, conditions.iter(), lines)?;
             without_domain(d, &[d.number(&exact.d_x), d.number(&exact.d_e)], lines)?;
         }

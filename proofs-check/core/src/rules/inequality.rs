@@ -37,22 +37,25 @@ pub struct Splitting {
 impl Splitting {
     fn read(field: &Field<'_>) -> Outcome<Splitting> {
         let mut fields = field.fields()?;
-        let rows = fields.required("S")?;
-        let row = |row: Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<Rational>>>();
-        let matrix = rows.elements()?.into_iter().map(row).collect::<Outcome<Vec<_>>>()?;
-        let order = matrix.len();
-        let symmetric = || (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
-        if matrix.iter().any(|row| row.len() != order) || !symmetric() {
-            return bad(&rows.pointer, "expected a symmetric matrix");
-        }
+        let matrix = symmetric(&fields.required("S")?)?;
         let splitting = Splitting { x: number(&mut fields, "X", false)?, e: number(&mut fields, "E", false)?, matrix };
         fields.finish()?;
         Ok(splitting)
     }
 }
 
+/// The rows of a symmetric matrix of any order.
+pub(super) fn symmetric(rows: &Field<'_>) -> Outcome<Vec<Vec<Rational>>> {
+    let row = |row: Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<Rational>>>();
+    let matrix = rows.elements()?.into_iter().map(row).collect::<Outcome<Vec<_>>>()?;
+    let order = matrix.len();
+    let is_square = matrix.iter().all(|row| row.len() == order);
+    let is_symmetric = || (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
+    if is_square && is_symmetric() { Ok(matrix) } else { bad(&rows.pointer, "expected a symmetric matrix") }
+}
+
 /// A number above 0, or one that is not negative.
-fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Outcome<Rational> {
+pub(super) fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Outcome<Rational> {
     let field = fields.required(name)?;
     let value = field.rational()?;
     match value > 0 || (!positive && value == 0) {

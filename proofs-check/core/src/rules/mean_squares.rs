@@ -2,13 +2,15 @@
 //! sections 10.3 and 10.4).
 //!
 //! Guarantee of S1 and S2: for every n_o and every sigma' >= sigma there is a T-periodic solution with sup|x| <= X_p, sup|e| <= E_p,
-//! rms(x) <= r_x, rms(e) <= r_e, rms(e') <= r_d. All that `Bounds::at` and `Bounds::damped` say of such a solution then holds
-//! together, for its own root mean squares rho too: rho <= G(rho), where G takes the least of what they say.
+//! rms(x) <= r_x, rms(e) <= r_e, rms(e') <= r_d. All that `Bounds::at` and `Bounds::means` say of such a solution then holds together,
+//! for its own root mean squares rho too: rho <= G(rho), where G is what they say of them. With an inequality of existence its conditions
+//! stand in the place of S1b to S2c, and it has a part in G.
 //!
 //! Guarantee of S3 besides: rho <= r'. For G is nondecreasing and concave with G(0) >= 0 (it is made of constants that are
 //! nonnegative, sums and minima), so G(l r') <= l G(r') for l >= 1. If l = max rho_i/r'_i > 1, then rho <= G(rho) <= G(l r') <=
 //! l G(r') < l r' in every place, against the choice of l. Strictness matters.
 
+use super::existence::{Answer, Existence};
 use super::gains::{beta_s, bt, damped, tau};
 use super::stability::one_sided;
 use crate::bound::Bound;
@@ -31,6 +33,8 @@ pub struct Witness {
     pub kap: Rational,
     /// Root mean squares that are proved of the solution itself.
     pub refined: Option<Means>,
+    /// What stands in the place of S1b to S2c, where it is given.
+    pub inequality: Option<Existence>,
 }
 
 /// Reads r'_x, r'_e, r'_d.
@@ -59,9 +63,9 @@ pub struct Solution {
 /// The bounding functions at (X_p, E_p), b_fx at (X_p, 0), and the gains at sigma. What is not given is undefined, and the least
 /// of several bounds leaves it out (docs/mathematics.md, section 11.3). Those that do not name sigma serve every regulator.
 pub struct Bounds<'a> {
-    d: &'a Data<'a>,
-    x_p: Interval,
-    e_p: Interval,
+    pub(super) d: &'a Data<'a>,
+    pub(super) x_p: Interval,
+    pub(super) e_p: Interval,
     /// a_1.
     rate: Interval,
     f_x: Interval,
@@ -100,8 +104,8 @@ struct Forced {
 }
 
 /// What follows for a solution with given root mean squares.
-struct Follows {
-    sup_e: Interval,
+pub struct Follows {
+    pub sup_e: Interval,
     rms_e: Interval,
     rms_e_t: Interval,
     /// R_q, R_1.
@@ -146,8 +150,12 @@ impl Forced {
 
     /// `sqrt(C_0^2 + 2 sum C_k^2) + r_0`.
     fn rms(&self, d: &Data<'_>) -> Interval {
-        let mean = self.harmonics[0].sqr();
-        (mean + twice_sum(d, &self.harmonics, |_, c| c.sqr())).sqrt() + &self.rest[0]
+        self.with_mean(d, self.harmonics[0].sqr())
+    }
+
+    /// The same with another square of the mean.
+    fn with_mean(&self, d: &Data<'_>, square: Interval) -> Interval {
+        (square + twice_sum(d, &self.harmonics, |_, c| c.sqr())).sqrt() + &self.rest[0]
     }
 }
 
@@ -189,13 +197,34 @@ impl<'a> Bounds<'a> {
 
     /// S1: x+ stays in the set of the proof. The regulator has no part in it.
     pub fn of_states(&self, [r_x, r_e, _]: &[Interval; 3]) -> Vec<Condition> {
-        let sup = (&self.x_gain * &self.e_p).min(&(&self.from_rms * r_e));
         let what = "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p";
         vec![
-            Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone()),
-            Condition::at_most("S1b", what, sup, self.x_p.clone()),
+            self.contracts(),
+            Condition::at_most("S1b", what, self.sup_x_in_box(r_e), self.x_p.clone()),
             Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", &self.x_gain * r_e, r_x.clone()),
         ]
+    }
+
+    /// S1 alone.
+    pub(super) fn contracts(&self) -> Condition {
+        Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone())
+    }
+
+    /// A bound of sup|x|, from sup|e| <= E_p and rms(e) <= r_e.
+    pub(super) fn sup_x_in_box(&self, r_e: &Interval) -> Interval {
+        (&self.x_gain * &self.e_p).min(&(&self.from_rms * r_e))
+    }
+
+    /// Without b_q_rms and b_qt_rms, which are of q with all of q(t,0,0) in it (section 13.7). Plants do not have them.
+    fn for_any_share_of_forcing(self) -> Bounds<'a> {
+        let none = || Interval::undefined(self.d.precision);
+        Bounds { rates: [none(), none()], ..self }
+    }
+
+    /// Q_m >= rms(q(t,0,0) without its mean).
+    fn oscillation(&self) -> Interval {
+        let none = || Interval::undefined(self.d.precision);
+        self.forced.as_ref().map_or_else(none, |forced| forced.with_mean(self.d, self.d.int(0)))
     }
 
     /// x_per, from e_per and rms(e). Where S1 fails X_p stands for what is not defined.
@@ -221,8 +250,8 @@ impl<'a> Bounds<'a> {
         [[r_q, r_1], [d_0, d_1]]
     }
 
-    /// Section 10.3 at (r_x, r_e, r_d).
-    fn at(&self, r: &[Interval; 3]) -> Follows {
+    /// Section 10.3 at (r_x, r_e, r_d); of an actual solution with what `answer` says of it.
+    fn at(&self, r: &[Interval; 3], answer: Option<&Answer>) -> Follows {
         let [[r_q, r_1], [d_0, d_1]] = self.inputs(r);
         let [_, r_e, r_d] = r;
         // Of the response to an input with these root mean squares of itself and of its derivative.
@@ -234,7 +263,55 @@ impl<'a> Bounds<'a> {
             sup_e = sup_e.least(&(&f.sup_e + sup(&f.rest[0], &f.rest[1]) + sup(&d_0, &d_1)));
             rms_e = rms_e.least(&(&f.rms_e + rms(&f.rest[0], &f.rest[1]) + rms(&d_0, &d_1)));
         }
-        Follows { sup_e, rms_e, rms_e_t: r_q.least(&(&r_1 / &self.sg)), rates: [r_q, r_1], apart: [d_0, d_1] }
+        let mut rms_e_t = r_q.least(&(&r_1 / &self.sg));
+        if let Some(answer) = answer {
+            sup_e = sup_e.least(&(&self.bt * &answer.rms_y));
+            rms_e = rms_e.least(&(&answer.rms_y / &self.sg)).least(&answer.rms_e);
+            rms_e_t = rms_e_t.least(&answer.rms_y);
+        }
+        Follows { sup_e, rms_e, rms_e_t, rates: [r_q, r_1], apart: [d_0, d_1] }
+    }
+
+    /// S2: e+ stays in the set of the proof, without `damping` by section 10.3, with it by 10.4 alone.
+    fn of_error(&self, r: &[Interval; 3], damping: Option<&[Interval; 3]>) -> Vec<Condition> {
+        let [_, r_e, r_d] = r;
+        let at_most = |id, what: &str, lhs, rhs: &Interval| Condition::at_most(id, what, lhs, rhs.clone());
+        if let Some(damping) = damping {
+            let [rms_e, rms_e_t] = self.damped(r, damping);
+            return vec![
+                at_most("S2", "sqrt(T r_e r_d) <= E_p", (&self.d.period * r_e * r_d).sqrt(), &self.e_p),
+                at_most("S2b", "g_k Rt <= r_e", rms_e, r_e),
+                at_most("S2c", "Rt + kap r_e <= r_d", rms_e_t, r_d),
+            ];
+        }
+        let follows = self.at(r, None);
+        let forced = if self.forced.is_some() { ", q_0 form" } else { "" };
+        let what = format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){forced}}} <= E_p");
+        vec![
+            at_most("S2", &what, follows.sup_e, &self.e_p),
+            at_most("S2b", &format!("min{{R_q/sg, R_1/(Om sg){forced}}} <= r_e"), follows.rms_e, r_e),
+            at_most("S2c", "min{R_q, R_1/sg} <= r_d", follows.rms_e_t, r_d),
+        ]
+    }
+
+    /// G: the least of all bounds of rms(x), rms(e), rms(e') of an actual solution at (r_x, r_e, r_d), those of 10.4 with `damping`.
+    fn means(
+        &self,
+        r: &[Interval; 3],
+        follows: &Follows,
+        damping: Option<&[Interval; 3]>,
+        answer: Option<&Answer>,
+    ) -> [Interval; 3] {
+        let mut rms_x = &self.x_gain * &r[1];
+        let (mut rms_e, mut rms_e_t) = (follows.rms_e.clone(), follows.rms_e_t.clone());
+        if let Some(damping) = damping {
+            let damped = self.damped(r, damping);
+            (rms_e, rms_e_t) = (rms_e.least(&damped[0]), rms_e_t.least(&damped[1]));
+        }
+        if let Some(answer) = answer {
+            rms_x = rms_x.least(&answer.rms_x);
+        }
+        [rms_x, rms_e, rms_e_t]
     }
 
     /// Section 10.4 at (r_x, r_e): rms(e) <= g_k Rt and rms(e') <= Rt + kap r_e, with Rt = Q_0 + b_qx r_x + rho r_e.
@@ -273,43 +350,35 @@ pub fn evaluate(
     pair: [&Interval; 2],
     kappa: &[Interval; 2],
 ) -> Solution {
-    let bounds = Bounds::new(d, &d.number(sigma), [x_p, e_p]);
+    let mut bounds = Bounds::new(d, &d.number(sigma), [x_p, e_p]);
+    if w.inequality.is_some() {
+        bounds = bounds.for_any_share_of_forcing();
+    }
+    let answer = w.inequality.as_ref().map(|inequality| inequality.answer(d, sigma, &bounds.oscillation()));
     let r = w.r.each_ref().map(|value| d.number(value));
-    let [_, r_e, r_d] = &r;
     let most = d.q_e_max(x_p, e_p);
     let upper = most.as_ref().map_or(bounds.q_e.clone(), |most| most.min(&bounds.q_e));
     let kap = d.number(&w.kap);
     let rho = (upper + &kap).max(&(&bounds.q_e - &kap));
     let with_kap = w.kap > 0;
     let damping = [damped(d, sigma, &w.kap), kap, rho];
+    let (damping, answer) = (with_kap.then_some(&damping), answer.as_ref());
 
-    let mut conditions = bounds.of_states(&r);
-    let mut at_most = |id, what: &str, lhs, rhs: &Interval| {
-        conditions.push(Condition::at_most(id, what, lhs, rhs.clone()));
+    let mut conditions = match &w.inequality {
+        Some(inequality) => {
+            let follows = bounds.at(&r, answer);
+            let means = bounds.means(&r, &follows, damping, answer);
+            inequality.conditions(&bounds, [&r, &means], &follows.sup_e, sigma, with_kap)
+        }
+        None => [bounds.of_states(&r), bounds.of_error(&r, damping)].concat(),
     };
     if with_kap {
-        let [rms_e, rms_e_t] = bounds.damped(&r, &damping);
-        at_most("S2", "sqrt(T r_e r_d) <= E_p", (&d.period * r_e * r_d).sqrt(), e_p);
-        at_most("S2b", "g_k Rt <= r_e", rms_e, r_e);
-        at_most("S2c", "Rt + kap r_e <= r_d", rms_e_t, r_d);
         conditions.extend(one_sided("(X_p, E_p)", &bounds.q_e, most.as_ref()));
-    } else {
-        let follows = bounds.at(&r);
-        let forced = if bounds.forced.is_some() { ", q_0 form" } else { "" };
-        let what = format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){forced}}} <= E_p");
-        at_most("S2", &what, follows.sup_e, e_p);
-        at_most("S2b", &format!("min{{R_q/sg, R_1/(Om sg){forced}}} <= r_e"), follows.rms_e, r_e);
-        at_most("S2c", "min{R_q, R_1/sg} <= r_d", follows.rms_e_t, r_d);
     }
     let last = w.refined.as_ref().unwrap_or(&w.r).each_ref().map(|value| d.number(value));
-    let follows = bounds.at(&last);
+    let follows = bounds.at(&last, answer);
     if w.refined.is_some() {
-        let (mut rms_e, mut rms_e_t) = (follows.rms_e.clone(), follows.rms_e_t.clone());
-        if with_kap {
-            let damped = bounds.damped(&last, &damping);
-            (rms_e, rms_e_t) = (rms_e.least(&damped[0]), rms_e_t.least(&damped[1]));
-        }
-        let sides = [&bounds.x_gain * &last[1], rms_e, rms_e_t].into_iter().zip(last.iter().cloned());
+        let sides = bounds.means(&last, &follows, damping, answer).into_iter().zip(last.iter().cloned());
         let names = [("S3", "G_x(r') < r'_x"), ("S3b", "G_e(r') < r'_e"), ("S3c", "G_d(r') < r'_d")];
         conditions
             .extend(names.into_iter().zip(sides).map(|((id, what), (lhs, rhs))| Condition::less(id, what, lhs, rhs)));

@@ -3,6 +3,7 @@ pub mod bounding;
 pub mod claim;
 pub mod common;
 pub mod derivation;
+pub mod existence;
 pub mod gains;
 pub mod inequality;
 pub mod mean_squares;

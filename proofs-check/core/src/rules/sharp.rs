@@ -5,6 +5,7 @@
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
 use super::common::{Evaluated, Free};
+use super::existence::Existence;
 use super::gains::kappas;
 use super::inequality::Inequality;
 use super::mean_squares::{self, Solution};
@@ -48,6 +49,7 @@ impl Witness {
             r: free.r.clone(),
             kap: fields.required("kap")?.rational()?,
             refined: fields.optional("refined").map(|field| mean_squares::read(&field)).transpose()?,
+            inequality: fields.optional("existence_inequality").map(|field| Existence::read(&field)).transpose()?,
         };
         let transfer = Proof::read(&fields.required("transfer")?)?;
         let inequality = fields.optional("matrix_inequality");
@@ -69,14 +71,17 @@ impl Witness {
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
-    let free = &w.free;
+    let (free, inequality) = (&w.free, w.existence.inequality.iter());
+    inequality.clone().try_for_each(|inequality| inequality.demand_plant(d))?;
+    let covers = inequality.flat_map(|inequality| inequality.covers(d, [&free.x_p, &free.e_p]));
     let [sigma, w_x, h, x_p, e_p, k0, k1] =
         [&w.sigma, &free.w_x, &free.h, &free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
     let kappa = kappas(d, &k0, &k1);
     let solution = mean_squares::evaluate(d, &w.existence, &w.sigma, [&x_p, &e_p], [&k0, &k1], &kappa);
     let transfer = transfer::check(d, &free.k0, &free.k1, &w.transfer, &format!("{}/transfer", free.pointer))?;
     let sizes = Sizes { x: solution.x.clone(), e: solution.e.clone(), zeta: solution.z_squared.sqrt() };
-    let (error_box, mut evaluated) = free.evaluate(d, sizes, transfer, solution.conditions.iter().cloned());
+    let existence = covers.chain(solution.conditions.iter().cloned());
+    let (error_box, mut evaluated) = free.evaluate(d, sizes, transfer, existence);
     let threshold = match &w.inequality {
         Some(inequality) if d.spec.plant.is_none() => {
             return bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant");

@@ -1,0 +1,188 @@
+//! The free numbers of the matrix inequality (E) of existence (derivation, 13.7), proposed by semidefinite programs over sampled points.
+
+use super::pointwise::Derivatives;
+use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::weights::{EnergyAt, EnergyWeights};
+use sigmastar_lang::spec::Bound;
+use sigmastar_matrix::AffineMatrix;
+use sigmastar_matrix::semidefinite::propose;
+use std::sync::Arc;
+
+/// Points that are added where what was found holds least, and how often.
+const POINTS: usize = 6;
+const ROUNDS: usize = 5;
+
+/// The share of the largest c_y that is left for how definite the rest is.
+const KEPT: f64 = 0.93;
+
+/// By what share of k_p c_y may be smaller at a point that was not looked at.
+const TOLERANCE: f64 = 1e-3;
+
+/// The share of what the rest is definite by that is c_x.
+const OF_STATES: f64 = 0.8;
+
+impl FloatSuprema {
+    /// c_y at points of the grid, as functions of the threshold.
+    #[must_use]
+    pub fn energy_at(&self, at: [f64; 2], places: &Places, weights: &EnergyWeights) -> Vec<EnergyAt> {
+        let mut found = Vec::new();
+        self.derivatives_at_points(at, places, |_, derivatives, _| found.push(weights.at(derivatives)));
+        found
+    }
+
+    /// The largest c_y that serves at all points, by a longer search.
+    pub(super) fn refined_margin(&self, at: [f64; 2], weights: &EnergyWeights) -> f64 {
+        -self.refined_of_derivatives(at, |derivatives, _| -weights.margin(derivatives))
+    }
+
+    /// P, k_p, c_x with a large share of c_y in k_p, at a threshold that is given; `None` where there are none.
+    #[must_use]
+    pub fn propose_energy(&self, at: [f64; 2], value: f64) -> Option<EnergyWeights> {
+        let all = Places::Stride(1);
+        let mut program = Program { points: Vec::new(), value };
+        let first = self.where_largest(at, &all, [Bound::Rate, Bound::Qx, Bound::Fe, Bound::QeMax]);
+        program.add(self, at, first);
+        let mut found = program.solve()?;
+        for _ in 0..ROUNDS {
+            let mut worst: Vec<(f64, Place)> = Vec::new();
+            self.derivatives_at_points(at, &all, |place, derivatives, _| {
+                keep(&mut worst, POINTS, -found.0.margin(derivatives), place);
+            });
+            let expected = found.1 - TOLERANCE * found.0.k_p;
+            let beyond: Vec<Place> =
+                worst.into_iter().filter(|(value, _)| -value < expected).map(|(_, place)| place).collect();
+            if beyond.is_empty() {
+                break;
+            }
+            program.add(self, at, beyond);
+            found = program.solve()?;
+        }
+        Some(found.0)
+    }
+}
+
+/// Derivatives at one point.
+struct Point {
+    j: Vec<f64>,
+    g: Vec<f64>,
+    r: Vec<f64>,
+    d: f64,
+}
+
+/// The programs for given points.
+struct Program {
+    points: Vec<Point>,
+    value: f64,
+}
+
+impl Program {
+    fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], mut places: Vec<Place>) {
+        places.sort_unstable();
+        places.dedup();
+        samples.derivatives_at_points(at, &Places::Listed(Arc::new(places)), |_, Derivatives { j, g, r, d }, _| {
+            self.points.push(Point { j: j.to_vec(), g: g.to_vec(), r: r.to_vec(), d: *d });
+        });
+    }
+
+    /// The unit of y in which g and r are of one size.
+    fn unit(&self) -> f64 {
+        let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let largest = |of: fn(&Point) -> &[f64]| self.points.iter().map(|point| norm(of(point))).fold(0.0, f64::max);
+        let (g, r) = (largest(|point| &point.g), largest(|point| &point.r));
+        match (g > 0.0, r > 0.0) {
+            (true, true) => (g / r).sqrt(),
+            (true, false) => g / self.value,
+            (false, true) => self.value / r,
+            (false, false) => 1.0,
+        }
+    }
+
+    /// The weights, and c_y at the points.
+    fn solve(&self) -> Option<(EnergyWeights, f64)> {
+        let unit = self.unit();
+        let (_, largest) = self.solution(unit, None)?;
+        if !(largest > 0.0) {
+            return None;
+        }
+        let kept = KEPT * largest;
+        let (variables, room) = self.solution(unit, Some(kept))?;
+        let n = self.points.first()?.r.len();
+        let triangle = triangle(n);
+        // The weight of e^2 becomes 1.
+        let w = variables[triangle.len()];
+        if !(w > 0.0 && room > 0.0) {
+            return None;
+        }
+        let mut p = vec![vec![0.0; n]; n];
+        for ((i, j), value) in triangle.iter().zip(&variables) {
+            let value = value / (w * unit * unit);
+            (p[*i][*j], p[*j][*i]) = (value, value);
+        }
+        let c_x = OF_STATES * room * self.value / (w * unit * unit);
+        let k_p = 1.0 / (w * self.value);
+        Some((EnergyWeights { p, k_p, c_x, value: self.value }, kept * k_p))
+    }
+
+    /// P, the weight w of e^2, and the largest c with `F >= diag(0, 0, c)` for k_p = 1; where c is given, instead of it the largest m
+    /// with `F >= diag(m, m, c)`. Time in units of 1/value, y in that of `unit`.
+    fn solution(&self, unit: f64, given: Option<f64>) -> Option<(Vec<f64>, f64)> {
+        let n = self.points.first()?.r.len();
+        let triangle = triangle(n);
+        let (w, last) = (triangle.len(), triangle.len() + 1);
+        let (e, y) = (n, n + 1);
+        let value = self.value;
+        let constraints: Vec<AffineMatrix<f64>> = self
+            .points
+            .iter()
+            .map(|Point { j: matrix, g, r, d }| {
+                let constant = |i: usize, k: usize| match (i.min(k), i.max(k)) {
+                    (i, k) if i < n && k == y => -0.5 * r[i] * unit / value,
+                    (i, k) if i == e && k == y => -0.5 * d / value,
+                    (i, k) if i == y && k == y => 1.0 - given.unwrap_or(0.0),
+                    _ => 0.0,
+                };
+                let term = |variable: usize, i: usize, k: usize| {
+                    let (i, k) = (i.min(k), i.max(k));
+                    if variable == last {
+                        let corner = given.is_none() && i == y && k == y;
+                        let definite = given.is_some() && i == k && i <= e;
+                        return if corner || definite { -1.0 } else { 0.0 };
+                    }
+                    if variable == w {
+                        return match (i == e, k == e, k == y) {
+                            (true, true, _) => 2.0,
+                            (true, _, true) => -1.0,
+                            _ => 0.0,
+                        };
+                    }
+                    let (a, b) = triangle[variable];
+                    // Row `row` of E times a vector, for E with ones at (a, b) and (b, a).
+                    let times = |row: usize, vector: &dyn Fn(usize) -> f64| match (row == a, row == b) {
+                        (true, _) => vector(b),
+                        (false, true) => vector(a),
+                        (false, false) => 0.0,
+                    };
+                    match (i < n, k < n, k == e) {
+                        (true, true, _) => {
+                            let column = |k: usize| move |m: usize| matrix[m * n + k];
+                            -(times(i, &column(k)) + times(k, &column(i))) / value
+                        }
+                        (true, false, true) => -times(i, &|m| g[m]) / (unit * value),
+                        _ => 0.0,
+                    }
+                };
+                AffineMatrix::from_fn(n + 2, last + 1, constant, term)
+            })
+            .collect();
+        let mut cost = vec![0.0; last + 1];
+        cost[last] = -1.0;
+        let mut found = propose(&cost, &constraints).ok()?.x;
+        let largest = found.pop()?;
+        Some((found, largest))
+    }
+}
+
+/// The places (i, j), i <= j, of a symmetric matrix.
+fn triangle(n: usize) -> Vec<(usize, usize)> {
+    (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect()
+}

@@ -1,0 +1,98 @@
+//! The matrix inequality (E) of existence (derivation, 13.7): decided with enclosures by subdivision, and with the largest c_y that is
+//! proved.
+
+use super::PRECISION;
+use super::centred::{Centred, negated};
+use super::decide::{Decision, Values};
+use super::definite::SymmetricValues;
+use super::engine::Engine;
+use super::quantity::Part;
+use super::suprema::FloatSuprema;
+use super::weights::EnergyWeights;
+use rug::Rational;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::spec::ExistenceInequality;
+
+/// The shares that c_y at samples loses until it is proved, and the boxes that each attempt may take.
+const ATTEMPTS: [(f64, usize); 5] = [(0.002, 1500), (0.01, 3000), (0.04, 6000), (0.15, 12_000), (0.5, 20_000)];
+
+/// Significant digits of c_y.
+const DIGITS: u32 = 6;
+
+impl Engine {
+    /// Decides the inequality, with so many boxes at most.
+    ///
+    /// Guarantee: `True` only if, for every t, every point of `|y| <= X`, `|e| <= E` around any x_0 within r of xb, and the
+    /// derivatives of f and q there in the coordinates y, the matrix of [`ExistenceInequality`] is positive definite, P is symmetric of
+    /// the order of the plant, and k_p, c_x and c_y are positive. `False` only if it is not so at a point, or a number is not. For the
+    /// caller to prove: what [`Engine::decide`] leaves to him.
+    #[must_use]
+    pub fn decide_existence(&self, inequality: &ExistenceInequality, effort: usize) -> Decision {
+        let ExistenceInequality { x, e, matrix, k_p, c_x, c_y, .. } = inequality;
+        let order = self.states();
+        let is_symmetric = matrix.len() == order
+            && matrix.iter().all(|row| row.len() == order)
+            && (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
+        if [k_p, c_x, c_y].into_iter().any(|number| *number <= 0) || !is_symmetric {
+            return Decision { truth: Truth::False, boxes: 0 };
+        }
+        if *x < 0 || *e < 0 {
+            return Decision { truth: Truth::Undecided, boxes: 0 };
+        }
+        self.decide_part(Part::All, [x, e], effort, |values| form(inequality, values))
+    }
+
+    /// The inequality with the largest c_y that is proved and little below that of the samples; `None` if none is. `samples` must be
+    /// of the same plant and region; c_y is not used.
+    #[must_use]
+    pub fn prove_existence(
+        &self,
+        samples: &FloatSuprema,
+        inequality: &ExistenceInequality,
+    ) -> Option<ExistenceInequality> {
+        let reach = Rational::from(&inequality.x + self.region.radius()).to_f64();
+        let weights = EnergyWeights::from(inequality);
+        let sampled = samples.refined_margin([reach, inequality.e.to_f64()], &weights);
+        ATTEMPTS.into_iter().find_map(|(slack, effort)| {
+            let c_y = round_f64(sampled * (1.0 - slack), DIGITS, Direction::Down).filter(|c_y| *c_y > 0)?;
+            let inequality = ExistenceInequality { c_y, ..inequality.clone() };
+            self.decide_existence(&inequality, effort).truth.is_true().then_some(inequality)
+        })
+    }
+}
+
+/// The matrix in (x, e, y).
+fn form(inequality: &ExistenceInequality, values: &Values<'_>) -> Option<SymmetricValues> {
+    let ExistenceInequality { matrix: p, k_p, c_x, c_y, value, .. } = inequality;
+    let frame = values.frame;
+    let region = &values.engine.region;
+    let half_k_p = Enclosure::from_rational(k_p, PRECISION) / 2;
+    // [[f_x, f_e], [q_x, q_e]] in the coordinates x.
+    let mut of_f = values.matrix();
+    let mut of_q = of_f.pop()?;
+    let n = of_f.len();
+    let slope = of_q.pop()?;
+    let column: Vec<Vec<Centred>> = of_f.iter_mut().map(|row| row.split_off(n)).collect();
+    let mut entries = Vec::new();
+    if n > 0 {
+        let jacobian = values.product(region.matrix(), &values.product(region.inverse(), &of_f, false), true);
+        let moved = values.product(p, &jacobian, false);
+        for i in 0..n {
+            for j in i..n {
+                let own = frame.rational(&if i == j { c_x.clone() } else { Rational::new() });
+                let sum = frame.add(&frame.add(&moved[i][j], &moved[j][i]), &own);
+                entries.push((i, j, negated(&sum)));
+            }
+        }
+        let column = values.product(p, &values.product(region.inverse(), &column, false), false);
+        entries.extend(column.concat().iter().enumerate().map(|(i, value)| (i, n, negated(value))));
+        let row = values.product(region.matrix(), &[of_q], true).concat();
+        entries.extend(row.iter().enumerate().map(|(i, value)| (i, n + 1, negated(&frame.scale(value, &half_k_p)))));
+    }
+    let one = frame.constant(Enclosure::one(PRECISION));
+    entries.push((n, n, frame.rational(&Rational::from(value * 2))));
+    entries.push((n, n + 1, negated(&frame.add(&one, &frame.scale(&slope, &half_k_p)))));
+    entries.push((n + 1, n + 1, frame.rational(&Rational::from(k_p - c_y))));
+    Some(SymmetricValues { order: n + 2, entries })
+}

@@ -1,0 +1,76 @@
+//! What a search knows of a matrix inequality of existence (derivation, 13.7, (E)).
+
+use super::obstacle::Failing;
+use rug::Rational;
+use sigmastar_lang::spec::ExistenceInequality;
+use sigmastar_plants::bounds::EnergyWeights;
+use sigmastar_theory::derivation::energy::{EnergyBounds, EnergyNumbers};
+use sigmastar_theory::derivation::harmonics::AtOrigin;
+use std::fmt;
+use std::sync::Arc;
+
+/// A proved inequality ends where it ends: a search stays so far inside that rounding does not lead beyond.
+const EDGE: f64 = 1.0 - 1e-6;
+
+/// c_y as a function of (X, E) and the threshold.
+pub type EnergyMargin = dyn Fn([f64; 2], f64) -> f64 + Send + Sync;
+
+/// The share of a gain that is the threshold of the inequality at it.
+pub const SHARE: f64 = 0.995;
+
+/// Where the bounds of a matrix inequality come from.
+#[derive(Clone)]
+pub enum ByEnergy {
+    /// Samples, for given weights.
+    Sampled {
+        /// The weights; the threshold is [`SHARE`] of each sigma that is looked at, whatever they say.
+        weights: Arc<EnergyWeights>,
+        /// c_y as a function of (X, E) and the threshold.
+        margin: Arc<EnergyMargin>,
+    },
+    /// One that is proved.
+    Proved(Arc<ExistenceInequality>),
+}
+
+impl fmt::Debug for ByEnergy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            ByEnergy::Sampled { .. } => "a sampled inequality of existence",
+            ByEnergy::Proved(_) => "a proved inequality of existence",
+        })
+    }
+}
+
+impl ByEnergy {
+    /// The bounds on `|x| <= X_p`, `|e| <= E_p`.
+    ///
+    /// # Errors
+    /// That the inequality is not proved there, does not hold there, or needs a larger sigma.
+    pub(super) fn bounds(
+        &self,
+        [x_p, e_p]: [f64; 2],
+        origin: &AtOrigin<f64>,
+        sigma: f64,
+    ) -> Result<EnergyBounds<f64>, Failing> {
+        let numbers = match self {
+            ByEnergy::Sampled { weights, margin } => {
+                let EnergyWeights { k_p, c_x, .. } = **weights;
+                let value = SHARE * sigma;
+                EnergyNumbers { k_p, c_x, c_y: margin([x_p, e_p], value), value }
+            }
+            ByEnergy::Proved(known) => {
+                let ExistenceInequality { x, e, k_p, c_x, c_y, value, .. } = known.as_ref();
+                if x_p > x.to_f64() * EDGE || e_p > e.to_f64() * EDGE {
+                    return Err(Failing::Bounds);
+                }
+                let [k_p, c_x, c_y, value] = [k_p, c_x, c_y, value].map(Rational::to_f64);
+                EnergyNumbers { k_p, c_x, c_y, value }
+            }
+        };
+        if numbers.c_y > 0.0 && numbers.value < sigma * EDGE {
+            Ok(EnergyBounds::new(&numbers, origin, &sigma))
+        } else {
+            Err(Failing::Existence)
+        }
+    }
+}

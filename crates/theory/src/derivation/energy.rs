@@ -1,0 +1,82 @@
+//! Bounds of a periodic solution by a matrix inequality over the derivatives of a plant (derivation, section 13.7, (E)): no gain of
+//! one loop has to be small.
+
+use super::condition::Condition;
+use super::harmonics::AtOrigin;
+use crate::data::Data;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::real::{Operand, Real};
+use sigmastar_lang::spec::ExistenceInequality;
+
+/// The numbers of a matrix inequality of existence that bounds are made of.
+#[derive(Clone, Copy, Debug)]
+pub struct EnergyNumbers<R> {
+    /// k_p.
+    pub k_p: R,
+    /// c_x.
+    pub c_x: R,
+    /// c_y.
+    pub c_y: R,
+    /// The threshold of sigma.
+    pub value: R,
+}
+
+/// Bounds of root mean squares along a periodic solution, for y = q + mu s.
+///
+/// Guarantee, where the inequality holds on `|x| <= X`, `|e| <= E`: they are true of every T-periodic (x, e, zeta) in there of the loop
+/// with l q(t,0,0), 0 <= l <= 1, in the place of q(t,0,0), at sigma and every larger gain, for every n_o. For with U = x'P x + e^2 +
+/// (k_p mu/2) |zeta|_N^2 the mean of F(x, e, y) over a period is that of `l k_p y q(t,0,0)`, y has the mean 0, and
+/// F >= diag(c_x, 2 (sigma - value), c_y).
+#[derive(Clone, Debug)]
+pub struct EnergyBounds<R> {
+    /// r_y = k_p Q_m/c_y, of rms(y).
+    pub y: R,
+    /// `k_p Q_m/(2 sqrt(2 (sigma - value) c_y))`, of rms(e); unknown where the threshold is not certainly below sigma.
+    pub e: R,
+    /// `k_p Q_m/(2 sqrt(c_x c_y))`, of rms(x).
+    pub x: R,
+}
+
+impl<R: Real> EnergyBounds<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// Evaluates the bounds; unknown where no harmonics of q(t,0,0) are known.
+    #[must_use]
+    pub fn new(numbers: &EnergyNumbers<R>, origin: &AtOrigin<R>, sigma: &R) -> EnergyBounds<R> {
+        let EnergyNumbers { k_p, c_x, c_y, value } = numbers;
+        let moved = k_p * origin.known.as_ref().map_or_else(R::unknown, |known| known.rms_without_mean.clone());
+        let room = sigma - value;
+        let room = if room.is_certainly_positive() { R::int(2) * room } else { R::unknown() };
+        let half = |weight: &R| &moved / (R::int(2) * (weight * c_y).sqrt());
+        EnergyBounds { e: half(&room), x: half(c_x), y: moved / c_y }
+    }
+}
+
+/// The bounds of a specification whose data come with a proved inequality.
+#[must_use]
+pub fn proved(data: &Data<'_>, origin: &AtOrigin<Enclosure>, sigma: &Enclosure) -> Option<EnergyBounds<Enclosure>> {
+    let ExistenceInequality { k_p, c_x, c_y, value, .. } = data.spec.bounds.proved_values().existence()?;
+    let [k_p, c_x, c_y, value] = [k_p, c_x, c_y, value].map(|number| data.rational(number));
+    Some(EnergyBounds::new(&EnergyNumbers { k_p, c_x, c_y, value }, origin, sigma))
+}
+
+/// What is left to decide of it: that (X_p, E_p) lies where it holds, and that sigma is larger than its threshold.
+///
+/// Differences of rationals are exact, so that equality is decided.
+#[must_use]
+pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Enclosure) -> Vec<Condition> {
+    let Some(ExistenceInequality { x, e, value, .. }) = data.spec.bounds.proved_values().existence() else {
+        return Vec::new();
+    };
+    let within = |id, what: &str, inner: &Rational, outer: &Rational| {
+        Condition::at_most(id, what, data.rational(&Rational::from(inner - outer)), data.zero())
+    };
+    let threshold = data.rational(value);
+    vec![
+        within("E1", "X_p - X of the existence inequality <= 0", x_p, x),
+        within("E2", "E_p - E of the existence inequality <= 0", e_p, e),
+        Condition::less("E3", "threshold of the existence inequality < sigma", threshold, sigma.clone()),
+    ]
+}
