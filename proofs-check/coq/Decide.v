@@ -12,7 +12,7 @@ Ltac put old new b :=
   let p := eval pattern old in b in
   match p with ?g _ => eval cbv beta iota delta [fst snd] in (g new) end.
 
-(** [b] with those fields of the record [R], which is what [c] stands for, that are functions or choices. *)
+(** [b] with the fields of the record [R], which is what [c] stands for. *)
 Ltac opened c R b :=
   let b := lazymatch b with context [rate c] => let v := eval cbv beta iota delta [rate] in (rate R) in put (rate c) v b | _ => b end in
   let b := lazymatch b with context [b_q_rms c] => let v := eval cbv beta iota delta [b_q_rms] in (b_q_rms R) in put (b_q_rms c) v b | _ => b end in
@@ -38,6 +38,29 @@ Ltac opened c R b :=
   let b := lazymatch b with context [b_qe c] => let v := eval cbv beta iota delta [b_qe] in (b_qe R) in put (b_qe c) v b | _ => b end in
   let b := lazymatch b with context [b_qx c] => let v := eval cbv beta iota delta [b_qx] in (b_qx R) in put (b_qx c) v b | _ => b end in
   let b := lazymatch b with context [b_qt c] => let v := eval cbv beta iota delta [b_qt] in (b_qt R) in put (b_qt c) v b | _ => b end in
+  let b := lazymatch b with context [period c] => let v := eval cbv beta iota delta [period] in (period R) in put (period c) v b | _ => b end in
+  let b := lazymatch b with context [p_low c] => let v := eval cbv beta iota delta [p_low] in (p_low R) in put (p_low c) v b | _ => b end in
+  let b := lazymatch b with context [p_up c] => let v := eval cbv beta iota delta [p_up] in (p_up R) in put (p_up c) v b | _ => b end in
+  let b := lazymatch b with context [alpha c] => let v := eval cbv beta iota delta [alpha] in (alpha R) in put (alpha c) v b | _ => b end in
+  let b := lazymatch b with context [p_low' c] => let v := eval cbv beta iota delta [p_low'] in (p_low' R) in put (p_low' c) v b | _ => b end in
+  let b := lazymatch b with context [p_up' c] => let v := eval cbv beta iota delta [p_up'] in (p_up' R) in put (p_up' c) v b | _ => b end in
+  let b := lazymatch b with context [alpha' c] => let v := eval cbv beta iota delta [alpha'] in (alpha' R) in put (alpha' c) v b | _ => b end in
+  let b := lazymatch b with context [mu c] => let v := eval cbv beta iota delta [mu] in (mu R) in put (mu c) v b | _ => b end in
+  let b := lazymatch b with context [w c] => let v := eval cbv beta iota delta [w] in (w R) in put (w c) v b | _ => b end in
+  let b := lazymatch b with context [sigma c] => let v := eval cbv beta iota delta [sigma] in (sigma R) in put (sigma c) v b | _ => b end in
+  let b := lazymatch b with context [X_0 c] => let v := eval cbv beta iota delta [X_0] in (X_0 R) in put (X_0 c) v b | _ => b end in
+  let b := lazymatch b with context [E_0 c] => let v := eval cbv beta iota delta [E_0] in (E_0 R) in put (E_0 c) v b | _ => b end in
+  let b := lazymatch b with context [X_p c] => let v := eval cbv beta iota delta [X_p] in (X_p R) in put (X_p c) v b | _ => b end in
+  let b := lazymatch b with context [E_p c] => let v := eval cbv beta iota delta [E_p] in (E_p R) in put (E_p c) v b | _ => b end in
+  let b := lazymatch b with context [r_x c] => let v := eval cbv beta iota delta [r_x] in (r_x R) in put (r_x c) v b | _ => b end in
+  let b := lazymatch b with context [r_e c] => let v := eval cbv beta iota delta [r_e] in (r_e R) in put (r_e c) v b | _ => b end in
+  let b := lazymatch b with context [r_d c] => let v := eval cbv beta iota delta [r_d] in (r_d R) in put (r_d c) v b | _ => b end in
+  let b := lazymatch b with context [D_x c] => let v := eval cbv beta iota delta [D_x] in (D_x R) in put (D_x c) v b | _ => b end in
+  let b := lazymatch b with context [D_e c] => let v := eval cbv beta iota delta [D_e] in (D_e R) in put (D_e c) v b | _ => b end in
+  let b := lazymatch b with context [w_x c] => let v := eval cbv beta iota delta [w_x] in (w_x R) in put (w_x c) v b | _ => b end in
+  let b := lazymatch b with context [h c] => let v := eval cbv beta iota delta [h] in (h R) in put (h c) v b | _ => b end in
+  let b := lazymatch b with context [k_0 c] => let v := eval cbv beta iota delta [k_0] in (k_0 R) in put (k_0 c) v b | _ => b end in
+  let b := lazymatch b with context [k_1 c] => let v := eval cbv beta iota delta [k_1] in (k_1 R) in put (k_1 c) v b | _ => b end in
   eval cbv beta iota delta [kap kap_small fst snd] in b.
 
 (** Encloses [v], which is [b] by definition. *)
@@ -49,17 +72,19 @@ Ltac note v b :=
   | _ => fail 1 "no enclosure of" v
   end.
 
-(** A number of the record. *)
-Ltac note_number c R field :=
-  let b := eval cbv beta iota delta [period p_low p_up alpha p_low' p_up' alpha' mu w sigma X_0 E_0 X_p E_p r_x r_e r_d D_x D_e w_x h
-                                     k_0 k_1] in (field R) in
-  let v := constr:(field c) in note v b.
+(** Enclosures that are not needed any more make every later one slower. *)
+Ltac forget v := match goal with H : _ <= v <= _ |- _ => clear H end.
+Ltac keep_sizes c :=
+  repeat match goal with
+  | H : _ <= ?v <= _ |- _ => lazymatch v with e_per c => fail | x_per c => fail | Z_per c => fail | _ => clear H end
+  end.
 
 (** What is computed of others, by its definition. *)
 Ltac note_computed c R v :=
   let b := eval red in v in
+  let b := eval cbv beta delta [beta2 sup_of rms_of z_mean] in b in
   let b := opened c R b in
-  let b := eval cbv beta iota zeta delta [least E_at X_at sup_of rms_of z_mean coth tanh_exp min2 max2 power Rpower C_k r_0 r_t] in b in
+  let b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 power Rpower C_k r_0 r_t] in b in
   note v b.
 
 (** A sum over the harmonics [f]. *)
@@ -98,16 +123,10 @@ Ltac note_weight_sum c R :=
       end; clear E
   end.
 
-(** Enclosures of everything. *)
-Ltac note_all c :=
+(** Enclosures of everything in 10.2 to 10.4. *)
+Ltac note_existence c :=
   let R := eval red in c in
-  note_number c R period; note_number c R p_low; note_number c R p_up; note_number c R alpha;
-  note_number c R p_low'; note_number c R p_up'; note_number c R alpha'; note_number c R mu; note_number c R w;
-  note_number c R sigma; note_number c R X_0; note_number c R E_0;
-  note_number c R X_p; note_number c R E_p; note_number c R r_x; note_number c R r_e; note_number c R r_d;
-  note_number c R D_x; note_number c R D_e; note_number c R w_x; note_number c R h; note_number c R k_0; note_number c R k_1;
-  note_weight_sum c R;
-  note_computed c R constr:(Om c); note_computed c R constr:(sg c); note_computed c R constr:(beta2 c (sigma c));
+  note_computed c R constr:(Om c); note_computed c R constr:(sg c); note_computed c R constr:(beta2_s c);
   note_computed c R constr:(bt c); note_computed c R constr:(tau c);
   note_computed c R constr:(c_ex c); note_computed c R constr:(F_p c); note_computed c R constr:(bent c);
   note_computed c R constr:(a_1 c); note_computed c R constr:(Fe_p c); note_computed c R constr:(Qe_p c);
@@ -122,7 +141,8 @@ Ltac note_all c :=
   end;
   note_computed c R constr:(Q_start c); note_computed c R constr:(Fx_p c); note_computed c R constr:(beta2 c (a_1 c));
   note_computed c R constr:(x_gain c); note_computed c R constr:(from_rms c);
-  note_means c R constr:(means c); note_means c R constr:(last c);
+  forget (c_ex c); forget (F_p c); forget (bent c); forget (beta2_s c); forget (beta2 c (a_1 c));
+  note_means c R constr:(last c); note_means c R constr:(means c);
   let d := eval cbv beta iota delta [damped] in (damped R) in
   match d with
   | None => idtac
@@ -131,12 +151,20 @@ Ltac note_all c :=
       note_computed c R constr:(R_t c k (means c)); note_computed c R constr:(R_t c k (last c))
   end;
   note_computed c R constr:(e_per c); note_computed c R constr:(x_per c);
-  note_computed c R constr:(swing c); note_computed c R constr:(Z_per c);
+  note_computed c R constr:(swing c); note_computed c R constr:(Z_per c).
+
+(** Enclosures of everything in section 5, from those of the sizes. *)
+Ltac note_stability c :=
+  let R := eval red in c in
+  keep_sizes c;
   note_computed c R constr:(X_b c); note_computed c R constr:(E_b c);
   note_computed c R constr:(E_f c); note_computed c R constr:(E_q c); note_computed c R constr:(X_f c); note_computed c R constr:(X_q c);
   note_computed c R constr:(k_x c); note_computed c R constr:(k_l c); note_computed c R constr:(most c); note_computed c R constr:(k_f c);
   note_computed c R constr:(gam c); note_computed c R constr:(a_2 c); note_computed c R constr:(ht c); note_computed c R constr:(size c);
-  note_computed c R constr:(d_X c); note_computed c R constr:(d_E c); note_computed c R constr:(d_Z c); note_computed c R constr:(level c).
+  note_computed c R constr:(d_X c); note_computed c R constr:(d_E c);
+  let z := eval cbv beta iota delta [Z_0] in (Z_0 R) in
+  match z with None => idtac | _ => note_weight_sum c R end;
+  note_computed c R constr:(d_Z c); note_computed c R constr:(level c).
 
 (** An inequality between two quantities with enclosures: as one of their difference. *)
 Ltac decide_difference :=
@@ -182,8 +210,10 @@ Ltac decide_weight c :=
   lazymatch goal with
   | |- ?g =>
       first
-      [ change (n c) with v; cbv beta iota delta [power Rpower];
+      [ change (n c) with v; cbv beta iota delta [power];
         rewrite ?INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ];
+        try rewrite Rpower_half by lra;
+        match goal with |- ?g => let b := opened c R g in let b := eval cbv beta delta [Rpower] in b in change b end;
         decide_difference
       | fail 1 "this comparison of the transfer bound is not proved:" g ]
   end.
@@ -203,12 +233,11 @@ Ltac decide_weight_sum c :=
 (** (2.3) with the tail from K on. *)
 Ltac decide_matched c W K :=
   let R := eval red in c in
-  note_number c R mu; note_number c R w; note_number c R k_0; note_number c R k_1;
   unfold transfer_bound;
   let m := eval cbv beta iota delta [matched] in (matched R) in change (matched c) with m; cbv beta iota;
   split;
   [let b := eval cbv beta iota delta [w period] in (w R * period R = 2 * PI) in change b;
    first [lra | field; repeat split; apply Rgt_not_eq; interval with (i_prec 60)]
   |apply (fun nu => matched_criterion _ _ W nu _ _ K);
-   [unfold Rdiv; interval with (i_prec 120)|lia|decide_weight c| |decide_weight c];
+   [match goal with |- ?g => let b := opened c R g in change b end; interval with (i_prec 60)|lia|decide_weight c| |decide_weight c];
    repeat (apply below_S; [|decide_weight c]); intros k Hk; exfalso; lia].

@@ -91,8 +91,9 @@ Definition Om : R := 2 * PI / period c.
 Definition sg : R := sqrt (sigma c ^ 2 + Om ^ 2).
 (** beta_s^2(s) = (T/(2 s)) coth(s T/2). *)
 Definition beta2 (s : R) : R := period c / (2 * s) * coth (s * period c / 2).
-Definition bt : R := sqrt (beta2 (sigma c) - 1 / sigma c ^ 2).
-Definition tau : R := sqrt (period c ^ 2 / 12 - beta2 (sigma c) + 1 / sigma c ^ 2) / sigma c.
+Definition beta2_s : R := beta2 (sigma c).
+Definition bt : R := sqrt (beta2_s - 1 / sigma c ^ 2).
+Definition tau : R := sqrt (period c ^ 2 / 12 - beta2_s + 1 / sigma c ^ 2) / sigma c.
 
 (** ** Section 10.3: the bounding functions at (X_p, E_p) *)
 

@@ -167,12 +167,16 @@ Proof.
   rewrite <- IH. apply sum_ext. intros i _. f_equal. lia.
 Qed.
 
+Lemma Rpower_half x : 0 < x -> Rpower x (- (1 + 1 / 2)) = / (x * sqrt x).
+Proof.
+  intros H. rewrite Rpower_Ropp. f_equal. rewrite Rpower_plus, Rpower_1 by exact H. f_equal.
+  replace (1 / 2) with (/ 2) by field. apply Rpower_sqrt, H.
+Qed.
+
 Lemma powers_half L l : (0 < l)%Z -> powers (1 / 2) L l = roots L l.
 Proof.
   revert l. induction L as [|L IH]; intros l Hl; [reflexivity|]. cbn [powers roots]. rewrite IH by lia. f_equal.
-  assert (H : 0 < IZR l) by (apply IZR_lt; exact Hl).
-  rewrite Rpower_Ropp. f_equal. rewrite Rpower_plus, Rpower_1 by exact H. f_equal.
-  replace (1 / 2) with (/ 2) by field. apply Rpower_sqrt, H.
+  apply Rpower_half, IZR_lt, Hl.
 Qed.
 
 Lemma power_total_powers n_0 eps L :

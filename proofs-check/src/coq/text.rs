@@ -40,8 +40,9 @@ Lemma conditions :
   existence_conditions cert /\\ stability_conditions cert /\\
   (x_per cert <= {x} /\\ e_per cert <= {e} /\\ Z_per cert <= {zeta}).
 Proof.
-  note_all cert.
-  split; [decide_conditions cert | split; [decide_conditions cert | split; [|split]; decide_size]].
+  note_existence cert.
+  split; [decide_conditions cert|]. apply and_comm. split; [split; [|split]; decide_size|].
+  note_stability cert. decide_conditions cert.
 Qed.
 
 Lemma the_weights : weights (n cert).
