@@ -1,6 +1,6 @@
 (** What every theorem of README.md rests on. *)
 
-From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response MatrixInequality WeightSum Vanish Claim ScalarPlant.
+From SigmaStar Require Import Sums Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response MatrixInequality WeightSum ExplicitWeights Vanish Claim ScalarPlant.
 
 Print Assumptions power_weights.
 Print Assumptions T_is_phase_derivative.
@@ -80,6 +80,8 @@ Print Assumptions F_between_sigma.
 Print Assumptions F_between_b.
 Print Assumptions U_m_derive.
 Print Assumptions power_sum.
+Print Assumptions explicit_weights.
+Print Assumptions explicit_sum.
 Print Assumptions stays_and_falls.
 Print Assumptions vanishes.
 Print Assumptions errors_tend.

@@ -1,8 +1,8 @@
 (** Sections 5 and 10.4: what a certificate in continuous time says, with every number in it a parameter ([Sizes.v]). From its
     conditions C4, C5, C5b, a plant within its bounding functions and a periodic solution of the stated size follows: every
-    solution from the initial set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of x and
-    e tend to 0; for every N and every sigma' >= sigma. With the existence of the periodic solution (section 10.3), which is a hypothesis here, follows
-    [certified]. *)
+    solution from the initial set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of
+    x and e tend to 0; for every N and every sigma' >= sigma. With the existence of the periodic
+    solution (section 10.3), which is a hypothesis here, follows [certified]. *)
 
 From Coq Require Import Reals Lra Lia.
 From Coquelicot Require Import Coquelicot.
@@ -193,7 +193,7 @@ Proof.
         assert (N0 : norm (minus v xp) = 0).
         { pose proof (norm_ge_0 r). pose proof (norm_ge_0 (minus v xp)).
           apply Rle_antisym; [|assumption]. apply Rnot_lt_le. intros C.
-          assert (G * norm (minus v xp) < 0) by (apply Ropp_lt_cancel; rewrite Ropp_0, <- Ropp_mult_distr_l_reverse; apply Rmult_lt_0_compat; lra). lra. }
+          assert (0 < - G * norm (minus v xp)) by (apply Rmult_lt_0_compat; lra). lra. }
         assert (X0 : xi = 0).
         { apply Rle_antisym; [|exact Hxi]. unfold xi. apply Rle_trans with (1 := xi_le_norm t _). rewrite N0. lra. }
         rewrite X0. right. ring. }
@@ -650,7 +650,8 @@ Proof.
             (P' t (xt y p t) (minus (f t (of_x y t) (of_e y t)) (f t (of_x p t) (of_e p t))))).
   { intros t Ht. apply (form_derive form t (xt y p)), (xt_derive N s p y Hp t (Hy t Ht)). }
   destruct (vanishes (fun t => P t (xt y p t))
-              (fun t => P' t (xt y p t) (minus (f t (of_x y t) (of_e y t)) (f t (of_x p t) (of_e p t)))) t0 C1 (level c / rho) HC1) with (eps := p_low c * eps ^ 2) as [t1 [T1 V1]].
+              (fun t => P' t (xt y p t) (minus (f t (of_x y t) (of_e y t)) (f t (of_x p t) (of_e p t))))
+              t0 C1 (level c / rho) HC1) with (eps := p_low c * eps ^ 2) as [t1 [T1 V1]].
   - intros t _. apply P_nonneg.
   - exact D1.
   - intros t Ht. destruct (Part t Ht) as [u_x [delta [phi [_ [_ [_ [Q4 Q5]]]]]]]. destruct (In t Ht) as [_ [B2 _]].
@@ -677,11 +678,13 @@ Proof.
                       (fun t => q t (of_x y t) (of_e y t) - q t (of_x p t) (of_e p t))
                       (fun t => of_z0 y t - of_z0 p t) (fun l t => of_za y l t - of_za p l t) t - s * et y p t)).
     assert (D2 : forall t, t0 <= t -> is_derive (fun t => et y p t ^ 2) t (g' t)).
-    { intros t Ht. unfold g'. evar_last; [apply (is_derive_pow (et y p) 2 t _ (loop_e _ _ _ _ _ _ _ _ _ _ _ t (difference_loop N s p y Hp t (Hy t Ht))))|].
+    { intros t Ht. pose proof (loop_e _ _ _ _ _ _ _ _ _ _ _ t (difference_loop N s p y Hp t (Hy t Ht))) as L.
+      unfold g'. evar_last; [apply (is_derive_pow (et y p) 2 t _ L)|].
       simpl. ring. }
     assert (Slope : forall t, t0 <= t -> g' t <= C2 /\ 0 < C2).
     { intros t Ht. destruct (Part t Ht) as [u_x [delta [phi [Q1 [Q2 [Q3 _]]]]]]. destruct (In t Ht) as [_ [B2 [B3 _]]].
-      unfold g'. unfold Loop.y. rewrite Q1. change (s_ (n c) N (et y p) (fun t => of_z0 y t - of_z0 p t) (fun l t => of_za y l t - of_za p l t) t) with (st N y p t).
+      unfold g'. unfold Loop.y. rewrite Q1.
+      change (s_ (n c) N (et y p) (fun t => of_z0 y t - of_z0 p t) (fun l t => of_za y l t - of_za p l t) t) with (st N y p t).
       assert (Z1 : Rabs (st N y p t) <= sqrt (n_bar2 c * (level c / h c))).
       { rewrite <- (sqrt_pow2 (Rabs (st N y p t))) by apply Rabs_pos. apply sqrt_le_1_alt. rewrite pow2_abs.
         assert (B0 : 0 <= n_bar2 c).
@@ -738,7 +741,9 @@ Definition transfer_bound : Prop :=
   then w c * period c = 2 * PI /\ forall N k, T (n c) (mu c / w c) N (IZR k) <= k_0 c + k_1 c * IZR k ^ 2
   else forall N x, T (n c) (mu c / w c) N x <= k_0 c + k_1 c * x ^ 2.
 
-(** Theorem 10 of section 10.3, of this plant. Not proved in Coq: Schauder's theorem is behind it. *)
+(** Theorem 10 of section 10.3, of this plant. Not proved in Coq: Schauder's theorem is behind it. It takes of the plant what [within]
+    does not say: that f and q are C2 and periodic, f(t,0,0) = 0, the bounds b_f, b_q, b_qt, their mean squares and those of the
+    harmonics, and the second triple. *)
 Definition existence_10_3 : Prop :=
   existence_conditions c -> weights (n c) -> transfer_bound ->
   forall N s, sigma c <= s -> exists p, (forall t, solves N s p t) /\ periodic N p /\ sized N p.

@@ -3,7 +3,7 @@
     statement unproved. *)
 
 From Coq Require Import Reals ZArith List Lra Lia.
-From SigmaStar Require Import Sums Weights WeightSum Transfer Matched Claim.
+From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched Claim.
 From SigmaStar Require Export Enclose Sizes.
 Local Open Scope R_scope.
 
@@ -84,7 +84,7 @@ Ltac note_computed c R v :=
   let b := eval red in v in
   let b := eval cbv beta delta [beta2 sup_of rms_of z_mean] in b in
   let b := opened c R b in
-  let b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 power Rpower C_k r_0 r_t] in b in
+  let b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 explicit nth_error power Rpower C_k r_0 r_t] in b in
   note v b.
 
 (** A sum over the harmonics [f]. *)
@@ -92,7 +92,7 @@ Ltac note_harmonics c R v :=
   let b := eval red in v in
   let b := eval cbv beta iota zeta delta [of_harmonics C_0 C_k r_0 hd tl twice_sum T_bar Z.succ Z.add Pos.succ Pos.add Pos.add_carry] in b in
   let b := opened c R b in
-  let b := eval cbv beta iota zeta delta [min2 power Rpower Z.to_nat Pos.to_nat Pos.iter_op Nat.add INR] in b in
+  let b := eval cbv beta iota zeta delta [min2 explicit nth_error power Rpower Z.to_nat Pos.to_nat Pos.iter_op Nat.add INR] in b in
   note v b.
 
 (** The mean squares [r], which are [means c] or [last c], and what follows of them. *)
@@ -109,19 +109,23 @@ Ltac note_means c R r :=
 (** The sum of the weights; for eps = 1/2 in square roots. *)
 Ltac note_weight_sum c R :=
   let v := eval cbv beta iota delta [n_bar2] in (n_bar2 R) in
+  let E := fresh "E" in
   lazymatch v with
-  | power_total ?n0 ?eps ?L =>
-      let E := fresh "E" in
-      first [assert (E := power_total_roots n0 L : v = _) | assert (E := power_total_powers n0 eps L)];
-      match type of E with
-      | _ = ?b =>
-          let b' := eval cbv beta iota delta [roots powers tail_sum Rpower Z.succ Z.add Z.of_nat Pos.of_succ_nat Pos.succ Pos.add Pos.add_carry]
-            in b in
-          let H := fresh "enclosed" in
-          interval_intro b' with (i_prec 90) as H;
-          match type of H with ?lo <= _ <= ?hi => change (lo <= b <= hi) in H; rewrite <- E in H; change (lo <= n_bar2 c <= hi) in H end
-      end; clear E
-  end.
+  | power_total ?n0 ?eps ?M =>
+      first [assert (E := power_total_roots n0 M : v = _) | assert (E := power_total_powers n0 eps M)]
+  | explicit_total ?l ?a ?eps ?M =>
+      first [assert (E := explicit_total_roots l a M (le_n_S _ _ (Nat.le_0_l _)) : v = _)
+            |assert (E := explicit_total_powers l a eps M (le_n_S _ _ (Nat.le_0_l _)))]
+  end;
+  match type of E with
+  | _ = ?b =>
+      let b' := eval cbv beta iota delta
+        [sum length explicit nth_error power roots powers tail_sum Rpower Nat.add Z.succ Z.add Z.of_nat Pos.of_succ_nat Pos.succ Pos.add
+         Pos.add_carry] in b in
+      let H := fresh "enclosed" in
+      interval_intro b' with (i_prec 90) as H;
+      match type of H with ?lo <= _ <= ?hi => change (lo <= b <= hi) in H; rewrite <- E in H; change (lo <= n_bar2 c <= hi) in H end
+  end; clear E.
 
 (** Enclosures of everything in 10.2 to 10.4. *)
 Ltac note_existence c :=
@@ -210,7 +214,7 @@ Ltac decide_weight c :=
   lazymatch goal with
   | |- ?g =>
       first
-      [ change (n c) with v; cbv beta iota delta [power];
+      [ change (n c) with v; cbv beta iota delta [explicit nth_error power];
         rewrite ?INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ];
         try rewrite Rpower_half by lra;
         match goal with |- ?g => let b := opened c R g in let b := eval cbv beta delta [Rpower] in b in change b end;
@@ -218,17 +222,39 @@ Ltac decide_weight c :=
       | fail 1 "this comparison of the transfer bound is not proved:" g ]
   end.
 
-(** The power family has W1 to W4, and its sum. *)
-Ltac decide_power c :=
+(** W1 to W4, and the sum of all weights: of the power family, or of a list whose weights are compared one by one. *)
+Ltac decide_listed :=
+  cbv beta iota delta [explicit nth_error power];
+  rewrite ?INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ];
+  try rewrite Rpower_half by lra;
+  first [lra | unfold Rpower; decide_difference].
+
+Ltac decide_explicit :=
+  first
+  [ apply le_n_S, Nat.le_0_l
+  | match goal with |- Forall _ _ => repeat constructor; decide_difference end
+  | cbn [length]; repeat (apply below_S; [|decide_listed]); intros l Hl; exfalso; lia
+  | split; decide_difference
+  | decide_listed ].
+
+Ltac decide_weights c :=
   let R := eval red in c in
   let v := eval cbv beta iota delta [n] in (n R) in
-  change (weights v); apply power_weights; [|split]; decide_difference.
+  change (weights v);
+  lazymatch v with
+  | power _ _ => apply power_weights; [|split]; decide_difference
+  | _ => apply explicit_weights; decide_explicit
+  end.
 
 Ltac decide_weight_sum c :=
   let R := eval red in c in
   let v := eval cbv beta iota delta [n] in (n R) in
   let b := eval cbv beta iota delta [n_bar2] in (n_bar2 R) in
-  change (forall N, v O + sum1 N v <= b); apply power_sum; apply Rminus_lt; interval with (i_prec 120).
+  change (forall N, v O + sum1 N v <= b);
+  lazymatch v with
+  | power _ _ => apply power_sum; decide_difference
+  | _ => apply explicit_sum; decide_explicit
+  end.
 
 (** (2.3) with the tail from K on. *)
 Ltac decide_matched c W K :=

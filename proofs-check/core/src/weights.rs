@@ -56,10 +56,9 @@ impl Weights {
         Ok(weights)
     }
 
-    /// n_0 and eps of the power family; `None` for explicit weights.
-    pub fn power_family(&self) -> Option<[&Constant; 2]> {
-        let family = self.coefficient.is_none();
-        self.values.first().filter(|_| family).map(|n_0| [n_0, &self.exponent])
+    /// The weights that are listed, the tail's coefficient, and its exponent; of the power family n_0, nothing and eps.
+    pub fn written(&self) -> (&[Constant], Option<&Constant>, &Constant) {
+        (&self.values, self.coefficient.as_ref(), &self.exponent)
     }
 
     fn prove(&self, pointer: &str) -> Outcome<()> {

@@ -8,6 +8,7 @@ use proofs_core::rules::paths::Path;
 use proofs_core::rules::transfer::Proof;
 use proofs_core::spec::{Forcing, Size};
 use proofs_core::verdict::Outcome;
+use proofs_core::weights::Weights;
 
 /// How many weights are added up before the rest is bounded by three terms (`WeightSum.v`): square roots are quick to enclose, other
 /// powers are not.
@@ -45,16 +46,7 @@ fn of_specification(parts: &Parts) -> Outcome<Fields> {
     fields.push(("w", constant(&spec.base_frequency, &at("internal_model/base_frequency"))?));
     let matched = matches!(parts.witness.transfer, Proof::Matched(_));
     fields.push(("matched", matched.to_string()));
-    let place = at("internal_model/weights");
-    let Some(family) = spec.weights.power_family() else {
-        return unsupported(&place, "no theorem is written of explicit weights: certify with the family `power`");
-    };
-    let [n_0, eps] = family.map(|value| constant(value, &place));
-    let half = family[1].rational().is_some_and(|eps| eps * 2u32 == 1);
-    // The theorem about square roots is one for `1 / 2` as it is written here.
-    let (n_0, eps) = (n_0?, if half { "(1 / 2)".to_owned() } else { eps? });
-    fields.push(("n", format!("power {n_0} {eps}")));
-    fields.push(("n_bar2", format!("power_total {n_0} {eps} {}", if half { TERMS } else { TERMS_OF_POWERS })));
+    fields.extend(weights(&spec.weights)?);
     let bound = |bound: Bound| {
         let pointer = at(&format!("bounds/{}", BOUND_NAMES[bound as usize]));
         let print = |expr: &Expr| function(expr, &pointer);
@@ -93,6 +85,37 @@ fn of_specification(parts: &Parts) -> Outcome<Fields> {
     Ok(fields)
 }
 
+/// n_0, n_1, ... and a number that is at least their sum.
+fn weights(given: &Weights) -> Outcome<Fields> {
+    let place = "/specification/internal_model/weights";
+    let (values, coefficient, exponent) = given.written();
+    let values = values.iter().map(|value| constant(value, place)).collect::<Outcome<Vec<_>>>()?;
+    // The tail is l^-(1+eps). The theorems about square roots are of `1 / 2` as it is written here.
+    let past = u32::from(coefficient.is_some());
+    let half = exponent.rational().is_some_and(|exponent| (exponent - past) * 2u32 == 1);
+    let eps = match (half, coefficient) {
+        (true, _) => "(1 / 2)".to_owned(),
+        (false, None) => constant(exponent, place)?,
+        (false, Some(_)) => format!("({} - 1)", constant(exponent, place)?),
+    };
+    let terms = if half { TERMS } else { TERMS_OF_POWERS };
+    let [family, total] = match (coefficient, values.first()) {
+        (None, Some(n_0)) => [format!("power {n_0} {eps}"), format!("power_total {n_0} {eps} {terms}")],
+        (None, None) => return unsupported(place, "no weight is given"),
+        (Some(coefficient), _) => {
+            let (list, coefficient) = (list(&values), constant(coefficient, place)?);
+            ["explicit", "explicit_total"].map(|name| format!("{name} {list} {coefficient} {eps}"))
+        }
+    };
+    let total = if coefficient.is_some() { format!("{total} {terms}") } else { total };
+    Ok(vec![("n", family), ("n_bar2", total)])
+}
+
+/// A list of terms.
+fn list(terms: &[String]) -> String {
+    terms.iter().rfold("nil".to_owned(), |rest, term| format!("(cons {term} {rest})"))
+}
+
 /// The bounds of `q_0`.
 fn harmonics(given: &Forcing) -> Outcome<String> {
     let size = |size: &Size| match size {
@@ -101,7 +124,7 @@ fn harmonics(given: &Forcing) -> Outcome<String> {
         Size::Root(square) => Ok(format!("(sqrt {})", number(square))),
     };
     let sizes = given.harmonics.iter().map(size).collect::<Outcome<Vec<_>>>()?;
-    let list = sizes.iter().rfold("nil".to_owned(), |rest, size| format!("(cons {size} {rest})"));
+    let list = list(&sizes);
     let rest_t = option(given.rest_t_rms.as_ref().map(size).transpose()?);
     Ok(format!("{{| C_k := {list}; r_0 := {}; r_t := {rest_t} |}}", size(&given.rest_rms)?))
 }

@@ -8,7 +8,7 @@ use proofs_core::rules::transfer::Proof;
 const HEAD: &str = "\
 From Coq Require Import Reals ZArith Lra Lia.
 From Coquelicot Require Import Coquelicot.
-From SigmaStar Require Import Sums Weights WeightSum Transfer Matched Claim Decide.
+From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched Claim Decide.
 Local Open Scope R_scope.
 ";
 
@@ -46,7 +46,7 @@ Proof.
 Qed.
 
 Lemma the_weights : weights (n cert).
-Proof. decide_power cert. Qed.
+Proof. decide_weights cert. Qed.
 
 Lemma weight_sum : forall N, n cert O + sum1 N (n cert) <= n_bar2 cert.
 Proof. decide_weight_sum cert. Qed.
