@@ -177,10 +177,13 @@ Ltac decide_difference :=
 (** That a size of the periodic solution is at most a number: by one of the bounds of which it is the smallest where that is
     exact, as it is where there is no x. *)
 Ltac decide_size :=
-  first
-  [ decide_difference
-  | match goal with |- ?v <= _ => let b := eval red in v in change v with b end;
-    repeat first [apply min2_l; decide_difference | apply min2_r] ].
+  lazymatch goal with
+  | |- ?v <= ?bound =>
+      first
+      [ decide_difference
+      | let b := eval red in v in change v with b; solve [repeat first [apply min2_l; decide_difference | apply min2_r]]
+      | fail 1 "this size is not proved:" v bound ]
+  end.
 
 (** One condition; where it is not proved, Coq shows it. *)
 Ltac decide_one c :=

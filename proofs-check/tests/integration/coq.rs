@@ -179,5 +179,6 @@ fn coq_refuses_what_is_not() {
     // A per cent below; the conditions of existence fail first.
     refused("lowered", &|made| made["claim"]["sigma_star"] = json!("41.05"), "damped cert");
     refused("altered", &|made| made["specification"]["bounds"]["f_e"] = json!("X + 0.19"), "<= X_p cert");
+    refused("size", &|made| made["claim"]["periodic_solution"]["x"] = json!("0.049417"), "x_per cert");
     refused("transfer", &|made| made["witness"]["transfer"]["K"] = json!(1), "<= k_1 cert");
 }
