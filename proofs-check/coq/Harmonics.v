@@ -1,4 +1,5 @@
-(** Sections 3 and 10.2: bounds of sup|e| from those of the harmonics, for every number J of them. *)
+(** Sections 3 and 10.2: bounds of sup|e| from those of the harmonics, for every number J of them. The rms of a signal of J
+    harmonics is that of its amplitudes by definition: Parseval is not used. *)
 
 From Coq Require Import Reals ZArith Lra Lia.
 From Coquelicot Require Import Coquelicot.
@@ -75,7 +76,7 @@ Proof.
   - apply Rmult_le_compat_l; [left; apply Rinv_0_lt_compat; nra | apply inverse_om_squares].
 Qed.
 
-(** A signal of J harmonics without mean, and the root of its mean square. *)
+(** A signal of J harmonics without mean, and its mean square, by definition this sum. *)
 Definition signal (c : nat -> C) (J : nat) (t : R) : R :=
   sum J (fun j => 2 * (fst (c j) * cos (om (S j) * t) - snd (c j) * sin (om (S j) * t))).
 Definition rms2 (c : nat -> C) (J : nat) : R := 2 * sum J (fun j => Cmod (c j) ^ 2).
@@ -113,23 +114,26 @@ Proof.
   pose proof (cauchy_schwarz J f (fun j => Cmod (q j))) as CS. unfold rms2. nra.
 Qed.
 
-(** 10.2: sup|e| <= bt rms(q), for every number of oscillators (eta is G/i at each harmonic). *)
+(** 10.2: sup|e| <= bt rms(q), for every number of oscillators (eta is G/i at each harmonic; where G has a pole, e_j = 0). *)
 Theorem sup_e (e q : nat -> C) (mu : R) (eta : nat -> R) J t :
-  (forall j, (j < J)%nat -> (denominator sigma (om (S j)) mu 1 (eta j) 0 * e j)%C = q j) ->
+  (forall j, (j < J)%nat -> (denominator sigma (om (S j)) mu 1 (eta j) 0 * e j)%C = q j \/ e j = RtoC 0) ->
   Rabs (signal e J t) <= sqrt (bt2 J) * sqrt (rms2 q J).
 Proof.
   intros E. unfold bt2.
   rewrite (sum_ext J (fun j => / (sigma ^ 2 + om (S j) ^ 2)) (fun j => (/ sqrt (sigma ^ 2 + om (S j) ^ 2)) ^ 2)).
   2:{ intros j _. rewrite pow_inv, <- (Rsqr_pow2 (sqrt _)), Rsqr_sqrt; [reflexivity|]. pose proof (pow2_ge_0 (om (S j))). nra. }
+  assert (P : forall j, 0 < / sqrt (sigma ^ 2 + om (S j) ^ 2)).
+  { intros j. apply Rinv_0_lt_compat, sqrt_lt_R0. pose proof (pow2_ge_0 (om (S j))). nra. }
   apply sup_from_harmonics.
-  - intros j _. left. apply Rinv_0_lt_compat, sqrt_lt_R0. pose proof (pow2_ge_0 (om (S j))). nra.
-  - intros j Hj. rewrite Rmult_comm.
-    apply (e_bound_unit sigma (om (S j)) mu 1 (eta j) sigma_pos (e j) (q j) eq_refl (E j Hj)).
+  - intros j _. left. apply P.
+  - intros j Hj. destruct (E j Hj) as [Ej|Ej].
+    + rewrite Rmult_comm. apply (e_bound_unit sigma (om (S j)) mu 1 (eta j) sigma_pos (e j) (q j) eq_refl Ej).
+    + rewrite Ej, Cmod_0. apply Rmult_le_pos; [left; apply P | apply Cmod_ge_0].
 Qed.
 
 (** 10.2: sup|e| <= tau rms(q'), where q' has the harmonics om_j |q_j|. *)
 Theorem sup_e_derivative (e q dq : nat -> C) (mu : R) (eta : nat -> R) J t :
-  (forall j, (j < J)%nat -> (denominator sigma (om (S j)) mu 1 (eta j) 0 * e j)%C = q j) ->
+  (forall j, (j < J)%nat -> (denominator sigma (om (S j)) mu 1 (eta j) 0 * e j)%C = q j \/ e j = RtoC 0) ->
   (forall j, (j < J)%nat -> Cmod (dq j) = om (S j) * Cmod (q j)) ->
   Rabs (signal e J t) <= sqrt (tau2 J) * sqrt (rms2 dq J).
 Proof.
@@ -138,11 +142,14 @@ Proof.
   rewrite (sum_ext J (fun j => / (om (S j) ^ 2 * (sigma ^ 2 + om (S j) ^ 2)))
              (fun j => (/ (om (S j) * sqrt (sigma ^ 2 + om (S j) ^ 2))) ^ 2)).
   2:{ intros j _. rewrite pow_inv, Rpow_mult_distr, <- (Rsqr_pow2 (sqrt _)), Rsqr_sqrt; [reflexivity|]. left; apply So. }
+  assert (P : forall j, 0 < / (om (S j) * sqrt (sigma ^ 2 + om (S j) ^ 2))).
+  { intros j. apply Rinv_0_lt_compat, Rmult_lt_0_compat; [apply om_pos | apply sqrt_lt_R0, So]. }
   apply sup_from_harmonics.
-  - intros j _. left. apply Rinv_0_lt_compat, Rmult_lt_0_compat; [apply om_pos | apply sqrt_lt_R0, So].
-  - intros j Hj. rewrite (Ed j Hj). pose proof (om_pos j). pose proof (sqrt_lt_R0 _ (So j)).
-    apply Rle_trans with (1 := e_bound_unit sigma (om (S j)) mu 1 (eta j) sigma_pos (e j) (q j) eq_refl (E j Hj)).
-    right. field. split; lra.
+  - intros j _. left. apply P.
+  - intros j Hj. rewrite (Ed j Hj). pose proof (om_pos j). pose proof (sqrt_lt_R0 _ (So j)). destruct (E j Hj) as [Ej|Ej].
+    + apply Rle_trans with (1 := e_bound_unit sigma (om (S j)) mu 1 (eta j) sigma_pos (e j) (q j) eq_refl Ej).
+      right. field. split; lra.
+    + rewrite Ej, Cmod_0. apply Rmult_le_pos; [left; apply P | apply Rmult_le_pos; [lra | apply Cmod_ge_0]].
 Qed.
 
 End Harmonics.

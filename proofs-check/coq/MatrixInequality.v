@@ -1,5 +1,5 @@
-(** Section 13.7, (M): U' = -F for the matrix inequality F, and F > 0 at finitely many points holds on their convex hull, and for
-    every sigma and every input gain in between. *)
+(** Section 13.7, (M): U' = -F for the matrix inequality F, and a lower bound of F at finitely many points holds on their convex hull,
+    and between two sigma or two input gains; without an input gain, for every larger sigma too. *)
 
 From Coq Require Import Reals Lra Lia.
 From Coquelicot Require Import Coquelicot.
@@ -108,6 +108,33 @@ Proof.
   intros Ht H0 H1. replace (F P Pd D sigma ((1 - th) * b0 + th * b1) x e y)
     with ((1 - th) * F P Pd D sigma b0 x e y + th * F P Pd D sigma b1 x e y) by (unfold F; ring). nra.
 Qed.
+
+(** ** What the margins give *)
+
+(** J + de I. *)
+Definition shifted (de : R) (D : slopes) : slopes :=
+  {| J := fun i j => J D i j + (if Nat.eq_dec i j then de else 0); gv := gv D; rv := rv D; dv := dv D |}.
+
+Lemma sum_one m (i : nat) a (x : nat -> R) : (i < m)%nat -> sum m (fun j => (if Nat.eq_dec i j then a else 0) * x j) = a * x i.
+Proof.
+  induction m as [|m IH]; intros Hi; [lia|]. simpl. destruct (Nat.eq_dec i m) as [E|E].
+  - subst i. rewrite sum_zero; [ring|]. intros j Hj. destruct (Nat.eq_dec m j) as [E|E]; [lia | ring].
+  - rewrite IH by lia. ring.
+Qed.
+
+Lemma bilinear_shifted P D de x :
+  bilinear P x (apply (J (shifted de D)) x) = bilinear P x (apply (J D) x) + de * bilinear P x x.
+Proof.
+  unfold bilinear. rewrite <- sum_scal, <- sum_plus. apply sum_ext. intros i _.
+  rewrite <- sum_scal, <- sum_plus. apply sum_ext. intros j Hj. unfold apply, dot, shifted; simpl J.
+  rewrite (sum_ext d_x _ (fun k => J D j k * x k + (if Nat.eq_dec j k then de else 0) * x k)) by (intros; ring).
+  rewrite sum_plus, sum_one by exact Hj. ring.
+Qed.
+
+(** Proposition 13.2: what is asked for at tau and with J + de I gives it with a margin for J at every gain sigma. *)
+Theorem F_margin P Pd D de tau sigma x e y :
+  F P Pd D sigma 1 x e y = F P Pd (shifted de D) tau 1 x e y + 2 * w_x * de * bilinear P x x + 2 * (sigma - tau) * e ^ 2.
+Proof. unfold F. rewrite bilinear_shifted. simpl gv; simpl rv; simpl dv. ring. Qed.
 
 (** ** The derivative of U *)
 

@@ -1,5 +1,5 @@
-(** Section 2, (2.1) and (2.2): what T_N is. The answer zeta to a harmonic v of frequency om has zeta*N zeta = T_N(om/w) |v|^2/w^2, at
-    every frequency, the poles included, for every number N of oscillators. *)
+(** Section 2, (2.1) and (2.2): what T_N is. Every answer zeta to a harmonic v of frequency om has zeta*N zeta = T_N(om/w) |v|^2/w^2, at
+    every frequency om >= 0, the poles included, for every number N of oscillators. *)
 
 From Coq Require Import Reals ZArith Lra Lia.
 From Coquelicot Require Import Coquelicot.
@@ -218,7 +218,7 @@ Proof.
   split; [lia|]. rewrite INR_IZR_INZ, Z2Nat.id by lia. lra.
 Qed.
 
-(** (2.1) and (2.2), at every frequency om >= 0. *)
+(** (2.1) and (2.2), of every answer, at every frequency om >= 0. *)
 Theorem response : energy_c = T n nu N x / w ^ 2 * Cmod v ^ 2.
 Proof.
   destruct frequencies as [Ex|[[m [Hm Em]]|Reg]].
@@ -229,7 +229,7 @@ Proof.
     assert (0 < 1 + nu ^ 2 * g n N x ^ 2) by (pose proof (pow2_ge_0 (nu * g n N x)); nra). field. split; lra.
 Qed.
 
-(** Section 3: |y| <= |v| at every frequency. *)
+(** Section 3: |y| <= |v|, of every answer, at every frequency om >= 0. *)
 Theorem response_y : Cmod y_c <= Cmod v.
 Proof.
   apply square_le; [apply Cmod_ge_0|].

@@ -169,7 +169,7 @@ Proof.
   intros E Eu. unfold vt, zeta. rewrite Eu, E, !MN_addM. field. lra.
 Qed.
 
-(** The balance of 13.4. *)
+(** The balance of 13.4, for a u that the law computed at the sample before. At a first step u is not such a one. *)
 Theorem balance_delay z e et u qb y_ :
   e = et + h * y_ -> u = - sigma * et + K * MN (rot (addM z (- et))) ->
   let y := yd et u qb in

@@ -47,7 +47,7 @@ Record interval_at (t X xi2_k xi2_t e_k e_t V_k V_t y q_m re b d_l d_m p : R) : 
   xi_decay : xi2_t <= xi2_k + t * (- 2 * a_2 * X ^ 2 + 2 * sqrt P_up * k_f * X * re);
   re_bound : re <= c_X t * X + c_E t * Rabs e_k + c_Y t * Rabs y;
   e_step : e_t = (1 - t * sigma) * e_k + t * y;
-  balance : V_t = V_k - 2 * t / K * ((1 - K * t * b / 2) * y ^ 2 - y * q_m);
+  balance_t : V_t = V_k - 2 * t / K * ((1 - K * t * b / 2) * y ^ 2 - y * q_m);
   b_bound : b <= Nb2;
   mean_q : q_m = d_l * e_k + d_m * y + p;
   d_l_bound : - k_l * (1 - t * sigma / 2) <= d_l <= m * (1 - t * sigma / 2);
@@ -117,7 +117,7 @@ Proof.
   rewrite EV, Eq, Ee. lra.
 Qed.
 
-(** Each coefficient is concave in t. *)
+(** Q_t lies above its chord over [0, h]. Two of its parts are not polynomials in t: the root in c_E, and D_t. Both lie below theirs. *)
 Lemma root_convex la : 0 <= la <= 1 -> root (la * h) <= (1 - la) * root 0 + la * root h.
 Proof.
   intros Hla. unfold root. replace (1 - 0 * sigma + (0 * sigma) ^ 2 / 3) with 1 by field. rewrite sqrt_1.

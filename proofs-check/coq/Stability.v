@@ -205,6 +205,22 @@ Proof.
     split; nra.
 Qed.
 
+(** 13.1, condition (B), is asked for at the two ends of the interval of gains: so it holds in between. *)
+Theorem B_at_the_ends ht sigma b_lo b_hi b :
+  0 < ht -> 0 < sigma -> b_lo <= b <= b_hi ->
+  (1 + ht * (1 - b_lo) * sigma) ^ 2 <= 4 * ht * sigma -> (1 + ht * (1 - b_hi) * sigma) ^ 2 <= 4 * ht * sigma ->
+  (1 + ht * (1 - b) * sigma) ^ 2 <= 4 * ht * sigma.
+Proof.
+  intros Hh Hs Hb H1 H2. assert (P : 0 < ht * sigma) by (apply Rmult_lt_0_compat; assumption).
+  set (r := sqrt (4 * ht * sigma)). assert (Er : r * r = 4 * ht * sigma) by (apply sqrt_sqrt; lra).
+  assert (Hr : 0 < r) by (apply sqrt_lt_R0; lra).
+  assert (U : 1 + ht * (1 - b) * sigma <= r).
+  { apply Rle_trans with (1 + ht * (1 - b_lo) * sigma); nra. }
+  assert (L : - r <= 1 + ht * (1 - b) * sigma).
+  { apply Rle_trans with (1 + ht * (1 - b_hi) * sigma); nra. }
+  nra.
+Qed.
+
 (** 13.1, condition (B): where m < 0 is used as it is, positivity of the form for sigma and ht gives it for sigma' and
     ht' = ht sigma/sigma'. q2 is what the form has in xi^2 and xi phi: it does not change. *)
 Definition form_b (q2 ht b delta sigma u_x et y : R) : R :=

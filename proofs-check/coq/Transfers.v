@@ -1,5 +1,6 @@
-(** Sections 10.2, 10.4, 13.1 and 13.5: the answers e_j, y_j, u_j of the loop to one harmonic q_j, for every real value eta of G/i,
-    so for every number of oscillators, and for every input gain b. *)
+(** Sections 10.2, 10.4, 13.1 and 13.5: bounds of the answers e_j, y_j, u_j of the loop to one harmonic q_j. The hypothesis is
+    e_j = q_j/denominator, in the form denominator e_j = q_j, for any real value eta of G/i and any input gain b. That the loop's answers
+    satisfy it away from the poles of G, for every number of oscillators, and are e_j = y_j = 0 at the poles, is proved in [Answers]. *)
 
 From Coq Require Import Reals Lra Lia.
 From Coquelicot Require Import Coquelicot.

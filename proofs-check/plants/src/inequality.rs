@@ -1,7 +1,7 @@
 //! The questions of the matrix inequalities of stability and of existence (docs/mathematics.md, section 13.7).
 
 use super::bounds::rate;
-use super::formula::{Axis, Formulas, Id};
+use super::formula::{Axis, Id};
 use super::model::Model;
 use super::question::Question;
 use proofs_core::constant::Constant;
@@ -140,10 +140,10 @@ fn of_existence<'i>(model: &mut Model, inequality: &'i Existence) -> Outcome<Sai
     if inequality.p.len() != order {
         return bad(&format!("{}/P", inequality.pointer), "expected a row for each state");
     }
-    let number = |formulas: &mut Formulas, value: &Rational| formulas.number(value);
-    let p = inequality.p.iter().map(|row| row.iter().map(|value| number(&mut model.formulas, value)).collect());
+    let formulas = &mut model.formulas;
+    let of_row = |row: &Vec<Rational>| row.iter().map(|value| formulas.number(value)).collect();
     let form = Form {
-        p: p.collect(),
+        p: inequality.p.iter().map(of_row).collect(),
         weight: &Rational::from(1),
         rate: Rational::new(),
         half: Rational::from(&inequality.k_p / 2u32),

@@ -169,6 +169,12 @@ fn each_condition_of_existence() {
         made["witness"]["existence_inequality"][name] = value.into();
         assert_eq!((open(&judged(&made)), judged(&made).verdict), (vec![condition.to_owned()], Verdict::Invalid));
     }
+    // A rate that is none, which is true too, makes the sides of S1b and S1c negative.
+    let mut made = tight(part(0), 1.01);
+    for entry in made["witness"]["bounds"].as_array_mut().unwrap().iter_mut().filter(|entry| entry["bound"] == "rate") {
+        entry["value"] = "-1".into();
+    }
+    assert_eq!(open(&judged(&made))[0], "S1");
     // X and E reach just as far as they must.
     let mut made = tight(part(0), 1.01);
     for (name, of) in [("X", "X_p"), ("E", "E_p")] {
@@ -335,12 +341,12 @@ fn rehash(certificate: &mut Value) {
 /// `x' = -x + e`, `q = x`: c = a_1 = b_fe = 1, so both sides of S1b and S1c are numbers without rounding.
 #[test]
 fn equality_is_not_enough() {
-    let made = |x_p: &str, r_x: &str, with: bool| {
+    let made = |[x_p, r_x, r_e]: [&str; 3], with: bool| {
         let mut made = stored("linear");
         for entry in made["witness"]["bounds"].as_array_mut().unwrap() {
             (entry["X"], entry["E"]) = ("2".into(), "2".into());
         }
-        for (name, value) in [("X_p", x_p), ("E_p", "1/16"), ("r_x", r_x), ("r_e", "1/14"), ("r_d", "2/5")] {
+        for (name, value) in [("X_p", x_p), ("E_p", "1/16"), ("r_x", r_x), ("r_e", r_e), ("r_d", "2/5")] {
             made["witness"][name] = value.into();
         }
         if with {
@@ -348,29 +354,17 @@ fn equality_is_not_enough() {
                 "X": "1/8", "E": "1/8", "P": [["1"]], "k_p": "1", "c_x": "1/2", "c_y": "1/2", "sigma": "10",
             });
         }
-        open(&judged(&made)).into_iter().filter(|id| id.starts_with('S') || id.starts_with('E')).collect::<Vec<_>>()
+        let open = open(&judged(&made));
+        open.into_iter().filter(|id| id.starts_with('S') || id.starts_with('E')).collect::<Vec<_>>()
     };
-    // E_p = X_p.
-    assert_eq!(made("1/16", "1/13", true), ["S1b"]);
-    assert!(made("1/16", "1/13", false).is_empty() && made("1001/16000", "1/13", true).is_empty());
-    // r_e = r_x, which is written otherwise to have no rounding.
-    let made = |r_x: &str, with: bool| {
-        let mut made = stored("linear");
-        for entry in made["witness"]["bounds"].as_array_mut().unwrap() {
-            (entry["X"], entry["E"]) = ("2".into(), "2".into());
-        }
-        for (name, value) in [("X_p", "1/10"), ("E_p", "1/16"), ("r_x", r_x), ("r_e", "1/16"), ("r_d", "2/5")] {
-            made["witness"][name] = value.into();
-        }
-        if with {
-            made["witness"]["existence_inequality"] = json!({
-                "X": "1/8", "E": "1/8", "P": [["1"]], "k_p": "1", "c_x": "1/2", "c_y": "1/2", "sigma": "10",
-            });
-        }
-        open(&judged(&made)).into_iter().filter(|id| id.starts_with('S') || id.starts_with('E')).collect::<Vec<_>>()
-    };
-    assert_eq!(made("1/16", true), ["S1c"]);
-    assert!(made("1/16", false).is_empty() && made("1001/16000", true).is_empty());
+    // E_p = X_p, then r_e = r_x.
+    for (equal, larger, condition) in [
+        (["1/16", "1/13", "1/14"], ["1001/16000", "1/13", "1/14"], "S1b"),
+        (["1/10", "1/16", "1/16"], ["1/10", "1001/16000", "1/16"], "S1c"),
+    ] {
+        assert_eq!(made(equal, true), [condition]);
+        assert!(made(equal, false).is_empty() && made(larger, true).is_empty());
+    }
 }
 
 /// Without states P has no rows; `2 threshold (k_p - c_y) >= 1`.

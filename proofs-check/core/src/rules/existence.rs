@@ -10,7 +10,7 @@
 //! `c_x rms(x)^2 + 2 (sigma - threshold) rms(e)^2 + c_y rms(y)^2 <= k_p mean(y l q_0) <= k_p Q_m rms(y)`: y has the mean 0 (the
 //! integrator), so `q_0` counts without its mean, and `Q_m = sqrt(2 sum_{k>=1} C_k^2) + r_0`. Hence [`Answer`].
 //!
-//! Guarantee: with the conditions, and the inequality proved of the plant's formulas (the crate `proofs-plants` does), there is for
+//! Guarantee: with all that `covers` and `conditions` say, and the inequality proved of the plant's formulas (the crate `proofs-plants` does), there is for
 //! every n_o and every sigma' >= sigma a T-periodic solution with sup|x| <= X_p, sup|e| <= E_p, rms(x) <= r_x, rms(e) <= r_e,
 //! rms(e') <= r_d, and all that `mean_squares` says of one. For the linear loop with the coefficients of any (x, e) in that box has one
 //! periodic answer (with `q_0` = 0 it is 0), which is continuous in them, and its answers to `l q_0` are bounded in H1; by Leray and
@@ -116,18 +116,13 @@ impl Existence {
             bounds.contracts(),
         ];
         let [damped, damped_t] = if with_kap { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
+        let of_e = "k_p Q_m/(2 sqrt(2 (sigma - threshold) c_y))";
+        let of_e = format!("min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, {of_e}}} < r_e");
         let strictly = [
             ("S1b", "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} < X_p".to_owned(), &bounds.sup_x_in_box(r_e), x_p),
             ("S1c", "min{(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))} < r_x".to_owned(), rms_x, r_x),
             ("S2", "min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y} < E_p".to_owned(), sup_e, e_p),
-            (
-                "S2b",
-                format!(
-                    "min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt(2 (sigma - threshold) c_y))}} < r_e"
-                ),
-                rms_e,
-                r_e,
-            ),
+            ("S2b", of_e, rms_e, r_e),
             ("S2c", format!("min{{R_q, R_1/sg, {damped_t}r_y}} < r_d"), rms_e_t, r_d),
         ];
         conditions.extend(strictly.map(|(id, what, lhs, rhs)| Condition::less(id, what, lhs.clone(), rhs.clone())));
