@@ -9,6 +9,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod certificate;
+pub mod coq;
 pub mod report;
 pub mod subject;
 

@@ -1,12 +1,13 @@
 //! `proofs-check CERT.json [--spec SPEC.json] [--verbose] [--format text|json]`: exit code 0 valid, 1 invalid, 2 bad-input,
-//! 3 undecided.
+//! 3 undecided. `proofs-check --coq CERT.json`: the certificate as a Coq theorem; 0 written, 2 bad-input, 3 no theorem of its kind.
 
 use std::ffi::OsString;
 use std::fs::File;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: proofs-check CERT.json [--spec SPEC.json] [--verbose] [--format text|json]";
+const USAGE: &str = "usage: proofs-check CERT.json [--spec SPEC.json] [--verbose] [--format text|json]
+       proofs-check --coq CERT.json";
 
 const HELP: &str = "
 Decides the claim of a certificate again, and says what it is about and what it takes for granted.
@@ -14,20 +15,26 @@ Decides the claim of a certificate again, and says what it is about and what it 
   --spec SPEC.json     the certificate must be about the data of this specification, else it is invalid
   --verbose            the argument, line by line
   --format text|json   the form of the answer
+  --coq                decides nothing, and writes the certificate as a theorem for Coq, which decides it with the proofs in
+                       proofs-check/coq: `proofs-check --coq CERT.json > cert.v`, then
+                       `coqc -Q proofs-check/coq SigmaStar cert.v`
 
-exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided; figures on which no claim rests do not change them";
+exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided; figures on which no claim rests do not change them;
+with --coq: 0 written, 2 bad-input, 3 no theorem is written of a certificate of this kind";
 
 fn main() -> ExitCode {
     let (mut path, mut spec, mut verbose, mut json): (Option<OsString>, Option<OsString>, _, _) =
-        (None, None, false, false);
+        (None, None, false, None);
+    let mut coq = false;
     let mut arguments = std::env::args_os().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.to_str() {
             Some("--verbose" | "-v") => verbose = true,
             Some("--format") => match arguments.next().as_deref().and_then(|format| format.to_str()) {
-                Some(format @ ("text" | "json")) => json = format == "json",
+                Some(format @ ("text" | "json")) => json = Some(format == "json"),
                 _ => return wrong_call("--format takes text or json"),
             },
+            Some("--coq") => coq = true,
             Some("--spec") => match arguments.next() {
                 Some(file) => spec = Some(file),
                 None => return wrong_call("--spec takes a specification file"),
@@ -45,19 +52,43 @@ fn main() -> ExitCode {
     let open = |path: &OsString| {
         File::open(path).map_err(|error| format!("cannot read {}: {error}", std::path::Path::new(path).display()))
     };
+    if coq {
+        if spec.is_some() || verbose || json.is_some() {
+            return wrong_call("--coq goes with no other flag");
+        }
+        return match open(&path) {
+            Ok(mut certificate) => write_theorem(&mut certificate),
+            Err(message) => wrong_call(&message),
+        };
+    }
     let read = open(&path).and_then(|mut certificate| {
         let mut specification = spec.as_ref().map(open).transpose()?;
-        let specification = specification.as_mut().map(|file| file as &mut dyn std::io::Read);
+        let specification = specification.as_mut().map(|file| file as &mut dyn Read);
         proofs_check::check_reader(&mut certificate, specification).map_err(|error| format!("cannot read: {error}"))
     });
     let report = match read {
         Ok(report) => report,
         Err(message) => return wrong_call(&message),
     };
-    let text = if json { format!("{:#}\n", report.json()) } else { report.text(verbose) };
+    let text = if json == Some(true) { format!("{:#}\n", report.json()) } else { report.text(verbose) };
     // A closed stream is no reason to fail differently.
     let _ = std::io::stdout().write_all(text.as_bytes());
     ExitCode::from(report.verdict.exit_code())
+}
+
+/// Writes the theorem to the output, or why there is none to the errors.
+fn write_theorem(certificate: &mut dyn Read) -> ExitCode {
+    match proofs_check::coq::theorem_of(certificate) {
+        Err(error) => wrong_call(&format!("cannot read: {error}")),
+        Ok(Ok(text)) => {
+            let _ = std::io::stdout().write_all(text.as_bytes());
+            ExitCode::SUCCESS
+        }
+        Ok(Err(finding)) => {
+            eprintln!("proofs-check: {}: {}: {}", finding.verdict, finding.pointer, finding.message);
+            ExitCode::from(finding.verdict.exit_code())
+        }
+    }
 }
 
 fn wrong_call(message: &str) -> ExitCode {

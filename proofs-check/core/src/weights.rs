@@ -56,6 +56,11 @@ impl Weights {
         Ok(weights)
     }
 
+    /// The weights that are listed, the tail's coefficient, and its exponent; of the power family n_0, nothing and eps.
+    pub fn written(&self) -> (&[Constant], Option<&Constant>, &Constant) {
+        (&self.values, self.coefficient.as_ref(), &self.exponent)
+    }
+
     fn prove(&self, pointer: &str) -> Outcome<()> {
         let whole = |n: usize| Number::rational(Rational::from(n));
         // eps for the power family, p - 1 is eps otherwise.

@@ -6,6 +6,7 @@ mod aligned;
 mod arguments;
 mod claim;
 mod common;
+mod coq;
 mod existence_inequality;
 mod forged;
 mod formulas;

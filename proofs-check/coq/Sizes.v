@@ -1,0 +1,264 @@
+(** Sections 5, 10.3 and 10.4: the numbers of a certificate in continuous time, and what is computed of them. Nothing is proved here:
+    these are the formulas in which a certificate's theorem ([Claim.v]) is stated. *)
+
+From Coq Require Import Reals ZArith List Lra.
+Local Open Scope R_scope.
+
+(** The smaller and the larger of two numbers, in operations of which enclosures are known. *)
+Definition min2 (a b : R) : R := (a + b - Rabs (a - b)) / 2.
+Definition max2 (a b : R) : R := (a + b + Rabs (a - b)) / 2.
+
+Lemma min2_Rmin a b : min2 a b = Rmin a b.
+Proof. unfold min2, Rmin. destruct (Rle_dec a b); [rewrite Rabs_left1 | rewrite Rabs_right]; lra. Qed.
+
+Lemma max2_Rmax a b : max2 a b = Rmax a b.
+Proof. unfold max2, Rmax. destruct (Rle_dec a b); [rewrite Rabs_left1 | rewrite Rabs_right]; lra. Qed.
+
+Lemma min2_l a b d : a <= d -> min2 a b <= d.
+Proof. rewrite min2_Rmin. intros H. apply Rle_trans with (2 := H), Rmin_l. Qed.
+
+Lemma min2_r a b d : b <= d -> min2 a b <= d.
+Proof. rewrite min2_Rmin. intros H. apply Rle_trans with (2 := H), Rmin_r. Qed.
+
+(** coth(y) for y > 0. *)
+Definition coth (y : R) : R := (1 + exp (- 2 * y)) / (1 - exp (- 2 * y)).
+
+(** tanh, in a form of which enclosures are known. *)
+Definition tanh_exp (x : R) : R := 1 - 2 / (exp (2 * x) + 1).
+
+Lemma tanh_exp_tanh x : tanh_exp x = tanh x.
+Proof.
+  unfold tanh_exp, tanh, sinh, cosh. pose proof (exp_pos x). pose proof (exp_pos (- x)).
+  assert (E : exp (2 * x) = exp x * exp x) by (rewrite <- exp_plus; f_equal; ring).
+  assert (I : exp (- x) = / exp x) by apply exp_Ropp. rewrite E, I. field. nra.
+Qed.
+
+(** Along which corner a difference is split (section 5); the straight path has the bounds of both. *)
+Inductive path := x_first | e_first | straight.
+
+(** A function of (X, E). *)
+Definition bound := R -> R -> R.
+
+(** The term -kap e of the map of existence (10.4), and whether kap <= sigma is used. *)
+Record damping := { kap : R; kap_small : bool }.
+
+(** q(t,0,0) = sum of c_k e^(ik Om t) + rest (10.1): C_0, C_1, ... bound |c_k|, r_0 and r_t the root mean squares of the rest and of its
+    derivative. *)
+Record harmonics := { C_k : list R; r_0 : R; r_t : option R }.
+
+(** 2 (term(k, a) + term(k+1, b) + ...) for the list a, b, ... *)
+Fixpoint twice_sum (term : Z -> R -> R) (k : Z) (l : list R) : R :=
+  match l with nil => 0 | cons a l => 2 * term k a + twice_sum term (Z.succ k) l end.
+
+(** The sum over k >= 1. *)
+Definition of_harmonics (f : harmonics) (term : Z -> R -> R) : R := twice_sum term 1 (tl (C_k f)).
+Definition C_0 (f : harmonics) : R := hd 0 (C_k f).
+
+(** The specification, the claim and the witness of a certificate. *)
+Record numbers := {
+  (* The specification: section 1 and 10.1. The second triple is that of existence. *)
+  period : R; p_low : R; p_up : R; alpha : R; p_low' : R; p_up' : R; alpha' : R;
+  mu : R; w : R; matched : bool;
+  n : nat -> R;
+  n_bar2 : R; (* at least n_0 + n_1 + ... *)
+  b_f : bound; b_fe : bound; b_fxx : bound; b_fex : bound;
+  b_q : bound; b_qe : bound; b_qx : bound; b_qt : bound;
+  b_q_rms : option bound; b_qt_rms : option bound; b_fx : option bound; q_e_max : option bound; rate : option bound;
+  q_tx : option bound; q_te : option bound; forcing : option harmonics;
+  domain : option (R * R);
+  (* The claim. Without Z_0 the regulator sets z = M e at its first instant (13.7). *)
+  sigma : R; X_0 : R; E_0 : R; Z_0 : option R;
+  (* The witness. *)
+  X_p : R; E_p : R; r_x : R; r_e : R; r_d : R; damped : option damping;
+  refined : option (R * R * R);
+  D_x : R; D_e : R; w_x : R; h : R; k_0 : R; k_1 : R; path_f : path; path_q : path
+}.
+
+(** The bounding functions hold at (X, E). *)
+Definition in_domain (c : numbers) (X E : R) : Prop :=
+  match domain c with None => True | Some (X_dom, E_dom) => X <= X_dom /\ E <= E_dom end.
+
+(** The smaller of a function and of another one, where that is given. *)
+Definition least (given : option bound) (b : bound) : bound :=
+  fun X E => match given with None => b X E | Some g => min2 (g X E) (b X E) end.
+
+Section Sizes.
+Variable c : numbers.
+
+(** ** Section 10.2 *)
+
+Definition Om : R := 2 * PI / period c.
+Definition sg : R := sqrt (sigma c ^ 2 + Om ^ 2).
+(** beta_s^2(s) = (T/(2 s)) coth(s T/2). *)
+Definition beta2 (s : R) : R := period c / (2 * s) * coth (s * period c / 2).
+Definition beta2_s : R := beta2 (sigma c).
+Definition bt : R := sqrt (beta2_s - 1 / sigma c ^ 2).
+Definition tau : R := sqrt (period c ^ 2 / 12 - beta2_s + 1 / sigma c ^ 2) / sigma c.
+
+(** ** Section 10.3: the bounding functions at (X_p, E_p) *)
+
+(** c of the triple of existence, and a_1. *)
+Definition c_ex : R := sqrt (p_up' c / p_low' c).
+Definition F_p : R := b_fxx c (X_p c) 0.
+Definition bent : R := alpha' c - c_ex * F_p * X_p c / 2.
+Definition a_1 : R := match rate c with None => bent | Some a => max2 bent (a (X_p c) 0) end.
+Definition Fe_p : R := b_fe c (X_p c) (E_p c).
+Definition Qe_p : R := b_qe c (X_p c) (E_p c).
+Definition Qx_p : R := b_qx c (X_p c) (E_p c).
+Definition Q_p : R := least (b_q_rms c) (b_q c) (X_p c) (E_p c).
+Definition Qt_p : R := least (b_qt_rms c) (b_qt c) (X_p c) (E_p c).
+Definition Qt_start : R := least (b_qt_rms c) (b_qt c) 0 0.
+
+(** With q_0: what the answer to the harmonics is at most, and the derivative of the harmonics and of the rest. *)
+Definition sup_h (f : harmonics) : R := of_harmonics f (fun k a => a / sqrt (sigma c ^ 2 + (IZR k * Om) ^ 2)).
+Definition rms_h (f : harmonics) : R := sqrt (of_harmonics f (fun k a => a ^ 2 / (sigma c ^ 2 + (IZR k * Om) ^ 2))).
+Definition rate_h (f : harmonics) : R := sqrt (of_harmonics f (fun k a => (IZR k * Om * a) ^ 2)).
+Definition rest_t (f : harmonics) : R :=
+  match r_t f with None => Qt_start + rate_h f | Some r => min2 r (Qt_start + rate_h f) end.
+Definition rms_0 (f : harmonics) : R := sqrt (C_0 f ^ 2 + of_harmonics f (fun _ a => a ^ 2)) + r_0 f.
+
+(** Q_0. *)
+Definition Q_start : R :=
+  let q := least (b_q_rms c) (b_q c) 0 0 in match forcing c with None => q | Some f => min2 (rms_0 f) q end.
+Definition Fx_p : R :=
+  let secant := b_f c (X_p c) 0 / X_p c + F_p * X_p c in
+  match b_fx c with None => secant | Some b => min2 (b (X_p c) 0) secant end.
+(** (c/a_1) b_fe and K_2(a_1) b_fe. *)
+Definition x_gain : R := c_ex / a_1 * Fe_p.
+Definition from_rms : R := c_ex * sqrt (beta2 a_1) * Fe_p.
+
+(** The mean squares at which R_q and R_1 are taken: those of the map of existence, and those of the solution. *)
+Definition means : R * R * R := (r_x c, r_e c, r_d c).
+Definition last : R * R * R := match refined c with None => means | Some r => r end.
+Definition R_x (r : R * R * R) : R := fst (fst r).
+Definition R_e (r : R * R * R) : R := snd (fst r).
+Definition R_d (r : R * R * R) : R := snd r.
+
+Definition R_q (r : R * R * R) : R := min2 Q_p (Q_start + Qx_p * R_x r + Qe_p * R_e r).
+Definition along (r : R * R * R) : R := Qx_p * (Fx_p * R_x r + Fe_p * R_e r) + Qe_p * R_d r.
+(** d_0 and d_1: of q - q(t,0,0). *)
+Definition d_0 (r : R * R * R) : R := Qx_p * R_x r + Qe_p * R_e r.
+Definition d_1 (r : R * R * R) : R :=
+  let generic := Qt_p + Qt_start + along r in
+  match q_tx c with
+  | None => generic
+  | Some q_tx => match q_te c with
+                 | None => generic
+                 | Some q_te => min2 generic (q_tx (X_p c) (E_p c) * R_x r + q_te (X_p c) (E_p c) * R_e r + along r)
+                 end
+  end.
+Definition R_1 (r : R * R * R) : R :=
+  match forcing c with None => Qt_p + along r | Some f => min2 (Qt_p + along r) (rate_h f + rest_t f + d_1 r) end.
+
+(** What follows of sup|e|, rms(e), rms(e') for an input with these root mean squares of itself and of its derivative, and at r. *)
+Definition sup_of (q q' : R) : R := min2 (bt * q) (tau * q').
+Definition rms_of (q q' : R) : R := min2 (q / sg) (q' / (Om * sg)).
+Definition sup_e (r : R * R * R) : R :=
+  let e := min2 (sup_of (R_q r) (R_1 r)) (sqrt (period c * R_e r * R_d r)) in
+  match forcing c with
+  | None => e
+  | Some f => min2 e (sup_h f + sup_of (r_0 f) (rest_t f) + sup_of (d_0 r) (d_1 r))
+  end.
+Definition rms_e (r : R * R * R) : R :=
+  let e := rms_of (R_q r) (R_1 r) in
+  match forcing c with
+  | None => e
+  | Some f => min2 e (rms_h f + rms_of (r_0 f) (rest_t f) + rms_of (d_0 r) (d_1 r))
+  end.
+Definition rms_d (r : R * R * R) : R := min2 (R_q r) (R_1 r / sg).
+
+(** ** Section 10.4: with -kap e in the linear part *)
+
+Definition most_p : R := match q_e_max c with None => Qe_p | Some m => min2 (m (X_p c) (E_p c)) Qe_p end.
+Definition slope (k : damping) : R := max2 (most_p + kap k) (Qe_p - kap k).
+Definition g_k (k : damping) : R :=
+  if kap_small k then 1 / (sigma c + kap k) else 1 / (2 * sqrt (sigma c * kap k)).
+Definition R_t (k : damping) (r : R * R * R) : R := Q_start + Qx_p * R_x r + slope k * R_e r.
+
+(** G of 10.3: the smallest of what bounds the mean squares of the solution. *)
+Definition G_x (r : R * R * R) : R := x_gain * R_e r.
+Definition G_e (r : R * R * R) : R :=
+  match damped c with None => rms_e r | Some k => min2 (rms_e r) (g_k k * R_t k r) end.
+Definition G_d (r : R * R * R) : R :=
+  match damped c with None => rms_d r | Some k => min2 (rms_d r) (R_t k r + kap k * R_e r) end.
+
+(** S1 to S3, and that the functions hold up to (X_p, E_p). *)
+Record existence_conditions : Prop := {
+  signs_p : 0 < sigma c /\ 0 < X_p c /\ 0 < E_p c /\ 0 < r_x c /\ 0 < r_e c /\ 0 < r_d c;
+  domain_p : in_domain c (X_p c) (E_p c);
+  S1 : 0 < a_1;
+  S1b : min2 (x_gain * E_p c) (from_rms * r_e c) <= X_p c;
+  S1c : x_gain * r_e c <= r_x c;
+  S2 : match damped c with
+       | None => sup_e means <= E_p c /\ rms_e means <= r_e c /\ rms_d means <= r_d c
+       | Some k =>
+           0 < kap k /\ (kap_small k = true -> kap k <= sigma c) /\
+           sqrt (period c * r_e c * r_d c) <= E_p c /\ g_k k * R_t k means <= r_e c /\ R_t k means + kap k * r_e c <= r_d c /\
+           match q_e_max c with None => True | Some m => - Qe_p <= m (X_p c) (E_p c) end
+       end;
+  S3 : match refined c with
+       | None => True
+       | Some _ =>
+           (0 < R_x last /\ 0 < R_e last /\ 0 < R_d last) /\ G_x last < R_x last /\ G_e last < R_e last /\ G_d last < R_d last
+       end
+}.
+
+(** The sizes of the periodic solution. *)
+Definition e_per : R := min2 (E_p c) (sup_e last).
+Definition x_per : R := min2 (X_p c) (min2 (x_gain * e_per) (from_rms * R_e last)).
+(** (3.2), and its form for q_0: T_N at k Om/w is at most T_bar(k). *)
+Definition T_bar (k : Z) : R :=
+  let line := k_0 c + k_1 c * (IZR k * Om / w c) ^ 2 in
+  if matched c then min2 line (2 / ((mu c / w c) ^ 2 * n c (Z.to_nat k))) else line.
+Definition z_mean (q q' : R) : R := k_0 c / w c ^ 2 * q ^ 2 + k_1 c / w c ^ 4 * q' ^ 2.
+Definition z_harmonics (f : harmonics) : R :=
+  sqrt (1 / ((mu c / w c) ^ 2 * n c O) * C_0 f ^ 2 + of_harmonics f (fun k a => T_bar k * a ^ 2)) / w c.
+Definition swing : R := period c / (2 * mu c) * R_q last ^ 2.
+Definition Z_per : R :=
+  let plain := swing + z_mean (R_q last) (R_1 last) in
+  sqrt match forcing c with
+       | None => plain
+       | Some f =>
+           min2 plain (swing + (z_harmonics f + sqrt (z_mean (r_0 f) (rest_t f)) + sqrt (z_mean (d_0 last) (d_1 last))) ^ 2)
+       end.
+
+(** ** Section 5 *)
+
+Definition X_b : R := x_per + D_x c.
+Definition E_b : R := e_per + D_e c.
+Definition E_at (p : path) : R := match p with x_first => e_per | _ => E_b end.
+Definition X_at (p : path) : R := match p with e_first => x_per | _ => X_b end.
+Definition E_f : R := E_at (path_f c).
+Definition E_q : R := E_at (path_q c).
+Definition X_f : R := X_at (path_f c).
+Definition X_q : R := X_at (path_q c).
+
+Definition k_x : R := b_qx c X_b E_q / sqrt (p_low c).
+Definition k_l : R := b_qe c X_q E_b.
+Definition most : R := match q_e_max c with None => k_l | Some m => min2 (m X_q E_b) k_l end.
+Definition k_f : R := b_fe c X_f E_b.
+Definition gam : R :=
+  sqrt (p_up c / p_low c)
+  * (b_fxx c x_per 0 * x_per + b_fex c x_per E_f * E_f + b_fxx c X_b E_f * D_x c / 2).
+Definition a_2 : R := match rate c with None => alpha c - gam | Some a => max2 (alpha c - gam) (a X_b E_f) end.
+Definition ht : R := h c / mu c.
+Definition size : R := max2 (Rabs (1 + ht * most)) (Rabs (1 - ht * k_l)).
+
+Definition d_X : R := X_0 c + x_per.
+Definition d_E : R := E_0 c + e_per.
+Definition d_Z : R := match Z_0 c with None => Z_per | Some z => z + sqrt (n_bar2 c) * E_0 c + Z_per end.
+Definition level : R := w_x c * p_up c * d_X ^ 2 + d_E ^ 2 + h c * d_Z ^ 2.
+
+(** C4, C5 and C5b of (10.5), the signs they need, and that the functions hold up to (X_b, E_b). *)
+Record stability_conditions : Prop := {
+  signs_b : 0 < mu c /\ 0 < p_low c /\ 0 < p_up c /\ 0 < D_x c /\ 0 < D_e c /\ 0 < w_x c /\ 0 < h c;
+  signs_0 : 0 <= X_0 c /\ 0 <= E_0 c /\ match Z_0 c with None => True | Some z => 0 <= z end;
+  nonneg : 0 <= k_x /\ 0 <= k_f;
+  domain_b : in_domain c X_b E_b;
+  C4 : level < min2 (w_x c * p_low c * D_x c ^ 2) (D_e c ^ 2);
+  C5_ : ht * k_x ^ 2 < 4 * (w_x c * a_2);
+  C5b : size ^ 2 / (4 * ht)
+        + (w_x c * sqrt (p_up c) * k_f + k_x * size / 2) ^ 2 / (4 * (w_x c * a_2) - ht * k_x ^ 2) < sigma c
+}.
+
+End Sizes.

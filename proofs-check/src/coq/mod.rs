@@ -1,0 +1,86 @@
+//! A certificate as a theorem: the text of a Coq file that states what a certificate in continuous time says and proves it, by the
+//! theorems of `proofs-check/coq`.
+//!
+//! Nothing is decided here, not even whether the numbers fit together: they are written as the certificate has them, and Coq refuses a
+//! file whose conditions do not hold. What a specification must be to be one at all is read by the rules of the checker.
+
+mod numbers;
+mod terms;
+mod text;
+
+use proofs_core::json::{Field, MAX_BYTES, parse};
+use proofs_core::rules::claim::Claim;
+use proofs_core::rules::derivation::{Derivation, Witness};
+use proofs_core::rules::sharp;
+use proofs_core::sha256;
+use proofs_core::spec::{Specification, header};
+use proofs_core::verdict::Outcome;
+use rug::Rational;
+use std::io::Read;
+use terms::unsupported;
+
+/// What a theorem is written of.
+struct Parts {
+    /// The SHA-256 of the canonical specification that is in the file.
+    digest: String,
+    spec: Specification,
+    witness: sharp::Witness,
+    /// The bounds of sup|x|, sup|e| and sup|zeta|_N that the claim states.
+    sizes: [Rational; 3],
+}
+
+/// The Coq file of a certificate.
+///
+/// # Errors
+/// `bad-input` where the file is no certificate, `undecided` where no theorem of its kind can be written; with the place.
+pub fn theorem(bytes: &[u8]) -> Outcome<String> {
+    let json = parse(bytes)?;
+    let parts = read(&Field { json: &json, pointer: String::new() })?;
+    Ok(text::file(&parts.digest, &numbers::record(&parts)?, &parts))
+}
+
+/// Reads at most what is accepted, and writes its theorem.
+///
+/// # Errors
+/// A stream that cannot be read; what [`theorem`] answers.
+pub fn theorem_of(certificate: &mut dyn Read) -> std::io::Result<Outcome<String>> {
+    let mut bytes = Vec::new();
+    certificate.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(theorem(&bytes))
+}
+
+fn read(file: &Field<'_>) -> Outcome<Parts> {
+    let mut file = file.fields()?;
+    header(&mut file, "sigmastar/certificate")?;
+    if file.has("plant") {
+        return unsupported(
+            "/plant",
+            "no theorem is written of the certificate of a plant's formulas: certify a specification",
+        );
+    }
+    let embedded = file.required("specification")?;
+    let mut fields = file.required("witness")?.fields()?;
+    let spec = Specification::read(&embedded, &mut fields)?;
+    let mut canonical = String::new();
+    embedded.json.canonical(&mut canonical);
+    let claim = Claim::read(&file.required("claim")?, false)?;
+    if claim.sampled.is_some() {
+        let message =
+            "no theorem is written of a claim about the regulator at samples: certify without `sampling_period`";
+        return unsupported("/claim/regulator", message);
+    }
+    let Witness::Sharp(witness) = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?.witness else {
+        return unsupported("/witness", "no theorem is written of this kind of witness");
+    };
+    if let Some(inequality) = &witness.inequality {
+        return unsupported(&inequality.pointer, "no theorem is written of a matrix inequality in the place of C5");
+    }
+    if witness.existence.inequality.is_some() {
+        let pointer = "/witness/existence_inequality";
+        return unsupported(pointer, "no theorem is written of an inequality in the place of S1b to S2c");
+    }
+    let mut periodic = claim.periodic.fields()?;
+    let mut size = |name| periodic.required(name)?.rational();
+    let sizes = [size("x")?, size("e")?, size("zeta")?];
+    Ok(Parts { digest: sha256::hex_digest(canonical.as_bytes()), spec, witness: *witness, sizes })
+}

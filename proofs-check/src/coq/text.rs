@@ -1,0 +1,96 @@
+//! The Coq file around the numbers of a certificate.
+
+use super::Parts;
+use super::terms::number;
+use proofs_core::rules::transfer::Proof;
+
+/// What every file begins with.
+const HEAD: &str = "\
+From Coq Require Import Reals ZArith Lra Lia.
+From Coquelicot Require Import Coquelicot.
+From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched Claim Decide.
+Local Open Scope R_scope.
+";
+
+/// The whole file; `record` has the fields of `numbers`.
+pub fn file(digest: &str, record: &str, parts: &Parts) -> String {
+    let [x, e, zeta] = parts.sizes.each_ref().map(number);
+    let matched = match parts.witness.transfer {
+        Proof::Matched(k) => Some(k),
+        Proof::ClosedForm | Proof::Boxes { .. } => None,
+    };
+    let hypothesis = if matched.is_some() { "" } else { "\n  transfer_bound cert ->" };
+    let names = if matched.is_some() { "Within Existence" } else { "Within Transfer Existence" };
+    let transfer = if matched.is_some() { "transfer" } else { "Transfer" };
+    let lemma = matched.map_or_else(String::new, transfer_lemma);
+    format!(
+        "(** A certificate in continuous time, written by proofs-check --coq. The definitions are those of Sizes.v and Claim.v in
+    proofs-check/coq; this file has the numbers of the certificate, and Coq decides its conditions.
+
+    SHA-256 of the canonical specification:
+    {digest} *)
+
+{HEAD}
+Definition cert : numbers := {{|
+{record}
+|}}.
+
+(** S1 to S3, C4, C5, C5b, and the sizes of the periodic solution that are stated. *)
+Lemma conditions :
+  existence_conditions cert /\\ stability_conditions cert /\\
+  (x_per cert <= {x} /\\ e_per cert <= {e} /\\ Z_per cert <= {zeta}).
+Proof.
+  note_existence cert.
+  split; [decide_conditions cert|]. apply and_comm. split; [split; [|split]; decide_size|].
+  note_stability cert. decide_conditions cert.
+Qed.
+
+Lemma the_weights : weights (n cert).
+Proof. decide_weights cert. Qed.
+
+Lemma weight_sum : forall N, n cert O + sum1 N (n cert) <= n_bar2 cert.
+Proof. decide_weight_sum cert. Qed.
+{lemma}
+(** For every plant within the bounding functions, every N and every gain from sigma on: each solution p of the stated size attracts,
+    in that what starts in the set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of x
+    and e tend to 0. *)
+Theorem certificate_attracts :
+  forall (X : NormedModule R_AbsRing) f q F P P', within (X := X) cert f q F P P' ->
+  forall s, sigma cert <= s -> exists rho, 0 < rho /\\
+  forall N p, (forall t, solves cert f q N s p t) -> sized cert N p -> attracts cert f q P N s p rho.
+Proof.
+  intros X f q F P P' Within s Hs.
+  destruct (stays_and_falls cert f q F P P' (n_pos _ the_weights) Within (proj1 (proj2 conditions)) s Hs) as [rho [Hrho A]].
+  exists rho. split; [exact Hrho|]. intros N p Solves Sized. pose proof (A N p (weight_sum N) Solves Sized) as Falls. split; [exact Falls|].
+  apply (errors_tend cert f q F P P' (n_pos _ the_weights) Within (proj1 (proj2 conditions)) s rho N p Hrho (weight_sum N) Solves Sized
+           Falls).
+Qed.
+
+(** The certificate. That the periodic solution exists, [existence_10_3], is a hypothesis: its conditions are proved here, section 10.3
+    is not. *)
+Theorem certificate_holds :
+  forall (X : NormedModule R_AbsRing) f q F P P', within (X := X) cert f q F P P' ->{hypothesis}
+  existence_10_3 cert f q -> certified cert f q P.
+Proof.
+  intros X f q F P P' {names}.
+  apply (claim cert f q F P P' (n_pos _ the_weights) Within (proj1 (proj2 conditions)) Existence
+           (proj1 conditions) the_weights {transfer} weight_sum).
+Qed.
+
+(** What both rest on. *)
+Definition certificate := (certificate_attracts, certificate_holds).
+Print Assumptions certificate.
+"
+    )
+}
+
+/// The matched criterion, where the certificate has it.
+fn transfer_lemma(k: u32) -> String {
+    format!(
+        "
+(** Section 2.3: every k below {k} one by one, and one inequality for the others. *)
+Lemma transfer : transfer_bound cert.
+Proof. decide_matched cert the_weights {k}%nat. Qed.
+"
+    )
+}

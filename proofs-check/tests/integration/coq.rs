@@ -1,0 +1,184 @@
+//! `--coq`: of which certificates a theorem is written, that nothing of a file becomes a part of the script, and, where coqc is
+//! installed, that Coq accepts what is true and refuses what is not.
+
+use crate::common::{PAPER, certificate, folder, names, text};
+use proofs_check::coq::theorem;
+use proofs_check::verdict::Verdict;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// The files and exit code of a call of the program.
+fn program(arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_proofs-check")).args(arguments).output().expect("the program runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
+}
+
+fn written(certificate: &Value) -> String {
+    theorem(certificate.to_string().as_bytes()).unwrap_or_else(|finding| panic!("{finding:?}"))
+}
+
+#[track_caller]
+fn assert_refused_at(bytes: &str, verdict: Verdict, pointer: &str) {
+    let finding = theorem(bytes.as_bytes()).expect_err("it is refused");
+    assert_eq!((finding.verdict, finding.pointer.as_str()), (verdict, pointer), "{}", finding.message);
+}
+
+#[test]
+fn a_theorem_is_written_of_every_stored_certificate_of_a_specification() {
+    for name in names("certificates") {
+        let bytes = text("certificates", &name);
+        let written = theorem(bytes.as_bytes()).unwrap_or_else(|finding| panic!("{name}: {finding:?}"));
+        assert!(written.contains("Print Assumptions certificate."), "{name}");
+    }
+    for name in names("plants").iter().filter(|name| name.ends_with(".certificate")) {
+        assert_refused_at(&text("plants", name), Verdict::Undecided, "/plant");
+    }
+    assert_refused_at(&text("sampled", "no-x"), Verdict::Undecided, "/claim/regulator");
+    assert_refused_at("{}", Verdict::BadInput, "");
+}
+
+#[test]
+fn the_numbers_are_those_of_the_certificate() {
+    let text = written(&certificate(PAPER));
+    for line in [
+        "  period := 1;",
+        "  p_up := 1.5512;",
+        "  w := (2 * PI);",
+        "  n := power 2 (1 / 2);",
+        "  b_fe := fun X E => (X + 0.189);",
+        "  b_q := fun X E => ((4.822 + X) + (atan (E * (X + 0.189))));",
+        "  domain := Some (10, 10);",
+        "  sigma := 41.4618;",
+        "  Z_0 := Some (14.445071);",
+        "  r_d := 0.59128947;",
+        "  damped := None;",
+        "  path_q := straight",
+        "Proof. decide_matched cert the_weights 2%nat. Qed.",
+    ] {
+        assert!(text.lines().any(|other| other == line), "{line}");
+    }
+    assert!(text.contains("8f15618c51d5361f8e1b68c697826eac53d91447e93b710fb0af923c0893016c"));
+    let damped = written(&certificate("refined.means"));
+    assert!(damped.contains("  damped := Some ({| kap := 350; kap_small := false |});"));
+    assert!(damped.contains("  refined := Some (0.65584880181913, 1.311697603637, 555.33489025715);"));
+    let aligned = written(&certificate("paper-example-aligned.sharp"));
+    assert!(aligned.contains("  Z_0 := None;") && aligned.contains("  path_q := x_first\n"));
+    let listed = written(&certificate("explicit-weights.sharp"));
+    assert!(listed.contains("  n := explicit (cons 2 (cons 1 (cons 0.4 (cons 0.22 nil)))) 1 (1 / 2);"));
+    let harmonics = written(&certificate("harmonics.means"));
+    assert!(harmonics.contains("  forcing := Some ({| C_k := (cons "));
+    // Without the matched criterion the transfer bound is a hypothesis.
+    let boxes = written(&certificate("paper-example.boxes"));
+    assert!(boxes.contains("  transfer_bound cert ->\n") && boxes.contains("  matched := false;"));
+}
+
+/// Names and descriptions are not written, and nothing is decided: a certificate that is wrong gets a theorem like any other.
+#[test]
+fn no_free_text_is_written_and_nothing_is_decided() {
+    let mut made = certificate(PAPER);
+    for (object, field) in [("/specification", "name"), ("/specification", "description"), ("/tool", "version")] {
+        made.pointer_mut(object).unwrap()[field] = json!("\" *) Axiom wrong : False. (*");
+    }
+    made["claim"]["statement"] = json!("*) Axiom wrong : False. (*");
+    made["claim"]["sigma_star"] = json!("1/3");
+    let text = written(&made);
+    assert!(!text.contains("Axiom") && text.contains("  sigma := (1 / 3);"));
+    made["specification"]["bounds"]["f"] = json!("X^(1/2)");
+    assert_refused_at(&made.to_string(), Verdict::Undecided, "/specification/bounds/f");
+    made["specification"]["bounds"]["f"] = json!("min(X^2, tanh(E))/exp(-X) + abs(X)^-2");
+    assert!(written(&made).contains("fun X E => (((min2 (X ^ 2) (tanh_exp E)) / (exp (- X))) + (/ (Rabs X) ^ 2));"));
+}
+
+#[test]
+fn the_program_writes_and_refuses() {
+    let path = |of: &str, name: &str| folder(of).join(format!("{name}.json")).to_string_lossy().into_owned();
+    let (code, out, err) = program(&["--coq", &path("certificates", PAPER)]);
+    assert!(code == 0 && err.is_empty() && out == written(&certificate(PAPER)));
+    let (code, out, err) = program(&["--coq", &path("sampled", "no-x")]);
+    assert!(code == 3 && out.is_empty() && err.contains("/claim/regulator"), "{err}");
+    let (code, out, _) = program(&["--coq", &path("plants", "paper-example")]);
+    assert!(code == 2 && out.is_empty());
+    for flags in [["--coq", "--verbose"], ["--format", "json"]] {
+        let (code, out, err) = program(&[flags[0], flags[1], "--coq", &path("certificates", PAPER)]);
+        assert!(code == 2 && out.is_empty() && err.contains("--coq goes with no other flag"), "{err}");
+    }
+}
+
+/// The folder of the proofs, built once; `None` where coqc is not installed.
+fn proofs() -> Option<&'static Path> {
+    static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
+    let build = || {
+        let installed = Command::new("coqc").arg("--version").output().is_ok_and(|output| output.status.success());
+        if !installed {
+            println!("coqc is not installed: no theorem was tried");
+            return None;
+        }
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("coq");
+        let made = Command::new("make").arg("--no-print-directory").arg("-C").arg(&folder).output().expect("make runs");
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        Some(folder)
+    };
+    FOLDER.get_or_init(build).as_deref()
+}
+
+/// What coqc answers about the theorem of a certificate.
+fn coqc(proofs: &Path, name: &str, certificate: &Value) -> Result<String, String> {
+    let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("coq");
+    std::fs::create_dir_all(&place).expect("a folder");
+    let file = place.join(format!("{name}.v"));
+    std::fs::write(&file, written(certificate)).expect("it is written");
+    let output = Command::new("coqc").args(["-q", "-w", "none", "-Q"]).arg(proofs).arg("SigmaStar").arg(&file).output();
+    let output = output.expect("coqc runs");
+    let said = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    if output.status.success() { Ok(said(&output.stdout)) } else { Err(said(&output.stderr)) }
+}
+
+/// Coq's classical real numbers.
+const AXIOMS: [&str; 4] = [
+    "ClassicalDedekindReals.sig_forall_dec",
+    "ClassicalDedekindReals.sig_not_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+    "Classical_Prop.classic",
+];
+
+/// Both theorems are proved, and rest on [`AXIOMS`] alone.
+#[track_caller]
+fn assert_accepted(name: &str, answer: Result<String, String>) {
+    let said = answer.unwrap_or_else(|error| panic!("{name}: {error}"));
+    assert_eq!(said.matches("Axioms:").count(), 1, "{name}: {said}");
+    let axioms = said.lines().filter(|line| !line.starts_with(' ') && *line != "Axioms:");
+    for line in axioms {
+        assert!(AXIOMS.contains(&line.split([' ', ':']).next().unwrap()), "{name}: {line}");
+    }
+}
+
+/// The stored certificates that an ordinary run leaves out take some minutes.
+#[test]
+fn coq_accepts_what_is_true() {
+    let Some(proofs) = proofs() else { return };
+    let all = std::env::var("SIGMASTAR_CASES").is_ok_and(|cases| cases == "all");
+    let some = ["paper-example-aligned.sharp", "no-x.sharp"];
+    for name in names("certificates").iter().filter(|name| all || some.contains(&name.as_str())) {
+        let made = certificate(name);
+        assert_accepted(name, coqc(proofs, &name.replace(['.', '-'], "_"), &made));
+    }
+}
+
+#[test]
+fn coq_refuses_what_is_not() {
+    let Some(proofs) = proofs() else { return };
+    let refused = |name: &str, edit: &dyn Fn(&mut Value), said: &str| {
+        let mut made = certificate(PAPER);
+        edit(&mut made);
+        let answer = coqc(proofs, name, &made).expect_err(name);
+        assert!(answer.contains("not proved") && answer.contains(said), "{name}: {answer}");
+    };
+    // A per cent below; the conditions of existence fail first.
+    refused("lowered", &|made| made["claim"]["sigma_star"] = json!("41.05"), "damped cert");
+    refused("altered", &|made| made["specification"]["bounds"]["f_e"] = json!("X + 0.19"), "<= X_p cert");
+    refused("size", &|made| made["claim"]["periodic_solution"]["x"] = json!("0.049417"), "x_per cert");
+    refused("transfer", &|made| made["witness"]["transfer"]["K"] = json!(1), "<= k_1 cert");
+}
