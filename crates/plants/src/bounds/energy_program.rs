@@ -101,16 +101,13 @@ impl Program {
     fn solve(&self) -> Option<(EnergyWeights, f64)> {
         let unit = self.unit();
         let (_, largest) = self.solution(unit, None)?;
-        if !(largest > 0.0) {
-            return None;
-        }
-        let kept = KEPT * largest;
+        let kept = KEPT * (largest > 0.0).then_some(largest)?;
         let (variables, room) = self.solution(unit, Some(kept))?;
         let n = self.points.first()?.r.len();
         let triangle = triangle(n);
         // The weight of e^2 becomes 1.
         let w = variables[triangle.len()];
-        if !(w > 0.0 && room > 0.0) {
+        if w.min(room) <= 0.0 {
             return None;
         }
         let mut p = vec![vec![0.0; n]; n];

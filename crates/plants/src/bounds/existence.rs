@@ -80,13 +80,12 @@ fn form(inequality: &ExistenceInequality, values: &Values<'_>) -> Option<Symmetr
     if n > 0 {
         let jacobian = values.product(region.matrix(), &values.product(region.inverse(), &of_f, false), true);
         let moved = values.product(p, &jacobian, false);
-        for i in 0..n {
-            for j in i..n {
-                let own = frame.rational(&if i == j { c_x.clone() } else { Rational::new() });
-                let sum = frame.add(&frame.add(&moved[i][j], &moved[j][i]), &own);
-                entries.push((i, j, negated(&sum)));
-            }
-        }
+        let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+        entries.extend(upper.map(|(i, j)| {
+            let sum = frame.add(&moved[i][j], &moved[j][i]);
+            let sum = if i == j { frame.add(&sum, &frame.rational(c_x)) } else { sum };
+            (i, j, negated(&sum))
+        }));
         let column = values.product(p, &values.product(region.inverse(), &column, false), false);
         entries.extend(column.concat().iter().enumerate().map(|(i, value)| (i, n, negated(value))));
         let row = values.product(region.matrix(), &[of_q], true).concat();

@@ -25,6 +25,7 @@ mod explore;
 mod extent;
 mod inequality;
 mod majorant;
+mod narrow;
 mod pointwise;
 mod prove_value;
 mod quantity;

@@ -1,9 +1,9 @@
 //! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
 
 use super::entry::{TABLE, of_table};
+use super::narrow::extreme_errors;
 use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise, roots};
 use rug::Rational;
-use sigmastar_exact::number::Portable;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
@@ -44,15 +44,6 @@ impl From<&TrigonometricVector> for FloatCurve {
 
 /// The shares of E that are looked at.
 const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
-
-/// Where dq/de is largest and least on the orbit: sought at these powers of ten of e, of either sign, so many to each, and by so many
-/// steps between neighbours.
-const DECADES: std::ops::RangeInclusive<i32> = -6..=6;
-const IN_A_DECADE: i32 = 4;
-const STEPS_BETWEEN: u32 = 24;
-
-/// The share of the changes of dq/de that is worth a place of its own.
-const WORTH_A_PLACE: f64 = 0.01;
 
 /// A place in the grid: of the time, of the point of the ball, and of the share of E, or of the errors of [`FloatSuprema::narrow`].
 pub(super) type Place = [usize; 3];
@@ -185,48 +176,17 @@ impl FloatSuprema {
     fn sought_narrow(&self) -> Option<Arc<Vec<[f64; 2]>>> {
         let mut evaluator = Evaluator::new(self.program.clone());
         let mut outputs = vec![0.0; self.program.outputs()];
-        let at = self.order * self.order + 2 * self.order;
-        let sizes = DECADES.flat_map(|k| (0..IN_A_DECADE).map(move |part| (k, part)));
-        let size = |(k, part): (i32, i32)| {
-            10f64.portable_powi(k) * 10f64.portable_pow(f64::from(part) / f64::from(IN_A_DECADE))
-        };
-        let positive: Vec<f64> = sizes.map(size).collect();
-        let negative = positive.iter().rev().map(|size| -size);
-        let grid: Vec<f64> = negative.chain([0.0]).chain(positive.iter().copied()).collect();
-        let (mut found, mut gain, mut spread) = (Vec::new(), 0.0_f64, 0.0_f64);
-        for moment in self.moments.iter() {
-            evaluator.load_time_values(&moment.kept);
-            let mut slope = |e: f64| {
-                evaluator.evaluate(&moment.orbit, e, &mut outputs);
-                outputs[at]
-            };
-            let values: Vec<f64> = grid.iter().map(|e| slope(*e)).collect();
-            let extreme = [1.0, -1.0].map(|sign| {
-                let value = |i: &usize| if values[*i].is_finite() { sign * values[*i] } else { f64::NEG_INFINITY };
-                let best = (0..grid.len()).max_by(|i, j| value(i).total_cmp(&value(j))).unwrap_or(0);
-                let (mut e, mut largest) = (grid[best], value(&best));
-                let mut step = 0.5 * (grid[(best + 1).min(grid.len() - 1)] - grid[best.saturating_sub(1)]);
-                for _ in 0..STEPS_BETWEEN {
-                    let next = [e - step, e + step].map(|e| e.clamp(grid[0], -grid[0]));
-                    let next = next.map(|e| (sign * slope(e), e));
-                    let (other, place) = if next[0].0 > next[1].0 { next[0] } else { next[1] };
-                    if other > largest {
-                        (largest, e) = (other, place);
-                    } else {
-                        step *= 0.5;
-                    }
-                }
-                let seen = [0, grid.len() / 2, grid.len() - 1]
-                    .map(|i| value(&i))
-                    .into_iter()
-                    .fold(f64::NEG_INFINITY, f64::max);
-                gain = gain.max(largest - seen);
-                (e, sign * largest)
-            });
-            spread = spread.max(extreme[0].1 - extreme[1].1);
-            found.push(extreme.map(|(e, _)| e));
-        }
-        (gain > WORTH_A_PLACE * spread).then(|| Arc::new(found))
+        let (at, mut last) = (self.order * self.order + 2 * self.order, None);
+        let found = extreme_errors(self.moments.len(), |time, e| {
+            let moment = &self.moments[time];
+            if last != Some(time) {
+                evaluator.load_time_values(&moment.kept);
+                last = Some(time);
+            }
+            evaluator.evaluate(&moment.orbit, e, &mut outputs);
+            outputs[at]
+        });
+        found.map(Arc::new)
     }
 
     /// The error at a place.

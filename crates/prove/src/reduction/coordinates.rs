@@ -5,15 +5,13 @@
 
 use super::grid::{Grid, RATE, RATE_EXISTENCE, Source, functions};
 use crate::search::{
-    Binding, ByEnergy, ByMatrix, Closest, Descent, EnergyMargin, Failing, FloatModel, Obstacle, PeriodicSet,
-    SharpParameters, SharpProposal, Threshold, active_level, at_sigma, minimise, search_sharp, search_sharp_near,
-    weight_h,
+    ByEnergy, ByMatrix, Closest, Descent, EnergyMargin, FloatModel, Obstacle, PeriodicSet, SharpParameters,
+    SharpProposal, Threshold, active_level, at_sigma, minimise, search_sharp, search_sharp_near, weight_h,
 };
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
-use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::{Asked, Corners, EnergyAt, EnergyWeights, FloatWeights, Focus, MatrixArguments, TABLE};
+use sigmastar_plants::bounds::{Asked, Corners, EnergyAt, EnergyWeights, FloatWeights, Focus, MatrixArguments};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::Arc;
@@ -98,24 +96,13 @@ const DESCENTS: usize = 3;
 const APART: usize = 3;
 
 /// How often a descent looks again for the points that matter.
-const TURNS: usize = 2;
+pub(super) const TURNS: usize = 2;
 
 /// The share of the rate along the orbit that x keeps in a matrix inequality.
 const KEPT: f64 = 1e-6;
 
-/// The shares of a gain at which the threshold of an inequality of existence is tried, first and later.
-const FIRST_THRESHOLDS: [f64; 4] = [0.15, 0.3, 0.6, 0.9];
-const THRESHOLDS: [f64; 3] = [0.6, 0.8, 1.0];
-
-/// By what share it has to make the periodic solution smaller.
-const WORTH_AN_ENERGY: f64 = 0.05;
-
-/// How many descents there are at most, and by what share one has to lower the gain for another one.
-const MOST_TURNS: usize = 10;
-const WORTH_A_TURN: f64 = 0.02;
-
 /// The first steps of ln (rho - 1) and of ln eta.
-const SHAPE_STEP: f64 = 0.4;
+pub(super) const SHAPE_STEP: f64 = 0.4;
 
 /// The shares of rho - 1 from which it is sought.
 const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
@@ -123,25 +110,14 @@ const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
 /// A descent over the shape as well.
 const TOGETHER: Descent = Descent { restarts: 1, iterations: 120, tolerance: 1e-3 };
 
-/// One over the weights on the orbit, and the share by which a candidate has to be better there to be worth a look.
-const ON_ORBIT: Descent = Descent { restarts: 1, iterations: 60, tolerance: 1e-3 };
-const WORTH_ANOTHER_START: f64 = 0.05;
-
-/// A gain by a matrix inequality is at most this share of what is known, to be worth its proof.
-const WORTH_A_MATRIX: f64 = 0.99;
-
-/// A gain that is so many times that of norms is not sought further; one that existence sets if it is so near.
-const FAR: f64 = 1.3;
-const NEARLY: f64 = 0.98;
-
 /// How far above a gain the arguments are taken.
-const NEAR: f64 = 1e-9;
+pub(super) const NEAR: f64 = 1e-9;
 
 /// What a P of existence must take from sigma* to be worth its room in a certificate.
 const WORTH: f64 = 1e-3;
 
 /// Beyond so many states L is taken as it is proposed: the numbers in S are too many.
-const MOST_STATES: usize = 4;
+pub(super) const MOST_STATES: usize = 4;
 
 /// A search for coordinates.
 pub struct CoordinateSearch<'a> {
@@ -209,20 +185,14 @@ impl From<&Chosen> for Start {
 }
 
 impl Start {
-    fn shape(&self) -> Shape<'_> {
+    pub(super) fn shape(&self) -> Shape<'_> {
         Shape { l: &self.l, second: self.second.as_ref(), energy: self.energy.as_ref() }
     }
 }
 
-/// A least set with a periodic solution, and the points that were looked at.
-struct SampledSet {
-    set: PeriodicSet,
-    density: Density,
-}
-
 /// What a descent varies, beside the shape of the error box, which it does with a matrix inequality.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Varied {
+pub(super) enum Varied {
     /// Nothing else.
     Shape,
     /// L.
@@ -334,101 +304,6 @@ impl CoordinateSearch<'_> {
         Ok(self.with_second(single))
     }
 
-    /// From where a search by a matrix inequality starts: all candidates where L is not varied, else one of two, the best by norms and the
-    /// one whose inequality asks for the least gain on the orbit, whichever does better with its own shape of the error box.
-    #[must_use]
-    pub fn for_matrix(&self, rough: &Rough) -> Vec<Start> {
-        if rough.best.l.nrows() > MOST_STATES {
-            return rough.starts.clone();
-        }
-        let on_orbit: Vec<f64> = rough.all.par_iter().map(|start| self.least_on_orbit(&start.l)).collect();
-        let least = on_orbit.iter().zip(&rough.all).min_by(|(a, _), (b, _)| a.total_cmp(b));
-        let own = self.least_on_orbit(&rough.best.l);
-        let other = least.filter(|(least, _)| **least < own * (1.0 - WORTH_ANOTHER_START)).map(|(_, start)| start);
-        let Some(other) = other else { return vec![rough.best.clone()] };
-        let gain = |start: &Start| {
-            let at = if self.energy_helps(start) { self.with_energy(start, &FIRST_THRESHOLDS) } else { start.clone() };
-            self.descend(&at, Varied::Shape).map_or(f64::INFINITY, |found| found.proposal.sigma)
-        };
-        let (by_norms, by_orbit) = rayon::join(|| gain(&rough.best), || gain(other));
-        let better = by_orbit < by_norms * (1.0 - WORTH_ANOTHER_START);
-        vec![if better { other.clone() } else { rough.best.clone() }]
-    }
-
-    /// The least gain of the matrix inequality for the derivatives on the orbit, with any weights.
-    fn least_on_orbit(&self, l: &DMatrix<f64>) -> f64 {
-        let Estimates { bounds, threshold, .. } = (self.sampler)(alone(l), &Density::Coarse);
-        let values = bounds(0.0, 0.0, Asked::ALL);
-        let of = |bound: Bound| TABLE.iter().position(|kind| *kind == bound).map_or(f64::NAN, |at| values[at]);
-        let [f_e, q_x, q_e] = [Bound::Fe, Bound::Qx, Bound::Qe].map(of);
-        let gain = q_e + f_e * q_x / values[RATE];
-        // So large that the inequality holds without e, or as large as norms have it.
-        let least = 0.25 * q_x * q_x / values[RATE];
-        let balance = if f_e > 0.0 && q_x > 0.0 { least.max(0.5 * q_x / f_e) } else { 1.0 };
-        let at = MatrixArguments { apart: false, states: [0.0; 2], error: [0.0; 2] };
-        let cost = |p: &[f64]| {
-            let k_p = p[0].portable_exp() / gain;
-            let weights = FloatWeights { w_x: p[1].portable_exp() * balance * k_p, k_p, rate: 0.0 };
-            Some(threshold(at, weights)).filter(|value| value.is_finite()).map(Portable::portable_ln)
-        };
-        let best = minimise(cost, &[0.0; 2], &[SHAPE_STEP; 2], ON_ORBIT);
-        best.map_or(f64::INFINITY, |(_, least)| least.portable_exp())
-    }
-
-    /// The best choice near a known one, of another search for the same plant.
-    ///
-    /// # Errors
-    /// The obstacle, where no gain is found, or none that is smaller by what is worth it.
-    pub fn choose_near(&self, known: &Start) -> Result<Chosen, Obstacle> {
-        let proposal = &known.proposal;
-        let too_large = || Obstacle::from(Failing::Gain { given: proposal.sigma, smallest: None });
-        let mut at = known.clone();
-        // Where L is not varied, the third descent would repeat the second.
-        let descents = if at.l.nrows() > MOST_STATES { TURNS } else { TURNS + 1 };
-        let mut helps = self.energy_helps(&at);
-        for turn in 0..MOST_TURNS {
-            let before = at.proposal.sigma;
-            if helps {
-                at = self.with_energy(&at, if turn == 0 { &FIRST_THRESHOLDS } else { &THRESHOLDS });
-            }
-            let varied = if turn == 0 { Varied::Shape } else { Varied::Coordinates };
-            at = self.descend(&at, varied).ok_or_else(too_large)?;
-            let hopeless = at.proposal.binding == Binding::Existence && at.proposal.sigma > NEARLY * proposal.sigma;
-            if hopeless || at.proposal.sigma > FAR * proposal.sigma {
-                return Err(too_large());
-            }
-            if turn + 1 >= descents && at.proposal.sigma > before * (1.0 - WORTH_A_TURN) {
-                break;
-            }
-            helps = helps || self.energy_helps(&at);
-        }
-        if at.proposal.sigma > WORTH_A_MATRIX * proposal.sigma {
-            return Err(too_large());
-        }
-        let found = self.with(at.shape(), Some(&at.proposal))?;
-        Ok(self.with_second(found))
-    }
-
-    /// Whether a matrix inequality of existence makes the periodic solution that is proved smaller by a share that matters.
-    fn energy_helps(&self, at: &Start) -> bool {
-        let Some(sampled) = self.sampled(at) else { return false };
-        let SampledSet { set, density } = &sampled;
-        let Some(energy) = self.energy(at, &sampled, 1.0) else { return false };
-        let model = self.model(Shape { energy: Some(&energy), ..at.shape() }, density);
-        let sigma = at.proposal.sigma * (1.0 + NEAR);
-        let smaller = PeriodicSet::least(
-            &model,
-            &AtOrigin::new(&model),
-            sigma,
-            (at.proposal.parameters.form, at.proposal.parameters.floors),
-            NEAR,
-        );
-        smaller.is_ok_and(|smaller| {
-            let sizes = |set: &PeriodicSet| [set.x_per, set.e_per, set.z];
-            sizes(set).into_iter().zip(sizes(&smaller)).any(|(size, smaller)| smaller < size * (1.0 - WORTH_AN_ENERGY))
-        })
-    }
-
     /// Whether the inequality of existence of a model says anything of the set of a proposal.
     fn energy_serves(&self, model: &FloatModel, proposal: &SharpProposal) -> bool {
         let SharpParameters { form, floors, .. } = proposal.parameters;
@@ -438,42 +313,8 @@ impl CoordinateSearch<'_> {
         known.bounds([set.x_p, set.e_p], &origin, sigma).is_ok()
     }
 
-    /// The least set of a start.
-    fn sampled(&self, at: &Start) -> Option<SampledSet> {
-        let density = self.focus(at.shape(), &at.proposal).map_or(Density::Coarse, Density::Focused);
-        let model = self.model(at.shape(), &density);
-        let SharpParameters { form, floors, .. } = at.proposal.parameters;
-        let sigma = at.proposal.sigma * (1.0 + NEAR);
-        let set = PeriodicSet::least(&model, &AtOrigin::new(&model), sigma, (form, floors), NEAR).ok()?;
-        Some(SampledSet { set, density })
-    }
-
-    /// An inequality of existence on that set, with this share of the gain as its threshold.
-    fn energy(&self, at: &Start, SampledSet { set, density }: &SampledSet, share: f64) -> Option<EnergyWeights> {
-        ((self.sampler)(at.shape(), density).energy)([set.x_p, set.e_p], share * at.proposal.sigma)
-    }
-
-    /// The same with another matrix inequality of existence, where the gain is smaller with it after the shape of the error box has been
-    /// sought again.
-    fn with_energy(&self, at: &Start, shares: &[f64]) -> Start {
-        let Some(sampled) = self.sampled(at) else { return at.clone() };
-        let with = |share: &f64| {
-            let energy = self.energy(at, &sampled, *share)?;
-            let found = self.descend(&Start { energy: Some(energy), ..at.clone() }, Varied::Shape);
-            found
-        };
-        let least = shares.iter().filter_map(with).min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma));
-        least.filter(|found| found.proposal.sigma < at.proposal.sigma * FAR).unwrap_or_else(|| at.clone())
-    }
-
-    /// The gain near a choice in its coordinates, of another search for the same plant; an estimate, at few samples.
-    #[must_use]
-    pub fn estimate_near(&self, known: &Start) -> Option<f64> {
-        self.descend(known, Varied::Shape).map(|found| found.proposal.sigma)
-    }
-
     /// The best that is reached from there, at the points that are the most extreme ones there; `None` where there is no gain.
-    fn descend(&self, from: &Start, varied: Varied) -> Option<Start> {
+    pub(super) fn descend(&self, from: &Start, varied: Varied) -> Option<Start> {
         let Start { l, second, energy, proposal } = from;
         let energy = energy.as_ref();
         let n = l.nrows();
@@ -528,7 +369,7 @@ impl CoordinateSearch<'_> {
     }
 
     /// The points that matter near a proposal.
-    fn focus(&self, shape: Shape<'_>, known: &SharpProposal) -> Result<Focus, Obstacle> {
+    pub(super) fn focus(&self, shape: Shape<'_>, known: &SharpProposal) -> Result<Focus, Obstacle> {
         let model = self.model(shape, &Density::Coarse);
         let estimates = (self.sampler)(shape, &Density::Coarse);
         let near = |model: &FloatModel| at_sigma(model, &known.parameters, known.sigma * (1.0 + NEAR), NEAR);
@@ -552,7 +393,7 @@ impl CoordinateSearch<'_> {
     }
 
     /// The choice with a P of existence of its own, where that is worth it.
-    fn with_second(&self, single: Chosen) -> Chosen {
+    pub(super) fn with_second(&self, single: Chosen) -> Chosen {
         if !(2..=MOST_STATES).contains(&single.l.nrows()) {
             return single;
         }
@@ -587,7 +428,7 @@ impl CoordinateSearch<'_> {
 }
 
 /// The same P for both.
-fn alone(l: &DMatrix<f64>) -> Shape<'_> {
+pub(super) fn alone(l: &DMatrix<f64>) -> Shape<'_> {
     Shape { l, second: None, energy: None }
 }
 

@@ -5,7 +5,9 @@
 //! what a certificate says of a plant. A [`Subject`] is either of both, and [`Prepared`] goes the whole way with it: by a search,
 //! or with the [`Witness`] of a certificate.
 
+mod by_matrix;
 mod coordinates;
+mod energy;
 mod entries;
 mod grid;
 mod reduce;

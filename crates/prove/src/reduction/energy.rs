@@ -1,0 +1,71 @@
+//! A matrix inequality of existence (derivation, 13.7, (E)) in a search for coordinates: whether one helps, and which.
+
+use super::coordinates::{CoordinateSearch, Density, NEAR, Shape, Start, Varied};
+use crate::search::{PeriodicSet, SharpParameters};
+use sigmastar_plants::bounds::EnergyWeights;
+use sigmastar_theory::derivation::harmonics::AtOrigin;
+
+/// The shares of a gain at which the threshold of an inequality of existence is tried, first and later.
+pub(super) const FIRST_THRESHOLDS: [f64; 4] = [0.15, 0.3, 0.6, 0.9];
+pub(super) const THRESHOLDS: [f64; 3] = [0.6, 0.8, 1.0];
+
+/// By what share it has to make the periodic solution smaller.
+const WORTH_AN_ENERGY: f64 = 0.05;
+
+/// A gain that is so many times that without an inequality is none.
+const FAR: f64 = 1.3;
+
+/// A least set with a periodic solution, and the points that were looked at.
+struct SampledSet {
+    set: PeriodicSet,
+    density: Density,
+}
+
+impl CoordinateSearch<'_> {
+    /// Whether a matrix inequality of existence makes the periodic solution that is proved smaller by a share that matters.
+    pub(super) fn energy_helps(&self, at: &Start) -> bool {
+        let Some(sampled) = self.sampled(at) else { return false };
+        let SampledSet { set, density } = &sampled;
+        let Some(energy) = self.energy(at, &sampled, 1.0) else { return false };
+        let model = self.model(Shape { energy: Some(&energy), ..at.shape() }, density);
+        let sigma = at.proposal.sigma * (1.0 + NEAR);
+        let smaller = PeriodicSet::least(
+            &model,
+            &AtOrigin::new(&model),
+            sigma,
+            (at.proposal.parameters.form, at.proposal.parameters.floors),
+            NEAR,
+        );
+        smaller.is_ok_and(|smaller| {
+            let sizes = |set: &PeriodicSet| [set.x_per, set.e_per, set.z];
+            sizes(set).into_iter().zip(sizes(&smaller)).any(|(size, smaller)| smaller < size * (1.0 - WORTH_AN_ENERGY))
+        })
+    }
+
+    /// The least set of a start.
+    fn sampled(&self, at: &Start) -> Option<SampledSet> {
+        let density = self.focus(at.shape(), &at.proposal).map_or(Density::Coarse, Density::Focused);
+        let model = self.model(at.shape(), &density);
+        let SharpParameters { form, floors, .. } = at.proposal.parameters;
+        let sigma = at.proposal.sigma * (1.0 + NEAR);
+        let set = PeriodicSet::least(&model, &AtOrigin::new(&model), sigma, (form, floors), NEAR).ok()?;
+        Some(SampledSet { set, density })
+    }
+
+    /// An inequality of existence on that set, with this share of the gain as its threshold.
+    fn energy(&self, at: &Start, SampledSet { set, density }: &SampledSet, share: f64) -> Option<EnergyWeights> {
+        ((self.sampler)(at.shape(), density).energy)([set.x_p, set.e_p], share * at.proposal.sigma)
+    }
+
+    /// The same with another matrix inequality of existence, where the gain is smaller with it after the shape of the error box has been
+    /// sought again.
+    pub(super) fn with_energy(&self, at: &Start, shares: &[f64]) -> Start {
+        let Some(sampled) = self.sampled(at) else { return at.clone() };
+        let with = |share: &f64| {
+            let energy = self.energy(at, &sampled, *share)?;
+            self.descend(&Start { energy: Some(energy), ..at.clone() }, Varied::Shape)
+        };
+        let least = shares.iter().filter_map(with).min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma));
+        least.filter(|found| found.proposal.sigma < at.proposal.sigma * FAR).unwrap_or_else(|| at.clone())
+    }
+}
