@@ -55,6 +55,16 @@ fn with_one_state() {
     }
 }
 
+/// A P(t) of stability has no part in it.
+#[test]
+fn with_a_p_of_stability_that_moves() {
+    let entry = |value: &str| vec![vec![rational(value)]];
+    let p = PeriodicMatrix { mean: entry("1"), harmonics: vec![[entry("0.2"), entry("0")]] };
+    let region = Region::new(entry("2"), at_rest(1), Rational::new()).unwrap();
+    let engine = Engine::new(&plant(&["x"], &["-2*x + 3*e/10"], "x/2 - e/4"), region, Some(p), None).unwrap();
+    holds_up_to(&engine, |c_y| inequality("1", "1", &[&["0.6"]], c_y), by_hand([-2.0, 0.15, 1.0, -0.25], 0.6));
+}
+
 /// dq/dx = x reaches 1/4 + X + r on the tube around cos(2 pi t)/4.
 #[test]
 fn on_the_whole_tube() {
