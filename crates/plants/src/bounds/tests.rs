@@ -1,7 +1,9 @@
 //! Decided bounds against samples, and the paper's plant.
 
 mod directions;
+mod existence;
 mod inequality;
+mod narrow;
 mod outside;
 mod random_points;
 mod splitting;
