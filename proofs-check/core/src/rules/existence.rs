@@ -19,7 +19,6 @@
 //! Strictness matters in all five. b_q_rms and b_qt_rms are of q itself and say nothing for l < 1: they are not used.
 
 use super::inequality::{number, symmetric};
-use super::mean_squares::Bounds;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Field;
@@ -99,33 +98,31 @@ impl Existence {
         ]
     }
 
-    /// E3, S1, and what stands in the place of S1b to S2c; `means` and `sup_e` are what is known of a solution at r.
+    /// E3, S1, and what stands in the place of S1b to S2c; `sides` are what is known of a solution at r and what has to be above it: of
+    /// sup|x|, rms(x), sup|e|, rms(e), rms(e').
     pub fn conditions(
         &self,
-        bounds: &Bounds<'_>,
-        [r, means]: [&[Interval; 3]; 2],
-        sup_e: &Interval,
+        d: &Data<'_>,
         sigma: &Rational,
+        contracts: Condition,
+        sides: [[&Interval; 2]; 5],
         with_kap: bool,
     ) -> Vec<Condition> {
-        let [x_p, e_p] = [&bounds.x_p, &bounds.e_p];
-        let ([r_x, r_e, r_d], [rms_x, rms_e, rms_e_t]) = (r, means);
-        let [threshold, gain] = [&self.threshold, sigma].map(|value| bounds.d.number(value));
-        let mut conditions = vec![
-            Condition::less("E3", "threshold of the existence inequality < sigma", threshold, gain),
-            bounds.contracts(),
-        ];
+        let [threshold, gain] = [&self.threshold, sigma].map(|value| d.number(value));
+        let mut conditions =
+            vec![Condition::less("E3", "threshold of the existence inequality < sigma", threshold, gain), contracts];
         let [damped, damped_t] = if with_kap { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
         let of_e = "k_p Q_m/(2 sqrt(2 (sigma - threshold) c_y))";
-        let of_e = format!("min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, {of_e}}} < r_e");
         let strictly = [
-            ("S1b", "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} < X_p".to_owned(), &bounds.sup_x_in_box(r_e), x_p),
-            ("S1c", "min{(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))} < r_x".to_owned(), rms_x, r_x),
-            ("S2", "min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y} < E_p".to_owned(), sup_e, e_p),
-            ("S2b", of_e, rms_e, r_e),
-            ("S2c", format!("min{{R_q, R_1/sg, {damped_t}r_y}} < r_d"), rms_e_t, r_d),
+            ("S1b", "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} < X_p".to_owned()),
+            ("S1c", "min{(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))} < r_x".to_owned()),
+            ("S2", "min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y} < E_p".to_owned()),
+            ("S2b", format!("min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, {of_e}}} < r_e")),
+            ("S2c", format!("min{{R_q, R_1/sg, {damped_t}r_y}} < r_d")),
         ];
-        conditions.extend(strictly.map(|(id, what, lhs, rhs)| Condition::less(id, what, lhs.clone(), rhs.clone())));
+        let pairs = strictly.into_iter().zip(sides);
+        conditions
+            .extend(pairs.map(|((id, what), [lhs, rhs])| Condition::less(id, what, (*lhs).clone(), (*rhs).clone())));
         conditions
     }
 }

@@ -63,9 +63,9 @@ pub struct Solution {
 /// The bounding functions at (X_p, E_p), b_fx at (X_p, 0), and the gains at sigma. What is not given is undefined, and the least
 /// of several bounds leaves it out (docs/mathematics.md, section 11.3). Those that do not name sigma serve every regulator.
 pub struct Bounds<'a> {
-    pub(super) d: &'a Data<'a>,
-    pub(super) x_p: Interval,
-    pub(super) e_p: Interval,
+    d: &'a Data<'a>,
+    x_p: Interval,
+    e_p: Interval,
     /// a_1.
     rate: Interval,
     f_x: Interval,
@@ -206,12 +206,12 @@ impl<'a> Bounds<'a> {
     }
 
     /// S1 alone.
-    pub(super) fn contracts(&self) -> Condition {
+    fn contracts(&self) -> Condition {
         Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone())
     }
 
     /// A bound of sup|x|, from sup|e| <= E_p and rms(e) <= r_e.
-    pub(super) fn sup_x_in_box(&self, r_e: &Interval) -> Interval {
+    fn sup_x_in_box(&self, r_e: &Interval) -> Interval {
         (&self.x_gain * &self.e_p).min(&(&self.from_rms * r_e))
     }
 
@@ -368,7 +368,10 @@ pub fn evaluate(
         Some(inequality) => {
             let follows = bounds.at(&r, answer);
             let means = bounds.means(&r, &follows, damping, answer);
-            inequality.conditions(&bounds, [&r, &means], &follows.sup_e, sigma, with_kap)
+            let ([r_x, r_e, r_d], [rms_x, rms_e, rms_e_t]) = (&r, &means);
+            let sup_x = bounds.sup_x_in_box(r_e);
+            let sides = [[&sup_x, x_p], [rms_x, r_x], [&follows.sup_e, e_p], [rms_e, r_e], [rms_e_t, r_d]];
+            inequality.conditions(d, sigma, bounds.contracts(), sides, with_kap)
         }
         None => [bounds.of_states(&r), bounds.of_error(&r, damping)].concat(),
     };
