@@ -193,7 +193,7 @@ impl FloatSuprema {
     fn error(&self, [i, _, k]: Place, e: f64) -> f64 {
         match (ERRORS.get(k), &self.narrow) {
             (Some(share), _) => share * e,
-            (None, Some(narrow)) => narrow[i][k - ERRORS.len()].clamp(-e, e),
+            (None, Some(narrow)) => narrow[i][k - ERRORS.len()].max(-e).min(e),
             (None, None) => 0.0,
         }
     }
