@@ -7,7 +7,8 @@ use sigmastar_document::number::exact;
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
-use sigmastar_lang::spec::{ExistenceInequality, MatrixInequality, OfPlant, ProvedValue, Specification, Splitting};
+use sigmastar_lang::spec::{ExistenceInequality, JointStability, MatrixInequality, OfPlant, ProvedValue, Specification, Splitting};
+use sigmastar_prove::certificate::{joint_existence_json, joint_stability_json};
 use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -42,10 +43,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     }
     blocks.push(Block::Table(table));
     blocks.extend(spec.bounds.proved_values().inequality().map(|inequality| {
-        let where_ = inequality.arguments().map(|ends| {
-            let [x, e] = ends.map(|end| exact(end, Direction::Down));
-            if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") }
-        });
+        let where_ = inequality.arguments().map(|ends| place(spec, ends));
         let [states, error] = &where_;
         let place = match inequality.splitting {
             None => format!("at every point of {states}"),
@@ -59,8 +57,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     }));
     blocks.extend(spec.bounds.proved_values().existence().map(|existence| {
         let ExistenceInequality { x, e, k_p, c_y, value, .. } = existence;
-        let [x, e] = [x, e].map(|end| exact(end, Direction::Down));
-        let place = if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") };
+        let place = place(spec, [x, e]);
         Block::says(format!(
             "Existence rests on the matrix inequality (E) over the derivatives (section 13.7), which holds from sigma = {} on, at \
              every point of {place} and every t: along the periodic solution the root mean square of q + mu s is at most {} times \
@@ -69,7 +66,34 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             exact(&Rational::from(k_p / c_y), Direction::Up)
         ))
     }));
+    let joint = spec.bounds.proved_values().joint_existence();
+    blocks.extend(joint.map(|joint| {
+        let most = joint.metrics().map(|metric| Rational::from(&metric.k_p / &metric.c_y)).into_iter().max();
+        Block::says(format!(
+            "Existence rests on the joint inequality (Jm) over the derivatives (section 13.7), whose two metrics of (y, e) serve \
+             from sigma = {} on, at every point of {} and every t: along the periodic solution the root mean square of q + mu s is \
+             at most {} times that of q(t,0,0) without its mean.",
+            exact(&joint.value, Direction::Up),
+            place(spec, [&joint.x, &joint.e]),
+            exact(&most.unwrap_or_default(), Direction::Up)
+        ))
+    }));
+    let joint = spec.bounds.proved_values().joint_stability();
+    blocks.extend(joint.map(|JointStability { inequality, .. }| {
+        Block::says(format!(
+            "Stability rests on the joint inequality (Jm) over the derivatives (section 13.7), whose two metrics of (y, e) serve \
+             from sigma = {} on, at every point of {} and every t.",
+            exact(&inequality.value, Direction::Up),
+            place(spec, [&inequality.x, &inequality.e])
+        ))
+    }));
     blocks
+}
+
+/// The points up to these arguments.
+fn place(spec: &Specification, ends: [&Rational; 2]) -> String {
+    let [x, e] = ends.map(|end| exact(end, Direction::Down));
+    if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") }
 }
 
 fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {
@@ -174,6 +198,7 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
                 "X": write_exact(x), "E": write_exact(e), "P": rows(matrix), "k_p": write_exact(k_p),
                 "c_x": write_exact(c_x), "c_y": write_exact(c_y), "sigma": write_exact(value),
             })
-        }),
+        }).or_else(|| spec.bounds.proved_values().joint_existence().map(joint_existence_json)),
+        "joint_inequality": spec.bounds.proved_values().joint_stability().map(joint_stability_json),
     })
 }

@@ -62,7 +62,11 @@ pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
 /// What the claim rests on: derivation, assumptions about the plant, the transfer constants.
 pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
     let by_matrix = run.sharp.attempt().is_some_and(|proof| proof.evaluation.by_matrix.is_some());
-    let of_stability = if by_matrix { ", and (M) of 13.7 in the place of C5" } else { "" };
+    let of_stability = match (by_matrix, run.spec.bounds.proved_values().joint_stability()) {
+        (_, Some(_)) => ", and (Jm) of 13.7 in the place of C4 and C5",
+        (true, None) => ", and (M) of 13.7 in the place of C5",
+        (false, None) => "",
+    };
     let derivation = format!("Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics{of_stability}).");
     let mut items = vec![derivation];
     let further = run.exact_arguments().filter(|_| run.largest_arguments().is_some());

@@ -238,8 +238,12 @@ fn of_data() -> Vec<Field> {
     let about = "With it (J, r) and (g, d) are taken at two points.";
     let inequality = inequality.into_iter().chain([may("splitting", "Splitting", about, splitting)]).collect();
     let mut existence: Vec<Field> = numbers(&["X", "E"], "An argument.").into_iter().collect();
-    existence.push(must("P", "P", "A symmetric matrix for y, by rows.", matrix()));
-    existence.extend(numbers(&["k_p", "c_x", "c_y", "sigma"], "A weight, a margin, or the threshold."));
+    existence.push(may("P", "P", "A symmetric matrix for y, by rows.", matrix()));
+    existence.extend(["k_p", "c_x", "c_y"].map(|name| may(name, name, "A weight, or a margin.", rational())));
+    existence.push(must("sigma", "sigma", "The threshold.", rational()));
+    existence.extend(metrics(false).map(|(name, about, shape)| may(name, name, about, shape)));
+    let mut joint: Vec<Field> = numbers(&["X", "E", "sigma"], "An argument, or the threshold.").into_iter().collect();
+    joint.extend(metrics(true).map(|(name, about, shape)| must(name, name, about, shape)));
     vec![
         may("lyapunov", "Lyapunov triple", "P(t) and the triple of stability, proved.", triple()),
         may("lyapunov_existence", "Second triple", "That of the existence of the periodic solution.", triple()),
@@ -261,10 +265,38 @@ fn of_data() -> Vec<Field> {
         may(
             "existence_inequality",
             "Matrix inequality of existence",
-            "What bounds the periodic solution beside the gains of loops, proved from the formulas.",
+            "What bounds the periodic solution beside the gains of loops, proved from the formulas: with P, k_p, c_x, c_y, or with metrics.",
             named("existence_inequality", Shape::Object(existence)),
         ),
+        may(
+            "joint_inequality",
+            "Joint inequality",
+            "That of stability in the place of C4 and C5, with metrics of (y, e), proved from the formulas.",
+            named("joint_inequality", Shape::Object(joint)),
+        ),
     ]
+}
+
+/// The near and the far metric of a joint inequality; with levels those of stability.
+fn metrics(with_levels: bool) -> [(&'static str, &'static str, Shape); 2] {
+    let metric = |is_near: bool| {
+        let mut fields = vec![must("P", "P", "A symmetric matrix for y, by rows.", named("matrix", any_list(any_list(rational()))))];
+        if is_near {
+            fields.push(must("p", "p", "What joins y and e, an entry for each state.", any_list(rational())));
+        }
+        fields.extend(numbers(&["w", "k_p", "c_x", "c_e", "c_y"], "A weight, or a margin."));
+        if with_levels {
+            fields.extend(numbers(&["P_up", "x_low", "e_low"], "What the metric is between."));
+        }
+        let name = match (is_near, with_levels) {
+            (true, true) => "near_level",
+            (true, false) => "near",
+            (false, true) => "far_level",
+            (false, false) => "far",
+        };
+        named(name, Shape::Object(fields))
+    };
+    [("near", "The metric at the threshold.", metric(true)), ("far", "That of the largest gains.", metric(false))]
 }
 
 fn interval() -> Shape {

@@ -16,6 +16,7 @@ mod error;
 mod existence_inequality;
 mod initial_set;
 mod jacobian;
+mod joint_inequality;
 mod json;
 mod limits;
 mod matrix_inequality;
@@ -46,6 +47,7 @@ pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};
 pub use existence_inequality::ExistenceInequality;
 pub use initial_set::read_with_ball;
 pub use jacobian::MAX_STATES;
+pub use joint_inequality::{JointInequality, JointStability, Level, Metric};
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use matrix_inequality::{MatrixInequality, Splitting};
 pub use model::{

@@ -2,6 +2,7 @@
 
 use super::bound::Bound;
 use super::existence_inequality::ExistenceInequality;
+use super::joint_inequality::{JointInequality, JointStability};
 use super::matrix_inequality::MatrixInequality;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -34,13 +35,15 @@ pub struct ProvedValues {
     entries: Vec<ProvedValue>,
     inequality: Option<MatrixInequality>,
     existence: Option<ExistenceInequality>,
+    joint_existence: Option<JointInequality>,
+    joint_stability: Option<JointStability>,
 }
 
 impl ProvedValues {
     /// The values, each of which is proved.
     #[must_use]
     pub fn new(entries: Vec<ProvedValue>) -> ProvedValues {
-        ProvedValues { entries, inequality: None, existence: None }
+        ProvedValues { entries, ..ProvedValues::default() }
     }
 
     /// The same with a matrix inequality, which is proved.
@@ -53,6 +56,37 @@ impl ProvedValues {
     #[must_use]
     pub fn with_existence(self, existence: Option<ExistenceInequality>) -> ProvedValues {
         ProvedValues { existence, ..self }
+    }
+
+    /// The same with a joint inequality of existence, which is proved.
+    #[must_use]
+    pub fn with_joint_existence(self, joint_existence: Option<JointInequality>) -> ProvedValues {
+        ProvedValues { joint_existence, ..self }
+    }
+
+    /// The same with a joint inequality of stability, which is proved.
+    #[must_use]
+    pub fn with_joint_stability(self, joint_stability: Option<JointStability>) -> ProvedValues {
+        ProvedValues { joint_stability, ..self }
+    }
+
+    /// The joint inequality of existence, where there is one.
+    #[must_use]
+    pub fn joint_existence(&self) -> Option<&JointInequality> {
+        self.joint_existence.as_ref()
+    }
+
+    /// The joint inequality of stability, where there is one.
+    #[must_use]
+    pub fn joint_stability(&self) -> Option<&JointStability> {
+        self.joint_stability.as_ref()
+    }
+
+    /// Whether there is any inequality over the derivatives.
+    #[must_use]
+    pub fn has_inequality(&self) -> bool {
+        let of_stability = self.inequality.is_some() || self.joint_stability.is_some();
+        of_stability || self.existence.is_some() || self.joint_existence.is_some()
     }
 
     /// The matrix inequality of existence, where there is one.
@@ -97,7 +131,10 @@ impl ProvedValues {
     pub fn reach(&self) -> Option<[Rational; 2]> {
         let of_inequality = self.inequality.iter().flat_map(MatrixInequality::arguments);
         let of_existence = self.existence.iter().map(|existence| [&existence.x, &existence.e]);
-        let all = self.entries.iter().map(|entry| [&entry.x, &entry.e]).chain(of_inequality).chain(of_existence);
+        let stability = self.joint_stability.iter().map(|joint| &joint.inequality);
+        let of_joint = self.joint_existence.iter().chain(stability).map(|joint| [&joint.x, &joint.e]);
+        let of_entries = self.entries.iter().map(|entry| [&entry.x, &entry.e]);
+        let all = of_entries.chain(of_inequality).chain(of_existence).chain(of_joint);
         let larger = |[x, e]: [_; 2], [other_x, other_e]: [_; 2]| [Ord::max(x, other_x), Ord::max(e, other_e)];
         all.reduce(larger).map(|largest| largest.map(Clone::clone))
     }

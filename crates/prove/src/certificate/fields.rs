@@ -16,8 +16,8 @@ use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::transfer::TransferProof;
 
 /// The fields of a witness that only a certificate of a plant has.
-pub(super) const PLANT_FIELDS: [&str; 6] =
-    ["coordinates", "orbit", "forcing", "bounds", INEQUALITY, EXISTENCE_INEQUALITY];
+pub(super) const PLANT_FIELDS: [&str; 7] =
+    ["coordinates", "orbit", "forcing", "bounds", INEQUALITY, EXISTENCE_INEQUALITY, JOINT_INEQUALITY];
 
 /// The field of the matrix inequality of a plant; its weights are those of the witness.
 pub(super) const INEQUALITY: &str = "matrix_inequality";
@@ -26,6 +26,9 @@ pub(super) const SPLITTING: &str = "splitting";
 
 /// The field of the matrix inequality of existence.
 pub(super) const EXISTENCE_INEQUALITY: &str = "existence_inequality";
+
+/// The field of the joint inequality of stability; that of existence has the name of the other one.
+pub(super) const JOINT_INEQUALITY: &str = "joint_inequality";
 
 /// A part of a certificate that consists of exact rational numbers, each with a name.
 pub trait NumberFields: Sized {

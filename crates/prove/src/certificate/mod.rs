@@ -3,6 +3,7 @@
 mod fields;
 mod of_plant;
 mod read;
+mod read_joint;
 mod read_plant;
 mod read_sampled;
 mod run;
@@ -12,7 +13,7 @@ mod triple;
 mod write;
 
 pub use fields::{NumberFields, RefinedSquares, set_fields};
-pub use of_plant::plant_parts;
+pub use of_plant::{joint_existence_json, joint_stability_json, plant_parts};
 pub use read::{read_lyapunov, read_witness};
 pub use read_plant::read_plant_witness;
 pub use read_sampled::{is_sampled, read_sampled_witness};

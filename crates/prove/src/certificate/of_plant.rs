@@ -1,12 +1,12 @@
 //! What a certificate of a plant adds to the witness (derivation, 11).
 
-use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, SPLITTING};
+use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SPLITTING};
 use super::triple::rows;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{
-    ExistenceInequality, MatrixInequality, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, Splitting,
+    ExistenceInequality, JointInequality, JointStability, Level, MatrixInequality, Metric, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, Splitting,
 };
 
 fn exact(value: &Rational) -> Value {
@@ -36,7 +36,39 @@ pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     ];
     parts.extend(values.inequality().map(|inequality| (INEQUALITY, inequality_json(inequality))));
     parts.extend(values.existence().map(|existence| (EXISTENCE_INEQUALITY, existence_json(existence))));
+    parts.extend(values.joint_stability().map(|joint| (JOINT_INEQUALITY, joint_stability_json(joint))));
+    parts.extend(values.joint_existence().map(|joint| (EXISTENCE_INEQUALITY, joint_existence_json(joint))));
     parts
+}
+
+/// The joint inequality of existence, by its fields.
+#[must_use]
+pub fn joint_existence_json(joint: &JointInequality) -> Value {
+    joint_json(joint, [None; 2])
+}
+
+/// That of stability.
+#[must_use]
+pub fn joint_stability_json(JointStability { inequality, levels: [near, far] }: &JointStability) -> Value {
+    joint_json(inequality, [Some(near), Some(far)])
+}
+
+/// The near metric has a p; the far one has none.
+fn joint_json(JointInequality { x, e, value, near, far }: &JointInequality, levels: [Option<&Level>; 2]) -> Value {
+    let metric = |metric: &Metric, is_near: bool, level: Option<&Level>| {
+        let Metric { matrix, cross, weight, k_p, c_x, c_e, c_y } = metric;
+        let numbers = [("w", weight), ("k_p", k_p), ("c_x", c_x), ("c_e", c_e), ("c_y", c_y)];
+        let level = level.into_iter().flat_map(|Level { p_up, x_low, e_low }| {
+            [("P_up", exact(p_up)), ("x_low", exact(x_low)), ("e_low", exact(e_low))]
+        });
+        let cross = is_near.then(|| ("p", vector(cross)));
+        let numbers = numbers.map(|(name, value)| (name, exact(value)));
+        object([("P", rows(matrix))].into_iter().chain(cross).chain(numbers).chain(level))
+    };
+    let numbers = [("X", x), ("E", e), ("sigma", value)].map(|(name, value)| (name, exact(value)));
+    let [of_near, of_far] = levels;
+    let metrics = [("near", metric(near, true, of_near)), ("far", metric(far, false, of_far))];
+    object(numbers.into_iter().chain(metrics))
 }
 
 fn existence_json(ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value }: &ExistenceInequality) -> Value {

@@ -210,3 +210,13 @@ fn read_numbers<N: NumberFields>(
     fields.finish(errors);
     numbers
 }
+
+/// Numbers, one for each state.
+pub(super) fn vector(value: &Value<'_>, length: usize, errors: &mut Errors) -> Result<Vec<Rational>, Reported> {
+    let elements = value.array(errors)?;
+    if elements.len() != length {
+        let message = format!("{} numbers for {length} states", elements.len());
+        return Err(errors.report(value.error(ErrorKind::Range, message)));
+    }
+    elements.iter().map(|element| exact_rational(element, "a coefficient", errors)).collect()
+}

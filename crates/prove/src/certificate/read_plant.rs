@@ -1,9 +1,9 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
-use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, SPLITTING, exact_rational, rational};
-use super::read::{read_rows, read_triple};
+use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SPLITTING, rational};
+use super::read_joint::{read_joint, read_joint_stability};
+use super::read::{read_rows, read_triple, vector};
 use super::triple::{EXISTENCE, STABILITY};
-use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
@@ -50,7 +50,13 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
     let forcing = witness.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
     let values = witness.required("bounds", errors).and_then(|value| read_values(&value, errors));
     let inequality = witness.optional(INEQUALITY).map(|value| read_inequality(&value, witness, errors));
-    let of_existence = witness.optional(EXISTENCE_INEQUALITY).map(|value| read_existence(&value, errors));
+    let of_existence = witness.optional(EXISTENCE_INEQUALITY);
+    // The joint form has metrics.
+    let is_joint = of_existence.as_ref().is_some_and(|value| value.member("near").is_some());
+    let (joint, single) = if is_joint { (of_existence, None) } else { (None, of_existence) };
+    let single = single.map(|value| read_existence(&value, errors));
+    let joint = joint.map(|value| read_joint(&value, n, errors));
+    let of_joint = witness.optional(JOINT_INEQUALITY).map(|value| read_joint_stability(&value, n, errors));
     let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose();
     let parts = |ProvedTriple { matrix, p_low, p_up, alpha }: ProvedTriple| {
         let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));
@@ -67,7 +73,8 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
         domain: plant.domain.clone(),
         ball: plant.ball.clone(),
     };
-    let values = values?.with_inequality(inequality.transpose()?).with_existence(of_existence.transpose()?);
+    let values = values?.with_inequality(inequality.transpose()?).with_existence(single.transpose()?);
+    let values = values.with_joint_existence(joint.transpose()?).with_joint_stability(of_joint.transpose()?);
     Ok((of_plant, values))
 }
 
@@ -100,15 +107,6 @@ fn read_splitting(value: &Value<'_>, errors: &mut Errors) -> Result<Splitting, R
     let matrix = fields.required("S", errors).and_then(|value| read_rows(&value, "an entry of S", errors));
     fields.finish(errors);
     Ok(Splitting { x: x?, e: e?, matrix: matrix? })
-}
-
-fn vector(value: &Value<'_>, length: usize, errors: &mut Errors) -> Result<Vec<Rational>, Reported> {
-    let elements = value.array(errors)?;
-    if elements.len() != length {
-        let message = format!("{} numbers for {length} states", elements.len());
-        return Err(errors.report(value.error(ErrorKind::Range, message)));
-    }
-    elements.iter().map(|element| exact_rational(element, "a coefficient", errors)).collect()
 }
 
 fn read_orbit(value: &Value<'_>, n: usize, errors: &mut Errors) -> Result<ProvedOrbit, Reported> {

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{
-    Bound, Constant, ExistenceInequality, MatrixInequality, ProvedValue, ProvedValues, Splitting,
+    Bound, Constant, ExistenceInequality, JointInequality, MatrixInequality, ProvedValue, ProvedValues, Splitting,
 };
 use sigmastar_plants::bounds::{EnergyWeights, Engine, Entry, FloatSuprema, TABLE};
 use sigmastar_theory::derivation::paths::{Path, Paths};
@@ -38,6 +38,8 @@ pub struct Needed {
     inequality: Option<MatrixInequality>,
     /// That of existence without c_y.
     existence: Option<ExistenceInequality>,
+    /// Whether a joint inequality proves stability.
+    by_joint: bool,
 }
 
 /// Those of a candidate, enlarged by a share; sigma is the gain that is aimed at.
@@ -77,7 +79,7 @@ pub(super) fn needed(
             let splitting = known.splitting.as_ref().map(|known| split(at.paths.common(), &known.matrix));
             Some(MatrixInequality { x: x_b.clone(), e: e_b.clone(), splitting, ..known.as_ref().clone() })
         }
-        None => None,
+        Some(ByMatrix::Joint(_)) | None => None,
     };
     let (x_p, e_p) = (up(set.x_p)?, up(set.e_p)?);
     let existence = match &model.by_energy {
@@ -86,9 +88,10 @@ pub(super) fn needed(
         Some(ByEnergy::Proved(known)) => {
             Some(ExistenceInequality { x: x_p.clone(), e: e_p.clone(), ..known.as_ref().clone() })
         }
-        None => None,
+        Some(ByEnergy::Joint(_)) | None => None,
     };
-    Some(Needed { x_p, e_p, x_per, e_per, x_b, e_b, paths: at.paths, second, inequality, existence })
+    let by_joint = matches!(model.by_matrix, Some(ByMatrix::Joint(_)));
+    Some(Needed { x_p, e_p, x_per, e_per, x_b, e_b, paths: at.paths, second, inequality, existence, by_joint })
 }
 
 /// The inequality of existence with short numbers, without c_y.
@@ -155,7 +158,7 @@ pub(super) fn prove_all(
         Some(wanted) => Some(engine.prove_existence(suprema, wanted).ok_or_else(|| existence_not_proved(wanted))?),
     };
     let asked = needed.list().into_iter().map(|entry| (entry, true));
-    let beside = needed.of_error_box().into_iter().map(|entry| (entry, inequality.is_none()));
+    let beside = needed.of_error_box().into_iter().map(|entry| (entry, inequality.is_none() && !needed.by_joint));
     let proofs: Vec<(Result<ProvedValue, PlantRefusal>, bool)> = asked
         .chain(beside)
         .collect::<Vec<_>>()
@@ -191,6 +194,10 @@ fn not_proved(MatrixInequality { x, e, .. }: &MatrixInequality) -> PlantRefusal 
     PlantRefusal::NotProved { bound: "stability", at: [x.to_f64(), e.to_f64()] }
 }
 
+fn joint_not_proved(bound: &'static str, JointInequality { x, e, .. }: &JointInequality) -> PlantRefusal {
+    PlantRefusal::NotProved { bound, at: [x.to_f64(), e.to_f64()] }
+}
+
 fn existence_not_proved(ExistenceInequality { x, e, .. }: &ExistenceInequality) -> PlantRefusal {
     PlantRefusal::NotProved { bound: "existence", at: [x.to_f64(), e.to_f64()] }
 }
@@ -221,6 +228,16 @@ pub(super) fn decide_all(engine: &Engine, values: &ProvedValues, mu: &Constant) 
         && !engine.decide_existence(existence, EFFORT).truth.is_true()
     {
         return Err(existence_not_proved(existence));
+    }
+    if let Some(joint) = values.joint_stability()
+        && !engine.decide_joint_stability(joint, EFFORT).truth.is_true()
+    {
+        return Err(joint_not_proved("joint stability", &joint.inequality));
+    }
+    if let Some(joint) = values.joint_existence()
+        && !engine.decide_joint(joint, EFFORT).truth.is_true()
+    {
+        return Err(joint_not_proved("joint existence", joint));
     }
     values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value, .. }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };

@@ -10,6 +10,7 @@ mod coordinates;
 mod energy;
 mod entries;
 mod grid;
+mod joint;
 mod reduce;
 mod refusal;
 mod run;

@@ -2,6 +2,7 @@
 
 use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, energy_in};
 use super::entries::{Needed, decide_all, needed, prove_all};
+use super::joint::with_joint_metrics;
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::specification::specification;
@@ -98,11 +99,11 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
         match by_matrix {
             Some(found) if found.proposal.sigma < chosen.proposal.sigma => Ok(found),
             // What norms prove is above the samples.
-            Some(found) => Ok(prove_bounds(&along, sampling, &chosen)
+            Some(found) => Ok(by_norms(&along, sampling, &chosen)
                 .ok()
                 .filter(|other| other.proposal.sigma < found.proposal.sigma)
                 .unwrap_or(found)),
-            None => prove_bounds(&along, sampling, &chosen),
+            None => by_norms(&along, sampling, &chosen),
         }
     })
 }
@@ -112,7 +113,12 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce_by_norms(plant: &Plant) -> Result<Reduced, PlantRefusal> {
-    with_coordinates(plant, prove_bounds)
+    with_coordinates(plant, by_norms)
+}
+
+/// The data of a choice, proved.
+fn by_norms(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
+    prove_bounds(&Proofs::new(along, sampling)?, chosen)
 }
 
 /// Finds and proves the orbit, chooses the coordinates by norms, and goes on from there.
@@ -197,7 +203,9 @@ impl FoundByMatrix {
     /// The data of it, proved, and what norms and an aligned start would give beside.
     fn proved(&self, sampling: &Sampling<'_>, by_norms: f64) -> Result<Reduced, PlantRefusal> {
         let FoundByMatrix { along, chosen, path } = self;
-        let proved = prove_bounds(along, sampling, chosen)?;
+        let proofs = Proofs::new(along, sampling)?;
+        let proved = prove_bounds(&proofs, chosen)?;
+        let proved = with_joint_metrics(&proofs, &chosen.model, &chosen.proposal, proved);
         let aligned = aligned(sampling, chosen, *path);
         Ok(Reduced { alternatives: Alternatives { by_norms: Some(by_norms), aligned }, ..proved })
     }
@@ -435,9 +443,7 @@ pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, Float
 }
 
 /// Proves the bounds at the arguments of a proposal, looks for the best proposal with them, and once more near its arguments.
-fn prove_bounds(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
-    let plant = sampling.plant;
-    let proofs = Proofs { plant, along, engine: along.engine(plant)?, suprema: along.suprema(sampling) };
+fn prove_bounds(proofs: &Proofs<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
     let (model, proposal) = (&chosen.model, &chosen.proposal);
     let (mut best, mut closest): (Option<(FloatModel, Reduced)>, _) = (None, Closest::default());
     for (above, enlarged) in FURTHER {
@@ -471,14 +477,42 @@ fn smaller(found: &Reduced, best: Option<&(FloatModel, Reduced)>) -> bool {
 }
 
 /// What proves bounds of a plant at arguments.
-struct Proofs<'a> {
+pub(super) struct Proofs<'a> {
     plant: &'a Plant,
     along: &'a Along,
-    engine: Engine,
-    suprema: FloatSuprema,
+    pub(super) engine: Engine,
+    pub(super) suprema: FloatSuprema,
 }
 
-impl Proofs<'_> {
+impl<'a> Proofs<'a> {
+    fn new(along: &'a Along, sampling: &'a Sampling<'_>) -> Result<Proofs<'a>, PlantRefusal> {
+        let plant = sampling.plant;
+        Ok(Proofs { plant, along, engine: along.engine(plant)?, suprema: along.suprema(sampling) })
+    }
+
+    pub(super) fn states(&self) -> usize {
+        self.plant.states()
+    }
+
+    /// Whether existence has a P of its own.
+    pub(super) fn has_second(&self) -> bool {
+        self.along.second().is_some()
+    }
+
+    /// The specification with the values that are needed, each proved, and as a model; `joint` is proved.
+    pub(super) fn with_needed(
+        &self,
+        needed: &Needed,
+        joint: impl FnOnce(ProvedValues) -> ProvedValues,
+    ) -> Result<(FloatModel, Specification), PlantRefusal> {
+        let [x, e] = needed.largest();
+        self.engine.smooth(&x, &e)?;
+        let values = prove_all(&self.engine, &self.suprema, needed, &self.plant.internal_model.mu)?;
+        let spec = self.along.specification(self.plant, joint(values))?;
+        let data = Data::new(&spec, PRECISION);
+        Ok((FloatModel::new(&data, trade_off(&data)), spec))
+    }
+
     /// The best proposal with the values proved at the arguments of a proposal, and these values as a model.
     fn with_values(
         &self,
@@ -488,12 +522,7 @@ impl Proofs<'_> {
         enlarged: f64,
     ) -> Result<Result<(FloatModel, Reduced), Obstacle>, PlantRefusal> {
         let at = arguments(model, proposal, above, enlarged, self.along.second().is_some())?;
-        let [x, e] = at.largest();
-        self.engine.smooth(&x, &e)?;
-        let values = prove_all(&self.engine, &self.suprema, &at, &self.plant.internal_model.mu)?;
-        let spec = self.along.specification(self.plant, values)?;
-        let data = Data::new(&spec, PRECISION);
-        let with_values = FloatModel::new(&data, trade_off(&data));
+        let (with_values, spec) = self.with_needed(&at, |values| values)?;
         Ok(search_sharp_near(&with_values, proposal)
             .map(|proposal| (with_values, Reduced { spec, proposal, alternatives: Alternatives::default() })))
     }

@@ -56,8 +56,7 @@ impl Witness {
         match (subject, &self.data) {
             (Subject::Plant(plant), WitnessData::OfPlant(parts)) => {
                 let (of_plant, values) = parts.as_ref().clone();
-                let has_inequality = values.inequality().is_some() || values.existence().is_some();
-                if matches!(self.numbers, FreeNumbers::Sampled(_)) && has_inequality {
+                if matches!(self.numbers, FreeNumbers::Sampled(_)) && values.has_inequality() {
                     let message = "a claim about the regulator at samples rests on no matrix inequality".to_owned();
                     let help = "leave `matrix_inequality` and `existence_inequality` out of the witness";
                     return Err(told(subject, "/f", message, help));

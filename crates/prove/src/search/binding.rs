@@ -16,6 +16,8 @@ pub enum Binding {
     Coupling,
     /// The matrix inequality that stands in the place of C5.
     MatrixInequality,
+    /// The joint metrics, of the periodic solution or of stability: at a smaller gain none were found.
+    JointMetrics,
 }
 
 impl Binding {
@@ -28,6 +30,7 @@ impl Binding {
             Binding::InternalModel => "C5: how far the state of the internal model starts from the periodic solution",
             Binding::Coupling => "C5: the loop through x in the error box, by df/de and dq/dx against the decay rate",
             Binding::MatrixInequality => "(M): the matrix inequality of stability in the error box",
+            Binding::JointMetrics => "(Jm): below it no metrics of the states and the error are found that serve",
         }
     }
 
@@ -54,7 +57,7 @@ impl Binding {
                 "A smaller initial set, in which f and q bend less, lowers it; so does less coupling between x and e, by a loop \
                  around x or by another output e."
             }
-            Binding::MatrixInequality => {
+            Binding::MatrixInequality | Binding::JointMetrics => {
                 "An aligned start or a smaller initial set, in which f and q bend less, lowers it; so do a mu and weights that \
                  fit the plant (`sigmastar tune`)."
             }
@@ -80,7 +83,7 @@ impl Binding {
                 "Smaller f_e or q_x, a larger alpha or a rate on the box, or coordinates of x in which they are, lower it."
             }
             // Only a plant's formulas have one.
-            Binding::MatrixInequality => self.of_plant(),
+            Binding::MatrixInequality | Binding::JointMetrics => self.of_plant(),
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::obstacle::Failing;
 use rug::Rational;
-use sigmastar_lang::spec::ExistenceInequality;
+use sigmastar_lang::spec::{ExistenceInequality, JointInequality};
 use sigmastar_plants::bounds::EnergyWeights;
-use sigmastar_theory::derivation::energy::{EnergyBounds, EnergyNumbers};
+use sigmastar_theory::derivation::energy::{EnergyBounds, EnergyNumbers, MetricNumbers};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use std::fmt;
 use std::sync::Arc;
@@ -30,6 +30,8 @@ pub enum ByEnergy {
     },
     /// One that is proved.
     Proved(Arc<ExistenceInequality>),
+    /// A joint one, which is proved or to be proved.
+    Joint(Arc<JointInequality>),
 }
 
 impl fmt::Debug for ByEnergy {
@@ -37,6 +39,7 @@ impl fmt::Debug for ByEnergy {
         f.write_str(match self {
             ByEnergy::Sampled { .. } => "a sampled inequality of existence",
             ByEnergy::Proved(_) => "a proved inequality of existence",
+            ByEnergy::Joint(_) => "a joint inequality of existence",
         })
     }
 }
@@ -52,7 +55,18 @@ impl ByEnergy {
         origin: &AtOrigin<f64>,
         sigma: f64,
     ) -> Result<EnergyBounds<f64>, Failing> {
+        let within = |x: &Rational, e: &Rational| x_p <= x.to_f64() * EDGE && e_p <= e.to_f64() * EDGE;
         let numbers = match self {
+            ByEnergy::Joint(joint) => {
+                if !within(&joint.x, &joint.e) {
+                    return Err(Failing::Bounds);
+                }
+                if sigma < joint.value.to_f64() {
+                    return Err(Failing::Existence);
+                }
+                let [near, far] = joint.metrics().map(|metric| MetricNumbers::of(metric, Rational::to_f64));
+                return Ok(EnergyBounds::of_metrics([&near, &far], origin));
+            }
             ByEnergy::Sampled { weights, margin } => {
                 let EnergyWeights { k_p, c_x, .. } = **weights;
                 let value = SHARE * sigma;
@@ -60,7 +74,7 @@ impl ByEnergy {
             }
             ByEnergy::Proved(known) => {
                 let ExistenceInequality { x, e, k_p, c_x, c_y, value, .. } = known.as_ref();
-                if x_p > x.to_f64() * EDGE || e_p > e.to_f64() * EDGE {
+                if !within(x, e) {
                     return Err(Failing::Bounds);
                 }
                 let [k_p, c_x, c_y, value] = [k_p, c_x, c_y, value].map(Rational::to_f64);

@@ -3,8 +3,11 @@
 use super::candidate::{AtSigma, active_level, weight_h};
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
-use super::threshold::ByMatrix;
+use super::threshold::{ByMatrix, EDGE};
+use rug::Rational;
 use sigmastar_plants::bounds::FloatWeights;
+use sigmastar_lang::spec::JointStability;
+use sigmastar_theory::derivation::joint;
 use sigmastar_theory::derivation::paths::{Path, Paths};
 
 /// Of the shape (rho, eta), or with the weights that are proved: the error box with the level condition active, and the threshold
@@ -17,6 +20,7 @@ pub(super) fn error_box_by_matrix(
     shape: (f64, f64),
 ) -> Result<AtSigma, Obstacle> {
     let (rho, eta) = match by_matrix {
+        ByMatrix::Joint(joint) => return joint_error_box(joint, model, (x_per, e_per), [dist_x, dist_e, dist_z]),
         ByMatrix::Sampled { .. } => shape,
         ByMatrix::Proved(inequality) => {
             // D_e^2 is the level, and w_x P_low D_x^2 = D_e^2.
@@ -46,4 +50,34 @@ pub(super) fn error_box_by_matrix(
         return Err(Failing::Curvature.at(at[0], at[1]));
     }
     Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(path), threshold })
+}
+
+/// What is kept between both members of C4, for rounding.
+const ROOM_OF_LEVEL: f64 = 1.0 - 1e-9;
+
+/// The error box of a joint inequality: as large as it is proved, with the shape that it has.
+fn joint_error_box(
+    joint: &JointStability,
+    model: &FloatModel,
+    (x_per, e_per): (f64, f64),
+    [dist_x, dist_e, dist_z]: [f64; 3],
+) -> Result<AtSigma, Obstacle> {
+    let JointStability { inequality, levels } = joint;
+    let [x_b, e_b] = [&inequality.x, &inequality.e].map(|end| end.to_f64() * EDGE);
+    model.contains([x_b, e_b])?;
+    let (d_x, d_e) = (x_b - x_per, e_b - e_per);
+    let (rho, level) = (d_x / (model.c * dist_x), d_e * d_e);
+    // h dZ^2 is what the level leaves beside e and x.
+    let eta = level * (1.0 - 1.0 / (rho * rho)) / (dist_e * dist_e) - 1.0;
+    let inside = |metric| {
+        let (start, exit) =
+            joint::level_condition(model, metric, Rational::to_f64, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e]);
+        start < exit * ROOM_OF_LEVEL
+    };
+    let metrics = inequality.metrics().into_iter().zip(levels);
+    if rho > 1.0 && eta > 0.0 && metrics.into_iter().all(inside) {
+        let threshold = inequality.value.to_f64();
+        return Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(Path::Straight), threshold });
+    }
+    Err(Failing::Bounds.at(x_b, e_b))
 }

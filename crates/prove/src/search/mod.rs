@@ -40,7 +40,7 @@ pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search
 pub use sampled::{SampledLimit, SampledProposal, SampledSearch, ScanPoint};
 pub use sharp::{
     SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near, sensitivities,
-    without_optional_data,
+    start_distances, without_optional_data,
 };
 pub use smaller_set::smaller_set;
 pub use threshold::{ByMatrix, Threshold};

@@ -179,12 +179,14 @@ impl FloatModel {
                 .collect(),
             rough: false,
             by_matrix: {
-                let inequality = spec.bounds.proved_values().inequality();
-                inequality.map(|inequality| ByMatrix::Proved(Arc::new(inequality.clone())))
+                let values = spec.bounds.proved_values();
+                let joint = values.joint_stability().map(|joint| ByMatrix::Joint(Arc::new(joint.clone())));
+                joint.or_else(|| values.inequality().map(|known| ByMatrix::Proved(Arc::new(known.clone()))))
             },
             by_energy: {
-                let inequality = spec.bounds.proved_values().existence();
-                inequality.map(|inequality| ByEnergy::Proved(Arc::new(inequality.clone())))
+                let values = spec.bounds.proved_values();
+                let joint = values.joint_existence().map(|joint| ByEnergy::Joint(Arc::new(joint.clone())));
+                joint.or_else(|| values.existence().map(|known| ByEnergy::Proved(Arc::new(known.clone()))))
             },
         }
     }
@@ -202,6 +204,12 @@ impl FloatModel {
                 ScaledBound { function, change: 0.0, given: true, signed: which.is_signed(), supremum: None };
         }
         FloatModel { bounds, ..self.clone() }
+    }
+
+    /// The same model with other inequalities over the derivatives.
+    #[must_use]
+    pub fn with_inequalities(&self, by_matrix: Option<ByMatrix>, by_energy: Option<ByEnergy>) -> FloatModel {
+        FloatModel { by_matrix, by_energy, ..self.clone() }
     }
 
     fn functions(&self) -> impl Iterator<Item = &FloatBound> {
@@ -231,7 +239,7 @@ impl FloatModel {
     ///
     /// # Errors
     /// The side on which it reaches out.
-    pub(super) fn contains(&self, [x, e]: [f64; 2]) -> Result<(), Obstacle> {
+    pub fn contains(&self, [x, e]: [f64; 2]) -> Result<(), Obstacle> {
         if x > self.domain.0 * INSIDE {
             return Err(Failing::DomainX.at(x, e));
         }

@@ -180,7 +180,7 @@ impl Iteration<'_> {
             (Ok(bounds), _) => Ok(Some(gains.clone().with_energy(Some(bounds)))),
             (Err(_), ByEnergy::Sampled { .. }) => Ok(None),
             // A claim with an inequality that is proved has to use it.
-            (Err(failing), ByEnergy::Proved(_)) => Err(failing.at(x_p, e_p)),
+            (Err(failing), ByEnergy::Proved(_) | ByEnergy::Joint(_)) => Err(failing.at(x_p, e_p)),
         }
     }
 

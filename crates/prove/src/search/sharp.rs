@@ -9,6 +9,7 @@ use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
 use super::root::crossing;
 use super::scan;
+use super::threshold::ByMatrix;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::initial_set::distances;
@@ -160,7 +161,8 @@ impl Search<'_> {
 }
 
 /// dX, dE, dZ of the required set from a periodic solution, kept away from 0: a larger distance only strengthens C4.
-pub(super) fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
+#[must_use]
+pub fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
     let start = model.required_set(set.x_p, set.e_p, set.z);
     let [x, e, z] = distances(model, &start, [&set.x_per, &set.e_per, &set.z]);
     let e = e.max(FLOOR * set.e_p);
@@ -276,6 +278,7 @@ fn proposal(search: &Search<'_>, sigma: f64) -> Result<SharpProposal, Obstacle> 
     let (set, at) = search.at(sigma, ROOM)?;
     let parameters = SharpParameters { form: search.form, floors: search.floors, rho: at.rho, eta: at.eta };
     let binding = match search.at(sigma * (1.0 - 1e-6), ROOM) {
+        _ if matches!(search.model.by_matrix, Some(ByMatrix::Joint(_))) => Binding::JointMetrics,
         Err(Obstacle { failing: Failing::Existence, .. }) => Binding::Existence,
         _ if search.model.by_matrix.is_some() => Binding::MatrixInequality,
         _ => Binding::of_decay(search.model, &set, &at),

@@ -1,7 +1,7 @@
 //! Where the threshold of the matrix inequality (M) comes from in a search (derivation, 13.7).
 
 use rug::Rational;
-use sigmastar_lang::spec::MatrixInequality;
+use sigmastar_lang::spec::{JointStability, MatrixInequality};
 use sigmastar_plants::bounds::{FloatWeights, MatrixArguments};
 use sigmastar_theory::derivation::paths::Path;
 use std::fmt;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub type Threshold = dyn Fn(MatrixArguments, FloatWeights) -> f64 + Send + Sync;
 
 /// A proved inequality ends where it ends: a search stays so far inside that rounding does not lead beyond.
-const EDGE: f64 = 1.0 - 1e-6;
+pub(super) const EDGE: f64 = 1.0 - 1e-6;
 
 /// Where the threshold of (M) comes from.
 #[derive(Clone)]
@@ -27,6 +27,8 @@ pub enum ByMatrix {
     },
     /// One inequality that is proved: the weights are its own.
     Proved(Arc<MatrixInequality>),
+    /// A joint one that is proved: it has an error box of its own.
+    Joint(Arc<JointStability>),
 }
 
 impl fmt::Debug for ByMatrix {
@@ -34,6 +36,7 @@ impl fmt::Debug for ByMatrix {
         f.write_str(match self {
             ByMatrix::Sampled { .. } => "a sampled matrix inequality",
             ByMatrix::Proved(_) => "a proved matrix inequality",
+            ByMatrix::Joint(_) => "a proved joint inequality",
         })
     }
 }
@@ -54,6 +57,8 @@ impl ByMatrix {
         let inequality = match self {
             ByMatrix::Sampled { threshold, .. } => return Some(threshold(at, weights)),
             ByMatrix::Proved(inequality) => inequality,
+            // It stands in the place of the level condition, too.
+            ByMatrix::Joint(_) => return None,
         };
         let within =
             |[x, e]: [f64; 2], [end_x, end_e]: [&Rational; 2]| x <= end_x.to_f64() * EDGE && e <= end_e.to_f64() * EDGE;
@@ -66,6 +71,7 @@ impl ByMatrix {
         match self {
             ByMatrix::Sampled { rate, .. } => *rate,
             ByMatrix::Proved(inequality) => inequality.rate.to_f64(),
+            ByMatrix::Joint(_) => 0.0,
         }
     }
 
@@ -75,7 +81,7 @@ impl ByMatrix {
         match self {
             ByMatrix::Sampled { path, .. } => vec![*path],
             ByMatrix::Proved(inequality) if inequality.splitting.is_some() => Path::CHOICE.to_vec(),
-            ByMatrix::Proved(_) => vec![Path::Straight],
+            ByMatrix::Proved(_) | ByMatrix::Joint(_) => vec![Path::Straight],
         }
     }
 
@@ -83,7 +89,7 @@ impl ByMatrix {
     #[must_use]
     pub fn weights(&self) -> Option<[&Rational; 2]> {
         match self {
-            ByMatrix::Sampled { .. } => None,
+            ByMatrix::Sampled { .. } | ByMatrix::Joint(_) => None,
             ByMatrix::Proved(inequality) => Some([&inequality.w_x, &inequality.h]),
         }
     }

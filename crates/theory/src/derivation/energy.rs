@@ -7,7 +7,7 @@ use crate::data::Data;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
-use sigmastar_lang::spec::ExistenceInequality;
+use sigmastar_lang::spec::{ExistenceInequality, JointInequality, Metric};
 
 /// The numbers of a matrix inequality of existence that bounds are made of.
 #[derive(Clone, Copy, Debug)]
@@ -52,31 +52,76 @@ where
         let half = |weight: &R| &moved / (R::int(2) * (weight * c_y).sqrt());
         EnergyBounds { e: half(&room), x: half(c_x), y: moved / c_y }
     }
+
+    /// Those of two metrics between which that of every larger gain lies (derivation, 13.7, (Jm)): each is the larger one of the two,
+    /// for k_p over a concave function of the metric is quasiconvex.
+    #[must_use]
+    pub fn of_metrics([near, far]: [&MetricNumbers<R>; 2], origin: &AtOrigin<R>) -> EnergyBounds<R> {
+        let oscillation = origin.known.as_ref().map_or_else(R::unknown, |known| known.rms_without_mean.clone());
+        let of = |MetricNumbers { k_p, c_x, c_e, c_y }: &MetricNumbers<R>| {
+            let moved = k_p * &oscillation;
+            let half = |weight: &R| &moved / (R::int(2) * (weight * c_y).sqrt());
+            EnergyBounds { e: half(c_e), x: half(c_x), y: &moved / c_y }
+        };
+        let (near, far) = (of(near), of(far));
+        EnergyBounds { y: near.y.max(&far.y), e: near.e.max(&far.e), x: near.x.max(&far.x) }
+    }
+}
+
+/// The numbers of a metric that bounds are made of.
+#[derive(Clone, Copy, Debug)]
+pub struct MetricNumbers<R> {
+    /// k_p.
+    pub k_p: R,
+    /// c_x.
+    pub c_x: R,
+    /// c_e.
+    pub c_e: R,
+    /// c_y.
+    pub c_y: R,
+}
+
+impl<R> MetricNumbers<R> {
+    /// Those of a metric.
+    pub fn of(Metric { k_p, c_x, c_e, c_y, .. }: &Metric, number: impl Fn(&Rational) -> R) -> MetricNumbers<R> {
+        MetricNumbers { k_p: number(k_p), c_x: number(c_x), c_e: number(c_e), c_y: number(c_y) }
+    }
 }
 
 /// The bounds of a specification whose data come with a proved inequality.
 #[must_use]
 pub fn proved(data: &Data<'_>, origin: &AtOrigin<Enclosure>, sigma: &Enclosure) -> Option<EnergyBounds<Enclosure>> {
+    if let Some(joint) = data.spec.bounds.proved_values().joint_existence() {
+        let [near, far] = joint.metrics().map(|metric| MetricNumbers::of(metric, |number| data.rational(number)));
+        return Some(EnergyBounds::of_metrics([&near, &far], origin));
+    }
     let ExistenceInequality { k_p, c_x, c_y, value, .. } = data.spec.bounds.proved_values().existence()?;
     let [k_p, c_x, c_y, value] = [k_p, c_x, c_y, value].map(|number| data.rational(number));
     Some(EnergyBounds::new(&EnergyNumbers { k_p, c_x, c_y, value }, origin, sigma))
 }
 
-/// What is left to decide of it: that (X_p, E_p) lies where it holds, and that sigma is larger than its threshold.
+/// What is left to decide of it: that (X_p, E_p) lies where it holds, and that sigma is not below its threshold, and above it where
+/// the inequality has no c_e.
 ///
 /// Differences of rationals are exact, so that equality is decided.
 #[must_use]
-pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Enclosure) -> Vec<Condition> {
-    let Some(ExistenceInequality { x, e, value, .. }) = data.spec.bounds.proved_values().existence() else {
-        return Vec::new();
-    };
-    let within = |id, what: &str, inner: &Rational, outer: &Rational| {
+pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Rational) -> Vec<Condition> {
+    let values = data.spec.bounds.proved_values();
+    let difference = |id, what: &str, inner: &Rational, outer: &Rational| {
         Condition::at_most(id, what, data.rational(&Rational::from(inner - outer)), data.zero())
     };
-    let threshold = data.rational(value);
-    vec![
-        within("E1", "X_p - X of the existence inequality <= 0", x_p, x),
-        within("E2", "E_p - E of the existence inequality <= 0", e_p, e),
-        Condition::less("E3", "threshold of the existence inequality < sigma", threshold, sigma.clone()),
-    ]
+    let within = |x: &Rational, e: &Rational| {
+        [
+            difference("E1", "X_p - X of the existence inequality <= 0", x_p, x),
+            difference("E2", "E_p - E of the existence inequality <= 0", e_p, e),
+        ]
+    };
+    if let Some(JointInequality { x, e, value, .. }) = values.joint_existence() {
+        let reached = difference("E3", "threshold of the joint existence inequality - sigma <= 0", value, sigma);
+        return within(x, e).into_iter().chain([reached]).collect();
+    }
+    let Some(ExistenceInequality { x, e, value, .. }) = values.existence() else { return Vec::new() };
+    let [threshold, sigma] = [value, sigma].map(|number| data.rational(number));
+    let exceeded = Condition::less("E3", "threshold of the existence inequality < sigma", threshold, sigma);
+    within(x, e).into_iter().chain([exceeded]).collect()
 }

@@ -3,6 +3,7 @@
 use super::condition::{self, Condition};
 use super::harmonics;
 use super::initial_set::{ClaimedSet, claimed_distances};
+use super::joint;
 use super::matrix_inequality;
 use super::paths::Paths;
 use super::sharp::one_sided;
@@ -94,15 +95,27 @@ impl ExactEvaluation {
             ));
         }
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
+        let distances = claimed_distances(data, set, [&data.zero(), &data.zero(), &z]);
+        let of = "exact regulation: ";
+        if let Some(joint) = data.spec.bounds.proved_values().joint_stability() {
+            let radii = [&d_x, &d_e];
+            conditions.extend(joint::conditions(
+                data,
+                joint,
+                distances.each_ref(),
+                radii,
+                &error_box,
+                (&witness.sigma, of),
+            ));
+            return ExactEvaluation { z, conditions };
+        }
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         if inequality.is_none() {
             conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
         }
-        let [dist_x, dist_e, dist_z] = claimed_distances(data, set, [&data.zero(), &data.zero(), &z]);
-        let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
-        conditions.push(Condition::less("C4", "exact regulation: level condition around the origin", start, exit));
+        let (start, exit) = level_condition(data, distances.each_ref(), [&d_x, &d_e, &w_x, &h]);
+        conditions.push(Condition::less("C4", format!("{of}level condition around the origin"), start, exit));
         if let Some(inequality) = inequality {
-            let of = "exact regulation: ";
             let place = (witness.paths, [&data.zero(), &data.zero()], &error_box);
             conditions.extend(matrix_inequality::conditions(data, inequality, place, &sigma, of));
             return ExactEvaluation { z, conditions };

@@ -13,6 +13,7 @@ pub mod existence;
 pub mod gains;
 pub mod harmonics;
 pub mod initial_set;
+pub mod joint;
 pub mod lyapunov_matrix;
 pub mod matrix_inequality;
 pub mod mean_squares;

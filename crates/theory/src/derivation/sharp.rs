@@ -6,6 +6,7 @@ use super::contraction::ContractionMatrix;
 use super::energy;
 use super::harmonics::AtOrigin;
 use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
+use super::joint;
 use super::matrix_inequality;
 use super::mean_squares::{
     DampedResponse, ErrorGains, Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, at_the_solution,
@@ -138,31 +139,34 @@ impl SharpEvaluation {
             step.lhs,
             step.rhs,
         ));
-        conditions.extend(energy::conditions(data, [&witness.x_p, &witness.e_p], &sigma));
+        conditions.extend(energy::conditions(data, [&witness.x_p, &witness.e_p], &witness.sigma));
         conditions.extend(match gains.has_energy() {
             true => strict_existence_conditions(data, witness, &bounds, &origin, &gains),
             false => existence_conditions(data, witness, &bounds, &origin, &gains),
         });
         let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&periodic.x_per, &periodic.e_per, &z]);
-        let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &h]);
-        conditions.push(Condition::less(
-            "C4",
-            "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}",
-            start,
-            exit,
-        ));
+        let distances = [&dist_x, &dist_e, &dist_z];
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
-        match inequality {
-            Some(inequality) => {
-                let place = (witness.paths, [&periodic.x_per, &periodic.e_per], &error_box);
-                conditions.extend(matrix_inequality::conditions(data, inequality, place, &sigma, ""));
-            }
-            None => {
-                conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
-                conditions.extend(by_norms_conditions(&decay, &sigma));
+        let joint = data.spec.bounds.proved_values().joint_stability();
+        if let Some(joint) = joint {
+            conditions.extend(joint::conditions(data, joint, distances, [&d_x, &d_e], &error_box, (&witness.sigma, "")));
+        } else {
+            let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
+            let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
+            conditions.push(Condition::less("C4", what, start, exit));
+            match inequality {
+                Some(inequality) => {
+                    let place = (witness.paths, [&periodic.x_per, &periodic.e_per], &error_box);
+                    conditions.extend(matrix_inequality::conditions(data, inequality, place, &sigma, ""));
+                }
+                None => {
+                    conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
+                    conditions.extend(by_norms_conditions(&decay, &sigma));
+                }
             }
         }
-        let by_matrix = inequality.map(|inequality| number(&inequality.value));
+        let threshold = joint.map(|joint| &joint.inequality.value).or(inequality.map(|inequality| &inequality.value));
+        let by_matrix = threshold.map(|threshold| number(threshold));
         let contraction = uniqueness::contraction(data, &bounds, &gains);
         let excitation = Excitation {
             q_rms: periodic.forcing.q_rms.clone(),

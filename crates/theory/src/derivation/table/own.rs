@@ -81,7 +81,7 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
         "sigma_a*",
         paper.and_then(|p| result(&p.sigma_a, "P:eq:ineq_bounds_sigma")),
         of_repaired(&|r| &r.lyapunov.sigma_a, "section 5"),
-        ours(s.threshold(), if s.by_matrix.is_some() { "section 13.7, (M)" } else { "section 5, C5" }),
+        ours(s.threshold(), if s.by_matrix.is_some() { "section 13.7" } else { "section 5, C5" }),
     );
     let claimed = |value: &Rational| sound(data.rational(value), "section 5, the set that is covered");
     let repaired_set = repaired.map(|(w, _)| &w.set);

@@ -1,0 +1,419 @@
+//! The metrics of the joint inequality (Jm) (derivation, 13.7), proposed by semidefinite programs over sampled points.
+
+use super::eigen::largest;
+use super::pointwise::Derivatives;
+use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::weights::Root;
+use sigmastar_lang::spec::Bound;
+use sigmastar_matrix::AffineMatrix;
+use sigmastar_matrix::semidefinite::propose;
+use std::sync::Arc;
+
+/// Points that are added where what was found does not hold, and how often.
+const POINTS: usize = 6;
+const ROUNDS: usize = 6;
+
+/// The share of the largest c_y that is left for how definite the rest is, and the share of that which is used.
+const KEPT: f64 = 0.93;
+const USED: f64 = 0.8;
+
+/// What is left of the margins of a program at points that it did not see.
+const LEFT: f64 = 0.5;
+
+/// A metric in doubles.
+#[derive(Clone, Debug)]
+pub struct FloatMetric {
+    /// P by rows.
+    pub p: Vec<Vec<f64>>,
+    /// p.
+    pub cross: Vec<f64>,
+    /// w.
+    pub weight: f64,
+    /// k_p.
+    pub k_p: f64,
+    /// c_x, c_e, c_y.
+    pub margins: [f64; 3],
+}
+
+/// What a metric is between, and how much of the level the initial set takes.
+#[derive(Clone, Copy, Debug)]
+pub struct FloatLevel {
+    /// P is at most so many times the identity.
+    pub p_up: f64,
+    /// `1/D_x^2`.
+    pub x_low: f64,
+    /// `1/D_e^2`.
+    pub e_low: f64,
+}
+
+/// The error box and the initial set of stability.
+#[derive(Clone, Copy, Debug)]
+pub struct LevelAsked {
+    /// D_x and D_e.
+    pub radii: [f64; 2],
+    /// dX, dE, dZ.
+    pub distances: [f64; 3],
+    /// mu.
+    pub mu: f64,
+    /// A rate of x, in 1/time.
+    pub rate: f64,
+    /// The share of the rates of x, of e and of y that both matrices keep.
+    pub margin: f64,
+}
+
+impl FloatSuprema {
+    /// Metrics of existence on `|y| <= X`, `|e| <= E` at a threshold, near and far: with a large share of the largest c_y/k_p.
+    #[must_use]
+    pub fn propose_joint_existence(&self, at: [f64; 2], value: f64) -> Option<[FloatMetric; 2]> {
+        let mut program = self.program(at, value, None)?;
+        self.settled(at, &mut program, |program| {
+            let (_, largest) = program.of_existence(None)?;
+            let kept = KEPT * (largest > 0.0).then_some(largest)?;
+            let (variables, room) = program.of_existence(Some(kept))?;
+            let definite = USED * (room > 0.0).then_some(room)?;
+            Some((variables, [[definite, definite, kept]; 2]))
+        })
+        .map(|(metrics, _)| metrics)
+    }
+
+    /// Metrics of stability, near and far, and the largest share of its level that the initial set takes, to be below 1.
+    #[must_use]
+    pub fn propose_joint_stability(
+        &self,
+        at: [f64; 2],
+        value: f64,
+        asked: &LevelAsked,
+    ) -> Option<([FloatMetric; 2], [FloatLevel; 2], f64)> {
+        let [d_x, d_e] = asked.radii;
+        let mut program = self.program(at, value, Some([d_x, d_e]))?;
+        let (metrics, variables) = self.settled(at, &mut program, |program| program.of_stability(asked))?;
+        let (share, p_up) = program.shares(&variables);
+        let level = |p_up: f64| FloatLevel {
+            p_up: p_up / (d_x * d_x),
+            x_low: (d_x * d_x).recip(),
+            e_low: (d_e * d_e).recip(),
+        };
+        Some((metrics, p_up.map(level), share))
+    }
+
+    /// A program over the points where derivatives are extreme.
+    fn program(&self, at: [f64; 2], value: f64, units: Option<[f64; 2]>) -> Option<Program> {
+        let all = Places::Stride(1);
+        let first = self.where_largest(at, &all, [Bound::Rate, Bound::Qx, Bound::Fe, Bound::QeMax, Bound::Qe]);
+        let mut program = Program { points: Vec::new(), value, units: [1.0; 2], n: 0 };
+        program.add(self, at, first);
+        program.n = program.points.first()?.r.len();
+        program.units = units.unwrap_or_else(|| program.balanced());
+        (program.n > 0).then_some(program)
+    }
+
+    /// What a program finds once the points are added where it does not hold.
+    fn settled(
+        &self,
+        at: [f64; 2],
+        program: &mut Program,
+        solve: impl Fn(&Program) -> Option<(Vec<f64>, [[f64; 3]; 2])>,
+    ) -> Option<([FloatMetric; 2], Vec<f64>)> {
+        let mut found = solve(program)?;
+        for _ in 0..ROUNDS {
+            let mut worst: Vec<(f64, Place)> = Vec::new();
+            let (variables, margins) = &found;
+            self.derivatives_at_points(at, &Places::Stride(1), |place, derivatives, _| {
+                let point = program.point(derivatives);
+                let below = program.lack(&point, variables, margins);
+                if below > 0.0 {
+                    keep(&mut worst, POINTS, below, place);
+                }
+            });
+            if worst.is_empty() {
+                break;
+            }
+            program.add(self, at, worst.into_iter().map(|(_, place)| place).collect());
+            found = solve(program)?;
+        }
+        let (variables, margins) = found;
+        Some((program.metrics(&variables, &margins), variables))
+    }
+}
+
+/// Derivatives at one point.
+struct Point {
+    j: Vec<f64>,
+    g: Vec<f64>,
+    r: Vec<f64>,
+    d: f64,
+}
+
+/// The programs for given points. Time in units of 1/value, x and e in those that are given, y in that of e times the value: then sigma
+/// is 1. The variables are P, p, w, k_p of the near metric, P, w, k_p of the far one, and what a program has beside.
+struct Program {
+    points: Vec<Point>,
+    value: f64,
+    units: [f64; 2],
+    n: usize,
+}
+
+type Matrix = Vec<Vec<f64>>;
+
+impl Program {
+    fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], mut places: Vec<Place>) {
+        places.sort_unstable();
+        places.dedup();
+        samples.derivatives_at_points(at, &Places::Listed(Arc::new(places)), |_, derivatives, _| {
+            let point = self.point(derivatives);
+            self.points.push(point);
+        });
+    }
+
+    fn point(&self, Derivatives { j, g, r, d }: &Derivatives<'_>) -> Point {
+        let value = |values: &[f64]| values.iter().map(|entry| entry / self.value).collect();
+        Point { j: value(j), g: value(g), r: value(r), d: d / self.value }
+    }
+
+    /// Units of x and e in which g and r are of one size.
+    fn balanced(&self) -> [f64; 2] {
+        let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let most = |of: fn(&Point) -> &[f64]| self.points.iter().map(|point| norm(of(point))).fold(0.0, f64::max);
+        let (g, r) = (most(|point| &point.g), most(|point| &point.r));
+        [if g > 0.0 && r > 0.0 { (g / r).sqrt() } else { 1.0 }, 1.0]
+    }
+
+    fn triangle(&self) -> Vec<(usize, usize)> {
+        (0..self.n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect()
+    }
+
+    /// The number of variables of the two metrics.
+    fn size(&self) -> usize {
+        2 * (self.triangle().len() + 2) + self.n
+    }
+
+    /// P, p, w, k_p of both metrics, in the units.
+    fn parts(&self, variables: &[f64]) -> [(Matrix, Vec<f64>, f64, f64); 2] {
+        let triangle = self.triangle();
+        let matrix = |entries: &[f64]| {
+            let mut p = vec![vec![0.0; self.n]; self.n];
+            for ((i, j), value) in triangle.iter().zip(entries) {
+                (p[*i][*j], p[*j][*i]) = (*value, *value);
+            }
+            p
+        };
+        let (near, far) = variables.split_at(triangle.len() + self.n + 2);
+        let (p, near) = near.split_at(triangle.len());
+        let (cross, near) = near.split_at(self.n);
+        let (other, far) = far.split_at(triangle.len());
+        [(matrix(p), cross.to_vec(), near[0], near[1]), (matrix(other), vec![0.0; self.n], far[0], far[1])]
+    }
+
+    /// The matrices of both metrics at a point, without margins.
+    fn forms(&self, point: &Point, variables: &[f64]) -> [Matrix; 2] {
+        let [s_x, s_e] = self.units;
+        let n = self.n;
+        let Point { j, g, r, d } = point;
+        let g: Vec<f64> = g.iter().map(|entry| entry * s_e / s_x).collect();
+        let r: Vec<f64> = r.iter().map(|entry| entry * s_x / s_e).collect();
+        let parts = self.parts(variables);
+        let pulled = parts[0].1.clone();
+        let corners = [parts[0].2, parts[0].2 + parts[1].2];
+        let mut index = 0;
+        parts.map(|(p, cross, weight, k_p)| {
+            let corner = corners[index];
+            index += 1;
+            let mut form = vec![vec![0.0; n + 2]; n + 2];
+            let moved = |i: usize, k: usize| -> f64 { (0..n).map(|m| p[i][m] * j[m * n + k]).sum() };
+            for i in 0..n {
+                for k in 0..n {
+                    form[i][k] = -(moved(i, k) + moved(k, i));
+                }
+                let driven: f64 = (0..n).map(|m| p[i][m] * g[m]).sum();
+                let joined: f64 = (0..n).map(|m| cross[m] * j[m * n + i]).sum();
+                form[i][n] = pulled[i] - driven - joined;
+                form[i][n + 1] = -cross[i] - 0.5 * k_p * r[i];
+            }
+            let pushed: f64 = cross.iter().zip(&g).map(|(p, g)| p * g).sum();
+            form[n][n] = 2.0 * corner - 2.0 * pushed;
+            form[n][n + 1] = -weight - 0.5 * k_p * d;
+            form[n + 1][n + 1] = k_p;
+            for i in 0..n + 2 {
+                for k in 0..i {
+                    form[i][k] = form[k][i];
+                }
+            }
+            form
+        })
+    }
+
+    /// By how much the matrices at a point are not above the margins; 0 where they are.
+    fn lack(&self, point: &Point, variables: &[f64], margins: &[[f64; 3]; 2]) -> f64 {
+        let forms = self.forms(point, variables);
+        let lacks = forms.into_iter().zip(margins).map(|(mut form, margins)| {
+            for (i, row) in form.iter_mut().enumerate() {
+                row[i] -= LEFT * margins[(i + 1).saturating_sub(self.n).min(2)];
+            }
+            let lower: Vec<f64> = form.iter().enumerate().flat_map(|(i, row)| row[..=i].to_vec()).collect();
+            match Root::new(&lower) {
+                Ok(_) => 0.0,
+                Err(_) => {
+                    let negative = form.iter().map(|row| row.iter().map(|entry| -entry).collect()).collect();
+                    largest(negative).max(0.0)
+                }
+            }
+        });
+        lacks.fold(0.0, f64::max)
+    }
+
+    /// The metrics of variables, in the units of the plant.
+    fn metrics(&self, variables: &[f64], margins: &[[f64; 3]; 2]) -> [FloatMetric; 2] {
+        let [s_x, s_e] = self.units;
+        let value = self.value;
+        let parts = self.parts(variables);
+        let mut margins = margins.iter();
+        parts.map(|(p, cross, weight, k_p)| {
+            let [c_x, c_e, c_y] = margins.next().copied().unwrap_or_default();
+            FloatMetric {
+                p: p.iter().map(|row| row.iter().map(|entry| entry / (s_x * s_x)).collect()).collect(),
+                cross: cross.iter().map(|entry| entry / (s_x * s_e)).collect(),
+                weight: weight / (s_e * s_e),
+                k_p: k_p / (value * s_e * s_e),
+                margins: [value * c_x / (s_x * s_x), value * c_e / (s_e * s_e), c_y / (value * s_e * s_e)],
+            }
+        })
+    }
+
+    /// A constraint whose matrix is linear in the variables, and one in them beyond those of the metrics.
+    fn affine(
+        &self,
+        more: usize,
+        constant: &[[f64; 3]; 2],
+        term: impl Fn(usize, usize) -> Option<[f64; 3]>,
+        point: &Point,
+    ) -> Vec<AffineMatrix<f64>> {
+        let (size, order) = (self.size(), self.n + 2);
+        let of_variable = |variable: usize| {
+            let mut unit = vec![0.0; size];
+            if variable < size {
+                unit[variable] = 1.0;
+            }
+            self.forms(point, &unit)
+        };
+        let all: Vec<[Matrix; 2]> = (0..size + more).map(of_variable).collect();
+        let place = |i: usize| (i + 1).saturating_sub(self.n).min(2);
+        (0..2)
+            .map(|which| {
+                AffineMatrix::from_fn(
+                    order,
+                    size + more,
+                    |i, j| if i == j { -constant[which][place(i)] } else { 0.0 },
+                    |variable, i, j| {
+                        let taken = if i == j { term(which, variable).map_or(0.0, |term| term[place(i)]) } else { 0.0 };
+                        all[variable][which][i][j] - taken
+                    },
+                )
+            })
+            .collect()
+    }
+
+    /// Where the numbers of the metrics stand among the variables: k_p, w of the near and of the far one.
+    fn places(&self) -> [[usize; 2]; 2] {
+        let triangle = self.triangle().len();
+        let near = triangle + self.n;
+        let far = near + 2 + triangle;
+        [[near + 1, near], [far + 1, far]]
+    }
+
+    /// A number that is linear in the variables as a matrix of order 1.
+    fn scalar(&self, more: usize, constant: f64, terms: &[(usize, f64)]) -> AffineMatrix<f64> {
+        let of = |variable: usize| terms.iter().filter(|(at, _)| *at == variable).map(|(_, factor)| factor).sum();
+        AffineMatrix::from_fn(1, self.size() + more, |_, _| constant, |variable, _, _| of(variable))
+    }
+
+    /// The variables, and the largest c with both matrices above diag(0, 0, c) for k_p <= 1; where c is given, instead of it the largest m
+    /// with both above diag(m, m, c).
+    fn of_existence(&self, given: Option<f64>) -> Option<(Vec<f64>, f64)> {
+        let last = self.size();
+        let constant = [[0.0, 0.0, given.unwrap_or(0.0)]; 2];
+        let taken = if given.is_some() { [1.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+        let term = |_: usize, variable: usize| (variable == last).then_some(taken);
+        let mut constraints: Vec<AffineMatrix<f64>> =
+            self.points.iter().flat_map(|point| self.affine(1, &constant, term, point)).collect();
+        let [[near, _], [far, weight]] = self.places();
+        constraints.push(self.scalar(1, 1.0, &[(near, -1.0)]));
+        constraints.push(self.scalar(1, 1.0, &[(far, -1.0)]));
+        constraints.push(self.scalar(1, 0.0, &[(weight, 1.0)]));
+        let mut cost = vec![0.0; last + 1];
+        cost[last] = -1.0;
+        let mut found = propose(&cost, &constraints).ok()?.x;
+        let largest = found.pop()?;
+        Some((found, largest))
+    }
+
+    /// The variables, of which the last four are the two P_up, the bound of |p|, and the share of the level, which is least.
+    fn of_stability(&self, asked: &LevelAsked) -> Option<(Vec<f64>, [[f64; 3]; 2])> {
+        let LevelAsked { radii: [d_x, d_e], distances: [dist_x, dist_e, dist_z], mu, rate, margin } = *asked;
+        let (n, size) = (self.n, self.size());
+        let (up, joined, share) = ([size, size + 1], size + 2, size + 3);
+        let more = 4;
+        let places = self.places();
+        let kept = [margin * (rate / self.value).min(1.0), margin, 0.0];
+        let constant = [kept; 2];
+        let of_y = [0.0, 0.0, margin];
+        let term = |which: usize, variable: usize| (variable == places[which][0]).then_some(of_y);
+        let mut constraints: Vec<AffineMatrix<f64>> =
+            self.points.iter().flat_map(|point| self.affine(more, &constant, term, point)).collect();
+        let of_metric = |variable: usize, which: usize, i: usize, j: usize| {
+            let mut unit = vec![0.0; size];
+            match unit.get_mut(variable) {
+                Some(entry) => *entry = 1.0,
+                None => return 0.0,
+            }
+            let (p, cross, weight, _) = &self.parts(&unit)[which];
+            match (i < n, j < n) {
+                (true, true) => p[i][j],
+                (false, false) => *weight,
+                _ => cross[i.min(j)],
+            }
+        };
+        for which in 0..2 {
+            // Pi above diag(1, 0) and diag(0, 1), and P at most its P_up.
+            for of_states in [true, false] {
+                constraints.push(AffineMatrix::from_fn(
+                    n + 1,
+                    size + more,
+                    |i, j| if i == j && (i < n) == of_states { -1.0 } else { 0.0 },
+                    |variable, i, j| of_metric(variable, which, i, j),
+                ));
+            }
+            let above = |variable: usize, i: usize, j: usize| {
+                let own = if variable == up[which] && i == j { 1.0 } else { 0.0 };
+                own - of_metric(variable, which, i, j)
+            };
+            constraints.push(AffineMatrix::from_fn(n, size + more, |_, _| 0.0, above));
+        }
+        // |p| at most its bound.
+        let bounded = |variable: usize, i: usize, j: usize| match (i == j, i < n, j < n) {
+            (true, _, _) if variable == joined => 1.0,
+            (false, true, false) | (false, false, true) => of_metric(variable, 0, i, j),
+            _ => 0.0,
+        };
+        constraints.push(AffineMatrix::from_fn(n + 1, size + more, |_, _| 0.0, bounded));
+        let (a, b) = (dist_x / d_x, dist_e / d_e);
+        let of_zeta = 0.5 * mu * dist_z * dist_z / (self.value * d_e * d_e);
+        for (which, [k_p, weight]) in places.into_iter().enumerate() {
+            let mut terms = vec![(share, 1.0), (up[which], -a * a), (weight, -b * b), (k_p, -of_zeta)];
+            if which == 0 {
+                terms.push((joined, -2.0 * a * b));
+            }
+            constraints.push(self.scalar(more, 0.0, &terms));
+        }
+        let mut cost = vec![0.0; size + more];
+        cost[share] = 1.0;
+        let found = propose(&cost, &constraints).ok()?.x;
+        let margins = places.map(|[k_p, _]| [kept[0], kept[1], margin * found[k_p]]);
+        Some((found, margins))
+    }
+
+    /// The share of the level, and P_up of both metrics, in the units.
+    fn shares(&self, variables: &[f64]) -> (f64, [f64; 2]) {
+        let size = self.size();
+        (variables[size + 3], [variables[size], variables[size + 1]])
+    }
+}
