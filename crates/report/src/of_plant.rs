@@ -7,7 +7,9 @@ use sigmastar_document::number::exact;
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
-use sigmastar_lang::spec::{ExistenceInequality, JointStability, MatrixInequality, OfPlant, ProvedValue, Specification, Splitting};
+use sigmastar_lang::spec::{
+    ExistenceInequality, JointStability, MatrixInequality, OfPlant, ProvedValue, Specification, Splitting,
+};
 use sigmastar_prove::certificate::{joint_existence_json, joint_stability_json};
 use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;

@@ -280,7 +280,8 @@ fn of_data() -> Vec<Field> {
 /// The near and the far metric of a joint inequality; with levels those of stability.
 fn metrics(with_levels: bool) -> [(&'static str, &'static str, Shape); 2] {
     let metric = |is_near: bool| {
-        let mut fields = vec![must("P", "P", "A symmetric matrix for y, by rows.", named("matrix", any_list(any_list(rational()))))];
+        let mut fields =
+            vec![must("P", "P", "A symmetric matrix for y, by rows.", named("matrix", any_list(any_list(rational()))))];
         if is_near {
             fields.push(must("p", "p", "What joins y and e, an entry for each state.", any_list(rational())));
         }

@@ -88,11 +88,8 @@ impl FloatSuprema {
         let mut program = self.program(at, value, Some([d_x, d_e]))?;
         let (metrics, variables) = self.settled(at, &mut program, |program| program.of_stability(asked))?;
         let (share, p_up) = program.shares(&variables);
-        let level = |p_up: f64| FloatLevel {
-            p_up: p_up / (d_x * d_x),
-            x_low: (d_x * d_x).recip(),
-            e_low: (d_e * d_e).recip(),
-        };
+        let level =
+            |p_up: f64| FloatLevel { p_up: p_up / (d_x * d_x), x_low: (d_x * d_x).recip(), e_low: (d_e * d_e).recip() };
         Some((metrics, p_up.map(level), share))
     }
 

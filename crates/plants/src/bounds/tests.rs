@@ -3,6 +3,7 @@
 mod directions;
 mod existence;
 mod inequality;
+mod joint;
 mod narrow;
 mod outside;
 mod random_points;

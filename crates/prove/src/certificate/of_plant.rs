@@ -6,7 +6,8 @@ use rug::Rational;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{
-    ExistenceInequality, JointInequality, JointStability, Level, MatrixInequality, Metric, OfPlant, ProvedForcing, ProvedOrbit, ProvedValues, Specification, Splitting,
+    ExistenceInequality, JointInequality, JointStability, Level, MatrixInequality, Metric, OfPlant, ProvedForcing,
+    ProvedOrbit, ProvedValues, Specification, Splitting,
 };
 
 fn exact(value: &Rational) -> Value {

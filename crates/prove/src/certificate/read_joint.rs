@@ -12,7 +12,11 @@ pub(super) fn read_joint(value: &Value<'_>, n: usize, errors: &mut Errors) -> Re
 }
 
 /// `joint_inequality`, for so many states.
-pub(super) fn read_joint_stability(value: &Value<'_>, n: usize, errors: &mut Errors) -> Result<JointStability, Reported> {
+pub(super) fn read_joint_stability(
+    value: &Value<'_>,
+    n: usize,
+    errors: &mut Errors,
+) -> Result<JointStability, Reported> {
     let (inequality, levels) = read(value, n, errors, |fields, errors| {
         let [p_up, x_low, e_low] = ["P_up", "x_low", "e_low"].map(|name| rational(fields, name, errors));
         Ok(Level { p_up: p_up?, x_low: x_low?, e_low: e_low? })
@@ -41,15 +45,8 @@ fn read<T>(
             ["w", "k_p", "c_x", "c_e", "c_y"].map(|name| rational(&mut fields, name, errors));
         let more = more(&mut fields, errors);
         fields.finish(errors);
-        let metric = Metric {
-            matrix: matrix?,
-            cross: cross?,
-            weight: weight?,
-            k_p: k_p?,
-            c_x: c_x?,
-            c_e: c_e?,
-            c_y: c_y?,
-        };
+        let metric =
+            Metric { matrix: matrix?, cross: cross?, weight: weight?, k_p: k_p?, c_x: c_x?, c_e: c_e?, c_y: c_y? };
         Ok((metric, more?))
     };
     let (near, far) = (metric("near", true, errors), metric("far", false, errors));

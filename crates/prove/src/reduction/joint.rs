@@ -4,8 +4,8 @@
 use super::entries::needed;
 use super::reduce::{Proofs, Reduced};
 use crate::search::{
-    AtSigma, ByEnergy, ByMatrix, Descent, FloatModel, PeriodicSet, SharpProposal, at_sigma, minimise, search_sharp_near,
-    start_distances,
+    AtSigma, ByEnergy, ByMatrix, Descent, FloatModel, PeriodicSet, SharpProposal, at_sigma, minimise,
+    search_sharp_near, start_distances,
 };
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
@@ -21,10 +21,10 @@ const MOST_STATES: usize = 4;
 /// interval is halved.
 const FIRST: f64 = 0.985;
 const STEP: f64 = 0.8;
-const HALVED: usize = 6;
+const HALVED: usize = 5;
 
 /// How far above the least gain that is found metrics are proved, in turn.
-const ABOVE: [f64; 4] = [1e-3, 1e-2, 3e-2, 0.1];
+const ABOVE: [f64; 5] = [1e-3, 1e-2, 3e-2, 6e-2, 0.1];
 
 /// How much further than the set they are for metrics of existence are sought, first and where the set turns out larger; and at last.
 const FURTHER: f64 = 1.5;
@@ -51,7 +51,7 @@ const NEAR: f64 = 1e-9;
 const AFTER: f64 = 1e-7;
 
 /// The descent over the shape of the error box.
-const SHAPE: Descent = Descent { restarts: 0, iterations: 30, tolerance: 3e-3 };
+const SHAPE: Descent = Descent { restarts: 0, iterations: 20, tolerance: 3e-3 };
 const SHAPE_STEP: f64 = 0.5;
 
 /// Digits of the numbers of a metric.
@@ -80,7 +80,12 @@ struct JointSearch<'a> {
 
 /// What is proved with a smaller gain than that of `reduced`, by joint metrics near the proposal that it was made of; itself where
 /// nothing is.
-pub(super) fn with_joint_metrics(proofs: &Proofs<'_>, model: &FloatModel, known: &SharpProposal, reduced: Reduced) -> Reduced {
+pub(super) fn with_joint_metrics(
+    proofs: &Proofs<'_>,
+    model: &FloatModel,
+    known: &SharpProposal,
+    reduced: Reduced,
+) -> Reduced {
     if !(1..=MOST_STATES).contains(&proofs.states()) {
         return reduced;
     }
@@ -208,9 +213,8 @@ impl JointSearch<'_> {
         let proposal = SharpProposal { sigma: *sigma * (1.0 + AFTER), ..*self.known };
         let (set, at) = at_sigma(&model, &proposal.parameters, sigma * (1.0 + AFTER), NEAR).ok()?;
         let needed = needed(&model, &set, &at, 1e-3, (self.proofs.has_second(), *sigma))?;
-        let joint = |values: ProvedValues| {
-            values.with_joint_existence(existence).with_joint_stability(Some(stability.clone()))
-        };
+        let joint =
+            |values: ProvedValues| values.with_joint_existence(existence).with_joint_stability(Some(stability.clone()));
         let (with_values, spec) = self.proofs.with_needed(&needed, joint).ok()?;
         let proposal = search_sharp_near(&with_values, &proposal).ok()?;
         Some(Reduced { spec, proposal, alternatives: Default::default() })

@@ -5,8 +5,8 @@ use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
 use super::threshold::{ByMatrix, EDGE};
 use rug::Rational;
-use sigmastar_plants::bounds::FloatWeights;
 use sigmastar_lang::spec::JointStability;
+use sigmastar_plants::bounds::FloatWeights;
 use sigmastar_theory::derivation::joint;
 use sigmastar_theory::derivation::paths::{Path, Paths};
 

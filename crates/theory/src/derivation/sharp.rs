@@ -149,7 +149,14 @@ impl SharpEvaluation {
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         let joint = data.spec.bounds.proved_values().joint_stability();
         if let Some(joint) = joint {
-            conditions.extend(joint::conditions(data, joint, distances, [&d_x, &d_e], &error_box, (&witness.sigma, "")));
+            conditions.extend(joint::conditions(
+                data,
+                joint,
+                distances,
+                [&d_x, &d_e],
+                &error_box,
+                (&witness.sigma, ""),
+            ));
         } else {
             let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
             let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
