@@ -4,9 +4,10 @@
 use crate::common::{PAPER, certificate};
 use proofs_check::data::Data;
 use proofs_check::json::{Field, parse};
-use proofs_check::rules::existence::Existence;
+use proofs_check::rules::existence::{Existence, Form};
 use proofs_check::rules::gains::kappas;
 use proofs_check::rules::mean_squares::{self, Solution, Witness};
+use proofs_check::rules::metric::Metric;
 use proofs_check::rules::transfer::closed_form;
 use proofs_check::spec::Specification;
 use rug::Rational;
@@ -112,11 +113,13 @@ impl Plant {
             pointer: String::new(),
             x: number(1e6),
             e: number(1e6),
-            p: vec![vec![number(p)]],
-            k_p: number(k_p),
-            c_x: number(c_x),
-            c_y: number(c_y * (1.0 - 1e-9)),
             threshold: number(0.8 * sigma),
+            form: Form::Block(Metric {
+                p: vec![vec![number(p)]],
+                w: number(1.0),
+                k_p: number(k_p),
+                least: [number(c_x), number(0.0), number(c_y * (1.0 - 1e-9))],
+            }),
         })
     }
 
