@@ -13,6 +13,7 @@ mod formulas;
 mod fuzz;
 mod hostile;
 mod intervals;
+mod joint_formulas;
 mod linear_plants;
 mod lmi;
 mod lyapunov;
