@@ -14,6 +14,7 @@ mod fuzz;
 mod hostile;
 mod intervals;
 mod joint_formulas;
+mod joint_inequality;
 mod linear_plants;
 mod lmi;
 mod lyapunov;
