@@ -1,9 +1,14 @@
 //! The two joint metrics: their questions about formulas against what is left for c_e by hand, for stability and for existence.
 
-use super::common::drawn;
+use super::common::{PAPER, certificate, drawn};
 use super::matrix_inequality::at_rest;
 use super::plant_support::Parts;
+use proofs_check::data::Data;
+use proofs_check::json::{Field, Json, parse};
+use proofs_check::rules::existence::Existence;
+use proofs_check::spec::Specification;
 use proofs_check::verdict::Verdict;
+use rug::Rational;
 use serde_json::{Value, json};
 
 /// Where the metrics stand: the part of the test, its place in a certificate, and the rule.
@@ -162,6 +167,41 @@ fn smooth_as_far_as_it_is_asked() {
         SOME.with(&parts, place, [1.0, 1.0], ["1", "1"]).accepted();
         SOME.with(&parts, place, [1.0, 1.0], ["1", "3"]).refused(Verdict::Undecided, "", "");
     }
+}
+
+fn field(json: &Json) -> Field<'_> {
+    Field { json, pointer: String::new() }
+}
+
+/// What the two say of a periodic solution: the larger of what either says, whatever the gain is.
+#[test]
+fn what_they_say_of_a_solution() {
+    let made = certificate(PAPER);
+    let [document, none] =
+        [made["specification"].to_string(), "{}".to_owned()].map(|text| parse(text.as_bytes()).unwrap());
+    let spec = Specification::read(&field(&document), &mut field(&none).fields().unwrap()).unwrap();
+    let d = Data::new(&spec, 128);
+    let mut draw = drawn(29);
+    let mut larger = [[0; 2]; 3];
+    for _ in 0..40 {
+        let mut metric = || [1.0, 1.0, 0.1 + draw(), 0.1 + draw(), 0.1 + draw()];
+        let pair = Pair { near: metric(), far: metric(), p: 0.1, sigma: 3.0 };
+        let (c_e, oscillation) = ([0.1 + draw(), 0.1 + draw()], 0.1 + draw());
+        let part = parse(pair.part(c_e, ["1", "1"]).to_string().as_bytes()).unwrap();
+        let existence = Existence::read(&field(&part)).unwrap();
+        let number = |value: f64| d.number(&Rational::from_f64(value).unwrap());
+        let answer = existence.answer(&d, &Rational::from(3), &number(oscillation));
+        let of = |[_, _, k_p, c_x, c_y]: [f64; 5], c_e: f64| {
+            let by = |weight: f64| k_p * oscillation / (2.0 * (weight * c_y).sqrt());
+            [by(c_x), by(c_e), k_p * oscillation / c_y]
+        };
+        let (near, far) = (of(pair.near, c_e[0]), of(pair.far, c_e[1]));
+        for (i, said) in [answer.rms_x, answer.rms_e, answer.rms_y].into_iter().enumerate() {
+            larger[i][usize::from(far[i] > near[i])] += 1;
+            assert!((said.hi().to_f64() / near[i].max(far[i]) - 1.0).abs() < 1e-9, "{i}");
+        }
+    }
+    assert!(larger.iter().flatten().all(|count| *count > 5), "{larger:?}");
 }
 
 /// What the two prove at sigma they prove at every larger gain: there the metric between them is as good a near one, with the
