@@ -14,7 +14,7 @@ use proofs_core::data::Data;
 use proofs_core::interval::Interval;
 use proofs_core::json::{Field, join};
 use proofs_core::rules::gains::{beta_s, bt, k_alpha, kappas, tau};
-use proofs_core::rules::sharp::{Sharp, Witness as SharpWitness};
+use proofs_core::rules::sharp::{Sharp, Stability, Witness as SharpWitness};
 use proofs_core::rules::transfer::closed_form;
 use proofs_core::verdict::{Outcome, bad, demand, invalid};
 use rug::Rational;
@@ -244,7 +244,12 @@ fn own<'a>(d: &'a Data<'a>, input: &Input<'a>) -> Vec<Row<'a>> {
     }
     let label = "section 4, C2 and C3 with beta, K_alpha";
     row("sigma_p*", [None, r.map(|(_, r)| (sigma_p(d, &r.existence), true, label)), None]);
-    let threshold = sound(&s.threshold, if w.inequality.is_some() { "section 13.7, (M)" } else { "section 5, C5" });
+    let section = match w.stability {
+        Stability::Norms => "section 5, C5",
+        Stability::Matrix(_) => "section 13.7, (M)",
+        Stability::Joint(_) => "section 13.7, (Jm)",
+    };
+    let threshold = sound(&s.threshold, section);
     row("sigma_a*", [None, r.and_then(|(_, r)| sound(&r.sigma_a, "section 5")), threshold]);
     for (i, (name, size)) in w.free.set.named().enumerate() {
         let covered = |size: &Rational| sound(&d.number(size), "section 5, the set that is covered");

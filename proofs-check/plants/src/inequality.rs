@@ -1,13 +1,15 @@
-//! The questions of the matrix inequalities of stability and of existence (docs/mathematics.md, section 13.7).
+//! The questions of the matrix inequalities of stability and of existence, with one metric or two (docs/mathematics.md, section 13.7).
 
-use super::bounds::rate;
-use super::formula::{Axis, Id};
+use super::form::{Form, numbers};
+use super::formula::Id;
 use super::model::Model;
 use super::question::Question;
 use proofs_core::constant::Constant;
 use proofs_core::rules::derivation::Inequalities;
-use proofs_core::rules::existence::Existence;
+use proofs_core::rules::existence::{self, Existence};
 use proofs_core::rules::inequality::Inequality;
+use proofs_core::rules::joint;
+use proofs_core::rules::metric::{Metric, Metrics};
 use proofs_core::verdict::{Outcome, bad};
 use rug::Rational;
 
@@ -26,56 +28,24 @@ pub struct Said<'i> {
     pub question: Question,
 }
 
-/// The numbers of a matrix F, in (x, y/unit, e). Its rows are `-weight (P' + P J_+ + J_+'P), -half r', -weight P g`;
-/// `2 half unit, -(unit + half d)`; `2 sigma`, with `J_+ = J + rate I`.
-struct Form<'i> {
-    p: Vec<Vec<Id>>,
-    weight: &'i Rational,
-    rate: Rational,
-    half: Rational,
-    unit: Id,
-    sigma: &'i Rational,
-}
-
-impl Form<'_> {
-    /// The rows of x and y, and that of e.
-    fn rows(&self, model: &mut Model) -> (Vec<Vec<Id>>, Vec<Id>) {
-        let (f, q, row, jacobian) = (model.f.clone(), model.q, model.row.clone(), model.jacobian.clone());
-        let formulas = &mut model.formulas;
-        let [minus_weight, minus_half] =
-            [self.weight, &self.half].map(|value| formulas.number(&Rational::from(-value)));
-        let mut block = rate(formulas, &self.rate, &self.p, &jacobian);
-        let weight = formulas.number(self.weight);
-        for entry in block.iter_mut().flatten() {
-            *entry = formulas.mul(weight, *entry);
-        }
-        let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
-        let twice = formulas.number(&(self.half.clone() * 2u32));
-        of_y.push(formulas.mul(twice, self.unit));
-        block.push(of_y);
-
-        let column: Vec<Id> = f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
-        let mut of_e: Vec<Id> = Vec::new();
-        for line in self.p.iter().take(column.len()) {
-            let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
-            of_e.push(formulas.mul(minus_weight, moved));
-        }
-        let slope = formulas.derivative(q, Axis::Output);
-        let weighted = formulas.mul(minus_half, slope);
-        of_e.push(formulas.sub(weighted, self.unit));
-        of_e.push(formulas.number(&(self.sigma.clone() * 2u32)));
-        (block, of_e)
-    }
-}
-
 /// The questions of all inequalities that there are, with mu.
 pub fn questions<'i>(model: &mut Model, inequalities: Inequalities<'i>, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
     let mut all = Vec::new();
     if let Some(inequality) = inequalities.stability {
         all.extend(of_stability(model, inequality, mu)?);
     }
+    if let Some(joint) = inequalities.joint {
+        let asked =
+            Asked { rule: joint::RULE, pointer: &joint.pointer, at: [&joint.x, &joint.e], sigma: &joint.threshold };
+        all.extend(asked.of_metrics(model, &joint.metrics)?);
+    }
     if let Some(inequality) = inequalities.existence {
-        all.push(of_existence(model, inequality)?);
+        let Existence { pointer, x, e, threshold, form } = inequality;
+        let asked = Asked { rule: EXISTENCE_RULE, pointer, at: [x, e], sigma: threshold };
+        match form {
+            existence::Form::Block(metric) => all.push(asked.of_block(model, metric)?),
+            existence::Form::Joint(metrics) => all.extend(asked.of_metrics(model, metrics)?),
+        }
     }
     Ok(all)
 }
@@ -83,7 +53,8 @@ pub fn questions<'i>(model: &mut Model, inequalities: Inequalities<'i>, mu: &Con
 /// Where they are asked: X and E of each.
 pub fn arguments<'i>(inequalities: Inequalities<'i>) -> impl Iterator<Item = [&'i Rational; 2]> {
     let of_stability = inequalities.stability.into_iter().flat_map(Inequality::arguments);
-    of_stability.chain(inequalities.existence.map(|known| [&known.x, &known.e]))
+    let of_joint = inequalities.joint.map(|joint| [&joint.x, &joint.e]);
+    of_stability.chain(of_joint).chain(inequalities.existence.map(|known| [&known.x, &known.e]))
 }
 
 /// With the P of stability, w_x, h, the threshold of sigma, and y/mu, which divides by nothing. Without a splitting the question is
@@ -99,7 +70,10 @@ fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant
         rate: inequality.rate.clone(),
         half: inequality.h.clone(),
         unit: mu,
-        sigma: &inequality.sigma,
+        w: &Rational::from(1),
+        corner: inequality.sigma.clone() * 2u32,
+        cross: &[],
+        pull: &[],
     };
     let (mut block, of_e) = form.rows(model);
     let formulas = &mut model.formulas;
@@ -134,30 +108,66 @@ fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant
     ])
 }
 
-/// With a constant P of its own, `half = k_p/2` and y itself: `F >= diag(c_x I, 0, c_y)` with the threshold of sigma.
-fn of_existence<'i>(model: &mut Model, inequality: &'i Existence) -> Outcome<Said<'i>> {
-    let order = model.states();
-    if inequality.p.len() != order {
-        return bad(&format!("{}/P", inequality.pointer), "expected a row for each state");
+/// What a question about metrics is about: the rule and the part, X and E, and the threshold of sigma.
+struct Asked<'i> {
+    rule: &'static str,
+    pointer: &'i str,
+    at: [&'i Rational; 2],
+    sigma: &'i Rational,
+}
+
+impl<'i> Asked<'i> {
+    /// That the matrix of a metric with `corner` in the place of e, and these p and sigma p, is not below its diagonal one.
+    fn of_metric(
+        &self,
+        model: &mut Model,
+        metric: &Metric,
+        corner: Rational,
+        [cross, pull]: [&[Rational]; 2],
+        what: &'static str,
+    ) -> Said<'i> {
+        let order = model.states();
+        let [c_x, c_e, c_y] = &metric.least;
+        let form = Form {
+            p: metric.p.iter().map(|row| numbers(&mut model.formulas, row)).collect(),
+            weight: &Rational::from(1),
+            rate: Rational::new(),
+            half: Rational::from(&metric.k_p / 2u32),
+            unit: model.formulas.int(1),
+            w: &metric.w,
+            corner: corner - c_e,
+            cross,
+            pull,
+        };
+        let (mut rows, of_e) = form.rows(model);
+        let formulas = &mut model.formulas;
+        for (i, row) in rows.iter_mut().enumerate() {
+            let taken = formulas.number(if i < order { c_x } else { c_y });
+            row[i] = formulas.sub(row[i], taken);
+        }
+        rows.push(of_e);
+        let question = Question::new(formulas, rows, order);
+        Said { rule: self.rule, pointer: self.pointer, what, at: self.at, question }
     }
-    let formulas = &mut model.formulas;
-    let of_row = |row: &Vec<Rational>| row.iter().map(|value| formulas.number(value)).collect();
-    let form = Form {
-        p: inequality.p.iter().map(of_row).collect(),
-        weight: &Rational::from(1),
-        rate: Rational::new(),
-        half: Rational::from(&inequality.k_p / 2u32),
-        unit: model.formulas.int(1),
-        sigma: &inequality.threshold,
-    };
-    let (mut rows, of_e) = form.rows(model);
-    let formulas = &mut model.formulas;
-    for (i, row) in rows.iter_mut().enumerate() {
-        let taken = formulas.number(if i < order { &inequality.c_x } else { &inequality.c_y });
-        row[i] = formulas.sub(row[i], taken);
+
+    /// The one matrix of the block form, whose c_e is 0.
+    fn of_block(&self, model: &mut Model, metric: &Metric) -> Outcome<Said<'i>> {
+        metric.demand_order(model.states(), self.pointer)?;
+        let corner = Rational::from(self.sigma * &metric.w) * 2u32;
+        Ok(self.of_metric(model, metric, corner, [&[], &[]], "F >= diag(c_x, 0, c_y)"))
     }
-    rows.push(of_e);
-    let at = [&inequality.x, &inequality.e];
-    let (rule, pointer) = (EXISTENCE_RULE, inequality.pointer.as_str());
-    Ok(Said { rule, pointer, what: "F >= diag(c_x, 0, c_y)", at, question: Question::new(formulas, rows, order) })
+
+    /// F of the near metric, with `2 sigma w_1` in the place of e, and G of the far one, with `2 sigma (w_1 + w_2)`: of the near one's p
+    /// there is sigma p alone in it.
+    fn of_metrics(&self, model: &mut Model, metrics: &Metrics) -> Outcome<[Said<'i>; 2]> {
+        metrics.demand_order(model.states(), self.pointer)?;
+        let Metrics { near, far, cross } = metrics;
+        let pull: Vec<Rational> = cross.iter().map(|entry| Rational::from(entry * self.sigma)).collect();
+        let twice = Rational::from(self.sigma * 2u32);
+        let (own, both) = (Rational::from(&twice * &near.w), twice * Rational::from(&near.w + &far.w));
+        Ok([
+            self.of_metric(model, near, own, [cross, &pull], "F of the near metric >= diag(c_x, c_e, c_y)"),
+            self.of_metric(model, far, both, [&[], &pull], "G of the far metric >= diag(c_x, c_e, c_y)"),
+        ])
+    }
 }

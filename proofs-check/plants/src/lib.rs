@@ -7,6 +7,7 @@
 mod around;
 pub mod bounds;
 mod derivative;
+mod form;
 pub mod formula;
 pub mod harmonics;
 pub mod inequality;

@@ -11,7 +11,7 @@ mod text;
 use proofs_core::json::{Field, MAX_BYTES, parse};
 use proofs_core::rules::claim::Claim;
 use proofs_core::rules::derivation::{Derivation, Witness};
-use proofs_core::rules::sharp;
+use proofs_core::rules::sharp::{self, Stability};
 use proofs_core::sha256;
 use proofs_core::spec::{Specification, header};
 use proofs_core::verdict::Outcome;
@@ -72,8 +72,13 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
     let Witness::Sharp(witness) = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?.witness else {
         return unsupported("/witness", "no theorem is written of this kind of witness");
     };
-    if let Some(inequality) = &witness.inequality {
-        return unsupported(&inequality.pointer, "no theorem is written of a matrix inequality in the place of C5");
+    let pointer = match &witness.stability {
+        Stability::Norms => None,
+        Stability::Matrix(inequality) => Some(&inequality.pointer),
+        Stability::Joint(joint) => Some(&joint.pointer),
+    };
+    if let Some(pointer) = pointer {
+        return unsupported(pointer, "no theorem is written of a matrix inequality in the place of C5");
     }
     if witness.existence.inequality.is_some() {
         let pointer = "/witness/existence_inequality";

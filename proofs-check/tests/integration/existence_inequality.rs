@@ -8,8 +8,9 @@ use super::plant_support::Parts;
 use proofs_check::data::Data;
 use proofs_check::json::{Field, decimal, parse};
 use proofs_check::rules::derivation::{Derivation, Witness};
-use proofs_check::rules::existence::Existence;
+use proofs_check::rules::existence::{Existence, Form};
 use proofs_check::rules::mean_squares;
+use proofs_check::rules::metric::Metric;
 use proofs_check::rules::set::ClaimedSet;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::Verdict;
@@ -22,7 +23,7 @@ const RULE: &str = "existence inequality";
 const PLACE: &str = "/witness/existence_inequality";
 const SIGMA: f64 = 2235.0;
 
-fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     let (numerator, denominator) = value.as_str().unwrap().split_once('/').unwrap_or((value.as_str().unwrap(), "1"));
     decimal(numerator).unwrap().to_f64() / decimal(denominator).unwrap().to_f64()
 }
@@ -502,11 +503,8 @@ fn bounds_of_all_of_q_are_not_used() {
         pointer: String::new(),
         x: one(),
         e: one(),
-        p: Vec::new(),
-        k_p: one(),
-        c_x: one(),
-        c_y: one(),
         threshold: one(),
+        form: Form::Block(Metric { p: Vec::new(), w: one(), k_p: one(), least: [one(), Rational::new(), one()] }),
     };
     let [with, without] = [evaluated(Some(part)), evaluated(None)];
     assert!(without.rates[0].lt(&with.rates[0]) == Some(true) && without.rates[1].is_defined());

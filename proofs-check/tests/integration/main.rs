@@ -13,6 +13,8 @@ mod formulas;
 mod fuzz;
 mod hostile;
 mod intervals;
+mod joint_formulas;
+mod joint_inequality;
 mod linear_plants;
 mod lmi;
 mod lyapunov;

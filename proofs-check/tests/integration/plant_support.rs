@@ -8,6 +8,7 @@ use proofs_check::plants::read::Plant;
 use proofs_check::rules::derivation::Inequalities;
 use proofs_check::rules::existence::Existence;
 use proofs_check::rules::inequality::Inequality;
+use proofs_check::rules::joint::Joint;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
 use rug::Float;
@@ -41,12 +42,20 @@ fn existence(part: &Value) -> Outcome<Existence> {
     Existence::read(&Field { json: &json, pointer: "/witness/existence_inequality".to_owned() })
 }
 
+/// Two joint metrics as a witness has them.
+fn joint(part: &Value) -> Outcome<Joint> {
+    let json = parse(part.to_string().as_bytes()).unwrap();
+    Joint::read(&Field { json: &json, pointer: "/witness/joint_inequality".to_owned() })
+}
+
 /// Applies the rules of section 11; the lines of the argument.
 pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
     let (spec, plant) = read(parts)?;
     let inequality = parts.get("inequality").map(inequality).transpose()?;
     let existence = parts.get("existence").map(existence).transpose()?;
-    let inequalities = Inequalities { stability: inequality.as_ref(), existence: existence.as_ref() };
+    let joint = parts.get("joint").map(joint).transpose()?;
+    let inequalities =
+        Inequalities { stability: inequality.as_ref(), joint: joint.as_ref(), existence: existence.as_ref() };
     let none = Float::new(128);
     let mut lines = Vec::new();
     let (answer, steps) =

@@ -88,17 +88,16 @@ impl Free {
         set::positive(&[&named, others].concat(), &self.pointer)
     }
 
-    /// The error box around a solution of these sizes, and the conditions before those of stability: on the set and the domain, T,
-    /// those of existence that are given, and C4.
+    /// The error box around a solution of these sizes, how far the start is from it (dX, dE, dZ), and the conditions before those of the
+    /// level and of stability: on the set and the domain, T, and those of existence that are given.
     pub fn evaluate(
         &self,
         d: &Data<'_>,
         sizes: Sizes,
         transfer: Vec<Condition>,
         existence: impl IntoIterator<Item = Condition>,
-    ) -> (ErrorBox, Evaluated) {
-        let [x_p, e_p, d_x, d_e, w_x, h] =
-            [&self.x_p, &self.e_p, &self.d_x, &self.d_e, &self.w_x, &self.h].map(|value| d.number(value));
+    ) -> (ErrorBox, [Interval; 3], Evaluated) {
+        let [x_p, e_p, d_x, d_e] = [&self.x_p, &self.e_p, &self.d_x, &self.d_e].map(|value| d.number(value));
         let error_box = ErrorBox::new(d, self.paths, [&sizes.x, &sizes.e], [&d_x, &d_e]);
         let arguments = [x_p.max(&error_box.x_b), e_p.max(&error_box.e_b)];
         let mut conditions = set::covers(d, &self.set, [&self.x_p, &self.e_p], &sizes.zeta);
@@ -106,9 +105,13 @@ impl Free {
         conditions.push(transfer[0].clone());
         conditions.extend(existence);
         let reach = distances(d, &self.set, [&sizes.x, &sizes.e, &sizes.zeta]);
-        let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
-        let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
-        conditions.push(Condition::less("C4", what, start, exit));
-        (error_box, Evaluated { sizes, conditions, transfer, arguments })
+        (error_box, reach, Evaluated { sizes, conditions, transfer, arguments })
+    }
+
+    /// C4 of U, at dX, dE, dZ.
+    pub fn level(&self, d: &Data<'_>, reach: &[Interval; 3]) -> Condition {
+        let [d_x, d_e, w_x, h] = [&self.d_x, &self.d_e, &self.w_x, &self.h].map(|value| d.number(value));
+        let [start, exit] = level(d, reach, [&d_x, &d_e, &w_x, &h]);
+        Condition::less("C4", "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}", start, exit)
     }
 }

@@ -6,6 +6,7 @@
 use super::common::{Evaluated, Free};
 use super::existence::Existence;
 use super::inequality::Inequality;
+use super::joint::Joint;
 use super::sampled::{self, claim::Regulator};
 use super::set::ClaimedSet;
 use super::{bounding, regulation, sharp};
@@ -27,6 +28,7 @@ pub enum Witness {
 #[derive(Clone, Copy, Default)]
 pub struct Inequalities<'w> {
     pub stability: Option<&'w Inequality>,
+    pub joint: Option<&'w Joint>,
     pub existence: Option<&'w Existence>,
 }
 
@@ -59,9 +61,11 @@ impl Derivation {
     /// Those of the witness.
     pub fn inequalities(&self) -> Inequalities<'_> {
         match &self.witness {
-            Witness::Sharp(w) => {
-                Inequalities { stability: w.inequality.as_ref(), existence: w.existence.inequality.as_ref() }
-            }
+            Witness::Sharp(w) => Inequalities {
+                stability: w.stability.matrix(),
+                joint: w.stability.joint(),
+                existence: w.existence.inequality.as_ref(),
+            },
             Witness::Sampled(_) => Inequalities::default(),
         }
     }

@@ -10,6 +10,10 @@
 //! `c_x rms(x)^2 + 2 (sigma - threshold) rms(e)^2 + c_y rms(y)^2 <= k_p mean(y l q_0) <= k_p Q_m rms(y)`: y has the mean 0 (the
 //! integrator), so `q_0` counts without its mean, and `Q_m = sqrt(2 sum_{k>=1} C_k^2) + r_0`. Hence [`Answer`].
 //!
+//! In the joint form there are two metrics (`metric`), of any sign, in the place of P. At a gain `sigma' >= threshold` the one between them
+//! has `c_x rms(x)^2 + c_e rms(e)^2 + c_y rms(y)^2 <= k_p Q_m rms(y)` in the same way. The threshold may be sigma itself: c_e > 0 has the part of
+//! what a gain above it leaves. The rest is the same, for of P and w no more is used than that.
+//!
 //! Guarantee: with all that `covers` and `conditions` say, and the inequality proved of the plant's formulas (the crate `proofs-plants` does), there is for
 //! every n_o and every sigma' >= sigma a T-periodic solution with sup|x| <= X_p, sup|e| <= E_p, rms(x) <= r_x, rms(e) <= r_e,
 //! rms(e') <= r_d, and all that `mean_squares` says of one. For the linear loop with the coefficients of any (x, e) in that box has one
@@ -18,10 +22,11 @@
 //! with the concave G of `mean_squares`, and S1c, S2b, S2c say G(r) < r, so rho < r as there. Then S1b and S2 keep it inside.
 //! Strictness matters in all five. b_q_rms and b_qt_rms are of q itself and say nothing for l < 1: they are not used.
 
-use super::inequality::{number, symmetric};
+use super::inequality::{not_above, number, symmetric};
+use super::metric::{Answer, Metric, Metrics};
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::json::Field;
+use crate::json::{Field, Fields};
 use crate::verdict::{Condition, Outcome, bad};
 use rug::Rational;
 
@@ -31,36 +36,32 @@ pub struct Existence {
     pub pointer: String,
     pub x: Rational,
     pub e: Rational,
-    /// P, by rows. That it has one for each state is seen where the formulas are.
-    pub p: Vec<Vec<Rational>>,
-    pub k_p: Rational,
-    pub c_x: Rational,
-    pub c_y: Rational,
     pub threshold: Rational,
+    pub form: Form,
 }
 
-/// What the inequality says of every such solution.
-pub struct Answer {
-    /// `k_p Q_m/(2 sqrt(c_x c_y))`.
-    pub rms_x: Interval,
-    /// `k_p Q_m/(2 sqrt(2 (sigma - threshold) c_y))`; undefined where the threshold is not below sigma.
-    pub rms_e: Interval,
-    /// `r_y = k_p Q_m/c_y`; rms(e') too is not larger, nor sg rms(e), and sup|e| <= bt r_y.
-    pub rms_y: Interval,
+/// Which matrices there are.
+#[derive(Clone, Debug)]
+pub enum Form {
+    /// One, with w = 1 and c_e = 0 at the threshold: the gain above it is what c_e is made of.
+    Block(Metric),
+    /// Two, for the threshold and for every larger gain.
+    Joint(Metrics),
 }
 
 impl Existence {
-    /// Reads the part `existence_inequality`.
+    /// Reads the part `existence_inequality`; it is joint where it has a near metric.
     pub fn read(field: &Field<'_>) -> Outcome<Existence> {
         let mut fields = field.fields()?;
+        let form = match fields.has("near") {
+            true => Form::Joint(Metrics::read(&mut fields, |_| Ok(()))?.0),
+            false => Form::Block(block(&mut fields)?),
+        };
         let existence = Existence {
             x: number(&mut fields, "X", false)?,
             e: number(&mut fields, "E", false)?,
-            p: symmetric(&fields.required("P")?)?,
-            k_p: number(&mut fields, "k_p", true)?,
-            c_x: number(&mut fields, "c_x", true)?,
-            c_y: number(&mut fields, "c_y", true)?,
             threshold: number(&mut fields, "sigma", true)?,
+            form,
             pointer: field.pointer.clone(),
         };
         fields.finish()?;
@@ -75,27 +76,37 @@ impl Existence {
         }
     }
 
-    /// At the gain sigma, with Q_m.
+    /// At the gain sigma and every larger one, with Q_m. In the block form c_e is `2 (sigma - threshold)`, and nothing is known of rms(e)
+    /// where the threshold is not below sigma.
     pub fn answer(&self, d: &Data<'_>, sigma: &Rational, oscillation: &Interval) -> Answer {
-        let [k_p, c_x, c_y] = [&self.k_p, &self.c_x, &self.c_y].map(|value| d.number(value));
-        let excess = match sigma > &self.threshold {
-            true => d.number(&Rational::from(sigma - &self.threshold)) * 2,
-            false => Interval::undefined(d.precision),
-        };
-        let force = k_p * oscillation;
-        let by = |weight: Interval| &force / ((weight * &c_y).sqrt() * 2);
-        Answer { rms_x: by(c_x), rms_e: by(excess), rms_y: &force / &c_y }
+        match &self.form {
+            Form::Joint(metrics) => metrics.answer(d, oscillation),
+            Form::Block(metric) if sigma > &self.threshold => {
+                metric.answer(d, oscillation, &(d.number(&Rational::from(sigma - &self.threshold)) * 2))
+            }
+            Form::Block(metric) => metric.answer(d, oscillation, &Interval::undefined(d.precision)),
+        }
     }
 
-    /// E1 and E2: X_p and E_p lie where the inequality is proved. Differences of rationals are exact, so equality is decided.
+    /// E1 and E2: X_p and E_p lie where the inequality is proved.
     pub fn covers(&self, d: &Data<'_>, [x_p, e_p]: [&Rational; 2]) -> [Condition; 2] {
-        let within = |id, what, inner: &Rational, outer: &Rational| {
-            Condition::at_most(id, what, d.number(&Rational::from(inner - outer)), d.int(0))
-        };
-        [
-            within("E1", "X_p - X of the existence inequality <= 0", x_p, &self.x),
-            within("E2", "E_p - E of the existence inequality <= 0", e_p, &self.e),
-        ]
+        let within = |id, what: &str, ends| not_above(d, id, format!("{what} of the existence inequality"), ends);
+        [within("E1", "X_p - X", [x_p, &self.x]), within("E2", "E_p - E", [e_p, &self.e])]
+    }
+
+    /// E3, strict where nothing but the gain above the threshold makes c_e; and what c_e is.
+    fn exceeded(&self, d: &Data<'_>, sigma: &Rational) -> (Condition, &'static str) {
+        match self.form {
+            Form::Block(_) => {
+                let [threshold, gain] = [&self.threshold, sigma].map(|value| d.number(value));
+                let what = "threshold of the existence inequality < sigma";
+                (Condition::less("E3", what, threshold, gain), "2 (sigma - threshold)")
+            }
+            Form::Joint(_) => {
+                let what = "threshold of the existence inequality - sigma".to_owned();
+                (not_above(d, "E3", what, [&self.threshold, sigma]), "c_e")
+            }
+        }
     }
 
     /// E3, S1, and what stands in the place of S1b to S2c; `sides` are what is known of a solution at r and what has to be above it: of
@@ -108,11 +119,10 @@ impl Existence {
         sides: [[&Interval; 2]; 5],
         with_kap: bool,
     ) -> Vec<Condition> {
-        let [threshold, gain] = [&self.threshold, sigma].map(|value| d.number(value));
-        let mut conditions =
-            vec![Condition::less("E3", "threshold of the existence inequality < sigma", threshold, gain), contracts];
+        let (enough, c_e) = self.exceeded(d, sigma);
+        let mut conditions = vec![enough, contracts];
         let [damped, damped_t] = if with_kap { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
-        let of_e = "k_p Q_m/(2 sqrt(2 (sigma - threshold) c_y))";
+        let of_e = format!("k_p Q_m/(2 sqrt({c_e} c_y))");
         let strictly = [
             ("S1b", "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} < X_p".to_owned()),
             ("S1c", "min{(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))} < r_x".to_owned()),
@@ -125,4 +135,14 @@ impl Existence {
             .extend(pairs.map(|((id, what), [lhs, rhs])| Condition::less(id, what, (*lhs).clone(), (*rhs).clone())));
         conditions
     }
+}
+
+/// The one matrix, with w = 1.
+fn block(fields: &mut Fields<'_>) -> Outcome<Metric> {
+    Ok(Metric {
+        p: symmetric(&fields.required("P")?)?,
+        w: Rational::from(1),
+        k_p: number(fields, "k_p", true)?,
+        least: [number(fields, "c_x", true)?, Rational::new(), number(fields, "c_y", true)?],
+    })
 }

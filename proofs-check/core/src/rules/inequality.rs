@@ -64,6 +64,11 @@ pub(super) fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Out
     }
 }
 
+/// That a rational is at most another: their difference is exact, so equality is decided.
+pub(super) fn not_above(d: &Data<'_>, id: &'static str, what: String, [inner, outer]: [&Rational; 2]) -> Condition {
+    Condition::at_most(id, format!("{what} <= 0"), d.number(&Rational::from(inner - outer)), d.int(0))
+}
+
 impl Inequality {
     /// Reads the part `matrix_inequality`; the weights are those of the witness that it is a part of.
     pub fn read(field: &Field<'_>, [w_x, h]: [&Rational; 2]) -> Outcome<Inequality> {

@@ -10,8 +10,9 @@
 //! nonnegative, sums and minima), so G(l r') <= l G(r') for l >= 1. If l = max rho_i/r'_i > 1, then rho <= G(rho) <= G(l r') <=
 //! l G(r') < l r' in every place, against the choice of l. Strictness matters.
 
-use super::existence::{Answer, Existence};
+use super::existence::Existence;
 use super::gains::{beta_s, bt, damped, tau};
+use super::metric::Answer;
 use super::stability::one_sided;
 use crate::bound::Bound;
 use crate::data::Data;

@@ -8,6 +8,7 @@ use super::common::{Evaluated, Free};
 use super::existence::Existence;
 use super::gains::kappas;
 use super::inequality::Inequality;
+use super::joint::Joint;
 use super::mean_squares::{self, Solution};
 use super::set::ClaimedSet;
 use super::stability::ErrorBox;
@@ -26,8 +27,50 @@ pub struct Witness {
     pub sigma: Rational,
     pub existence: mean_squares::Witness,
     pub transfer: Proof,
-    /// What stands in the place of C5, where it is given.
-    pub inequality: Option<Inequality>,
+    pub stability: Stability,
+}
+
+/// What proves that the error decays in the error box.
+#[derive(Clone, Debug)]
+pub enum Stability {
+    /// C5, by norms.
+    Norms,
+    /// A matrix inequality in its place.
+    Matrix(Inequality),
+    /// Two joint metrics in its place and in that of C4.
+    Joint(Joint),
+}
+
+impl Stability {
+    fn read(fields: &mut Fields<'_>, free: &Free) -> Outcome<Stability> {
+        match (fields.optional("matrix_inequality"), fields.optional("joint_inequality")) {
+            (None, None) => Ok(Stability::Norms),
+            (Some(field), None) => Inequality::read(&field, [&free.w_x, &free.h]).map(Stability::Matrix),
+            (None, Some(field)) => Joint::read(&field).map(Stability::Joint),
+            (Some(_), Some(field)) => bad(&field.pointer, "it has no place beside `matrix_inequality`"),
+        }
+    }
+
+    /// An inequality is about formulas; two metrics are what they are said to be.
+    fn demand(&self, d: &Data<'_>) -> Outcome<()> {
+        match self {
+            Stability::Matrix(inequality) if d.spec.plant.is_none() => {
+                bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant")
+            }
+            Stability::Norms | Stability::Matrix(_) => Ok(()),
+            Stability::Joint(joint) => joint.demand(d),
+        }
+    }
+
+    /// The matrix inequality, where there is one.
+    pub fn matrix(&self) -> Option<&Inequality> {
+        if let Stability::Matrix(inequality) = self { Some(inequality) } else { None }
+    }
+
+    /// The joint one, where there is one.
+    pub fn joint(&self) -> Option<&Joint> {
+        if let Stability::Joint(joint) = self { Some(joint) } else { None }
+    }
 }
 
 /// What the conditions and the constants are about.
@@ -52,9 +95,8 @@ impl Witness {
             inequality: fields.optional("existence_inequality").map(|field| Existence::read(&field)).transpose()?,
         };
         let transfer = Proof::read(&fields.required("transfer")?)?;
-        let inequality = fields.optional("matrix_inequality");
-        let inequality = inequality.map(|field| Inequality::read(&field, [&free.w_x, &free.h])).transpose()?;
-        Ok(Witness { free, sigma, existence, transfer, inequality })
+        let stability = Stability::read(fields, &free)?;
+        Ok(Witness { free, sigma, existence, transfer, stability })
     }
 
     fn signs(&self) -> Outcome<()> {
@@ -71,6 +113,7 @@ impl Witness {
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
+    w.stability.demand(d)?;
     let (free, inequality) = (&w.free, w.existence.inequality.iter());
     inequality.clone().try_for_each(|inequality| inequality.demand_plant(d))?;
     let covers = inequality.flat_map(|inequality| inequality.covers(d, [&free.x_p, &free.e_p]));
@@ -81,17 +124,22 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     let transfer = transfer::check(d, &free.k0, &free.k1, &w.transfer, &format!("{}/transfer", free.pointer))?;
     let sizes = Sizes { x: solution.x.clone(), e: solution.e.clone(), zeta: solution.z_squared.sqrt() };
     let existence = covers.chain(solution.conditions.iter().cloned());
-    let (error_box, mut evaluated) = free.evaluate(d, sizes, transfer, existence);
-    let threshold = match &w.inequality {
-        Some(inequality) if d.spec.plant.is_none() => {
-            return bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant");
+    let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, transfer, existence);
+    evaluated.conditions.extend(match w.stability.joint() {
+        Some(joint) => joint.levels(d, &reach, [&free.d_x, &free.d_e]).to_vec(),
+        None => vec![free.level(d, &reach)],
+    });
+    let threshold = match &w.stability {
+        Stability::Joint(joint) => {
+            evaluated.conditions.extend(joint.conditions(d, &error_box, &w.sigma));
+            d.number(&joint.threshold)
         }
-        Some(inequality) => {
+        Stability::Matrix(inequality) => {
             let place = (free.paths, [&solution.x, &solution.e], &error_box);
             evaluated.conditions.extend(inequality.conditions(d, place, (sigma, "sigma")));
             d.number(&inequality.sigma)
         }
-        None => {
+        Stability::Norms => {
             let decay = error_box.decay(d, &w_x, &h);
             let threshold = decay[2].clone();
             evaluated.conditions.extend(error_box.conditions(decay, sigma, "sigma"));

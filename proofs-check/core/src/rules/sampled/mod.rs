@@ -58,8 +58,9 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
         [&free.x_p, &free.e_p, &free.w_x, &free.h, &free.k0, &free.k1].map(|value| d.number(value));
     let solution = existence::evaluate(&law, &free.r, [&x_p, &e_p], [&k0, &k1]);
     let sizes = Sizes { x: solution.x, e: solution.e, zeta: solution.z };
-    let (error_box, mut evaluated) =
+    let (error_box, reach, mut evaluated) =
         free.evaluate(d, sizes, vec![transfer], of_law.into_iter().chain(solution.conditions));
+    evaluated.conditions.push(free.level(d, &reach));
     evaluated.conditions.extend(error_box.one_sided.iter().cloned());
     let weights = stability::Weights { w_x: &w_x, eta: &eta };
     evaluated.conditions.extend(stability::conditions(&law, &error_box, &weights));

@@ -1,0 +1,75 @@
+//! The matrix F of the inequalities of section 13.7 of docs/mathematics.md, from the derivatives of the formulas: of (M), of (E) and of
+//! (Jm), with and without what joins x and e.
+
+use super::bounds::rate;
+use super::formula::{Axis, Formulas, Id};
+use super::model::Model;
+use rug::Rational;
+
+/// The numbers of a matrix F, in (x, y/unit, e). Its rows are `-weight (P' + P J_+ + J_+'P)`, `-unit p - half r'`,
+/// `-weight P g + pull - J'p`; `2 half unit`, `-(unit w + half d)`; `corner - 2 p'g`, with `J_+ = J + rate I`.
+pub struct Form<'i> {
+    pub p: Vec<Vec<Id>>,
+    pub weight: &'i Rational,
+    pub rate: Rational,
+    pub half: Rational,
+    pub unit: Id,
+    pub w: &'i Rational,
+    pub corner: Rational,
+    /// p, and sigma p: empty, where there is none.
+    pub cross: &'i [Rational],
+    pub pull: &'i [Rational],
+}
+
+impl Form<'_> {
+    /// The rows of x and y, and that of e.
+    pub fn rows(&self, model: &mut Model) -> (Vec<Vec<Id>>, Vec<Id>) {
+        let (f, q, row, jacobian) = (model.f.clone(), model.q, model.row.clone(), model.jacobian.clone());
+        let formulas = &mut model.formulas;
+        let [minus_weight, minus_half] =
+            [self.weight, &self.half].map(|value| formulas.number(&Rational::from(-value)));
+        let [cross, pull] = [self.cross, self.pull].map(|values| numbers(formulas, values));
+        let mut block = rate(formulas, &self.rate, &self.p, &jacobian);
+        let weight = formulas.number(self.weight);
+        for entry in block.iter_mut().flatten() {
+            *entry = formulas.mul(weight, *entry);
+        }
+        let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
+        for (entry, p) in of_y.iter_mut().zip(&cross) {
+            let moved = formulas.mul(self.unit, *p);
+            *entry = formulas.sub(*entry, moved);
+        }
+        let twice = formulas.number(&(self.half.clone() * 2u32));
+        of_y.push(formulas.mul(twice, self.unit));
+        block.push(of_y);
+
+        let column: Vec<Id> = f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
+        let mut of_e: Vec<Id> = Vec::new();
+        for line in self.p.iter().take(column.len()) {
+            let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
+            of_e.push(formulas.mul(minus_weight, moved));
+        }
+        for (entry, pulled) in of_e.iter_mut().zip(pull) {
+            *entry = formulas.add(*entry, pulled);
+        }
+        for (j, entry) in of_e.iter_mut().enumerate() {
+            let turned = formulas.dot(cross.iter().copied().zip(jacobian.iter().map(|line| line[j])));
+            *entry = formulas.sub(*entry, turned);
+        }
+        let slope = formulas.derivative(q, Axis::Output);
+        let weighted = formulas.mul(minus_half, slope);
+        let w = formulas.number(self.w);
+        let of_unit = formulas.mul(w, self.unit);
+        of_e.push(formulas.sub(weighted, of_unit));
+        let corner = formulas.number(&self.corner);
+        let pushed = formulas.dot(cross.iter().copied().zip(column.iter().copied()));
+        let pushed = formulas.add(pushed, pushed);
+        of_e.push(formulas.sub(corner, pushed));
+        (block, of_e)
+    }
+}
+
+/// Numbers as formulas.
+pub fn numbers(formulas: &mut Formulas, values: &[Rational]) -> Vec<Id> {
+    values.iter().map(|value| formulas.number(value)).collect()
+}
