@@ -117,7 +117,7 @@ pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Rational)
         ]
     };
     if let Some(JointInequality { x, e, value, .. }) = values.joint_existence() {
-        let reached = difference("E3", "threshold of the joint existence inequality - sigma <= 0", value, sigma);
+        let reached = difference("E3", "threshold of the existence inequality - sigma <= 0", value, sigma);
         return within(x, e).into_iter().chain([reached]).collect();
     }
     let Some(ExistenceInequality { x, e, value, .. }) = values.existence() else { return Vec::new() };

@@ -54,12 +54,12 @@ pub fn conditions(
 ) -> Vec<Condition> {
     let number = |number: &Rational| data.rational(number);
     let what = "P_up dX^2 + 2 |p| dX dE + w dE^2 + (k_p mu/2) dZ^2 < min{x_low D_x^2, e_low D_e^2}";
-    let named = [("C4", "near metric"), ("C4f", "far metric")];
+    let named = [("C4", "near"), ("C4f", "far")];
     let of_levels = named.into_iter().zip(inequality.metrics().into_iter().zip(levels));
     let mut conditions: Vec<Condition> = of_levels
         .map(|((id, which), metric)| {
             let (start, exit) = level_condition(data, metric, number, distances, radii);
-            Condition::less(id, format!("{of}{which}: {what}"), start, exit)
+            Condition::less(id, format!("{of}{what}, {which}"), start, exit)
         })
         .collect();
     let ErrorBox { x_b, e_b, .. } = error_box;

@@ -100,8 +100,8 @@ pub struct SharpEvaluation {
     pub error_box: ErrorBox<Enclosure>,
     /// C5 by norms, of which nothing is asked where there is a matrix inequality.
     pub decay: DecayCondition<Enclosure>,
-    /// The threshold of sigma by a matrix inequality, where there is one for the weights of the witness (derivation, 13.7).
-    pub by_matrix: Option<Enclosure>,
+    /// The threshold of sigma by a matrix inequality, where there is one for the weights of the witness, and its place in the derivation.
+    pub by_matrix: Option<(Enclosure, &'static str)>,
     /// All conditions in order.
     pub conditions: Vec<Condition>,
 }
@@ -172,8 +172,11 @@ impl SharpEvaluation {
                 }
             }
         }
-        let threshold = joint.map(|joint| &joint.inequality.value).or(inequality.map(|inequality| &inequality.value));
-        let by_matrix = threshold.map(|threshold| number(threshold));
+        let by_matrix = match (joint, inequality) {
+            (Some(joint), _) => Some((number(&joint.inequality.value), "section 13.7, (Jm)")),
+            (None, Some(inequality)) => Some((number(&inequality.value), "section 13.7, (M)")),
+            (None, None) => None,
+        };
         let contraction = uniqueness::contraction(data, &bounds, &gains);
         let excitation = Excitation {
             q_rms: periodic.forcing.q_rms.clone(),
@@ -195,10 +198,11 @@ impl SharpEvaluation {
         }
     }
 
-    /// What sigma must exceed for stability.
+    /// What sigma must exceed for stability, or reach with joint metrics, and its place in the derivation.
     #[must_use]
-    pub fn threshold(&self) -> &Enclosure {
-        self.by_matrix.as_ref().unwrap_or(&self.decay.sigma_threshold)
+    pub fn threshold(&self) -> (&Enclosure, &'static str) {
+        let by_norms = (&self.decay.sigma_threshold, "section 5, C5");
+        self.by_matrix.as_ref().map_or(by_norms, |(threshold, source)| (threshold, *source))
     }
 
     /// The truth of all conditions together.
@@ -317,6 +321,8 @@ fn strict_existence_conditions(
     let response = gains.response(origin, &Forcing::new(&of_changes, origin, &squares));
     let sup = response.sup.min(&sup_by_mean_squares(data, &squares));
     let [damped, damped_rate] = if kap.is_some() { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
+    let is_joint = data.spec.bounds.proved_values().joint_existence().is_some();
+    let room = if is_joint { "c_e" } else { "2 (sigma - threshold)" };
     let mut conditions = vec![
         Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
         Condition::less(
@@ -329,9 +335,7 @@ fn strict_existence_conditions(
         Condition::less("S2", "min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y} < E_p", sup, bounds.e_p.clone()),
         Condition::less(
             "S2b",
-            format!(
-                "min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt(2 (sigma - threshold) c_y))}} < r_e"
-            ),
+            format!("min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt({room} c_y))}} < r_e"),
             image.e,
             squares.e.clone(),
         ),

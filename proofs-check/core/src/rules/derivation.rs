@@ -99,7 +99,8 @@ impl Derivation {
         without_domain(d, &evaluated.arguments, lines)?;
         if let Some(exact) = &self.regulation {
             lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
-            let conditions = regulation::evaluate(d, set, exact, self.inequalities().stability)?;
+            let Inequalities { stability, joint, .. } = self.inequalities();
+            let conditions = regulation::evaluate(d, set, exact, (stability, joint))?;
             all("exact regulation", &exact.pointer, conditions.iter(), lines)?;
             without_domain(d, &[d.number(&exact.d_x), d.number(&exact.d_e)], lines)?;
         }

@@ -4,6 +4,7 @@
 //! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
 
 use super::inequality::Inequality;
+use super::joint::Joint;
 use super::mean_squares::forcing;
 use super::paths::Paths;
 use super::set::{self, ClaimedSet};
@@ -65,12 +66,12 @@ fn steady_state(d: &Data<'_>) -> Interval {
 }
 
 /// Evaluates the conditions; only `matched` and the signs are decided yet. An inequality of the claim serves here too, where it is
-/// about the same weights.
+/// about the same weights; with joint metrics the conditions by norms serve, or else theirs.
 pub fn evaluate(
     d: &Data<'_>,
     set: &ClaimedSet,
     w: &Witness,
-    inequality: Option<&Inequality>,
+    (inequality, joint): (Option<&Inequality>, Option<&Joint>),
 ) -> Outcome<Vec<Condition>> {
     if !d.spec.matched {
         return invalid("exact regulation", &w.pointer, "it needs base_frequency = 2 pi/period, asserted by `matched`");
@@ -82,7 +83,8 @@ pub fn evaluate(
     let error_box = ErrorBox::new(d, w.paths, [&zero, &zero], [&d_x, &d_e]);
     let reach = distances(d, set, [&zero, &zero, &steady_state(d)]);
     let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
-    let mut conditions = set::domain(d, &d_x, &d_e);
+    let domain = set::domain(d, &d_x, &d_e);
+    let mut conditions = domain.clone();
     conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
     match inequality.filter(|inequality| inequality.is_for([&w.w_x, &w.h])) {
         Some(inequality) => {
@@ -91,5 +93,12 @@ pub fn evaluate(
         }
         None => conditions.extend(error_box.conditions(error_box.decay(d, &w_x, &h), sigma, "sigma_oo")),
     }
-    Ok(conditions)
+    let by_norms = conditions.iter().all(|condition| condition.truth() == Some(true));
+    Ok(match joint.filter(|_| !by_norms) {
+        Some(joint) => {
+            let levels = joint.levels(d, &reach, [&w.d_x, &w.d_e]);
+            domain.into_iter().chain(levels).chain(joint.conditions(d, &error_box, &w.sigma)).collect()
+        }
+        None => conditions,
+    })
 }

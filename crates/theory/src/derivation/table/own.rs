@@ -77,11 +77,12 @@ pub(super) fn own_rows(input: &TableInput<'_>) -> Vec<Row> {
     let label = "section 4, C2 and C3 with beta, K_alpha";
     let least = repaired.and_then(|(_, r)| sound(LeastSigma::repaired(*data, &r.bounds).sigma_p(), label));
     own("sigma_p*", paper.and_then(|p| result(&p.sigma_p, "P:19")), least, None);
+    let (threshold, source) = s.threshold();
     own(
         "sigma_a*",
         paper.and_then(|p| result(&p.sigma_a, "P:eq:ineq_bounds_sigma")),
         of_repaired(&|r| &r.lyapunov.sigma_a, "section 5"),
-        ours(s.threshold(), if s.by_matrix.is_some() { "section 13.7" } else { "section 5, C5" }),
+        ours(threshold, source),
     );
     let claimed = |value: &Rational| sound(data.rational(value), "section 5, the set that is covered");
     let repaired_set = repaired.map(|(w, _)| &w.set);
