@@ -1,9 +1,9 @@
-(** That a plant can be within bounding functions as [Claim.v] means it: a linear one with one state, x' = -a x + b e and
+(** That a plant can be within bounding functions as [PlantBounds.v] means it: a linear one with one state, x' = -a x + b e and
     e' = d(t) + g x + k e + u, whatever the weights and the other numbers are. *)
 
 From Coq Require Import Reals Lra.
 From Coquelicot Require Import Coquelicot.
-From SigmaStar Require Import Sizes Claim.
+From SigmaStar Require Import Sizes PlantBounds.
 Local Open Scope R_scope.
 
 Section ScalarPlant.
@@ -18,21 +18,23 @@ Let P (_ v : R) : R := v ^ 2.
 Let P' (_ v v' : R) : R := 2 * v * v'.
 
 Variable c : numbers.
+Variable o : functions.
+Hypothesis bounding : known c = by_functions o.
 Hypothesis low : p_low c <= 1.
 Hypothesis up : 1 <= p_up c.
 Hypothesis decays : alpha c <= a.
-Hypothesis no_curvature : b_fxx c = (fun _ _ => 0) /\ b_fex c = (fun _ _ => 0).
+Hypothesis no_curvature : b_fxx o = (fun _ _ => 0) /\ b_fex o = (fun _ _ => 0).
 Hypothesis no_rate : rate c = None.
 Hypothesis no_side : q_e_max c = None.
 Hypothesis of_f : forall x e, Rabs b <= b_fe c x e.
 Hypothesis of_q : forall x e, Rabs g <= b_qx c x e /\ Rabs k <= b_qe c x e.
 
-Theorem scalar_plant_within : within c (X := R_NormedModule) f q F P P'.
+Theorem scalar_plant_within : about c (X := R_NormedModule) f q F P P'.
 Proof.
   assert (N : forall v : R, norm v = Rabs v) by reflexivity.
   assert (M : forall u v : R, minus u v = u - v) by reflexivity.
   assert (A : forall u v : R, plus u v = u + v) by reflexivity.
-  split.
+  split; [|unfold as_known; rewrite bounding; split].
   - split; unfold P, P'.
     + intros _ v. rewrite N, pow2_abs. pose proof (pow2_ge_0 v).
       assert (p_low c * v ^ 2 <= 1 * v ^ 2) by (apply Rmult_le_compat_r; lra). lra.

@@ -8,7 +8,7 @@ use proofs_core::rules::transfer::Proof;
 const HEAD: &str = "\
 From Coq Require Import Reals ZArith Lra Lia.
 From Coquelicot Require Import Coquelicot.
-From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched Claim Decide.
+From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched PlantBounds Claim Decide.
 Local Open Scope R_scope.
 ";
 
@@ -55,7 +55,7 @@ Proof. decide_weight_sum cert. Qed.
     in that what starts in the set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of x
     and e tend to 0. *)
 Theorem certificate_attracts :
-  forall (X : NormedModule R_AbsRing) f q F P P', within (X := X) cert f q F P P' ->
+  forall (X : NormedModule R_AbsRing) f q F P P', about (X := X) cert f q F P P' ->
   forall s, sigma cert <= s -> exists rho, 0 < rho /\\
   forall N p, (forall t, solves cert f q N s p t) -> sized cert N p -> attracts cert f q P N s p rho.
 Proof.
@@ -69,7 +69,7 @@ Qed.
 (** The certificate. That the periodic solution exists, [existence_10_3], is a hypothesis: its conditions are proved here, section 10.3
     is not. *)
 Theorem certificate_holds :
-  forall (X : NormedModule R_AbsRing) f q F P P', within (X := X) cert f q F P P' ->{hypothesis}
+  forall (X : NormedModule R_AbsRing) f q F P P', about (X := X) cert f q F P P' ->{hypothesis}
   existence_10_3 cert f q -> certified cert f q P.
 Proof.
   intros X f q F P P' {names}.
