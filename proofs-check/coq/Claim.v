@@ -6,7 +6,7 @@
 
 From Coq Require Import Reals Lra Lia.
 From Coquelicot Require Import Coquelicot.
-From SigmaStar Require Import Sums Weights Transfer Loop Stability Containment Vanish Sizes Differences PlantBounds.
+From SigmaStar Require Import Sums Weights Transfer Loop Stability Containment Vanish Sizes Differences PlantBounds Decline.
 Local Open Scope R_scope.
 
 Section Claim.
