@@ -1,7 +1,7 @@
 //! The record `numbers` of `proofs-check/coq/Sizes.v`: specification, claim and witness, field by field.
 
-use super::{Parts, plants};
 use super::terms::{constant, function, number, unsupported};
+use super::{Parts, plants};
 use proofs_core::bound::{BOUND_NAMES, Bound};
 use proofs_core::expr::Expr;
 use proofs_core::rules::paths::Path;
@@ -66,12 +66,15 @@ fn functions(spec: &Specification) -> Outcome<Fields> {
     let required = |names: &[(&'static str, Bound)]| {
         let mut fields = Fields::new();
         for (name, which) in names {
-            let Some(text) = bound(*which)? else { return unsupported(&at("bounds"), "a bounding function is missing") };
+            let Some(text) = bound(*which)? else {
+                return unsupported(&at("bounds"), "a bounding function is missing");
+            };
             fields.push((name, text));
         }
         Ok(fields)
     };
-    let beyond = [("b_f", Bound::F), ("b_fxx", Bound::Fxx), ("b_fex", Bound::Fex), ("b_q", Bound::Q), ("b_qt", Bound::Qt)];
+    let beyond =
+        [("b_f", Bound::F), ("b_fxx", Bound::Fxx), ("b_fex", Bound::Fex), ("b_q", Bound::Q), ("b_qt", Bound::Qt)];
     let beyond: Vec<String> = required(&beyond)?.iter().map(|(name, text)| format!("{name} := {text}")).collect();
     let mut fields = required(&[("b_fe", Bound::Fe), ("b_qe", Bound::Qe), ("b_qx", Bound::Qx)])?;
     fields.push(("known", format!("by_functions {{| {} |}}", beyond.join("; "))));

@@ -49,7 +49,8 @@ impl Table<'_> {
         }
         // Beyond all arguments of a certificate.
         let free = &self.parts.witness.free;
-        let far = [&free.x_p + Rational::from(&free.x_p + &free.d_x), &free.e_p + Rational::from(&free.e_p + &free.d_e)];
+        let far =
+            [&free.x_p + Rational::from(&free.x_p + &free.d_x), &free.e_p + Rational::from(&free.e_p + &free.d_e)];
         let value = match name {
             Name::Fx | Name::Fe | Name::Qx | Name::Qtx => "0".to_owned(),
             Name::Rate | Name::RateExistence => constant(&self.parts.spec.alpha, "/witness/lyapunov/alpha")?,
@@ -90,7 +91,8 @@ fn existence(table: &Table<'_>) -> Outcome<Fields> {
     let [of_f, rate] = [Name::Fx, rate].map(|name| table.at(name, [&free.x_p, &zero]));
     let (of_f, rate) = (of_f?, rate?);
     let here = [&free.x_p, &free.e_p];
-    let [f_e, q_e, q_x, q_tx, q_te] = [Name::Fe, Name::Qe, Name::Qx, Name::Qtx, Name::Qte].map(|name| table.at(name, here));
+    let [f_e, q_e, q_x, q_tx, q_te] =
+        [Name::Fe, Name::Qe, Name::Qx, Name::Qtx, Name::Qte].map(|name| table.at(name, here));
     let [f_e, q_e, q_x, q_tx, q_te] = [f_e?, q_e?, q_x?, q_tx?, q_te?];
     let most = table.given(Name::QeMax, here)?;
     let at_e_p: Vec<&Value> = [&f_e, &q_e, &q_x, &q_tx, &q_te].into_iter().chain(&most).collect();
