@@ -36,7 +36,6 @@ fn the_numbers_are_those_of_the_certificate() {
         "  w := (2 * PI);",
         "  n := power 2 (1 / 2);",
         "  b_fe := fun X E => (X + 0.189);",
-        "  b_q := fun X E => ((4.822 + X) + (atan (E * (X + 0.189))));",
         "  domain := Some (10, 10);",
         "  sigma := 41.4618;",
         "  Z_0 := Some (14.445071);",
@@ -47,6 +46,9 @@ fn the_numbers_are_those_of_the_certificate() {
     ] {
         assert!(text.lines().any(|other| other == line), "{line}");
     }
+    assert!(text.contains("  known := by_functions {| b_f := "));
+    assert!(text.contains("; b_q := fun X E => ((4.822 + X) + (atan (E * (X + 0.189)))); b_qt := "));
+    assert!(text.contains("canonical specification:") && !text.contains("orbit"));
     assert!(text.contains("8f15618c51d5361f8e1b68c697826eac53d91447e93b710fb0af923c0893016c"));
     let damped = written(&certificate("refined.means"));
     assert!(damped.contains("  damped := Some ({| kap := 350; kap_small := false |});"));
