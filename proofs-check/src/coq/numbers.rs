@@ -1,6 +1,6 @@
 //! The record `numbers` of `proofs-check/coq/Sizes.v`: specification, claim and witness, field by field.
 
-use super::terms::{constant, function, number, unsupported};
+use super::terms::{Fields, constant, function, number, option, unsupported};
 use super::{Parts, plants};
 use proofs_core::bound::{BOUND_NAMES, Bound};
 use proofs_core::expr::Expr;
@@ -21,12 +21,6 @@ pub fn record(parts: &Parts) -> Outcome<String> {
     fields.extend(of_witness(parts));
     let lines: Vec<String> = fields.into_iter().map(|(name, value)| format!("  {name} := {value}")).collect();
     Ok(lines.join(";\n"))
-}
-
-pub type Fields = Vec<(&'static str, String)>;
-
-pub fn option(value: Option<String>) -> String {
-    value.map_or_else(|| "None".to_owned(), |value| format!("Some ({value})"))
 }
 
 fn of_specification(parts: &Parts) -> Outcome<Fields> {

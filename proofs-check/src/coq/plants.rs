@@ -5,8 +5,7 @@
 //! computes.
 
 use super::Parts;
-use super::numbers::{Fields, option};
-use super::terms::{constant, number, unsupported};
+use super::terms::{Fields, constant, number, option, unsupported};
 use proofs_core::plant::OfPlant;
 use proofs_core::plant::entries::{Entry, Name};
 use proofs_core::rules::inequality::Inequality;
