@@ -1,6 +1,6 @@
 (** What every theorem of README.md rests on. The files are not imported: every name is written in full. *)
 
-From SigmaStar Require Sums Enclose Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response Answers MatrixInequality Sizes Differences Vanish Claim WeightSum ExplicitWeights Decide ScalarPlant.
+From SigmaStar Require Sums Enclose Weights Transfer Matched Squares Poles Far Example Loop SampledLoop Forms Stability Containment SampledStability Transfers Harmonics Response Answers MatrixInequality Sizes Differences Vanish PlantBounds Decline Claim WeightSum ExplicitWeights Decide ScalarPlant.
 
 Set Printing Width 130.
 
@@ -93,12 +93,16 @@ Print Assumptions SigmaStar.MatrixInequality.F_hull.
 Print Assumptions SigmaStar.MatrixInequality.F_between_sigma.
 Print Assumptions SigmaStar.MatrixInequality.F_between_b.
 Print Assumptions SigmaStar.MatrixInequality.F_margin.
+Print Assumptions SigmaStar.MatrixInequality.F_of_differences.
 Print Assumptions SigmaStar.MatrixInequality.U_m_derive.
 Print Assumptions SigmaStar.WeightSum.power_sum.
 Print Assumptions SigmaStar.ExplicitWeights.explicit_weights.
 Print Assumptions SigmaStar.ExplicitWeights.explicit_sum.
+Print Assumptions SigmaStar.Decline.declines.
+Print Assumptions SigmaStar.Decline.slopes.
 Print Assumptions SigmaStar.Claim.stays_and_falls.
 Print Assumptions SigmaStar.Vanish.vanishes.
 Print Assumptions SigmaStar.Claim.errors_tend.
 Print Assumptions SigmaStar.Claim.claim.
 Print Assumptions SigmaStar.ScalarPlant.scalar_plant_within.
+Print Assumptions SigmaStar.ScalarPlant.scalar_plant_bounded.

@@ -1,58 +1,20 @@
 (** Sections 5 and 10.4: what a certificate in continuous time says, with every number in it a parameter ([Sizes.v]). From its
-    conditions C4, C5, C5b, a plant within its bounding functions and a periodic solution of the stated size follows: every
+    conditions C4, C5, C5b or C5m, what is known of the plant ([PlantBounds.v]) and a periodic solution of the stated size follows: every
     solution from the initial set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of
     x and e tend to 0; for every N and every sigma' >= sigma. With the existence of the periodic
     solution (section 10.3), which is a hypothesis here, follows [certified]. *)
 
 From Coq Require Import Reals Lra Lia.
 From Coquelicot Require Import Coquelicot.
-From SigmaStar Require Import Sums Weights Transfer Loop Stability Containment Vanish Sizes Differences.
+From SigmaStar Require Import Sums Weights Transfer Loop Stability Containment Vanish Sizes Differences PlantBounds Decline.
 Local Open Scope R_scope.
 
 Section Claim.
 Variable c : numbers.
 
-(** ** A plant within the bounding functions
-
-    The states are in any normed space. The bounds of derivatives are stated as what they say of differences (13.1): a bound of
-    a derivative on the convex set |x| <= X, |e| <= E is one of the difference quotients there. *)
-
 Context {X : NormedModule R_AbsRing}.
 Variables (f : R -> X -> R -> X) (q : R -> X -> R -> R).
-(** F t = df/dx(t,0,0). P t v = v' P_x(t) v, and P' t v a = v' P_x'(t) v + 2 v' P_x(t) a is its derivative along v' = a. *)
 Variables (F : R -> X -> X) (P : R -> X -> R) (P' : R -> X -> X -> R).
-
-Record quadratic_form : Prop := {
-  form_low : forall t v, p_low c * norm v ^ 2 <= P t v;
-  form_up : forall t v, P t v <= p_up c * norm v ^ 2;
-  form_derive : forall t (v : R -> X) a, is_derive v t a -> is_derive (fun t => P t (v t)) t (P' t (v t) a);
-  form_plus : forall t v a b, P' t v (plus a b) <= P' t v a + 2 * sqrt (P t v) * sqrt (P t b)
-}.
-
-Record within : Prop := {
-  within_form : quadratic_form;
-  (** (1.3). *)
-  within_triple : forall t v, P' t v (F t v) <= - 2 * alpha c * P t v;
-  (** b_fxx, b_fex: df/dx along a segment of length at most D from xp, at e, against F (the proof of Lemma 5.1). *)
-  within_fx : forall x D E, in_domain c (x + D) E ->
-    forall t v xp e, norm xp <= x -> norm (minus v xp) <= D -> Rabs e <= E ->
-    norm (minus (minus (f t v e) (f t xp e)) (F t (minus v xp)))
-    <= (b_fxx c x 0 * x + b_fex c x E * E + b_fxx c (x + D) E * D / 2) * norm (minus v xp);
-  (** [rate], where it is given: a rate of contraction of df/dx in the same P. *)
-  within_rate : match rate c with
-                | None => True
-                | Some a => forall x E, in_domain c x E -> forall t v v' e, norm v <= x -> norm v' <= x -> Rabs e <= E ->
-                    P' t (minus v v') (minus (f t v e) (f t v' e)) <= - 2 * a x E * P t (minus v v')
-                end;
-  within_fe : forall x E, in_domain c x E -> forall t v e e', norm v <= x -> Rabs e <= E -> Rabs e' <= E ->
-    norm (minus (f t v e) (f t v e')) <= b_fe c x E * Rabs (e - e');
-  within_qx : forall x E, in_domain c x E -> forall t v v' e, norm v <= x -> norm v' <= x -> Rabs e <= E ->
-    Rabs (q t v e - q t v' e) <= b_qx c x E * norm (minus v v');
-  (** b_qe, and q_e_max where it is given: the slope of q in e. *)
-  within_qe : forall x E, in_domain c x E -> forall t v e e', norm v <= x -> Rabs e <= E -> Rabs e' <= E ->
-    exists delta, q t v e - q t v e' = delta * (e - e') /\ - b_qe c x E <= delta <= b_qe c x E /\
-                  match q_e_max c with None => True | Some m => delta <= m x E end
-}.
 
 (** ** Solutions *)
 
@@ -117,261 +79,24 @@ Definition attracts (N : nat) (s : R) (p : state) (rho : R) : Prop := falls N s 
 (** ** The proof *)
 
 Hypothesis n_pos : forall l, 0 < n c l.
-Hypothesis plant : within.
+Hypothesis plant : about c f q F P P'.
 Hypothesis conditions : stability_conditions c.
 
-Let form := within_form plant.
-
+Let form : quadratic_form c P P' := proj1 plant.
 Let p_low_pos : 0 < p_low c. Proof. apply (signs_b _ conditions). Qed.
 Let p_up_pos : 0 < p_up c. Proof. apply (signs_b _ conditions). Qed.
-
-Lemma P_nonneg t v : 0 <= P t v.
-Proof.
-  apply Rle_trans with (2 := form_low form t v). apply Rmult_le_pos; [lra | apply pow2_ge_0].
-Qed.
-
-Lemma norm_le_xi t v : norm v <= sqrt (P t v) / sqrt (p_low c).
-Proof.
-  assert (S : 0 < sqrt (p_low c)) by (apply sqrt_lt_R0; lra).
-  apply le_div; [exact S|].
-  rewrite <- (sqrt_pow2 (norm v)) by apply norm_ge_0. rewrite <- sqrt_mult by (try apply pow2_ge_0; lra).
-  apply sqrt_le_1_alt. pose proof (form_low form t v). lra.
-Qed.
-
-Lemma xi_le_norm t v : sqrt (P t v) <= sqrt (p_up c) * norm v.
-Proof.
-  rewrite <- (sqrt_pow2 (norm v)) at 1 by apply norm_ge_0. rewrite <- sqrt_mult by (try apply pow2_ge_0; lra).
-  apply sqrt_le_1_alt. pose proof (form_up form t v). lra.
-Qed.
-
-Lemma xi_square t v : sqrt (P t v) ^ 2 = P t v.
-Proof. rewrite <- Rsqr_pow2. apply Rsqr_sqrt, P_nonneg. Qed.
-
 Let D_x_pos : 0 < D_x c. Proof. apply (signs_b _ conditions). Qed.
 Let D_e_pos : 0 < D_e c. Proof. apply (signs_b _ conditions). Qed.
-
-(** A smaller box is in the domain too. *)
-Lemma in_domain_le a b a' b' : in_domain c a b -> a' <= a -> b' <= b -> in_domain c a' b'.
-Proof. unfold in_domain. destruct (domain c) as [[A B]|]; [intros [H1 H2] Ha Hb; split; lra | auto]. Qed.
-
-Lemma E_at_le p : e_per c <= E_at c p <= E_b c.
-Proof. unfold E_at, E_b. destruct p; lra. Qed.
-
-Lemma X_at_le p : x_per c <= X_at c p <= X_b c.
-Proof. unfold X_at, X_b. destruct p; lra. Qed.
-
-(** The part in x of a difference of f, at e: Lemma 5.1, with a_2. *)
-Lemma state_part t v xp e : norm xp <= x_per c -> norm (minus v xp) <= D_x c -> Rabs e <= E_f c ->
-  P' t (minus v xp) (minus (f t v e) (f t xp e)) <= - 2 * a_2 c * P t (minus v xp).
-Proof.
-  intros Hp Hd He.
-  assert (Dom : in_domain c (x_per c + D_x c) (E_f c)).
-  { apply (in_domain_le _ _ _ _ (domain_b _ conditions)); [unfold X_b; lra | apply E_at_le]. }
-  set (xi := sqrt (P t (minus v xp))).
-  assert (Hxi : 0 <= xi) by apply sqrt_pos.
-  assert (A1 : P' t (minus v xp) (minus (f t v e) (f t xp e)) <= - 2 * (alpha c - gam c) * P t (minus v xp)).
-  { set (r := minus (minus (f t v e) (f t xp e)) (F t (minus v xp))).
-    assert (E : minus (f t v e) (f t xp e) = plus (F t (minus v xp)) r).
-    { unfold r, minus. rewrite (plus_comm (F t _)), <- plus_assoc, plus_opp_l, plus_zero_r. reflexivity. }
-    rewrite E. apply Rle_trans with (1 := form_plus form t (minus v xp) (F t (minus v xp)) r).
-    pose proof (within_triple plant t (minus v xp)) as T1.
-    pose proof (within_fx plant _ _ _ Dom t v xp e Hp Hd He) as T2. fold r in T2. fold xi.
-    set (G := b_fxx c (x_per c) 0 * x_per c + b_fex c (x_per c) (E_f c) * E_f c
-              + b_fxx c (x_per c + D_x c) (E_f c) * D_x c / 2) in *.
-    assert (Sl : 0 < sqrt (p_low c)) by (apply sqrt_lt_R0; lra).
-    assert (T3 : sqrt (P t r) <= sqrt (p_up c) * (G * norm (minus v xp))).
-    { apply Rle_trans with (1 := xi_le_norm t r). apply Rmult_le_compat_l; [apply sqrt_pos | exact T2]. }
-    assert (T4 : xi * sqrt (P t r) <= gam c * P t (minus v xp)).
-    { assert (Eg : gam c = sqrt (p_up c) / sqrt (p_low c) * G) by (unfold gam, G, X_b; rewrite sqrt_div by lra; reflexivity).
-      rewrite Eg, <- (xi_square t (minus v xp)). fold xi.
-      destruct (Rle_lt_dec 0 G) as [HG|HG].
-      - apply Rle_trans with (xi * (sqrt (p_up c) * (G * (xi / sqrt (p_low c))))).
-        + apply Rmult_le_compat_l; [exact Hxi|]. apply Rle_trans with (1 := T3).
-          apply Rmult_le_compat_l; [apply sqrt_pos|]. apply Rmult_le_compat_l; [exact HG | apply norm_le_xi].
-        + right. field. lra.
-      - (* then nothing differs *)
-        assert (N0 : norm (minus v xp) = 0).
-        { pose proof (norm_ge_0 r). pose proof (norm_ge_0 (minus v xp)).
-          apply Rle_antisym; [|assumption]. apply Rnot_lt_le. intros C.
-          assert (0 < - G * norm (minus v xp)) by (apply Rmult_lt_0_compat; lra). lra. }
-        assert (X0 : xi = 0).
-        { apply Rle_antisym; [|exact Hxi]. unfold xi. apply Rle_trans with (1 := xi_le_norm t _). rewrite N0. lra. }
-        rewrite X0. right. ring. }
-    nra. }
-  unfold a_2. pose proof (within_rate plant) as Wr.
-  destruct (rate c) as [a|]; [|exact A1].
-  rewrite max2_Rmax. unfold Rmax. destruct (Rle_dec (alpha c - gam c) (a (X_b c) (E_f c))) as [_|_]; [|exact A1].
-  assert (Nv : norm v <= X_b c).
-  { replace v with (plus xp (minus v xp)).
-    - apply Rle_trans with (1 := norm_triangle _ _). unfold X_b. lra.
-    - unfold minus. rewrite plus_comm, <- plus_assoc, plus_opp_l, plus_zero_r. reflexivity. }
-  apply (Wr (X_b c) (E_f c)); [|exact Nv | unfold X_b; lra | exact He].
-  apply (in_domain_le _ _ _ _ Dom); [unfold X_b; lra | lra].
-Qed.
-
-(** 10.4 at one time: what the plant contributes, for two points in the error box. *)
-Lemma plant_part t v xp e ep : norm xp <= x_per c -> Rabs ep <= e_per c ->
-  norm (minus v xp) < D_x c -> Rabs (e - ep) < D_e c ->
-  exists u_x delta phi,
-    q t v e - q t xp ep = u_x + delta * (e - ep) /\
-    Rabs u_x <= k_x c * sqrt (P t (minus v xp)) /\ - k_l c <= delta <= most c /\
-    Rabs phi <= k_f c * Rabs (e - ep) /\
-    P' t (minus v xp) (minus (f t v e) (f t xp ep))
-    <= - 2 * a_2 c * P t (minus v xp) + 2 * sqrt (p_up c) * sqrt (P t (minus v xp)) * phi.
-Proof.
-  intros Hxp Hep Hx He. pose proof (norm_ge_0 (minus v xp)) as N0. pose proof (Rabs_pos (e - ep)) as A0.
-  assert (Dom : forall p r, in_domain c (X_at c p) (E_at c r)).
-  { intros p r. apply (in_domain_le _ _ _ _ (domain_b _ conditions)); [apply X_at_le | apply E_at_le]. }
-  assert (DomX : forall r, in_domain c (X_b c) (E_at c r)).
-  { intros r. apply (in_domain_le _ _ _ _ (domain_b _ conditions)); [lra | apply E_at_le]. }
-  assert (DomE : forall p, in_domain c (X_at c p) (E_b c)).
-  { intros p. apply (in_domain_le _ _ _ _ (domain_b _ conditions)); [apply X_at_le | lra]. }
-  assert (Nv : norm v <= X_b c).
-  { replace v with (plus xp (minus v xp)).
-    - apply Rle_trans with (1 := norm_triangle _ _). unfold X_b. lra.
-    - unfold minus. rewrite plus_comm, <- plus_assoc, plus_opp_l, plus_zero_r. reflexivity. }
-  assert (Ne : Rabs e <= E_b c).
-  { replace e with (ep + (e - ep)) by ring. apply Rle_trans with (1 := Rabs_triang _ _). unfold E_b. lra. }
-  assert (Nep : Rabs ep <= E_b c) by (unfold E_b; lra).
-  assert (Nxp : norm xp <= X_b c) by (unfold X_b; lra).
-  set (xi := sqrt (P t (minus v xp))).
-  assert (Hn : norm (minus v xp) <= xi / sqrt (p_low c)) by apply norm_le_xi.
-  assert (Sl : 0 < sqrt (p_low c)) by (apply sqrt_lt_R0; lra).
-  (* The point of the corner: where x is moved, e is [ec]; where e is moved, x is [vc]. *)
-  assert (Corner : forall p, exists ec vc, Rabs ec <= E_at c p /\ norm vc <= X_at c p /\
-             ((ec = ep /\ vc = v) \/ (ec = e /\ vc = xp))).
-  { intros p. destruct p; [exists ep, v | exists e, xp | exists ep, v]; unfold E_at, X_at; (split; [|split]); auto. }
-  destruct (Corner (path_q c)) as [ec [vc [H1 [H2 H3]]]].
-  destruct (Corner (path_f c)) as [ef [vf [F1 [F2 F3]]]].
-  (* q *)
-  set (u_x := q t v ec - q t xp ec).
-  assert (Ux : Rabs u_x <= k_x c * xi).
-  { assert (B : Rabs u_x <= b_qx c (X_b c) (E_q c) * norm (minus v xp)).
-    { apply (within_qx plant (X_b c) (E_q c)); [apply DomX | exact Nv | exact Nxp | exact H1]. }
-    pose proof (proj1 (nonneg _ conditions)) as K0. unfold k_x in *.
-    assert (B0 : 0 <= b_qx c (X_b c) (E_q c)).
-    { apply Rmult_le_reg_r with (/ sqrt (p_low c)); [apply Rinv_0_lt_compat, Sl|]. rewrite Rmult_0_l. exact K0. }
-    apply Rle_trans with (1 := B).
-    replace (b_qx c (X_b c) (E_q c) / sqrt (p_low c) * xi) with (b_qx c (X_b c) (E_q c) * (xi / sqrt (p_low c))) by (field; lra).
-    apply Rmult_le_compat_l; assumption. }
-  destruct (within_qe plant (X_q c) (E_b c) (DomE _) t vc e ep H2 Ne Nep) as [delta [Q1 [Q2 Q3]]].
-  assert (Sector : - k_l c <= delta <= most c).
-  { unfold k_l, most. destruct (q_e_max c) as [m|].
-    - rewrite min2_Rmin. fold (k_l c). unfold k_l. split; [lra|]. apply Rmin_glb; lra.
-    - unfold k_l. lra. }
-  (* f *)
-  set (g := minus (f t vf e) (f t vf ep)).
-  assert (Gb : norm g <= k_f c * Rabs (e - ep)).
-  { apply (within_fe plant (X_f c) (E_b c) (DomE _) t vf e ep F2 Ne Nep). }
-  assert (Split : minus (f t v e) (f t xp ep) = plus (minus (f t v ef) (f t xp ef)) g).
-  { unfold g. destruct F3 as [[-> ->]|[-> ->]]; unfold minus.
-    - rewrite (plus_comm (plus (f t v ep) _)), <- (plus_assoc (f t v e)), (plus_assoc (opp (f t v ep))), plus_opp_l, plus_zero_l.
-      reflexivity.
-    - rewrite <- (plus_assoc (f t v e)), (plus_assoc (opp (f t xp e))), plus_opp_l, plus_zero_l. reflexivity. }
-  exists u_x, delta, (norm g). repeat split.
-  - unfold u_x. destruct H3 as [[-> ->]|[-> ->]]; lra.
-  - exact Ux.
-  - apply Sector.
-  - apply Sector.
-  - rewrite Rabs_right by (apply Rle_ge, norm_ge_0). exact Gb.
-  - rewrite Split. apply Rle_trans with (1 := form_plus form t _ _ g).
-    pose proof (state_part t v xp ef Hxp ltac:(lra) F1) as S1. fold xi.
-    assert (xi * sqrt (P t g) <= xi * (sqrt (p_up c) * norm g)).
-    { apply Rmult_le_compat_l; [apply sqrt_pos | apply xi_le_norm]. }
-    lra.
-Qed.
-
 Let h_pos : 0 < h c. Proof. apply (signs_b _ conditions). Qed.
 Let mu_pos : 0 < mu c. Proof. apply (signs_b _ conditions). Qed.
 Let w_x_pos : 0 < w_x c. Proof. apply (signs_b _ conditions). Qed.
+Let P_nonneg : forall t v, 0 <= P t v := P_nonneg c P P' form conditions.
 
-Lemma ht_pos : 0 < ht c.
-Proof. unfold ht. apply Rdiv_lt_0_compat; lra. Qed.
-
-(** C5 of Stability.v, for every larger gain. *)
-Lemma C5_of s : sigma c <= s ->
-  C5 (w_x c * a_2 c) (w_x c * sqrt (p_up c) * k_f c) (k_x c) (ht c) (size c) s.
-Proof.
-  intros Hs. apply C5_larger with (sigma c); [|exact Hs].
-  destruct (nonneg _ conditions) as [Kx Kf]. split.
-  - apply ht_pos.
-  - apply Rmult_le_pos; [|exact Kf]. apply Rmult_le_pos; [lra | apply sqrt_pos].
-  - exact Kx.
-  - unfold size. rewrite max2_Rmax. apply Rle_trans with (2 := Rmax_l _ _). apply Rabs_pos.
-  - apply (C5_ _ conditions).
-  - apply (C5b _ conditions).
-Qed.
-
-(** U' <= -rho (xi^2 + et^2 + s^2) at one time; rho serves every N, plant and solution. *)
-Lemma decay s : sigma c <= s -> exists rho, 0 < rho /\
-  forall xi2 xi2' e u_x delta phi y m,
-  0 <= xi2 -> xi2' <= - 2 * a_2 c * xi2 + 2 * sqrt (p_up c) * sqrt xi2 * phi ->
-  Rabs u_x <= k_x c * sqrt xi2 -> - k_l c <= delta <= most c -> Rabs phi <= k_f c * Rabs e ->
-  y = u_x + delta * e + mu c * m ->
-  w_x c * xi2' + 2 * e * (y - s * e) + h c * (- 2 * m * y) <= - rho * (xi2 + e ^ 2 + m ^ 2).
-Proof.
-  intros Hs. destruct (C5_form _ _ _ _ _ _ (C5_of s Hs)) as [rho [Hrho Fm]].
-  pose proof ht_pos as Hht.
-  set (K := 3 * (1 + k_x c ^ 2 + (k_l c ^ 2 + most c ^ 2)) / mu c ^ 2).
-  assert (HK : 0 <= K).
-  { unfold K. pose proof (pow2_ge_0 (k_x c)). pose proof (pow2_ge_0 (k_l c)). pose proof (pow2_ge_0 (most c)).
-    left. apply Rdiv_lt_0_compat; [lra | apply pow_lt; lra]. }
-  exists (rho / (1 + K)). split; [apply Rdiv_lt_0_compat; lra|].
-  intros xi2 xi2' e u_x delta phi y m P0 P1 P2 P3 P4 Ey.
-  set (xi := sqrt xi2) in *. assert (Hxi : 0 <= xi) by apply sqrt_pos.
-  assert (Exi : xi2 = xi ^ 2) by (unfold xi; rewrite <- Rsqr_pow2, Rsqr_sqrt; auto).
-  set (v := (1 + ht c * delta) * e + ht c * u_x).
-  assert (HD : Rabs (1 + ht c * delta) <= size c).
-  { unfold size. rewrite max2_Rmax. pose proof (Rmax_l (Rabs (1 + ht c * most c)) (Rabs (1 - ht c * k_l c))) as M1.
-    pose proof (Rmax_r (Rabs (1 + ht c * most c)) (Rabs (1 - ht c * k_l c))) as M2.
-    set (M := Rmax _ _) in *. apply Rabs_le_between in M1. apply Rabs_le_between in M2. apply Rabs_le_between.
-    assert (ht c * delta <= ht c * most c) by (apply Rmult_le_compat_l; lra).
-    assert (ht c * - k_l c <= ht c * delta) by (apply Rmult_le_compat_l; lra). lra. }
-  assert (Hv : Rabs v <= size c * Rabs e + ht c * k_x c * xi).
-  { unfold v. apply Rle_trans with (1 := Rabs_triang _ _). rewrite !Rabs_mult. apply Rplus_le_compat.
-    - apply Rmult_le_compat_r; [apply Rabs_pos | exact HD].
-    - rewrite (Rabs_right (ht c)) by lra. rewrite Rmult_assoc. apply Rmult_le_compat_l; [lra | exact P2]. }
-  specialize (Fm xi e y v Hxi Hv).
-  assert (Q1 : w_x c * xi2' <= - 2 * (w_x c * a_2 c) * xi ^ 2 + 2 * (w_x c * sqrt (p_up c) * k_f c) * xi * Rabs e).
-  { apply Rle_trans with (w_x c * (- 2 * a_2 c * xi2 + 2 * sqrt (p_up c) * xi * phi)).
-    - apply Rmult_le_compat_l; [lra | exact P1].
-    - rewrite Exi. assert (2 * w_x c * sqrt (p_up c) * xi * phi <= 2 * w_x c * sqrt (p_up c) * xi * (k_f c * Rabs e)).
-      { apply Rmult_le_compat_l.
-        - repeat apply Rmult_le_pos; try lra. apply sqrt_pos.
-        - apply Rle_trans with (2 := P4). apply Rle_abs. }
-      lra. }
-  assert (Q2 : 2 * e * (y - s * e) + h c * (- 2 * m * y) = - 2 * s * e ^ 2 + 2 * y * v - 2 * ht c * y ^ 2).
-  { assert (Em : m = (y - (u_x + delta * e)) / mu c) by (rewrite Ey; field; lra).
-    assert (Eh : h c = ht c * mu c) by (unfold ht; field; lra).
-    rewrite Eh. replace (ht c * mu c * (- 2 * m * y)) with (- 2 * ht c * (mu c * m) * y) by ring.
-    replace (mu c * m) with (y - (u_x + delta * e)) by (rewrite Em; field; lra). unfold v. ring. }
-  assert (Q3 : m ^ 2 <= K * (xi2 + e ^ 2 + y ^ 2)).
-  { replace (m ^ 2) with ((mu c * m) ^ 2 / mu c ^ 2) by (field; lra).
-    apply div_le; [apply pow_lt; lra|].
-    replace (K * (xi2 + e ^ 2 + y ^ 2) * mu c ^ 2)
-      with (3 * (1 + k_x c ^ 2 + (k_l c ^ 2 + most c ^ 2)) * (xi2 + e ^ 2 + y ^ 2)) by (unfold K; field; lra).
-    replace (mu c * m) with (y - u_x - delta * e) by lra.
-    assert (R1 : u_x ^ 2 <= k_x c ^ 2 * xi2).
-    { rewrite Exi, <- Rpow_mult_distr, <- (pow2_abs u_x). apply pow_incr. split; [apply Rabs_pos | exact P2]. }
-    assert (R2 : delta ^ 2 <= k_l c ^ 2 + most c ^ 2).
-    { destruct (Rle_lt_dec 0 delta); pose proof (pow2_ge_0 (k_l c)); pose proof (pow2_ge_0 (most c)).
-      - assert (delta ^ 2 <= most c ^ 2) by (apply pow_incr; lra). lra.
-      - assert ((- delta) ^ 2 <= k_l c ^ 2) by (apply pow_incr; lra). lra. }
-    assert (R3 : (y - u_x - delta * e) ^ 2 <= 3 * (y ^ 2 + u_x ^ 2 + delta ^ 2 * e ^ 2)).
-    { pose proof (pow2_ge_0 (y + u_x)). pose proof (pow2_ge_0 (y + delta * e)). pose proof (pow2_ge_0 (u_x - delta * e)).
-      replace (delta ^ 2 * e ^ 2) with ((delta * e) ^ 2) by ring. lra. }
-    assert (R4 : delta ^ 2 * e ^ 2 <= (k_l c ^ 2 + most c ^ 2) * e ^ 2) by (apply Rmult_le_compat_r; [apply pow2_ge_0 | exact R2]).
-    pose proof (pow2_ge_0 e) as E0. pose proof (pow2_ge_0 y) as Y0. pose proof (pow2_ge_0 (k_x c)) as K0.
-    assert (K1 : 0 <= k_l c ^ 2 + most c ^ 2) by (pose proof (pow2_ge_0 (k_l c)); pose proof (pow2_ge_0 (most c)); lra).
-    set (a := k_x c ^ 2) in *. set (b := k_l c ^ 2 + most c ^ 2) in *. set (ee := e ^ 2) in *. set (yy := y ^ 2) in *.
-    assert (0 <= a * ee) by (apply Rmult_le_pos; assumption). assert (0 <= a * yy) by (apply Rmult_le_pos; assumption).
-    assert (0 <= b * xi2) by (apply Rmult_le_pos; assumption). assert (0 <= b * yy) by (apply Rmult_le_pos; assumption). lra. }
-  assert (Q4 : rho / (1 + K) * (xi2 + e ^ 2 + m ^ 2) <= rho * (xi ^ 2 + e ^ 2 + y ^ 2)).
-  { rewrite <- Exi. apply Rle_trans with (rho / (1 + K) * ((1 + K) * (xi2 + e ^ 2 + y ^ 2))).
-    - apply Rmult_le_compat_l; [left; apply Rdiv_lt_0_compat; lra|]. pose proof (pow2_ge_0 y). lra.
-    - right. field. lra. }
-  lra.
-Qed.
+(** U' <= -rho (xi^2 + et^2 + s^2) in the error box ([declines]). *)
+Definition declining (s rho : R) : Prop :=
+  forall t v xp e ep z y, near c v xp e ep -> y = q t v e - q t xp ep + mu c * z ->
+  w_x c * P' t (minus v xp) (minus (f t v e) (f t xp ep)) + 2 * (e - ep) * (y - s * (e - ep)) + h c * (- 2 * z * y)
+  <= - rho * (P t (minus v xp) + (e - ep) ^ 2 + z ^ 2).
 
 (** ** Along a solution *)
 
@@ -439,18 +164,11 @@ Qed.
 
 (** In the error box U falls. *)
 Lemma U'_le rho t : solves N s y t -> norm (xt y p t) < D_x c -> Rabs (et y p t) < D_e c ->
-  (forall xi2 xi2' e u_x delta phi y m,
-    0 <= xi2 -> xi2' <= - 2 * a_2 c * xi2 + 2 * sqrt (p_up c) * sqrt xi2 * phi ->
-    Rabs u_x <= k_x c * sqrt xi2 -> - k_l c <= delta <= most c -> Rabs phi <= k_f c * Rabs e ->
-    y = u_x + delta * e + mu c * m ->
-    w_x c * xi2' + 2 * e * (y - s * e) + h c * (- 2 * m * y) <= - rho * (xi2 + e ^ 2 + m ^ 2)) ->
+  declining s rho ->
   U'_ t <= - rho * dissipated N y p t.
 Proof.
   intros H Hx He Dec. destruct (p_sized t) as [Sx [Se _]].
-  destruct (plant_part t (of_x y t) (of_x p t) (of_e y t) (of_e p t) Sx Se Hx He) as [u_x [delta [phi [Q1 [Q2 [Q3 [Q4 Q5]]]]]]].
-  unfold U'_, dissipated. apply (Dec _ _ _ u_x delta phi); try assumption.
-  - apply P_nonneg.
-  - unfold Loop.y. rewrite Q1. unfold st, et. ring.
+  unfold U'_, dissipated. apply (Dec t); [repeat split; assumption|]. unfold Loop.y, st, et. ring.
 Qed.
 
 (** At the start U is at most the level of C4. *)
@@ -525,7 +243,7 @@ Qed.
 Theorem stays_and_falls s : sigma c <= s -> exists rho, 0 < rho /\
   forall N p, n c O + sum1 N (n c) <= n_bar2 c -> (forall t, solves N s p t) -> sized N p -> falls N s p rho.
 Proof.
-  intros Hs. destruct (decay s Hs) as [rho [Hrho Dec]]. exists rho. split; [exact Hrho|].
+  intros Hs. destruct (declines c f q F P P' form (proj2 plant) conditions s Hs) as [rho [Hrho Dec]]. exists rho. split; [exact Hrho|].
   intros N p Hn Hp Hsz y t0 t1 H01 Hy Hst.
   set (k := clamp t0 t1).
   assert (Kin : forall t, solves N s y (k t)) by (intros t; apply Hy, clamp_between, H01).
@@ -620,20 +338,9 @@ Proof.
     { unfold Ut. pose proof (Vt_nonneg N p y t) as V0. pose proof (P_nonneg t (xt y p t)) as P0. pose proof (pow2_ge_0 (et y p t)).
       assert (0 <= h c * Vt N y p t) by (apply Rmult_le_pos; lra). assert (0 <= w_x c * P t (xt y p t)) by (apply Rmult_le_pos; lra). lra. }
     lra. }
-  destruct (nonneg _ conditions) as [Kx Kf].
-  assert (Sup : 0 <= sqrt (p_up c)) by apply sqrt_pos.
-  assert (Xi : forall t, t0 <= t -> sqrt (P t (xt y p t)) <= sqrt (p_up c) * D_x c).
-  { intros t Ht. destruct (In t Ht) as [B1 _]. apply Rle_trans with (1 := xi_le_norm t _). apply Rmult_le_compat_l; lra. }
-  assert (A2 : 0 < a_2 c).
-  { pose proof (C5_ _ conditions) as Q. pose proof ht_pos. pose proof (pow2_ge_0 (k_x c)).
-    assert (0 <= ht c * k_x c ^ 2) by (apply Rmult_le_pos; lra). apply Rnot_le_lt. intros L.
-    assert (w_x c * a_2 c <= w_x c * 0) by (apply Rmult_le_compat_l; lra). lra. }
-  assert (Part : forall t, t0 <= t -> exists u_x delta phi,
-    q t (of_x y t) (of_e y t) - q t (of_x p t) (of_e p t) = u_x + delta * et y p t /\
-    Rabs u_x <= k_x c * sqrt (P t (xt y p t)) /\ - k_l c <= delta <= most c /\ Rabs phi <= k_f c * Rabs (et y p t) /\
-    P' t (xt y p t) (minus (f t (of_x y t) (of_e y t)) (f t (of_x p t) (of_e p t)))
-    <= - 2 * a_2 c * P t (xt y p t) + 2 * sqrt (p_up c) * sqrt (P t (xt y p t)) * phi).
-  { intros t Ht. destruct (In t Ht) as [B1 [B2 _]]. destruct (Hsz t) as [S1 [S2 _]]. apply plant_part; assumption. }
+  destruct (slopes c f q F P P' form (proj2 plant) conditions) as [C1 [HC1 Slow]].
+  assert (Near : forall t, t0 <= t -> near c (of_x y t) (of_x p t) (of_e y t) (of_e p t)).
+  { intros t Ht. destruct (In t Ht) as [B1 [B2 _]]. destruct (Hsz t) as [S1 [S2 _]]. repeat split; assumption. }
   assert (Int : forall g : R -> R, (forall t, t0 <= t -> continuous g t) -> (forall t, g t <= dissipated N y p t) ->
             forall t, t0 <= t -> RInt g t0 t <= level c / rho).
   { intros g Hc Hg t Ht. apply Rle_trans with (2 := proj2 (proj2 (proj2 (In t Ht)))).
@@ -642,10 +349,6 @@ Proof.
     - apply Hc. lra.
     - apply (dissipated_continuous N s p y Hp r (Hy r ltac:(lra))). }
   (* xi *)
-  set (C1 := 2 * sqrt (p_up c) * (sqrt (p_up c) * D_x c) * (k_f c * D_e c) + 1).
-  assert (HC1 : 0 < C1).
-  { unfold C1. assert (0 <= 2 * sqrt (p_up c) * (sqrt (p_up c) * D_x c) * (k_f c * D_e c)); [|lra].
-    repeat apply Rmult_le_pos; lra. }
   assert (D1 : forall t, t0 <= t -> is_derive (fun t => P t (xt y p t)) t
             (P' t (xt y p t) (minus (f t (of_x y t) (of_e y t)) (f t (of_x p t) (of_e p t))))).
   { intros t Ht. apply (form_derive form t (xt y p)), (xt_derive N s p y Hp t (Hy t Ht)). }
@@ -654,25 +357,13 @@ Proof.
               t0 C1 (level c / rho) HC1) with (eps := p_low c * eps ^ 2) as [t1 [T1 V1]].
   - intros t _. apply P_nonneg.
   - exact D1.
-  - intros t Ht. destruct (Part t Ht) as [u_x [delta [phi [_ [_ [_ [Q4 Q5]]]]]]]. destruct (In t Ht) as [_ [B2 _]].
-    apply Rle_trans with (1 := Q5). pose proof (P_nonneg t (xt y p t)) as P0.
-    assert (0 <= a_2 c * P t (xt y p t)) by (apply Rmult_le_pos; lra).
-    assert (phi <= k_f c * D_e c).
-    { apply Rle_trans with (1 := Rle_abs phi). apply Rle_trans with (1 := Q4). apply Rmult_le_compat_l; lra. }
-    assert (0 <= k_f c * D_e c) by (apply Rmult_le_pos; lra).
-    assert (sqrt (P t (xt y p t)) * phi <= sqrt (p_up c) * D_x c * (k_f c * D_e c)).
-    { apply Rle_trans with (sqrt (P t (xt y p t)) * (k_f c * D_e c)).
-      - apply Rmult_le_compat_l; [apply sqrt_pos | assumption].
-      - apply Rmult_le_compat_r; [assumption | apply Xi, Ht]. }
-    assert (sqrt (p_up c) * (sqrt (P t (xt y p t)) * phi) <= sqrt (p_up c) * (sqrt (p_up c) * D_x c * (k_f c * D_e c)))
-      by (apply Rmult_le_compat_l; assumption).
-    unfold C1. lra.
+  - intros t Ht. apply (Slow t _ _ _ _ (Near t Ht)).
   - apply Int.
     + intros t Ht. apply (ex_derive_continuous (V := R_NormedModule)). eexists. apply D1, Ht.
     + intros t. unfold dissipated. pose proof (pow2_ge_0 (et y p t)). pose proof (pow2_ge_0 (st N y p t)). lra.
   - apply Rmult_lt_0_compat; [lra | apply pow_lt, He].
   - (* et *)
-    set (Y := k_x c * (sqrt (p_up c) * D_x c) + (Rabs (k_l c) + Rabs (most c)) * D_e c + mu c * sqrt (n_bar2 c * (level c / h c))).
+    set (Y := C1 + mu c * sqrt (n_bar2 c * (level c / h c))).
     set (C2 := 2 * D_e c * (Y + Rabs s * D_e c) + 1).
     set (g' := fun t => 2 * et y p t * (Loop.y (n c) N s (mu c) 1 (et y p)
                       (fun t => q t (of_x y t) (of_e y t) - q t (of_x p t) (of_e p t))
@@ -682,8 +373,9 @@ Proof.
       unfold g'. evar_last; [apply (is_derive_pow (et y p) 2 t _ L)|].
       simpl. ring. }
     assert (Slope : forall t, t0 <= t -> g' t <= C2 /\ 0 < C2).
-    { intros t Ht. destruct (Part t Ht) as [u_x [delta [phi [Q1 [Q2 [Q3 _]]]]]]. destruct (In t Ht) as [_ [B2 [B3 _]]].
-      unfold g'. unfold Loop.y. rewrite Q1.
+    { intros t Ht. destruct (Slow t _ _ _ _ (Near t Ht)) as [_ Q]. destruct (In t Ht) as [_ [B2 [B3 _]]].
+      unfold g'. unfold Loop.y.
+      set (d := q t (of_x y t) (of_e y t) - q t (of_x p t) (of_e p t)) in *.
       change (s_ (n c) N (et y p) (fun t => of_z0 y t - of_z0 p t) (fun l t => of_za y l t - of_za p l t) t) with (st N y p t).
       assert (Z1 : Rabs (st N y p t) <= sqrt (n_bar2 c * (level c / h c))).
       { rewrite <- (sqrt_pow2 (Rabs (st N y p t))) by apply Rabs_pos. apply sqrt_le_1_alt. rewrite pow2_abs.
@@ -693,20 +385,14 @@ Proof.
         apply le_div; [exact h_pos|]. unfold Ut in B3.
         pose proof (P_nonneg t (xt y p t)) as P0. pose proof (pow2_ge_0 (et y p t)).
         assert (0 <= w_x c * P t (xt y p t)) by (apply Rmult_le_pos; lra). lra. }
-      assert (Z2 : Rabs u_x <= k_x c * (sqrt (p_up c) * D_x c)).
-      { apply Rle_trans with (1 := Q2). apply Rmult_le_compat_l; [exact Kx | apply Xi, Ht]. }
-      assert (Z3 : Rabs delta <= Rabs (k_l c) + Rabs (most c)).
-      { pose proof (Rle_abs (k_l c)). pose proof (Rle_abs (most c)). pose proof (Rabs_pos (k_l c)). pose proof (Rabs_pos (most c)).
-        apply Rabs_le_between. lra. }
       set (e := et y p t) in *. set (m := st N y p t) in *.
       assert (E0 : 0 <= Rabs e) by apply Rabs_pos.
-      assert (Z4 : Rabs (u_x + delta * e + (1 - 1) * s * e + 1 * mu c * m) <= Y).
-      { replace (u_x + delta * e + (1 - 1) * s * e + 1 * mu c * m) with (u_x + delta * e + mu c * m) by ring.
+      assert (Z4 : Rabs (d + (1 - 1) * s * e + 1 * mu c * m) <= Y).
+      { replace (d + (1 - 1) * s * e + 1 * mu c * m) with (d + mu c * m) by ring.
         apply Rle_trans with (1 := Rabs_triang _ _). unfold Y. apply Rplus_le_compat.
-        - apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; [exact Z2|]. rewrite Rabs_mult.
-          apply Rmult_le_compat; [apply Rabs_pos | exact E0 | exact Z3 | lra].
+        - exact Q.
         - rewrite Rabs_mult, (Rabs_right (mu c)) by lra. apply Rmult_le_compat_l; [lra | exact Z1]. }
-      set (v := u_x + delta * e + (1 - 1) * s * e + 1 * mu c * m) in *.
+      set (v := d + (1 - 1) * s * e + 1 * mu c * m) in *.
       assert (Y0 : 0 <= Y) by (apply Rle_trans with (2 := Z4), Rabs_pos).
       assert (Z5 : Rabs (v - s * e) <= Y + Rabs s * D_e c).
       { unfold Rminus. apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp, Rabs_mult. apply Rplus_le_compat; [exact Z4|].
@@ -741,9 +427,10 @@ Definition transfer_bound : Prop :=
   then w c * period c = 2 * PI /\ forall N k, T (n c) (mu c / w c) N (IZR k) <= k_0 c + k_1 c * IZR k ^ 2
   else forall N x, T (n c) (mu c / w c) N x <= k_0 c + k_1 c * x ^ 2.
 
-(** Theorem 10 of section 10.3, of this plant. Not proved in Coq: Schauder's theorem is behind it. It takes of the plant what [within]
+(** Theorem 10 of section 10.3, of this plant. Not proved in Coq: Schauder's theorem is behind it. It takes of the plant what [about]
     does not say: that f and q are C2 and periodic, f(t,0,0) = 0, the bounds b_f, b_q, b_qt, their mean squares and those of the
-    harmonics, and the second triple. *)
+    harmonics, and the second triple; of the
+    formulas of a plant the orbit, the forcing and the values at (X_p, E_p) of section 11. *)
 Definition existence_10_3 : Prop :=
   existence_conditions c -> weights (n c) -> transfer_bound ->
   forall N s, sigma c <= s -> exists p, (forall t, solves N s p t) /\ periodic N p /\ sized N p.

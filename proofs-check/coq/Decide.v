@@ -14,6 +14,7 @@ Ltac put old new b :=
 
 (** [b] with the fields of the record [R], which is what [c] stands for. *)
 Ltac opened c R b :=
+  let b := lazymatch b with context [known c] => let v := eval cbv beta iota delta [known] in (known R) in put (known c) v b | _ => b end in
   let b := lazymatch b with context [rate c] => let v := eval cbv beta iota delta [rate] in (rate R) in put (rate c) v b | _ => b end in
   let b := lazymatch b with context [b_q_rms c] => let v := eval cbv beta iota delta [b_q_rms] in (b_q_rms R) in put (b_q_rms c) v b | _ => b end in
   let b := lazymatch b with context [b_qt_rms c] => let v := eval cbv beta iota delta [b_qt_rms] in (b_qt_rms R) in put (b_qt_rms c) v b | _ => b end in
@@ -30,14 +31,9 @@ Ltac opened c R b :=
   let b := lazymatch b with context [domain c] => let v := eval cbv beta iota delta [domain] in (domain R) in put (domain c) v b | _ => b end in
   let b := lazymatch b with context [path_f c] => let v := eval cbv beta iota delta [path_f] in (path_f R) in put (path_f c) v b | _ => b end in
   let b := lazymatch b with context [path_q c] => let v := eval cbv beta iota delta [path_q] in (path_q R) in put (path_q c) v b | _ => b end in
-  let b := lazymatch b with context [b_f c] => let v := eval cbv beta iota delta [b_f] in (b_f R) in put (b_f c) v b | _ => b end in
   let b := lazymatch b with context [b_fe c] => let v := eval cbv beta iota delta [b_fe] in (b_fe R) in put (b_fe c) v b | _ => b end in
-  let b := lazymatch b with context [b_fxx c] => let v := eval cbv beta iota delta [b_fxx] in (b_fxx R) in put (b_fxx c) v b | _ => b end in
-  let b := lazymatch b with context [b_fex c] => let v := eval cbv beta iota delta [b_fex] in (b_fex R) in put (b_fex c) v b | _ => b end in
-  let b := lazymatch b with context [b_q c] => let v := eval cbv beta iota delta [b_q] in (b_q R) in put (b_q c) v b | _ => b end in
   let b := lazymatch b with context [b_qe c] => let v := eval cbv beta iota delta [b_qe] in (b_qe R) in put (b_qe c) v b | _ => b end in
   let b := lazymatch b with context [b_qx c] => let v := eval cbv beta iota delta [b_qx] in (b_qx R) in put (b_qx c) v b | _ => b end in
-  let b := lazymatch b with context [b_qt c] => let v := eval cbv beta iota delta [b_qt] in (b_qt R) in put (b_qt c) v b | _ => b end in
   let b := lazymatch b with context [period c] => let v := eval cbv beta iota delta [period] in (period R) in put (period c) v b | _ => b end in
   let b := lazymatch b with context [p_low c] => let v := eval cbv beta iota delta [p_low] in (p_low R) in put (p_low c) v b | _ => b end in
   let b := lazymatch b with context [p_up c] => let v := eval cbv beta iota delta [p_up] in (p_up R) in put (p_up c) v b | _ => b end in
@@ -61,7 +57,8 @@ Ltac opened c R b :=
   let b := lazymatch b with context [h c] => let v := eval cbv beta iota delta [h] in (h R) in put (h c) v b | _ => b end in
   let b := lazymatch b with context [k_0 c] => let v := eval cbv beta iota delta [k_0] in (k_0 R) in put (k_0 c) v b | _ => b end in
   let b := lazymatch b with context [k_1 c] => let v := eval cbv beta iota delta [k_1] in (k_1 R) in put (k_1 c) v b | _ => b end in
-  eval cbv beta iota delta [kap kap_small fst snd] in b.
+  eval cbv beta iota delta
+    [kap kap_small fst snd b_f b_fxx b_fex b_q b_qt of_qx of_qe of_decline up_to_X up_to_E value X_m E_m X_per_m E_per_m delta_m tau_m] in b.
 
 (** Encloses [v], which is [b] by definition. *)
 Ltac note v b :=
@@ -82,7 +79,7 @@ Ltac keep_sizes c :=
 (** What is computed of others, by its definition. *)
 Ltac note_computed c R v :=
   let b := eval red in v in
-  let b := eval cbv beta delta [beta2 sup_of rms_of z_mean] in b in
+  let b := eval cbv beta delta [beta2 sup_of rms_of z_mean capped one_sided] in b in
   let b := opened c R b in
   let b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 explicit nth_error power Rpower C_k r_0 r_t] in b in
   note v b.
@@ -102,7 +99,8 @@ Ltac note_means c R r :=
     let b := eval cbv beta iota delta [R_x R_e R_d means last fst snd] in v in
     let b := opened c R b in note v b in
   part R_x; part R_e; part R_d;
-  note_computed c R constr:(along c r); note_computed c R constr:(d_0 c r); note_computed c R constr:(d_1 c r);
+  note_computed c R constr:(along c r); note_computed c R constr:(d_0 c r); note_computed c R constr:(bends c r);
+  note_computed c R constr:(d_1 c r);
   note_computed c R constr:(R_q c r); note_computed c R constr:(R_1 c r);
   note_computed c R constr:(sup_e c r); note_computed c R constr:(rms_e c r); note_computed c R constr:(rms_d c r).
 
@@ -132,10 +130,16 @@ Ltac note_existence c :=
   let R := eval red in c in
   note_computed c R constr:(Om c); note_computed c R constr:(sg c); note_computed c R constr:(beta2_s c);
   note_computed c R constr:(bt c); note_computed c R constr:(tau c);
-  note_computed c R constr:(c_ex c); note_computed c R constr:(F_p c); note_computed c R constr:(bent c);
+  note_computed c R constr:(c_ex c);
+  let k := eval cbv beta iota delta [known] in (known R) in
+  match k with
+  | by_functions ?o =>
+      note_computed c R constr:(F_p c o); note_computed c R constr:(bent c o); note_computed c R constr:(Q_p c o);
+      note_computed c R constr:(Qt_p c o); note_computed c R constr:(Qt_start c o); note_computed c R constr:(secant c o)
+  | by_formulas _ => idtac
+  end;
   note_computed c R constr:(a_1 c); note_computed c R constr:(Fe_p c); note_computed c R constr:(Qe_p c);
-  note_computed c R constr:(Qx_p c); note_computed c R constr:(Q_p c); note_computed c R constr:(Qt_p c);
-  note_computed c R constr:(Qt_start c);
+  note_computed c R constr:(Qx_p c);
   let f := eval cbv beta iota delta [forcing] in (forcing R) in
   match f with
   | None => idtac
@@ -145,7 +149,11 @@ Ltac note_existence c :=
   end;
   note_computed c R constr:(Q_start c); note_computed c R constr:(Fx_p c); note_computed c R constr:(beta2 c (a_1 c));
   note_computed c R constr:(x_gain c); note_computed c R constr:(from_rms c);
-  forget (c_ex c); forget (F_p c); forget (bent c); forget (beta2_s c); forget (beta2 c (a_1 c));
+  match k with
+  | by_functions ?o => forget (F_p c o); forget (bent c o); forget (secant c o)
+  | by_formulas _ => idtac
+  end;
+  forget (c_ex c); forget (beta2_s c); forget (beta2 c (a_1 c));
   note_means c R constr:(last c); note_means c R constr:(means c);
   let d := eval cbv beta iota delta [damped] in (damped R) in
   match d with
@@ -164,7 +172,9 @@ Ltac note_stability c :=
   note_computed c R constr:(X_b c); note_computed c R constr:(E_b c);
   note_computed c R constr:(E_f c); note_computed c R constr:(E_q c); note_computed c R constr:(X_f c); note_computed c R constr:(X_q c);
   note_computed c R constr:(k_x c); note_computed c R constr:(k_l c); note_computed c R constr:(most c); note_computed c R constr:(k_f c);
-  note_computed c R constr:(gam c); note_computed c R constr:(a_2 c); note_computed c R constr:(ht c); note_computed c R constr:(size c);
+  let k := eval cbv beta iota delta [known] in (known R) in
+  match k with by_functions ?o => note_computed c R constr:(gam c o) | by_formulas _ => idtac end;
+  note_computed c R constr:(a_2 c); note_computed c R constr:(ht c); note_computed c R constr:(size c);
   note_computed c R constr:(d_X c); note_computed c R constr:(d_E c);
   let z := eval cbv beta iota delta [Z_0] in (Z_0 R) in
   match z with None => idtac | _ => note_weight_sum c R end;
@@ -191,13 +201,13 @@ Ltac decide_one c :=
   | |- ?g =>
       first
       [ let R := eval red in c in
-        let b := eval cbv beta delta [in_domain G_x G_e G_d] in g in
+        let b := eval cbv beta delta [in_domain complete covers domain_of_decline of_matrix G_x G_e G_d] in g in
         let b := opened c R b in
-        let b := eval cbv beta iota zeta delta [min2 max2] in b in
+        let b := eval cbv beta iota zeta delta [min2 max2 r_t] in b in
         change b;
         repeat match goal with
           |- _ /\ _ => split | |- True => exact I | |- false = true -> _ => discriminate | |- true = true -> _ => intros _ end;
-        decide_difference
+        first [decide_difference | apply Rle_refl]
       | fail 1 "this condition is not proved:" g ]
   end.
 

@@ -175,6 +175,16 @@ Proof.
   rewrite sum_scal_r, <- sum_plus. apply sum_ext. intros j _. ring.
 Qed.
 
+(** F in terms of the differences x' and u = r x + d e, with the margin for J: what [PlantBounds.v] takes for granted of a plant. *)
+Theorem F_of_differences A Ad G de tau u v y :
+  F A Ad (shifted de G) tau 1 u v y
+  = - w_x * (bilinear Ad u u + 2 * bilinear A u (fun i => apply (J G) u i + gv G i * v) + 2 * de * bilinear A u u)
+    - kp * (dot (rv G) u + dv G * v) * y + 2 * tau * v ^ 2 - 2 * v * y + kp * y ^ 2.
+Proof.
+  rewrite bilinear_plus. unfold F. rewrite bilinear_shifted. simpl gv; simpl rv; simpl dv.
+  change (fun i => apply (J G) u i) with (apply (J G) u). ring.
+Qed.
+
 Theorem U_m_derive t : differences_at t ->
   is_derive U_m t (- F (Pt t) (Pt' t) (D t) sigma b (xt t) (e t) (y_m t)).
 Proof.

@@ -54,6 +54,26 @@ Fixpoint twice_sum (term : Z -> R -> R) (k : Z) (l : list R) : R :=
 Definition of_harmonics (f : harmonics) (term : Z -> R -> R) : R := twice_sum term 1 (tl (C_k f)).
 Definition C_0 (f : harmonics) : R := hd 0 (C_k f).
 
+(** ** What is known of the plant *)
+
+(** The bounding functions that a specification has and the formulas of a plant do not (11.3). *)
+Record functions := { b_f : bound; b_fxx : bound; b_fex : bound; b_q : bound; b_qt : bound }.
+
+(** One value of the table of 11.3: it holds for |x| <= up_to_X, |e| <= up_to_E. *)
+Record entry := { up_to_X : R; up_to_E : R; value : R }.
+
+(** (M) of 13.7, for a point within (X_m, E_m) and one of the periodic solution within (X_per_m, E_per_m), with J + delta_m I at the
+    gain tau_m. *)
+Record matrix := { X_m : R; E_m : R; X_per_m : R; E_per_m : R; delta_m : R; tau_m : R }.
+
+(** What makes U decrease: C5 with bounds of df/de, of dq/de from above and the rate, or (M). *)
+Inductive decline := by_norms (fe rate : entry) (most : option entry) | by_matrix (m : matrix).
+
+(** Of the formulas of a plant, for stability: the bounds of dq/dx and dq/de, and the above. *)
+Record formulas := { of_qx : entry; of_qe : entry; of_decline : decline }.
+
+Inductive knowledge := by_functions (o : functions) | by_formulas (v : formulas).
+
 (** The specification, the claim and the witness of a certificate. *)
 Record numbers := {
   (* The specification: section 1 and 10.1. The second triple is that of existence. *)
@@ -61,8 +81,8 @@ Record numbers := {
   mu : R; w : R; matched : bool;
   n : nat -> R;
   n_bar2 : R; (* at least n_0 + n_1 + ... *)
-  b_f : bound; b_fe : bound; b_fxx : bound; b_fex : bound;
-  b_q : bound; b_qe : bound; b_qx : bound; b_qt : bound;
+  known : knowledge;
+  b_fe : bound; b_qe : bound; b_qx : bound; (* of a plant's formulas: at (X_p, E_p) *)
   b_q_rms : option bound; b_qt_rms : option bound; b_fx : option bound; q_e_max : option bound; rate : option bound;
   q_tx : option bound; q_te : option bound; forcing : option harmonics;
   domain : option (R * R);
@@ -85,6 +105,10 @@ Definition least (given : option bound) (b : bound) : bound :=
 Section Sizes.
 Variable c : numbers.
 
+(** The smaller of a number and of what the functions give that a plant's formulas do not have. *)
+Definition capped (of : functions -> R) (v : R) : R :=
+  match known c with by_functions o => min2 (of o) v | by_formulas _ => v end.
+
 (** ** Section 10.2 *)
 
 Definition Om : R := 2 * PI / period c.
@@ -99,30 +123,51 @@ Definition tau : R := sqrt (period c ^ 2 / 12 - beta2_s + 1 / sigma c ^ 2) / sig
 
 (** c of the triple of existence, and a_1. *)
 Definition c_ex : R := sqrt (p_up' c / p_low' c).
-Definition F_p : R := b_fxx c (X_p c) 0.
-Definition bent : R := alpha' c - c_ex * F_p * X_p c / 2.
-Definition a_1 : R := match rate c with None => bent | Some a => max2 bent (a (X_p c) 0) end.
+Definition F_p (o : functions) : R := b_fxx o (X_p c) 0.
+Definition bent (o : functions) : R := alpha' c - c_ex * F_p o * X_p c / 2.
+Definition a_1 : R :=
+  match known c, rate c with
+  | by_functions o, None => bent o
+  | by_functions o, Some a => max2 (bent o) (a (X_p c) 0)
+  | by_formulas _, None => 0
+  | by_formulas _, Some a => a (X_p c) 0
+  end.
 Definition Fe_p : R := b_fe c (X_p c) (E_p c).
 Definition Qe_p : R := b_qe c (X_p c) (E_p c).
 Definition Qx_p : R := b_qx c (X_p c) (E_p c).
-Definition Q_p : R := least (b_q_rms c) (b_q c) (X_p c) (E_p c).
-Definition Qt_p : R := least (b_qt_rms c) (b_qt c) (X_p c) (E_p c).
-Definition Qt_start : R := least (b_qt_rms c) (b_qt c) 0 0.
+Definition Q_p (o : functions) : R := least (b_q_rms c) (b_q o) (X_p c) (E_p c).
+Definition Qt_p (o : functions) : R := least (b_qt_rms c) (b_qt o) (X_p c) (E_p c).
+Definition Qt_start (o : functions) : R := least (b_qt_rms c) (b_qt o) 0 0.
 
 (** With q_0: what the answer to the harmonics is at most, and the derivative of the harmonics and of the rest. *)
 Definition sup_h (f : harmonics) : R := of_harmonics f (fun k a => a / sqrt (sigma c ^ 2 + (IZR k * Om) ^ 2)).
 Definition rms_h (f : harmonics) : R := sqrt (of_harmonics f (fun k a => a ^ 2 / (sigma c ^ 2 + (IZR k * Om) ^ 2))).
 Definition rate_h (f : harmonics) : R := sqrt (of_harmonics f (fun k a => (IZR k * Om * a) ^ 2)).
 Definition rest_t (f : harmonics) : R :=
-  match r_t f with None => Qt_start + rate_h f | Some r => min2 r (Qt_start + rate_h f) end.
+  match known c, r_t f with
+  | by_functions o, None => Qt_start o + rate_h f
+  | by_functions o, Some r => min2 r (Qt_start o + rate_h f)
+  | by_formulas _, None => 0
+  | by_formulas _, Some r => r
+  end.
 Definition rms_0 (f : harmonics) : R := sqrt (C_0 f ^ 2 + of_harmonics f (fun _ a => a ^ 2)) + r_0 f.
 
 (** Q_0. *)
 Definition Q_start : R :=
-  let q := least (b_q_rms c) (b_q c) 0 0 in match forcing c with None => q | Some f => min2 (rms_0 f) q end.
+  match known c, forcing c with
+  | by_functions o, None => least (b_q_rms c) (b_q o) 0 0
+  | by_functions o, Some f => min2 (rms_0 f) (least (b_q_rms c) (b_q o) 0 0)
+  | by_formulas _, None => 0
+  | by_formulas _, Some f => rms_0 f
+  end.
+Definition secant (o : functions) : R := b_f o (X_p c) 0 / X_p c + F_p o * X_p c.
 Definition Fx_p : R :=
-  let secant := b_f c (X_p c) 0 / X_p c + F_p * X_p c in
-  match b_fx c with None => secant | Some b => min2 (b (X_p c) 0) secant end.
+  match known c, b_fx c with
+  | by_functions o, None => secant o
+  | by_functions o, Some b => min2 (b (X_p c) 0) (secant o)
+  | by_formulas _, None => 0
+  | by_formulas _, Some b => b (X_p c) 0
+  end.
 (** (c/a_1) b_fe and K_2(a_1) b_fe. *)
 Definition x_gain : R := c_ex / a_1 * Fe_p.
 Definition from_rms : R := c_ex * sqrt (beta2 a_1) * Fe_p.
@@ -134,21 +179,28 @@ Definition R_x (r : R * R * R) : R := fst (fst r).
 Definition R_e (r : R * R * R) : R := snd (fst r).
 Definition R_d (r : R * R * R) : R := snd r.
 
-Definition R_q (r : R * R * R) : R := min2 Q_p (Q_start + Qx_p * R_x r + Qe_p * R_e r).
+Definition R_q (r : R * R * R) : R := capped Q_p (Q_start + Qx_p * R_x r + Qe_p * R_e r).
 Definition along (r : R * R * R) : R := Qx_p * (Fx_p * R_x r + Fe_p * R_e r) + Qe_p * R_d r.
 (** d_0 and d_1: of q - q(t,0,0). *)
 Definition d_0 (r : R * R * R) : R := Qx_p * R_x r + Qe_p * R_e r.
+Definition bends (r : R * R * R) : R :=
+  match q_tx c, q_te c with
+  | Some q_tx, Some q_te => q_tx (X_p c) (E_p c) * R_x r + q_te (X_p c) (E_p c) * R_e r + along r
+  | _, _ => 0
+  end.
 Definition d_1 (r : R * R * R) : R :=
-  let generic := Qt_p + Qt_start + along r in
-  match q_tx c with
-  | None => generic
-  | Some q_tx => match q_te c with
-                 | None => generic
-                 | Some q_te => min2 generic (q_tx (X_p c) (E_p c) * R_x r + q_te (X_p c) (E_p c) * R_e r + along r)
-                 end
+  match known c, q_tx c, q_te c with
+  | by_functions o, Some _, Some _ => min2 (Qt_p o + Qt_start o + along r) (bends r)
+  | by_functions o, _, _ => Qt_p o + Qt_start o + along r
+  | by_formulas _, _, _ => bends r
   end.
 Definition R_1 (r : R * R * R) : R :=
-  match forcing c with None => Qt_p + along r | Some f => min2 (Qt_p + along r) (rate_h f + rest_t f + d_1 r) end.
+  match known c, forcing c with
+  | by_functions o, None => Qt_p o + along r
+  | by_functions o, Some f => min2 (Qt_p o + along r) (rate_h f + rest_t f + d_1 r)
+  | by_formulas _, None => 0
+  | by_formulas _, Some f => rate_h f + rest_t f + d_1 r
+  end.
 
 (** What follows of sup|e|, rms(e), rms(e') for an input with these root mean squares of itself and of its derivative, and at r. *)
 Definition sup_of (q q' : R) : R := min2 (bt * q) (tau * q').
@@ -182,8 +234,20 @@ Definition G_e (r : R * R * R) : R :=
 Definition G_d (r : R * R * R) : R :=
   match damped c with None => rms_d r | Some k => min2 (rms_d r) (R_t k r + kap k * R_e r) end.
 
+(** Of a plant's formulas all is given that stands in the place of the functions: no 0 above is used. *)
+Definition complete : Prop :=
+  match known c with
+  | by_functions _ => True
+  | by_formulas _ =>
+      match rate c, b_fx c, q_tx c, q_te c, forcing c with
+      | Some _, Some _, Some _, Some _, Some f => match r_t f with None => False | Some _ => True end
+      | _, _, _, _, _ => False
+      end
+  end.
+
 (** S1 to S3, and that the functions hold up to (X_p, E_p). *)
 Record existence_conditions : Prop := {
+  complete_p : complete;
   signs_p : 0 < sigma c /\ 0 < X_p c /\ 0 < E_p c /\ 0 < r_x c /\ 0 < r_e c /\ 0 < r_d c;
   domain_p : in_domain c (X_p c) (E_p c);
   S1 : 0 < a_1;
@@ -233,14 +297,29 @@ Definition E_q : R := E_at (path_q c).
 Definition X_f : R := X_at (path_f c).
 Definition X_q : R := X_at (path_q c).
 
-Definition k_x : R := b_qx c X_b E_q / sqrt (p_low c).
-Definition k_l : R := b_qe c X_q E_b.
-Definition most : R := match q_e_max c with None => k_l | Some m => min2 (m X_q E_b) k_l end.
-Definition k_f : R := b_fe c X_f E_b.
-Definition gam : R :=
+Definition k_x : R := match known c with by_functions _ => b_qx c X_b E_q | by_formulas v => value (of_qx v) end / sqrt (p_low c).
+Definition k_l : R := match known c with by_functions _ => b_qe c X_q E_b | by_formulas v => value (of_qe v) end.
+(** dq/de from above, where that is given. *)
+Definition one_sided : option R :=
+  match known c with
+  | by_functions _ => match q_e_max c with None => None | Some m => Some (m X_q E_b) end
+  | by_formulas v => match of_decline v with by_norms _ _ (Some m) => Some (value m) | _ => None end
+  end.
+Definition most : R := match one_sided with None => k_l | Some m => min2 m k_l end.
+(** With (M) neither k_f nor a_2 is used. *)
+Definition k_f : R :=
+  match known c with
+  | by_functions _ => b_fe c X_f E_b
+  | by_formulas v => match of_decline v with by_norms fe _ _ => value fe | by_matrix _ => 0 end
+  end.
+Definition gam (o : functions) : R :=
   sqrt (p_up c / p_low c)
-  * (b_fxx c x_per 0 * x_per + b_fex c x_per E_f * E_f + b_fxx c X_b E_f * D_x c / 2).
-Definition a_2 : R := match rate c with None => alpha c - gam | Some a => max2 (alpha c - gam) (a X_b E_f) end.
+  * (b_fxx o x_per 0 * x_per + b_fex o x_per E_f * E_f + b_fxx o X_b E_f * D_x c / 2).
+Definition a_2 : R :=
+  match known c with
+  | by_functions o => match rate c with None => alpha c - gam o | Some a => max2 (alpha c - gam o) (a X_b E_f) end
+  | by_formulas v => match of_decline v with by_norms _ rate _ => value rate | by_matrix _ => 0 end
+  end.
 Definition ht : R := h c / mu c.
 Definition size : R := max2 (Rabs (1 + ht * most)) (Rabs (1 - ht * k_l)).
 
@@ -249,16 +328,39 @@ Definition d_E : R := E_0 c + e_per.
 Definition d_Z : R := match Z_0 c with None => Z_per | Some z => z + sqrt (n_bar2 c) * E_0 c + Z_per end.
 Definition level : R := w_x c * p_up c * d_X ^ 2 + d_E ^ 2 + h c * d_Z ^ 2.
 
-(** C4, C5 and C5b of (10.5), the signs they need, and that the functions hold up to (X_b, E_b). *)
+(** The arguments of section 5 are those up to which a value holds. *)
+Definition covers (v : entry) (X E : R) : Prop := X <= up_to_X v /\ E <= up_to_E v.
+Definition domain_of_decline (d : decline) : Prop :=
+  match d with
+  | by_norms fe rate m =>
+      covers fe X_f E_b /\ covers rate X_b E_f /\ match m with None => True | Some m => covers m X_q E_b end
+  | by_matrix m => X_b <= X_m m /\ E_b <= E_m m /\ x_per <= X_per_m m /\ e_per <= E_per_m m
+  end.
+
+(** (M) in the place of C5 and C5b. *)
+Definition of_matrix : option matrix :=
+  match known c with
+  | by_functions _ => None
+  | by_formulas v => match of_decline v with by_norms _ _ _ => None | by_matrix m => Some m end
+  end.
+
+(** C4, C5 and C5b of (10.5) or C5m of (M), the signs they need, and that what is known of the plant holds up to (X_b, E_b). *)
 Record stability_conditions : Prop := {
   signs_b : 0 < mu c /\ 0 < p_low c /\ 0 < p_up c /\ 0 < D_x c /\ 0 < D_e c /\ 0 < w_x c /\ 0 < h c;
   signs_0 : 0 <= X_0 c /\ 0 <= E_0 c /\ match Z_0 c with None => True | Some z => 0 <= z end;
   nonneg : 0 <= k_x /\ 0 <= k_f;
-  domain_b : in_domain c X_b E_b;
+  domain_b : match known c with
+             | by_functions _ => in_domain c X_b E_b
+             | by_formulas v => covers (of_qx v) X_b E_q /\ covers (of_qe v) X_q E_b /\ domain_of_decline (of_decline v)
+             end;
   C4 : level < min2 (w_x c * p_low c * D_x c ^ 2) (D_e c ^ 2);
-  C5_ : ht * k_x ^ 2 < 4 * (w_x c * a_2);
-  C5b : size ^ 2 / (4 * ht)
-        + (w_x c * sqrt (p_up c) * k_f + k_x * size / 2) ^ 2 / (4 * (w_x c * a_2) - ht * k_x ^ 2) < sigma c
+  C5_ : match of_matrix with None => ht * k_x ^ 2 < 4 * (w_x c * a_2) | Some m => 0 < delta_m m end;
+  C5b : match of_matrix with
+        | None =>
+            size ^ 2 / (4 * ht)
+            + (w_x c * sqrt (p_up c) * k_f + k_x * size / 2) ^ 2 / (4 * (w_x c * a_2) - ht * k_x ^ 2) < sigma c
+        | Some m => tau_m m < sigma c
+        end
 }.
 
 End Sizes.

@@ -5,16 +5,17 @@
 //! file whose conditions do not hold. What a specification must be to be one at all is read by the rules of the checker.
 
 mod numbers;
+mod plants;
 mod terms;
 mod text;
 
 use proofs_core::json::{Field, MAX_BYTES, parse};
 use proofs_core::rules::claim::Claim;
 use proofs_core::rules::derivation::{Derivation, Witness};
-use proofs_core::rules::sharp::{self, Stability};
+use proofs_core::rules::sharp;
 use proofs_core::sha256;
 use proofs_core::spec::{Specification, header};
-use proofs_core::verdict::Outcome;
+use proofs_core::verdict::{Outcome, bad};
 use rug::Rational;
 use std::io::Read;
 use terms::unsupported;
@@ -52,18 +53,22 @@ pub fn theorem_of(certificate: &mut dyn Read) -> std::io::Result<Outcome<String>
 fn read(file: &Field<'_>) -> Outcome<Parts> {
     let mut file = file.fields()?;
     header(&mut file, "sigmastar/certificate")?;
-    if file.has("plant") {
-        return unsupported(
-            "/plant",
-            "no theorem is written of the certificate of a plant's formulas: certify a specification",
-        );
-    }
-    let embedded = file.required("specification")?;
     let mut fields = file.required("witness")?.fields()?;
-    let spec = Specification::read(&embedded, &mut fields)?;
+    let (embedded, spec) = match file.optional("plant") {
+        Some(plant) => {
+            let (spec, _) = proofs_plants::read::read(&plant, &mut fields)?;
+            (plant, spec)
+        }
+        None => {
+            let embedded = file.required("specification")?;
+            let spec = Specification::read(&embedded, &mut fields)?;
+            (embedded, spec)
+        }
+    };
     let mut canonical = String::new();
     embedded.json.canonical(&mut canonical);
-    let claim = Claim::read(&file.required("claim")?, false)?;
+    let has_states = spec.plant.as_ref().is_some_and(|plant| plant.states > 0);
+    let claim = Claim::read(&file.required("claim")?, has_states)?;
     if claim.sampled.is_some() {
         let message =
             "no theorem is written of a claim about the regulator at samples: certify without `sampling_period`";
@@ -72,17 +77,15 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
     let Witness::Sharp(witness) = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?.witness else {
         return unsupported("/witness", "no theorem is written of this kind of witness");
     };
-    let pointer = match &witness.stability {
-        Stability::Norms => None,
-        Stability::Matrix(inequality) => Some(&inequality.pointer),
-        Stability::Joint(joint) => Some(&joint.pointer),
-    };
-    if let Some(pointer) = pointer {
-        return unsupported(pointer, "no theorem is written of a matrix inequality in the place of C5");
+    if let Some(joint) = witness.stability.joint() {
+        return unsupported(&joint.pointer, "no theorem is written of joint metrics in the place of C4 and C5");
+    }
+    if let Some(inequality) = witness.stability.matrix().filter(|_| spec.plant.is_none()) {
+        return bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant");
     }
     if witness.existence.inequality.is_some() {
         let pointer = "/witness/existence_inequality";
-        return unsupported(pointer, "no theorem is written of an inequality in the place of S1b to S2c");
+        return unsupported(pointer, "no theorem is written of (E), an inequality in the place of S1b to S2c");
     }
     let mut periodic = claim.periodic.fields()?;
     let mut size = |name| periodic.required(name)?.rational();

@@ -1,12 +1,12 @@
 //! The record `numbers` of `proofs-check/coq/Sizes.v`: specification, claim and witness, field by field.
 
-use super::Parts;
-use super::terms::{constant, function, number, unsupported};
+use super::terms::{Fields, constant, function, number, option, unsupported};
+use super::{Parts, plants};
 use proofs_core::bound::{BOUND_NAMES, Bound};
 use proofs_core::expr::Expr;
 use proofs_core::rules::paths::Path;
 use proofs_core::rules::transfer::Proof;
-use proofs_core::spec::{Forcing, Size};
+use proofs_core::spec::{Forcing, Size, Specification};
 use proofs_core::verdict::Outcome;
 use proofs_core::weights::Weights;
 
@@ -21,12 +21,6 @@ pub fn record(parts: &Parts) -> Outcome<String> {
     fields.extend(of_witness(parts));
     let lines: Vec<String> = fields.into_iter().map(|(name, value)| format!("  {name} := {value}")).collect();
     Ok(lines.join(";\n"))
-}
-
-type Fields = Vec<(&'static str, String)>;
-
-fn option(value: Option<String>) -> String {
-    value.map_or_else(|| "None".to_owned(), |value| format!("Some ({value})"))
 }
 
 fn of_specification(parts: &Parts) -> Outcome<Fields> {
@@ -47,25 +41,37 @@ fn of_specification(parts: &Parts) -> Outcome<Fields> {
     let matched = matches!(parts.witness.transfer, Proof::Matched(_));
     fields.push(("matched", matched.to_string()));
     fields.extend(weights(&spec.weights)?);
+    fields.push(("forcing", option(spec.q_0.as_ref().map(harmonics).transpose()?)));
+    fields.extend(match &spec.plant {
+        Some(plant) => plants::known(parts, plant)?,
+        None => functions(spec)?,
+    });
+    Ok(fields)
+}
+
+/// The bounding functions of a specification.
+fn functions(spec: &Specification) -> Outcome<Fields> {
+    let at = |name: &str| format!("/specification/{name}");
     let bound = |bound: Bound| {
         let pointer = at(&format!("bounds/{}", BOUND_NAMES[bound as usize]));
         let print = |expr: &Expr| function(expr, &pointer);
         spec.bounds[bound as usize].as_ref().map(print).transpose()
     };
-    let required = [
-        ("b_f", Bound::F),
-        ("b_fe", Bound::Fe),
-        ("b_fxx", Bound::Fxx),
-        ("b_fex", Bound::Fex),
-        ("b_q", Bound::Q),
-        ("b_qe", Bound::Qe),
-        ("b_qx", Bound::Qx),
-        ("b_qt", Bound::Qt),
-    ];
-    for (name, which) in required {
-        let Some(text) = bound(which)? else { return unsupported(&at("bounds"), "a bounding function is missing") };
-        fields.push((name, text));
-    }
+    let required = |names: &[(&'static str, Bound)]| {
+        let mut fields = Fields::new();
+        for (name, which) in names {
+            let Some(text) = bound(*which)? else {
+                return unsupported(&at("bounds"), "a bounding function is missing");
+            };
+            fields.push((name, text));
+        }
+        Ok(fields)
+    };
+    let beyond =
+        [("b_f", Bound::F), ("b_fxx", Bound::Fxx), ("b_fex", Bound::Fex), ("b_q", Bound::Q), ("b_qt", Bound::Qt)];
+    let beyond: Vec<String> = required(&beyond)?.iter().map(|(name, text)| format!("{name} := {text}")).collect();
+    let mut fields = required(&[("b_fe", Bound::Fe), ("b_qe", Bound::Qe), ("b_qx", Bound::Qx)])?;
+    fields.push(("known", format!("by_functions {{| {} |}}", beyond.join("; "))));
     let optional =
         [("b_q_rms", Bound::QRms), ("b_qt_rms", Bound::QtRms), ("b_fx", Bound::Fx), ("q_e_max", Bound::QeMax)];
     for (name, which) in optional {
@@ -76,7 +82,6 @@ fn of_specification(parts: &Parts) -> Outcome<Fields> {
     for (name, which) in [("q_tx", Bound::Qtx), ("q_te", Bound::Qte)] {
         fields.push((name, option(bound(which)?)));
     }
-    fields.push(("forcing", option(spec.q_0.as_ref().map(harmonics).transpose()?)));
     let domain = match &spec.domain {
         Some([x, e]) => Some(format!("{}, {}", constant(x, &at("domain/X"))?, constant(e, &at("domain/E"))?)),
         None => None,

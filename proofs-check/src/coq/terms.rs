@@ -17,6 +17,14 @@ pub fn unsupported<T>(pointer: &str, message: impl Into<String>) -> Outcome<T> {
     Err(finding(Verdict::Undecided, RULE, pointer, message))
 }
 
+/// Fields of a record: their names and terms.
+pub type Fields = Vec<(&'static str, String)>;
+
+/// What need not be there.
+pub fn option(value: Option<String>) -> String {
+    value.map_or_else(|| "None".to_owned(), |value| format!("Some ({value})"))
+}
+
 /// A rational number: in decimals where it has few of them, else as a fraction.
 pub fn number(value: &Rational) -> String {
     let magnitude = Rational::from(value.abs_ref());

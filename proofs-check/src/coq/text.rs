@@ -8,9 +8,13 @@ use proofs_core::rules::transfer::Proof;
 const HEAD: &str = "\
 From Coq Require Import Reals ZArith Lra Lia.
 From Coquelicot Require Import Coquelicot.
-From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched Claim Decide.
+From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched PlantBounds Claim Decide.
 Local Open Scope R_scope.
 ";
+
+/// What x is where a plant is given by its formulas.
+const COORDINATES: &str = "
+    It is about a plant in the coordinates around its orbit: x stands for L^-1 (x - x_0), and f and q are those of it.";
 
 /// The whole file; `record` has the fields of `numbers`.
 pub fn file(digest: &str, record: &str, parts: &Parts) -> String {
@@ -23,11 +27,15 @@ pub fn file(digest: &str, record: &str, parts: &Parts) -> String {
     let names = if matched.is_some() { "Within Existence" } else { "Within Transfer Existence" };
     let transfer = if matched.is_some() { "transfer" } else { "Transfer" };
     let lemma = matched.map_or_else(String::new, transfer_lemma);
+    let [what, coordinates] = match parts.spec.plant {
+        Some(_) => ["plant", COORDINATES],
+        None => ["specification", ""],
+    };
     format!(
-        "(** A certificate in continuous time, written by proofs-check --coq. The definitions are those of Sizes.v and Claim.v in
-    proofs-check/coq; this file has the numbers of the certificate, and Coq decides its conditions.
+        "(** A certificate in continuous time, written by proofs-check --coq. The definitions are those of Sizes.v, PlantBounds.v and
+    Claim.v in proofs-check/coq; this file has the numbers of the certificate, and Coq decides its conditions.{coordinates}
 
-    SHA-256 of the canonical specification:
+    SHA-256 of the canonical {what}:
     {digest} *)
 
 {HEAD}
@@ -35,7 +43,7 @@ Definition cert : numbers := {{|
 {record}
 |}}.
 
-(** S1 to S3, C4, C5, C5b, and the sizes of the periodic solution that are stated. *)
+(** S1 to S3, C4, C5 and C5b or C5m, and the sizes of the periodic solution that are stated. *)
 Lemma conditions :
   existence_conditions cert /\\ stability_conditions cert /\\
   (x_per cert <= {x} /\\ e_per cert <= {e} /\\ Z_per cert <= {zeta}).
@@ -51,11 +59,11 @@ Proof. decide_weights cert. Qed.
 Lemma weight_sum : forall N, n cert O + sum1 N (n cert) <= n_bar2 cert.
 Proof. decide_weight_sum cert. Qed.
 {lemma}
-(** For every plant within the bounding functions, every N and every gain from sigma on: each solution p of the stated size attracts,
+(** For every plant that is as [about] says, every N and every gain from sigma on: each solution p of the stated size attracts,
     in that what starts in the set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of x
     and e tend to 0. *)
 Theorem certificate_attracts :
-  forall (X : NormedModule R_AbsRing) f q F P P', within (X := X) cert f q F P P' ->
+  forall (X : NormedModule R_AbsRing) f q F P P', about (X := X) cert f q F P P' ->
   forall s, sigma cert <= s -> exists rho, 0 < rho /\\
   forall N p, (forall t, solves cert f q N s p t) -> sized cert N p -> attracts cert f q P N s p rho.
 Proof.
@@ -69,7 +77,7 @@ Qed.
 (** The certificate. That the periodic solution exists, [existence_10_3], is a hypothesis: its conditions are proved here, section 10.3
     is not. *)
 Theorem certificate_holds :
-  forall (X : NormedModule R_AbsRing) f q F P P', within (X := X) cert f q F P P' ->{hypothesis}
+  forall (X : NormedModule R_AbsRing) f q F P P', about (X := X) cert f q F P P' ->{hypothesis}
   existence_10_3 cert f q -> certified cert f q P.
 Proof.
   intros X f q F P P' {names}.

@@ -2,12 +2,11 @@
 //! installed, that Coq accepts what is true and refuses what is not.
 
 use crate::common::{PAPER, certificate, folder, names, text};
+use crate::coq_support::{assert_accepted, assert_refused_at, coqc, plants, proofs, written};
 use proofs_check::coq::theorem;
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
 
 /// The files and exit code of a call of the program.
 fn program(arguments: &[&str]) -> (i32, String, String) {
@@ -16,25 +15,13 @@ fn program(arguments: &[&str]) -> (i32, String, String) {
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
 
-fn written(certificate: &Value) -> String {
-    theorem(certificate.to_string().as_bytes()).unwrap_or_else(|finding| panic!("{finding:?}"))
-}
-
-#[track_caller]
-fn assert_refused_at(bytes: &str, verdict: Verdict, pointer: &str) {
-    let finding = theorem(bytes.as_bytes()).expect_err("it is refused");
-    assert_eq!((finding.verdict, finding.pointer.as_str()), (verdict, pointer), "{}", finding.message);
-}
-
 #[test]
-fn a_theorem_is_written_of_every_stored_certificate_of_a_specification() {
-    for name in names("certificates") {
-        let bytes = text("certificates", &name);
+fn a_theorem_is_written_of_every_stored_certificate_in_continuous_time() {
+    let specifications = names("certificates").into_iter().map(|name| ("certificates", name));
+    for (of, name) in specifications.chain(plants().map(|name| ("plants", name))) {
+        let bytes = text(of, &name);
         let written = theorem(bytes.as_bytes()).unwrap_or_else(|finding| panic!("{name}: {finding:?}"));
         assert!(written.contains("Print Assumptions certificate."), "{name}");
-    }
-    for name in names("plants").iter().filter(|name| name.ends_with(".certificate")) {
-        assert_refused_at(&text("plants", name), Verdict::Undecided, "/plant");
     }
     assert_refused_at(&text("sampled", "no-x"), Verdict::Undecided, "/claim/regulator");
     assert_refused_at("{}", Verdict::BadInput, "");
@@ -49,7 +36,6 @@ fn the_numbers_are_those_of_the_certificate() {
         "  w := (2 * PI);",
         "  n := power 2 (1 / 2);",
         "  b_fe := fun X E => (X + 0.189);",
-        "  b_q := fun X E => ((4.822 + X) + (atan (E * (X + 0.189))));",
         "  domain := Some (10, 10);",
         "  sigma := 41.4618;",
         "  Z_0 := Some (14.445071);",
@@ -60,6 +46,9 @@ fn the_numbers_are_those_of_the_certificate() {
     ] {
         assert!(text.lines().any(|other| other == line), "{line}");
     }
+    assert!(text.contains("  known := by_functions {| b_f := "));
+    assert!(text.contains("; b_q := fun X E => ((4.822 + X) + (atan (E * (X + 0.189)))); b_qt := "));
+    assert!(text.contains("canonical specification:") && !text.contains("orbit"));
     assert!(text.contains("8f15618c51d5361f8e1b68c697826eac53d91447e93b710fb0af923c0893016c"));
     let damped = written(&certificate("refined.means"));
     assert!(damped.contains("  damped := Some ({| kap := 350; kap_small := false |});"));
@@ -104,54 +93,6 @@ fn the_program_writes_and_refuses() {
     for flags in [["--coq", "--verbose"], ["--format", "json"]] {
         let (code, out, err) = program(&[flags[0], flags[1], "--coq", &path("certificates", PAPER)]);
         assert!(code == 2 && out.is_empty() && err.contains("--coq goes with no other flag"), "{err}");
-    }
-}
-
-/// The folder of the proofs, built once; `None` where coqc is not installed.
-fn proofs() -> Option<&'static Path> {
-    static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
-    let build = || {
-        let installed = Command::new("coqc").arg("--version").output().is_ok_and(|output| output.status.success());
-        if !installed {
-            println!("coqc is not installed: no theorem was tried");
-            return None;
-        }
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("coq");
-        let made = Command::new("make").arg("--no-print-directory").arg("-C").arg(&folder).output().expect("make runs");
-        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-        Some(folder)
-    };
-    FOLDER.get_or_init(build).as_deref()
-}
-
-/// What coqc answers about the theorem of a certificate.
-fn coqc(proofs: &Path, name: &str, certificate: &Value) -> Result<String, String> {
-    let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("coq");
-    std::fs::create_dir_all(&place).expect("a folder");
-    let file = place.join(format!("{name}.v"));
-    std::fs::write(&file, written(certificate)).expect("it is written");
-    let output = Command::new("coqc").args(["-q", "-w", "none", "-Q"]).arg(proofs).arg("SigmaStar").arg(&file).output();
-    let output = output.expect("coqc runs");
-    let said = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    if output.status.success() { Ok(said(&output.stdout)) } else { Err(said(&output.stderr)) }
-}
-
-/// Coq's classical real numbers.
-const AXIOMS: [&str; 4] = [
-    "ClassicalDedekindReals.sig_forall_dec",
-    "ClassicalDedekindReals.sig_not_dec",
-    "FunctionalExtensionality.functional_extensionality_dep",
-    "Classical_Prop.classic",
-];
-
-/// Both theorems are proved, and rest on [`AXIOMS`] alone.
-#[track_caller]
-fn assert_accepted(name: &str, answer: Result<String, String>) {
-    let said = answer.unwrap_or_else(|error| panic!("{name}: {error}"));
-    assert_eq!(said.matches("Axioms:").count(), 1, "{name}: {said}");
-    let axioms = said.lines().filter(|line| !line.starts_with(' ') && *line != "Axioms:");
-    for line in axioms {
-        assert!(AXIOMS.contains(&line.split([' ', ':']).next().unwrap()), "{name}: {line}");
     }
 }
 

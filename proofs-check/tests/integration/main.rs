@@ -7,6 +7,8 @@ mod arguments;
 mod claim;
 mod common;
 mod coq;
+mod coq_plants;
+mod coq_support;
 mod existence_inequality;
 mod forged;
 mod formulas;

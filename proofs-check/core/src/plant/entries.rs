@@ -73,7 +73,8 @@ pub struct Entry {
     pub pointer: String,
     pub label: &'static str,
     pub name: Name,
-    /// X and E, rounded up.
+    /// X and E as they are written, and rounded up.
+    pub written: [Rational; 2],
     pub arguments: [Float; 2],
     pub value: Rational,
 }
@@ -106,29 +107,40 @@ impl Entries {
             let arguments = [fields.required("X")?, fields.required("E")?];
             let value = fields.required("value")?;
             fields.finish()?;
-            let mut ends = Vec::new();
-            for argument in &arguments {
+            let end = |argument: &Field<'_>| -> Outcome<Rational> {
                 let end = argument.rational()?;
                 demand(Some(end >= 0), RULE, &argument.pointer, "an argument is not negative")?;
-                ends.push(above(&end, ARGUMENT_PRECISION));
-            }
-            let [x, e] = <[Float; 2]>::try_from(ends).or_else(|_| bad(&element.pointer, "expected two arguments"))?;
+                Ok(end)
+            };
+            let written = [end(&arguments[0])?, end(&arguments[1])?];
+            let arguments = written.each_ref().map(|end| above(end, ARGUMENT_PRECISION));
             let number = value.rational()?;
             // Norms are decided by their squares.
             demand(Some(!name.is_norm() || number >= 0), RULE, &value.pointer, "a bound of a norm is not negative")?;
-            Ok(Entry { pointer: element.pointer.clone(), label, name: *name, arguments: [x, e], value: number })
+            Ok(Entry { pointer: element.pointer.clone(), label, name: *name, written, arguments, value: number })
         };
         Ok(Entries { list: elements.iter().map(entry).collect::<Outcome<_>>()?, has_states })
     }
 
+    /// The entry with the best value among those that cover.
+    fn best_of(&self, name: Name, covers: impl Fn(&Entry) -> bool) -> Option<&Entry> {
+        let entries = self.list.iter().filter(|entry| entry.name == name && covers(entry));
+        let value = |a: &&Entry, b: &&Entry| a.value.cmp(&b.value);
+        if name.is_rate() { entries.max_by(value) } else { entries.min_by(value) }
+    }
+
     /// The best value that is given for these arguments.
     fn best(&self, name: Name, x: &Interval, e: &Interval) -> Option<&Rational> {
-        let covers = |entry: &&Entry| {
+        let covers = |entry: &Entry| {
             let [to_x, to_e] = &entry.arguments;
-            entry.name == name && (!self.has_states || x.hi() <= to_x) && e.hi() <= to_e
+            (!self.has_states || x.hi() <= to_x) && e.hi() <= to_e
         };
-        let values = self.list.iter().filter(covers).map(|entry| &entry.value);
-        if name.is_rate() { values.max() } else { values.min() }
+        self.best_of(name, covers).map(|entry| &entry.value)
+    }
+
+    /// The best entry for arguments that are known exactly; of a plant with states.
+    pub fn exactly_at(&self, name: Name, [x, e]: [&Rational; 2]) -> Option<&Entry> {
+        self.best_of(name, |entry| *x <= entry.written[0] && *e <= entry.written[1])
     }
 
     /// A bound of section 1 or 10 at (X, E).
