@@ -166,11 +166,11 @@ impl Plant {
             x: number(1e6),
             e: number(1e6),
             threshold: number(sigma),
-            form: Form::Joint(Metrics {
+            form: Form::Joint(Box::new(Metrics {
                 near: metric(near, of_near),
                 far: metric(far, of_far),
                 cross: vec![number(near[1])],
-            }),
+            })),
         })
     }
 

@@ -46,7 +46,7 @@ pub enum Form {
     /// One, with w = 1 and c_e = 0 at the threshold: the gain above it is what c_e is made of.
     Block(Metric),
     /// Two, for the threshold and for every larger gain.
-    Joint(Metrics),
+    Joint(Box<Metrics>),
 }
 
 impl Existence {
@@ -54,7 +54,7 @@ impl Existence {
     pub fn read(field: &Field<'_>) -> Outcome<Existence> {
         let mut fields = field.fields()?;
         let form = match fields.has("near") {
-            true => Form::Joint(Metrics::read(&mut fields, |_| Ok(()))?.0),
+            true => Form::Joint(Box::new(Metrics::read(&mut fields, |_| Ok(()))?.0)),
             false => Form::Block(block(&mut fields)?),
         };
         let existence = Existence {

@@ -36,17 +36,19 @@ pub enum Stability {
     /// C5, by norms.
     Norms,
     /// A matrix inequality in its place.
-    Matrix(Inequality),
+    Matrix(Box<Inequality>),
     /// Two joint metrics in its place and in that of C4.
-    Joint(Joint),
+    Joint(Box<Joint>),
 }
 
 impl Stability {
     fn read(fields: &mut Fields<'_>, free: &Free) -> Outcome<Stability> {
         match (fields.optional("matrix_inequality"), fields.optional("joint_inequality")) {
             (None, None) => Ok(Stability::Norms),
-            (Some(field), None) => Inequality::read(&field, [&free.w_x, &free.h]).map(Stability::Matrix),
-            (None, Some(field)) => Joint::read(&field).map(Stability::Joint),
+            (Some(field), None) => {
+                Inequality::read(&field, [&free.w_x, &free.h]).map(|known| Stability::Matrix(Box::new(known)))
+            }
+            (None, Some(field)) => Joint::read(&field).map(|joint| Stability::Joint(Box::new(joint))),
             (Some(_), Some(field)) => bad(&field.pointer, "it has no place beside `matrix_inequality`"),
         }
     }
