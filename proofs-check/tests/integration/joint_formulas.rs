@@ -1,7 +1,9 @@
 //! The two joint metrics: their questions about formulas against what is left for c_e by hand, for stability and for existence.
 
 use super::common::{PAPER, certificate, drawn};
-use super::matrix_inequality::at_rest;
+use super::existence_inequality::number;
+use super::joint_inequality::judged;
+use super::matrix_inequality::{at_rest, stored};
 use super::plant_support::Parts;
 use proofs_check::data::Data;
 use proofs_check::json::{Field, Json, parse};
@@ -229,4 +231,45 @@ fn the_metric_between_serves_a_larger_gain() {
     // The near one by itself is not, nor is it the far one that was left out.
     let alone = Pair { sigma: 100.0 * SOME.sigma, ..SOME };
     assert!(alone.most(derivatives)[0].unwrap() < 0.0);
+}
+
+/// The two sides of a level, of another certificate, whose mu is 2 and whose sizes are known to 12 digits; whatever else there is wrong with
+/// these metrics.
+#[test]
+fn levels_by_hand() {
+    let mut made = stored("splitting");
+    made["witness"].as_object_mut().unwrap().remove("matrix_inequality");
+    let metric = |diagonal: &str, [w, k_p, p_up, x_low, e_low]: [&str; 5]| {
+        json!({
+            "P": [[diagonal, "0"], ["0", diagonal]], "w": w, "k_p": k_p, "c_x": "1", "c_e": "1", "c_y": "1",
+            "P_up": p_up, "x_low": x_low, "e_low": e_low,
+        })
+    };
+    let (of_near, of_far) = (["1.5", "1.25", "40", "7", "0.75"], ["0.875", "0.5", "23", "9", "0.125"]);
+    let (mut near, far) = (metric("30", of_near), metric("20", of_far));
+    near["p"] = json!(["3", "-1"]);
+    made["witness"]["joint_inequality"] = json!({ "X": "1", "E": "2", "sigma": "1", "near": near, "far": far });
+    let report = judged(&made);
+    let of = |at: &str| number(made.pointer(at).unwrap());
+    let start = |name: &str| of(&format!("/claim/periodic_solution/{name}"));
+    let set = |name: &str| of(&format!("/claim/initial_set/{name}"));
+    // z = zeta + M e.
+    let n_bar = (start("z") - start("zeta")) / start("e");
+    let (x, e) = (set("X0") + start("x"), set("E0") + start("e"));
+    let z = set("Z0") + n_bar * set("E0") + start("zeta");
+    let (d_x, d_e, mu) = (of("/witness/D_x"), of("/witness/D_e"), 2.0);
+    for (id, numbers, size) in [("C4", of_near, 10.0_f64.sqrt()), ("C4f", of_far, 0.0)] {
+        let [w, k_p, p_up, x_low, e_low] = numbers.map(|value| number(&json!(value)));
+        let sides = [
+            p_up * x * x + 2.0 * size * x * e + w * e * e + k_p * mu / 2.0 * z * z,
+            (x_low * d_x * d_x).min(e_low * d_e * d_e),
+        ];
+        let line = report.lines.iter().find(|line| line.split_whitespace().next() == Some(id)).unwrap();
+        let shown = line.rsplit(": ").next().unwrap().split_once(", margin").unwrap().0;
+        let (left, right) = shown.split_once(" < ").unwrap();
+        for (side, shown) in sides.into_iter().zip([left, right]) {
+            let shown: f64 = shown.parse().unwrap();
+            assert!((shown / side - 1.0).abs() < 1e-8, "{id}: {shown} and {side}");
+        }
+    }
 }

@@ -17,6 +17,7 @@ mod hostile;
 mod intervals;
 mod joint_formulas;
 mod joint_inequality;
+mod joint_leaves;
 mod linear_plants;
 mod lmi;
 mod lyapunov;
