@@ -51,7 +51,7 @@ fn other_base_frequencies_are_certified_and_valid() {
 #[test]
 fn a_gain_that_is_too_small_is_told_with_the_smallest() {
     for (text, small, large, smallest) in [
-        (plant("motor-axis", &[]), "15", "30", "19."),
+        (plant("motor-axis", &[]), "10", "30", "15."),
         (
             std::fs::read_to_string(format!("{}/specs/linear.json", crate::support::ROOT)).unwrap(),
             "1/100",

@@ -126,7 +126,7 @@ fn the_witness_of_a_plant_is_decided_again() {
         ("/witness/forcing/rest", "1e-30"),
         ("/witness/bounds/1/value", "201"),
         ("/witness/bounds/4/value", "50"),
-        ("/claim/sigma_star", "19"),
+        ("/claim/sigma_star", "15"),
     ] {
         let (code, report) = again(&altered(&certificate, pointer, value));
         assert!(code != Some(0), "{pointer}: {report:#}");

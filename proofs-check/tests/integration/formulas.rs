@@ -358,7 +358,7 @@ fn exact_regulation() {
             let rest_t = if q_0[1] { REST[1] } else { 9.0 + slope };
             z = f64::min(z, harmonics.sqrt() + root(REST[0], rest_t));
         }
-        let conditions = regulation::evaluate(&d, &set, &w, None).unwrap();
+        let conditions = regulation::evaluate(&d, &set, &w, (None, None)).unwrap();
         let ids: Vec<&str> = conditions.iter().map(|condition| condition.id).collect();
         assert_eq!(ids, ["domain", "domain", "C4", "M", "C5", "C5b"]);
         let reach = if aligned { z / mu } else { 2.0 + n_bar * 0.125 + z / mu };
@@ -370,7 +370,7 @@ fn exact_regulation() {
                 &d,
                 &set,
                 &regulation::Witness { paths: Paths { f, ..w.paths }, ..w.clone() },
-                None,
+                (None, None),
             );
             close("C5", &conditions.unwrap()[4].rhs, 4.0 * 0.5);
         }

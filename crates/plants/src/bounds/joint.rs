@@ -114,13 +114,12 @@ impl Form<'_> {
 
         let mut entries = Vec::new();
         let moved = values.product(p, &jacobian, false);
-        for i in 0..n {
-            for j in i..n {
-                let sum = frame.add(&moved[i][j], &moved[j][i]);
-                let sum = if i == j { frame.add(&sum, &frame.rational(c_x)) } else { sum };
-                entries.push((i, j, negated(&sum)));
-            }
-        }
+        let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+        entries.extend(upper.map(|(i, j)| {
+            let sum = frame.add(&moved[i][j], &moved[j][i]);
+            let sum = if i == j { frame.add(&sum, &frame.rational(c_x)) } else { sum };
+            (i, j, negated(&sum))
+        }));
         // p'J, by columns, and p'g.
         let of_joint = if n > 0 { row_times(values, cross, &jacobian) } else { Vec::new() };
         let pushed = if n > 0 { row_times(values, cross, &column).pop() } else { None };

@@ -211,31 +211,21 @@ impl Program {
         let parts = self.parts(variables);
         let pulled = parts[0].1.clone();
         let corners = [parts[0].2, parts[0].2 + parts[1].2];
-        let mut index = 0;
+        let mut corners = corners.into_iter();
         parts.map(|(p, cross, weight, k_p)| {
-            let corner = corners[index];
-            index += 1;
-            let mut form = vec![vec![0.0; n + 2]; n + 2];
+            let corner = corners.next().unwrap_or(f64::NAN);
             let moved = |i: usize, k: usize| -> f64 { (0..n).map(|m| p[i][m] * j[m * n + k]).sum() };
-            for i in 0..n {
-                for k in 0..n {
-                    form[i][k] = -(moved(i, k) + moved(k, i));
-                }
-                let driven: f64 = (0..n).map(|m| p[i][m] * g[m]).sum();
-                let joined: f64 = (0..n).map(|m| cross[m] * j[m * n + i]).sum();
-                form[i][n] = pulled[i] - driven - joined;
-                form[i][n + 1] = -cross[i] - 0.5 * k_p * r[i];
-            }
+            let driven = |i: usize| -> f64 { (0..n).map(|m| p[i][m] * g[m] + cross[m] * j[m * n + i]).sum() };
             let pushed: f64 = cross.iter().zip(&g).map(|(p, g)| p * g).sum();
-            form[n][n] = 2.0 * corner - 2.0 * pushed;
-            form[n][n + 1] = -weight - 0.5 * k_p * d;
-            form[n + 1][n + 1] = k_p;
-            for i in 0..n + 2 {
-                for k in 0..i {
-                    form[i][k] = form[k][i];
-                }
-            }
-            form
+            let entry = |i: usize, k: usize| match (i.min(k), i.max(k)) {
+                (i, k) if k < n => -(moved(i, k) + moved(k, i)),
+                (i, k) if i < n && k == n => pulled[i] - driven(i),
+                (i, _) if i < n => -cross[i] - 0.5 * k_p * r[i],
+                (i, k) if i == n && k == n => 2.0 * corner - 2.0 * pushed,
+                (i, _) if i == n => -weight - 0.5 * k_p * d,
+                _ => k_p,
+            };
+            (0..n + 2).map(|i| (0..n + 2).map(|k| entry(i, k)).collect()).collect()
         })
     }
 
@@ -369,7 +359,7 @@ impl Program {
                 _ => cross[i.min(j)],
             }
         };
-        for which in 0..2 {
+        for (which, up) in up.into_iter().enumerate() {
             // Pi above diag(1, 0) and diag(0, 1), and P at most its P_up.
             for of_states in [true, false] {
                 constraints.push(AffineMatrix::from_fn(
@@ -380,7 +370,7 @@ impl Program {
                 ));
             }
             let above = |variable: usize, i: usize, j: usize| {
-                let own = if variable == up[which] && i == j { 1.0 } else { 0.0 };
+                let own = if variable == up && i == j { 1.0 } else { 0.0 };
                 own - of_metric(variable, which, i, j)
             };
             constraints.push(AffineMatrix::from_fn(n, size + more, |_, _| 0.0, above));

@@ -2,7 +2,7 @@
 //! stability at a gain that is given, semidefinite programs propose them, and the gain is lowered while they exist.
 
 use super::entries::needed;
-use super::reduce::{Proofs, Reduced};
+use super::proofs::{Proofs, Reduced};
 use crate::search::{
     AtSigma, ByEnergy, ByMatrix, Descent, FloatModel, PeriodicSet, SharpProposal, at_sigma, minimise,
     search_sharp_near, start_distances,

@@ -11,6 +11,7 @@ mod energy;
 mod entries;
 mod grid;
 mod joint;
+mod proofs;
 mod reduce;
 mod refusal;
 mod run;
@@ -23,7 +24,8 @@ mod subject;
 mod tests;
 mod witness;
 
-pub use reduce::{Reduced, bounds_around, decide_again, reduce, reduce_by_norms};
+pub use proofs::{Reduced, bounds_around};
+pub use reduce::{decide_again, reduce, reduce_by_norms};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use run::{Certified, Prepared, Run};
 pub use sampled::{ReducedSampled, SampledPairs, reduce_sampled, with_sampled_pairs};

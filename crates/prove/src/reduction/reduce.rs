@@ -1,32 +1,26 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
 use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, energy_in};
-use super::entries::{Needed, decide_all, needed, prove_all};
+use super::entries::{Needed, decide_all, needed};
 use super::joint::with_joint_metrics;
+use super::proofs::{Along, PRECISION, Proofs, Reduced, along, trade_off};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
-use super::specification::specification;
 use crate::certify::Alternatives;
 use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::model::{Constant, Lyapunov};
-use sigmastar_lang::spec::{
-    OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
-};
-use sigmastar_plants::bounds::{Asked, Engine, FloatCurve, FloatSuprema, Region};
+use sigmastar_lang::spec::model::Constant;
+use sigmastar_lang::spec::{OfPlant, PeriodicMatrix, ProvedValues, Specification, TrigonometricVector};
+use sigmastar_plants::bounds::{Asked, Engine, Region};
 use sigmastar_plants::orbit::{
     self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
-    propose_coordinates, prove_forcing, prove_orbit, prove_second, round_orbit,
+    propose_coordinates, prove_orbit, prove_second, round_orbit,
 };
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
-use sigmastar_theory::transfer::TradeOff;
-
-/// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
-pub(super) const PRECISION: u32 = 64;
 
 /// How far beyond the arguments of a proposal the bounds are proved, in turn: with room for what the proved values are larger than
 /// the sampled ones, and close to the arguments.
@@ -63,25 +57,16 @@ const WORTH_A_REMARK: f64 = 0.01;
 /// A smaller gain than by this share is not worth another round of proofs.
 const WORTH: f64 = 1e-4;
 
-/// A specification whose data were proved from a plant's formulas, and where the search for its gain may start.
-pub struct Reduced {
-    /// The specification.
-    pub spec: Specification,
-    /// Free numbers for it, in floating point.
-    pub proposal: SharpProposal,
-    /// What else was looked at.
-    pub alternatives: Alternatives,
-}
-
 /// Proves the data that the sharp derivation needs, at the arguments where it will need them.
 ///
 /// Guarantee: every value of the specification holds for the plant, relative to its orbit and in the coordinates of its
 /// [`OfPlant`]; f and q have the period, and are smooth up to the largest arguments. That the gain comes out small is not
-/// claimed.
+/// claimed. For a gain that is given no smaller one is sought by joint metrics where it is large enough without: they are those of the
+/// least gain, and bound the periodic solution of a larger one less well.
 ///
 /// # Errors
 /// What could not be proved or found.
-pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
+pub fn reduce(plant: &Plant, gain: Option<&Rational>) -> Result<Reduced, PlantRefusal> {
     with_candidates(plant, |candidates, sampling| {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
@@ -89,13 +74,13 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
             && let Ok(starts) = with_search(sampling, Some(Path::Straight), |search| Ok(search.for_matrix(rough)))
             && let Some(found) = best_by_matrix(p, &starts, sampling)
             && found.chosen.proposal.sigma < FAR_BETTER * rough.best.proposal.sigma
-            && let Ok(proved) = found.proved(sampling, rough.best.proposal.sigma)
+            && let Ok(proved) = found.proved(sampling, rough.best.proposal.sigma, gain)
         {
             return Ok(proved);
         }
         let (along, chosen) = best_by_norms(candidates, starts, sampling)?;
         let by_matrix = best_by_matrix(&along.coordinates.p, &[Start::from(&chosen)], sampling);
-        let by_matrix = by_matrix.and_then(|found| found.proved(sampling, chosen.proposal.sigma).ok());
+        let by_matrix = by_matrix.and_then(|found| found.proved(sampling, chosen.proposal.sigma, gain).ok());
         match by_matrix {
             Some(found) if found.proposal.sigma < chosen.proposal.sigma => Ok(found),
             // What norms prove is above the samples.
@@ -180,12 +165,6 @@ fn best_by_norms(
     }
 }
 
-/// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger
-/// that no gain is found with them.
-fn trade_off(data: &Data<'_>) -> TradeOff {
-    if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
-}
-
 /// What was found by a matrix inequality.
 struct FoundByMatrix {
     along: Along,
@@ -201,11 +180,14 @@ impl FoundByMatrix {
     }
 
     /// The data of it, proved, and what norms and an aligned start would give beside.
-    fn proved(&self, sampling: &Sampling<'_>, by_norms: f64) -> Result<Reduced, PlantRefusal> {
+    fn proved(&self, sampling: &Sampling<'_>, by_norms: f64, gain: Option<&Rational>) -> Result<Reduced, PlantRefusal> {
         let FoundByMatrix { along, chosen, path } = self;
         let proofs = Proofs::new(along, sampling)?;
         let proved = prove_bounds(&proofs, chosen)?;
-        let proved = with_joint_metrics(&proofs, &chosen.model, &chosen.proposal, proved);
+        let proved = match gain {
+            Some(gain) if *gain >= proved.proposal.sigma => proved,
+            _ => with_joint_metrics(&proofs, &chosen.model, &chosen.proposal, proved),
+        };
         let aligned = aligned(sampling, chosen, *path);
         Ok(Reduced { alternatives: Alternatives { by_norms: Some(by_norms), aligned }, ..proved })
     }
@@ -349,14 +331,6 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
     best.ok_or(failure)
 }
 
-/// The orbit and the harmonics of q, proved in some coordinates; a P of existence, where there is one.
-pub(super) struct Along {
-    pub(super) coordinates: Coordinates,
-    orbit: OrbitProof,
-    forcing: ProvedForcing,
-    existence: Option<(PeriodicMatrix, SecondTriple)>,
-}
-
 /// That f and q are smooth on the curve itself, so that what is not is told at its operation before anything is proved with it.
 fn smooth_along(plant: &Plant, curve: &TrigonometricVector) -> Result<(), PlantRefusal> {
     let unit = (0..plant.states()).map(|i| (0..plant.states()).map(|j| Rational::from(u8::from(i == j))).collect());
@@ -364,82 +338,6 @@ fn smooth_along(plant: &Plant, curve: &TrigonometricVector) -> Result<(), PlantR
     let engine = region.and_then(|region| Engine::new(plant, region, None, None));
     let zero = Rational::new();
     Ok(engine.map_err(|_| PlantRefusal::Coordinates)?.smooth(&zero, &zero)?)
-}
-
-fn along(plant: &Plant, curve: &TrigonometricVector, coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
-    let orbit = prove_orbit(plant, curve, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
-    let forcing = prove_forcing(plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
-    Ok(Along { coordinates: coordinates.clone(), orbit, forcing, existence: None })
-}
-
-impl Along {
-    /// The specification with these values.
-    pub(super) fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
-        let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
-        let of_plant = OfPlant {
-            coordinates: self.coordinates.l.clone(),
-            orbit: ProvedOrbit {
-                approximation: orbit.clone(),
-                defect: defect.clone(),
-                tube: tube.clone(),
-                radius: radius.clone(),
-            },
-            triple: Lyapunov {
-                p_low: Constant::rational(p_low),
-                p_up: Constant::rational(p_up),
-                alpha: Constant::rational(alpha),
-            },
-            matrix: self.coordinates.p.clone(),
-            existence: self.existence.as_ref().map(|(matrix, SecondTriple { alpha, p_low, p_up })| {
-                let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(Constant::rational);
-                Box::new((Lyapunov { p_low, p_up, alpha }, matrix.clone()))
-            }),
-            forcing: self.forcing.clone(),
-            domain: plant.domain.clone(),
-            ball: plant.ball.clone(),
-        };
-        specification(plant, of_plant, values)
-    }
-
-    /// The P of existence, where there is one.
-    pub(super) fn second(&self) -> Option<&PeriodicMatrix> {
-        self.existence.as_ref().map(|(matrix, _)| matrix)
-    }
-
-    /// What samples the bounds.
-    pub(super) fn suprema(&self, sampling: &Sampling<'_>) -> FloatSuprema {
-        sampling.suprema(&float_matrix(&self.coordinates.l), [Some(&self.coordinates.p), self.second()])
-    }
-
-    pub(super) fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
-        let orbit = (&self.orbit.orbit, &self.orbit.radius);
-        engine_around(plant, &self.coordinates, orbit, self.second().cloned())
-    }
-}
-
-fn engine_around(
-    plant: &Plant,
-    Coordinates { l, p, .. }: &Coordinates,
-    (orbit, radius): (&TrigonometricVector, &Rational),
-    existence: Option<PeriodicMatrix>,
-) -> Result<Engine, PlantRefusal> {
-    let region = Region::new(l.clone(), orbit.clone(), radius.clone());
-    let engine = region.and_then(|region| Engine::new(plant, region, Some(p.clone()), existence));
-    engine.map_err(|_| PlantRefusal::Coordinates)
-}
-
-/// What decides bounds of a plant around its proved orbit, and what samples them.
-///
-/// # Errors
-/// Data that are not of this plant.
-pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, FloatSuprema), PlantRefusal> {
-    let OfPlant { coordinates, orbit, matrix, existence, .. } = of_plant;
-    let second = existence.as_ref().map(|second| &second.1);
-    let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone(), rate: f64::NAN };
-    let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius), second.cloned())?;
-    let rows = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-    let samples = FloatSuprema::new(plant, FloatCurve::from(&orbit.approximation), rows, [Some(matrix), second]);
-    Ok((engine, samples))
 }
 
 /// Proves the bounds at the arguments of a proposal, looks for the best proposal with them, and once more near its arguments.
@@ -476,43 +374,7 @@ fn smaller(found: &Reduced, best: Option<&(FloatModel, Reduced)>) -> bool {
     best.is_none_or(|(_, known)| found.proposal.sigma < known.proposal.sigma * (1.0 - WORTH))
 }
 
-/// What proves bounds of a plant at arguments.
-pub(super) struct Proofs<'a> {
-    plant: &'a Plant,
-    along: &'a Along,
-    pub(super) engine: Engine,
-    pub(super) suprema: FloatSuprema,
-}
-
-impl<'a> Proofs<'a> {
-    fn new(along: &'a Along, sampling: &'a Sampling<'_>) -> Result<Proofs<'a>, PlantRefusal> {
-        let plant = sampling.plant;
-        Ok(Proofs { plant, along, engine: along.engine(plant)?, suprema: along.suprema(sampling) })
-    }
-
-    pub(super) fn states(&self) -> usize {
-        self.plant.states()
-    }
-
-    /// Whether existence has a P of its own.
-    pub(super) fn has_second(&self) -> bool {
-        self.along.second().is_some()
-    }
-
-    /// The specification with the values that are needed, each proved, and as a model; `joint` is proved.
-    pub(super) fn with_needed(
-        &self,
-        needed: &Needed,
-        joint: impl FnOnce(ProvedValues) -> ProvedValues,
-    ) -> Result<(FloatModel, Specification), PlantRefusal> {
-        let [x, e] = needed.largest();
-        self.engine.smooth(&x, &e)?;
-        let values = prove_all(&self.engine, &self.suprema, needed, &self.plant.internal_model.mu)?;
-        let spec = self.along.specification(self.plant, joint(values))?;
-        let data = Data::new(&spec, PRECISION);
-        Ok((FloatModel::new(&data, trade_off(&data)), spec))
-    }
-
+impl Proofs<'_> {
     /// The best proposal with the values proved at the arguments of a proposal, and these values as a model.
     fn with_values(
         &self,

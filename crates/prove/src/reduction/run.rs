@@ -60,7 +60,7 @@ impl Prepared {
     pub fn new(subject: Subject, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
         match subject.sampling().cloned() {
             None => {
-                let (spec, start) = subject.proved_with_alternatives()?;
+                let (spec, start) = subject.proved_with_alternatives(gain.as_ref())?;
                 Ok(Prepared { spec, start: Start::Continuous(start), gain })
             }
             Some(sampling) => {

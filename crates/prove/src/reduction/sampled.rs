@@ -2,7 +2,8 @@
 
 use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
-use super::reduce::{Along, ENLARGED, PRECISION, beyond_the_bounds, with_coordinates};
+use super::proofs::{Along, PRECISION};
+use super::reduce::{ENLARGED, beyond_the_bounds, with_coordinates};
 use super::refusal::PlantRefusal;
 use super::sampling::Sampling;
 use crate::certify::sampled_model;

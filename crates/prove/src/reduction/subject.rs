@@ -144,19 +144,22 @@ impl Subject {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn proved(self) -> Result<(Specification, Option<SharpProposal>), Vec<SpecErrors>> {
-        let (spec, start) = self.proved_with_alternatives()?;
+        let (spec, start) = self.proved_with_alternatives(None)?;
         Ok((spec, start.map(|(proposal, _)| proposal)))
     }
 
-    /// The same, with what the search of a plant saw beside.
-    pub(super) fn proved_with_alternatives(self) -> Result<(Specification, Option<Sought>), Vec<SpecErrors>> {
+    /// The same for a gain that is given or for the smallest one, with what the search of a plant saw beside.
+    pub(super) fn proved_with_alternatives(
+        self,
+        gain: Option<&Rational>,
+    ) -> Result<(Specification, Option<Sought>), Vec<SpecErrors>> {
         match self {
             Subject::Specification(spec) => {
                 let proved = with_triple(&spec, None).map_err(|refusal| refusal.errors(&spec))?;
                 Ok((proved.into_owned(), None))
             }
             Subject::Plant(plant) => {
-                let reduced = reduce(&plant).map_err(|refusal| refusal.errors(&plant))?;
+                let reduced = reduce(&plant, gain).map_err(|refusal| refusal.errors(&plant))?;
                 Ok((reduced.spec, Some((reduced.proposal, reduced.alternatives))))
             }
         }

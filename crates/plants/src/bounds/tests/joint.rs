@@ -40,8 +40,7 @@ fn inequality([x, e]: [f64; 2], metrics: &[FloatMetric; 2]) -> JointInequality {
 
 fn stability(samples: &FloatSuprema) -> JointStability {
     let at = [4.3, 3.2];
-    let (metrics, levels, share) =
-        samples.propose_joint_stability(at, VALUE, &asked()).expect("metrics at this gain");
+    let (metrics, levels, share) = samples.propose_joint_stability(at, VALUE, &asked()).expect("metrics at this gain");
     assert!(share < 1.0, "{share}");
     JointStability { inequality: inequality(at, &metrics), levels: levels.map(level) }
 }
