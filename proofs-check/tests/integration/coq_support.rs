@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The certificates of plants in continuous time.
+/// The certificates of plants in continuous time of which a theorem is written.
 pub fn plants() -> impl Iterator<Item = String> {
-    names("plants").into_iter().filter(|name| name.ends_with(".certificate"))
+    names("plants").into_iter().filter(|name| name.ends_with(".certificate") && name != "joint.certificate")
 }
 
 /// The theorem of a certificate.
