@@ -1,6 +1,7 @@
 //! What a certificate claims, as a simulation can check it.
 
 use super::frame::OwnPlant;
+use super::joint::JointFunction;
 use super::sampled_claim::SampledClaim;
 use rug::Rational;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
@@ -31,6 +32,8 @@ pub struct TriedClaim {
     /// w_x P_low, w_x P_up and h of the Lyapunov function w_x x'P_x x + e^2 + h z'N z in error coordinates, where the
     /// derivation has one of this form.
     pub lyapunov: Option<[f64; 3]>,
+    /// What falls in its place where the claim rests on joint metrics.
+    pub joint: Option<JointFunction>,
     /// psi_1 and psi_x: sup|e| <= psi_1/sigma and sup|x| <= psi_x/sigma, in continuous time.
     pub psi: Option<[f64; 2]>,
     /// The arguments up to which plants lie within the bounding functions: the domain, or what the claim rests on.
@@ -62,6 +65,8 @@ impl TriedClaim {
                 (&w.sigma, &w.set, [&w.x_p, &w.e_p], [&w.d_x, &w.d_e], quadratic(&w.w_x, &w.eta))
             }
         };
+        let joint = JointFunction::of(&spec);
+        let lyapunov = lyapunov.filter(|_| joint.is_none());
         let error_box = error_box.map(Rational::to_f64);
         let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
         let initial = set.map(Rational::to_f64);
@@ -89,6 +94,7 @@ impl TriedClaim {
             periodic_z,
             error_box,
             lyapunov,
+            joint,
             psi,
             reach,
             drive,
@@ -117,7 +123,7 @@ impl TriedClaim {
         let (drive, own) = (None, None);
         let initial = StartSizes { x0: 0.0, e0: 0.0, z0: Some(0.0) };
         let (periodic, error_box) = ([0.0; 3], [0.0; 2]);
-        let (periodic_z, lyapunov, psi, sampled) = (0.0, None, None, None);
+        let (periodic_z, lyapunov, joint, psi, sampled) = (0.0, None, None, None, None);
         TriedClaim {
             spec,
             sigma: 1.0,
@@ -126,6 +132,7 @@ impl TriedClaim {
             periodic_z,
             error_box,
             lyapunov,
+            joint,
             psi,
             reach,
             drive,

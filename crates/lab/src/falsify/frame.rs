@@ -67,6 +67,11 @@ impl OwnPlant {
         (&self.inverse * DVector::from_column_slice(difference)).norm()
     }
 
+    /// y of a difference of two states.
+    pub(super) fn deviation(&self, difference: &[f64]) -> Vec<f64> {
+        (&self.inverse * DVector::from_column_slice(difference)).as_slice().to_vec()
+    }
+
     /// Gains of the trials, as multiples of sigma*: just above it, and well above it.
     pub(super) fn gain(trial: u64) -> f64 {
         match trial % 3 {

@@ -18,6 +18,7 @@ mod forcing;
 mod frame;
 mod frequency;
 mod jacobian;
+mod joint;
 mod limits;
 mod linear;
 mod membership;

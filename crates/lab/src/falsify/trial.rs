@@ -171,7 +171,7 @@ fn check_orbit(
 }
 
 /// The first periods from the initial condition: within the error box around the periodic solution, and the Lyapunov
-/// function never above its start. P_x is not known here, so at the start its upper bound counts, later the lower.
+/// function never above its start. P_x is not known here, so at the start its upper bound counts, later the lower; joint metrics are.
 ///
 /// # Errors
 /// An integration that did not come to its end.
@@ -194,9 +194,17 @@ fn check_approach(
             let own = |own: &OwnPlant| own.norm(&difference[..n]);
             let (x, e) = (claim.own.as_ref().map_or_else(|| norm(&difference[..n]), own), difference[n]);
             away = [away[0].max(x), away[1].max(e.abs())];
+            let zeta: Vec<f64> = difference[n + 1..].iter().zip(&m).map(|(z, m)| z - m * e).collect();
+            let zeta = closed_loop.regulator.weighted_norm(&zeta);
+            if let Some((joint, own)) = claim.joint.as_ref().zip(claim.own.as_ref()) {
+                let value = joint.at(trial.sigma, &own.deviation(&difference[..n]), e, zeta);
+                if index == 0 && at == 0 {
+                    level[0] = value;
+                }
+                level[1] = level[1].max(value);
+            }
             if let Some([low, up, h]) = claim.lyapunov {
-                let zeta: Vec<f64> = difference[n + 1..].iter().zip(&m).map(|(z, m)| z - m * e).collect();
-                let rest = e * e + h * closed_loop.regulator.weighted_norm(&zeta).portable_powi(2);
+                let rest = e * e + h * zeta.portable_powi(2);
                 if index == 0 && at == 0 {
                     level[0] = up * x * x + rest;
                 }
@@ -208,7 +216,7 @@ fn check_approach(
     let [d_x, d_e] = claim.error_box;
     checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
     checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
-    if claim.lyapunov.is_some() {
+    if claim.lyapunov.is_some() || claim.joint.is_some() {
         checks.at_most(LYAPUNOV, level[1], level[0]);
     }
     Ok(())
