@@ -1,18 +1,16 @@
 //! The matrix inequality (E) of existence (derivation, 13.7): decided with enclosures by subdivision, and with the largest c_y that is
 //! proved.
 
-use super::PRECISION;
-use super::centred::{Centred, negated};
-use super::decide::{Decision, Values};
-use super::definite::SymmetricValues;
+use super::decide::Decision;
 use super::engine::Engine;
+use super::metric_form::MetricForm;
 use super::quantity::Part;
 use super::suprema::FloatSuprema;
 use super::weights::EnergyWeights;
 use rug::Rational;
-use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::{Direction, round_f64};
-use sigmastar_lang::spec::ExistenceInequality;
+use sigmastar_lang::spec::{ExistenceInequality, Metric};
 
 /// The shares that c_y at samples loses until it is proved, and the boxes that each attempt may take; the first is for derivatives that
 /// do not vary.
@@ -31,7 +29,7 @@ impl Engine {
     /// caller to prove: what [`Engine::decide`] leaves to him.
     #[must_use]
     pub fn decide_existence(&self, inequality: &ExistenceInequality, effort: usize) -> Decision {
-        let ExistenceInequality { x, e, matrix, k_p, c_x, c_y, .. } = inequality;
+        let ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value } = inequality;
         let order = self.states();
         let is_symmetric = matrix.len() == order
             && matrix.iter().all(|row| row.len() == order)
@@ -42,7 +40,22 @@ impl Engine {
         if *x < 0 || *e < 0 {
             return Decision { truth: Truth::Undecided, boxes: 0 };
         }
-        self.decide_part(Part::All, [x, e], effort, |values| form(inequality, values))
+        // With the metric [P 0; 0 1], and no margin of e.
+        let zeros = vec![Rational::new(); order];
+        let form = MetricForm {
+            metric: Metric {
+                matrix: matrix.clone(),
+                cross: zeros.clone(),
+                weight: Rational::from(1),
+                k_p: k_p.clone(),
+                c_x: c_x.clone(),
+                c_e: Rational::new(),
+                c_y: c_y.clone(),
+            },
+            pulled: zeros,
+            of_e: Rational::from(value * 2u32),
+        };
+        self.decide_part(Part::All, [x, e], effort, |values| form.matrix(values))
     }
 
     /// The inequality with the largest c_y that is proved and little below that of the samples; `None` if none is. `samples` must be
@@ -62,38 +75,4 @@ impl Engine {
             self.decide_existence(&inequality, effort).truth.is_true().then_some(inequality)
         })
     }
-}
-
-/// The matrix in (x, e, y).
-fn form(inequality: &ExistenceInequality, values: &Values<'_>) -> Option<SymmetricValues> {
-    let ExistenceInequality { matrix: p, k_p, c_x, c_y, value, .. } = inequality;
-    let frame = values.frame;
-    let region = &values.engine.region;
-    let half_k_p = Enclosure::from_rational(k_p, PRECISION) / 2;
-    // [[f_x, f_e], [q_x, q_e]] in the coordinates x.
-    let mut of_f = values.matrix();
-    let mut of_q = of_f.pop()?;
-    let n = of_f.len();
-    let slope = of_q.pop()?;
-    let column: Vec<Vec<Centred>> = of_f.iter_mut().map(|row| row.split_off(n)).collect();
-    let mut entries = Vec::new();
-    if n > 0 {
-        let jacobian = values.product(region.matrix(), &values.product(region.inverse(), &of_f, false), true);
-        let moved = values.product(p, &jacobian, false);
-        let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
-        entries.extend(upper.map(|(i, j)| {
-            let sum = frame.add(&moved[i][j], &moved[j][i]);
-            let sum = if i == j { frame.add(&sum, &frame.rational(c_x)) } else { sum };
-            (i, j, negated(&sum))
-        }));
-        let column = values.product(p, &values.product(region.inverse(), &column, false), false);
-        entries.extend(column.concat().iter().enumerate().map(|(i, value)| (i, n, negated(value))));
-        let row = values.product(region.matrix(), &[of_q], true).concat();
-        entries.extend(row.iter().enumerate().map(|(i, value)| (i, n + 1, negated(&frame.scale(value, &half_k_p)))));
-    }
-    let one = frame.constant(Enclosure::one(PRECISION));
-    entries.push((n, n, frame.rational(&Rational::from(value * 2))));
-    entries.push((n, n + 1, negated(&frame.add(&one, &frame.scale(&slope, &half_k_p)))));
-    entries.push((n + 1, n + 1, frame.rational(&Rational::from(k_p - c_y))));
-    Some(SymmetricValues { order: n + 2, entries })
 }

@@ -27,6 +27,7 @@ mod inequality;
 mod joint;
 mod joint_program;
 mod majorant;
+mod metric_form;
 mod narrow;
 mod pointwise;
 mod prove_value;

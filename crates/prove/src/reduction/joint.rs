@@ -3,8 +3,9 @@
 
 use super::entries::needed;
 use super::proofs::{Proofs, Reduced};
+use crate::certify::Alternatives;
 use crate::search::{
-    AtSigma, ByEnergy, ByMatrix, Descent, FloatModel, PeriodicSet, SharpProposal, at_sigma, minimise,
+    AtSigma, ByEnergy, ByMatrix, Descent, FloatModel, PeriodicSet, SharpProposal, active_level, at_sigma, minimise,
     search_sharp_near, start_distances,
 };
 use rug::Rational;
@@ -217,13 +218,13 @@ impl JointSearch<'_> {
             |values: ProvedValues| values.with_joint_existence(existence).with_joint_stability(Some(stability.clone()));
         let (with_values, spec) = self.proofs.with_needed(&needed, joint).ok()?;
         let proposal = search_sharp_near(&with_values, &proposal).ok()?;
-        Some(Reduced { spec, proposal, alternatives: Default::default() })
+        Some(Reduced { spec, proposal, alternatives: Alternatives::default() })
     }
 }
 
 /// D_x and D_e.
 fn radii(at: &AtSigma) -> [f64; 2] {
-    [at.d_x, crate::search::active_level(at.eta, at.dist_e, at.rho).sqrt()]
+    [at.d_x, active_level(at.eta, at.dist_e, at.rho).sqrt()]
 }
 
 /// The inequality with short numbers, and so much of the margins.

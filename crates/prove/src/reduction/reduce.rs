@@ -188,7 +188,9 @@ impl FoundByMatrix {
             Some(gain) if *gain >= proved.proposal.sigma => proved,
             _ => with_joint_metrics(&proofs, &chosen.model, &chosen.proposal, proved),
         };
-        let aligned = aligned(sampling, chosen, *path);
+        // It is one of (M): beside joint metrics it may be larger than what they prove from another start.
+        let lower = |aligned: &f64| *aligned < proved.proposal.sigma * (1.0 - WORTH_A_REMARK);
+        let aligned = aligned(sampling, chosen, *path).filter(lower);
         Ok(Reduced { alternatives: Alternatives { by_norms: Some(by_norms), aligned }, ..proved })
     }
 }

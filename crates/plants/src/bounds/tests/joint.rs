@@ -123,3 +123,29 @@ fn altered_numbers_are_refused() {
     nowhere.inequality.x = Rational::from(-1);
     assert!(!engine.decide_joint_stability(&nowhere, EFFORT).truth.is_true());
 }
+
+/// Without states nothing but its sign is asked of P_up, which C4 multiplies with dX^2.
+#[test]
+fn without_states_the_numbers_of_a_level_are_positive() {
+    let engine = case(&plant(&[], &[], "cos(2*pi*t) - e/2"), &[], curve(&[], &[]), "0").engine;
+    let one = || Rational::from(1);
+    let metric = |weight: i32| Metric {
+        matrix: Vec::new(),
+        cross: Vec::new(),
+        weight: Rational::from(weight),
+        k_p: one(),
+        c_x: one(),
+        c_e: Rational::from((1, 10)),
+        c_y: Rational::from((1, 10)),
+    };
+    let joint = |p_up: i32| {
+        let level = || Level { p_up: Rational::from(p_up), x_low: one(), e_low: Rational::from((1, 2)) };
+        let inequality =
+            JointInequality { x: Rational::new(), e: one(), value: one(), near: metric(1), far: metric(1) };
+        JointStability { inequality, levels: [level(), level()] }
+    };
+    let truth = |p_up: i32| engine.decide_joint_stability(&joint(p_up), EFFORT).truth;
+    assert!(truth(1).is_true());
+    assert!(truth(0).is_false());
+    assert!(truth(-1).is_false());
+}
