@@ -339,7 +339,7 @@ fn linear() -> Value {
     made
 }
 
-/// Exact regulation beside it stands on the conditions that it has by itself.
+/// Exact regulation beside it stands on the conditions by norms that it has by itself, where they hold.
 #[test]
 fn exact_regulation_has_conditions_of_its_own() {
     let report = accepted(&linear());
@@ -357,6 +357,34 @@ fn exact_regulation_has_conditions_of_its_own() {
     let mut made = linear();
     made["witness"]["joint_inequality"]["far"]["c_y"] = "1".into();
     assert_refused(&judged(&made), Verdict::Invalid, RULE, PLACE);
+}
+
+/// Where norms do not prove exact regulation the metrics of the claim do, around 0: with their threshold, their region and their level.
+#[test]
+fn exact_regulation_by_the_metrics_of_the_claim() {
+    let with = |field: &str, value: Value| {
+        let mut made = stored("joint");
+        let witness = made["witness"].clone();
+        made["witness"]["exact_regulation"] = json!({
+            "sigma_star_oo": "4", "D_x": witness["D_x"], "D_e": witness["D_e"], "w_x": witness["w_x"], "h": witness["h"],
+        });
+        made["witness"]["exact_regulation"][field] = value;
+        made
+    };
+    let report = accepted(&with("sigma_star_oo", "4".into()));
+    assert!(report.text(false).contains("With infinitely many oscillators and any gain sigma >= 4"));
+    for (field, value, condition) in [
+        ("sigma_star_oo", "3.97", "C5s"),
+        ("D_x", "41", "C5x"),
+        ("D_e", "21", "C5e"),
+        ("D_x", "0.1", "C4"),
+        ("D_e", "0.1", "C4"),
+    ] {
+        let report = judged(&with(field, value.into()));
+        assert_refused(&report, Verdict::Invalid, "exact regulation", "/witness/exact_regulation");
+        let failing = open(&report);
+        assert!(failing.iter().all(|id| id.starts_with(condition)) && !failing.is_empty(), "{field}: {failing:?}");
+    }
 }
 
 /// Without states P and p have no rows, and P_up is a number above 0 all the same.
