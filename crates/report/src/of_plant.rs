@@ -7,7 +7,10 @@ use sigmastar_document::number::exact;
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
-use sigmastar_lang::spec::{ExistenceInequality, MatrixInequality, OfPlant, ProvedValue, Specification, Splitting};
+use sigmastar_lang::spec::{
+    ExistenceInequality, MatrixInequality, OfPlant, ProvedValue, SampledExistence, SampledInequalities,
+    SampledInequality, Specification, Splitting,
+};
 use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -69,7 +72,33 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             exact(&Rational::from(k_p / c_y), Direction::Up)
         ))
     }));
+    blocks.extend(at_samples(spec));
     blocks
+}
+
+/// The matrix inequalities of the regulator at samples.
+fn at_samples(spec: &Specification) -> Vec<Block> {
+    let SampledInequalities { stability, existence } = spec.bounds.proved_values().sampled();
+    let place = |[x, e]: [&Rational; 2]| {
+        let [x, e] = [x, e].map(|end| exact(end, Direction::Down));
+        if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") }
+    };
+    let of_stability = stability.iter().map(|SampledInequality { x, e, .. }| {
+        Block::says(format!(
+            "Stability rests on the matrix inequality (Ms) over the derivatives (section 13.7) in the place of C5h, at this gain and \
+             sampling period, at every point of {} and every t. No condition uses the bounds at the same X and E.",
+            place([x, e])
+        ))
+    });
+    let of_existence = existence.iter().map(|SampledExistence { x, e, gamma, c_y, .. }| {
+        Block::says(format!(
+            "Existence rests on the matrix inequality (E) at samples (section 13.7), at every point of {} and every t: along the \
+             periodic solution the mean square of y over the samples is at most {} times that of q(t,0,0) without its mean.",
+            place([x, e]),
+            exact(&Rational::from(gamma / c_y), Direction::Up)
+        ))
+    });
+    of_stability.chain(of_existence).collect()
 }
 
 fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {

@@ -240,6 +240,14 @@ fn of_data() -> Vec<Field> {
     let mut existence: Vec<Field> = numbers(&["X", "E"], "An argument.").into_iter().collect();
     existence.push(must("P", "P", "A symmetric matrix for y, by rows.", matrix()));
     existence.extend(numbers(&["k_p", "c_x", "c_y", "sigma"], "A weight, a margin, or the threshold."));
+    let at_samples = ["X", "E", "lambda", "rate", "c_e", "c_y"];
+    let at_samples = numbers(&at_samples, "An argument, a weight, or what is left.").into_iter().collect();
+    let inequality = Shape::OneOf(vec![Shape::Object(inequality), Shape::Object(at_samples)]);
+    let mut existence_at_samples: Vec<Field> = numbers(&["X", "E"], "An argument.").into_iter().collect();
+    existence_at_samples.push(must("P", "P", "A symmetric matrix for y, by rows.", matrix()));
+    let names = ["k_p", "c_x", "c_e", "c_y", "gamma", "lambda"];
+    existence_at_samples.extend(numbers(&names, "A weight, a margin, or what q(t,0,0) counts."));
+    let existence = Shape::OneOf(vec![Shape::Object(existence), Shape::Object(existence_at_samples)]);
     vec![
         may("lyapunov", "Lyapunov triple", "P(t) and the triple of stability, proved.", triple()),
         may("lyapunov_existence", "Second triple", "That of the existence of the periodic solution.", triple()),
@@ -255,14 +263,14 @@ fn of_data() -> Vec<Field> {
         may(
             "matrix_inequality",
             "Matrix inequality",
-            "That of stability in the place of C5, proved from the formulas for w_x and h of the witness.",
-            named("matrix_inequality", Shape::Object(inequality)),
+            "That of stability in the place of C5 (at samples of C5h), proved from the formulas for w_x and h of the witness.",
+            named("matrix_inequality", inequality),
         ),
         may(
             "existence_inequality",
             "Matrix inequality of existence",
             "What bounds the periodic solution beside the gains of loops, proved from the formulas.",
-            named("existence_inequality", Shape::Object(existence)),
+            named("existence_inequality", existence),
         ),
     ]
 }

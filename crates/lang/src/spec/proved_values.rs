@@ -3,6 +3,7 @@
 use super::bound::Bound;
 use super::existence_inequality::ExistenceInequality;
 use super::matrix_inequality::MatrixInequality;
+use super::sampled_inequality::{SampledExistence, SampledInequality, SampledLoop};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 
@@ -34,13 +35,32 @@ pub struct ProvedValues {
     entries: Vec<ProvedValue>,
     inequality: Option<MatrixInequality>,
     existence: Option<ExistenceInequality>,
+    at_samples: SampledInequalities,
+}
+
+/// The matrix inequalities of the regulator at samples.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SampledInequalities {
+    /// Of stability, where there is one.
+    pub stability: Option<SampledInequality>,
+    /// Of existence, where there is one.
+    pub existence: Option<SampledExistence>,
+}
+
+impl SampledInequalities {
+    /// What they are about, where there is one.
+    #[must_use]
+    pub fn about(&self) -> Option<&SampledLoop> {
+        let of_existence = self.existence.as_ref().map(|existence| &existence.at);
+        self.stability.as_ref().map(|stability| &stability.at).or(of_existence)
+    }
 }
 
 impl ProvedValues {
     /// The values, each of which is proved.
     #[must_use]
     pub fn new(entries: Vec<ProvedValue>) -> ProvedValues {
-        ProvedValues { entries, inequality: None, existence: None }
+        ProvedValues { entries, ..ProvedValues::default() }
     }
 
     /// The same with a matrix inequality, which is proved.
@@ -53,6 +73,18 @@ impl ProvedValues {
     #[must_use]
     pub fn with_existence(self, existence: Option<ExistenceInequality>) -> ProvedValues {
         ProvedValues { existence, ..self }
+    }
+
+    /// The same with matrix inequalities of the regulator at samples, which are proved.
+    #[must_use]
+    pub fn with_sampled(self, at_samples: SampledInequalities) -> ProvedValues {
+        ProvedValues { at_samples, ..self }
+    }
+
+    /// The matrix inequalities of the regulator at samples.
+    #[must_use]
+    pub fn sampled(&self) -> &SampledInequalities {
+        &self.at_samples
     }
 
     /// The matrix inequality of existence, where there is one.
@@ -97,7 +129,11 @@ impl ProvedValues {
     pub fn reach(&self) -> Option<[Rational; 2]> {
         let of_inequality = self.inequality.iter().flat_map(MatrixInequality::arguments);
         let of_existence = self.existence.iter().map(|existence| [&existence.x, &existence.e]);
-        let all = self.entries.iter().map(|entry| [&entry.x, &entry.e]).chain(of_inequality).chain(of_existence);
+        let SampledInequalities { stability, existence } = &self.at_samples;
+        let sampled = stability.iter().map(|known| [&known.x, &known.e]);
+        let sampled = sampled.chain(existence.iter().map(|known| [&known.x, &known.e]));
+        let all = self.entries.iter().map(|entry| [&entry.x, &entry.e]);
+        let all = all.chain(of_inequality).chain(of_existence).chain(sampled);
         let larger = |[x, e]: [_; 2], [other_x, other_e]: [_; 2]| [Ord::max(x, other_x), Ord::max(e, other_e)];
         all.reduce(larger).map(|largest| largest.map(Clone::clone))
     }

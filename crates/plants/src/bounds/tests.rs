@@ -6,6 +6,7 @@ mod inequality;
 mod narrow;
 mod outside;
 mod random_points;
+mod sampled;
 mod splitting;
 
 use super::*;

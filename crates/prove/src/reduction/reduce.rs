@@ -127,7 +127,7 @@ pub(super) fn with_coordinates<T>(
 }
 
 /// Finds the orbit, proposes coordinates, and goes on from there.
-fn with_candidates<T>(
+pub(super) fn with_candidates<T>(
     plant: &Plant,
     prove: impl FnOnce(&[Coordinates], &Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
@@ -148,7 +148,10 @@ fn with_candidates<T>(
 }
 
 /// What those candidates with a constant P promise by norms, and that P.
-fn starts(candidates: &[Coordinates], sampling: &Sampling<'_>) -> Result<(PeriodicMatrix, Rough), PlantRefusal> {
+pub(super) fn starts(
+    candidates: &[Coordinates],
+    sampling: &Sampling<'_>,
+) -> Result<(PeriodicMatrix, Rough), PlantRefusal> {
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
     let first = constant.first().ok_or(PlantRefusal::NoContraction)?;
     let matrices: Vec<DMatrix<f64>> = constant.iter().map(|candidate| float_matrix(&candidate.l)).collect();
@@ -158,7 +161,7 @@ fn starts(candidates: &[Coordinates], sampling: &Sampling<'_>) -> Result<(Period
 
 /// The best coordinates by norms, rounded, and proved along the orbit: with a constant P, and a P of existence where one helps; where
 /// none leads to a gain, one that moves may.
-fn best_by_norms(
+pub(super) fn best_by_norms(
     candidates: &[Coordinates],
     starts: Result<(PeriodicMatrix, Rough), PlantRefusal>,
     sampling: &Sampling<'_>,
@@ -248,7 +251,7 @@ fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>)
 }
 
 /// A choice for the constant P that is given, rounded, and proved along the orbit.
-fn with_constant(
+pub(super) fn with_constant(
     p: &PeriodicMatrix,
     sampling: &Sampling<'_>,
     by_matrix: Option<Path>,
@@ -280,7 +283,7 @@ fn with_constant(
 }
 
 /// A search with P = I in the coordinates y, and some P of existence.
-fn with_search<T>(
+pub(super) fn with_search<T>(
     sampling: &Sampling<'_>,
     by_matrix: Option<Path>,
     run: impl FnOnce(&CoordinateSearch<'_>) -> Result<T, Obstacle>,

@@ -1,5 +1,6 @@
 //! The specification in floating point, for searches only.
 
+use super::at_samples::AtSamples;
 use super::by_energy::ByEnergy;
 use super::effort::Effort;
 use super::float_bound::FloatBound;
@@ -115,6 +116,8 @@ pub struct FloatModel {
     pub by_matrix: Option<ByMatrix>,
     /// What bounds the periodic solution beside the gains of loops, if anything.
     pub by_energy: Option<ByEnergy>,
+    /// The same of the law at samples.
+    pub at_samples: AtSamples,
 }
 
 impl Deref for FloatModel {
@@ -186,6 +189,7 @@ impl FloatModel {
                 let inequality = spec.bounds.proved_values().existence();
                 inequality.map(|inequality| ByEnergy::Proved(Arc::new(inequality.clone())))
             },
+            at_samples: AtSamples::from(spec.bounds.proved_values().sampled()),
         }
     }
 
