@@ -92,7 +92,7 @@ pub fn reduce(plant: &Plant) -> Result<Reduced, PlantRefusal> {
         {
             return Ok(proved);
         }
-        let (along, chosen) = best_by_norms(candidates, starts, sampling)?;
+        let (along, chosen) = best_by_norms(candidates, &starts, sampling)?;
         let by_matrix = best_by_matrix(&along.coordinates.p, &[Start::from(&chosen)], sampling);
         let by_matrix = by_matrix.and_then(|found| found.proved(sampling, chosen.proposal.sigma).ok());
         match by_matrix {
@@ -121,7 +121,7 @@ pub(super) fn with_coordinates<T>(
     prove: impl FnOnce(&Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     with_candidates(plant, |candidates, sampling| {
-        let (along, chosen) = best_by_norms(candidates, starts(candidates, sampling), sampling)?;
+        let (along, chosen) = best_by_norms(candidates, &starts(candidates, sampling), sampling)?;
         prove(&along, sampling, &chosen)
     })
 }
@@ -163,10 +163,12 @@ pub(super) fn starts(
 /// none leads to a gain, one that moves may.
 pub(super) fn best_by_norms(
     candidates: &[Coordinates],
-    starts: Result<(PeriodicMatrix, Rough), PlantRefusal>,
+    starts: &Result<(PeriodicMatrix, Rough), PlantRefusal>,
     sampling: &Sampling<'_>,
 ) -> Result<(Along, Chosen), PlantRefusal> {
-    let by_constant = starts.and_then(|(p, rough)| with_constant(&p, sampling, None, |search| search.choose(&rough)));
+    let by_constant = starts.as_ref().map_err(Clone::clone);
+    let by_constant =
+        by_constant.and_then(|(p, rough)| with_constant(p, sampling, None, |search| search.choose(rough)));
     let moving: Vec<&Coordinates> = candidates.iter().filter(|candidate| !candidate.p.harmonics.is_empty()).collect();
     match by_constant {
         Err(_) if !moving.is_empty() => {

@@ -33,7 +33,8 @@ pub struct SampledPairs<'p> {
     empty: Specification,
 }
 
-/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found.
+/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found, by norms or, where that serves
+/// for a smaller one, by matrix inequalities over the derivatives.
 ///
 /// # Errors
 /// What could not be proved or found.
@@ -44,16 +45,15 @@ pub fn reduce_sampled(
 ) -> Result<ReducedSampled, PlantRefusal> {
     with_candidates(plant, |candidates, sampled| {
         let starts = starts(candidates, sampled);
-        let matrix = straight_by_matrix(&starts, sampled);
-        let by_norms = best_by_norms(candidates, starts, sampled)
+        let by_norms = best_by_norms(candidates, &starts, sampled)
             .and_then(|(along, chosen)| SampledPairs::new(plant, &along, sampled, &chosen)?.reduce(sampling, gain));
-        let enough = by_norms.is_ok() && gain.is_some();
-        let Some((along, chosen)) = matrix.filter(|_| !enough) else { return by_norms };
-        let known = by_norms.as_ref().ok().map(|reduced| reduced.proposal.sigma);
-        match MatrixAtSamples::new(sampled, (&along, &chosen), sampling).and_then(|search| search.reduce(gain, known)) {
-            Some(found) => Ok(found),
-            None => by_norms,
+        if by_norms.is_ok() && gain.is_some() {
+            return by_norms;
         }
+        let Some((along, chosen)) = straight_by_matrix(&starts, sampled) else { return by_norms };
+        let known = by_norms.as_ref().ok().map(|reduced| reduced.proposal.sigma);
+        let search = MatrixAtSamples::new(sampled, (&along, &chosen), sampling);
+        search.and_then(|search| search.reduce(gain, known)).map_or(by_norms, Ok)
     })
 }
 

@@ -1,14 +1,11 @@
 //! What a search for the law at samples knows of matrix inequalities over a plant's derivatives (derivation, 13.7, (Ms), and (E) at
 //! samples).
 
-use super::candidate::{AtSigma, active_level, shape_of_weights, weight_h};
-use super::model::FloatModel;
-use super::obstacle::{Failing, Obstacle};
+use super::obstacle::Failing;
 use rug::Rational;
-use sigmastar_lang::spec::{SampledExistence, SampledInequalities, SampledInequality};
+use sigmastar_lang::spec::{SampledExistence, SampledInequalities, SampledInequality, SampledLoop};
 use sigmastar_theory::derivation::energy::EnergyBounds;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
-use sigmastar_theory::derivation::paths::{Path, Paths};
 use sigmastar_theory::derivation::sampled::SampledEnergyNumbers;
 use std::fmt;
 use std::sync::Arc;
@@ -89,6 +86,11 @@ impl AtSamples {
     }
 }
 
+/// Whether a gain is the one of an inequality.
+fn is_about(known: &SampledLoop, sigma: f64) -> bool {
+    known.sigma.to_f64().total_cmp(&sigma).is_eq()
+}
+
 fn is_within([x, e]: [f64; 2], [end_x, end_e]: [&Rational; 2]) -> bool {
     x <= end_x.to_f64() * EDGE && e <= end_e.to_f64() * EDGE
 }
@@ -111,7 +113,7 @@ impl BySampledEnergy {
             }
             BySampledEnergy::Proved(known) => {
                 let SampledExistence { x, e, c_x, c_e, c_y, gamma, at: about, .. } = known.as_ref();
-                if !is_within(at, [x, e]) || sigma != about.sigma.to_f64() {
+                if !is_within(at, [x, e]) || !is_about(about, sigma) {
                     return Err(Failing::Bounds);
                 }
                 let [c_x, c_e, c_y, gamma] = [c_x, c_e, c_y, gamma].map(Rational::to_f64);
@@ -122,43 +124,17 @@ impl BySampledEnergy {
 }
 
 impl BySampledMatrix {
-    /// Of the shape (rho, eta), or with the weights that are proved: the error box with the level condition active, and the radius there.
-    pub(super) fn error_box(
-        &self,
-        model: &FloatModel,
-        (x_per, e_per): (f64, f64),
-        distances: [f64; 3],
-        shape: (f64, f64),
-        sigma: f64,
-    ) -> Result<AtSigma, Obstacle> {
-        let [dist_x, dist_e, dist_z] = distances;
-        let (rho, eta) = match self {
-            BySampledMatrix::Sampled(_) => shape,
-            BySampledMatrix::Proved(known) => {
-                shape_of_weights(model, [known.w_x.to_f64(), known.eta.to_f64()], distances)
+    /// The radius on (X, E) for the weights w_x and eta at sigma.
+    ///
+    /// # Errors
+    /// That an inequality which a claim has to use is not proved there.
+    pub(super) fn radius(&self, at: [f64; 2], weights: [f64; 2], sigma: f64) -> Result<f64, Failing> {
+        match self {
+            BySampledMatrix::Sampled(radius) => Ok(radius(at, weights, sigma)),
+            BySampledMatrix::Proved(known) if is_within(at, [&known.x, &known.e]) && is_about(&known.at, sigma) => {
+                Ok(PROVED)
             }
-        };
-        let d_x = rho * model.c * dist_x;
-        let level = active_level(eta, dist_e, rho);
-        let at = [x_per + d_x, e_per + level.sqrt()];
-        model.contains(at)?;
-        let threshold = match self {
-            BySampledMatrix::Sampled(radius) => {
-                let weights = [level / (model.p_low * d_x * d_x), weight_h(eta, dist_e, dist_z)];
-                radius(at, weights, sigma)
-            }
-            BySampledMatrix::Proved(known) => {
-                if !is_within(at, [&known.x, &known.e]) || sigma != known.at.sigma.to_f64() {
-                    return Err(Failing::Bounds.at(at[0], at[1]));
-                }
-                PROVED
-            }
-        };
-        if !threshold.is_finite() {
-            return Err(Failing::Coupling.at(at[0], at[1]));
+            BySampledMatrix::Proved(_) => Err(Failing::Bounds),
         }
-        // Where nothing is coupled the radius is 0, which has no logarithm.
-        let threshold = threshold.max(1e-300);
-        Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(Path::Straight), threshold })
     }
 }

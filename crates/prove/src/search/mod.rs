@@ -5,6 +5,7 @@
 
 mod at_samples;
 mod binding;
+mod box_at_samples;
 mod by_energy;
 mod by_matrix;
 mod candidate;

@@ -3,6 +3,7 @@
 //! Nothing is monotone here: too small a sigma does not hold the plant, too large a one asks too much of a sample. So sigma is
 //! scanned from below up to 1/h, and refined where the scan changes its mind.
 
+use super::box_at_samples::error_box_at_samples;
 use super::candidate::{AtSigma, Shape};
 use super::error_box::{best_shape, shape_near};
 use super::floors::{ordinary, raised, tiny};
@@ -182,7 +183,8 @@ impl<'m> SampledSearch<'m> {
         (rho, eta): (f64, f64),
     ) -> Result<AtSigma, Obstacle> {
         if let Some(known) = &self.model.at_samples.stability {
-            return known.error_box(self.model, (set.x_per, set.e_per), distances, (rho, eta), sigma);
+            let shape = ((rho, eta), sigma);
+            return error_box_at_samples(known, self.model, (set.x_per, set.e_per), distances, shape);
         }
         let [_, dist_e, dist_z] = distances;
         Shape::best(self.model, (set.x_per, set.e_per), distances, (rho, eta), |shape| {
