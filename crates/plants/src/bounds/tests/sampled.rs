@@ -268,8 +268,8 @@ fn periodic_solutions_stay_within_the_bounds() {
         }
     }
     assert!(seen >= 3, "{seen}");
-    // None of the bounds is idle.
-    assert!(nearest.iter().all(|ratio| *ratio > 0.2), "{nearest:?}");
+    // None of the bounds is idle; c_x is not what the programs make large.
+    assert!(nearest.iter().zip([0.02, 0.2, 0.5]).all(|(ratio, least)| *ratio > least), "{nearest:?}");
 }
 
 /// A number that is not positive, a P that is not symmetric or of another order, a region that is none.
