@@ -9,9 +9,9 @@ use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::SampledExistence;
 use std::sync::Arc;
 
-/// Powers of two by which lambda is first tried, and the steps of the search between the best ones.
+/// Powers of four by which lambda is tried where its first guess proves nothing, and the logarithm of the factor up to which it is found.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -7..=7;
-const STEPS: usize = 10;
+const CLOSE: f64 = 0.02;
 
 /// Points that are added where an inequality is tightest.
 const POINTS: usize = 12;
@@ -146,16 +146,17 @@ impl SampledWeights {
         let middle = of_states.max((k_p * self.of.sigma).sqrt()) / self.of.across;
         let at = |exponent: f64| self.at_all(points, middle * exponent.portable_exp());
         let unit = std::f64::consts::LN_2 * 2.0;
-        let found = EXPONENTS.map(|k| (at(unit * f64::from(k)), unit * f64::from(k)));
-        let Some((mut radius, mut exponent)) = found.min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            return SampledRadius { radius: f64::NAN, lambda: middle };
-        };
-        let mut step = unit / 2.0;
-        for _ in 0..STEPS {
+        let (mut radius, mut exponent) = (at(0.0), 0.0);
+        if !radius.is_finite() {
+            let found = EXPONENTS.map(|k| (at(unit * f64::from(k)), unit * f64::from(k)));
+            (radius, exponent) = found.fold((radius, exponent), |best, next| if next.0 < best.0 { next } else { best });
+        }
+        let mut step = unit;
+        while step > CLOSE {
             let sides = [exponent - step, exponent + step].map(|side| (at(side), side));
             match sides.into_iter().find(|(value, _)| *value < radius) {
                 Some(better) => (radius, exponent) = better,
-                None => step /= 2.0,
+                None => step /= 3.0,
             }
         }
         SampledRadius { radius, lambda: middle * exponent.portable_exp() }

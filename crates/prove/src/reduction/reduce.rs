@@ -49,7 +49,7 @@ const AS_GOOD_AS_NONE: f64 = 1e-6;
 const WORTH_A_CORNER: f64 = 5e-3;
 
 /// By what share of the gain of norms, at few samples, one by a matrix inequality is far better.
-const FAR_BETTER: f64 = 0.9;
+pub(super) const FAR_BETTER: f64 = 0.9;
 
 /// What an aligned start must take from a gain to be worth a remark.
 const WORTH_A_REMARK: f64 = 0.01;

@@ -4,7 +4,7 @@ use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
 use super::proofs::{Along, PRECISION};
 use super::proved_at_samples::{ReducedSampled, beyond, found_again};
-use super::reduce::{ENLARGED, best_by_norms, beyond_the_bounds, starts, with_candidates, with_coordinates};
+use super::reduce::{ENLARGED, FAR_BETTER, best_by_norms, beyond_the_bounds, starts, with_candidates, with_coordinates};
 use super::refusal::PlantRefusal;
 use super::sampled_matrix::{MatrixAtSamples, straight_by_matrix};
 use super::sampling::Sampling;
@@ -44,15 +44,27 @@ pub fn reduce_sampled(
 ) -> Result<ReducedSampled, PlantRefusal> {
     with_candidates(plant, |candidates, sampled| {
         let starts = starts(candidates, sampled);
+        let straight = straight_by_matrix(&starts, sampled);
+        let by_matrix = |known: Option<f64>| {
+            let (along, chosen) = straight.as_ref()?;
+            MatrixAtSamples::new(sampled, (along, chosen), sampling)?.reduce(gain, known)
+        };
+        // As in continuous time, norms are not worth their descent where a matrix inequality does far better from the same start.
+        let rough = starts.as_ref().map_or(f64::INFINITY, |(_, rough)| rough.best.proposal.sigma);
+        let is_far_better = straight.as_ref().is_some_and(|(_, chosen)| chosen.proposal.sigma < FAR_BETTER * rough);
+        if gain.is_none()
+            && is_far_better
+            && let Some(found) = by_matrix(Some(rough))
+        {
+            return Ok(found);
+        }
         let by_norms = best_by_norms(candidates, &starts, sampled)
             .and_then(|(along, chosen)| SampledPairs::new(plant, &along, sampled, &chosen)?.reduce(sampling, gain));
-        if by_norms.is_ok() && gain.is_some() {
-            return by_norms;
+        match &by_norms {
+            Ok(_) if gain.is_some() => by_norms,
+            Ok(found) => by_matrix(Some(found.proposal.sigma)).map_or(by_norms, Ok),
+            Err(_) => by_matrix(None).map_or(by_norms, Ok),
         }
-        let Some((along, chosen)) = straight_by_matrix(&starts, sampled) else { return by_norms };
-        let known = by_norms.as_ref().ok().map(|reduced| reduced.proposal.sigma);
-        let search = MatrixAtSamples::new(sampled, (&along, &chosen), sampling);
-        search.and_then(|search| search.reduce(gain, known)).map_or(by_norms, Ok)
     })
 }
 

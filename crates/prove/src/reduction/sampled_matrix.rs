@@ -14,6 +14,7 @@ use crate::search::{
     AtSamples, AtSigma, BySampledEnergy, BySampledMatrix, FloatModel, Floors, PeriodicSet, SampledProposal,
     SampledSearch, active_level, weight_h,
 };
+use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::{
@@ -46,8 +47,10 @@ const SHARES: [f64; 2] = [0.3, 1.0];
 /// So many times gamma at samples is reckoned with: its proof may take that.
 const GAMMA_ROOM: f64 = 1.32;
 
-/// How often the inequality of existence is sought for the set that it gave.
+/// How often the inequality of existence is sought for the set that it gave, where that is so many times smaller than the one it was
+/// sought for, or larger.
 const TURNS: usize = 2;
+const FAR: f64 = 2.0;
 
 /// The set for which it is sought is so much larger than the one that is known.
 const LARGER: f64 = 1.1;
@@ -95,6 +98,8 @@ pub(super) struct MatrixAtSamples<'a> {
     model: FloatModel,
     suprema: Arc<FloatSuprema>,
     units: [f64; 2],
+    /// The points that matter from the start.
+    places: Places,
 }
 
 /// Where the search is at one gain.
@@ -135,7 +140,9 @@ impl<'a> MatrixAtSamples<'a> {
         (model.by_matrix, model.by_energy) = (None, None);
         let units = sampled.units(&float_matrix(&along.coordinates.l));
         let suprema = Arc::new(along.suprema(sampled));
-        Some(MatrixAtSamples { sampled, along, chosen, sampling, gain, law: enclosed.to_f64(), model, suprema, units })
+        let places = suprema.extreme(&[units], EACH, None).places;
+        let law = enclosed.to_f64();
+        Some(MatrixAtSamples { sampled, along, chosen, sampling, gain, law, model, suprema, units, places })
     }
 
     /// The bounds and inequalities at the gain that is given, or at the smallest one that is found, and is below that of norms.
@@ -157,9 +164,7 @@ impl<'a> MatrixAtSamples<'a> {
     /// From what is known in continuous time.
     fn start(&self, sigma: f64) -> At {
         let parameters = self.chosen.proposal.parameters;
-        let size = [self.units[0], self.units[1]];
-        let focus = self.suprema.extreme(&[size], EACH, None);
-        At { sigma, size, shape: (parameters.rho, parameters.eta), places: focus.places }
+        At { sigma, size: self.units, shape: (parameters.rho, parameters.eta), places: self.places.clone() }
     }
 
     fn floors(&self) -> Floors {
@@ -244,41 +249,48 @@ impl<'a> MatrixAtSamples<'a> {
         model
     }
 
-    /// The best that is found at a gain.
+    /// The best that is found at a gain: of the inequalities of existence the one with which the known shape does best, and then the shape.
     fn at(&self, from: &At) -> Option<Found> {
-        let mut best: Option<Found> = None;
-        let with = |energy: Option<SampledEnergy>, places: &Places| {
-            let model = self.model(from.sigma, places, energy.as_ref());
-            let (set, at) =
-                SampledSearch::new(&model, self.law.clone()).near_shape(from.sigma, self.floors(), from.shape, ROOM)?;
-            Some(Found { sigma: from.sigma, set, at, energy, model, places: places.clone() })
+        let of = self.numbers(from.sigma);
+        let with = |energy: Option<SampledEnergy>| {
+            let model = self.model(from.sigma, &from.places, energy.as_ref());
+            let (set, at) = self.near_shape(&model, from, false)?;
+            Some(Found { sigma: from.sigma, set, at, energy, model, places: from.places.clone() })
         };
-        let smaller =
-            |found: &Found, best: Option<&Found>| best.is_none_or(|best| found.at.threshold < best.at.threshold);
-        if let Some(found) = with(None, &from.places) {
-            best = Some(found);
-        }
+        let smaller = |a: &Found, b: &Found| a.at.threshold.total_cmp(&b.at.threshold);
+        let mut best = with(None);
         let mut size = from.size;
         for _ in 0..TURNS {
-            for share in SHARES {
-                let of = self.numbers(from.sigma);
-                let energy = self.suprema.propose_sampled_energy(size.map(|side| side * LARGER), &of, share);
-                let Some(found) = energy.and_then(|energy| with(Some(energy), &from.places)) else { continue };
-                if smaller(&found, best.as_ref()) {
-                    best = Some(found);
-                }
+            let reach = size.map(|side| side * LARGER);
+            let sought = SHARES.into_par_iter().filter_map(|share| {
+                let energy = self.suprema.propose_sampled_energy(reach, &of, share)?;
+                with(Some(energy))
+            });
+            best = sought.collect::<Vec<_>>().into_iter().chain(best).min_by(smaller);
+            let found = best.as_ref().map(|found| [found.set.x_p, found.set.e_p])?;
+            let is_near = |found: f64, size: f64| (size / FAR..=size * LARGER).contains(&found);
+            if is_near(found[0], size[0]) && is_near(found[1], size[1]) {
+                break;
             }
-            size = best.as_ref().map(|found| [found.set.x_p, found.set.e_p])?;
+            size = found;
         }
-        let mut found = best?;
+        let known = best?;
+        let (set, at) = self.near_shape(&known.model, from, true)?;
+        let mut found = Found { set, at, ..known };
         found.places = self.with_worst(&found);
         Some(found)
+    }
+
+    /// The periodic set and the error box near the known shape.
+    fn near_shape(&self, model: &FloatModel, from: &At, refined: bool) -> Option<(PeriodicSet, AtSigma)> {
+        let search = SampledSearch::new(model, self.law.clone());
+        search.near_shape((from.sigma, self.floors()), from.shape, ROOM, refined)
     }
 
     /// The points that matter, with those where the inequality of stability is tightest.
     fn with_worst(&self, found: &Found) -> Places {
         let (at, weights, lambda) = self.weights(found);
-        self.suprema.with_worst(at, &found.places, &weights, lambda)
+        self.suprema.with_worst(at, &self.places, &weights, lambda)
     }
 
     /// Where the inequality of stability is asked for, its weights, and the best lambda.

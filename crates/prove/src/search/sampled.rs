@@ -159,20 +159,20 @@ impl<'m> SampledSearch<'m> {
         Ok((set, at))
     }
 
-    /// The same near a shape alone.
+    /// The same near a shape alone; at it alone where it is not `refined`.
     #[must_use]
     pub fn near_shape(
         &self,
-        sigma: f64,
-        floors: Floors,
-        shape: (f64, f64),
+        (sigma, floors): (f64, Floors),
+        (rho, eta): (f64, f64),
         room: f64,
+        refined: bool,
     ) -> Option<(PeriodicSet, AtSigma)> {
         let set = PeriodicSet::least_sampled(self.model, &self.origin, (&self.law, sigma), floors, room).ok()?;
         let distances = start_distances(self.model, &set);
         let evaluate = |rho: f64, eta: f64| self.evaluate(sigma, &set, distances, (rho, eta));
-        let at = shape_near(self.model, evaluate, shape)?;
-        Some((set, at))
+        let at = if refined { shape_near(self.model, evaluate, (rho, eta)) } else { evaluate(rho, eta).ok() };
+        Some((set, at?))
     }
 
     fn evaluate(
