@@ -1,11 +1,11 @@
-//! The questions of the matrix inequalities of stability and of existence (docs/mathematics.md, section 13.7).
+//! The questions of the matrix inequalities of stability and of existence of a regulator in continuous time (docs/mathematics.md,
+//! section 13.7).
 
 use super::bounds::rate;
 use super::formula::{Axis, Id};
 use super::model::Model;
 use super::question::Question;
 use proofs_core::constant::Constant;
-use proofs_core::rules::derivation::Inequalities;
 use proofs_core::rules::existence::Existence;
 use proofs_core::rules::inequality::Inequality;
 use proofs_core::verdict::{Outcome, bad};
@@ -68,28 +68,10 @@ impl Form<'_> {
     }
 }
 
-/// The questions of all inequalities that there are, with mu.
-pub fn questions<'i>(model: &mut Model, inequalities: Inequalities<'i>, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
-    let mut all = Vec::new();
-    if let Some(inequality) = inequalities.stability {
-        all.extend(of_stability(model, inequality, mu)?);
-    }
-    if let Some(inequality) = inequalities.existence {
-        all.push(of_existence(model, inequality)?);
-    }
-    Ok(all)
-}
-
-/// Where they are asked: X and E of each.
-pub fn arguments<'i>(inequalities: Inequalities<'i>) -> impl Iterator<Item = [&'i Rational; 2]> {
-    let of_stability = inequalities.stability.into_iter().flat_map(Inequality::arguments);
-    of_stability.chain(inequalities.existence.map(|known| [&known.x, &known.e]))
-}
-
 /// With the P of stability, w_x, h, the threshold of sigma, and y/mu, which divides by nothing. Without a splitting the question is
 /// `F >= 0`; with one, S in the place of its first rows, there are two: that F without the last row is not below S, and that S with
 /// the last row is not below 0.
-fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
+pub fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
     let order = model.states();
     // A constant asks for nothing on the region: it has a value, or nothing is proved with it.
     let mu = model.formulas.read(mu.expr(), &[], &mut Vec::new());
@@ -135,7 +117,7 @@ fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant
 }
 
 /// With a constant P of its own, `half = k_p/2` and y itself: `F >= diag(c_x I, 0, c_y)` with the threshold of sigma.
-fn of_existence<'i>(model: &mut Model, inequality: &'i Existence) -> Outcome<Said<'i>> {
+pub fn of_existence<'i>(model: &mut Model, inequality: &'i Existence) -> Outcome<Said<'i>> {
     let order = model.states();
     if inequality.p.len() != order {
         return bad(&format!("{}/P", inequality.pointer), "expected a row for each state");

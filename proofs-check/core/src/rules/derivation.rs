@@ -28,6 +28,8 @@ pub enum Witness {
 pub struct Inequalities<'w> {
     pub stability: Option<&'w Inequality>,
     pub existence: Option<&'w Existence>,
+    /// Those of a sampled regulator, with its law.
+    pub at_samples: Option<sampled::inequality::Inequalities<'w>>,
 }
 
 /// One derivation with its witness.
@@ -59,10 +61,12 @@ impl Derivation {
     /// Those of the witness.
     pub fn inequalities(&self) -> Inequalities<'_> {
         match &self.witness {
-            Witness::Sharp(w) => {
-                Inequalities { stability: w.inequality.as_ref(), existence: w.existence.inequality.as_ref() }
-            }
-            Witness::Sampled(_) => Inequalities::default(),
+            Witness::Sharp(w) => Inequalities {
+                stability: w.inequality.as_ref(),
+                existence: w.existence.inequality.as_ref(),
+                at_samples: None,
+            },
+            Witness::Sampled(w) => Inequalities { at_samples: Some(w.inequalities()), ..Inequalities::default() },
         }
     }
 

@@ -64,6 +64,23 @@ pub(super) fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Out
     }
 }
 
+/// That a certificate with an inequality contains the formulas that it is about.
+pub(super) fn demand_plant(d: &Data<'_>, pointer: &str) -> Outcome<()> {
+    match d.spec.plant {
+        Some(_) => Ok(()),
+        None => bad(pointer, "a matrix inequality is about the formulas of a plant"),
+    }
+}
+
+/// C5x and C5e: the error box lies where an inequality is proved, at X and E.
+pub(super) fn reaches(d: &Data<'_>, error_box: &ErrorBox, [x, e]: [&Rational; 2]) -> [Condition; 2] {
+    let within = |name, what, at: &Interval, end| Condition::at_most(name, what, at.clone(), d.number(end));
+    [
+        within("C5x", "X_b <= X of the matrix inequality", &error_box.x_b, x),
+        within("C5e", "E_b <= E of the matrix inequality", &error_box.e_b, e),
+    ]
+}
+
 impl Inequality {
     /// Reads the part `matrix_inequality`; the weights are those of the witness that it is a part of.
     pub fn read(field: &Field<'_>, [w_x, h]: [&Rational; 2]) -> Outcome<Inequality> {
@@ -104,10 +121,7 @@ impl Inequality {
         let path = if paths.f == paths.q { paths.f } else { Path::Straight };
         let ErrorBox { x_b, e_b, .. } = error_box;
         let within = |name, what, at: &Interval, end| Condition::at_most(name, what, at.clone(), d.number(end));
-        let mut conditions = vec![
-            within("C5x", "X_b <= X of the matrix inequality", x_b, &self.x),
-            within("C5e", "E_b <= E of the matrix inequality", e_b, &self.e),
-        ];
+        let mut conditions = reaches(d, error_box, [&self.x, &self.e]).to_vec();
         conditions.extend(self.splitting.iter().flat_map(|other| {
             [
                 within("C5j", "E of df/dx <= E of the splitting", path.e_at_dx(e_per, e_b), &other.e),

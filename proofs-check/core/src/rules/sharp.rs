@@ -5,9 +5,9 @@
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
 use super::common::{Evaluated, Free};
-use super::existence::Existence;
+use super::existence::{Existence, covers};
 use super::gains::kappas;
-use super::inequality::Inequality;
+use super::inequality::{Inequality, demand_plant};
 use super::mean_squares::{self, Solution};
 use super::set::ClaimedSet;
 use super::stability::ErrorBox;
@@ -72,8 +72,9 @@ impl Witness {
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
     let (free, inequality) = (&w.free, w.existence.inequality.iter());
-    inequality.clone().try_for_each(|inequality| inequality.demand_plant(d))?;
-    let covers = inequality.flat_map(|inequality| inequality.covers(d, [&free.x_p, &free.e_p]));
+    let mut pointers = inequality.clone().map(|part| &part.pointer).chain(w.inequality.iter().map(|part| &part.pointer));
+    pointers.try_for_each(|pointer| demand_plant(d, pointer))?;
+    let covers = inequality.flat_map(|part| covers(d, [&free.x_p, &free.e_p], [&part.x, &part.e]));
     let [sigma, w_x, h, x_p, e_p, k0, k1] =
         [&w.sigma, &free.w_x, &free.h, &free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
     let kappa = kappas(d, &k0, &k1);
@@ -83,9 +84,6 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     let existence = covers.chain(solution.conditions.iter().cloned());
     let (error_box, mut evaluated) = free.evaluate(d, sizes, transfer, existence);
     let threshold = match &w.inequality {
-        Some(inequality) if d.spec.plant.is_none() => {
-            return bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant");
-        }
         Some(inequality) => {
             let place = (free.paths, [&solution.x, &solution.e], &error_box);
             evaluated.conditions.extend(inequality.conditions(d, place, (sigma, "sigma")));
