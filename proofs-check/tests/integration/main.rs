@@ -4,6 +4,7 @@
 
 mod aligned;
 mod arguments;
+mod at_samples;
 mod claim;
 mod common;
 mod coq;
