@@ -1,7 +1,8 @@
 //! The questions of the matrix inequalities of a sampled regulator (docs/mathematics.md, section 13.7, at samples).
 //!
 //! `G = e - (1 - s sigma) e_k - s y`, so the forms in (x, e_k, y, G, w) of the section are forms in (x, e, y, w, e_k) with e = e(s): the
-//! derivatives then stand beside e, y and w alone, and both forms differ in numbers only. w stays: without it the entries would be
+//! derivatives then stand beside e, y and w alone, and both forms differ in numbers only. Numbers alone stand beside e_k, so its square is
+//! completed, which takes numbers from the entries of e and y: fewer boxes are needed then. w stays: without it the entries would be
 //! quadratic in the derivatives.
 
 use super::bounds::rate;
@@ -81,6 +82,19 @@ impl Form<'_> {
         let minus_half = formulas.apply(&Op::Div, [self.k_p, two]);
         let minus_half = formulas.sub(zero, minus_half);
         let [of_s, of_kept] = [s, kept].map(|factor| formulas.mul(lambda, factor));
+        // Beside e_k: -lambda (1 - s sigma) for e, -(1 - h sigma) + lambda s (1 - s sigma) for y, and of its own square
+        // sigma (2 - h sigma) + lambda (1 - s sigma)^2.
+        let crossed = formulas.mul(of_kept, s);
+        let crossed = formulas.add(crossed, share);
+        let beside = [formulas.sub(zero, of_kept), formulas.sub(crossed, one)];
+        let open = formulas.sub(two, share);
+        let own = formulas.dot([(sigma, open), (of_kept, kept)]);
+        let own = formulas.sub(own, taken_e_k);
+        let shares = beside.map(|entry| formulas.apply(&Op::Div, [entry, own]));
+        let completed = |formulas: &mut Formulas, entry: Id, i: usize, j: usize| {
+            let part = formulas.mul(shares[i], beside[j]);
+            formulas.sub(entry, part)
+        };
 
         let mut rows = rate(formulas, &self.rate, &self.p, &jacobian);
         let (weight, taken_x) = (formulas.number(&self.weight), formulas.number(&self.taken.x));
@@ -97,17 +111,20 @@ impl Form<'_> {
             let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
             of_e.push(formulas.mul(minus_weight, moved));
         }
-        of_e.push(formulas.sub(lambda, taken_e));
+        let left = formulas.sub(lambda, taken_e);
+        of_e.push(completed(formulas, left, 0, 0));
         rows.push(of_e);
 
         let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
         let weighted = formulas.mul(minus_half, slope);
-        of_y.push(formulas.sub(weighted, of_s));
+        let crossed = formulas.sub(weighted, of_s);
+        of_y.push(completed(formulas, crossed, 0, 1));
         let damped = formulas.mul(self.k_p, rest);
         let turned = formulas.mul(of_s, s);
         let sum = formulas.add(damped, turned);
         let sum = formulas.sub(sum, h);
-        of_y.push(formulas.sub(sum, taken_y));
+        let left = formulas.sub(sum, taken_y);
+        of_y.push(completed(formulas, left, 1, 1));
         rows.push(of_y);
 
         let mut of_w: Vec<Id> = row.iter().map(|slope| formulas.mul(reach, *slope)).collect();
@@ -115,17 +132,8 @@ impl Form<'_> {
         of_w.extend([zero, lambda]);
         rows.push(of_w);
 
-        let mut of_e_k = vec![zero; order];
-        of_e_k.push(formulas.sub(zero, of_kept));
-        // -(1 - h sigma) + lambda s (1 - s sigma).
-        let crossed = formulas.mul(of_kept, s);
-        let crossed = formulas.add(crossed, share);
-        of_e_k.push(formulas.sub(crossed, one));
-        of_e_k.push(zero);
-        // sigma (2 - h sigma) + lambda (1 - s sigma)^2.
-        let open = formulas.sub(two, share);
-        let own = formulas.dot([(sigma, open), (of_kept, kept)]);
-        of_e_k.push(formulas.sub(own, taken_e_k));
+        let mut of_e_k = vec![zero; order + 3];
+        of_e_k.push(own);
         rows.push(of_e_k);
 
         if let Some(gamma) = &self.taken.forcing {

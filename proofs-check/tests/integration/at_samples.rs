@@ -245,6 +245,17 @@ fn existence_of_a_linear_plant() {
     with(&linear(), existence_parts(&negative, ["1", "1"])).refused(Verdict::Invalid, EXISTENCE, EXISTENCE_PLACE);
 }
 
+/// What stands in the square of e_k alone may be 0 or less: then nothing is proved.
+#[test]
+fn too_much_of_e_k() {
+    // sigma (2 - h sigma) + lambda = 41.1 for s = 0.
+    for (c_e, verdict) in [("41.1", Verdict::Undecided), ("41.2", Verdict::Invalid), ("1e6", Verdict::Invalid)] {
+        let mut made = parts(&stability(), ["1", "1"]);
+        made["stability"]["c_e"] = c_e.into();
+        with(&linear(), made).refused(verdict, RULE, PLACE);
+    }
+}
+
 /// The worst point is inside of the region, or at its end.
 #[test]
 fn over_the_region() {

@@ -72,7 +72,8 @@ impl Witness {
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
     let (free, inequality) = (&w.free, w.existence.inequality.iter());
-    let mut pointers = inequality.clone().map(|part| &part.pointer).chain(w.inequality.iter().map(|part| &part.pointer));
+    let mut pointers =
+        inequality.clone().map(|part| &part.pointer).chain(w.inequality.iter().map(|part| &part.pointer));
     pointers.try_for_each(|pointer| demand_plant(d, pointer))?;
     let covers = inequality.flat_map(|part| covers(d, [&free.x_p, &free.e_p], [&part.x, &part.e]));
     let [sigma, w_x, h, x_p, e_p, k0, k1] =
