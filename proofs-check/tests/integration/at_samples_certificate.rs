@@ -1,9 +1,11 @@
 //! Certificates at samples with matrix inequalities, each of their parts and each of their conditions forged: the converter at 1000
 //! samples a period, from its certificate by norms, with numbers from semidefinite programs apart from both programs.
 
-use super::common::{assert_refused, text};
+use super::common::{assert_refused, every, text};
+use super::existence_inequality::number;
 use super::matrix_inequality::{PLACE, RULE, stored, times};
-use proofs_check::json::{Json, decimal, parse};
+use super::mutations::{pointers, replacements};
+use proofs_check::json::{Json, parse};
 use proofs_check::verdict::Verdict;
 use proofs_check::{Report, check, sha256};
 use serde_json::{Value, json};
@@ -54,10 +56,6 @@ fn exists(which: usize) -> Value {
     let mut made = plain();
     made["witness"]["existence_inequality"] = part(which);
     made
-}
-
-fn number(value: &Value) -> f64 {
-    decimal(value.as_str().unwrap()).unwrap().to_f64()
 }
 
 /// `sqrt(gamma/c) Q_m`, for the name of c.
@@ -265,4 +263,104 @@ fn where_they_cannot_be() {
         refused(about.clone(), "matrix_inequality", &own, PLACE);
         refused(about, "existence_inequality", &part(0), EXISTENCE_PLACE);
     }
+}
+
+/// The forms of both parts in floating point, where `tanh` in f is flat and where it is steepest, as they are written in (x, e_k, y, G,
+/// w, q_0): whether each is positive semidefinite but for rounding, and lies where it must.
+fn is_true(made: &Value) -> bool {
+    let witness = &made["witness"];
+    let (h, sigma, gain, sum) =
+        (0.02 / 1000.0, 2279.03, number(&made["claim"]["gain"]), number(&witness["weight_sum"]));
+    let (l, [l_21, l_22]) = (1.0127, [0.02523, 1.0124]);
+    let of = |part: &Value, existence: bool| {
+        let value = |name: &str| part.get(name).map_or(0.0, number);
+        let p: [[f64; 2]; 2] = if existence {
+            [0, 1].map(|i| [0, 1].map(|j| number(&part["P"][i][j])))
+        } else {
+            let w_x = number(&witness["w_x"]);
+            [[w_x, 0.0], [0.0, w_x]]
+        };
+        let k_p = if existence { value("k_p") } else { 2.0 * number(&witness["h"]) / gain };
+        let form = |steep: f64, s: f64, v: [f64; 8]| {
+            let [x_1, x_2, e_k, y, slack, w, q_0, _] = v;
+            let e = (1.0 - s * sigma) * e_k + s * y + slack;
+            // L x' = f' (L x) + f_e e.
+            let (volt, amp) = (l * x_1, l_21 * x_1 + l_22 * x_2);
+            let (f_1, f_2) =
+                (-400.0 * volt + 2000.0 * amp + 1000.0 * e, -2000.0 * volt - (600.0 - 300.0 * steep) * amp);
+            let rate = [f_1 / l, (f_2 - l_21 * f_1 / l) / l_22];
+            let q = 500.0 * volt + 800.0 * e + if existence { q_0 } else { 0.0 };
+            let moved: f64 = (0..2).map(|i| (0..2).map(|j| [x_1, x_2][i] * p[i][j] * rate[j]).sum::<f64>()).sum();
+            let own: f64 = (0..2).map(|i| (0..2).map(|j| [x_1, x_2][i] * p[i][j] * [x_1, x_2][j]).sum::<f64>()).sum();
+            let lambda = value("lambda");
+            -2.0 * moved + sigma * (2.0 - h * sigma) * e_k * e_k - 2.0 * (1.0 - h * sigma) * e_k * y - h * y * y
+                + k_p * (1.0 - gain * h * sum / 2.0) * y * y
+                - k_p * y * q
+                + lambda * (slack * slack + 2.0 * h / PI * w * q + w * w)
+                - 2.0 * value("rate") * own
+                - value("c_x") * (x_1 * x_1 + x_2 * x_2)
+                - value("c_e") * if existence { e * e } else { e_k * e_k }
+                - value("c_y") * y * y
+                + if existence { value("gamma") * q_0 * q_0 } else { q_0 * q_0 }
+        };
+        let [x, e] = if existence { ["X_p", "E_p"].map(|name| number(&witness[name])) } else { [0.0; 2] };
+        let reaches = value("X") >= x && value("E") >= e;
+        let both =
+            [0.0, 1.0].into_iter().all(|steep| [0.0, h].into_iter().all(|s| semidefinite(|v| form(steep, s, v))));
+        reaches && both
+    };
+    of(&witness["matrix_inequality"], false) && of(&witness["existence_inequality"], true)
+}
+
+/// Whether a quadratic form in seven variables is, in units in which its diagonal is 1, but for 1e-7.
+fn semidefinite(form: impl Fn([f64; 8]) -> f64) -> bool {
+    let unit = |i: usize, k: usize, of_k: f64| {
+        form(std::array::from_fn(|l| f64::from(u8::from(l == i)) + if l == k { of_k } else { 0.0 }))
+    };
+    let own: Vec<f64> = (0..7).map(|i| unit(i, 7, 0.0)).collect();
+    let scaled = |i: usize, k: usize| {
+        let value = if i == k { own[i] } else { (unit(i, k, 1.0) - unit(i, k, -1.0)) / 4.0 };
+        value / (own[i] * own[k]).abs().sqrt() + if i == k { 1e-7 } else { 0.0 }
+    };
+    let mut rows: Vec<Vec<f64>> = (0..7).map(|i| (0..7).map(|k| scaled(i, k)).collect()).collect();
+    (0..7).all(|k| {
+        let pivot = rows[k].clone();
+        for row in &mut rows[k + 1..] {
+            let factor = row[k] / pivot[k];
+            row.iter_mut().zip(&pivot).for_each(|(entry, of)| *entry -= factor * of);
+        }
+        pivot[k] > 0.0
+    })
+}
+
+/// Every leaf of both parts, and of what they take from the witness, altered as a forger or an accident might: what is accepted is
+/// true.
+#[test]
+fn leaves_of_both_parts() {
+    let mut original = stable();
+    original["witness"]["existence_inequality"] = part(0);
+    assert!(is_true(&original));
+    accepted(&original);
+    let mut all = Vec::new();
+    for (place, name) in [(PLACE, "matrix_inequality"), (EXISTENCE_PLACE, "existence_inequality")] {
+        let mut inside = Vec::new();
+        pointers(&original["witness"][name], String::new(), &mut inside);
+        all.extend(inside.into_iter().map(|at| format!("{place}{at}")));
+    }
+    all.extend(["w_x", "h", "weight_sum"].map(|name| format!("/witness/{name}")));
+    let (mut made, mut passed) = (0, 0);
+    for at in all.iter().filter(|at| original.pointer(at).is_some_and(Value::is_string)) {
+        let value = original.pointer(at).unwrap().clone();
+        for (kind, replacement) in replacements(&value).into_iter().step_by(every(2)).filter(|(_, new)| *new != value) {
+            let mut mutant = original.clone();
+            *mutant.pointer_mut(at).unwrap() = replacement;
+            made += 1;
+            if judged(&mutant).verdict == Verdict::Valid {
+                passed += 1;
+                assert!(is_true(&mutant), "{at}: {kind} is accepted");
+            }
+        }
+    }
+    println!("{made} mutants, {passed} accepted and true");
+    assert!(made > 60 && passed > 0 && passed < made);
 }

@@ -22,7 +22,7 @@ const RULE: &str = "existence inequality";
 const PLACE: &str = "/witness/existence_inequality";
 const SIGMA: f64 = 2235.0;
 
-fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     let (numerator, denominator) = value.as_str().unwrap().split_once('/').unwrap_or((value.as_str().unwrap(), "1"));
     decimal(numerator).unwrap().to_f64() / decimal(denominator).unwrap().to_f64()
 }
