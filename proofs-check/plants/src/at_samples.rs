@@ -5,9 +5,8 @@
 //! completed, which takes numbers from the entries of e and y: fewer boxes are needed then. w stays: without it the entries would be
 //! quadratic in the derivatives.
 
-use super::bounds::rate;
 use super::formula::{Axis, Formulas, Id};
-use super::inequality::{EXISTENCE_RULE, RULE, Said};
+use super::inequality::{EXISTENCE_RULE, RULE, Said, of_states};
 use super::model::Model;
 use super::question::Question;
 use proofs_core::expr::Op;
@@ -64,13 +63,13 @@ impl Step {
 impl Form<'_> {
     /// The rows of F_{h,s} for s = h, or for s = 0.
     fn rows(&self, model: &mut Model, step: &Step, at_end: bool) -> Vec<Vec<Id>> {
-        let (f, q, row, jacobian) = (model.f.clone(), model.q, model.row.clone(), model.jacobian.clone());
-        let (formulas, order) = (&mut model.formulas, model.jacobian.len());
+        let (mut rows, mut of_e) = of_states(model, &self.p, &self.weight, &self.rate);
+        let (q, row, order, formulas) = (model.q, model.row.clone(), rows.len(), &mut model.formulas);
         let Step { h, sigma, rest } = *step;
         let [zero, one, two] = [0, 1, 2].map(|value| formulas.int(value));
         let pi = formulas.apply(&Op::Pi, [zero; 2]);
-        let [lambda, minus_weight, taken_e, taken_y, taken_e_k] =
-            [self.lambda, &Rational::from(-&self.weight), &self.taken.e, &self.taken.y, &self.taken.e_k]
+        let [lambda, taken_x, taken_e, taken_y, taken_e_k] =
+            [self.lambda, &self.taken.x, &self.taken.e, &self.taken.y, &self.taken.e_k]
                 .map(|value| formulas.number(value));
         let s = if at_end { h } else { zero };
         let share = formulas.mul(h, sigma);
@@ -96,21 +95,10 @@ impl Form<'_> {
             formulas.sub(entry, part)
         };
 
-        let mut rows = rate(formulas, &self.rate, &self.p, &jacobian);
-        let (weight, taken_x) = (formulas.number(&self.weight), formulas.number(&self.taken.x));
         for (i, line) in rows.iter_mut().enumerate() {
-            for (j, entry) in line.iter_mut().enumerate() {
-                *entry = formulas.mul(weight, *entry);
-                *entry = if i == j { formulas.sub(*entry, taken_x) } else { *entry };
-            }
+            line[i] = formulas.sub(line[i], taken_x);
         }
-        let column: Vec<Id> = f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
         let slope = formulas.derivative(q, Axis::Output);
-        let mut of_e: Vec<Id> = Vec::new();
-        for line in self.p.iter().take(order) {
-            let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
-            of_e.push(formulas.mul(minus_weight, moved));
-        }
         let left = formulas.sub(lambda, taken_e);
         of_e.push(completed(formulas, left, 0, 0));
         rows.push(of_e);

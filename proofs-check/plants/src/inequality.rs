@@ -37,29 +37,35 @@ struct Form<'i> {
     sigma: &'i Rational,
 }
 
+/// The rows of x, `-weight (P' + P J_+ + J_+'P)` with `J_+ = J + value I`, and what stands beside e, `-weight P g`.
+pub fn of_states(model: &mut Model, p: &[Vec<Id>], weight: &Rational, value: &Rational) -> (Vec<Vec<Id>>, Vec<Id>) {
+    let formulas = &mut model.formulas;
+    let mut block = rate(formulas, value, p, &model.jacobian);
+    let minus_weight = formulas.number(&Rational::from(-weight));
+    let weight = formulas.number(weight);
+    for entry in block.iter_mut().flatten() {
+        *entry = formulas.mul(weight, *entry);
+    }
+    let column: Vec<Id> = model.f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
+    let beside = |line: &Vec<Id>| {
+        let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
+        formulas.mul(minus_weight, moved)
+    };
+    let beside = p.iter().map(beside).collect();
+    (block, beside)
+}
+
 impl Form<'_> {
     /// The rows of x and y, and that of e.
     fn rows(&self, model: &mut Model) -> (Vec<Vec<Id>>, Vec<Id>) {
-        let (f, q, row, jacobian) = (model.f.clone(), model.q, model.row.clone(), model.jacobian.clone());
-        let formulas = &mut model.formulas;
-        let [minus_weight, minus_half] =
-            [self.weight, &self.half].map(|value| formulas.number(&Rational::from(-value)));
-        let mut block = rate(formulas, &self.rate, &self.p, &jacobian);
-        let weight = formulas.number(self.weight);
-        for entry in block.iter_mut().flatten() {
-            *entry = formulas.mul(weight, *entry);
-        }
+        let (mut block, mut of_e) = of_states(model, &self.p, self.weight, &self.rate);
+        let (q, row, formulas) = (model.q, model.row.clone(), &mut model.formulas);
+        let minus_half = formulas.number(&Rational::from(-&self.half));
         let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
         let twice = formulas.number(&(self.half.clone() * 2u32));
         of_y.push(formulas.mul(twice, self.unit));
         block.push(of_y);
 
-        let column: Vec<Id> = f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
-        let mut of_e: Vec<Id> = Vec::new();
-        for line in self.p.iter().take(column.len()) {
-            let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
-            of_e.push(formulas.mul(minus_weight, moved));
-        }
         let slope = formulas.derivative(q, Axis::Output);
         let weighted = formulas.mul(minus_half, slope);
         of_e.push(formulas.sub(weighted, self.unit));

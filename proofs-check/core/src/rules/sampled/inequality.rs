@@ -1,19 +1,21 @@
-//! Rules Ms and E for a sampled regulator: stability, and existence without a small gain, by matrix inequalities over the derivatives of
-//! a plant (docs/mathematics.md, section 13.7, at samples).
+//! Rules Ms and E for a sampled regulator: stability, and existence without a small gain, by matrix inequalities over
+//! the derivatives of a plant (docs/mathematics.md, section 13.7, at samples).
 //!
-//! From a sample on `e(s) = (1 - s sigma) e_k + s y + G` with `G' = q - mean q`, and G vanishes at both ends, so `lambda (avg G^2 - (t/pi)^2
-//! avg q^2) <= 0` may be added to what U loses over t. The sum is the average over s of a form in (x, e_k, y, G), the least over w of
-//! `F_{t,s}`. It does not increase with t, and `F_{h,s}` is affine in s and in (J, g, r, d): so it is not negative where `F_{h,0}` and `F_{h,h}`
-//! are semidefinite at every t and every point. What is proved of the two, of the plant's formulas, the crate `proofs-plants` says.
+//! From a sample on `e(s) = (1 - s sigma) e_k + s y + G` with `G' = q - mean q`, and G vanishes at both ends, so
+//! `lambda (avg G^2 - (t/pi)^2 avg q^2) <= 0` may be added to what U loses over t. The sum is the average over s of a
+//! form in (x, e_k, y, G), the least over w of `F_{t,s}`. It does not increase with t, and `F_{h,s}` is affine in s
+//! and in (J, g, r, d): so it is not negative where `F_{h,0}` and `F_{h,h}` are semidefinite at every t and every
+//! point. What is proved of the two, of the plant's formulas, the crate `proofs-plants` says.
 //!
-//! Guarantee, with what it proves: in the error box `U^t <= U_k` for 0 < t <= h, and U falls over a step by `h rho (rms(x)^2 + e_k^2 + y^2)`
-//! at least, for some rho > 0 (rate, c_e, c_y > 0). For convergence as in section 12.3 it takes no more: q is `r x + d e` with bounded
-//! r and d, and `G(h) = 0` makes its mean a bounded function of x, e_k and y, whatever h d is.
+//! Guarantee, with what it proves: in the error box `U^t <= U_k` for 0 < t <= h, and U falls over a step by `h rho
+//! (rms(x)^2 + e_k^2 + y^2)` at least, for some rho > 0 (rate, c_e, c_y > 0). For convergence as in section 12.3 it
+//! takes no more: q is `r x + d e` with bounded r and d, and `G(h) = 0` makes its mean a bounded function of x, e_k
+//! and y, whatever h d is.
 //!
-//! Of every T-periodic solution in `|x| <= X`, `|e| <= E` of the loop with `l q_0` in the place of q_0, 0 <= l <= 1: what [`Existence::answer`]
-//! says. The sum of the steps of U over a period is 0, and that of y is (the integrator), so q_0 counts without its mean in both places.
-//! There is a solution, by Leray and Schauder as in continuous time, if the conditions that then stand in the place of S1b to S2c hold
-//! strictly.
+//! Of every T-periodic solution in `|x| <= X`, `|e| <= E` of the loop with `l q_0` in the place of q_0, 0 <= l <= 1:
+//! what [`Existence::answer`] says. The sum of the steps of U over a period is 0, and that of y is (the integrator),
+//! so q_0 counts without its mean in both places. There is a solution, by Leray and Schauder as in continuous time, if
+//! the conditions that then stand in the place of S1b to S2c hold strictly.
 
 use super::law::{Law, Terms};
 use crate::interval::Interval;
