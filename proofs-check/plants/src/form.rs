@@ -24,16 +24,11 @@ pub struct Form<'i> {
 impl Form<'_> {
     /// The rows of x and y, and that of e.
     pub fn rows(&self, model: &mut Model) -> (Vec<Vec<Id>>, Vec<Id>) {
-        let (f, q, row, jacobian) = (model.f.clone(), model.q, model.row.clone(), model.jacobian.clone());
+        let (mut block, mut of_e) = of_states(model, &self.p, self.weight, &self.rate);
+        let (q, row, jacobian, column) = (model.q, model.row.clone(), model.jacobian.clone(), of_output(model));
         let formulas = &mut model.formulas;
-        let [minus_weight, minus_half] =
-            [self.weight, &self.half].map(|value| formulas.number(&Rational::from(-value)));
+        let minus_half = formulas.number(&Rational::from(-&self.half));
         let [cross, pull] = [self.cross, self.pull].map(|values| numbers(formulas, values));
-        let mut block = rate(formulas, &self.rate, &self.p, &jacobian);
-        let weight = formulas.number(self.weight);
-        for entry in block.iter_mut().flatten() {
-            *entry = formulas.mul(weight, *entry);
-        }
         let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
         for (entry, p) in of_y.iter_mut().zip(&cross) {
             let moved = formulas.mul(self.unit, *p);
@@ -43,12 +38,6 @@ impl Form<'_> {
         of_y.push(formulas.mul(twice, self.unit));
         block.push(of_y);
 
-        let column: Vec<Id> = f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
-        let mut of_e: Vec<Id> = Vec::new();
-        for line in self.p.iter().take(column.len()) {
-            let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
-            of_e.push(formulas.mul(minus_weight, moved));
-        }
         for (entry, pulled) in of_e.iter_mut().zip(pull) {
             *entry = formulas.add(*entry, pulled);
         }
@@ -67,6 +56,30 @@ impl Form<'_> {
         of_e.push(formulas.sub(corner, pushed));
         (block, of_e)
     }
+}
+
+/// The rows of x, `-weight (P' + P J_+ + J_+'P)` with `J_+ = J + value I`, and what stands beside e, `-weight P g`.
+pub fn of_states(model: &mut Model, p: &[Vec<Id>], weight: &Rational, value: &Rational) -> (Vec<Vec<Id>>, Vec<Id>) {
+    let column = of_output(model);
+    let formulas = &mut model.formulas;
+    let mut block = rate(formulas, value, p, &model.jacobian);
+    let minus_weight = formulas.number(&Rational::from(-weight));
+    let weight = formulas.number(weight);
+    for entry in block.iter_mut().flatten() {
+        *entry = formulas.mul(weight, *entry);
+    }
+    let beside = |line: &Vec<Id>| {
+        let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
+        formulas.mul(minus_weight, moved)
+    };
+    let beside = p.iter().take(column.len()).map(beside).collect();
+    (block, beside)
+}
+
+/// g = df/de.
+fn of_output(model: &mut Model) -> Vec<Id> {
+    let Model { f, formulas, .. } = model;
+    f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect()
 }
 
 /// Numbers as formulas.

@@ -1,22 +1,17 @@
-//! The questions of the matrix inequalities of stability and of existence, with one metric or two (docs/mathematics.md, section 13.7).
+//! The questions of the matrix inequalities of stability and of existence of a regulator in continuous time, with one metric or two
+//! (docs/mathematics.md, section 13.7).
 
 use super::form::{Form, numbers};
 use super::formula::Id;
 use super::model::Model;
 use super::question::Question;
 use proofs_core::constant::Constant;
-use proofs_core::rules::derivation::Inequalities;
 use proofs_core::rules::existence::{self, Existence};
-use proofs_core::rules::inequality::Inequality;
-use proofs_core::rules::joint;
+use proofs_core::rules::inequality::{Inequality, RULE};
+use proofs_core::rules::joint::{self, Joint};
 use proofs_core::rules::metric::{Metric, Metrics};
 use proofs_core::verdict::{Outcome, bad};
 use rug::Rational;
-
-/// The name of the rule of stability.
-pub const RULE: &str = "matrix inequality";
-/// The name of the rule of existence.
-pub const EXISTENCE_RULE: &str = "existence inequality";
 
 /// A question, and what it is about.
 pub struct Said<'i> {
@@ -28,39 +23,10 @@ pub struct Said<'i> {
     pub question: Question,
 }
 
-/// The questions of all inequalities that there are, with mu.
-pub fn questions<'i>(model: &mut Model, inequalities: Inequalities<'i>, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
-    let mut all = Vec::new();
-    if let Some(inequality) = inequalities.stability {
-        all.extend(of_stability(model, inequality, mu)?);
-    }
-    if let Some(joint) = inequalities.joint {
-        let asked =
-            Asked { rule: joint::RULE, pointer: &joint.pointer, at: [&joint.x, &joint.e], sigma: &joint.threshold };
-        all.extend(asked.of_metrics(model, &joint.metrics)?);
-    }
-    if let Some(inequality) = inequalities.existence {
-        let Existence { pointer, x, e, threshold, form } = inequality;
-        let asked = Asked { rule: EXISTENCE_RULE, pointer, at: [x, e], sigma: threshold };
-        match form {
-            existence::Form::Block(metric) => all.push(asked.of_block(model, metric)?),
-            existence::Form::Joint(metrics) => all.extend(asked.of_metrics(model, metrics)?),
-        }
-    }
-    Ok(all)
-}
-
-/// Where they are asked: X and E of each.
-pub fn arguments<'i>(inequalities: Inequalities<'i>) -> impl Iterator<Item = [&'i Rational; 2]> {
-    let of_stability = inequalities.stability.into_iter().flat_map(Inequality::arguments);
-    let of_joint = inequalities.joint.map(|joint| [&joint.x, &joint.e]);
-    of_stability.chain(of_joint).chain(inequalities.existence.map(|known| [&known.x, &known.e]))
-}
-
 /// With the P of stability, w_x, h, the threshold of sigma, and y/mu, which divides by nothing. Without a splitting the question is
 /// `F >= 0`; with one, S in the place of its first rows, there are two: that F without the last row is not below S, and that S with
 /// the last row is not below 0.
-fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
+pub fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
     let order = model.states();
     // A constant asks for nothing on the region: it has a value, or nothing is proved with it.
     let mu = model.formulas.read(mu.expr(), &[], &mut Vec::new());
@@ -106,6 +72,22 @@ fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant
         said("F without e >= S", of_states, Question::new(formulas, block, order)),
         said("S with e >= 0", of_error, Question::new(formulas, s, order)),
     ])
+}
+
+/// The questions of two metrics.
+pub fn of_joint<'i>(model: &mut Model, joint: &'i Joint) -> Outcome<[Said<'i>; 2]> {
+    let asked = Asked { rule: joint::RULE, pointer: &joint.pointer, at: [&joint.x, &joint.e], sigma: &joint.threshold };
+    asked.of_metrics(model, &joint.metrics)
+}
+
+/// That of one metric of existence, or those of two.
+pub fn of_existence<'i>(model: &mut Model, inequality: &'i Existence) -> Outcome<Vec<Said<'i>>> {
+    let Existence { pointer, x, e, threshold, form } = inequality;
+    let asked = Asked { rule: existence::RULE, pointer, at: [x, e], sigma: threshold };
+    match form {
+        existence::Form::Block(metric) => asked.of_block(model, metric).map(|said| vec![said]),
+        existence::Form::Joint(metrics) => asked.of_metrics(model, metrics).map(Vec::from),
+    }
 }
 
 /// What a question about metrics is about: the rule and the part, X and E, and the threshold of sigma.

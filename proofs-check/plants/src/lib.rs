@@ -5,11 +5,13 @@
 //! `proofs_core::plant` (P4).
 
 mod around;
+pub mod at_samples;
 pub mod bounds;
 mod derivative;
 mod form;
 pub mod formula;
 pub mod harmonics;
+pub mod inequalities;
 pub mod inequality;
 pub mod jacobian;
 mod linear;
@@ -88,9 +90,9 @@ pub fn prove(
     for entry in &plant.known.entries.list {
         asked.push(of_entry(plant, &mut model, entry));
     }
-    let questions = inequality::questions(&mut model, inequalities, &spec.mu)?;
+    let questions = inequalities::questions(&mut model, inequalities, spec)?;
     asked.extend(questions.into_iter().map(|said| of_inequality(plant, said)));
-    let still = still::Still::new(plant, inequalities, &spec.mu)?;
+    let still = still::Still::new(plant, inequalities, spec)?;
     if model.formulas.is_too_large() {
         return too_large("formulas", "/plant");
     }
@@ -196,7 +198,7 @@ fn place(at: [&Rational; 2]) -> [Float; 2] {
 /// The largest X and E that anything is used at.
 fn largest(plant: &Plant, arguments: [&Float; 2], inequalities: Inequalities<'_>) -> [Float; 2] {
     let mut largest = plant.known.entries.largest();
-    let others = [arguments.map(Clone::clone)].into_iter().chain(inequality::arguments(inequalities).map(place));
+    let others = [arguments.map(Clone::clone)].into_iter().chain(inequalities::arguments(inequalities).map(place));
     for (end, other) in others.flat_map(|other| [0, 1].map(|i| (i, other[i].clone()))) {
         if other > largest[end] {
             largest[end] = other;

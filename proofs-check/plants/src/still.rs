@@ -6,7 +6,7 @@
 
 use super::around::Around;
 use super::bounds;
-use super::inequality;
+use super::inequalities;
 use super::machine::{At, Cell, Curves, Machine, Values};
 use super::model::{Frame, Model};
 use super::question::{Answer, Question};
@@ -14,10 +14,10 @@ use super::read::Plant;
 use super::region::{Region, Shape};
 use super::time::around;
 use super::{end, formula::Leaf, place, radius};
-use proofs_core::constant::Constant;
 use proofs_core::interval::Interval;
 use proofs_core::plant::entries;
 use proofs_core::rules::derivation::Inequalities;
+use proofs_core::spec::Specification;
 use proofs_core::verdict::Outcome;
 use rug::Float;
 use std::rc::Rc;
@@ -46,8 +46,8 @@ pub struct Prepared<'s> {
 }
 
 impl Still {
-    /// For all entries of a plant, and for the inequalities that there are, with mu.
-    pub fn new(plant: &Plant, inequalities: Inequalities<'_>, mu: &Constant) -> Outcome<Still> {
+    /// For all entries of a plant, and for the inequalities that there are, with mu and the period.
+    pub fn new(plant: &Plant, inequalities: Inequalities<'_>, spec: &Specification) -> Outcome<Still> {
         let mut model = Model::new(plant, Frame::Still);
         let orbit = (0..plant.states()).map(|state| model.formulas.leaf(Leaf::Orbit { state, order: 0 })).collect();
         let question = |entry: &entries::Entry| {
@@ -55,7 +55,7 @@ impl Still {
             (!moves).then(|| (bounds::question(&mut model, entry), entry.arguments.clone()))
         };
         let mut questions: Vec<_> = plant.known.entries.list.iter().map(question).collect();
-        let parts = inequality::questions(&mut model, inequalities, mu)?.into_iter();
+        let parts = inequalities::questions(&mut model, inequalities, spec)?.into_iter();
         questions.extend(parts.map(|said| Some((said.question, place(said.at)))));
         let questions = questions.into_iter().map(|asked| asked.filter(|(question, _)| !question.moves())).collect();
         Ok(Still { model, orbit, questions })

@@ -24,6 +24,7 @@ fn a_theorem_is_written_of_every_stored_certificate_in_continuous_time() {
         assert!(written.contains("Print Assumptions certificate."), "{name}");
     }
     assert_refused_at(&text("sampled", "no-x"), Verdict::Undecided, "/claim/regulator");
+    assert_refused_at(&text("plants", "converter-samples.certificate"), Verdict::Undecided, "/claim/regulator");
     assert_refused_at(&text("plants", "joint.certificate"), Verdict::Undecided, "/witness/joint_inequality");
     assert_refused_at("{}", Verdict::BadInput, "");
 }

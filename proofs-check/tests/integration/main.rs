@@ -4,6 +4,8 @@
 
 mod aligned;
 mod arguments;
+mod at_samples;
+mod at_samples_certificate;
 mod claim;
 mod common;
 mod coq;

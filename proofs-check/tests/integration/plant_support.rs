@@ -9,6 +9,7 @@ use proofs_check::rules::derivation::Inequalities;
 use proofs_check::rules::existence::Existence;
 use proofs_check::rules::inequality::Inequality;
 use proofs_check::rules::joint::Joint;
+use proofs_check::rules::sampled::{inequality as at_samples, law::Terms};
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
 use rug::Float;
@@ -48,14 +49,48 @@ fn joint(part: &Value) -> Outcome<Joint> {
     Joint::read(&Field { json: &json, pointer: "/witness/joint_inequality".to_owned() })
 }
 
+/// Those at samples, beside the numbers of the law and the weights of the witness.
+struct AtSamples {
+    law: Terms,
+    stability: Option<at_samples::Stability>,
+    existence: Option<at_samples::Existence>,
+}
+
+impl AtSamples {
+    fn read(parts: &Value) -> Outcome<AtSamples> {
+        let value = |name: &str| decimal(parts[name].as_str().unwrap()).unwrap();
+        let samples = u32::try_from(parts["samples"].as_u64().unwrap()).unwrap();
+        let law = Terms { sigma: value("sigma"), samples, gain: value("gain"), weight_sum: value("weight_sum") };
+        let part = |name: &str| parts.get(name).map(|part| parse(part.to_string().as_bytes()).unwrap());
+        let (stability, existence) = (part("stability"), part("existence"));
+        let field = |json, name: &str| Field { json, pointer: format!("/witness/{name}_inequality") };
+        let weights = [&value("w_x"), &value("h")];
+        let stability =
+            stability.as_ref().map(|json| at_samples::Stability::read(&field(json, "matrix"), weights)).transpose()?;
+        let existence =
+            existence.as_ref().map(|json| at_samples::Existence::read(&field(json, "existence"))).transpose()?;
+        Ok(AtSamples { law, stability, existence })
+    }
+}
+
 /// Applies the rules of section 11; the lines of the argument.
 pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
     let (spec, plant) = read(parts)?;
     let inequality = parts.get("inequality").map(inequality).transpose()?;
     let existence = parts.get("existence").map(existence).transpose()?;
     let joint = parts.get("joint").map(joint).transpose()?;
-    let inequalities =
-        Inequalities { stability: inequality.as_ref(), joint: joint.as_ref(), existence: existence.as_ref() };
+    let at_samples = parts.get("at_samples").map(AtSamples::read).transpose()?;
+    let at_samples = at_samples.as_ref().map(|parts| at_samples::Inequalities {
+        law: &parts.law,
+        stability: parts.stability.as_ref(),
+        existence: parts.existence.as_ref(),
+    });
+    let inequalities = Inequalities {
+        stability: inequality.as_ref(),
+        joint: joint.as_ref(),
+        existence: existence.as_ref(),
+        at_samples,
+    };
     let none = Float::new(128);
     let mut lines = Vec::new();
     let (answer, steps) =

@@ -276,7 +276,7 @@ fn parts_of_existence() {
             let [x, e] = AT.map(|value| d.number(&rational(value)));
             let pair = [d.number(&Rational::from(20)), d.number(&Rational::from(60))];
             let means = [0.125, 0.25, 2.0].map(rational);
-            let found = existence::evaluate(law, &means, [&x, &e], [&pair[0], &pair[1]]);
+            let found = existence::evaluate(law, (&means, None), [&x, &e], [&pair[0], &pair[1]]);
             let (c, alpha, t, h) = (1.5512_f64.sqrt(), 0.58, float.period, float.h);
             let [x_p, e_p] = AT;
             let rate = alpha - c * 0.2237 * x_p / 2.0;

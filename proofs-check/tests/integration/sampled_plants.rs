@@ -96,3 +96,34 @@ fn what_must_not_pass() {
     refused(&[("/claim/initial_set/ball", json!("0"))], BadInput, "format");
     refused(&[("/witness/p_x", json!("1"))], BadInput, "format");
 }
+
+/// Without states the inequalities have a P of no rows, and the forms have four variables and five.
+#[test]
+fn inequalities_without_states() {
+    let stability = json!({ "X": "1", "E": "40", "lambda": "1000", "rate": "1", "c_e": "0.5", "c_y": "0.1" });
+    let existence = json!({
+        "X": "1", "E": "1", "P": [], "lambda": "1000", "k_p": "1", "c_x": "1", "c_e": "0.5", "c_y": "0.3", "gamma": "20",
+    });
+    let with = |stability: &Value, existence: &Value| {
+        let parts = [("matrix_inequality", stability), ("existence_inequality", existence)];
+        parts.map(|(name, part)| (format!("/witness/{name}"), part.clone()))
+    };
+    let answer = |parts: &[(String, Value)]| {
+        let parts: Vec<_> = parts.iter().map(|(place, part)| (place.as_str(), part.clone())).collect();
+        answer(&parts)
+    };
+    let report = answer(&with(&stability, &existence));
+    assert_eq!(report.verdict, Valid, "{}", report.text(false));
+    for (name, value) in [("c_e", "60"), ("c_y", "5")] {
+        let mut forged = stability.clone();
+        forged[name] = value.into();
+        let report = answer(&with(&forged, &existence));
+        assert_eq!((report.verdict, report.finding.unwrap().rule), (Invalid, "matrix inequality"), "{name}");
+    }
+    for (name, value) in [("lambda", "0.001"), ("c_e", "60"), ("c_y", "5"), ("gamma", "0.1"), ("k_p", "0.1")] {
+        let mut forged = existence.clone();
+        forged[name] = value.into();
+        let report = answer(&with(&stability, &forged));
+        assert_eq!((report.verdict, report.finding.unwrap().rule), (Invalid, "existence inequality"), "{name}");
+    }
+}

@@ -30,6 +30,8 @@ pub struct Inequalities<'w> {
     pub stability: Option<&'w Inequality>,
     pub joint: Option<&'w Joint>,
     pub existence: Option<&'w Existence>,
+    /// Those of a sampled regulator, with its law.
+    pub at_samples: Option<sampled::inequality::Inequalities<'w>>,
 }
 
 /// One derivation with its witness.
@@ -65,8 +67,9 @@ impl Derivation {
                 stability: w.stability.matrix(),
                 joint: w.stability.joint(),
                 existence: w.existence.inequality.as_ref(),
+                at_samples: None,
             },
-            Witness::Sampled(_) => Inequalities::default(),
+            Witness::Sampled(w) => Inequalities { at_samples: Some(w.inequalities()), ..Inequalities::default() },
         }
     }
 

@@ -27,8 +27,11 @@ use super::metric::{Answer, Metric, Metrics};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
-use crate::verdict::{Condition, Outcome, bad};
+use crate::verdict::{Condition, Outcome};
 use rug::Rational;
+
+/// The name of the rule.
+pub const RULE: &str = "existence inequality";
 
 /// The numbers of the inequality.
 #[derive(Clone, Debug)]
@@ -68,14 +71,6 @@ impl Existence {
         Ok(existence)
     }
 
-    /// It is about formulas.
-    pub fn demand_plant(&self, d: &Data<'_>) -> Outcome<()> {
-        match d.spec.plant {
-            Some(_) => Ok(()),
-            None => bad(&self.pointer, "a matrix inequality is about the formulas of a plant"),
-        }
-    }
-
     /// At the gain sigma and every larger one, with Q_m. In the block form c_e is `2 (sigma - threshold)`, and nothing is known of rms(e)
     /// where the threshold is not below sigma.
     pub fn answer(&self, d: &Data<'_>, sigma: &Rational, oscillation: &Interval) -> Answer {
@@ -86,12 +81,6 @@ impl Existence {
             }
             Form::Block(metric) => metric.answer(d, oscillation, &Interval::undefined(d.precision)),
         }
-    }
-
-    /// E1 and E2: X_p and E_p lie where the inequality is proved.
-    pub fn covers(&self, d: &Data<'_>, [x_p, e_p]: [&Rational; 2]) -> [Condition; 2] {
-        let within = |id, what: &str, ends| not_above(d, id, format!("{what} of the existence inequality"), ends);
-        [within("E1", "X_p - X", [x_p, &self.x]), within("E2", "E_p - E", [e_p, &self.e])]
     }
 
     /// E3, strict where nothing but the gain above the threshold makes c_e; and what c_e is.
@@ -109,30 +98,26 @@ impl Existence {
         }
     }
 
-    /// E3, S1, and what stands in the place of S1b to S2c; `sides` are what is known of a solution at r and what has to be above it: of
-    /// sup|x|, rms(x), sup|e|, rms(e), rms(e').
+    /// E3, S1, and what stands in the place of S1b to S2c.
     pub fn conditions(
         &self,
         d: &Data<'_>,
         sigma: &Rational,
         contracts: Condition,
-        sides: [[&Interval; 2]; 5],
+        sides: Sides<'_>,
         with_kap: bool,
     ) -> Vec<Condition> {
         let (enough, c_e) = self.exceeded(d, sigma);
         let mut conditions = vec![enough, contracts];
         let [damped, damped_t] = if with_kap { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
         let of_e = format!("k_p Q_m/(2 sqrt({c_e} c_y))");
-        let strictly = [
-            ("S1b", "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} < X_p".to_owned()),
-            ("S1c", "min{(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))} < r_x".to_owned()),
-            ("S2", "min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y} < E_p".to_owned()),
-            ("S2b", format!("min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, {of_e}}} < r_e")),
-            ("S2c", format!("min{{R_q, R_1/sg, {damped_t}r_y}} < r_d")),
+        let what = [
+            "(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))".to_owned(),
+            "bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y".to_owned(),
+            format!("R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, {of_e}"),
+            format!("R_q, R_1/sg, {damped_t}r_y"),
         ];
-        let pairs = strictly.into_iter().zip(sides);
-        conditions
-            .extend(pairs.map(|((id, what), [lhs, rhs])| Condition::less(id, what, (*lhs).clone(), (*rhs).clone())));
+        conditions.extend(strictly(sides, what));
         conditions
     }
 }
@@ -145,4 +130,28 @@ fn block(fields: &mut Fields<'_>) -> Outcome<Metric> {
         k_p: number(fields, "k_p", true)?,
         least: [number(fields, "c_x", true)?, Rational::new(), number(fields, "c_y", true)?],
     })
+}
+
+/// What is known of a solution at r, and what has to be above it: of sup|x|, rms(x), sup|e|, rms(e), rms(e').
+pub type Sides<'s> = [[&'s Interval; 2]; 5];
+
+/// S1b to S2c, strictly; `what`: the bounds that the last four are the least of.
+pub(super) fn strictly(sides: Sides<'_>, what: [String; 4]) -> impl Iterator<Item = Condition> {
+    let [rms_x, sup_e, rms_e, rms_e_t] = what;
+    let names = [
+        ("S1b", "(c/a_1) b_fe E_p, K2(a_1) b_fe r_e".to_owned(), "X_p"),
+        ("S1c", rms_x, "r_x"),
+        ("S2", sup_e, "E_p"),
+        ("S2b", rms_e, "r_e"),
+        ("S2c", rms_e_t, "r_d"),
+    ];
+    names.into_iter().zip(sides).map(|((id, bounds, end), [lhs, rhs])| {
+        Condition::less(id, format!("min{{{bounds}}} < {end}"), lhs.clone(), rhs.clone())
+    })
+}
+
+/// E1 and E2: X_p and E_p lie where an inequality is proved, at X and E.
+pub(super) fn covers(d: &Data<'_>, [x_p, e_p]: [&Rational; 2], [x, e]: [&Rational; 2]) -> [Condition; 2] {
+    let within = |id, what: &str, ends| not_above(d, id, format!("{what} of the existence inequality"), ends);
+    [within("E1", "X_p - X", [x_p, x]), within("E2", "E_p - E", [e_p, e])]
 }

@@ -11,6 +11,9 @@ use crate::json::{Field, Fields};
 use crate::verdict::{Condition, Outcome, bad};
 use rug::Rational;
 
+/// The name of the rule.
+pub const RULE: &str = "matrix inequality";
+
 /// That F with `sigma` and with J + `rate` I is positive semidefinite for the weights of the witness: for all derivatives at one point
 /// of `|y| <= X`, `|e| <= E`; with a splitting for (J, r) at a point with X and the E of the splitting, and (g, d) at a point with E
 /// and the X of the splitting.
@@ -69,6 +72,28 @@ pub(super) fn not_above(d: &Data<'_>, id: &'static str, what: String, [inner, ou
     Condition::at_most(id, format!("{what} <= 0"), d.number(&Rational::from(inner - outer)), d.int(0))
 }
 
+/// That a certificate with an inequality contains the formulas that it is about.
+pub(super) fn demand_plant(d: &Data<'_>, pointer: &str) -> Outcome<()> {
+    match d.spec.plant {
+        Some(_) => Ok(()),
+        None => bad(pointer, "a matrix inequality is about the formulas of a plant"),
+    }
+}
+
+/// C5x and C5e: the error box lies where an inequality is proved, at X and E.
+pub(super) fn reaches(
+    d: &Data<'_>,
+    error_box: &ErrorBox,
+    ends: [&Rational; 2],
+    inequality: &'static str,
+) -> [Condition; 2] {
+    let [x, e] = ends.map(|end| d.number(end));
+    [
+        Condition::at_most("C5x", format!("X_b <= X of the {inequality}"), error_box.x_b.clone(), x),
+        Condition::at_most("C5e", format!("E_b <= E of the {inequality}"), error_box.e_b.clone(), e),
+    ]
+}
+
 impl Inequality {
     /// Reads the part `matrix_inequality`; the weights are those of the witness that it is a part of.
     pub fn read(field: &Field<'_>, [w_x, h]: [&Rational; 2]) -> Outcome<Inequality> {
@@ -109,10 +134,7 @@ impl Inequality {
         let path = if paths.f == paths.q { paths.f } else { Path::Straight };
         let ErrorBox { x_b, e_b, .. } = error_box;
         let within = |name, what, at: &Interval, end| Condition::at_most(name, what, at.clone(), d.number(end));
-        let mut conditions = vec![
-            within("C5x", "X_b <= X of the matrix inequality", x_b, &self.x),
-            within("C5e", "E_b <= E of the matrix inequality", e_b, &self.e),
-        ];
+        let mut conditions = reaches(d, error_box, [&self.x, &self.e], RULE).to_vec();
         conditions.extend(self.splitting.iter().flat_map(|other| {
             [
                 within("C5j", "E of df/dx <= E of the splitting", path.e_at_dx(e_per, e_b), &other.e),

@@ -8,7 +8,7 @@
 //! leaves the box. X_b, E_b and the sizes in C4 are those at sigma, which are no smaller at a larger gain. The two metrics may be scaled
 //! in different ways.
 
-use super::inequality::{not_above, number};
+use super::inequality::{not_above, number, reaches};
 use super::metric::{Metric, Metrics};
 use super::stability::ErrorBox;
 use crate::data::Data;
@@ -135,12 +135,8 @@ impl Joint {
     /// C5x, C5e and C5s: the error box lies where the inequalities are proved, and the gain is not below their threshold. The last may
     /// be an equality: c_x, c_e and c_y are above 0.
     pub fn conditions(&self, d: &Data<'_>, error_box: &ErrorBox, sigma: &Rational) -> [Condition; 3] {
-        let within = |id, what, at: &Interval, end| Condition::at_most(id, what, at.clone(), d.number(end));
-        let what = "threshold of the joint inequality - sigma".to_owned();
-        [
-            within("C5x", "X_b <= X of the joint inequality", &error_box.x_b, &self.x),
-            within("C5e", "E_b <= E of the joint inequality", &error_box.e_b, &self.e),
-            not_above(d, "C5s", what, [&self.threshold, sigma]),
-        ]
+        let [of_x, of_e] = reaches(d, error_box, [&self.x, &self.e], RULE);
+        let what = format!("threshold of the {RULE} - sigma");
+        [of_x, of_e, not_above(d, "C5s", what, [&self.threshold, sigma])]
     }
 }

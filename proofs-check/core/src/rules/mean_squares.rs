@@ -82,7 +82,7 @@ pub struct Bounds<'a> {
     /// Q_0 >= rms(q(t,0,0)).
     start: Interval,
     forced: Option<Forced>,
-    x_gain: Interval,
+    pub(super) x_gain: Interval,
     /// K2(a_1) b_fe: sup|x| over rms(e).
     from_rms: Interval,
     bt: Interval,
@@ -207,23 +207,23 @@ impl<'a> Bounds<'a> {
     }
 
     /// S1 alone.
-    fn contracts(&self) -> Condition {
+    pub(super) fn contracts(&self) -> Condition {
         Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone())
     }
 
     /// A bound of sup|x|, from sup|e| <= E_p and rms(e) <= r_e.
-    fn sup_x_in_box(&self, r_e: &Interval) -> Interval {
+    pub(super) fn sup_x_in_box(&self, r_e: &Interval) -> Interval {
         (&self.x_gain * &self.e_p).min(&(&self.from_rms * r_e))
     }
 
     /// Without b_q_rms and b_qt_rms, which are of q with all of q(t,0,0) in it (section 13.7). Plants do not have them.
-    fn for_any_share_of_forcing(self) -> Bounds<'a> {
+    pub(super) fn for_any_share_of_forcing(self) -> Bounds<'a> {
         let none = || Interval::undefined(self.d.precision);
         Bounds { rates: [none(), none()], ..self }
     }
 
     /// Q_m >= rms(q(t,0,0) without its mean).
-    fn oscillation(&self) -> Interval {
+    pub(super) fn oscillation(&self) -> Interval {
         let none = || Interval::undefined(self.d.precision);
         self.forced.as_ref().map_or_else(none, |forced| forced.with_mean(self.d, self.d.int(0)))
     }

@@ -5,9 +5,9 @@
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
 use super::common::{Evaluated, Free};
-use super::existence::Existence;
+use super::existence::{Existence, covers};
 use super::gains::kappas;
-use super::inequality::Inequality;
+use super::inequality::{Inequality, demand_plant};
 use super::joint::Joint;
 use super::mean_squares::{self, Solution};
 use super::set::ClaimedSet;
@@ -56,10 +56,8 @@ impl Stability {
     /// An inequality is about formulas; two metrics are what they are said to be.
     fn demand(&self, d: &Data<'_>) -> Outcome<()> {
         match self {
-            Stability::Matrix(inequality) if d.spec.plant.is_none() => {
-                bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant")
-            }
-            Stability::Norms | Stability::Matrix(_) => Ok(()),
+            Stability::Norms => Ok(()),
+            Stability::Matrix(inequality) => demand_plant(d, &inequality.pointer),
             Stability::Joint(joint) => joint.demand(d),
         }
     }
@@ -117,8 +115,8 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
     w.stability.demand(d)?;
     let (free, inequality) = (&w.free, w.existence.inequality.iter());
-    inequality.clone().try_for_each(|inequality| inequality.demand_plant(d))?;
-    let covers = inequality.flat_map(|inequality| inequality.covers(d, [&free.x_p, &free.e_p]));
+    inequality.clone().try_for_each(|part| demand_plant(d, &part.pointer))?;
+    let covers = inequality.flat_map(|part| covers(d, [&free.x_p, &free.e_p], [&part.x, &part.e]));
     let [sigma, w_x, h, x_p, e_p, k0, k1] =
         [&w.sigma, &free.w_x, &free.h, &free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
     let kappa = kappas(d, &k0, &k1);

@@ -3,11 +3,14 @@
 //!
 //! Guarantee: for every n_o < N_s/2 there is a T-periodic solution with sup|x| <= X_p, sup|e| <= E_p at all times, rms(x) <= r_x,
 //! rms(e) <= r_e, rms(e') <= r_d, and `|zeta_k|_N <= Z` at all samples. Nothing is said of another sigma or h. The bounds of `q_0`
-//! for the response to harmonics are those of a continuous regulator, and are not used; what it says of q is.
+//! for the response to harmonics are those of a continuous regulator, and are not used; what it says of q is. With an inequality of
+//! existence S1b to S2c are strict, and what it says of the solution is in their minima.
 
 use super::gains::Gains;
+use super::inequality::Existence;
 use super::law::Law;
 use crate::interval::Interval;
+use crate::rules::existence::strictly;
 use crate::rules::mean_squares::{Bounds, Means};
 use crate::verdict::Condition;
 
@@ -20,11 +23,19 @@ pub struct Solution {
 }
 
 /// Evaluates S1 and S2; `pair` is (k0, k1), which the transfer rule has to settle.
-pub fn evaluate(law: &Law<'_>, means: &Means, [x_p, e_p]: [&Interval; 2], pair: [&Interval; 2]) -> Solution {
+pub fn evaluate(
+    law: &Law<'_>,
+    (means, inequality): (&Means, Option<&Existence>),
+    [x_p, e_p]: [&Interval; 2],
+    pair: [&Interval; 2],
+) -> Solution {
     let d = law.d;
-    let bounds = Bounds::new(d, &law.sigma, [x_p, e_p]);
+    let mut bounds = Bounds::new(d, &law.sigma, [x_p, e_p]);
+    if inequality.is_some() {
+        bounds = bounds.for_any_share_of_forcing();
+    }
     let r = means.each_ref().map(|value| d.number(value));
-    let [_, r_e, r_d] = &r;
+    let [r_x, r_e, r_d] = &r;
     let [[r_q, r_1], _] = bounds.inputs(&r);
     let gains = Gains::new(law);
     let pi = Interval::pi(d.precision);
@@ -33,15 +44,33 @@ pub fn evaluate(law: &Law<'_>, means: &Means, [x_p, e_p]: [&Interval; 2], pair: 
     let between_rms = (&law.h / &pi).sqr() * &r_1;
     let at_samples = (&gains.sup * &r_q).least(&(&gains.sup_t * &r_1));
     // sum e_k = 0, so e has a zero.
-    let sup_e = (at_samples + between).least(&(&d.period * r_e * r_d).sqrt());
-    let rms_e = (&gains.rms * &r_q).least(&(&gains.rms_t * &r_1)) + between_rms;
+    let mut sup_e = (at_samples + between).least(&(&d.period * r_e * r_d).sqrt());
+    let mut rms_e = (&gains.rms * &r_q).least(&(&gains.rms_t * &r_1)) + between_rms;
     let steepest = &law.growth * 2 / (2 - &law.share) * &r_q;
-    let rms_e_t = steepest.least(&((gains.rms.sqr() + (&law.h / &pi).sqr()).sqrt() * &r_1));
+    let mut rms_e_t = steepest.least(&((gains.rms.sqr() + (&law.h / &pi).sqr()).sqrt() * &r_1));
 
-    let mut conditions = bounds.of_states(&r);
-    conditions.push(Condition::at_most("S2", "sup|e| <= E_p", sup_e.clone(), e_p.clone()));
-    conditions.push(Condition::at_most("S2b", "rms(e) <= r_e", rms_e, r_e.clone()));
-    conditions.push(Condition::at_most("S2c", "rms(e') <= r_d", rms_e_t, r_d.clone()));
+    let conditions = if let Some(inequality) = inequality {
+        let answer = inequality.answer(law, &bounds.oscillation());
+        // sup|G| <= (sqrt(h)/2)|G'|_2, and e' is the slope of the interpolation and G', which are orthogonal.
+        sup_e = sup_e.least(&(&gains.sup_y * &answer.rms_y + (&law.h * &d.period).sqrt() / 2 * &r_q));
+        rms_e = rms_e.least(&answer.rms_e);
+        rms_e_t = rms_e_t.least(&((&answer.rms_y * 2 / (2 - &law.share)).sqr() + r_q.sqr()).sqrt());
+        let (sup_x, rms_x) = (bounds.sup_x_in_box(r_e), (&bounds.x_gain * r_e).least(&answer.rms_x));
+        let sides = [[&sup_x, x_p], [&rms_x, r_x], [&sup_e, e_p], [&rms_e, r_e], [&rms_e_t, r_d]];
+        let what = [
+            "(c/a_1) b_fe r_e, sqrt(gamma/c_x) Q_m",
+            "12.2, sqrt(T r_e r_d), bt_h r_y + (sqrt(h T)/2) R_q",
+            "12.2, sqrt(gamma/c_e) Q_m",
+            "12.2, sqrt((2 r_y/(2 - h sigma))^2 + R_q^2)",
+        ];
+        [bounds.contracts()].into_iter().chain(strictly(sides, what.map(str::to_owned))).collect()
+    } else {
+        let mut conditions = bounds.of_states(&r);
+        conditions.push(Condition::at_most("S2", "sup|e| <= E_p", sup_e.clone(), e_p.clone()));
+        conditions.push(Condition::at_most("S2b", "rms(e) <= r_e", rms_e, r_e.clone()));
+        conditions.push(Condition::at_most("S2c", "rms(e') <= r_d", rms_e_t, r_d.clone()));
+        conditions
+    };
     let e = e_p.min(&sup_e);
     let w_squared = d.w.sqr();
     let mean = (&d.period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();

@@ -13,6 +13,8 @@ const MAX_SHARPENED: u32 = 8192;
 pub struct Gains {
     /// `bt_S^2 = sum_{j=1}^{N_s-1} Sb_j^2/(sigma^2 + a om_j^2)`: sup|e_k| over rms(q).
     pub sup: Interval,
+    /// `bt_h^2 = sum_{j=1}^{N_s-1} 1/(sigma^2 + a om_j^2)`: sup|e_k| over the rms of y, whose sum is 0.
+    pub sup_y: Interval,
     /// `tau_S^2 = sum_{j=1}^{N_s-1} Sb_j^2/(om_j^2 (sigma^2 + a om_j^2))`: sup|e_k| over rms(q').
     pub sup_t: Interval,
     /// 1/sg_S: rms(e_k) over rms(q), and rms of (e_{k+1} - e_k)/h over rms(q').
@@ -25,7 +27,7 @@ impl Gains {
     /// Sums over the harmonics; j and N_s - j are equal.
     pub fn new(law: &Law<'_>) -> Gains {
         let d = law.d;
-        let (mut sup, mut sup_t) = (d.int(0), d.int(0));
+        let [mut sup, mut sup_y, mut sup_t] = [0; 3].map(|zero| d.int(zero));
         let sigma_squared = law.sigma.sqr();
         let largest = law.growth.sqr();
         let sharpened = law.samples <= MAX_SHARPENED;
@@ -34,14 +36,16 @@ impl Gains {
             let frequency = law.frequency_squared(&sine);
             // At j = N_s/2 the cosine is 0.
             let share = if sharpened { largest.least(&(1 - sine.sqr()).recip()) } else { largest.clone() };
-            let gain = share / (&sigma_squared + &law.a * &frequency);
+            let of_y = (&sigma_squared + &law.a * &frequency).recip();
+            let gain = share * &of_y;
             let times = if 2 * j == law.samples { 1 } else { 2 };
             sup_t = sup_t + &gain / frequency * times;
             sup = sup + gain * times;
+            sup_y = sup_y + of_y * times;
         }
         let rms = slowest(law, sharpened).recip();
         let om_1 = law.frequency_squared(&law.sine(1)).sqrt();
-        Gains { sup: sup.sqrt(), sup_t: sup_t.sqrt(), rms_t: &rms / om_1, rms }
+        Gains { sup: sup.sqrt(), sup_y: sup_y.sqrt(), sup_t: sup_t.sqrt(), rms_t: &rms / om_1, rms }
     }
 }
 

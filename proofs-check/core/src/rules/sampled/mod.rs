@@ -3,21 +3,26 @@
 //! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for this sigma and h, every
 //! n_o < N_s/2 and every phase of the sampling grid there is a T-periodic solution with |x| <= x_per, |e| <= e_per at all times and
 //! |zeta_k|_N <= Z at the samples, and every solution that is in the claimed set at a sample converges to it exponentially. It is
-//! about exact arithmetic, without delay, quantisation or saturation.
+//! about exact arithmetic, without delay, quantisation or saturation. A matrix inequality, proved of the plant's formulas, may stand in
+//! the place of C5h, and another one beside S1 and S2.
 
 pub mod claim;
 pub mod existence;
 pub mod gains;
+pub mod inequality;
 pub mod law;
 pub mod stability;
 pub mod transfer;
 
 use super::common::Sizes;
 use super::common::{Evaluated, Free};
+use super::existence::covers;
+use super::inequality::{RULE, demand_plant, reaches};
 use super::set::{self, ClaimedSet};
 use crate::data::Data;
 use crate::json::Fields;
 use crate::verdict::{Outcome, bad, demand};
+use inequality::{Existence, Inequalities, Stability};
 use law::{Law, Terms};
 
 /// The free numbers.
@@ -25,6 +30,10 @@ use law::{Law, Terms};
 pub struct Witness {
     pub free: Free,
     pub terms: Terms,
+    /// What stands in the place of C5h, where it is given.
+    pub stability: Option<Stability>,
+    /// What adds to S1 and S2, where it is given.
+    pub existence: Option<Existence>,
 }
 
 impl Witness {
@@ -38,7 +47,16 @@ impl Witness {
         proof.finish()?;
         let (sigma, gain, samples) = (claimed.sigma.clone(), claimed.gain.clone(), claimed.samples);
         let weight_sum = fields.required("weight_sum")?.rational()?;
-        Ok(Witness { free: Free::read(fields, set)?, terms: Terms { sigma, samples, gain, weight_sum } })
+        let free = Free::read(fields, set)?;
+        let stability = fields.optional("matrix_inequality");
+        let stability = stability.map(|field| Stability::read(&field, [&free.w_x, &free.h])).transpose()?;
+        let existence = fields.optional("existence_inequality").map(|field| Existence::read(&field)).transpose()?;
+        Ok(Witness { free, terms: Terms { sigma, samples, gain, weight_sum }, stability, existence })
+    }
+
+    /// Those that have to be proved of the formulas.
+    pub fn inequalities(&self) -> Inequalities<'_> {
+        Inequalities { law: &self.terms, stability: self.stability.as_ref(), existence: self.existence.as_ref() }
     }
 
     fn signs(&self) -> Outcome<()> {
@@ -52,17 +70,24 @@ impl Witness {
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     w.signs()?;
     let (free, law) = (&w.free, Law::new(d, &w.terms));
+    let mut pointers = w.existence.iter().map(|part| &part.pointer).chain(w.stability.iter().map(|part| &part.pointer));
+    pointers.try_for_each(|pointer| demand_plant(d, pointer))?;
     let of_law = law.conditions("/claim")?;
     let transfer = transfer::check(&law, &free.k0, &free.k1, &format!("{}/k0", free.pointer))?;
     let [x_p, e_p, w_x, eta, k0, k1] =
         [&free.x_p, &free.e_p, &free.w_x, &free.h, &free.k0, &free.k1].map(|value| d.number(value));
-    let solution = existence::evaluate(&law, &free.r, [&x_p, &e_p], [&k0, &k1]);
+    let solution = existence::evaluate(&law, (&free.r, w.existence.as_ref()), [&x_p, &e_p], [&k0, &k1]);
     let sizes = Sizes { x: solution.x, e: solution.e, zeta: solution.z };
-    let (error_box, reach, mut evaluated) =
-        free.evaluate(d, sizes, vec![transfer], of_law.into_iter().chain(solution.conditions));
+    let covers = w.existence.iter().flat_map(|part| covers(d, [&free.x_p, &free.e_p], [&part.x, &part.e]));
+    let existence = of_law.into_iter().chain(covers).chain(solution.conditions);
+    let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, vec![transfer], existence);
     evaluated.conditions.push(free.level(d, &reach));
-    evaluated.conditions.extend(error_box.one_sided.iter().cloned());
-    let weights = stability::Weights { w_x: &w_x, eta: &eta };
-    evaluated.conditions.extend(stability::conditions(&law, &error_box, &weights));
+    if let Some(part) = &w.stability {
+        evaluated.conditions.extend(reaches(d, &error_box, [&part.x, &part.e], RULE));
+    } else {
+        evaluated.conditions.extend(error_box.one_sided.iter().cloned());
+        let weights = stability::Weights { w_x: &w_x, eta: &eta };
+        evaluated.conditions.extend(stability::conditions(&law, &error_box, &weights));
+    }
     Ok(evaluated)
 }

@@ -1,0 +1,211 @@
+//! The questions of the matrix inequalities of a sampled regulator (docs/mathematics.md, section 13.7, at samples).
+//!
+//! `G = e - (1 - s sigma) e_k - s y`, so the forms in (x, e_k, y, G, w) of the section are forms in (x, e, y, w, e_k) with e = e(s): the
+//! derivatives then stand beside e, y and w alone, and both forms differ in numbers only. Numbers alone stand beside e_k, so its square is
+//! completed, which takes numbers from the entries of e and y: fewer boxes are needed then. w stays: without it the entries would be
+//! quadratic in the derivatives.
+
+use super::form::{numbers, of_states};
+use super::formula::{Axis, Formulas, Id};
+use super::inequality::Said;
+use super::model::Model;
+use super::question::Question;
+use proofs_core::expr::Op;
+use proofs_core::rules::sampled::inequality::{Existence, Inequalities, Stability};
+use proofs_core::rules::sampled::law::Terms;
+use proofs_core::rules::{existence, inequality};
+use proofs_core::spec::Specification;
+use proofs_core::verdict::{Outcome, bad};
+use rug::Rational;
+
+/// What is taken from the diagonal, and what is asked for besides.
+#[derive(Default)]
+struct Taken {
+    x: Rational,
+    /// Of e(s).
+    e: Rational,
+    y: Rational,
+    /// Of e_k.
+    e_k: Rational,
+    /// gamma, where `q_0` stands beside q.
+    forcing: Option<Rational>,
+}
+
+/// The numbers of F_{h,s}.
+struct Form<'i> {
+    p: Vec<Vec<Id>>,
+    weight: Rational,
+    rate: Rational,
+    k_p: Id,
+    lambda: &'i Rational,
+    taken: Taken,
+}
+
+/// Numbers of the law: h, sigma, and 1/(1 + theta) = 1 - K h weight_sum/2.
+struct Step {
+    h: Id,
+    sigma: Id,
+    rest: Id,
+}
+
+impl Step {
+    fn new(formulas: &mut Formulas, law: &Terms, spec: &Specification) -> Step {
+        // A constant asks for nothing on the region: it has a value, or nothing is proved with it.
+        let period = formulas.read(spec.period.expr(), &[], &mut Vec::new());
+        let share = formulas.number(&Rational::from((1, law.samples)));
+        let h = formulas.mul(period, share);
+        let [sigma, half] = [law.sigma.clone(), Rational::from(&law.gain * &law.weight_sum) / 2u32]
+            .map(|value| formulas.number(&value));
+        let loss = formulas.mul(half, h);
+        let one = formulas.int(1);
+        Step { h, sigma, rest: formulas.sub(one, loss) }
+    }
+}
+
+impl Form<'_> {
+    /// The rows of F_{h,s} for s = h, or for s = 0.
+    fn rows(&self, model: &mut Model, step: &Step, at_end: bool) -> Vec<Vec<Id>> {
+        let (mut rows, mut of_e) = of_states(model, &self.p, &self.weight, &self.rate);
+        let (q, row, order, formulas) = (model.q, model.row.clone(), rows.len(), &mut model.formulas);
+        let Step { h, sigma, rest } = *step;
+        let [zero, one, two] = [0, 1, 2].map(|value| formulas.int(value));
+        let pi = formulas.apply(&Op::Pi, [zero; 2]);
+        let [lambda, taken_x, taken_e, taken_y, taken_e_k] =
+            [self.lambda, &self.taken.x, &self.taken.e, &self.taken.y, &self.taken.e_k]
+                .map(|value| formulas.number(value));
+        let s = if at_end { h } else { zero };
+        let share = formulas.mul(h, sigma);
+        let kept = formulas.mul(s, sigma);
+        // 1 - s sigma, and lambda h/pi.
+        let kept = formulas.sub(one, kept);
+        let reach = formulas.mul(lambda, h);
+        let reach = formulas.apply(&Op::Div, [reach, pi]);
+        let minus_half = formulas.apply(&Op::Div, [self.k_p, two]);
+        let minus_half = formulas.sub(zero, minus_half);
+        let [of_s, of_kept] = [s, kept].map(|factor| formulas.mul(lambda, factor));
+        // Beside e_k: -lambda (1 - s sigma) for e, -(1 - h sigma) + lambda s (1 - s sigma) for y, and of its own square
+        // sigma (2 - h sigma) + lambda (1 - s sigma)^2.
+        let crossed = formulas.mul(of_kept, s);
+        let crossed = formulas.add(crossed, share);
+        let beside = [formulas.sub(zero, of_kept), formulas.sub(crossed, one)];
+        let open = formulas.sub(two, share);
+        let own = formulas.dot([(sigma, open), (of_kept, kept)]);
+        let own = formulas.sub(own, taken_e_k);
+        let shares = beside.map(|entry| formulas.apply(&Op::Div, [entry, own]));
+        let completed = |formulas: &mut Formulas, entry: Id, i: usize, j: usize| {
+            let part = formulas.mul(shares[i], beside[j]);
+            formulas.sub(entry, part)
+        };
+
+        for (i, line) in rows.iter_mut().enumerate() {
+            line[i] = formulas.sub(line[i], taken_x);
+        }
+        let slope = formulas.derivative(q, Axis::Output);
+        let left = formulas.sub(lambda, taken_e);
+        of_e.push(completed(formulas, left, 0, 0));
+        rows.push(of_e);
+
+        let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
+        let weighted = formulas.mul(minus_half, slope);
+        let crossed = formulas.sub(weighted, of_s);
+        of_y.push(completed(formulas, crossed, 0, 1));
+        let damped = formulas.mul(self.k_p, rest);
+        let turned = formulas.mul(of_s, s);
+        let sum = formulas.add(damped, turned);
+        let sum = formulas.sub(sum, h);
+        let left = formulas.sub(sum, taken_y);
+        of_y.push(completed(formulas, left, 1, 1));
+        rows.push(of_y);
+
+        let mut of_w: Vec<Id> = row.iter().map(|slope| formulas.mul(reach, *slope)).collect();
+        of_w.push(formulas.mul(reach, slope));
+        of_w.extend([zero, lambda]);
+        rows.push(of_w);
+
+        let mut of_e_k = vec![zero; order + 3];
+        of_e_k.push(own);
+        rows.push(of_e_k);
+
+        if let Some(gamma) = &self.taken.forcing {
+            let mut of_forcing = vec![zero; order + 1];
+            let gamma = formulas.number(gamma);
+            of_forcing.extend([minus_half, reach, zero, gamma]);
+            rows.push(of_forcing);
+        }
+        rows
+    }
+
+    fn questions(&self, model: &mut Model, step: &Step) -> [Question; 2] {
+        [false, true].map(|at_end| {
+            let (rows, order) = (self.rows(model, step, at_end), model.states());
+            Question::new(&mut model.formulas, rows, order)
+        })
+    }
+}
+
+/// The questions of those that there are.
+pub fn questions<'i>(
+    model: &mut Model,
+    inequalities: Inequalities<'i>,
+    spec: &Specification,
+) -> Outcome<Vec<Said<'i>>> {
+    let Inequalities { law, stability, existence } = inequalities;
+    let step = Step::new(&mut model.formulas, law, spec);
+    let mut all = Vec::new();
+    if let Some(part) = stability {
+        let form = of_stability(model, part, law);
+        let what = ["F_h,0 >= diag(2 w_x rate P, c_e, c_y, 0, 0)", "F_h,h >= diag(2 w_x rate P, c_e, c_y, 0, 0)"];
+        let asked = what.into_iter().zip(form.questions(model, &step));
+        let at = [&part.x, &part.e];
+        all.extend(asked.map(|(what, question)| Said {
+            rule: inequality::RULE,
+            pointer: &part.pointer,
+            what,
+            at,
+            question,
+        }));
+    }
+    if let Some(part) = existence {
+        let form = of_existence(model, part)?;
+        let what = ["F_h,0 >= c_x, c_e, c_y, less gamma q_0^2", "F_h,h >= c_x, c_e, c_y, less gamma q_0^2"];
+        let (rule, pointer, at) = (existence::RULE, part.pointer.as_str(), [&part.x, &part.e]);
+        let asked = what.into_iter().zip(form.questions(model, &step));
+        all.extend(asked.map(|(what, question)| Said { rule, pointer, what, at, question }));
+    }
+    Ok(all)
+}
+
+/// With the P of stability, and k_p = 2 eta/K.
+fn of_stability<'i>(model: &mut Model, part: &'i Stability, law: &Terms) -> Form<'i> {
+    let twice = model.formulas.number(&Rational::from(&part.eta * 2u32));
+    let gain = model.formulas.number(&law.gain);
+    Form {
+        p: model.lyapunov[0].clone(),
+        weight: part.w_x.clone(),
+        rate: part.rate.clone(),
+        k_p: model.formulas.apply(&Op::Div, [twice, gain]),
+        lambda: &part.lambda,
+        taken: Taken { y: part.c_y.clone(), e_k: part.c_e.clone(), ..Taken::default() },
+    }
+}
+
+/// With a constant P of its own.
+fn of_existence<'i>(model: &mut Model, part: &'i Existence) -> Outcome<Form<'i>> {
+    if part.p.len() != model.states() {
+        return bad(&format!("{}/P", part.pointer), "expected a row for each state");
+    }
+    Ok(Form {
+        p: part.p.iter().map(|row| numbers(&mut model.formulas, row)).collect(),
+        weight: Rational::from(1),
+        rate: Rational::new(),
+        k_p: model.formulas.number(&part.k_p),
+        lambda: &part.lambda,
+        taken: Taken {
+            x: part.c_x.clone(),
+            e: part.c_e.clone(),
+            y: part.c_y.clone(),
+            forcing: Some(part.gamma.clone()),
+            ..Taken::default()
+        },
+    })
+}
