@@ -4,7 +4,9 @@ use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
 use super::proofs::{Along, PRECISION};
 use super::proved_at_samples::{ReducedSampled, beyond, found_again};
-use super::reduce::{ENLARGED, FAR_BETTER, best_by_norms, beyond_the_bounds, starts, with_candidates, with_coordinates};
+use super::reduce::{
+    ENLARGED, FAR_BETTER, best_by_norms, beyond_the_bounds, starts, with_candidates, with_coordinates,
+};
 use super::refusal::PlantRefusal;
 use super::sampled_matrix::{MatrixAtSamples, straight_by_matrix};
 use super::sampling::Sampling;
