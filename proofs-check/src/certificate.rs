@@ -120,8 +120,10 @@ fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut V
     }
     let proved = derivation.prove(d, lines)?;
     let free = derivation.free();
-    claim.check(d, &proved.sizes, [&free.x_p, &free.e_p])?;
-    lines.push("claim: verdict, n_o, mu, set, periodic solution and statement follow from what is proved".to_owned());
+    claim.check(d, &proved, [&free.x_p, &free.e_p])?;
+    lines.push(
+        "claim: verdict, n_o, mu, set, periodic solution, control and statement follow from what is proved".to_owned(),
+    );
     let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().clone());
     if let Some(plant) = &d.spec.plant {
         // Those of exact regulation, which has no figures of them, count as well.

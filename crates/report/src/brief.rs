@@ -10,6 +10,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
+use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::targets::Consequences;
 
@@ -48,6 +49,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper))));
+    facts.extend(run.control().map(|bounds| ("control", control(bounds, " at this gain; it grows with the gain"))));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
 }
@@ -74,6 +76,7 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii)));
+    facts.extend(run.control().map(|bounds| ("control", control(bounds, ""))));
     let of_the_computer = "no delay, rounding, quantisation or saturation";
     facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
@@ -110,6 +113,15 @@ fn to(spec: &Specification, periodic: &[Enclosure; 4], [d_x, d_e]: [String; 2]) 
         ),
         None => format!("a periodic solution with |e| <= {e}; on the way e stays within {d_e} of it"),
     }
+}
+
+/// How large the control gets.
+fn control(Control { steady, transient }: &Control<Enclosure>, where_it_holds: &str) -> String {
+    let [along, away, all] = [steady, transient, &(steady + transient)].map(upper);
+    format!(
+        "|u| at most {along} along the periodic solution, and within {away} of that on the way, so at most {all}, with every n_o\
+         {where_it_holds}"
+    )
 }
 
 /// The mechanism that asks for most of sigma*, and the datum that would lower it most.

@@ -11,11 +11,13 @@ use super::verdict::{basis, sentence};
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, full};
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_prove::certificate::{conditions_json, constants_json, no_plant_json, set_fields};
 use sigmastar_prove::certify::{Certification, Outcome, Verdict};
 use sigmastar_prove::search::{Binding, OptionalDatum};
 use sigmastar_theory::derivation::condition::Condition;
+use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::targets::{Consequences, TargetKind, TargetOutcome};
 
 /// The whole report: the same content as the text.
@@ -35,6 +37,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         report["initial_set"] = set_fields(claimed).collect();
         let [x, e, zeta, z] = periodic.each_ref().map(full);
         report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
+        report["control"] = control(run.control());
         let [x, e] = error_box.each_ref().map(full);
         report["error_box"] = json!({ "D_x": x, "D_e": e });
     }
@@ -171,4 +174,9 @@ fn exact_regulation(run: &Certification<'_>) -> Value {
         }),
         _ => Value::Null,
     }
+}
+
+/// Upper bounds of the control.
+pub(super) fn control(bounds: Option<&Control<Enclosure>>) -> Value {
+    json!(bounds.map(|Control { steady, transient }| json!({ "steady": full(steady), "transient": full(transient) })))
 }

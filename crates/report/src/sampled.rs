@@ -1,7 +1,7 @@
 //! The report on a certification of the regulator at samples.
 
 use super::failures::{FORMAT, VERSION, errors_json};
-use super::json::conditions_with_truth;
+use super::json::{conditions_with_truth, control};
 use super::obstacles::{describe, first_of, rest_of};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
@@ -257,6 +257,7 @@ impl Readable for SampledReport<'_> {
             report["initial_set"] = set_fields(&witness.set).collect();
             let [x, e, zeta, z] = periodic.each_ref().map(full);
             report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
+            report["control"] = control(run.control());
             report["error_box"] = json!({ "D_x": write_exact(&witness.d_x), "D_e": write_exact(&witness.d_e) });
         } else {
             report["advice"] = json!(self.advice());

@@ -107,10 +107,13 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
     // Without a state x there is no bound of it.
     let orbit = [("x", "|x|"), ("e", "|e|"), ("zeta", "|zeta|_N"), ("z", "|z|_N")]
         .map(|(name, what)| may(name, what, format!("An upper bound of {what} along it."), rational()));
+    let control = [("steady", "|u| along the periodic solution"), ("transient", "|u| less that, from the set")]
+        .map(|(name, what)| must(name, name, format!("An upper bound of {what}."), rational()));
     fields.extend([
         must("mu", "Gain mu", "That of the specification.", rational()),
         must("initial_set", "Initial set", "The set that is covered.", sets),
         must("periodic_solution", "Periodic solution", "Bounds of it.", Shape::Object(orbit.into())),
+        may("control", "Control", "Bounds of |u| at the gain of the claim.", Shape::Object(control.into())),
         must("statement", "Statement", "The claim in words.", Shape::Text),
     ]);
     fields

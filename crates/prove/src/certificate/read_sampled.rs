@@ -66,7 +66,7 @@ struct Claim {
 
 fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported> {
     let mut claim = value.object(errors)?;
-    for unused in ["verdict", "n_o", "mu", "periodic_solution", "statement"] {
+    for unused in ["verdict", "n_o", "mu", "periodic_solution", "control", "statement"] {
         let _ = claim.optional(unused);
     }
     let regulator = word(&mut claim, "regulator", REGULATOR, errors);

@@ -3,7 +3,9 @@
 use super::fields::{NumberFields, paths_json};
 use super::of_plant::plant_parts;
 use super::triple::lyapunov_parts;
-use super::write::{FORMAT, VERSION, conclusion, conditions_json, exact, object, set_json, text, upper_end};
+use super::write::{
+    FORMAT, VERSION, conclusion, conditions_json, control_json, exact, object, set_json, text, upper_end,
+};
 use crate::certify::SampledCertification;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
@@ -39,6 +41,7 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
             "periodic_solution",
             object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
         ),
+        ("control", control_json(run.control()?)),
         ("statement", text(sampled_statement(spec, witness))),
     ]);
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];

@@ -12,6 +12,7 @@ use sigmastar_lang::spec::model::LyapunovSource;
 use sigmastar_lang::spec::{Bound, OfPlant, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
+use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::repaired::RepairedWitness;
 use sigmastar_theory::derivation::table::{At, Entry, Row, Value as Cell};
@@ -79,6 +80,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
             "periodic_solution",
             object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
         ),
+        ("control", control_json(run.control()?)),
         ("statement", text(statement(run, sigma, set))),
     ]);
     let regulation = run.exact.as_ref().map(|exact| {
@@ -264,6 +266,11 @@ fn of_regulator(set: &ClaimedSet) -> String {
         Some(z0) => format!("|e| <= {e0}, sqrt(z'Nz) <= {}", write_exact(z0)),
         None => format!("|e| <= {e0}, z = M e"),
     }
+}
+
+/// Upper bounds of the control.
+pub(super) fn control_json(Control { steady, transient }: &Control<Enclosure>) -> Value {
+    object([("steady", upper_end(steady)), ("transient", upper_end(transient))])
 }
 
 pub(super) fn set_json(spec: &Specification, set: &ClaimedSet) -> Value {

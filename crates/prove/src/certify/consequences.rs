@@ -5,6 +5,7 @@ use super::certification::{Certification, RelativeDegreeGains};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_theory::data::{Bound, Data, Problem};
 use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, error_bounds};
+use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::targets::{Consequences, Target};
 
 impl Certification<'_> {
@@ -42,6 +43,13 @@ impl Certification<'_> {
         let claim = self.claim()?;
         let data = Data::new(self.spec, claim.precision);
         Some((data.rational(claim.sigma) + &data.mu * &data.n_bar_squared).ceiling())
+    }
+
+    /// Bounds of the control at sigma, if certified; of a larger gain they say nothing.
+    #[must_use]
+    pub fn control(&self) -> Option<&Control<Enclosure>> {
+        self.claim()?;
+        self.sharp.proved().map(|proof| &proof.evaluation.control)
     }
 
     /// Radii of the error box of the claim in x and e, if certified.

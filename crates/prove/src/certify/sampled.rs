@@ -19,6 +19,7 @@ use sigmastar_lang::spec::model::Specification;
 use sigmastar_lang::spec::{SampledGain, Sampling};
 use sigmastar_theory::data::{Bound, Data, Problem};
 use sigmastar_theory::derivation::condition::{Condition, all};
+use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::mean_squares::{Gains, MeanSquares, PeriodicSize, SetBounds};
@@ -68,6 +69,12 @@ impl SampledCertification<'_> {
         // At samples z_k = zeta_k + M e_k.
         let z = &zeta + n_bar * &size.e_per;
         Some([size.x_per.clone(), size.e_per.clone(), zeta, z])
+    }
+
+    /// Bounds of the control, if certified.
+    #[must_use]
+    pub fn control(&self) -> Option<&Control<Enclosure>> {
+        self.claim().map(|proof| &proof.evaluation.control)
     }
 
     /// The largest X and E at which a bounding function is used.

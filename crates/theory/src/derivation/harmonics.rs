@@ -17,6 +17,10 @@ pub struct AtOrigin<R> {
 /// Sizes of the known harmonics and of the rest.
 #[derive(Clone, Debug)]
 pub struct Known<R> {
+    /// C_0.
+    pub mean: R,
+    /// 2 sum_{k>=1} C_k.
+    pub sum: R,
     /// Q_m = sqrt(2 sum_{k>=1} C_k^2) + r_0, of the rms of q(t,0,0) without its mean.
     pub rms_without_mean: R,
     /// sqrt(sum_{k>=1} 2 (k Om C_k)^2), of the rms of the harmonics' derivative.
@@ -44,6 +48,8 @@ where
             q_rms: q_rms.min_known(&by_harmonics),
             q_t_rms,
             known: Some(Known {
+                mean: mean(known),
+                sum: R::int(2) * sum_of_harmonics(known, &zero, |_, c| c.clone()),
                 rms_without_mean: squares.sqrt() + &known.rest_rms,
                 rate_rms: rate_rms(problem, known),
                 rest_rms: known.rest_rms.clone(),

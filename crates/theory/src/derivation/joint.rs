@@ -17,22 +17,35 @@ pub fn level_condition<R: Real>(
     problem: &impl Problem<R>,
     (metric, level): (&Metric, &Level),
     number: impl Fn(&Rational) -> R,
-    [dist_x, dist_e, dist_z]: [&R; 3],
+    distances: [&R; 3],
     [d_x, d_e]: [&R; 2],
 ) -> (R, R)
 where
     for<'a> &'a R: Operand<R>,
 {
+    let [x_low, e_low] = [&level.x_low, &level.e_low].map(&number);
+    let start = at_the_start(problem, (metric, level), number, distances);
+    (start, (x_low * d_x.sqr()).min(&(e_low * d_e.sqr())))
+}
+
+/// `P_up dX^2 + 2 |p| dX dE + w dE^2 + (k_p mu/2) dZ^2`, which V is not above on the initial set.
+pub fn at_the_start<R: Real>(
+    problem: &impl Problem<R>,
+    (metric, level): (&Metric, &Level),
+    number: impl Fn(&Rational) -> R,
+    [dist_x, dist_e, dist_z]: [&R; 3],
+) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
     let Metric { cross, weight, k_p, .. } = metric;
-    let [p_up, x_low, e_low] = [&level.p_up, &level.x_low, &level.e_low].map(&number);
     let square: Rational = cross.iter().map(|entry| Rational::from(entry.square_ref())).sum();
     let cross = number(&square).sqrt();
     let of_zeta = number(k_p) * &problem.numbers().mu / R::int(2);
-    let start = p_up * dist_x.sqr()
+    number(&level.p_up) * dist_x.sqr()
         + R::int(2) * cross * dist_x * dist_e
         + number(weight) * dist_e.sqr()
-        + of_zeta * dist_z.sqr();
-    (start, (x_low * d_x.sqr()).min(&(e_low * d_e.sqr())))
+        + of_zeta * dist_z.sqr()
 }
 
 /// What is left to decide where a joint inequality is proved: C4 of both metrics, that the error box lies where the inequality holds,

@@ -7,6 +7,7 @@
 pub mod condition;
 pub mod consequences;
 pub mod contraction;
+pub mod control;
 pub mod energy;
 pub mod exact_regulation;
 pub mod existence;

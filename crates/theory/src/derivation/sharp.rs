@@ -3,6 +3,7 @@
 use super::condition::{self, Condition};
 use super::consequences::Excitation;
 use super::contraction::ContractionMatrix;
+use super::control::{self, Control};
 use super::energy;
 use super::harmonics::AtOrigin;
 use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
@@ -102,6 +103,8 @@ pub struct SharpEvaluation {
     pub decay: DecayCondition<Enclosure>,
     /// The threshold of sigma by a matrix inequality, where there is one for the weights of the witness, and its place in the derivation.
     pub by_matrix: Option<(Enclosure, &'static str)>,
+    /// How large the control gets at sigma.
+    pub control: Control<Enclosure>,
     /// All conditions in order.
     pub conditions: Vec<Condition>,
 }
@@ -148,7 +151,7 @@ impl SharpEvaluation {
         let distances = [&dist_x, &dist_e, &dist_z];
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         let joint = data.spec.bounds.proved_values().joint_stability();
-        if let Some(joint) = joint {
+        let transient = if let Some(joint) = joint {
             conditions.extend(joint::conditions(
                 data,
                 joint,
@@ -157,9 +160,11 @@ impl SharpEvaluation {
                 &error_box,
                 (&witness.sigma, ""),
             ));
+            control::joint_transient(data, joint, number, &witness.sigma, distances)
         } else {
             let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
             let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
+            let transient = control::transient(data, [&sigma, &data.mu], &h, &start);
             conditions.push(Condition::less("C4", what, start, exit));
             match inequality {
                 Some(inequality) => {
@@ -171,7 +176,10 @@ impl SharpEvaluation {
                     conditions.extend(by_norms_conditions(&decay, &sigma));
                 }
             }
-        }
+            transient
+        };
+        let by_parts = control::by_parts(data, [&sigma, &data.mu], [&periodic.e_per, &z]);
+        let steady = control::Answer::continuous(data).steady(&origin, &periodic.forcing, &by_parts);
         let by_matrix = match (joint, inequality) {
             (Some(joint), _) => Some((number(&joint.inequality.value), "section 13.7, (Jm)")),
             (None, Some(inequality)) => Some((number(&inequality.value), "section 13.7, (M)")),
@@ -194,6 +202,7 @@ impl SharpEvaluation {
             error_box,
             decay,
             by_matrix,
+            control: Control { steady, transient },
             conditions,
         }
     }

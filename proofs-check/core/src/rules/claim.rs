@@ -1,6 +1,7 @@
 //! Rule: the claim says what the witness proves, and nothing that it does not.
 
-use super::common::Sizes;
+use super::common::Evaluated;
+use super::control::NAMES;
 use super::sampled::claim::{N_O, Regulator};
 use super::set::ClaimedSet;
 use crate::constant::Constant;
@@ -28,6 +29,8 @@ pub struct Claim<'a> {
     pub set: ClaimedSet,
     /// Bounds of the periodic solution.
     pub periodic: Field<'a>,
+    /// Bounds of the control, where they are claimed.
+    control: Option<Field<'a>>,
     /// The claim in words.
     pub statement: Field<'a>,
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.
@@ -102,6 +105,7 @@ impl<'a> Claim<'a> {
             mu: fields.required("mu")?,
             kind,
             periodic: fields.required("periodic_solution")?,
+            control: fields.optional("control"),
             statement: fields.required("statement")?,
         };
         fields.finish()?;
@@ -110,7 +114,7 @@ impl<'a> Claim<'a> {
 
     /// Compares every field with the specification, and demands that the stored sizes of the periodic solution bound those
     /// that are proved; `exact` are rational bounds of |x| and |e|.
-    pub fn check(&self, d: &Data<'_>, sizes: &Sizes, exact: [&Rational; 2]) -> Outcome<()> {
+    pub fn check(&self, d: &Data<'_>, evaluated: &Evaluated, exact: [&Rational; 2]) -> Outcome<()> {
         reads(RULE, &self.verdict, "certified")?;
         let spec = d.spec;
         match &self.sampled {
@@ -134,7 +138,7 @@ impl<'a> Claim<'a> {
         };
         reads(RULE, &self.kind, kind)?;
         let mut fields = self.periodic.fields()?;
-        for (index, (name, mine)) in sizes.named(d).into_iter().enumerate() {
+        for (index, (name, mine)) in evaluated.sizes.named(d).into_iter().enumerate() {
             // z is a state at the samples alone.
             let field = match self.sampled {
                 Some(_) if name == "z" => fields.optional(name),
@@ -143,6 +147,13 @@ impl<'a> Claim<'a> {
             field.map_or(Ok(()), |field| bounds(d, &field, &mine, exact.get(index).copied()))?;
         }
         fields.finish()?;
+        if let Some(control) = &self.control {
+            let mut fields = control.fields()?;
+            for (name, mine) in NAMES.into_iter().zip(&evaluated.control) {
+                bounds(d, &fields.required(name)?, mine, None)?;
+            }
+            fields.finish()?;
+        }
         match &spec.plant {
             None => reads(RULE, &self.statement, &self.in_words(spec)),
             Some(plant) => {

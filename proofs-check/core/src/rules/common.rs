@@ -1,6 +1,7 @@
 //! What the rules for both regulators share (docs/mathematics.md, sections 5, 10 and 12): the free numbers of a witness, the
 //! conditions on the set, the domain and the level, and what is said of the periodic solution.
 
+use super::control;
 use super::mean_squares::Means;
 use super::paths::Paths;
 use super::set::{self, ClaimedSet};
@@ -51,6 +52,8 @@ impl Sizes {
 pub struct Evaluated {
     /// The sizes of the periodic solution.
     pub sizes: Sizes,
+    /// The bounds of the control ([`super::control`]).
+    pub control: [Interval; 2],
     /// The conditions, in the order of the file.
     pub conditions: Vec<Condition>,
     /// The comparisons of the transfer proof, any of which may stand for it in the list of conditions.
@@ -105,13 +108,15 @@ impl Free {
         conditions.push(transfer[0].clone());
         conditions.extend(existence);
         let reach = distances(d, &self.set, [&sizes.x, &sizes.e, &sizes.zeta]);
-        (error_box, reach, Evaluated { sizes, conditions, transfer, arguments })
+        let control = [(); 2].map(|()| Interval::undefined(d.precision));
+        (error_box, reach, Evaluated { sizes, control, conditions, transfer, arguments })
     }
 
-    /// C4 of U, at dX, dE, dZ.
-    pub fn level(&self, d: &Data<'_>, reach: &[Interval; 3]) -> Condition {
+    /// C4 of U, at dX, dE, dZ, and how far the control goes from there where it is -sigma e + mu M'N zeta.
+    pub fn level(&self, d: &Data<'_>, reach: &[Interval; 3], of_u: [&Interval; 2]) -> (Condition, Interval) {
         let [d_x, d_e, w_x, h] = [&self.d_x, &self.d_e, &self.w_x, &self.h].map(|value| d.number(value));
         let [start, exit] = level(d, reach, [&d_x, &d_e, &w_x, &h]);
-        Condition::less("C4", "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}", start, exit)
+        let transient = control::transient(d, of_u, [&d.int(1), &h], &start);
+        (Condition::less("C4", "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}", start, exit), transient)
     }
 }

@@ -8,6 +8,7 @@
 //! leaves the box. X_b, E_b and the sizes in C4 are those at sigma, which are no smaller at a larger gain. The two metrics may be scaled
 //! in different ways.
 
+use super::control;
 use super::inequality::{not_above, number, reaches};
 use super::metric::{Metric, Metrics};
 use super::stability::ErrorBox;
@@ -130,6 +131,21 @@ impl Joint {
             Condition::less(if name == "near" { "C4" } else { "C4f" }, format!("{what}, {name}"), start, exit)
         };
         self.each().map(level)
+    }
+
+    /// How far the control goes at sigma: of the metric between the two, at the share `l = sigma_0/sigma` of the near one, V at the start is
+    /// at most that share of the left sides of C4 and C4f, and not below that of `e_low e^2 + (k_p mu/2)|zeta|_N^2`.
+    pub fn transient(&self, d: &Data<'_>, [near, far]: &[Condition; 2], sigma: &Rational) -> Interval {
+        let share = Rational::from(&self.threshold / sigma);
+        let (of_near, of_far) = (d.number(&share), d.number(&(1 - share)));
+        let between = |near: &Interval, far: &Interval| &of_near * near + &of_far * far;
+        let of = |number: fn(&Metric, &Extent) -> Rational| {
+            let [near, far] = self.each().map(|(_, metric, _, extent)| d.number(&number(metric, extent)));
+            between(&near, &far)
+        };
+        let [e_low, k_p] = [of(|_, extent| extent.e_low.clone()), of(|metric, _| metric.k_p.clone())];
+        let start = between(&near.lhs, &far.lhs);
+        control::transient(d, [&d.number(sigma), &d.mu], [&e_low, &(k_p * &d.mu / 2)], &start)
     }
 
     /// C5x, C5e and C5s: the error box lies where the inequalities are proved, and the gain is not below their threshold. The last may

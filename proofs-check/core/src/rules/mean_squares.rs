@@ -10,6 +10,7 @@
 //! nonnegative, sums and minima), so G(l r') <= l G(r') for l >= 1. If l = max rho_i/r'_i > 1, then rho <= G(rho) <= G(l r') <=
 //! l G(r') < l r' in every place, against the choice of l. Strictness matters.
 
+use super::control;
 use super::existence::Existence;
 use super::gains::{beta_s, bt, damped, tau};
 use super::metric::Answer;
@@ -56,6 +57,8 @@ pub struct Solution {
     /// (c/a_1) b_fe: |x| over |e|.
     pub x_gain: Interval,
     pub z_squared: Interval,
+    /// A bound of |u| along it at sigma.
+    pub steady: Interval,
     /// a_1, and r_x, r_e, r_d of the solution; only the table of constants shows them.
     pub shown: (Interval, [Interval; 3]),
     pub conditions: Vec<Condition>,
@@ -228,6 +231,13 @@ impl<'a> Bounds<'a> {
         self.forced.as_ref().map_or_else(none, |forced| forced.with_mean(self.d, self.d.int(0)))
     }
 
+    /// C_0, 2 sum_{k>=1} C_k, r_0 and r_1, where `q_0` is given.
+    pub(super) fn harmonics(&self) -> Option<[Interval; 4]> {
+        self.forced.as_ref().map(|Forced { harmonics, rest: [rest, rest_t], .. }| {
+            [harmonics[0].clone(), twice_sum(self.d, harmonics, |_, c| c.clone()), rest.clone(), rest_t.clone()]
+        })
+    }
+
     /// x_per, from e_per and rms(e). Where S1 fails X_p stands for what is not defined.
     pub fn sup_x(&self, e: &Interval, rms_e: &Interval) -> Interval {
         if !self.rate.is_positive() {
@@ -390,6 +400,9 @@ pub fn evaluate(
     let e = e_p.min(&follows.sup_e);
     let x = bounds.sup_x(&e, &last[1]);
     let z_squared = bounds.z_squared(&follows, pair, kappa);
+    let sigma = d.number(sigma);
+    let by_parts = control::by_parts(d, [&sigma, &d.mu], [&e, &z_squared.sqrt()]);
+    let steady = control::Answer::continuous(d).steady(&bounds, &last, &by_parts);
     let shown = (bounds.rate, last);
-    Solution { x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, shown, conditions }
+    Solution { steady, x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, shown, conditions }
 }

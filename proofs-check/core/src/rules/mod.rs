@@ -2,6 +2,7 @@
 pub mod bounding;
 pub mod claim;
 pub mod common;
+pub mod control;
 pub mod derivation;
 pub mod existence;
 pub mod gains;

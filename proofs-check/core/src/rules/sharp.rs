@@ -125,10 +125,19 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     let sizes = Sizes { x: solution.x.clone(), e: solution.e.clone(), zeta: solution.z_squared.sqrt() };
     let existence = covers.chain(solution.conditions.iter().cloned());
     let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, transfer, existence);
-    evaluated.conditions.extend(match w.stability.joint() {
-        Some(joint) => joint.levels(d, &reach, [&free.d_x, &free.d_e]).to_vec(),
-        None => vec![free.level(d, &reach)],
-    });
+    let (levels, transient) = match w.stability.joint() {
+        Some(joint) => {
+            let levels = joint.levels(d, &reach, [&free.d_x, &free.d_e]);
+            let transient = joint.transient(d, &levels, &w.sigma);
+            (levels.to_vec(), transient)
+        }
+        None => {
+            let (level, transient) = free.level(d, &reach, [&sigma, &d.mu]);
+            (vec![level], transient)
+        }
+    };
+    evaluated.conditions.extend(levels);
+    evaluated.control = [solution.steady.clone(), transient];
     let threshold = match &w.stability {
         Stability::Joint(joint) => {
             evaluated.conditions.extend(joint.conditions(d, &error_box, &w.sigma));

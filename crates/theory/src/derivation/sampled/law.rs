@@ -1,6 +1,7 @@
 //! The numbers of the law at samples (derivation, 12): h, K, theta, and the sines of its harmonics.
 
 use crate::data::{Data, Numbers, Problem};
+use crate::derivation::control::Answer;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 use sigmastar_lang::spec::{SampledGain, Sampling};
@@ -77,6 +78,21 @@ where
     pub fn nu(&self, problem: &impl Problem<R>) -> R {
         let Numbers { base_frequency, .. } = problem.numbers();
         &self.mu / base_frequency
+    }
+
+    /// What the control makes of the harmonics of the means of q (derivation, 13.5): with g = 2 (1 + theta)/(2 - h sigma) F is 2/sqrt(4 - g)
+    /// up to g = 3 and g - 1 above, and the sum of all |u_j| is at most `F sqrt((T^2 - h^2)/12)` times rms(q').
+    ///
+    /// u_j = (P Y - 1) q_j where P = (E - 1)/(E - a), E = e^{i om h}, is on the circle over [0, 2/(2 - h sigma)] and Y on that over [0, 1 + theta].
+    #[must_use]
+    pub fn answer(&self, sigma: &R, period: &R) -> Answer<R> {
+        let most = R::int(2) * &self.enlarged / (R::int(2) - &self.step * sigma);
+        let harmonic = match (R::int(3) - &most).is_certainly_positive() {
+            true => R::int(2) / (R::int(4) - most).sqrt(),
+            false => R::int(2).max(&(most - R::int(1))),
+        };
+        let by_rate = &harmonic * ((period.sqr() - self.step.sqr()) / R::int(12)).sqrt();
+        Answer { harmonic, by_rate }
     }
 
     /// om_j^2 = (4/h^2) sin^2(pi j/N_s) of one of the sines.

@@ -21,6 +21,7 @@ pub use stability::{DecayForms, DecayNumbers, Form, Part};
 pub use witness::SampledWitness;
 
 use super::condition::{self, Condition};
+use super::control::{self, Control};
 use super::harmonics::AtOrigin;
 use super::initial_set::{claimed_distances, set_conditions};
 use super::mean_squares::{Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, sup_by_mean_squares};
@@ -51,6 +52,8 @@ pub struct SampledEvaluation {
     pub error_box: ErrorBox<Enclosure>,
     /// Q_0 and Q_h.
     pub forms: DecayForms<Enclosure>,
+    /// How large the control gets.
+    pub control: Control<Enclosure>,
     /// All conditions in order.
     pub conditions: Vec<Condition>,
 }
@@ -95,6 +98,12 @@ impl SampledEvaluation {
         });
         let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&size.x_per, &size.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
+        let with_gain = [&sigma, &law.gain];
+        let by_parts = control::by_parts(data, with_gain, [&size.e_per, &z]);
+        let control = Control {
+            steady: law.answer(&sigma, &data.period).steady(&origin, &size.forcing, &by_parts),
+            transient: control::transient(data, with_gain, &eta, &start),
+        };
         conditions.push(Condition::less(
             "C4",
             "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}",
@@ -108,7 +117,7 @@ impl SampledEvaluation {
                 conditions.extend(form_conditions(data, &forms));
             }
         }
-        SampledEvaluation { product, law, bounds, size, z, error_box, forms, conditions }
+        SampledEvaluation { product, law, bounds, size, z, error_box, forms, control, conditions }
     }
 
     /// The truth of all conditions together.

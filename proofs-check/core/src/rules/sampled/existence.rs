@@ -10,6 +10,7 @@ use super::gains::Gains;
 use super::inequality::Existence;
 use super::law::Law;
 use crate::interval::Interval;
+use crate::rules::control;
 use crate::rules::existence::strictly;
 use crate::rules::mean_squares::{Bounds, Means};
 use crate::verdict::Condition;
@@ -19,6 +20,8 @@ pub struct Solution {
     pub x: Interval,
     pub e: Interval,
     pub z: Interval,
+    /// A bound of |u| along it.
+    pub steady: Interval,
     pub conditions: Vec<Condition>,
 }
 
@@ -74,5 +77,8 @@ pub fn evaluate(
     let e = e_p.min(&sup_e);
     let w_squared = d.w.sqr();
     let mean = (&d.period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();
-    Solution { x: bounds.sup_x(&e, r_e), z: &law.growth * mean.sqrt(), e, conditions }
+    let z = &law.growth * mean.sqrt();
+    let by_parts = control::by_parts(d, [&law.sigma, &law.gain], [&e, &z]);
+    let steady = control::Answer::sampled(law).steady(&bounds, &r, &by_parts);
+    Solution { x: bounds.sup_x(&e, r_e), z, steady, e, conditions }
 }

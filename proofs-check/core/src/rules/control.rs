@@ -1,0 +1,56 @@
+//! How large the control of a proved claim gets (docs/mathematics.md, section 13.5), at the gain of the claim and no other.
+//!
+//! Guarantee: |u| of the periodic solution is at most `steady` for every n_o, and every solution from the claimed set has
+//! |u - u_per| <= `transient` at all times.
+
+use super::mean_squares::Bounds;
+use super::sampled::law::Law;
+use crate::data::Data;
+use crate::interval::Interval;
+
+/// The bounds under their names in a file.
+pub const NAMES: [&str; 2] = ["steady", "transient"];
+
+/// `|u_j| <= factor |q_j|` for the harmonics of q but for the mean, which u answers by its opposite; `by_rate` bounds the sum of all
+/// of these |u_j| over the root mean square of q'.
+pub struct Answer {
+    factor: Interval,
+    by_rate: Interval,
+}
+
+impl Answer {
+    /// `2/sqrt(3)`; with `sum 1/om_j^2 = T^2/12` over both signs `T/3`.
+    pub fn continuous(d: &Data<'_>) -> Answer {
+        Answer { factor: 2 / d.int(3).sqrt(), by_rate: &d.period / 3 }
+    }
+
+    /// With g = 2 (1 + theta)/(2 - h sigma): `2/sqrt(4 - g)` for g <= 3, `g - 1` for g >= 3, both at most 2 + (g - 3)_+ near there;
+    /// `sum 1/om_j^2 = (T^2 - h^2)/12` over the samples.
+    pub fn sampled(law: &Law<'_>) -> Answer {
+        let g = &law.growth * 2 / (2 - &law.share);
+        let below = 3 - &g;
+        let factor = if below.is_nonnegative() { 2 / (4 - &g).sqrt() } else { (g - 1).max(&law.d.int(2)) };
+        let by_rate = &factor * ((law.d.period.sqr() - law.h.sqr()) / 12).sqrt();
+        Answer { factor, by_rate }
+    }
+
+    /// The least of what the harmonics of q say, with its root mean squares and with `q_0`, and of what the sizes of e and zeta do:
+    /// u = -sigma e + mu M'N zeta.
+    pub fn steady(&self, bounds: &Bounds<'_>, r: &[Interval; 3], by_parts: &Interval) -> Interval {
+        let [[r_q, r_1], [d_0, d_1]] = bounds.inputs(r);
+        let plain = |mean: &Interval| (mean + &self.by_rate * &r_1).least(by_parts);
+        let Some([mean, others, rest, rest_t]) = bounds.harmonics() else { return plain(&r_q) };
+        let mean = r_q.least(&(mean + rest + d_0));
+        plain(&mean).least(&(&mean + &self.factor * others + &self.by_rate * (rest_t + d_1)))
+    }
+}
+
+/// `sigma e_per + mu Nbar Z`.
+pub fn by_parts(d: &Data<'_>, [sigma, mu]: [&Interval; 2], [e, zeta]: [&Interval; 2]) -> Interval {
+    sigma * e + mu * &d.n_bar * zeta
+}
+
+/// `|sigma e - mu M'N zeta|` where `weight e^2 + h |zeta|_N^2 <= level`: the function that falls is not below that sum.
+pub fn transient(d: &Data<'_>, [sigma, mu]: [&Interval; 2], [weight, h]: [&Interval; 2], level: &Interval) -> Interval {
+    (level * (sigma.sqr() / weight + (mu * &d.n_bar).sqr() / h)).sqrt()
+}
