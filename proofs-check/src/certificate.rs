@@ -72,6 +72,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         comparison: if continuous { file.optional("comparison") } else { None },
         multipliers: if continuous { witness.optional("lmi") } else { None },
         periodic: claim.periodic.clone(),
+        control: claim.control.clone(),
         no_plant: if continuous { file.optional("no_plant") } else { None },
     };
     witness.finish()?;

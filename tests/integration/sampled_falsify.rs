@@ -42,10 +42,16 @@ fn a_true_claim_holds() {
         assert!((0.0..1.0).contains(&trial.phase.unwrap()));
         tried_n_o.push(trial.n_o);
         phases.push(trial.phase.unwrap());
-        // Convergence, four sizes of the periodic solution, two of the box, and the Lyapunov function.
-        assert_eq!(shares.len(), 8);
+        // Convergence, four sizes of the periodic solution, two of the box, two of the control, and the Lyapunov function.
+        assert_eq!(shares.len(), 10);
         let used = |quantity: &str| shares.iter().find(|(name, _)| name.contains(quantity)).unwrap().1;
-        assert!(used("sup|zeta|_N") > 1e-3 && used("sup|e|") > 1e-5 && used("against D_e") > 0.01, "{shares:?}");
+        assert!(
+            used("sup|zeta|_N") > 1e-3
+                && used("sup|e|") > 1e-5
+                && used("against D_e") > 0.01
+                && used("|u - u_p|") > 0.01,
+            "{shares:?}"
+        );
     }
     assert_eq!(tried_n_o[..8], [0, 99, 1, 2, 3, 5, 8, 49]);
     assert!(phases[0] == 0.0 && phases.windows(2).all(|pair| pair[0] != pair[1]), "{phases:?}");

@@ -48,8 +48,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     );
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
-    facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper))));
-    facts.extend(run.control().map(|bounds| ("control", control(bounds, " at this gain; it grows with the gain"))));
+    facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), run.control())));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
 }
@@ -75,8 +74,7 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
         vec![("gain", gain), ("from", from(run.spec, &witness.set, "a sampling instant")), ("next", next.to_owned())];
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
-    facts.push(("to", to(run.spec, &periodic, radii)));
-    facts.extend(run.control().map(|bounds| ("control", control(bounds, ""))));
+    facts.push(("to", to(run.spec, &periodic, radii, run.control())));
     let of_the_computer = "no delay, rounding, quantisation or saturation";
     facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
@@ -103,25 +101,26 @@ fn from(spec: &Specification, set: &ClaimedSet, when: &str) -> String {
     format!("{}, at {when}{ball}", words::set(spec, set))
 }
 
-/// The periodic solution, and how far from it solutions go.
-fn to(spec: &Specification, periodic: &[Enclosure; 4], [d_x, d_e]: [String; 2]) -> String {
+/// The periodic solution, how far from it solutions go, and how large the control gets.
+fn to(
+    spec: &Specification,
+    periodic: &[Enclosure; 4],
+    [d_x, d_e]: [String; 2],
+    control: Option<&Control<Enclosure>>,
+) -> String {
     let [x, e, _, _] = periodic.each_ref().map(upper);
-    match spec.state_name() {
-        Some(state) => format!(
-            "a periodic solution with |{state}| <= {x}, |e| <= {e}; on the way {state} stays within {d_x} of it and e within \
-             {d_e}"
-        ),
-        None => format!("a periodic solution with |e| <= {e}; on the way e stays within {d_e} of it"),
-    }
-}
-
-/// How large the control gets.
-fn control(Control { steady, transient }: &Control<Enclosure>, where_it_holds: &str) -> String {
-    let [along, away, all] = [steady, transient, &(steady + transient)].map(upper);
-    format!(
-        "|u| at most {along} along the periodic solution, and within {away} of that on the way, so at most {all}, with every n_o\
-         {where_it_holds}"
-    )
+    let (along, on_the_way) = match spec.state_name() {
+        Some(state) => {
+            (format!("|{state}| <= {x}, |e| <= {e}"), format!("{state} stays within {d_x} of it, e within {d_e}"))
+        }
+        None => (format!("|e| <= {e}"), format!("e stays within {d_e} of it")),
+    };
+    let of_u = |bound: &Enclosure| format!(", |u| <= {}", upper(bound));
+    let [steady, largest] = match control {
+        Some(Control { steady, transient }) => [of_u(steady), of_u(&(steady + transient))],
+        None => [String::new(), String::new()],
+    };
+    format!("a periodic solution with {along}{steady}; on the way {on_the_way}{largest}")
 }
 
 /// The mechanism that asks for most of sigma*, and the datum that would lower it most.

@@ -11,11 +11,11 @@ pub mod repaired;
 
 use proofs_core::data::Data;
 use proofs_core::effort;
+use proofs_core::interval::Interval;
 use proofs_core::json::{Field, Fields, join};
 use proofs_core::rules::common::Evaluated;
-use proofs_core::rules::common::Sizes;
 use proofs_core::rules::derivation::{Derivation, Witness};
-use proofs_core::rules::{sampled, sharp};
+use proofs_core::rules::{control, sampled, sharp};
 use proofs_core::spec::{AskedSet, Specification};
 use proofs_core::verdict::{Condition, Finding, Outcome, Verdict, finding};
 use std::collections::{BTreeMap, BTreeSet};
@@ -74,6 +74,8 @@ pub struct Parts<'a> {
     pub multipliers: Option<Field<'a>>,
     /// `/claim/periodic_solution`, whose truth is part of the claim; how tight it is, is not.
     pub periodic: Field<'a>,
+    /// `/claim/control`, the same.
+    pub control: Option<Field<'a>>,
     /// `/no_plant`.
     pub no_plant: Option<Field<'a>>,
 }
@@ -142,7 +144,10 @@ impl Attempt<'_> {
 
     fn of_claim(&mut self, evaluated: &Evaluated) {
         self.conditions(&evaluated.conditions);
-        self.tight(&evaluated.sizes);
+        let sizes = evaluated.sizes.named(self.d);
+        self.tight(Some(&self.parts.periodic), &sizes);
+        let control = control::NAMES.into_iter().zip(evaluated.control.iter().cloned());
+        self.tight(self.parts.control.as_ref(), &control.collect::<Vec<_>>());
     }
 
     fn in_continuous_time(&mut self, main: &Derivation, w: &sharp::Witness, sharp: &sharp::Sharp) {
@@ -180,11 +185,11 @@ impl Attempt<'_> {
     }
 
     /// The upper ends of the claim are no larger than their rounding makes them.
-    fn tight(&mut self, sizes: &Sizes) {
-        let Ok(mut fields) = self.parts.periodic.fields() else { return };
-        for (name, mine) in sizes.named(self.d) {
+    fn tight(&mut self, part: Option<&Field<'_>>, computed: &[(&'static str, Interval)]) {
+        let Some(Ok(mut fields)) = part.map(Field::fields) else { return };
+        for (name, mine) in computed {
             let Some(field) = fields.optional(name) else { continue };
-            self.note(&field.pointer, compare::tight(&field, &mine));
+            self.note(&field.pointer, compare::tight(&field, mine));
         }
     }
 

@@ -8,6 +8,7 @@ mod at_samples;
 mod at_samples_certificate;
 mod claim;
 mod common;
+mod control;
 mod coq;
 mod coq_plants;
 mod coq_support;

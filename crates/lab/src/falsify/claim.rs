@@ -1,6 +1,6 @@
 //! What a certificate claims, as a simulation can check it.
 
-use super::frame::OwnPlant;
+use super::frame::{ABOVE, OwnPlant};
 use super::joint::JointFunction;
 use super::sampled_claim::SampledClaim;
 use rug::Rational;
@@ -27,6 +27,8 @@ pub struct TriedClaim {
     pub periodic: [f64; 3],
     /// The bound of sup|z|_N along the periodic solution.
     pub periodic_z: f64,
+    /// Bounds of |u| along it, and of what u differs by on the way, at the gain of the claim.
+    pub control: Option<[f64; 2]>,
     /// D_x, D_e: the error box.
     pub error_box: [f64; 2],
     /// w_x P_low, w_x P_up and h of the Lyapunov function w_x x'P_x x + e^2 + h z'N z in error coordinates, where the
@@ -52,7 +54,7 @@ impl TriedClaim {
     /// # Errors
     /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<TriedClaim, SpecErrors> {
-        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], plant } = read_claim(document)?;
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], control, plant } = read_claim(document)?;
         let own = plant.zip(spec.plant()).and_then(|(plant, proved)| OwnPlant::new(plant, proved));
         let data = Data::new(&spec, DEFAULT_PRECISION);
         let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
@@ -92,6 +94,7 @@ impl TriedClaim {
             initial,
             periodic,
             periodic_z,
+            control,
             error_box,
             lyapunov,
             joint,
@@ -116,6 +119,12 @@ impl TriedClaim {
         Some([rms.upper_f64(), sup.upper_f64()])
     }
 
+    /// The bounds of the control, which are for the gain of the claim alone.
+    #[must_use]
+    pub fn control_at(&self, sigma: f64) -> Option<[f64; 2]> {
+        self.control.filter(|_| sigma <= self.sigma * ABOVE)
+    }
+
     /// A claim about a specification that claims nothing, for tests of what is drawn.
     #[cfg(test)]
     pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> TriedClaim {
@@ -123,13 +132,14 @@ impl TriedClaim {
         let (drive, own) = (None, None);
         let initial = StartSizes { x0: 0.0, e0: 0.0, z0: Some(0.0) };
         let (periodic, error_box) = ([0.0; 3], [0.0; 2]);
-        let (periodic_z, lyapunov, joint, psi, sampled) = (0.0, None, None, None, None);
+        let (periodic_z, control, lyapunov, joint, psi, sampled) = (0.0, None, None, None, None, None);
         TriedClaim {
             spec,
             sigma: 1.0,
             initial,
             periodic,
             periodic_z,
+            control,
             error_box,
             lyapunov,
             joint,

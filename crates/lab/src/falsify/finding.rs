@@ -100,6 +100,10 @@ pub(super) const MULTIPLIER: &str = "largest Floquet multiplier";
 /// The quantity that is 1 at the start where P_low = P_up.
 pub(super) const LYAPUNOV: &str = "Lyapunov function on the way, against its start";
 
+/// The control along the periodic solution, and what it differs by on the way.
+pub(super) const STEADY_CONTROL: &str = "sup|u| of the periodic solution";
+pub(super) const CONTROL: &str = "|u - u_p| on the way, against its bound";
+
 /// The trial that came closest to a bound, of those in which every bound holds.
 #[derive(Clone, Copy, Debug)]
 pub struct Closest<'f> {

@@ -2,7 +2,7 @@
 
 use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
 use super::claim::TriedClaim;
-use super::finding::{Finding, LYAPUNOV, MULTIPLIER, Trial, TriedPlant};
+use super::finding::{CONTROL, Finding, LYAPUNOV, MULTIPLIER, STEADY_CONTROL, Trial, TriedPlant};
 use super::random::Random;
 use super::run::{self, Largest};
 use super::sampled_claim::SampledClaim;
@@ -61,10 +61,11 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
     check(claim, trial, &sampled)
 }
 
-/// A period of the loop: for each sampling interval zeta and z at its start, and the plant on it.
+/// A period of the loop: for each sampling interval zeta and z at its start, u and the plant on it.
 struct Interval {
     zeta: Vec<f64>,
     z: Vec<f64>,
+    u: f64,
     pieces: Vec<Piece>,
 }
 
@@ -81,7 +82,8 @@ fn period(
         let e = run.plant_state().last().copied().unwrap_or_default();
         let z = run.regulator_state().to_vec();
         let zeta = z.iter().zip(&m).map(|(z, m)| z - m * e).collect();
-        intervals.push(Interval { zeta, z, pieces: run.advance(each, tolerance)? });
+        let pieces = run.advance(each, tolerance)?;
+        intervals.push(Interval { zeta, z, u: run.put_out(), pieces });
     }
     Ok(intervals)
 }
@@ -162,6 +164,10 @@ fn check_orbit(
     checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
     checks.at_most("sup|zeta|_N of the periodic solution, at samples", zeta, claim.periodic[2]);
     checks.at_most("sup|z|_N of the periodic solution, at samples", z, claim.periodic_z);
+    if let Some([steady, _]) = claim.control {
+        let u = orbit.iter().fold(0.0_f64, |u, interval| u.max(interval.u.abs()));
+        checks.at_most(STEADY_CONTROL, u, steady);
+    }
 }
 
 /// The first periods from the initial condition: within the error box around the periodic solution all the time, and the
@@ -179,11 +185,12 @@ fn check_approach(
 ) -> Result<(), IntegrationFailure> {
     let n = sampled.states();
     let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) else { return Ok(()) };
-    let (mut away, mut level) = ([0.0_f64; 2], [0.0_f64; 2]);
+    let (mut away, mut level, mut control) = ([0.0_f64; 2], [0.0_f64; 2], 0.0_f64);
     let [low, up, eta] = claim.lyapunov.unwrap_or_default();
     for index in 0..PERIODS {
         let intervals = period(sampled, &mut run, Tolerance::ORDINARY)?;
         for (sample, (interval, of_orbit)) in intervals.iter().zip(orbit).enumerate() {
+            control = control.max((interval.u - of_orbit.u).abs());
             let difference: Vec<f64> = interval.zeta.iter().zip(&of_orbit.zeta).map(|(a, b)| a - b).collect();
             let zeta = eta * sampled.regulator.weighted_norm(&difference).portable_powi(2);
             for (piece, point) in interval.pieces.iter().zip(&of_orbit.pieces) {
@@ -206,6 +213,9 @@ fn check_approach(
     let [d_x, d_e] = claim.error_box;
     checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
     checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    if let Some([_, transient]) = claim.control {
+        checks.at_most(CONTROL, control, transient);
+    }
     checks.at_most(LYAPUNOV, level[1], level[0]);
     Ok(())
 }

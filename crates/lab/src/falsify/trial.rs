@@ -2,14 +2,16 @@
 
 use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
 use super::claim::TriedClaim;
-use super::finding::{Falsification, Finding, LYAPUNOV, MULTIPLIER, Trial, TrialSettings, TriedPlant};
+use super::finding::{
+    CONTROL, Falsification, Finding, LYAPUNOV, MULTIPLIER, STEADY_CONTROL, Trial, TrialSettings, TriedPlant,
+};
 use super::frame::{ABOVE, OwnPlant};
 use super::random::Random;
 use super::start::{boundary, drawn_plant, file, no_member, regulator};
 use super::{run, sampled_trial};
 use crate::simulate::{
-    ClosedLoop, IntegrationFailure, Orbit, SteadyState, SteadyStateError, Tolerance, flow, rms, steady_state, sup,
-    trajectory,
+    ClosedLoop, Disturbance, IntegrationFailure, Orbit, SteadyState, SteadyStateError, Tolerance, flow, rms,
+    steady_state, sup, trajectory,
 };
 use rayon::prelude::*;
 use sigmastar_document::progress::{Progress, Silent};
@@ -160,6 +162,10 @@ fn check_orbit(
     checks.at_most("sup|zeta|_N of the periodic solution", zeta, claim.periodic[2]);
     let z = largest(&|y| closed_loop.regulator.weighted_norm(&y[n + 1..]));
     checks.at_most("sup|z|_N of the periodic solution", z, claim.periodic_z);
+    if let Some([steady, _]) = claim.control_at(trial.sigma) {
+        let u = largest(&|y| closed_loop.control(y, Disturbance::default()).abs());
+        checks.at_most(STEADY_CONTROL, u, steady * ABOVE);
+    }
     if let Some(psi) = claim.psi {
         checks.at_most("sup|e| against psi_1/sigma", e, psi[0] / trial.sigma);
         checks.at_most("sup|x| against psi_x/sigma", x, psi[1] / trial.sigma);
@@ -184,7 +190,7 @@ fn check_approach(
 ) -> Result<(), IntegrationFailure> {
     let n = closed_loop.states();
     let m = closed_loop.regulator.m();
-    let (mut y, mut away, mut level) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2]);
+    let (mut y, mut away, mut level, mut control) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2], 0.0_f64);
     let period = closed_loop.period;
     for index in 0..PERIODS {
         let t = index as f64 * period;
@@ -194,6 +200,8 @@ fn check_approach(
             let own = |own: &OwnPlant| own.norm(&difference[..n]);
             let (x, e) = (claim.own.as_ref().map_or_else(|| norm(&difference[..n]), own), difference[n]);
             away = [away[0].max(x), away[1].max(e.abs())];
+            // u is linear in (e, z).
+            control = control.max(closed_loop.control(&difference, Disturbance::default()).abs());
             let zeta: Vec<f64> = difference[n + 1..].iter().zip(&m).map(|(z, m)| z - m * e).collect();
             let zeta = closed_loop.regulator.weighted_norm(&zeta);
             if let Some((joint, own)) = claim.joint.as_ref().zip(claim.own.as_ref()) {
@@ -216,6 +224,9 @@ fn check_approach(
     let [d_x, d_e] = claim.error_box;
     checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
     checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    if let Some([_, transient]) = claim.control_at(trial.sigma) {
+        checks.at_most(CONTROL, control, transient * ABOVE);
+    }
     if claim.lyapunov.is_some() || claim.joint.is_some() {
         checks.at_most(LYAPUNOV, level[1], level[0]);
     }

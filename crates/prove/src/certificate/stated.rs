@@ -19,6 +19,9 @@ pub struct StatedClaim {
     pub witness: FreeNumbers,
     /// The stated bounds of sup|x|, sup|e|, sup|zeta|_N and sup|z|_N along the periodic solution; infinite where there is none.
     pub periodic: [f64; 4],
+    /// The stated bounds of |u| along it and of what it differs by from the initial set, at the gain of the claim; older certificates have
+    /// none.
+    pub control: Option<[f64; 2]>,
     /// The plant, where the certificate is of one.
     pub plant: Option<Plant>,
 }
@@ -49,8 +52,8 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
                 return refused(place.error(ErrorKind::Range, message));
             }
         };
-        let periodic = stated_periodic(document)?;
-        return Ok(StatedClaim { spec, witness, periodic, plant: Some(plant) });
+        let (periodic, control) = (stated_periodic(document)?, stated_control(document)?);
+        return Ok(StatedClaim { spec, witness, periodic, control, plant: Some(plant) });
     }
     let Some(embedded) = document.at("/specification") else {
         return refused(root.error(ErrorKind::MissingField, "the field `specification` is missing"));
@@ -67,24 +70,33 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
             None => {}
         }
     }
-    let periodic = stated_periodic(document)?;
-    Ok(StatedClaim { spec, witness, periodic, plant: None })
+    let (periodic, control) = (stated_periodic(document)?, stated_control(document)?);
+    Ok(StatedClaim { spec, witness, periodic, control, plant: None })
 }
 
 /// The stated bounds of the periodic solution.
 fn stated_periodic(document: &Document) -> Result<[f64; 4], SpecErrors> {
+    stated(document, "periodic_solution", ["x", "e", "zeta", "z"])
+}
+
+/// Those of the control, where there are any.
+fn stated_control(document: &Document) -> Result<Option<[f64; 2]>, SpecErrors> {
+    document.at("/claim/control").map(|_| stated(document, "control", ["steady", "transient"])).transpose()
+}
+
+fn stated<const N: usize>(document: &Document, part: &str, names: [&str; N]) -> Result<[f64; N], SpecErrors> {
     let root = document.root();
     let mut errors = Errors::new();
-    let stated = ["x", "e", "zeta", "z"].map(|name| match document.at(&format!("/claim/periodic_solution/{name}")) {
+    let found = names.map(|name| match document.at(&format!("/claim/{part}/{name}")) {
         Some(value) => bound(&value, &mut errors),
         None => {
-            let message = format!("the bound `periodic_solution.{name}` is missing");
+            let message = format!("the bound `{part}.{name}` is missing");
             Err(errors.report(root.error(ErrorKind::MissingField, message)))
         }
     });
-    let [x, e, zeta, z] = stated;
-    let stated = x.and_then(|x| Ok([x, e?, zeta?, z?]));
-    errors.conclude(document, stated)
+    let reported = found.iter().find_map(|bound| bound.as_ref().err().copied());
+    errors.conclude(document, reported.map_or(Ok(()), Err))?;
+    Ok(found.map(|bound| bound.unwrap_or(f64::INFINITY)))
 }
 
 /// An upper end of the claim; `inf` where there is none.

@@ -99,3 +99,85 @@ where
     let sigma = number(sigma);
     (start * (sigma.sqr() / e_low + R::int(2) * (mu * n_bar.sqr()) / k_p)).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::Data;
+    use crate::derivation::sampled::SampledLaw;
+    use crate::derivation::sampled::examples::{example, law};
+    use num_complex::Complex;
+    use sigmastar_exact::enclosure::Enclosure;
+    use std::f64::consts::{PI, TAU};
+
+    /// Numbers in [-1, 1) that are the same in every run.
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 40) as f64 / 2f64.powi(23) - 1.0
+        }
+
+        fn exponential(&mut self, largest: f64) -> f64 {
+            (self.next() * largest.ln()).exp()
+        }
+    }
+
+    /// c_l for |l| <= n_o, with weights (1 + l)^-2.
+    fn poles(n_o: i32) -> impl Iterator<Item = (i32, f64)> {
+        (-n_o..=n_o).map(|l| (l, if l == 0 { 1.0 } else { 0.5 / f64::from(1 + l.abs()).powi(2) }))
+    }
+
+    /// |u_j|/|q_j| by the equations of the loop: y + mu G y = q, e = y/(i om + sigma), u = -sigma e + y - q.
+    #[test]
+    fn harmonics_in_continuous_time() {
+        let (mut random, mut worst) = (Random(5), 0.0_f64);
+        let i = Complex::<f64>::i();
+        for _ in 0..40_000 {
+            let (sigma, mu, om) = (random.exponential(1e3), random.exponential(1e3), random.exponential(30.0));
+            let n_o = (random.next().abs() * 4.0) as i32;
+            let g: Complex<f64> = poles(n_o).map(|(l, c)| c / (i * (om - f64::from(l)))).sum();
+            let y = 1.0 / (1.0 + mu * g);
+            let e = y / (i * om + sigma);
+            worst = worst.max((y - 1.0 - sigma * e).norm());
+        }
+        let spec = example(2, "1", |_| ());
+        let data = Data::new(&spec, 128);
+        let Answer { harmonic, by_rate } = Answer::continuous(&data);
+        let [factor, by_rate, period] = [&harmonic, &by_rate, &data.period].map(Enclosure::midpoint_f64);
+        assert!((by_rate - factor * period / 12f64.sqrt()).abs() < 1e-12);
+        assert!(worst <= factor * (1.0 + 1e-9) && worst > 0.995 * factor, "{worst} {factor}");
+    }
+
+    /// The same at samples, for every load K h Nb2 and every h sigma: (12.1).
+    #[test]
+    fn harmonics_at_samples() {
+        let (mut random, mut worst) = (Random(7), [0.0_f64; 2]);
+        let spec = example(2, "1", |_| ());
+        let known = law(&Data::new(&spec, 128)).to_f64();
+        for trial in 0..40_000 {
+            let n_o = (random.next().abs() * 4.0) as i32;
+            let sum: f64 = poles(n_o).map(|(_, c)| c).sum();
+            let load = 1.9 * random.next().abs();
+            let product = random.next().abs();
+            let samples = 2 * n_o + 2 + (random.next().abs() * 30.0) as i32;
+            // A harmonic that the oscillators leave, or any real frequency.
+            let phi = if trial % 2 == 0 { TAU * f64::from(n_o + 1) / f64::from(samples) } else { PI * random.next() };
+            let point = |angle: f64| Complex::from_polar(1.0, angle);
+            let angle = |l: i32| phi - TAU * f64::from(l) / f64::from(samples);
+            let h: Complex<f64> = poles(n_o).map(|(l, c)| c / sum / (point(angle(l)) - 1.0)).sum();
+            let y = 1.0 / (1.0 + load * h);
+            let found = (y * (point(phi) - 1.0) / (point(phi) - (1.0 - product)) - 1.0).norm();
+            let g = 2.0 / ((2.0 - product) * (1.0 - load / 2.0));
+            let of = SampledLaw { step: 1.0, enlarged: 1.0 / (1.0 - load / 2.0), ..known.clone() };
+            let Answer { harmonic: factor, by_rate } = of.answer(&product, &f64::from(samples));
+            let sum: f64 = (1..samples).map(|j| (2.0 * (PI * f64::from(j) / f64::from(samples)).sin()).powi(-2)).sum();
+            assert!((by_rate / (factor * sum.sqrt()) - 1.0).abs() < 1e-9);
+            assert!(found <= factor * (1.0 + 1e-6), "{n_o} {load} {product} {phi}: {found} {factor}");
+            let branch = usize::from(g > 3.0);
+            worst[branch] = worst[branch].max(found / factor);
+        }
+        assert!(worst.iter().all(|share| *share > 0.97), "{worst:?}");
+    }
+}

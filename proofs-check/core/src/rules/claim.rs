@@ -30,7 +30,7 @@ pub struct Claim<'a> {
     /// Bounds of the periodic solution.
     pub periodic: Field<'a>,
     /// Bounds of the control, where they are claimed.
-    control: Option<Field<'a>>,
+    pub control: Option<Field<'a>>,
     /// The claim in words.
     pub statement: Field<'a>,
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.

@@ -3,8 +3,6 @@
 //! Guarantee: |u| of the periodic solution is at most `steady` for every n_o, and every solution from the claimed set has
 //! |u - u_per| <= `transient` at all times.
 
-use super::mean_squares::Bounds;
-use super::sampled::law::Law;
 use crate::data::Data;
 use crate::interval::Interval;
 
@@ -14,8 +12,8 @@ pub const NAMES: [&str; 2] = ["steady", "transient"];
 /// `|u_j| <= factor |q_j|` for the harmonics of q but for the mean, which u answers by its opposite; `by_rate` bounds the sum of all
 /// of these |u_j| over the root mean square of q'.
 pub struct Answer {
-    factor: Interval,
-    by_rate: Interval,
+    pub factor: Interval,
+    pub by_rate: Interval,
 }
 
 impl Answer {
@@ -24,25 +22,23 @@ impl Answer {
         Answer { factor: 2 / d.int(3).sqrt(), by_rate: &d.period / 3 }
     }
 
-    /// With g = 2 (1 + theta)/(2 - h sigma): `2/sqrt(4 - g)` for g <= 3, `g - 1` for g >= 3, both at most 2 + (g - 3)_+ near there;
-    /// `sum 1/om_j^2 = (T^2 - h^2)/12` over the samples.
-    pub fn sampled(law: &Law<'_>) -> Answer {
-        let g = &law.growth * 2 / (2 - &law.share);
-        let below = 3 - &g;
-        let factor = if below.is_nonnegative() { 2 / (4 - &g).sqrt() } else { (g - 1).max(&law.d.int(2)) };
-        let by_rate = &factor * ((law.d.period.sqr() - law.h.sqr()) / 12).sqrt();
-        Answer { factor, by_rate }
-    }
-
     /// The least of what the harmonics of q say, with its root mean squares and with `q_0`, and of what the sizes of e and zeta do:
     /// u = -sigma e + mu M'N zeta.
-    pub fn steady(&self, bounds: &Bounds<'_>, r: &[Interval; 3], by_parts: &Interval) -> Interval {
-        let [[r_q, r_1], [d_0, d_1]] = bounds.inputs(r);
-        let plain = |mean: &Interval| (mean + &self.by_rate * &r_1).least(by_parts);
-        let Some([mean, others, rest, rest_t]) = bounds.harmonics() else { return plain(&r_q) };
+    pub fn steady(&self, along: &Along, by_parts: &Interval) -> Interval {
+        let [[r_q, r_1], [d_0, d_1]] = &along.inputs;
+        let plain = |mean: &Interval| (mean + &self.by_rate * r_1).least(by_parts);
+        let Some([mean, others, rest, rest_t]) = &along.harmonics else { return plain(r_q) };
         let mean = r_q.least(&(mean + rest + d_0));
         plain(&mean).least(&(&mean + &self.factor * others + &self.by_rate * (rest_t + d_1)))
     }
+}
+
+/// What is known of q along the periodic solution.
+pub struct Along {
+    /// R_q, R_1; d_0, d_1.
+    pub inputs: [[Interval; 2]; 2],
+    /// C_0, 2 sum_{k>=1} C_k, r_0 and r_1, where `q_0` is given.
+    pub harmonics: Option<[Interval; 4]>,
 }
 
 /// `sigma e_per + mu Nbar Z`.

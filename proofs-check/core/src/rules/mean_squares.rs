@@ -10,7 +10,7 @@
 //! nonnegative, sums and minima), so G(l r') <= l G(r') for l >= 1. If l = max rho_i/r'_i > 1, then rho <= G(rho) <= G(l r') <=
 //! l G(r') < l r' in every place, against the choice of l. Strictness matters.
 
-use super::control;
+use super::control::{self, Along};
 use super::existence::Existence;
 use super::gains::{beta_s, bt, damped, tau};
 use super::metric::Answer;
@@ -231,11 +231,12 @@ impl<'a> Bounds<'a> {
         self.forced.as_ref().map_or_else(none, |forced| forced.with_mean(self.d, self.d.int(0)))
     }
 
-    /// C_0, 2 sum_{k>=1} C_k, r_0 and r_1, where `q_0` is given.
-    pub(super) fn harmonics(&self) -> Option<[Interval; 4]> {
-        self.forced.as_ref().map(|Forced { harmonics, rest: [rest, rest_t], .. }| {
+    /// What is known of q along a solution with these root mean squares.
+    pub(super) fn along(&self, r: &[Interval; 3]) -> Along {
+        let harmonics = self.forced.as_ref().map(|Forced { harmonics, rest: [rest, rest_t], .. }| {
             [harmonics[0].clone(), twice_sum(self.d, harmonics, |_, c| c.clone()), rest.clone(), rest_t.clone()]
-        })
+        });
+        Along { inputs: self.inputs(r), harmonics }
     }
 
     /// x_per, from e_per and rms(e). Where S1 fails X_p stands for what is not defined.
@@ -402,7 +403,7 @@ pub fn evaluate(
     let z_squared = bounds.z_squared(&follows, pair, kappa);
     let sigma = d.number(sigma);
     let by_parts = control::by_parts(d, [&sigma, &d.mu], [&e, &z_squared.sqrt()]);
-    let steady = control::Answer::continuous(d).steady(&bounds, &last, &by_parts);
+    let steady = control::Answer::continuous(d).steady(&bounds.along(&last), &by_parts);
     let shown = (bounds.rate, last);
     Solution { steady, x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, shown, conditions }
 }

@@ -7,7 +7,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 
 /// The paper's example, T = 1, at so many samples with this mu, and with other changes.
-pub(super) fn example(samples: u32, mu: &str, change: impl FnOnce(&mut Value)) -> Specification {
+pub(in crate::derivation) fn example(samples: u32, mu: &str, change: impl FnOnce(&mut Value)) -> Specification {
     let mut document: Value = serde_json::from_str(include_str!("../../../../../specs/paper-example.json")).unwrap();
     document["internal_model"]["mu"] = mu.into();
     document["internal_model"]["sampling_period"] = format!("1/{samples}").into();
@@ -16,7 +16,7 @@ pub(super) fn example(samples: u32, mu: &str, change: impl FnOnce(&mut Value)) -
 }
 
 /// The law of such a specification.
-pub(super) fn law(data: &Data<'_>) -> SampledLaw<Enclosure> {
+pub(in crate::derivation) fn law(data: &Data<'_>) -> SampledLaw<Enclosure> {
     let model = &data.spec.internal_model;
     let sampling = model.sampling.clone().unwrap();
     let gain = model.sampled_gain(&sampling.step).unwrap();

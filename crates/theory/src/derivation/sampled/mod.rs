@@ -5,7 +5,7 @@
 
 pub mod energy;
 #[cfg(test)]
-mod examples;
+pub(super) mod examples;
 mod gains;
 mod law;
 mod matrix_inequality;

@@ -79,6 +79,6 @@ pub fn evaluate(
     let mean = (&d.period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();
     let z = &law.growth * mean.sqrt();
     let by_parts = control::by_parts(d, [&law.sigma, &law.gain], [&e, &z]);
-    let steady = control::Answer::sampled(law).steady(&bounds, &r, &by_parts);
+    let steady = law.answer().steady(&bounds.along(&r), &by_parts);
     Solution { x: bounds.sup_x(&e, r_e), z, steady, e, conditions }
 }

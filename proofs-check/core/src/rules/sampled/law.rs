@@ -6,6 +6,7 @@
 
 use crate::data::Data;
 use crate::interval::Interval;
+use crate::rules::control::Answer;
 use crate::verdict::{Condition, Outcome, Verdict, demand, finding};
 use rug::Rational;
 
@@ -76,6 +77,16 @@ impl<'a> Law<'a> {
             growth,
             weight_sum,
         }
+    }
+
+    /// How the control answers the means of q. With g = 2 (1 + theta)/(2 - h sigma): `2/sqrt(4 - g)` for g <= 3, `g - 1` for g >= 3, both at most 2 + (g - 3)_+ near there;
+    /// `sum 1/om_j^2 = (T^2 - h^2)/12` over the samples.
+    pub fn answer(&self) -> Answer {
+        let g = &self.growth * 2 / (2 - &self.share);
+        let below = 3 - &g;
+        let factor = if below.is_nonnegative() { 2 / (4 - &g).sqrt() } else { (g - 1).max(&self.d.int(2)) };
+        let by_rate = &factor * ((self.d.period.sqr() - self.h.sqr()) / 12).sqrt();
+        Answer { factor, by_rate }
     }
 
     /// S0, all of it decided here: what follows is not even defined without it.
