@@ -3,6 +3,7 @@
 use crate::bound::Bound;
 use crate::interval::Interval;
 use crate::plant::entries::Name;
+use crate::rules::input_gain::Gain;
 use crate::spec::Specification;
 use rug::Rational;
 
@@ -20,8 +21,10 @@ pub struct Data<'s> {
     pub c: Interval,
     /// c and alpha of the triple that serves for existence: the second one, if there is one.
     pub existence: [Interval; 2],
-    /// nu = mu/w.
+    /// nu = mu/w; with a gain b_lo mu/w, for T_N decreases in nu.
     pub nu: Interval,
+    /// The gain, where b is not 1.
+    pub gain: Option<Gain>,
     pub n_0: Interval,
     pub n_1: Interval,
     pub n_bar: Interval,
@@ -40,12 +43,14 @@ impl<'s> Data<'s> {
             Some((_, [p_low, p_up, alpha])) => [root(&number(p_low), &number(p_up)), number(alpha)],
             None => [c.clone(), alpha.clone()],
         };
+        let (gain, nu) = (Gain::new(spec, precision), &mu / &w);
         Data {
             period: number(&spec.period),
             alpha,
             c,
             existence,
-            nu: &mu / &w,
+            nu: gain.as_ref().map_or_else(|| nu.clone(), |gain| &gain.low * &nu),
+            gain,
             n_0: spec.weights.weight(0, precision),
             n_1: spec.weights.weight(1, precision),
             n_bar: spec.weights.total(precision).sqrt(),

@@ -8,6 +8,7 @@ use crate::bound::{BOUND_NAMES, BOUNDS, REQUIRED};
 use crate::constant::{Constant, Number, PRECISIONS, expression};
 use crate::exact::Exact;
 use crate::expr::{ARGUMENTS, Expr};
+use crate::input_gain::InputGain;
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
 use crate::json::{Field, Fields, Json};
@@ -89,6 +90,8 @@ pub struct Specification {
     pub q_0: Option<Forcing>,
     pub domain: Option<[Constant; 2]>,
     pub initial_set: AskedSet,
+    /// The gain of the actuator signal, where it need not be 1.
+    pub input_gain: Option<InputGain>,
     /// Where the specification is a plant's formulas: what is known of them.
     pub plant: Option<Box<OfPlant>>,
 }
@@ -186,6 +189,7 @@ impl Specification {
             InternalModel::read(&file.required("internal_model")?, &period)?;
 
         let (initial_set, _) = read_set(&file.required("initial_set")?, false)?;
+        let input_gain = InputGain::read(&mut file)?;
         file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
         file.finish()?;
         let domain = domain.transpose()?;
@@ -206,6 +210,7 @@ impl Specification {
             q_0,
             domain,
             initial_set,
+            input_gain,
             plant: None,
         })
     }

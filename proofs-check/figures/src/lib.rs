@@ -200,6 +200,11 @@ impl Attempt<'_> {
     /// The repaired derivation, if it is given and proved.
     fn repaired(&mut self) -> Option<(repaired::Witness, repaired::Repaired)> {
         let field = self.parts.comparison.as_ref()?;
+        if self.d.gain.is_some() {
+            let message = "the repaired derivation says nothing with `input_gain`";
+            self.note(&field.pointer, Err(finding(Verdict::Invalid, compare::RULE, &field.pointer, message)));
+            return None;
+        }
         let outcome = comparison(field, self.d).and_then(|w| repaired::prove(self.d, &w).map(|proved| (w, proved)));
         let (found, outcome) = match outcome {
             Ok(pair) => (Some(pair), Ok(())),

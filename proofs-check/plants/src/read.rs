@@ -4,6 +4,7 @@
 use super::time::Wave;
 use proofs_core::constant::{Constant, expression};
 use proofs_core::expr::Expr;
+use proofs_core::input_gain::InputGain;
 use proofs_core::jacobian;
 use proofs_core::json::{Field, Fields};
 use proofs_core::plant::OfPlant;
@@ -99,6 +100,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         fields.finish().map(|()| ends)
     });
     let domain = domain.transpose()?;
+    let input_gain = InputGain::read(&mut file)?;
     let model = spec::InternalModel::read(&file.required("internal_model")?, &period)?;
     file.finish()?;
 
@@ -138,6 +140,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         q_0: Some(q_0),
         domain: None,
         initial_set,
+        input_gain,
         plant: Some(Box::new(known.clone())),
     };
     Ok((specification, Plant { f, q, orbit, lyapunov, forcing, known }))

@@ -263,7 +263,7 @@ fn stability() {
             let (w_x, h) = (2.0, n as f64 / q as f64);
             let (ht, k_x, k_f) = (h / 0.5, 0.3 + 0.5 * x_b + 0.7 * e_q, 0.2 + x_f + 2.0 * e_b);
             let size = f64::max((1.0 + ht * m).abs(), (1.0 - ht * k_l).abs());
-            let [coupling, curvature, threshold] = error_box.decay(&d, &d.int(2), &d.ratio(n, q));
+            let [coupling, curvature, threshold] = error_box.decay(&d, [&d.int(2), &d.ratio(n, q)], &d.int(1));
             close("ht k_x^2", &coupling, ht * k_x * k_x);
             close("4A", &curvature, 4.0 * w_x * a_2);
             if 4.0 * w_x * a_2 > ht * k_x * k_x {

@@ -12,6 +12,7 @@
 
 use super::existence::Existence;
 use super::gains::{beta_s, bt, damped, tau};
+use super::input_gain::Gain;
 use super::metric::Answer;
 use super::stability::one_sided;
 use crate::bound::Bound;
@@ -85,11 +86,14 @@ pub struct Bounds<'a> {
     pub(super) x_gain: Interval,
     /// K2(a_1) b_fe: sup|x| over rms(e).
     from_rms: Interval,
+    /// bt and tau, with a gain over b_m.
     bt: Interval,
     tau: Interval,
-    /// Om, and sg = sqrt(sigma^2 + Om^2).
+    /// Om, and sg = sqrt(sigma^2 + Om^2), with a gain times b_m.
     om: Interval,
     sg: Interval,
+    /// bt and sg themselves: they serve y, whatever the gain is.
+    of_y: [Interval; 2],
 }
 
 /// What `q_0` gives at sigma: of the response to the harmonics, and of the rest.
@@ -140,9 +144,10 @@ impl Forced {
     fn new(d: &Data<'_>, sigma: &Interval, given: &Forcing) -> Forced {
         let (harmonics, rest) = forcing(d, given);
         let gain = |k: i64| sigma.sqr() + (d.frequency() * k).sqr();
+        let over = |value: Interval| d.gain.as_ref().map_or_else(|| value.clone(), |gain| &value / gain.of_error());
         Forced {
-            sup_e: twice_sum(d, &harmonics, |k, c| c / gain(k).sqrt()),
-            rms_e: twice_sum(d, &harmonics, |k, c| c.sqr() / gain(k)).sqrt(),
+            sup_e: over(twice_sum(d, &harmonics, |k, c| c / gain(k).sqrt())),
+            rms_e: over(twice_sum(d, &harmonics, |k, c| c.sqr() / gain(k)).sqrt()),
             rate: derivative(d, &harmonics),
             harmonics,
             rest,
@@ -173,6 +178,9 @@ impl<'a> Bounds<'a> {
         let start = d.bound(Bound::QRms, &zero, &zero);
         let bends = d.given(Bound::Qtx, x_p, e_p).zip(d.given(Bound::Qte, x_p, e_p));
         let om = d.frequency();
+        let of_y = [bt(d, sigma), (sigma.sqr() + om.sqr()).sqrt()];
+        let over = |value: Interval| d.gain.as_ref().map_or_else(|| value.clone(), |gain| &value / gain.of_error());
+        let sg = d.gain.as_ref().map_or_else(|| of_y[1].clone(), |gain| &of_y[1] * gain.of_error());
         Bounds {
             f_x: d.given(Bound::Fx, x_p, &zero).map_or(secant.clone(), |f_x| f_x.least(&secant)),
             f_e: at(Bound::Fe),
@@ -188,9 +196,10 @@ impl<'a> Bounds<'a> {
             rate: a_1,
             x_p: x_p.clone(),
             e_p: e_p.clone(),
-            bt: bt(d, sigma),
-            tau: tau(d, sigma),
-            sg: (sigma.sqr() + om.sqr()).sqrt(),
+            bt: over(of_y[0].clone()),
+            tau: over(tau(d, sigma)),
+            of_y,
+            sg,
             om,
             d,
         }
@@ -264,10 +273,12 @@ impl<'a> Bounds<'a> {
             sup_e = sup_e.least(&(&f.sup_e + sup(&f.rest[0], &f.rest[1]) + sup(&d_0, &d_1)));
             rms_e = rms_e.least(&(&f.rms_e + rms(&f.rest[0], &f.rest[1]) + rms(&d_0, &d_1)));
         }
-        let mut rms_e_t = r_q.least(&(&r_1 / &self.sg));
+        let slope = self.d.gain.as_ref().map_or_else(|| r_q.clone(), |gain| gain.of_slope() * &r_q);
+        let mut rms_e_t = slope.least(&(&r_1 / &self.sg));
         if let Some(answer) = answer {
-            sup_e = sup_e.least(&(&self.bt * &answer.rms_y));
-            rms_e = rms_e.least(&(&answer.rms_y / &self.sg)).least(&answer.rms_e);
+            let [bt, sg] = &self.of_y;
+            sup_e = sup_e.least(&(bt * &answer.rms_y));
+            rms_e = rms_e.least(&(&answer.rms_y / sg)).least(&answer.rms_e);
             rms_e_t = rms_e_t.least(&answer.rms_y);
         }
         Follows { sup_e, rms_e, rms_e_t, rates: [r_q, r_1], apart: [d_0, d_1] }
@@ -315,17 +326,25 @@ impl<'a> Bounds<'a> {
         [rms_x, rms_e, rms_e_t]
     }
 
-    /// Section 10.4 at (r_x, r_e): rms(e) <= g_k Rt and rms(e') <= Rt + kap r_e, with Rt = Q_0 + b_qx r_x + rho r_e.
+    /// Section 10.4 at (r_x, r_e): rms(e) <= g_k Rt and rms(e') <= Rt + kap r_e, with Rt = Q_0 + b_qx r_x + rho r_e; with a gain
+    /// rms(e') <= d_b Rt, for `|om| sqrt(sigma^2 + om^2)/(beta sigma + om^2)` with `beta = b sigma + kap` is no larger than with kap = 0.
     fn damped(&self, [r_x, r_e, _]: &[Interval; 3], [gain, kap, rho]: &[Interval; 3]) -> [Interval; 2] {
         let input = &self.start + &self.q_x * r_x + rho * r_e;
-        [gain * &input, input + kap * r_e]
+        let slope = match &self.d.gain {
+            Some(gain) => gain.of_slope() * &input,
+            None => &input + kap * r_e,
+        };
+        [gain * &input, slope]
     }
 
-    /// Z^2, the least of `(T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2` and the form of `q_0`.
+    /// Z^2, the least of `(T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2` and the form of `q_0`; with a gain the part of T is over `b_lo^3`, and
+    /// what the transfer bound gives is over c_m.
     fn z_squared(&self, follows: &Follows, pair: [&Interval; 2], kappa: &[Interval; 2]) -> Interval {
         let d = self.d;
-        let mean = |[q, q_t]: &[Interval; 2]| &kappa[0] * q.sqr() + &kappa[1] * q_t.sqr();
+        let of_answer = d.gain.as_ref().map_or_else(|| d.int(1), Gain::of_answer);
+        let mean = |[q, q_t]: &[Interval; 2]| (&kappa[0] * q.sqr() + &kappa[1] * q_t.sqr()) / of_answer.sqr();
         let swing = &d.period * follows.rates[0].sqr() / (&d.mu * 2);
+        let swing = d.gain.as_ref().map_or_else(|| swing.clone(), |gain| &swing / gain.of_swing());
         let plain = &swing + mean(&follows.rates);
         let Some(forced) = &self.forced else { return plain };
         // Bounds of sup_N T_N(k Om/w).
@@ -337,7 +356,7 @@ impl<'a> Bounds<'a> {
         };
         let mean_part = &inverse / &d.n_0 * forced.harmonics[0].sqr();
         let harmonics = mean_part + twice_sum(d, &forced.harmonics, |k, c| transfer(k) * c.sqr());
-        let z = harmonics.sqrt() / &d.w + mean(&forced.rest).sqrt() + mean(&follows.apart).sqrt();
+        let z = harmonics.sqrt() / &d.w / &of_answer + mean(&forced.rest).sqrt() + mean(&follows.apart).sqrt();
         plain.least(&(swing + z.sqr()))
     }
 }
