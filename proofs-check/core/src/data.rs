@@ -1,9 +1,9 @@
 //! The data of a specification, enclosed at one working precision (docs/mathematics.md, section 1).
 
 use crate::bound::Bound;
+use crate::gain::Gain;
 use crate::interval::Interval;
 use crate::plant::entries::Name;
-use crate::rules::input_gain::Gain;
 use crate::spec::Specification;
 use rug::Rational;
 
@@ -43,7 +43,7 @@ impl<'s> Data<'s> {
             Some((_, [p_low, p_up, alpha])) => [root(&number(p_low), &number(p_up)), number(alpha)],
             None => [c.clone(), alpha.clone()],
         };
-        let (gain, nu) = (Gain::new(spec, precision), &mu / &w);
+        let (gain, nu) = (Gain::new(spec.input_gain.as_ref(), precision), &mu / &w);
         Data {
             period: number(&spec.period),
             alpha,

@@ -5,10 +5,9 @@
 //!
 //! Guarantee: `0 < low <= nominal <= high`, so `0 < b_lo <= 1 <= b_hi`.
 
-use crate::constant::{Constant, Number};
+use crate::constant::{Constant, Number, positive};
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
-use crate::spec::positive;
 use crate::verdict::{Outcome, demand, invalid};
 use rug::Rational;
 

@@ -5,7 +5,7 @@
 //! where period / sampling_period is a whole number >= 2 exactly.
 
 use crate::bound::{BOUND_NAMES, BOUNDS, REQUIRED};
-use crate::constant::{Constant, Number, PRECISIONS, expression};
+use crate::constant::{Constant, Number, PRECISIONS, RULE, expression, positive};
 use crate::exact::Exact;
 use crate::expr::{ARGUMENTS, Expr};
 use crate::input_gain::InputGain;
@@ -16,8 +16,6 @@ use crate::plant::OfPlant;
 use crate::verdict::{Outcome, bad, demand};
 use crate::weights::Weights;
 use rug::{Integer, Rational};
-
-const RULE: &str = "specification";
 
 /// q(t,0,0) = sum over |k| <= K of c_k e^{i k Om t} + rest (docs/mathematics.md, section 10.1).
 #[derive(Clone, Debug)]
@@ -123,15 +121,6 @@ fn read_samples(fields: &mut Fields<'_>, period: &Constant, matched: bool) -> Ou
     let sampling = positive(fields, "sampling_period")?;
     demand(Some(matched), RULE, &pointer, "a sampling period needs `matched`")?;
     samples(period, &sampling, &pointer).map(Some)
-}
-
-/// Reads a constant that has to be positive.
-pub fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
-    let field = fields.required(name)?;
-    let constant = Constant::read(&field)?;
-    let truth = Number::rational(Rational::new()).lt(&constant.number());
-    demand(truth, RULE, &field.pointer, format!("{name} > 0"))?;
-    Ok(constant)
 }
 
 fn nonnegative(field: Field<'_>) -> Outcome<Constant> {

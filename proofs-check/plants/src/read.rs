@@ -2,7 +2,7 @@
 //! of a plant"): read and checked in form. What is proved of them is in the other files of this folder.
 
 use super::time::Wave;
-use proofs_core::constant::{Constant, expression};
+use proofs_core::constant::{Constant, expression, positive};
 use proofs_core::expr::Expr;
 use proofs_core::input_gain::InputGain;
 use proofs_core::jacobian;
@@ -78,7 +78,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     header(&mut file, "sigmastar/plant")?;
     file.required("name")?.text()?;
     file.optional("description").map(|field| field.text().map(drop)).transpose()?;
-    let period = spec::positive(&mut file, "period")?;
+    let period = positive(&mut file, "period")?;
     let names = states(&file.required("states")?)?;
     let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).collect();
     let formula =
@@ -96,7 +96,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     };
     let domain = file.optional("domain").map(|field| {
         let mut fields = field.fields()?;
-        let ends = [spec::positive(&mut fields, "x")?, spec::positive(&mut fields, "e")?];
+        let ends = [positive(&mut fields, "x")?, positive(&mut fields, "e")?];
         fields.finish().map(|()| ends)
     });
     let domain = domain.transpose()?;

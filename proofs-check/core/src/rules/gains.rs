@@ -56,7 +56,7 @@ fn scaled(d: &Data<'_>, sigma: &Interval, most: i64, square: impl Fn(&Interval) 
 }
 
 /// `g_k = 1/(sigma + kap)` if kap <= sigma, else `1/(2 sqrt(sigma kap))`: rms(e) over the input of the loop with -kap e
-/// (docs/mathematics.md, section 10.4). With a gain [`super::input_gain::Gain::damped`].
+/// (docs/mathematics.md, section 10.4). With a gain [`crate::gain::Gain::damped`].
 pub fn damped(d: &Data<'_>, sigma: &Rational, kap: &Rational) -> Interval {
     if let Some(gain) = &d.gain {
         gain.damped(&d.number(sigma), &d.number(kap))

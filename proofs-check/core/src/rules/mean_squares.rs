@@ -12,11 +12,11 @@
 
 use super::existence::Existence;
 use super::gains::{beta_s, bt, damped, tau};
-use super::input_gain::Gain;
 use super::metric::Answer;
 use super::stability::one_sided;
 use crate::bound::Bound;
 use crate::data::Data;
+use crate::gain::Gain;
 use crate::interval::Interval;
 use crate::json::Field;
 use crate::spec::Forcing;

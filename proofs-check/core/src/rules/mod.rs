@@ -6,7 +6,6 @@ pub mod derivation;
 pub mod existence;
 pub mod gains;
 pub mod inequality;
-pub mod input_gain;
 pub mod joint;
 pub mod mean_squares;
 pub mod metric;

@@ -6,8 +6,8 @@
 //! `|i om + b sigma + i Y (i om + sigma)|^2 = b^2 sigma^2 + om^2 + 2 (1-b) sigma om Y + (sigma^2 + om^2) Y^2`, of which the least over Y is
 //! `(b sigma^2 + om^2)^2/(sigma^2 + om^2)`. So `|e_j| <= |q_j| sqrt(sigma^2 + om^2)/(b sigma^2 + om^2)`, and `e_0 = 0`.
 
+use crate::input_gain::InputGain;
 use crate::interval::Interval;
-use crate::spec::Specification;
 
 /// b_lo and b_hi, which are not both 1.
 #[derive(Clone, Debug)]
@@ -17,10 +17,9 @@ pub struct Gain {
 }
 
 impl Gain {
-    /// That of a specification; none where b is 1.
-    pub fn new(spec: &Specification, precision: u32) -> Option<Gain> {
-        let gain = spec.input_gain.as_ref().filter(|gain| !gain.is_nominal())?;
-        let [low, high] = gain.factors(precision);
+    /// That of a file; none where b is 1.
+    pub fn new(given: Option<&InputGain>, precision: u32) -> Option<Gain> {
+        let [low, high] = given.filter(|given| !given.is_nominal())?.factors(precision);
         Some(Gain { low, high })
     }
 
