@@ -9,7 +9,6 @@ use crate::constant::{Constant, Number, positive};
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::verdict::{Outcome, demand, invalid};
-use rug::Rational;
 
 /// The name of the rule.
 pub const RULE: &str = "input gain";
@@ -51,7 +50,7 @@ impl InputGain {
     pub fn factors(&self, precision: u32) -> [Interval; 2] {
         let one = Interval::int(1, precision);
         let [low, high] = self.ends().map(|(_, end)| match end.rational().zip(self.nominal.rational()) {
-            Some((end, nominal)) => Interval::rational(&Rational::from(end / nominal), precision),
+            Some((end, nominal)) => Interval::rational(&(end / nominal), precision),
             None => end.enclose(precision) / self.nominal.enclose(precision),
         });
         [low.min(&one), high.max(&one)]
