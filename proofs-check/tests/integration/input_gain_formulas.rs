@@ -1,6 +1,6 @@
 //! What an input gain changes in the formulas, against what it is to bound; the questions about formulas against thresholds by hand.
 
-use super::common::{PAPER, certificate, drawn};
+use super::common::{BOXES, PAPER, certificate, drawn};
 use super::matrix_inequality::at_rest;
 use super::plant_support::Parts;
 use proofs_check::data::Data;
@@ -11,6 +11,7 @@ use proofs_check::rules::existence::Existence;
 use proofs_check::rules::inequality::Inequality;
 use proofs_check::rules::paths::{Path, Paths};
 use proofs_check::rules::stability::ErrorBox;
+use proofs_check::rules::transfer::{self, Proof};
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Condition, Verdict};
 use rug::Rational;
@@ -142,6 +143,37 @@ fn specification(ends: [f64; 2]) -> Specification {
 fn read<T>(part: &Value, read: impl Fn(&Field<'_>) -> T) -> T {
     let json = parse(part.to_string().as_bytes()).unwrap();
     read(&Field { json: &json, pointer: String::new() })
+}
+
+/// Whatever its proof is, the transfer bound is that of b_lo nu: the constants of the least gain, and no smaller ones.
+#[test]
+fn transfer_constants_of_the_least_gain() {
+    let check = |ends, pair: [f64; 2], proof: &Proof| {
+        let spec = specification(ends);
+        let [k0, k1] = pair.map(|value| Rational::from_f64(value).unwrap());
+        transfer::check(&Data::new(&spec, 256), &k0, &k1, proof, "/witness/transfer").is_ok()
+    };
+    let inverse = |low: f64| (2.0 * std::f64::consts::PI / (0.5 * low)).powi(2);
+    let tail = (std::f64::consts::PI.powi(2) - 4.0) / 2.0;
+    for ends in [[0.8, 1.25], [0.4, 1.0], [1.0, 1.5]] {
+        let inverse = inverse(ends[0]);
+        let closed = [tail + f64::max((inverse + 1.0) / 2.0, 6.0), 8.0 * (inverse + (4.0 + 1.0_f64 / 3.0).powi(2))];
+        for (proof, least) in
+            [(Proof::ClosedForm, closed), (Proof::Matched(3), [inverse / 2.0, 2.0 * inverse - inverse / 2.0])]
+        {
+            let scaled = |of_0: f64, of_1: f64| [least[0] * (1.0 + of_0), least[1] * (1.0 + of_1)];
+            assert!(check(ends, scaled(1e-9, 1e-9), &proof), "{ends:?} {proof:?}");
+            assert!(!check(ends, scaled(-1e-9, 1e-9), &proof), "{ends:?} {proof:?}");
+            assert!(!check(ends, scaled(1e-9, -1e-8), &proof), "{ends:?} {proof:?}");
+        }
+    }
+    let boxes = certificate(BOXES);
+    let witness = &boxes["witness"];
+    let proof = read(&witness["transfer"], Proof::read).unwrap();
+    // mu = 1 there, twice that of `specification`.
+    let pair = ["k0", "k1"].map(|name| decimal(witness[name].as_str().unwrap()).unwrap().to_f64());
+    let large = pair.map(|value| 4.0 * value);
+    assert!(check([1.0, 1.5], large, &proof) && !check([0.9, 1.0], large, &proof));
 }
 
 /// C5B and E4 say that a form of e and y is definite, or not negative, for every b.
