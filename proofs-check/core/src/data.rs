@@ -83,6 +83,11 @@ impl<'s> Data<'s> {
         Interval::pi(self.precision) * 2 / &self.period
     }
 
+    /// A bound of e by q or by q', with a gain over b_m.
+    pub fn of_error(&self, bound: Interval) -> Interval {
+        self.gain.as_ref().map_or_else(|| bound.clone(), |gain| &bound / gain.of_error())
+    }
+
     /// The positive part of a bounding function at (X, E), undefined if it is not given. A root mean square is at most the supremum, so b_q and b_qt serve
     /// for rms bounds that are not given, or are larger.
     pub fn bound(&self, which: Bound, x: &Interval, e: &Interval) -> Interval {

@@ -11,6 +11,7 @@
 //! l G(r') < l r' in every place, against the choice of l. Strictness matters.
 
 use super::existence::Existence;
+use super::forced::{Forced, twice_sum};
 use super::gains::{beta_s, bt, damped, tau};
 use super::metric::Answer;
 use super::stability::one_sided;
@@ -19,7 +20,6 @@ use crate::data::Data;
 use crate::gain::Gain;
 use crate::interval::Interval;
 use crate::json::Field;
-use crate::spec::Forcing;
 use crate::verdict::{Condition, Outcome};
 use rug::Rational;
 
@@ -96,18 +96,6 @@ pub struct Bounds<'a> {
     of_y: [Interval; 2],
 }
 
-/// What `q_0` gives at sigma: of the response to the harmonics, and of the rest.
-struct Forced {
-    /// C_0, C_1, ...
-    harmonics: Vec<Interval>,
-    sup_e: Interval,
-    rms_e: Interval,
-    /// rms of the derivative of the harmonics.
-    rate: Interval,
-    /// r_0, r_1.
-    rest: [Interval; 2],
-}
-
 /// What follows for a solution with given root mean squares.
 pub struct Follows {
     pub sup_e: Interval,
@@ -117,52 +105,6 @@ pub struct Follows {
     rates: [Interval; 2],
     /// d_0, d_1: the root mean squares of q(t,x,e) - q(t,0,0) and of its derivative.
     apart: [Interval; 2],
-}
-
-/// The numbers of `q_0` under their names in the derivation: C_k, r_0, r_1.
-pub fn forcing(d: &Data<'_>, given: &Forcing) -> (Vec<Interval>, [Interval; 2]) {
-    let number = |size: &crate::spec::Size| size.enclose(d.precision);
-    let harmonics: Vec<Interval> = given.harmonics.iter().map(number).collect();
-    let zero = d.int(0);
-    // What follows from the other data bounds it too.
-    let derived = d.bound(Bound::QtRms, &zero, &zero) + derivative(d, &harmonics);
-    let rest_t = given.rest_t_rms.as_ref().map_or(derived.clone(), |rest_t| number(rest_t).least(&derived));
-    (harmonics, [number(&given.rest_rms), rest_t])
-}
-
-/// `sqrt(sum_{k>=1} 2 (k Om C_k)^2)`.
-fn derivative(d: &Data<'_>, harmonics: &[Interval]) -> Interval {
-    twice_sum(d, harmonics, |k, c| (c * d.frequency() * k).sqr()).sqrt()
-}
-
-/// `2 sum_{k>=1} term(k, C_k)`.
-fn twice_sum(d: &Data<'_>, harmonics: &[Interval], term: impl Fn(i64, &Interval) -> Interval) -> Interval {
-    (1..).zip(harmonics.iter().skip(1)).fold(d.int(0), |sum, (k, c)| sum + term(k, c)) * 2
-}
-
-impl Forced {
-    fn new(d: &Data<'_>, sigma: &Interval, given: &Forcing) -> Forced {
-        let (harmonics, rest) = forcing(d, given);
-        let gain = |k: i64| sigma.sqr() + (d.frequency() * k).sqr();
-        let over = |value: Interval| d.gain.as_ref().map_or_else(|| value.clone(), |gain| &value / gain.of_error());
-        Forced {
-            sup_e: over(twice_sum(d, &harmonics, |k, c| c / gain(k).sqrt())),
-            rms_e: over(twice_sum(d, &harmonics, |k, c| c.sqr() / gain(k)).sqrt()),
-            rate: derivative(d, &harmonics),
-            harmonics,
-            rest,
-        }
-    }
-
-    /// `sqrt(C_0^2 + 2 sum C_k^2) + r_0`.
-    fn rms(&self, d: &Data<'_>) -> Interval {
-        self.with_mean(d, self.harmonics[0].sqr())
-    }
-
-    /// The same with another square of the mean.
-    fn with_mean(&self, d: &Data<'_>, square: Interval) -> Interval {
-        (square + twice_sum(d, &self.harmonics, |_, c| c.sqr())).sqrt() + &self.rest[0]
-    }
 }
 
 impl<'a> Bounds<'a> {
@@ -179,7 +121,6 @@ impl<'a> Bounds<'a> {
         let bends = d.given(Bound::Qtx, x_p, e_p).zip(d.given(Bound::Qte, x_p, e_p));
         let om = d.frequency();
         let of_y = [bt(d, sigma), (sigma.sqr() + om.sqr()).sqrt()];
-        let over = |value: Interval| d.gain.as_ref().map_or_else(|| value.clone(), |gain| &value / gain.of_error());
         let sg = d.gain.as_ref().map_or_else(|| of_y[1].clone(), |gain| &of_y[1] * gain.of_error());
         Bounds {
             f_x: d.given(Bound::Fx, x_p, &zero).map_or(secant.clone(), |f_x| f_x.least(&secant)),
@@ -196,8 +137,8 @@ impl<'a> Bounds<'a> {
             rate: a_1,
             x_p: x_p.clone(),
             e_p: e_p.clone(),
-            bt: over(of_y[0].clone()),
-            tau: over(tau(d, sigma)),
+            bt: d.of_error(of_y[0].clone()),
+            tau: d.of_error(tau(d, sigma)),
             of_y,
             sg,
             om,

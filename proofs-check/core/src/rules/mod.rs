@@ -4,6 +4,7 @@ pub mod claim;
 pub mod common;
 pub mod derivation;
 pub mod existence;
+pub mod forced;
 pub mod gains;
 pub mod inequality;
 pub mod joint;

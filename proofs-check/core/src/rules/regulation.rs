@@ -3,9 +3,9 @@
 //! Guarantee, for a matched base frequency: with n_o infinite, for every sigma' >= sigma, solutions from the claimed
 //! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
 
+use super::forced::forcing;
 use super::inequality::Inequality;
 use super::joint::Joint;
-use super::mean_squares::forcing;
 use super::paths::Paths;
 use super::set::{self, ClaimedSet};
 use super::stability::{ErrorBox, distances, level};
