@@ -312,22 +312,36 @@ fn a_false_matrix_of_existence_is_refused() {
     }
 }
 
-/// The independent checker knows none there, so that no file may be written with one.
+/// A motor axis at 1000 samples a period, and what of its certificate is proved again.
 #[test]
-fn a_claim_at_samples_rests_on_no_matrix_inequality() {
+fn a_claim_at_samples_by_matrix_inequalities() {
     let folder = TempDir::new().unwrap();
-    let certificate = folder.path().join("linear.json");
-    let call = ["certify", "specs/plants/linear.json", "--quiet", "--sampling-period", "1/200", "--sigma", "1/1000"];
+    let certificate = folder.path().join("axis.json");
+    let call = ["certify", "specs/plants/motor-axis.json", "--quiet", "--sampling-period", "1/50000"];
     assert!(program().args(call).arg("-o").arg(&certificate).output().unwrap().status.success());
-    let again = |file: &Path| program().args(&call[..5]).arg("--witness").arg(file).output().unwrap();
+    let document: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
+    let names: Vec<&str> =
+        document["conditions"].as_array().unwrap().iter().map(|condition| condition["id"].as_str().unwrap()).collect();
+    assert!(names.contains(&"C5x") && names.contains(&"C5e") && !names.contains(&"C5h"), "{names:?}");
+    let again = |file: &Path| program().args(call).arg("--witness").arg(file).output().unwrap();
     assert!(again(&certificate).status.success());
-    let part = serde_json::json!({ "X": "1", "E": "10", "P": [], "k_p": "2", "c_x": "1", "c_y": "1/2", "sigma": "1" });
-    let mut document: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
-    document["witness"]["existence_inequality"] = part;
+    for (pointer, value) in [
+        ("/witness/matrix_inequality/lambda", "1000000000000"),
+        ("/witness/matrix_inequality/c_e", "1000000000"),
+        ("/witness/matrix_inequality/c_y", "1000000"),
+        ("/witness/matrix_inequality/rate", "-1"),
+        ("/witness/matrix_inequality/X", "0"),
+        ("/claim/sigma", "1/1000"),
+    ] {
+        let output = again(&altered(&certificate, pointer, value));
+        assert_ne!(output.status.code(), Some(0), "{pointer}");
+    }
+    // The fields of continuous time are none here.
+    let mut other = document;
+    other["witness"]["matrix_inequality"] = serde_json::json!({ "X": "1", "E": "10", "rate": "1", "sigma": "1" });
     let forged = folder.path().join("forged.json");
-    std::fs::write(&forged, document.to_string()).unwrap();
+    std::fs::write(&forged, other.to_string()).unwrap();
     let output = again(&forged);
     let told = String::from_utf8(output.stderr).unwrap();
-    assert!(!output.status.success() && told.contains("rests on no matrix inequality"), "{told}");
-    assert_ne!(checked(&forged)["verdict"], "valid");
+    assert!(!output.status.success() && told.contains("lambda"), "{told}");
 }

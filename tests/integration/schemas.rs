@@ -331,8 +331,12 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     // A plant whose existence rests on a matrix inequality.
     let (plant, file) = (format!("{ROOT}/specs/plants/converter.json"), folder.path().join("plant.certificate.json"));
     program().args(["certify", "-q", &plant, "-o"]).arg(&file).assert().code(0);
+    // One at samples, where stability and existence rest on matrix inequalities.
+    let (axis, sampled) =
+        (format!("{ROOT}/specs/plants/motor-axis.json"), folder.path().join("sampled.certificate.json"));
+    program().args(["certify", "-q", &axis, "--sampling-period", "1/50000", "-o"]).arg(&sampled).assert().code(0);
     let mut used = BTreeSet::new();
-    for certificate in [contradicted, parsed(&file)] {
+    for certificate in [contradicted, parsed(&file), parsed(&sampled)] {
         assert_eq!(validator.complaints(&certificate), None);
         names(&certificate, &mut used);
     }

@@ -8,7 +8,8 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    ExistenceInequality, JointStability, MatrixInequality, OfPlant, ProvedValue, Specification, Splitting,
+    ExistenceInequality, JointStability, MatrixInequality, OfPlant, ProvedValue, SampledExistence, SampledInequalities,
+    SampledInequality, Specification, Splitting,
 };
 use sigmastar_prove::certificate::{joint_existence_json, joint_stability_json};
 use sigmastar_prove::certify::claimed_ball;
@@ -89,7 +90,29 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             place(spec, [&inequality.x, &inequality.e])
         ))
     }));
+    blocks.extend(at_samples(spec));
     blocks
+}
+
+/// The matrix inequalities of the regulator at samples.
+fn at_samples(spec: &Specification) -> Vec<Block> {
+    let SampledInequalities { stability, existence } = spec.bounds.proved_values().sampled();
+    let of_stability = stability.iter().map(|SampledInequality { x, e, .. }| {
+        Block::says(format!(
+            "Stability rests on the matrix inequality (Ms) over the derivatives (section 13.7) in the place of C5h, at this gain and \
+             sampling period, at every point of {} and every t. No condition uses the bounds at the same X and E.",
+            place(spec, [x, e])
+        ))
+    });
+    let of_existence = existence.iter().map(|SampledExistence { x, e, gamma, c_y, .. }| {
+        Block::says(format!(
+            "Existence rests on the matrix inequality (E) at samples (section 13.7), at every point of {} and every t: along the \
+             periodic solution the mean square of y over the samples is at most {} times that of q(t,0,0) without its mean.",
+            place(spec, [x, e]),
+            exact(&Rational::from(gamma / c_y), Direction::Up)
+        ))
+    });
+    of_stability.chain(of_existence).collect()
 }
 
 /// The points up to these arguments.

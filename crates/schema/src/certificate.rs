@@ -244,6 +244,14 @@ fn of_data() -> Vec<Field> {
     existence.extend(metrics(false).map(|(name, about, shape)| may(name, name, about, shape)));
     let mut joint: Vec<Field> = numbers(&["X", "E", "sigma"], "An argument, or the threshold.").into_iter().collect();
     joint.extend(metrics(true).map(|(name, about, shape)| must(name, name, about, shape)));
+    let at_samples = ["X", "E", "lambda", "rate", "c_e", "c_y"];
+    let at_samples = numbers(&at_samples, "An argument, a weight, or what is left.").into_iter().collect();
+    let inequality = Shape::OneOf(vec![Shape::Object(inequality), Shape::Object(at_samples)]);
+    let mut existence_at_samples: Vec<Field> = numbers(&["X", "E"], "An argument.").into_iter().collect();
+    existence_at_samples.push(must("P", "P", "A symmetric matrix for y, by rows.", matrix()));
+    let names = ["k_p", "c_x", "c_e", "c_y", "gamma", "lambda"];
+    existence_at_samples.extend(numbers(&names, "A weight, a margin, or what q(t,0,0) counts."));
+    let existence = Shape::OneOf(vec![Shape::Object(existence), Shape::Object(existence_at_samples)]);
     vec![
         may("lyapunov", "Lyapunov triple", "P(t) and the triple of stability, proved.", triple()),
         may("lyapunov_existence", "Second triple", "That of the existence of the periodic solution.", triple()),
@@ -259,14 +267,14 @@ fn of_data() -> Vec<Field> {
         may(
             "matrix_inequality",
             "Matrix inequality",
-            "That of stability in the place of C5, proved from the formulas for w_x and h of the witness.",
-            named("matrix_inequality", Shape::Object(inequality)),
+            "That of stability in the place of C5 (at samples of C5h), proved from the formulas for w_x and h of the witness.",
+            named("matrix_inequality", inequality),
         ),
         may(
             "existence_inequality",
             "Matrix inequality of existence",
             "What bounds the periodic solution beside the gains of loops, proved from the formulas: with P, k_p, c_x, c_y, or with metrics.",
-            named("existence_inequality", Shape::Object(existence)),
+            named("existence_inequality", existence),
         ),
         may(
             "joint_inequality",

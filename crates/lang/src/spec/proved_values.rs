@@ -4,6 +4,7 @@ use super::bound::Bound;
 use super::existence_inequality::ExistenceInequality;
 use super::joint_inequality::{JointInequality, JointStability};
 use super::matrix_inequality::MatrixInequality;
+use super::sampled_inequality::{SampledExistence, SampledInequality, SampledLoop};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 
@@ -37,6 +38,25 @@ pub struct ProvedValues {
     existence: Option<ExistenceInequality>,
     joint_existence: Option<JointInequality>,
     joint_stability: Option<JointStability>,
+    at_samples: SampledInequalities,
+}
+
+/// The matrix inequalities of the regulator at samples.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SampledInequalities {
+    /// Of stability, where there is one.
+    pub stability: Option<SampledInequality>,
+    /// Of existence, where there is one.
+    pub existence: Option<SampledExistence>,
+}
+
+impl SampledInequalities {
+    /// What they are about, where there is one.
+    #[must_use]
+    pub fn about(&self) -> Option<&SampledLoop> {
+        let of_existence = self.existence.as_ref().map(|existence| &existence.at);
+        self.stability.as_ref().map(|stability| &stability.at).or(of_existence)
+    }
 }
 
 impl ProvedValues {
@@ -70,6 +90,12 @@ impl ProvedValues {
         ProvedValues { joint_stability, ..self }
     }
 
+    /// The same with matrix inequalities of the regulator at samples, which are proved.
+    #[must_use]
+    pub fn with_sampled(self, at_samples: SampledInequalities) -> ProvedValues {
+        ProvedValues { at_samples, ..self }
+    }
+
     /// The joint inequality of existence, where there is one.
     #[must_use]
     pub fn joint_existence(&self) -> Option<&JointInequality> {
@@ -82,11 +108,10 @@ impl ProvedValues {
         self.joint_stability.as_ref()
     }
 
-    /// Whether there is any inequality over the derivatives.
+    /// The matrix inequalities of the regulator at samples.
     #[must_use]
-    pub fn has_inequality(&self) -> bool {
-        let of_stability = self.inequality.is_some() || self.joint_stability.is_some();
-        of_stability || self.existence.is_some() || self.joint_existence.is_some()
+    pub fn sampled(&self) -> &SampledInequalities {
+        &self.at_samples
     }
 
     /// The matrix inequality of existence, where there is one.
@@ -133,8 +158,11 @@ impl ProvedValues {
         let of_existence = self.existence.iter().map(|existence| [&existence.x, &existence.e]);
         let stability = self.joint_stability.iter().map(|joint| &joint.inequality);
         let of_joint = self.joint_existence.iter().chain(stability).map(|joint| [&joint.x, &joint.e]);
+        let SampledInequalities { stability, existence } = &self.at_samples;
+        let sampled = stability.iter().map(|known| [&known.x, &known.e]);
+        let sampled = sampled.chain(existence.iter().map(|known| [&known.x, &known.e]));
         let of_entries = self.entries.iter().map(|entry| [&entry.x, &entry.e]);
-        let all = of_entries.chain(of_inequality).chain(of_existence).chain(of_joint);
+        let all = of_entries.chain(of_inequality).chain(of_existence).chain(of_joint).chain(sampled);
         let larger = |[x, e]: [_; 2], [other_x, other_e]: [_; 2]| [Ord::max(x, other_x), Ord::max(e, other_e)];
         all.reduce(larger).map(|largest| largest.map(Clone::clone))
     }

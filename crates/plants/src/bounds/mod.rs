@@ -6,6 +6,7 @@
 //! - [`Engine::decide_majorant`]: the same of a [`Majorant`], a polynomial in X and E;
 //! - [`FloatSuprema`]: the same bounds by sampling, for searches;
 //! - [`Engine::decide_inequality`]: the matrix inequality of stability;
+//! - [`Engine::decide_sampled`], [`Engine::decide_sampled_existence`]: those of the regulator at samples;
 //! - [`Engine::prove_value`]: from a sampled supremum, and what boxes show beyond it, to a decided bound a little above.
 //!
 //! Within: `chart` (coordinates of boxes), `time_cell` (what depends on t alone), `centred` (values with slopes about the
@@ -34,7 +35,11 @@ mod prove_value;
 mod quantity;
 mod region;
 mod requirement;
+mod sampled_form;
+mod sampled_inequality;
 mod sampled_pairs;
+mod sampled_point;
+mod sampled_program;
 mod sampled_threshold;
 mod side;
 mod smooth;
@@ -54,7 +59,9 @@ pub use majorant::{Majorant, Term};
 pub use pointwise::Asked;
 pub use prove_value::ProvedValue;
 pub use region::{Region, RegionError};
+pub use sampled_form::LoopNumbers;
 pub use sampled_pairs::{Corners, MatrixArguments};
+pub use sampled_point::{SampledEnergy, SampledRadius, SampledWeights};
 pub use sampled_threshold::Focus;
 pub use smooth::SmoothnessFailure;
 pub use suprema::{FloatCurve, FloatSuprema, Places};

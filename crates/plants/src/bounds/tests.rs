@@ -7,6 +7,7 @@ mod joint;
 mod narrow;
 mod outside;
 mod random_points;
+mod sampled;
 mod splitting;
 
 use super::*;

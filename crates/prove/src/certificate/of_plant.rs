@@ -7,7 +7,7 @@ use serde_json::Value;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{
     ExistenceInequality, JointInequality, JointStability, Level, MatrixInequality, Metric, OfPlant, ProvedForcing,
-    ProvedOrbit, ProvedValues, Specification, Splitting,
+    ProvedOrbit, ProvedValues, SampledExistence, SampledInequalities, SampledInequality, Specification, Splitting,
 };
 
 fn exact(value: &Rational) -> Value {
@@ -39,6 +39,9 @@ pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     parts.extend(values.existence().map(|existence| (EXISTENCE_INEQUALITY, existence_json(existence))));
     parts.extend(values.joint_stability().map(|joint| (JOINT_INEQUALITY, joint_stability_json(joint))));
     parts.extend(values.joint_existence().map(|joint| (EXISTENCE_INEQUALITY, joint_existence_json(joint))));
+    let SampledInequalities { stability, existence } = values.sampled();
+    parts.extend(stability.as_ref().map(|known| (INEQUALITY, sampled_json(known))));
+    parts.extend(existence.as_ref().map(|known| (EXISTENCE_INEQUALITY, sampled_existence_json(known))));
     parts
 }
 
@@ -70,6 +73,18 @@ fn joint_json(JointInequality { x, e, value, near, far }: &JointInequality, leve
     let [of_near, of_far] = levels;
     let metrics = [("near", metric(near, true, of_near)), ("far", metric(far, false, of_far))];
     object(numbers.into_iter().chain(metrics))
+}
+
+fn sampled_json(SampledInequality { x, e, lambda, rate, c_e, c_y, .. }: &SampledInequality) -> Value {
+    let numbers = [("X", x), ("E", e), ("lambda", lambda), ("rate", rate), ("c_e", c_e), ("c_y", c_y)];
+    object(numbers.map(|(name, value)| (name, exact(value))))
+}
+
+fn sampled_existence_json(known: &SampledExistence) -> Value {
+    let SampledExistence { x, e, matrix, k_p, c_x, c_e, c_y, gamma, lambda, .. } = known;
+    let arguments = [("X", exact(x)), ("E", exact(e)), ("P", rows(matrix))];
+    let numbers = [("k_p", k_p), ("c_x", c_x), ("c_e", c_e), ("c_y", c_y), ("gamma", gamma), ("lambda", lambda)];
+    object(arguments.into_iter().chain(numbers.map(|(name, value)| (name, exact(value)))))
 }
 
 fn existence_json(ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value }: &ExistenceInequality) -> Value {

@@ -4,19 +4,25 @@ use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SPLITTIN
 use super::read::{read_rows, read_triple, vector};
 use super::read_joint::{read_joint, read_joint_stability};
 use super::triple::{EXISTENCE, STABILITY};
+use crate::reduction::FreeNumbers;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
     Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, ProvedForcing,
-    ProvedOrbit, ProvedValue, ProvedValues, Reported, SpecErrors, Splitting, TrigonometricVector, Value,
+    ProvedOrbit, ProvedValue, ProvedValues, Reported, SampledExistence, SampledInequalities, SampledInequality,
+    SpecErrors, Splitting, TrigonometricVector, Value,
 };
 use sigmastar_plants::lyapunov::ProvedTriple;
+use sigmastar_theory::derivation::sampled::SampledWitness;
 
-/// The plant in a certificate, and what its witness says of it.
+/// The plant in a certificate, and what its witness says of it; `numbers` are the free numbers of that witness.
 ///
 /// # Errors
 /// What is missing, unknown or not exact, in its place.
-pub fn read_plant_witness(document: &Document) -> Result<(Plant, OfPlant, ProvedValues), SpecErrors> {
+pub fn read_plant_witness(
+    document: &Document,
+    numbers: &FreeNumbers,
+) -> Result<(Plant, OfPlant, ProvedValues), SpecErrors> {
     let embedded = document.at("/plant").map_or_else(
         || {
             let mut errors = Errors::new();
@@ -32,12 +38,17 @@ pub fn read_plant_witness(document: &Document) -> Result<(Plant, OfPlant, Proved
         .object(&mut errors)
         .and_then(|mut file| file.required("witness", &mut errors))
         .and_then(|value| value.object(&mut errors))
-        .and_then(|mut witness| parts(&mut witness, &embedded, &mut errors));
+        .and_then(|mut witness| parts(&mut witness, &embedded, numbers, &mut errors));
     let (of_plant, values) = errors.conclude(document, outcome)?;
     Ok((embedded, of_plant, values))
 }
 
-fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result<(OfPlant, ProvedValues), Reported> {
+fn parts(
+    witness: &mut Object<'_>,
+    plant: &Plant,
+    numbers: &FreeNumbers,
+    errors: &mut Errors,
+) -> Result<(OfPlant, ProvedValues), Reported> {
     let coordinates = witness.required("coordinates", errors)?;
     let n = plant.states();
     let rows = read_rows(&coordinates, "an entry of L", errors)?;
@@ -49,14 +60,10 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
     let triple = witness.required(STABILITY, errors).and_then(|value| read_triple(&value, errors));
     let forcing = witness.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
     let values = witness.required("bounds", errors).and_then(|value| read_values(&value, errors));
-    let inequality = witness.optional(INEQUALITY).map(|value| read_inequality(&value, witness, errors));
-    let of_existence = witness.optional(EXISTENCE_INEQUALITY);
-    // The joint form has metrics.
-    let is_joint = of_existence.as_ref().is_some_and(|value| value.member("near").is_some());
-    let (joint, single) = if is_joint { (of_existence, None) } else { (None, of_existence) };
-    let single = single.map(|value| read_existence(&value, errors));
-    let joint = joint.map(|value| read_joint(&value, n, errors));
-    let of_joint = witness.optional(JOINT_INEQUALITY).map(|value| read_joint_stability(&value, n, errors));
+    let values = match numbers {
+        FreeNumbers::Continuous(_) => with_continuous(values, witness, n, errors),
+        FreeNumbers::Sampled(known) => with_sampled(values, witness, known, errors),
+    };
     let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose();
     let parts = |ProvedTriple { matrix, p_low, p_up, alpha }: ProvedTriple| {
         let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));
@@ -73,9 +80,74 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
         domain: plant.domain.clone(),
         ball: plant.ball.clone(),
     };
-    let values = values?.with_inequality(inequality.transpose()?).with_existence(single.transpose()?);
-    let values = values.with_joint_existence(joint.transpose()?).with_joint_stability(of_joint.transpose()?);
+    let values = values?;
     Ok((of_plant, values))
+}
+
+/// With the matrix inequalities of the continuous regulator.
+fn with_continuous(
+    values: Result<ProvedValues, Reported>,
+    witness: &mut Object<'_>,
+    n: usize,
+    errors: &mut Errors,
+) -> Result<ProvedValues, Reported> {
+    let inequality = witness.optional(INEQUALITY).map(|value| read_inequality(&value, witness, errors));
+    let of_existence = witness.optional(EXISTENCE_INEQUALITY);
+    // The joint form has metrics.
+    let is_joint = of_existence.as_ref().is_some_and(|value| value.member("near").is_some());
+    let (joint, single) = if is_joint { (of_existence, None) } else { (None, of_existence) };
+    let single = single.map(|value| read_existence(&value, errors));
+    let joint = joint.map(|value| read_joint(&value, n, errors));
+    let of_joint = witness.optional(JOINT_INEQUALITY).map(|value| read_joint_stability(&value, n, errors));
+    let values = values?.with_inequality(inequality.transpose()?).with_existence(single.transpose()?);
+    Ok(values.with_joint_existence(joint.transpose()?).with_joint_stability(of_joint.transpose()?))
+}
+
+/// With those of the regulator at samples.
+fn with_sampled(
+    values: Result<ProvedValues, Reported>,
+    witness: &mut Object<'_>,
+    known: &SampledWitness,
+    errors: &mut Errors,
+) -> Result<ProvedValues, Reported> {
+    let stability = witness.optional(INEQUALITY).map(|value| read_sampled(&value, known, errors));
+    let existence = witness.optional(EXISTENCE_INEQUALITY).map(|value| read_sampled_existence(&value, known, errors));
+    let at_samples = SampledInequalities { stability: stability.transpose()?, existence: existence.transpose()? };
+    Ok(values?.with_sampled(at_samples))
+}
+
+fn read_sampled(value: &Value<'_>, known: &SampledWitness, errors: &mut Errors) -> Result<SampledInequality, Reported> {
+    let mut fields = value.object(errors)?;
+    let [x, e, lambda, rate, c_e, c_y] =
+        ["X", "E", "lambda", "rate", "c_e", "c_y"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    let (w_x, eta, at) = (known.w_x.clone(), known.eta.clone(), known.about());
+    Ok(SampledInequality { x: x?, e: e?, w_x, eta, lambda: lambda?, rate: rate?, c_e: c_e?, c_y: c_y?, at })
+}
+
+fn read_sampled_existence(
+    value: &Value<'_>,
+    known: &SampledWitness,
+    errors: &mut Errors,
+) -> Result<SampledExistence, Reported> {
+    let mut fields = value.object(errors)?;
+    let [x, e] = ["X", "E"].map(|name| rational(&mut fields, name, errors));
+    let matrix = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of P", errors));
+    let [k_p, c_x, c_e, c_y, gamma, lambda] =
+        ["k_p", "c_x", "c_e", "c_y", "gamma", "lambda"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    Ok(SampledExistence {
+        x: x?,
+        e: e?,
+        matrix: matrix?,
+        k_p: k_p?,
+        c_x: c_x?,
+        c_e: c_e?,
+        c_y: c_y?,
+        gamma: gamma?,
+        lambda: lambda?,
+        at: known.about(),
+    })
 }
 
 fn read_existence(value: &Value<'_>, errors: &mut Errors) -> Result<ExistenceInequality, Reported> {

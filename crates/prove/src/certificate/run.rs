@@ -37,7 +37,7 @@ pub fn read_for(document: &Document, subject: &Subject) -> Result<Witness, SpecE
     let numbers = read_numbers(document)?;
     let (digest, data) = match subject {
         Subject::Plant(_) => {
-            let (_, of_plant, values) = read_plant_witness(document)?;
+            let (_, of_plant, values) = read_plant_witness(document, &numbers)?;
             ("/plant_sha256", WitnessData::OfPlant(Box::new((of_plant, values))))
         }
         Subject::Specification(spec) if spec.lyapunov.triple().is_none() => {

@@ -37,7 +37,7 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
         errors.conclude(document, reported)
     };
     if document.at("/plant").is_some() {
-        let (plant, of_plant, values) = read_plant_witness(document)?;
+        let (plant, of_plant, values) = read_plant_witness(document, &witness)?;
         let spec = match specification(&plant, of_plant, values) {
             Ok(spec) => spec,
             Err(refusal) => {

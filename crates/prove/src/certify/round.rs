@@ -235,7 +235,12 @@ pub(super) fn rounded_box(
 }
 
 /// The same with weights that are given: the least box of their level.
-fn box_with(model: &FloatModel, [w_x, h]: [&Rational; 2], distances: [f64; 3], slack: f64) -> Option<RoundedBox> {
+pub(super) fn box_with(
+    model: &FloatModel,
+    [w_x, h]: [&Rational; 2],
+    distances: [f64; 3],
+    slack: f64,
+) -> Option<RoundedBox> {
     let [dist_x, dist_e, dist_z] = distances;
     let of_x = w_x.to_f64() * model.p_up * dist_x * dist_x;
     let level = (of_x + dist_e * dist_e + h.to_f64() * dist_z * dist_z) * enlargement(slack);

@@ -8,7 +8,7 @@ use super::produce::undecided_or_error;
 use super::proof::{Outcome, SampledProof};
 use super::refusal::Refusal;
 use super::round::{
-    LONG_DIGITS, RoundedBox, SHORT_DIGITS, claimed_set, first_proved, room, rounded_box, rounded_sigma,
+    LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, room, rounded_box, rounded_sigma,
 };
 use super::verdict::Verdict;
 use crate::search::{Extreme, Failing, FloatModel, SampledLimit, SampledProposal, SampledSearch};
@@ -22,7 +22,7 @@ use sigmastar_theory::derivation::condition::{Condition, all};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::mean_squares::{Gains, MeanSquares, PeriodicSize, SetBounds};
-use sigmastar_theory::derivation::sampled::{SampledGains, SampledLaw, SampledWitness, sampled_trade_off};
+use sigmastar_theory::derivation::sampled::{SampledGains, SampledLaw, SampledWitness, energy, sampled_trade_off};
 
 /// Everything that a run about the regulator at samples found out.
 #[derive(Clone, Debug)]
@@ -204,7 +204,7 @@ fn round(
     let enclosed = SampledLaw::new(data, sampling, law);
     let origin = AtOrigin::new(data);
     first_proved(data, ladder, |(digits, slack)| {
-        let sigma = match gain {
+        let sigma = match gain.or_else(|| model.at_samples.gain()) {
             Some(gain) => gain.clone(),
             None => within(sampling, rounded_sigma(proposal.sigma, slack)?)?,
         };
@@ -217,7 +217,9 @@ fn round(
         let (k0, k1) = (above(found.pair.0)?, above(found.pair.1)?);
         let bounds = SetBounds::new(data, data.rational(&x_p), data.rational(&e_p));
         let squares = MeanSquares { x: &r_x, e: &r_e, e_rate: &r_d }.map(|value| data.rational(value));
-        let gains = SampledGains::new(&enclosed, &data.rational(&sigma), &data.period);
+        let known = data.spec.bounds.proved_values().sampled().existence.as_ref();
+        let energy = known.map(|known| energy::bounds_of(data, &origin, known));
+        let gains = SampledGains::new(&enclosed, &data.rational(&sigma), &data.period).with_energy(energy);
         let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
         let z = gains.z_squared(data, &size.forcing, [&data.rational(&k0), &data.rational(&k1)]).sqrt();
         let set = claimed_set(data, &x_p, &e_p, &z)?;
@@ -226,7 +228,11 @@ fn round(
             claimed_distances(data, &set, [&size.x_per, &size.e_per, &z]).map(|distance| distance.upper_f64());
         let d_x = at.d_x.max(at.rho * model.c * dist_x);
         let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
-        let RoundedBox { d_x, d_e, w_x, h: eta } = rounded_box(model, d_x, at.rho, far, at.eta, slack)?;
+        let box_of = |weights| box_with(model, weights, [d_x / (at.rho * model.c), far[0], far[1]], slack);
+        let RoundedBox { d_x, d_e, w_x, h: eta } = match model.at_samples.weights() {
+            Some(weights) => box_of(weights),
+            None => rounded_box(model, d_x, at.rho, far, at.eta, slack),
+        }?;
         let (sampling, law) = (sampling.clone(), law.clone());
         Some(SampledWitness {
             sigma,

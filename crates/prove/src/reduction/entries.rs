@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{
-    Bound, Constant, ExistenceInequality, JointInequality, MatrixInequality, ProvedValue, ProvedValues, Splitting,
+    Bound, Constant, ExistenceInequality, MatrixInequality, ProvedValue, ProvedValues, SampledExistence,
+    SampledInequalities, SampledInequality, Splitting,
 };
 use sigmastar_plants::bounds::{EnergyWeights, Engine, Entry, FloatSuprema, TABLE};
 use sigmastar_theory::derivation::paths::{Path, Paths};
@@ -22,6 +23,9 @@ const SMALL_EFFORT: usize = 1 << 10;
 
 /// Boxes that a proof of a given value may take.
 const EFFORT: usize = 1 << 18;
+
+/// Boxes that a proof of the inequality of stability at samples may take at either end of a sample.
+const SAMPLED_EFFORT: usize = 20_000;
 
 /// The arguments, rounded up.
 pub struct Needed {
@@ -40,6 +44,8 @@ pub struct Needed {
     existence: Option<ExistenceInequality>,
     /// Whether a joint inequality proves stability.
     by_joint: bool,
+    /// Those of the regulator at samples, that of existence without gamma.
+    at_samples: SampledInequalities,
 }
 
 /// Those of a candidate, enlarged by a share; sigma is the gain that is aimed at.
@@ -91,7 +97,21 @@ pub(super) fn needed(
         Some(ByEnergy::Joint(_)) | None => None,
     };
     let by_joint = matches!(model.by_matrix, Some(ByMatrix::Joint(_)));
-    Some(Needed { x_p, e_p, x_per, e_per, x_b, e_b, paths: at.paths, second, inequality, existence, by_joint })
+    let at_samples = SampledInequalities::default();
+    Some(Needed {
+        x_p,
+        e_p,
+        x_per,
+        e_per,
+        x_b,
+        e_b,
+        paths: at.paths,
+        second,
+        inequality,
+        existence,
+        by_joint,
+        at_samples,
+    })
 }
 
 /// The inequality of existence with short numbers, without c_y.
@@ -111,6 +131,16 @@ fn existence([x_p, e_p]: [&Rational; 2], weights: &EnergyWeights, value: f64) ->
 }
 
 impl Needed {
+    /// With matrix inequalities of the regulator at samples, on the sets that are asked for here.
+    pub(super) fn with_sampled(self, SampledInequalities { stability, existence }: SampledInequalities) -> Needed {
+        let Needed { x_p, e_p, x_b, e_b, .. } = &self;
+        let at_samples = SampledInequalities {
+            stability: stability.map(|known| SampledInequality { x: x_b.clone(), e: e_b.clone(), ..known }),
+            existence: existence.map(|known| SampledExistence { x: x_p.clone(), e: e_p.clone(), ..known }),
+        };
+        Needed { at_samples, ..self }
+    }
+
     /// The largest X and E.
     pub(super) fn largest(&self) -> [Rational; 2] {
         let larger = |a: &Rational, b: &Rational| if a > b { a.clone() } else { b.clone() };
@@ -151,14 +181,22 @@ pub(super) fn prove_all(
 ) -> Result<ProvedValues, PlantRefusal> {
     let inequality = match &needed.inequality {
         None => None,
-        Some(wanted) => Some(engine.prove_inequality(suprema, wanted, mu).ok_or_else(|| not_proved(wanted))?),
+        Some(wanted) => {
+            let proved = engine.prove_inequality(suprema, wanted, mu);
+            Some(proved.ok_or_else(|| not_proved("stability", [&wanted.x, &wanted.e]))?)
+        }
     };
     let existence = match &needed.existence {
         None => None,
-        Some(wanted) => Some(engine.prove_existence(suprema, wanted).ok_or_else(|| existence_not_proved(wanted))?),
+        Some(wanted) => {
+            let proved = engine.prove_existence(suprema, wanted);
+            Some(proved.ok_or_else(|| not_proved("existence", [&wanted.x, &wanted.e]))?)
+        }
     };
+    let at_samples = prove_at_samples(engine, suprema, &needed.at_samples)?;
     let asked = needed.list().into_iter().map(|entry| (entry, true));
-    let beside = needed.of_error_box().into_iter().map(|entry| (entry, inequality.is_none() && !needed.by_joint));
+    let by_norms = inequality.is_none() && !needed.by_joint && at_samples.stability.is_none();
+    let beside = needed.of_error_box().into_iter().map(|entry| (entry, by_norms));
     let proofs: Vec<(Result<ProvedValue, PlantRefusal>, bool)> = asked
         .chain(beside)
         .collect::<Vec<_>>()
@@ -168,7 +206,28 @@ pub(super) fn prove_all(
     // What no condition uses may be missing.
     let proofs = proofs.into_iter().filter(|(proof, is_used)| *is_used || proof.is_ok()).map(|(proof, _)| proof);
     let values = ProvedValues::new(proofs.collect::<Result<_, _>>()?);
-    Ok(values.with_inequality(inequality).with_existence(existence))
+    Ok(values.with_inequality(inequality).with_existence(existence).with_sampled(at_samples))
+}
+
+/// Proves the matrix inequalities of the regulator at samples; gamma is sought.
+fn prove_at_samples(
+    engine: &Engine,
+    suprema: &FloatSuprema,
+    SampledInequalities { stability, existence }: &SampledInequalities,
+) -> Result<SampledInequalities, PlantRefusal> {
+    if let Some(wanted) = stability
+        && !engine.decide_sampled(wanted, SAMPLED_EFFORT).truth.is_true()
+    {
+        return Err(not_proved("stability", [&wanted.x, &wanted.e]));
+    }
+    let existence = match existence {
+        None => None,
+        Some(wanted) => {
+            let proved = engine.prove_sampled_existence(suprema, wanted);
+            Some(proved.ok_or_else(|| not_proved("existence", [&wanted.x, &wanted.e]))?)
+        }
+    };
+    Ok(SampledInequalities { stability: stability.clone(), existence })
 }
 
 /// The value of a bound at one argument.
@@ -190,16 +249,8 @@ fn value_of(
     Ok(ProvedValue { bound, x, e, value, sampled })
 }
 
-fn not_proved(MatrixInequality { x, e, .. }: &MatrixInequality) -> PlantRefusal {
-    PlantRefusal::NotProved { bound: "stability", at: [x.to_f64(), e.to_f64()] }
-}
-
-fn joint_not_proved(bound: &'static str, JointInequality { x, e, .. }: &JointInequality) -> PlantRefusal {
+fn not_proved(bound: &'static str, [x, e]: [&Rational; 2]) -> PlantRefusal {
     PlantRefusal::NotProved { bound, at: [x.to_f64(), e.to_f64()] }
-}
-
-fn existence_not_proved(ExistenceInequality { x, e, .. }: &ExistenceInequality) -> PlantRefusal {
-    PlantRefusal::NotProved { bound: "existence", at: [x.to_f64(), e.to_f64()] }
 }
 
 /// What a small value is multiplied with, so that another program proves it, whose bound of x_0' may be coarser.
@@ -222,22 +273,33 @@ pub(super) fn decide_all(engine: &Engine, values: &ProvedValues, mu: &Constant) 
     if let Some(inequality) = values.inequality()
         && !engine.decide_inequality(inequality, mu, EFFORT).truth.is_true()
     {
-        return Err(not_proved(inequality));
+        return Err(not_proved("stability", [&inequality.x, &inequality.e]));
     }
     if let Some(existence) = values.existence()
         && !engine.decide_existence(existence, EFFORT).truth.is_true()
     {
-        return Err(existence_not_proved(existence));
+        return Err(not_proved("existence", [&existence.x, &existence.e]));
+    }
+    let SampledInequalities { stability, existence } = values.sampled();
+    if let Some(known) = stability
+        && !engine.decide_sampled(known, EFFORT).truth.is_true()
+    {
+        return Err(not_proved("stability", [&known.x, &known.e]));
+    }
+    if let Some(known) = existence
+        && !engine.decide_sampled_existence(known, EFFORT).truth.is_true()
+    {
+        return Err(not_proved("existence", [&known.x, &known.e]));
     }
     if let Some(joint) = values.joint_stability()
         && !engine.decide_joint_stability(joint, EFFORT).truth.is_true()
     {
-        return Err(joint_not_proved("joint stability", &joint.inequality));
+        return Err(not_proved("joint stability", [&joint.inequality.x, &joint.inequality.e]));
     }
     if let Some(joint) = values.joint_existence()
         && !engine.decide_joint(joint, EFFORT).truth.is_true()
     {
-        return Err(joint_not_proved("joint existence", joint));
+        return Err(not_proved("joint existence", [&joint.x, &joint.e]));
     }
     values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value, .. }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };

@@ -49,7 +49,7 @@ const AS_GOOD_AS_NONE: f64 = 1e-6;
 const WORTH_A_CORNER: f64 = 5e-3;
 
 /// By what share of the gain of norms, at few samples, one by a matrix inequality is far better.
-const FAR_BETTER: f64 = 0.9;
+pub(super) const FAR_BETTER: f64 = 0.9;
 
 /// What an aligned start must take from a gain to be worth a remark.
 const WORTH_A_REMARK: f64 = 0.01;
@@ -78,7 +78,7 @@ pub fn reduce(plant: &Plant, gain: Option<&Rational>) -> Result<Reduced, PlantRe
         {
             return Ok(proved);
         }
-        let (along, chosen) = best_by_norms(candidates, starts, sampling)?;
+        let (along, chosen) = best_by_norms(candidates, &starts, sampling)?;
         let by_matrix = best_by_matrix(&along.coordinates.p, &[Start::from(&chosen)], sampling);
         let by_matrix = by_matrix.and_then(|found| found.proved(sampling, chosen.proposal.sigma, gain).ok());
         match by_matrix {
@@ -112,13 +112,13 @@ pub(super) fn with_coordinates<T>(
     prove: impl FnOnce(&Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     with_candidates(plant, |candidates, sampling| {
-        let (along, chosen) = best_by_norms(candidates, starts(candidates, sampling), sampling)?;
+        let (along, chosen) = best_by_norms(candidates, &starts(candidates, sampling), sampling)?;
         prove(&along, sampling, &chosen)
     })
 }
 
 /// Finds the orbit, proposes coordinates, and goes on from there.
-fn with_candidates<T>(
+pub(super) fn with_candidates<T>(
     plant: &Plant,
     prove: impl FnOnce(&[Coordinates], &Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
@@ -139,7 +139,10 @@ fn with_candidates<T>(
 }
 
 /// What those candidates with a constant P promise by norms, and that P.
-fn starts(candidates: &[Coordinates], sampling: &Sampling<'_>) -> Result<(PeriodicMatrix, Rough), PlantRefusal> {
+pub(super) fn starts(
+    candidates: &[Coordinates],
+    sampling: &Sampling<'_>,
+) -> Result<(PeriodicMatrix, Rough), PlantRefusal> {
     let constant: Vec<&Coordinates> = candidates.iter().filter(|candidate| candidate.p.harmonics.is_empty()).collect();
     let first = constant.first().ok_or(PlantRefusal::NoContraction)?;
     let matrices: Vec<DMatrix<f64>> = constant.iter().map(|candidate| float_matrix(&candidate.l)).collect();
@@ -149,12 +152,14 @@ fn starts(candidates: &[Coordinates], sampling: &Sampling<'_>) -> Result<(Period
 
 /// The best coordinates by norms, rounded, and proved along the orbit: with a constant P, and a P of existence where one helps; where
 /// none leads to a gain, one that moves may.
-fn best_by_norms(
+pub(super) fn best_by_norms(
     candidates: &[Coordinates],
-    starts: Result<(PeriodicMatrix, Rough), PlantRefusal>,
+    starts: &Result<(PeriodicMatrix, Rough), PlantRefusal>,
     sampling: &Sampling<'_>,
 ) -> Result<(Along, Chosen), PlantRefusal> {
-    let by_constant = starts.and_then(|(p, rough)| with_constant(&p, sampling, None, |search| search.choose(&rough)));
+    let by_constant = starts.as_ref().map_err(Clone::clone);
+    let by_constant =
+        by_constant.and_then(|(p, rough)| with_constant(p, sampling, None, |search| search.choose(rough)));
     let moving: Vec<&Coordinates> = candidates.iter().filter(|candidate| !candidate.p.harmonics.is_empty()).collect();
     match by_constant {
         Err(_) if !moving.is_empty() => {
@@ -240,7 +245,7 @@ fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>)
 }
 
 /// A choice for the constant P that is given, rounded, and proved along the orbit.
-fn with_constant(
+pub(super) fn with_constant(
     p: &PeriodicMatrix,
     sampling: &Sampling<'_>,
     by_matrix: Option<Path>,
@@ -272,7 +277,7 @@ fn with_constant(
 }
 
 /// A search with P = I in the coordinates y, and some P of existence.
-fn with_search<T>(
+pub(super) fn with_search<T>(
     sampling: &Sampling<'_>,
     by_matrix: Option<Path>,
     run: impl FnOnce(&CoordinateSearch<'_>) -> Result<T, Obstacle>,

@@ -3,24 +3,19 @@
 use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
 use super::proofs::{Along, PRECISION};
-use super::reduce::{ENLARGED, beyond_the_bounds, with_coordinates};
+use super::proved_at_samples::{ReducedSampled, beyond, found_again};
+use super::reduce::{
+    ENLARGED, FAR_BETTER, best_by_norms, beyond_the_bounds, starts, with_candidates, with_coordinates,
+};
 use super::refusal::PlantRefusal;
+use super::sampled_matrix::{MatrixAtSamples, straight_by_matrix};
 use super::sampling::Sampling;
-use crate::certify::sampled_model;
-use crate::search::{Extreme, Failing, Obstacle, SampledProposal, SampledSearch};
+use crate::search::{Failing, SampledSearch};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{self, ProvedValues, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::{SampledLaw, sampled_trade_off};
-
-/// A specification whose data were proved from a plant's formulas, and where the search for a witness may start.
-pub struct ReducedSampled {
-    /// The specification.
-    pub spec: Specification,
-    /// Free numbers for it, in floating point.
-    pub proposal: SampledProposal,
-}
 
 /// How much further the bounds are proved where these arguments were too small for a gain that is given: it cannot become larger
 /// to make up for what proved values are above sampled ones.
@@ -39,7 +34,8 @@ pub struct SampledPairs<'p> {
     empty: Specification,
 }
 
-/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found.
+/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found, by norms or, where that serves
+/// for a smaller one, by matrix inequalities over the derivatives.
 ///
 /// # Errors
 /// What could not be proved or found.
@@ -48,7 +44,30 @@ pub fn reduce_sampled(
     sampling: &spec::Sampling,
     gain: Option<&Rational>,
 ) -> Result<ReducedSampled, PlantRefusal> {
-    with_sampled_pairs(plant, |pairs| pairs.reduce(sampling, gain))?
+    with_candidates(plant, |candidates, sampled| {
+        let starts = starts(candidates, sampled);
+        let straight = straight_by_matrix(&starts, sampled);
+        let by_matrix = |known: Option<f64>| {
+            let (along, chosen) = straight.as_ref()?;
+            MatrixAtSamples::new(sampled, (along, chosen), sampling)?.reduce(gain, known)
+        };
+        // As in continuous time, norms are not worth their descent where a matrix inequality does far better from the same start.
+        let rough = starts.as_ref().map_or(f64::INFINITY, |(_, rough)| rough.best.proposal.sigma);
+        let is_far_better = straight.as_ref().is_some_and(|(_, chosen)| chosen.proposal.sigma < FAR_BETTER * rough);
+        if gain.is_none()
+            && is_far_better
+            && let Some(found) = by_matrix(Some(rough))
+        {
+            return Ok(found);
+        }
+        let by_norms = best_by_norms(candidates, &starts, sampled)
+            .and_then(|(along, chosen)| SampledPairs::new(plant, &along, sampled, &chosen)?.reduce(sampling, gain));
+        match &by_norms {
+            Ok(_) if gain.is_some() => by_norms,
+            Ok(found) => by_matrix(Some(found.proposal.sigma)).map_or(by_norms, Ok),
+            Err(_) => by_matrix(None).map_or(by_norms, Ok),
+        }
+    })
 }
 
 /// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
@@ -139,22 +158,4 @@ impl<'p> SampledPairs<'p> {
         }
         best.ok_or(refusal)
     }
-}
-
-/// That the law has no numbers for this sampling period.
-fn beyond(sampling: &spec::Sampling) -> Obstacle {
-    Failing::Magnitude(Extreme::Number("the sampling period", sampling.step.to_f64())).into()
-}
-
-/// The proposal with proved bounds in the place of sampled ones.
-fn found_again(
-    spec: &Specification,
-    sampling: &spec::Sampling,
-    proposal: &SampledProposal,
-    gain: Option<f64>,
-) -> Result<SampledProposal, Obstacle> {
-    let law = spec.internal_model.sampled_gain(&sampling.step).ok_or_else(|| beyond(sampling))?;
-    let data = Data::new(spec, PRECISION);
-    let model = sampled_model(&data, sampling, &law);
-    SampledSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64()).near(proposal, gain)
 }

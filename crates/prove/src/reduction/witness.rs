@@ -56,11 +56,6 @@ impl Witness {
         match (subject, &self.data) {
             (Subject::Plant(plant), WitnessData::OfPlant(parts)) => {
                 let (of_plant, values) = parts.as_ref().clone();
-                if matches!(self.numbers, FreeNumbers::Sampled(_)) && values.has_inequality() {
-                    let message = "a claim about the regulator at samples rests on no matrix inequality".to_owned();
-                    let help = "leave `matrix_inequality` and `existence_inequality` out of the witness";
-                    return Err(told(subject, "/f", message, help));
-                }
                 decide_again(plant, of_plant, values).map_err(|refusal| {
                     let another = || PlantRefusal::OfAnother(Box::new(refusal.clone()));
                     if self.of_another { another() } else { refusal }.errors(plant)

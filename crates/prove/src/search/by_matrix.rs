@@ -1,6 +1,6 @@
 //! The error box where stability is proved by the matrix inequality (M), in floating point (derivation, 13.7).
 
-use super::candidate::{AtSigma, active_level, weight_h};
+use super::candidate::{AtSigma, active_level, shape_of_weights, weight_h};
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
 use super::threshold::{ByMatrix, EDGE};
@@ -16,18 +16,15 @@ pub(super) fn error_box_by_matrix(
     by_matrix: &ByMatrix,
     model: &FloatModel,
     (x_per, e_per): (f64, f64),
-    [dist_x, dist_e, dist_z]: [f64; 3],
+    distances: [f64; 3],
     shape: (f64, f64),
 ) -> Result<AtSigma, Obstacle> {
+    let [dist_x, dist_e, dist_z] = distances;
     let (rho, eta) = match by_matrix {
         ByMatrix::Joint(joint) => return joint_error_box(joint, model, (x_per, e_per), [dist_x, dist_e, dist_z]),
         ByMatrix::Sampled { .. } => shape,
         ByMatrix::Proved(inequality) => {
-            // D_e^2 is the level, and w_x P_low D_x^2 = D_e^2.
-            let (w_x, of_zeta) = (inequality.w_x.to_f64(), inequality.h.to_f64() * dist_z * dist_z);
-            let own = w_x * model.p_up * dist_x * dist_x;
-            let level = own + dist_e * dist_e + of_zeta;
-            ((level / own).sqrt(), of_zeta / (dist_e * dist_e))
+            shape_of_weights(model, [inequality.w_x.to_f64(), inequality.h.to_f64()], distances)
         }
     };
     let d_x = rho * model.c * dist_x;

@@ -53,6 +53,19 @@ pub fn active_level(eta: f64, dist_e: f64, rho: f64) -> f64 {
     (1.0 + eta) * dist_e * dist_e / (1.0 - 1.0 / (rho * rho))
 }
 
+/// The shape (rho, eta) of the error box with these w_x and h for which the level condition is active.
+pub(super) fn shape_of_weights(
+    model: &FloatModel,
+    [w_x, h]: [f64; 2],
+    [dist_x, dist_e, dist_z]: [f64; 3],
+) -> (f64, f64) {
+    // D_e^2 is the level, and w_x P_low D_x^2 = D_e^2.
+    let of_zeta = h * dist_z * dist_z;
+    let own = w_x * model.p_up * dist_x * dist_x;
+    let level = own + dist_e * dist_e + of_zeta;
+    ((level / own).sqrt(), of_zeta / (dist_e * dist_e))
+}
+
 /// An error box with the level condition active: D_x = rho c dX, h from eta.
 #[derive(Clone)]
 pub(super) struct Shape {

@@ -3,7 +3,9 @@
 //! Everything here is deterministic: candidates are generated in a fixed order, evaluated in parallel, and compared in
 //! that order, so that the number of threads does not change the result.
 
+mod at_samples;
 mod binding;
+mod box_at_samples;
 mod by_energy;
 mod by_matrix;
 mod candidate;
@@ -26,6 +28,7 @@ mod sharp;
 mod smaller_set;
 mod threshold;
 
+pub use at_samples::{AtSamples, BySampledEnergy, BySampledMatrix, SampledEnergyAt, SampledRadiusAt};
 pub use binding::Binding;
 pub use by_energy::{ByEnergy, EnergyMargin, SHARE};
 pub use candidate::{AtSigma, active_level, weight_h};

@@ -1,5 +1,6 @@
 //! The specification in floating point, for searches only.
 
+use super::at_samples::AtSamples;
 use super::by_energy::ByEnergy;
 use super::effort::Effort;
 use super::float_bound::FloatBound;
@@ -115,6 +116,8 @@ pub struct FloatModel {
     pub by_matrix: Option<ByMatrix>,
     /// What bounds the periodic solution beside the gains of loops, if anything.
     pub by_energy: Option<ByEnergy>,
+    /// The same of the law at samples.
+    pub at_samples: AtSamples,
 }
 
 impl Deref for FloatModel {
@@ -188,6 +191,7 @@ impl FloatModel {
                 let joint = values.joint_existence().map(|joint| ByEnergy::Joint(Arc::new(joint.clone())));
                 joint.or_else(|| values.existence().map(|known| ByEnergy::Proved(Arc::new(known.clone()))))
             },
+            at_samples: AtSamples::from(spec.bounds.proved_values().sampled()),
         }
     }
 

@@ -8,6 +8,7 @@ use super::by_energy::ByEnergy;
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::real::Real;
 use sigmastar_theory::data::Problem;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::mean_squares::{
@@ -84,7 +85,7 @@ enum Regulated<'a> {
     /// In continuous time.
     Continuous { gains: &'a ErrorGains<f64>, form: ExistenceForm },
     /// At samples.
-    Sampled(&'a SampledGains<f64>),
+    Sampled { gains: &'a SampledGains<f64>, sigma: f64 },
 }
 
 /// The iteration at one sigma.
@@ -132,7 +133,11 @@ impl Iteration<'_> {
                 }
                 None => undamped(gains.response(self.origin, &forcing())),
             },
-            Regulated::Sampled(gains) => undamped(gains.response(self.origin, &forcing())),
+            Regulated::Sampled { gains, sigma } => {
+                let gains = self.at_samples(gains, sigma, [x_p, e_p])?;
+                x_rms = x_rms.min_known(&gains.rms_of_states());
+                undamped(gains.response(self.origin, &forcing()))
+            }
         };
         let next = [bounds.x_sup(&squares), sup, x_rms, rms, rate_rms].map(|v| v * self.enlarged);
         if !next.iter().all(|value| value.is_finite() && *value < 1e140) {
@@ -184,12 +189,19 @@ impl Iteration<'_> {
         }
     }
 
+    /// The gains of the law at samples with what a matrix inequality says on (X_p, E_p), where there is one there.
+    fn at_samples(&self, gains: &SampledGains<f64>, sigma: f64, at: [f64; 2]) -> Result<SampledGains<f64>, Obstacle> {
+        let Some(known) = &self.model.at_samples.existence else { return Ok(gains.clone()) };
+        let bounds = known.bounds(at, self.origin, sigma).map_err(|failing| failing.at(at[0], at[1]))?;
+        Ok(gains.clone().with_energy(bounds))
+    }
+
     fn kap(&self, bounds: &SetBounds<f64>) -> f64 {
         match self.regulated {
             Regulated::Continuous { form: ExistenceForm::Damped(share), .. } => {
                 share * 0.5 * (bounds.q_e - bounds.q_e_max).max(0.0)
             }
-            Regulated::Continuous { form: ExistenceForm::Plain, .. } | Regulated::Sampled(_) => 0.0,
+            Regulated::Continuous { form: ExistenceForm::Plain, .. } | Regulated::Sampled { .. } => 0.0,
         }
     }
 
@@ -314,9 +326,11 @@ impl PeriodicSet {
         room: f64,
     ) -> Result<PeriodicSet, Obstacle> {
         let gains = SampledGains::new(law, &sigma, &model.period);
-        let regulated = Regulated::Sampled(&gains);
+        let regulated = Regulated::Sampled { gains: &gains, sigma };
         let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
-        iteration.set(iteration.least()?, &gains, |_, _| None)
+        let at = iteration.least()?;
+        let gains = iteration.at_samples(&gains, sigma, [at[0], at[1]])?;
+        iteration.set(at, &gains, |_, _| None)
     }
 }
 

@@ -3,6 +3,7 @@
 //! Nothing is monotone here: too small a sigma does not hold the plant, too large a one asks too much of a sample. So sigma is
 //! scanned from below up to 1/h, and refined where the scan changes its mind.
 
+use super::box_at_samples::error_box_at_samples;
 use super::candidate::{AtSigma, Shape};
 use super::error_box::{best_shape, shape_near};
 use super::floors::{ordinary, raised, tiny};
@@ -11,6 +12,7 @@ use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
 use super::scan;
 use super::sharp::{ROOM, search_sharp, start_distances};
+use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Form, Part, SampledLaw};
@@ -78,6 +80,8 @@ pub enum SampledLimit {
     Hold,
     /// h k_e and h k_x in Q_h.
     Motion,
+    /// The matrix inequality, which is in the place of Q_0 and Q_h.
+    Matrix,
 }
 
 impl SampledLimit {
@@ -90,6 +94,7 @@ impl SampledLimit {
             SampledLimit::Theta => "theta",
             SampledLimit::Hold => "hold",
             SampledLimit::Motion => "motion",
+            SampledLimit::Matrix => "matrix",
         }
     }
 
@@ -110,6 +115,9 @@ impl SampledLimit {
             }
             SampledLimit::Motion => {
                 "h dq/de and h dq/dx in Q_h: what moves within a sample; a shorter sampling period or a smaller initial set helps"
+            }
+            SampledLimit::Matrix => {
+                "the matrix inequality over the derivatives: a larger gain, a shorter sampling period or a smaller initial set helps"
             }
         }
     }
@@ -151,6 +159,22 @@ impl<'m> SampledSearch<'m> {
         Ok((set, at))
     }
 
+    /// The same near a shape alone; at it alone where it is not `refined`.
+    #[must_use]
+    pub fn near_shape(
+        &self,
+        (sigma, floors): (f64, Floors),
+        (rho, eta): (f64, f64),
+        room: f64,
+        refined: bool,
+    ) -> Option<(PeriodicSet, AtSigma)> {
+        let set = PeriodicSet::least_sampled(self.model, &self.origin, (&self.law, sigma), floors, room).ok()?;
+        let distances = start_distances(self.model, &set);
+        let evaluate = |rho: f64, eta: f64| self.evaluate(sigma, &set, distances, (rho, eta));
+        let at = if refined { shape_near(self.model, evaluate, (rho, eta)) } else { evaluate(rho, eta).ok() };
+        Some((set, at?))
+    }
+
     fn evaluate(
         &self,
         sigma: f64,
@@ -158,6 +182,10 @@ impl<'m> SampledSearch<'m> {
         distances: [f64; 3],
         (rho, eta): (f64, f64),
     ) -> Result<AtSigma, Obstacle> {
+        if let Some(known) = &self.model.at_samples.stability {
+            let shape = ((rho, eta), sigma);
+            return error_box_at_samples(known, self.model, (set.x_per, set.e_per), distances, shape);
+        }
         let [_, dist_e, dist_z] = distances;
         Shape::best(self.model, (set.x_per, set.e_per), distances, (rho, eta), |shape| {
             let forms = self.forms(sigma, &shape, None);
@@ -204,7 +232,8 @@ impl<'m> SampledSearch<'m> {
     pub fn near(&self, known: &SampledProposal, gain: Option<f64>) -> Result<SampledProposal, Obstacle> {
         let SampledProposal { sigma, floors, rho, eta, .. } = *known;
         let largest = self.law.step.recip();
-        let gains: Vec<f64> = match gain {
+        // A matrix inequality is proved at one gain.
+        let gains: Vec<f64> = match gain.or_else(|| self.model.at_samples.gain().map(Rational::to_f64)) {
             Some(gain) => vec![gain],
             None => LARGER.map(|share| (sigma * (1.0 + share)).min(largest)).to_vec(),
         };
@@ -303,6 +332,9 @@ impl<'m> SampledSearch<'m> {
     pub fn limit(&self, proposal: &SampledProposal) -> SampledLimit {
         let SampledProposal { sigma, floors, rho, eta, .. } = *proposal;
         let Ok((set, at)) = self.at(sigma, floors, Some((rho, eta)), ROOM) else { return SampledLimit::Existence };
+        if self.model.at_samples.stability.is_some() {
+            return SampledLimit::Matrix;
+        }
         let shape = Shape::of(self.model, (set.x_per, set.e_per), &at);
         let of = |part: Option<Part>| {
             let forms = self.forms(sigma, &shape, part);

@@ -2,6 +2,7 @@
 
 use super::law::SampledLaw;
 use crate::data::Problem;
+use crate::derivation::energy::EnergyBounds;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{Forcing, Gains, Response};
 use sigmastar_exact::real::{Operand, Real};
@@ -28,6 +29,14 @@ pub struct SampledGains<R> {
     pub between: R,
     /// (h/pi)^2: the same in the mean.
     pub between_rms: R,
+    /// bt_h: sup|e_k| over the mean square of the y_k.
+    pub sup_of_means: R,
+    /// 2/(2 - h sigma): the mean square of (e_{k+1} - e_k)/h over that of the y_k.
+    pub rate_of_means: R,
+    /// sqrt(h T)/2: what e is off its straight lines between samples, over rms(q).
+    pub between_by_size: R,
+    /// What a matrix inequality says of the periodic solution, where there is one (derivation, 13.7, (E) at samples); of y at samples.
+    energy: Option<EnergyBounds<R>>,
     /// mu and 1 + theta of the law.
     mu: R,
     enlarged: R,
@@ -49,7 +58,7 @@ where
         let share = |sine: &R| sigma.sqr() + &decay * law.frequency_squared(sine);
         let largest = law.enlarged.sqr();
         let nothing = &largest * R::int(0);
-        let (mut sup, mut sup_by_rate) = (nothing.clone(), nothing);
+        let (mut sup, mut sup_by_rate, mut sup_of_means) = (nothing.clone(), nothing.clone(), nothing);
         for (j, sine) in (1_u32..).zip(law.sines.iter()) {
             let cosine = &one - sine;
             let gain = if law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
@@ -58,7 +67,9 @@ where
                 largest.clone()
             };
             let times = if 2 * j == law.samples { one.clone() } else { R::int(2) };
-            let term = times * gain / share(sine);
+            let own = times / share(sine);
+            let term = gain * &own;
+            sup_of_means = sup_of_means + own;
             sup_by_rate = sup_by_rate + &term / law.frequency_squared(sine);
             sup = sup + term;
         }
@@ -67,6 +78,10 @@ where
         let in_between = &law.step / &law.pi;
         SampledGains {
             sup: sup.sqrt(),
+            sup_of_means: sup_of_means.sqrt(),
+            rate_of_means: R::int(2) / (R::int(2) - &product),
+            between_by_size: (&law.step * period).sqrt() / R::int(2),
+            energy: None,
             sup_by_rate: sup_by_rate.sqrt(),
             rms_by_rate: &rms / first.sqrt(),
             rate: R::int(2) * &law.enlarged / (R::int(2) - product),
@@ -77,6 +92,19 @@ where
             mu: law.mu.clone(),
             enlarged: law.enlarged.clone(),
         }
+    }
+
+    /// The same with the bounds of a matrix inequality, which are taken where they are smaller. What bounds a solution with q(t,0,0)
+    /// times a number in [0, 1] then is only strictly below what it shows.
+    #[must_use]
+    pub fn with_energy(self, energy: Option<EnergyBounds<R>>) -> SampledGains<R> {
+        SampledGains { energy, ..self }
+    }
+
+    /// Whether there are such bounds.
+    #[must_use]
+    pub fn has_energy(&self) -> bool {
+        self.energy.is_some()
     }
 }
 
@@ -104,15 +132,27 @@ where
     for<'a> &'a R: Operand<R>,
 {
     /// `min{bt_S R_q, tau_S R_1} + (h/(2 pi)) sqrt(h T) R_1`, `min{R_q, R_1/om_1}/sg_S + (h/pi)^2 R_1`,
-    /// `min{2 (1+theta)/(2 - h sigma) R_q, sqrt(1/sg_S^2 + (h/pi)^2) R_1}`.
+    /// `min{2 (1+theta)/(2 - h sigma) R_q, sqrt(1/sg_S^2 + (h/pi)^2) R_1}`; and of a matrix inequality
+    /// `bt_h r_y + (sqrt(h T)/2) R_q`, its bound of rms(e), `sqrt((2 r_y/(2 - h sigma))^2 + R_q^2)`.
     fn response(&self, _: &AtOrigin<R>, forcing: &Forcing<R>) -> Response<R> {
         let Forcing { q_rms, q_rate_rms, .. } = forcing;
         let least = |by_size: &R, by_rate: &R| (by_size * q_rms).min_known(&(by_rate * q_rate_rms));
-        Response {
+        let mut response = Response {
             sup: least(&self.sup, &self.sup_by_rate) + &self.between * q_rate_rms,
             rms: least(&self.rms, &self.rms_by_rate) + &self.between_rms * q_rate_rms,
             rate_rms: least(&self.rate, &self.rate_by_rate),
+        };
+        if let Some(EnergyBounds { y, e, .. }) = &self.energy {
+            let rate = ((&self.rate_of_means * y).sqr() + q_rms.sqr()).sqrt();
+            response.sup = response.sup.min_known(&(&self.sup_of_means * y + &self.between_by_size * q_rms));
+            response.rms = response.rms.min_known(e);
+            response.rate_rms = response.rate_rms.min_known(&rate);
         }
+        response
+    }
+
+    fn rms_of_states(&self) -> R {
+        self.energy.as_ref().map_or_else(R::unknown, |energy| energy.x.clone())
     }
 
     /// `Z^2 = (1+theta)^2 [ (T/(2 mu) + k0/w^2) R_q^2 + (k1/w^4) R_1^2 ]` (12.2), a bound of sup_k |zeta_k|_N^2.

@@ -1,79 +1,38 @@
-//! The regulator at samples (derivation, 12): conditions S0, S1, S2, C4, C5h decided from a rational witness.
+//! The regulator at samples (derivation, 12): conditions S0, S1, S2, C4, C5h decided from a rational witness; with matrix inequalities
+//! over a plant's derivatives in the place of C5h and beside S2 (13.7).
 //!
 //! A claim is about exactly one sigma and one sampling period: nothing here is monotone in either.
 
+pub mod energy;
 #[cfg(test)]
 mod examples;
 mod gains;
 mod law;
+mod matrix_inequality;
 mod pair;
 mod stability;
+mod witness;
 
+pub use energy::SampledEnergyNumbers;
 pub use gains::SampledGains;
 pub use law::SampledLaw;
 pub use pair::{SampledPair, sampled_trade_off};
 pub use stability::{DecayForms, DecayNumbers, Form, Part};
+pub use witness::SampledWitness;
 
 use super::condition::{self, Condition};
 use super::harmonics::AtOrigin;
-use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
+use super::initial_set::{claimed_distances, set_conditions};
 use super::mean_squares::{Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, sup_by_mean_squares};
-use super::paths::Paths;
 use super::sharp::one_sided;
 use super::stability::{ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
 use crate::data::Data;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
-use sigmastar_lang::spec::{SampledGain, Sampling};
 
 /// The largest relative difference between the mu of a specification and K (1 + theta), as its inverse.
 const SAME_MU: u32 = 1_000_000;
-
-/// The free numbers of a claim about the regulator at samples, exactly.
-#[derive(Clone, Debug)]
-pub struct SampledWitness {
-    /// The gain.
-    pub sigma: Rational,
-    /// h, with T/h samples.
-    pub sampling: Sampling,
-    /// K and Nb2.
-    pub law: SampledGain,
-    /// X_p > 0.
-    pub x_p: Rational,
-    /// E_p > 0.
-    pub e_p: Rational,
-    /// r_x > 0.
-    pub r_x: Rational,
-    /// r_e > 0.
-    pub r_e: Rational,
-    /// r_d > 0.
-    pub r_d: Rational,
-    /// D_x > 0.
-    pub d_x: Rational,
-    /// D_e > 0.
-    pub d_e: Rational,
-    /// w_x > 0.
-    pub w_x: Rational,
-    /// eta > 0, the weight of zeta.
-    pub eta: Rational,
-    /// k0, in units of omega/w.
-    pub k0: Rational,
-    /// k1, in units of omega/w.
-    pub k1: Rational,
-    /// The initial set to be covered.
-    pub set: ClaimedSet,
-    /// Along which paths f and q are split on the error box.
-    pub paths: Paths,
-}
-
-impl SampledWitness {
-    /// r_x, r_e, r_d.
-    #[must_use]
-    pub fn squares(&self) -> MeanSquares<&Rational> {
-        MeanSquares { x: &self.r_x, e: &self.r_e, e_rate: &self.r_d }
-    }
-}
 
 /// Everything that is computed from such a witness.
 #[derive(Clone, Debug)]
@@ -115,7 +74,7 @@ impl SampledEvaluation {
         };
         let origin = AtOrigin::new(data);
         let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
-        let gains = SampledGains::new(&law, &sigma, &data.period);
+        let gains = SampledGains::new(&law, &sigma, &data.period).with_energy(energy::proved(data, &origin, witness));
         let squares = witness.squares().map(|value| number(value));
         let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
         let z = gains.z_squared(data, &size.forcing, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
@@ -129,7 +88,11 @@ impl SampledEvaluation {
         conditions.push(SampledPair { law: &law, k0: &witness.k0, k1: &witness.k1 }.condition(data));
         conditions.extend(law_conditions(data, &law, &product));
         conditions.extend(too_large_a_sum(data, &law));
-        conditions.extend(existence_conditions(data, &bounds, &origin, &gains, &squares));
+        conditions.extend(energy::conditions(data, witness));
+        conditions.extend(match gains.has_energy() {
+            true => energy::existence_conditions(data, &bounds, &origin, &gains, &squares),
+            false => existence_conditions(data, &bounds, &origin, &gains, &squares),
+        });
         let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&size.x_per, &size.e_per, &z]);
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
         conditions.push(Condition::less(
@@ -138,8 +101,13 @@ impl SampledEvaluation {
             start,
             exit,
         ));
-        conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
-        conditions.extend(form_conditions(data, &forms));
+        match matrix_inequality::proved_for(data, witness) {
+            Some(inequality) => conditions.extend(matrix_inequality::conditions(data, inequality, &error_box)),
+            None => {
+                conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
+                conditions.extend(form_conditions(data, &forms));
+            }
+        }
         SampledEvaluation { product, law, bounds, size, z, error_box, forms, conditions }
     }
 

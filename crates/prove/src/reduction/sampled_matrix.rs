@@ -1,0 +1,369 @@
+//! The bounds of a plant for a claim about the regulator at samples that rests on matrix inequalities over the derivatives
+//! (derivation, 13.7, (Ms), and (E) at samples): in the coordinates of the inequality in continuous time, the gain is raised from the one
+//! there until both hold with some room, and they are proved at it.
+
+use super::coordinates::{Chosen, Rough};
+use super::entries::{needed, prove_all};
+use super::grid::Grid;
+use super::proofs::{Along, PRECISION};
+use super::proved_at_samples::{ReducedSampled, found_again};
+use super::reduce::{with_constant, with_search};
+use super::refusal::PlantRefusal;
+use super::sampling::{Sampling, float_matrix};
+use crate::search::{
+    AtSamples, AtSigma, BySampledEnergy, BySampledMatrix, FloatModel, Floors, PeriodicSet, SampledProposal,
+    SampledSearch, active_level, weight_h,
+};
+use rayon::prelude::*;
+use rug::Rational;
+use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::spec::{
+    self, PeriodicMatrix, ProvedValues, SampledExistence, SampledGain, SampledInequalities, SampledInequality,
+    SampledLoop,
+};
+use sigmastar_plants::bounds::{FloatSuprema, LoopNumbers, Places, SampledEnergy, SampledWeights};
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::paths::Path;
+use sigmastar_theory::derivation::sampled::{SampledEnergyNumbers, SampledLaw, sampled_trade_off};
+use std::sync::Arc;
+
+/// How much larger the next gain of the scan is, how many there are at most, and the steps of the bisection after it.
+const NEXT: f64 = 1.06;
+const GAINS: usize = 60;
+const STEPS: usize = 6;
+
+/// The radii that are aimed at, in turn: what is left below 1 is for what the samples have missed, and for few boxes.
+const TARGETS: [f64; 3] = [0.985, 0.95, 0.85];
+
+/// How far beyond the arguments of a proposal the bounds are proved, in turn.
+const ENLARGED: [f64; 2] = [2e-2, 1e-1];
+
+/// The inequality of stability is sampled so far beyond the error box.
+const BEYOND: f64 = 1.05;
+
+/// c_e in units of sigma^2 c_y, in turn.
+const SHARES: [f64; 2] = [0.3, 1.0];
+
+/// So many times gamma at samples is reckoned with: its proof may take that.
+const GAMMA_ROOM: f64 = 1.32;
+
+/// How often the inequality of existence is sought for the set that it gave, where that is so many times smaller than the one it was
+/// sought for, or larger.
+const TURNS: usize = 2;
+const FAR: f64 = 2.0;
+
+/// The set for which it is sought is so much larger than the one that is known.
+const LARGER: f64 = 1.1;
+
+/// The ratio of neighbouring nodes of a grid of gamma.
+const RATIO: f64 = 1.12;
+
+/// Points that are looked at for each bound.
+const EACH: usize = 6;
+
+/// What x, e_k and y keep, as shares of the rate along the orbit, of sigma and of k_p.
+const KEPT: f64 = 1e-6;
+
+/// The room in S1 and S2.
+const ROOM: f64 = 1e-9;
+
+/// Significant digits of the numbers of an inequality, and of the gain.
+const DIGITS: u32 = 8;
+const DIGITS_OF_GAIN: u32 = 6;
+
+/// What a matrix inequality must take from the gain of norms.
+const WORTH: f64 = 0.99;
+
+/// The coordinates of the inequality in continuous time, on the straight path; none where it is not worth its proof.
+pub(super) fn straight_by_matrix(
+    starts: &Result<(PeriodicMatrix, Rough), PlantRefusal>,
+    sampling: &Sampling<'_>,
+) -> Option<(Along, Chosen)> {
+    let (p, rough) = starts.as_ref().ok()?;
+    let path = Some(Path::Straight);
+    let starts = with_search(sampling, path, |search| Ok(search.for_matrix(rough))).ok()?;
+    let found =
+        starts.iter().filter_map(|start| with_constant(p, sampling, path, |search| search.choose_near(start)).ok());
+    found.min_by(|(_, a), (_, b)| a.proposal.sigma.total_cmp(&b.proposal.sigma))
+}
+
+/// The search at one sampling period.
+pub(super) struct MatrixAtSamples<'a> {
+    sampled: &'a Sampling<'a>,
+    along: &'a Along,
+    chosen: &'a Chosen,
+    sampling: &'a spec::Sampling,
+    gain: SampledGain,
+    law: SampledLaw<f64>,
+    model: FloatModel,
+    suprema: Arc<FloatSuprema>,
+    units: [f64; 2],
+    /// The points that matter from the start.
+    places: Places,
+}
+
+/// Where the search is at one gain.
+#[derive(Clone)]
+struct At {
+    sigma: f64,
+    /// (X_p, E_p) for which the inequality of existence is sought.
+    size: [f64; 2],
+    /// (rho, eta).
+    shape: (f64, f64),
+    places: Places,
+}
+
+/// What was found at one gain.
+#[derive(Clone)]
+struct Found {
+    sigma: f64,
+    set: PeriodicSet,
+    at: AtSigma,
+    energy: Option<SampledEnergy>,
+    model: FloatModel,
+    places: Places,
+}
+
+impl<'a> MatrixAtSamples<'a> {
+    /// `None` where the law has no numbers for this sampling period.
+    pub(super) fn new(
+        sampled: &'a Sampling<'a>,
+        (along, chosen): (&'a Along, &'a Chosen),
+        sampling: &'a spec::Sampling,
+    ) -> Option<MatrixAtSamples<'a>> {
+        let plant = sampled.plant;
+        let gain = plant.internal_model.sampled_gain(&sampling.step)?;
+        let empty = along.specification(plant, ProvedValues::default()).ok()?;
+        let data = Data::new(&empty, PRECISION);
+        let enclosed = SampledLaw::new(&data, sampling, &gain);
+        let mut model = chosen.model.with_trade_off(sampled_trade_off(&data, &enclosed));
+        (model.by_matrix, model.by_energy) = (None, None);
+        let units = sampled.units(&float_matrix(&along.coordinates.l));
+        let suprema = Arc::new(along.suprema(sampled));
+        let places = suprema.extreme(&[units], EACH, None).places;
+        let law = enclosed.to_f64();
+        Some(MatrixAtSamples { sampled, along, chosen, sampling, gain, law, model, suprema, units, places })
+    }
+
+    /// The bounds and inequalities at the gain that is given, or at the smallest one that is found, and is below that of norms.
+    pub(super) fn reduce(&self, gain: Option<&Rational>, by_norms: Option<f64>) -> Option<ReducedSampled> {
+        if let Some(gain) = gain {
+            let found = self.scan_at(gain.to_f64())?;
+            return self.proved(&found, gain);
+        }
+        let largest = by_norms.map_or(f64::INFINITY, |sigma| sigma * WORTH).min(self.law.step.recip());
+        let start = self.start(self.chosen.proposal.sigma);
+        TARGETS.into_iter().find_map(|target| {
+            let found = self.least(&start, target, largest)?;
+            let sigma = round_f64(found.sigma, DIGITS_OF_GAIN, Direction::Up)?;
+            let found = self.at(&At { sigma: sigma.to_f64(), ..self.again(&found) })?;
+            self.proved(&found, &sigma)
+        })
+    }
+
+    /// From what is known in continuous time.
+    fn start(&self, sigma: f64) -> At {
+        let parameters = self.chosen.proposal.parameters;
+        At { sigma, size: self.units, shape: (parameters.rho, parameters.eta), places: self.places.clone() }
+    }
+
+    fn floors(&self) -> Floors {
+        self.chosen.proposal.parameters.floors
+    }
+
+    /// Where the next gain starts from what was found at one.
+    fn again(&self, found: &Found) -> At {
+        let Found { sigma, set, at, places, .. } = found;
+        At { sigma: *sigma, size: [set.x_p, set.e_p], shape: (at.rho, at.eta), places: places.clone() }
+    }
+
+    /// The least gain with that radius, up to the largest one.
+    fn least(&self, start: &At, target: f64, largest: f64) -> Option<Found> {
+        let mut from = start.clone();
+        let mut below = None;
+        let mut best = None;
+        for _ in 0..GAINS {
+            if from.sigma > largest {
+                return None;
+            }
+            let next = from.sigma * NEXT;
+            match self.at(&from) {
+                Some(found) if found.at.threshold <= target => {
+                    best = Some(found);
+                    break;
+                }
+                Some(found) => {
+                    below = Some(from.sigma);
+                    from = At { sigma: next, ..self.again(&found) };
+                }
+                None => {
+                    below = Some(from.sigma);
+                    from.sigma = next;
+                }
+            }
+        }
+        let mut best = best?;
+        let Some(mut below) = below else { return Some(best) };
+        for _ in 0..STEPS {
+            let middle = (below * best.sigma).sqrt();
+            match self.at(&At { sigma: middle, ..self.again(&best) }) {
+                Some(found) if found.at.threshold <= target => best = found,
+                _ => below = middle,
+            }
+        }
+        Some(best)
+    }
+
+    /// What is found at a gain that is given.
+    fn scan_at(&self, sigma: f64) -> Option<Found> {
+        let first = self.at(&self.start(sigma))?;
+        self.at(&self.again(&first)).filter(|found| found.at.threshold < 1.0)
+    }
+
+    fn numbers(&self, sigma: f64) -> LoopNumbers<f64> {
+        let SampledLaw { step, gain, weight_sum, pi, .. } = &self.law;
+        LoopNumbers::new(sigma, *step, [*gain, *weight_sum], pi)
+    }
+
+    /// The model at one gain.
+    fn model(&self, sigma: f64, places: &Places, energy: Option<&SampledEnergy>) -> FloatModel {
+        let of = self.numbers(sigma);
+        let (suprema, listed, law) = (self.suprema.clone(), places.clone(), of.clone());
+        let radius = move |[x, e]: [f64; 2], [w_x, eta]: [f64; 2], _: f64| {
+            let weights = SampledWeights { w_x, eta, of: law.clone() };
+            suprema.sampled_radius([x * BEYOND, e * BEYOND], &listed, &weights).radius
+        };
+        let existence = energy.map(|energy| {
+            let SampledEnergy { c_x, c_e, c_y, .. } = *energy;
+            let (suprema, listed, energy) = (self.suprema.clone(), places.clone(), energy.clone());
+            let gamma = move |x: f64, e: f64| GAMMA_ROOM * suprema.sampled_gamma([x, e], &listed, &energy, &of);
+            let grid = Grid::new(gamma, self.units, RATIO);
+            BySampledEnergy::Sampled(Arc::new(move |at, _| {
+                let gamma = grid.at(at, |gamma| *gamma).unwrap_or(f64::NAN);
+                SampledEnergyNumbers { c_x, c_e, c_y, gamma }
+            }))
+        });
+        let stability = Some(BySampledMatrix::Sampled(Arc::new(radius)));
+        let mut model = self.model.clone();
+        model.at_samples = AtSamples { stability, existence };
+        model
+    }
+
+    /// The best that is found at a gain: of the inequalities of existence the one with which the known shape does best, and then the shape.
+    fn at(&self, from: &At) -> Option<Found> {
+        let of = self.numbers(from.sigma);
+        let with = |energy: Option<SampledEnergy>| {
+            let model = self.model(from.sigma, &from.places, energy.as_ref());
+            let (set, at) = self.near_shape(&model, from, false)?;
+            Some(Found { sigma: from.sigma, set, at, energy, model, places: from.places.clone() })
+        };
+        let smaller = |a: &Found, b: &Found| a.at.threshold.total_cmp(&b.at.threshold);
+        let mut best = with(None);
+        let mut size = from.size;
+        for _ in 0..TURNS {
+            let reach = size.map(|side| side * LARGER);
+            let sought = SHARES.into_par_iter().filter_map(|share| {
+                let energy = self.suprema.propose_sampled_energy(reach, &of, share)?;
+                with(Some(energy))
+            });
+            best = sought.collect::<Vec<_>>().into_iter().chain(best).min_by(smaller);
+            let found = best.as_ref().map(|found| [found.set.x_p, found.set.e_p])?;
+            let is_near = |found: f64, size: f64| (size / FAR..=size * LARGER).contains(&found);
+            if is_near(found[0], size[0]) && is_near(found[1], size[1]) {
+                break;
+            }
+            size = found;
+        }
+        let known = best?;
+        let (set, at) = self.near_shape(&known.model, from, true)?;
+        let mut found = Found { set, at, ..known };
+        found.places = self.with_worst(&found);
+        Some(found)
+    }
+
+    /// The periodic set and the error box near the known shape.
+    fn near_shape(&self, model: &FloatModel, from: &At, refined: bool) -> Option<(PeriodicSet, AtSigma)> {
+        let search = SampledSearch::new(model, self.law.clone());
+        search.near_shape((from.sigma, self.floors()), from.shape, ROOM, refined)
+    }
+
+    /// The points that matter, with those where the inequality of stability is tightest.
+    fn with_worst(&self, found: &Found) -> Places {
+        let (at, weights, lambda) = self.weights(found);
+        self.suprema.with_worst(at, &self.places, &weights, lambda)
+    }
+
+    /// Where the inequality of stability is asked for, its weights, and the best lambda.
+    fn weights(&self, found: &Found) -> ([f64; 2], SampledWeights, f64) {
+        let Found { sigma, set, at, places, .. } = found;
+        let level = active_level(at.eta, at.dist_e, at.rho);
+        let (w_x, eta) = (level / (self.model.p_low * at.d_x * at.d_x), weight_h(at.eta, at.dist_e, at.dist_z));
+        let weights = SampledWeights { w_x, eta, of: self.numbers(*sigma) };
+        let reach = [set.x_per + at.d_x, set.e_per + level.sqrt()].map(|side| side * BEYOND);
+        let lambda = self.suprema.sampled_radius(reach, places, &weights).lambda;
+        (reach, weights, lambda)
+    }
+
+    /// The specification with the values proved at the arguments of what was found.
+    fn proved(&self, found: &Found, sigma: &Rational) -> Option<ReducedSampled> {
+        let plant = self.sampled.plant;
+        let wanted = self.wanted(found, sigma)?;
+        let engine = self.along.engine(plant).ok()?;
+        let proposal = SampledProposal {
+            sigma: found.sigma,
+            floors: self.floors(),
+            rho: found.at.rho,
+            eta: found.at.eta,
+            radius: found.at.threshold,
+        };
+        ENLARGED.into_iter().find_map(|enlarged| {
+            let second = self.along.second().is_some();
+            let at = needed(&found.model, &found.set, &found.at, enlarged, (second, found.sigma))?;
+            let at = at.with_sampled(wanted.clone());
+            let [x, e] = at.largest();
+            engine.smooth(&x, &e).ok()?;
+            let values = prove_all(&engine, &self.suprema, &at, &plant.internal_model.mu).ok()?;
+            let spec = self.along.specification(plant, values).ok()?;
+            let proposal = found_again(&spec, self.sampling, &proposal, Some(found.sigma)).ok()?;
+            Some(ReducedSampled { spec, proposal })
+        })
+    }
+
+    /// The inequalities with short numbers; gamma is sought with their proofs.
+    fn wanted(&self, found: &Found, sigma: &Rational) -> Option<SampledInequalities> {
+        let about = SampledLoop { sigma: sigma.clone(), samples: self.sampling.samples, law: self.gain.clone() };
+        let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
+        let little = |value: f64| round_f64(KEPT * value, 1, Direction::Down).filter(|value| *value > 0);
+        let (_, weights, lambda) = self.weights(found);
+        let stability = SampledInequality {
+            x: Rational::new(),
+            e: Rational::new(),
+            w_x: short(weights.w_x)?,
+            eta: short(weights.eta)?,
+            lambda: short(lambda)?,
+            rate: little(self.model.alpha)?,
+            c_e: little(found.sigma)?,
+            c_y: little(2.0 * weights.eta / self.law.gain)?,
+            at: about.clone(),
+        };
+        let existence = match &found.energy {
+            None => None,
+            Some(SampledEnergy { p, k_p, lambda, c_x, c_e, c_y }) => {
+                let row = |row: &Vec<f64>| row.iter().map(|entry| short(*entry)).collect::<Option<Vec<Rational>>>();
+                Some(SampledExistence {
+                    x: Rational::new(),
+                    e: Rational::new(),
+                    matrix: p.iter().map(row).collect::<Option<_>>()?,
+                    k_p: short(*k_p)?,
+                    c_x: short(*c_x)?,
+                    c_e: short(*c_e)?,
+                    c_y: short(*c_y)?,
+                    gamma: Rational::new(),
+                    lambda: short(*lambda)?,
+                    at: about,
+                })
+            }
+        };
+        Some(SampledInequalities { stability: Some(stability), existence })
+    }
+}

@@ -1,0 +1,59 @@
+//! The free numbers of a claim about the regulator at samples.
+
+use crate::derivation::initial_set::ClaimedSet;
+use crate::derivation::mean_squares::MeanSquares;
+use crate::derivation::paths::Paths;
+use rug::Rational;
+use sigmastar_lang::spec::{SampledGain, SampledLoop, Sampling};
+
+/// The free numbers of a claim about the regulator at samples, exactly.
+#[derive(Clone, Debug)]
+pub struct SampledWitness {
+    /// The gain.
+    pub sigma: Rational,
+    /// h, with T/h samples.
+    pub sampling: Sampling,
+    /// K and Nb2.
+    pub law: SampledGain,
+    /// X_p > 0.
+    pub x_p: Rational,
+    /// E_p > 0.
+    pub e_p: Rational,
+    /// r_x > 0.
+    pub r_x: Rational,
+    /// r_e > 0.
+    pub r_e: Rational,
+    /// r_d > 0.
+    pub r_d: Rational,
+    /// D_x > 0.
+    pub d_x: Rational,
+    /// D_e > 0.
+    pub d_e: Rational,
+    /// w_x > 0.
+    pub w_x: Rational,
+    /// eta > 0, the weight of zeta.
+    pub eta: Rational,
+    /// k0, in units of omega/w.
+    pub k0: Rational,
+    /// k1, in units of omega/w.
+    pub k1: Rational,
+    /// The initial set to be covered.
+    pub set: ClaimedSet,
+    /// Along which paths f and q are split on the error box.
+    pub paths: Paths,
+}
+
+impl SampledWitness {
+    /// r_x, r_e, r_d.
+    #[must_use]
+    pub fn squares(&self) -> MeanSquares<&Rational> {
+        MeanSquares { x: &self.r_x, e: &self.r_e, e_rate: &self.r_d }
+    }
+
+    /// The gain and the law, which a matrix inequality is about.
+    #[must_use]
+    pub fn about(&self) -> SampledLoop {
+        let SampledWitness { sigma, sampling, law, .. } = self;
+        SampledLoop { sigma: sigma.clone(), samples: sampling.samples, law: law.clone() }
+    }
+}
