@@ -42,8 +42,7 @@ impl Witness {
 pub fn check(d: &Data<'_>, error_box: &ErrorBox, [sigma, w_x, h]: [&Rational; 3], w: &Witness) -> Outcome<()> {
     let [sigma, w_x, h] = [sigma, w_x, h].map(|value| d.number(value));
     let [l_x, l_e, l_f] = [0, 1, 2].map(|i| d.number(&w.multipliers[i]));
-    let ErrorBox { k_x, k_f, rate, .. } = error_box;
-    let [k_e, most] = &error_box.sector(d, &(&h / &d.mu), &sigma);
+    let ErrorBox { k_x, k_e, most, k_f, rate, .. } = error_box;
     let (o, one) = (d.int(0), d.int(1));
     let xi = &w_x * rate * 2 - &l_x * k_x.sqr();
     let mut et = &sigma * 2 - &l_e * most * k_e - &l_f * k_f.sqr();

@@ -235,18 +235,19 @@ fn where_it_is_not_available() {
     assert_refused_at(&made().to_string(), Undecided, "/specification/input_gain");
 }
 
-/// No table of figures is determined, and no other derivation.
+/// No table of figures is determined, no other derivation, and no second proof of C5.
 #[test]
 fn figures() {
     let mut made = made();
     let paper = certificate(PAPER);
     made["constants"] = json!({ "tau": paper["constants"]["tau"] });
     made["comparison"] = paper["comparison"].clone();
+    made["witness"]["lmi"] = paper["witness"]["lmi"].clone();
     let report = judged(&made);
     let figures = &report.proved.as_ref().unwrap_or_else(|| panic!("{}", report.text(false))).figures;
     let found: Vec<&str> = figures.findings.iter().map(|finding| finding.pointer.as_str()).collect();
     let found: Vec<&str> = found.into_iter().filter(|place| !place.starts_with("/claim/")).collect();
-    assert_eq!(found, ["/comparison", "/conditions", "/constants/tau"]);
+    assert_eq!(found, ["/comparison", "/conditions", "/constants/tau", "/witness/lmi"]);
 }
 
 fn of_plant(name: &str) -> Value {

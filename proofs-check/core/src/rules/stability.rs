@@ -50,7 +50,7 @@ impl ErrorBox {
     }
 
     /// k_e and most, with a gain those of [`crate::gain::Gain::sector`].
-    pub fn sector(&self, d: &Data<'_>, ht: &Interval, sigma: &Interval) -> [Interval; 2] {
+    fn sector(&self, d: &Data<'_>, ht: &Interval, sigma: &Interval) -> [Interval; 2] {
         match &d.gain {
             Some(gain) => gain.sector([ht, sigma], [&self.k_e, &self.most]),
             None => [self.k_e.clone(), self.most.clone()],
