@@ -66,7 +66,7 @@ impl Subject {
             about: if spec.plant.is_some() { "plant" } else { "specification" },
             assumed: {
                 let mut list = match &spec.plant {
-                    Some(plant) => assumed_of_plant(plant),
+                    Some(plant) => assumed_of_plant(plant, spec),
                     None => assumed(spec, arguments),
                 };
                 match claim.sampled {
@@ -102,8 +102,9 @@ fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
             rounded_up(e)
         ),
     };
+    let input = input(spec);
     let mut list = vec![
-        "the plant is x' = f(t,x,e), e' = q(t,x,e) + u with f, q C2, T-periodic in t, and f(t,0,0) = 0".to_owned(),
+        format!("the plant is x' = f(t,x,e), e' = q(t,x,e) + {input} with f, q C2, T-periodic in t, and f(t,0,0) = 0"),
         format!("the bounding functions ({}) bound that plant {where_}", names.join(", ")),
     ];
     if given(Bound::QRms) || given(Bound::QtRms) {
@@ -144,25 +145,34 @@ fn rounded_up(value: f64) -> String {
         .unwrap_or_else(|| format!("{value:e}"))
 }
 
+/// What reaches the plant.
+fn input(spec: &Specification) -> &'static str {
+    if spec.input_gain.is_some() { "g v, v what the regulator puts out and g its gain," } else { "u" }
+}
+
 /// What it takes for granted of a continuous regulator.
 fn regulator(spec: &Specification) -> String {
     let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
+    let output = spec.input_gain.as_ref().map_or_else(String::new, |gain| {
+        let [low, high, nominal] = [&gain.low, &gain.high, &gain.nominal].map(|constant| printable(&constant.text));
+        format!(", and puts out v = u/{nominal}; g is one constant in [{low}, {high}]")
+    });
     format!(
-        "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}: no \
+        "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}{output}: no \
          sampling, delay, saturation or noise"
     )
 }
 
 /// What a claim about formulas takes for granted.
-fn assumed_of_plant(plant: &OfPlant) -> Vec<String> {
+fn assumed_of_plant(plant: &OfPlant, spec: &Specification) -> Vec<String> {
     let stateless = plant.states == 0;
     let where_ = match &plant.domain {
         None => String::new(),
         Some([_, e]) if stateless => format!(" for |e| <= {}", printable(&e.text)),
         Some([x, e]) => format!(" for |x - x_0| <= {}, |e| <= {}", printable(&x.text), printable(&e.text)),
     };
-    let equations = if stateless { "e' = q(t,e) + u" } else { "x' = f(t,x,e), e' = q(t,x,e) + u" };
-    vec![format!("the machine is {equations} with exactly these formulas{where_}")]
+    let (equations, input) = (if stateless { "e' = q(t,e)" } else { "x' = f(t,x,e), e' = q(t,x,e)" }, input(spec));
+    vec![format!("the machine is {equations} + {input} with exactly these formulas{where_}")]
 }
 
 /// A free text on one line: control characters are escaped, and what is long is cut.

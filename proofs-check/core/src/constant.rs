@@ -3,9 +3,12 @@
 use crate::exact::Exact;
 use crate::expr::{Expr, NONE};
 use crate::interval::Interval;
-use crate::json::Field;
-use crate::verdict::{Outcome, bad};
+use crate::json::{Field, Fields};
+use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
+
+/// The name of the rule on what a specification or a plant is made of.
+pub const RULE: &str = "specification";
 
 /// The precisions, in bits, at which a question about constants is asked.
 pub const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
@@ -87,6 +90,15 @@ impl<'a> Number<'a> {
     pub fn le(&self, other: &Number<'_>) -> Option<bool> {
         other.lt(self).map(|less| !less)
     }
+}
+
+/// Reads a constant that has to be positive.
+pub fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
+    let field = fields.required(name)?;
+    let constant = Constant::read(&field)?;
+    let truth = Number::rational(Rational::new()).lt(&constant.number());
+    demand(truth, RULE, &field.pointer, format!("{name} > 0"))?;
+    Ok(constant)
 }
 
 /// Reads an expression in the given variables.

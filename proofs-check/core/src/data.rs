@@ -1,6 +1,7 @@
 //! The data of a specification, enclosed at one working precision (docs/mathematics.md, section 1).
 
 use crate::bound::Bound;
+use crate::gain::Gain;
 use crate::interval::Interval;
 use crate::plant::entries::Name;
 use crate::spec::Specification;
@@ -20,8 +21,10 @@ pub struct Data<'s> {
     pub c: Interval,
     /// c and alpha of the triple that serves for existence: the second one, if there is one.
     pub existence: [Interval; 2],
-    /// nu = mu/w.
+    /// nu = mu/w; with a gain b_lo mu/w, for T_N decreases in nu.
     pub nu: Interval,
+    /// The gain, where b is not 1.
+    pub gain: Option<Gain>,
     pub n_0: Interval,
     pub n_1: Interval,
     pub n_bar: Interval,
@@ -40,12 +43,14 @@ impl<'s> Data<'s> {
             Some((_, [p_low, p_up, alpha])) => [root(&number(p_low), &number(p_up)), number(alpha)],
             None => [c.clone(), alpha.clone()],
         };
+        let (gain, nu) = (Gain::new(spec.input_gain.as_ref(), precision), &mu / &w);
         Data {
             period: number(&spec.period),
             alpha,
             c,
             existence,
-            nu: &mu / &w,
+            nu: gain.as_ref().map_or_else(|| nu.clone(), |gain| &gain.low * &nu),
+            gain,
             n_0: spec.weights.weight(0, precision),
             n_1: spec.weights.weight(1, precision),
             n_bar: spec.weights.total(precision).sqrt(),
@@ -76,6 +81,11 @@ impl<'s> Data<'s> {
     /// Om = 2 pi/T.
     pub fn frequency(&self) -> Interval {
         Interval::pi(self.precision) * 2 / &self.period
+    }
+
+    /// A bound of e by q or by q', with a gain over b_m.
+    pub fn of_error(&self, bound: Interval) -> Interval {
+        self.gain.as_ref().map_or_else(|| bound.clone(), |gain| &bound / gain.of_error())
     }
 
     /// The positive part of a bounding function at (X, E), undefined if it is not given. A root mean square is at most the supremum, so b_q and b_qt serve

@@ -11,6 +11,8 @@ pub mod data;
 pub mod effort;
 pub mod exact;
 pub mod expr;
+pub mod gain;
+pub mod input_gain;
 pub mod interval;
 pub mod jacobian;
 pub mod json;

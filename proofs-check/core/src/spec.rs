@@ -5,9 +5,10 @@
 //! where period / sampling_period is a whole number >= 2 exactly.
 
 use crate::bound::{BOUND_NAMES, BOUNDS, REQUIRED};
-use crate::constant::{Constant, Number, PRECISIONS, expression};
+use crate::constant::{Constant, Number, PRECISIONS, RULE, expression, positive};
 use crate::exact::Exact;
 use crate::expr::{ARGUMENTS, Expr};
+use crate::input_gain::InputGain;
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
 use crate::json::{Field, Fields, Json};
@@ -15,8 +16,6 @@ use crate::plant::OfPlant;
 use crate::verdict::{Outcome, bad, demand};
 use crate::weights::Weights;
 use rug::{Integer, Rational};
-
-const RULE: &str = "specification";
 
 /// q(t,0,0) = sum over |k| <= K of c_k e^{i k Om t} + rest (docs/mathematics.md, section 10.1).
 #[derive(Clone, Debug)]
@@ -89,6 +88,8 @@ pub struct Specification {
     pub q_0: Option<Forcing>,
     pub domain: Option<[Constant; 2]>,
     pub initial_set: AskedSet,
+    /// The gain of the actuator signal, where it need not be 1.
+    pub input_gain: Option<InputGain>,
     /// Where the specification is a plant's formulas: what is known of them.
     pub plant: Option<Box<OfPlant>>,
 }
@@ -120,15 +121,6 @@ fn read_samples(fields: &mut Fields<'_>, period: &Constant, matched: bool) -> Ou
     let sampling = positive(fields, "sampling_period")?;
     demand(Some(matched), RULE, &pointer, "a sampling period needs `matched`")?;
     samples(period, &sampling, &pointer).map(Some)
-}
-
-/// Reads a constant that has to be positive.
-pub fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
-    let field = fields.required(name)?;
-    let constant = Constant::read(&field)?;
-    let truth = Number::rational(Rational::new()).lt(&constant.number());
-    demand(truth, RULE, &field.pointer, format!("{name} > 0"))?;
-    Ok(constant)
 }
 
 fn nonnegative(field: Field<'_>) -> Outcome<Constant> {
@@ -186,6 +178,7 @@ impl Specification {
             InternalModel::read(&file.required("internal_model")?, &period)?;
 
         let (initial_set, _) = read_set(&file.required("initial_set")?, false)?;
+        let input_gain = InputGain::read(&mut file)?;
         file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
         file.finish()?;
         let domain = domain.transpose()?;
@@ -206,6 +199,7 @@ impl Specification {
             q_0,
             domain,
             initial_set,
+            input_gain,
             plant: None,
         })
     }

@@ -196,6 +196,9 @@ impl Attempt<'_> {
     /// C5 as a matrix inequality.
     fn multipliers(&mut self, w: &sharp::Witness, proved: &sharp::Sharp) {
         let Some(field) = &self.parts.multipliers else { return };
+        if self.d.gain.is_some() {
+            return self.note(&field.pointer, with_gain(&field.pointer));
+        }
         let outcome = lmi::Witness::read(field).and_then(|multipliers| {
             lmi::check(self.d, &proved.error_box, [&w.sigma, &w.free.w_x, &w.free.h], &multipliers)
         });
@@ -205,6 +208,10 @@ impl Attempt<'_> {
     /// The repaired derivation, if it is given and proved.
     fn repaired(&mut self) -> Option<(repaired::Witness, repaired::Repaired)> {
         let field = self.parts.comparison.as_ref()?;
+        if self.d.gain.is_some() {
+            self.note(&field.pointer, with_gain(&field.pointer));
+            return None;
+        }
         let outcome = comparison(field, self.d).and_then(|w| repaired::prove(self.d, &w).map(|proved| (w, proved)));
         let (found, outcome) = match outcome {
             Ok(pair) => (Some(pair), Ok(())),
@@ -220,6 +227,11 @@ impl Attempt<'_> {
         constants::check(self.d, table, input, &mut |place, outcome| outcomes.push((place, outcome)));
         outcomes.into_iter().for_each(|(place, outcome)| self.note(&place, outcome));
     }
+}
+
+/// The second proof of C5 and the repaired derivation are about the gain 1.
+fn with_gain(pointer: &str) -> Outcome<()> {
+    Err(finding(Verdict::Invalid, compare::RULE, pointer, "it says nothing with `input_gain`"))
 }
 
 fn missing(pointer: &str) -> Outcome<()> {

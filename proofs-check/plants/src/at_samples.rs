@@ -157,20 +157,15 @@ pub fn questions<'i>(
         let what = ["F_h,0 >= diag(2 w_x rate P, c_e, c_y, 0, 0)", "F_h,h >= diag(2 w_x rate P, c_e, c_y, 0, 0)"];
         let asked = what.into_iter().zip(form.questions(model, &step));
         let at = [&part.x, &part.e];
-        all.extend(asked.map(|(what, question)| Said {
-            rule: inequality::RULE,
-            pointer: &part.pointer,
-            what,
-            at,
-            question,
-        }));
+        let (rule, pointer) = (inequality::RULE, part.pointer.as_str());
+        all.extend(asked.map(|(what, question)| Said { rule, pointer, what: what.to_owned(), at, question }));
     }
     if let Some(part) = existence {
         let form = of_existence(model, part)?;
         let what = ["F_h,0 >= c_x, c_e, c_y, less gamma q_0^2", "F_h,h >= c_x, c_e, c_y, less gamma q_0^2"];
         let (rule, pointer, at) = (existence::RULE, part.pointer.as_str(), [&part.x, &part.e]);
         let asked = what.into_iter().zip(form.questions(model, &step));
-        all.extend(asked.map(|(what, question)| Said { rule, pointer, what, at, question }));
+        all.extend(asked.map(|(what, question)| Said { rule, pointer, what: what.to_owned(), at, question }));
     }
     Ok(all)
 }

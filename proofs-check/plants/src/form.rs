@@ -7,7 +7,7 @@ use super::model::Model;
 use rug::Rational;
 
 /// The numbers of a matrix F, in (x, y/unit, e). Its rows are `-weight (P' + P J_+ + J_+'P)`, `-unit p - half r'`,
-/// `-weight P g + pull - J'p`; `2 half unit`, `-(unit w + half d)`; `corner - 2 p'g`, with `J_+ = J + rate I`.
+/// `-weight P g + pull - J'p`; `2 half unit`, `-(unit w + half (d + shift))`; `corner - 2 p'g`, with `J_+ = J + rate I`.
 pub struct Form<'i> {
     pub p: Vec<Vec<Id>>,
     pub weight: &'i Rational,
@@ -16,6 +16,8 @@ pub struct Form<'i> {
     pub unit: Id,
     pub w: &'i Rational,
     pub corner: Rational,
+    /// `(1-b) sigma`, which stands beside d where there is an input gain.
+    pub shift: Option<Id>,
     /// p, and sigma p: empty, where there is none.
     pub cross: &'i [Rational],
     pub pull: &'i [Rational],
@@ -46,6 +48,7 @@ impl Form<'_> {
             *entry = formulas.sub(*entry, turned);
         }
         let slope = formulas.derivative(q, Axis::Output);
+        let slope = self.shift.map_or(slope, |shift| formulas.add(slope, shift));
         let weighted = formulas.mul(minus_half, slope);
         let w = formulas.number(self.w);
         let of_unit = formulas.mul(w, self.unit);

@@ -16,13 +16,13 @@ pub fn questions<'i>(
 ) -> Outcome<Vec<Said<'i>>> {
     let mut all = Vec::new();
     if let Some(part) = inequalities.stability {
-        all.extend(inequality::of_stability(model, part, &spec.mu)?);
+        all.extend(inequality::of_stability(model, part, spec)?);
     }
     if let Some(part) = inequalities.joint {
         all.extend(inequality::of_joint(model, part)?);
     }
     if let Some(part) = inequalities.existence {
-        all.extend(inequality::of_existence(model, part)?);
+        all.extend(inequality::of_existence(model, part, spec)?);
     }
     if let Some(parts) = inequalities.at_samples {
         all.extend(at_samples::questions(model, parts, spec)?);

@@ -2,14 +2,16 @@
 //! (docs/mathematics.md, section 13.7).
 
 use super::form::{Form, numbers};
-use super::formula::Id;
+use super::formula::{Formulas, Id};
 use super::model::Model;
 use super::question::Question;
 use proofs_core::constant::Constant;
+use proofs_core::expr::Op;
 use proofs_core::rules::existence::{self, Existence};
 use proofs_core::rules::inequality::{Inequality, RULE};
 use proofs_core::rules::joint::{self, Joint};
 use proofs_core::rules::metric::{Metric, Metrics};
+use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, bad};
 use rug::Rational;
 
@@ -17,20 +19,65 @@ use rug::Rational;
 pub struct Said<'i> {
     pub rule: &'static str,
     pub pointer: &'i str,
-    pub what: &'static str,
+    pub what: String,
     /// X and E.
     pub at: [&'i Rational; 2],
     pub question: Question,
 }
 
+/// A constant of a file as a formula. It asks for nothing on the region: it has a value, or nothing is proved with it.
+fn constant(formulas: &mut Formulas, constant: &Constant) -> Id {
+    formulas.read(constant.expr(), &[], &mut Vec::new())
+}
+
+/// An end of b, and `(1-b) sigma` there.
+struct End {
+    at: &'static str,
+    shift: Option<Id>,
+}
+
+/// Both ends of the input gain, in which F is affine, or that there is none.
+fn ends(model: &mut Model, spec: &Specification, sigma: &Rational) -> Vec<End> {
+    let Some(gain) = spec.input_gain.as_ref().filter(|gain| !gain.is_nominal()) else {
+        return vec![End { at: "", shift: None }];
+    };
+    let formulas = &mut model.formulas;
+    let (nominal, sigma) = (constant(formulas, &gain.nominal), formulas.number(sigma));
+    let mut end = |at, end| {
+        let end = constant(formulas, end);
+        let apart = formulas.sub(nominal, end);
+        let share = formulas.apply(&Op::Div, [apart, nominal]);
+        End { at, shift: Some(formulas.mul(share, sigma)) }
+    };
+    vec![end(", at b_lo", &gain.low), end(", at b_hi", &gain.high)]
+}
+
 /// With the P of stability, w_x, h, the threshold of sigma, and y/mu, which divides by nothing. Without a splitting the question is
 /// `F >= 0`; with one, S in the place of its first rows, there are two: that F without the last row is not below S, and that S with
-/// the last row is not below 0.
-pub fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Constant) -> Outcome<Vec<Said<'i>>> {
+/// the last row is not below 0. What has the last row is asked at both ends of an input gain.
+pub fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, spec: &Specification) -> Outcome<Vec<Said<'i>>> {
+    let ends = ends(model, spec, &inequality.sigma);
+    let mut all: Vec<Said<'i>> = Vec::new();
+    for end in ends {
+        // S is asked for once: b has no part in it.
+        let mut said = of_stability_at(model, inequality, spec, &end)?;
+        let known = if all.is_empty() { 0 } else { said.len() - 1 };
+        all.extend(said.drain(known..));
+    }
+    Ok(all)
+}
+
+/// Those of one end; the last one alone has the row of e.
+fn of_stability_at<'i>(
+    model: &mut Model,
+    inequality: &'i Inequality,
+    spec: &Specification,
+    end: &End,
+) -> Outcome<Vec<Said<'i>>> {
     let order = model.states();
-    // A constant asks for nothing on the region: it has a value, or nothing is proved with it.
-    let mu = model.formulas.read(mu.expr(), &[], &mut Vec::new());
+    let mu = constant(&mut model.formulas, &spec.mu);
     let form = Form {
+        shift: end.shift,
         p: model.lyapunov[0].clone(),
         weight: &inequality.w_x,
         rate: inequality.rate.clone(),
@@ -43,7 +90,10 @@ pub fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, mu: &Cons
     };
     let (mut block, of_e) = form.rows(model);
     let formulas = &mut model.formulas;
-    let said = |what, at, question| Said { rule: RULE, pointer: &inequality.pointer, what, at, question };
+    let said = |what: &str, at, question| {
+        let what = format!("{what}{}", end.at);
+        Said { rule: RULE, pointer: &inequality.pointer, what, at, question }
+    };
     let [of_states, of_error] = inequality.arguments();
     let Some(splitting) = &inequality.splitting else {
         block.push(of_e);
@@ -80,12 +130,15 @@ pub fn of_joint<'i>(model: &mut Model, joint: &'i Joint) -> Outcome<[Said<'i>; 2
     asked.of_metrics(model, &joint.metrics)
 }
 
-/// That of one metric of existence, or those of two.
-pub fn of_existence<'i>(model: &mut Model, inequality: &'i Existence) -> Outcome<Vec<Said<'i>>> {
+/// Those of one metric of existence, at both ends of an input gain, or those of two.
+pub fn of_existence<'i>(model: &mut Model, inequality: &'i Existence, spec: &Specification) -> Outcome<Vec<Said<'i>>> {
     let Existence { pointer, x, e, threshold, form } = inequality;
     let asked = Asked { rule: existence::RULE, pointer, at: [x, e], sigma: threshold };
     match form {
-        existence::Form::Block(metric) => asked.of_block(model, metric).map(|said| vec![said]),
+        existence::Form::Block(metric) => {
+            let ends = ends(model, spec, threshold);
+            ends.iter().map(|end| asked.of_block(model, metric, end)).collect()
+        }
         existence::Form::Joint(metrics) => asked.of_metrics(model, metrics).map(Vec::from),
     }
 }
@@ -106,7 +159,7 @@ impl<'i> Asked<'i> {
         metric: &Metric,
         corner: Rational,
         [cross, pull]: [&[Rational]; 2],
-        what: &'static str,
+        (what, end): (&str, &End),
     ) -> Said<'i> {
         let order = model.states();
         let [c_x, c_e, c_y] = &metric.least;
@@ -118,6 +171,7 @@ impl<'i> Asked<'i> {
             unit: model.formulas.int(1),
             w: &metric.w,
             corner: corner - c_e,
+            shift: end.shift,
             cross,
             pull,
         };
@@ -129,14 +183,15 @@ impl<'i> Asked<'i> {
         }
         rows.push(of_e);
         let question = Question::new(formulas, rows, order);
+        let what = format!("{what}{}", end.at);
         Said { rule: self.rule, pointer: self.pointer, what, at: self.at, question }
     }
 
     /// The one matrix of the block form, whose c_e is 0.
-    fn of_block(&self, model: &mut Model, metric: &Metric) -> Outcome<Said<'i>> {
+    fn of_block(&self, model: &mut Model, metric: &Metric, end: &End) -> Outcome<Said<'i>> {
         metric.demand_order(model.states(), self.pointer)?;
         let corner = Rational::from(self.sigma * &metric.w) * 2u32;
-        Ok(self.of_metric(model, metric, corner, [&[], &[]], "F >= diag(c_x, 0, c_y)"))
+        Ok(self.of_metric(model, metric, corner, [&[], &[]], ("F >= diag(c_x, 0, c_y)", end)))
     }
 
     /// F of the near metric, with `2 sigma w_1` in the place of e, and G of the far one, with `2 sigma (w_1 + w_2)`: of the near one's p
@@ -146,10 +201,11 @@ impl<'i> Asked<'i> {
         let Metrics { near, far, cross } = metrics;
         let pull: Vec<Rational> = cross.iter().map(|entry| Rational::from(entry * self.sigma)).collect();
         let twice = Rational::from(self.sigma * 2u32);
+        let none = End { at: "", shift: None };
         let (own, both) = (Rational::from(&twice * &near.w), twice * Rational::from(&near.w + &far.w));
         Ok([
-            self.of_metric(model, near, own, [cross, &pull], "F of the near metric >= diag(c_x, c_e, c_y)"),
-            self.of_metric(model, far, both, [&[], &pull], "G of the far metric >= diag(c_x, c_e, c_y)"),
+            self.of_metric(model, near, own, [cross, &pull], ("F of the near metric >= diag(c_x, c_e, c_y)", &none)),
+            self.of_metric(model, far, both, [&[], &pull], ("G of the far metric >= diag(c_x, c_e, c_y)", &none)),
         ])
     }
 }

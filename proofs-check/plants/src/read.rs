@@ -2,8 +2,9 @@
 //! of a plant"): read and checked in form. What is proved of them is in the other files of this folder.
 
 use super::time::Wave;
-use proofs_core::constant::{Constant, expression};
+use proofs_core::constant::{Constant, expression, positive};
 use proofs_core::expr::Expr;
+use proofs_core::input_gain::InputGain;
 use proofs_core::jacobian;
 use proofs_core::json::{Field, Fields};
 use proofs_core::plant::OfPlant;
@@ -77,7 +78,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     header(&mut file, "sigmastar/plant")?;
     file.required("name")?.text()?;
     file.optional("description").map(|field| field.text().map(drop)).transpose()?;
-    let period = spec::positive(&mut file, "period")?;
+    let period = positive(&mut file, "period")?;
     let names = states(&file.required("states")?)?;
     let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).collect();
     let formula =
@@ -95,10 +96,11 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     };
     let domain = file.optional("domain").map(|field| {
         let mut fields = field.fields()?;
-        let ends = [spec::positive(&mut fields, "x")?, spec::positive(&mut fields, "e")?];
+        let ends = [positive(&mut fields, "x")?, positive(&mut fields, "e")?];
         fields.finish().map(|()| ends)
     });
     let domain = domain.transpose()?;
+    let input_gain = InputGain::read(&mut file)?;
     let model = spec::InternalModel::read(&file.required("internal_model")?, &period)?;
     file.finish()?;
 
@@ -138,6 +140,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         q_0: Some(q_0),
         domain: None,
         initial_set,
+        input_gain,
         plant: Some(Box::new(known.clone())),
     };
     Ok((specification, Plant { f, q, orbit, lyapunov, forcing, known }))

@@ -74,6 +74,10 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
             "no theorem is written of a claim about the regulator at samples: certify without `sampling_period`";
         return unsupported("/claim/regulator", message);
     }
+    if spec.input_gain.is_some() {
+        let pointer = format!("{}/input_gain", embedded.pointer);
+        return unsupported(&pointer, "no theorem is written of a claim about every input gain of an interval");
+    }
     let Witness::Sharp(witness) = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?.witness else {
         return unsupported("/witness", "no theorem is written of this kind of witness");
     };

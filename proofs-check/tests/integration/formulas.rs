@@ -39,6 +39,8 @@ struct Given {
     /// `q_0`, and its `rest_t_rms`.
     q_0: [bool; 2],
     matched: bool,
+    /// b_lo and b_hi of `input_gain`.
+    gain: Option<[f64; 2]>,
 }
 
 const C: [f64; 4] = [3.0, 0.5, 0.25, 0.125];
@@ -78,6 +80,9 @@ fn plant(given: Given) -> Specification {
         }
         document["q_0"] = q_0;
     }
+    if let Some([low, high]) = given.gain {
+        document["input_gain"] = json!({ "nominal": "2", "low": 2.0 * low, "high": 2.0 * high });
+    }
     specification(&document)
 }
 
@@ -112,9 +117,14 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     } else {
         rms(0.0, 0.0)
     };
-    let sg = (s * s + om * om).sqrt();
+    // Of section 13.1: b_m, d_b, c_m, and b_lo^3.
+    let [b_m, d_b, c_m, swung] = given.gain.map_or([1.0; 4], |[low, high]| {
+        let d_b = if low >= 0.5 { 1.0 } else { 0.5 / (low * (1.0 - low)).sqrt() };
+        [low, d_b, f64::min(low, 2.0 / (3.0 + high).sqrt()), low.powi(3)]
+    });
+    let sg = b_m * (s * s + om * om).sqrt();
     let bt = (t / (2.0 * s) * coth(s * t / 2.0) - 1.0 / (s * s)).sqrt();
-    let tau = (t * t / 12.0 - bt * bt).sqrt() / s;
+    let [tau, bt] = [(t * t / 12.0 - bt * bt).sqrt() / s / b_m, bt / b_m];
     let a_1: f64 = f64::max(3.0 - x_p, 0.5 - c * (3.0 + 5.0 * x_p) * x_p / 2.0);
     let k2 = c * (t * coth(a_1 * t / 2.0) / (2.0 * a_1)).sqrt();
 
@@ -138,23 +148,25 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
         let (mut more_sup, mut more_rms) = (f64::INFINITY, f64::INFINITY);
         if given.q_0[0] {
             r_1 = least(&[r_1, slope + rest[1] + d_1]);
-            more_sup =
-                sum(&|k, c| c / gain(k).sqrt()) + least(&[bt * rest[0], tau * rest[1]]) + least(&[bt * d_0, tau * d_1]);
-            more_rms = sum(&|k, c| c * c / gain(k)).sqrt()
+            more_sup = sum(&|k, c| c / gain(k).sqrt()) / b_m
+                + least(&[bt * rest[0], tau * rest[1]])
+                + least(&[bt * d_0, tau * d_1]);
+            more_rms = sum(&|k, c| c * c / gain(k)).sqrt() / b_m
                 + least(&[rest[0] / sg, rest[1] / (om * sg)])
                 + least(&[d_0 / sg, d_1 / (om * sg)]);
         }
         Follows {
             sup_e: least(&[bt * r_q, tau * r_1, (t * r_e * r_d).sqrt(), more_sup]),
             rms_e: least(&[r_q / sg, r_1 / (om * sg), more_rms]),
-            rms_d: least(&[r_q, r_1 / sg]),
+            rms_d: least(&[d_b * r_q, r_1 / sg]),
             rates: [r_q, r_1],
             apart: [d_0, d_1],
         }
     };
-    let g_k = if kap <= s { 1.0 / (s + kap) } else { 0.5 / (s * kap).sqrt() };
+    let g_k = if kap <= (2.0 - b_m) * s { 1.0 / (b_m * s + kap) } else { 0.5 / (s * (kap - (1.0 - b_m) * s)).sqrt() };
     let rho = f64::max(m + kap, q_e - kap);
     let rt = |r: [f64; 3]| q_0 + q_x * r[0] + rho * r[1];
+    let slope_of = |r: [f64; 3]| if given.gain.is_some() { d_b * rt(r) } else { rt(r) + kap * r[1] };
     let floats = |r: &[Rational; 3]| [r[0].to_f64(), r[1].to_f64(), r[2].to_f64()];
     let r = floats(&r);
     let per_e = c / a_1 * f_e;
@@ -162,7 +174,7 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
         vec![("S1", 0.0, a_1), ("S1b", least(&[per_e * e_p, k2 * f_e * r[1]]), x_p), ("S1c", per_e * r[1], r[0])];
     if kap > 0.0 {
         expected.push(("S2", (t * r[1] * r[2]).sqrt(), e_p));
-        expected.extend([("S2b", g_k * rt(r), r[1]), ("S2c", rt(r) + kap * r[1], r[2])]);
+        expected.extend([("S2b", g_k * rt(r), r[1]), ("S2c", slope_of(r), r[2])]);
         expected.extend(given.most.then_some(("M", -q_e, x_p / 10.0 + e_p / 10.0 - 0.4)));
     } else {
         let follows = at(r);
@@ -173,7 +185,7 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     if last.is_some() {
         let mut g = [follows.rms_e, follows.rms_d];
         if kap > 0.0 {
-            g = [least(&[g[0], g_k * rt(l)]), least(&[g[1], rt(l) + kap * l[1]])];
+            g = [least(&[g[0], g_k * rt(l)]), least(&[g[1], slope_of(l)])];
         }
         expected.extend([("S3", per_e * l[1], l[0]), ("S3b", g[0], l[1]), ("S3c", g[1], l[2])]);
     }
@@ -190,16 +202,16 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     close("x_per", &solution.x, least(&[x_p, per_e * e_per, k2 * f_e * l[1]]));
     close("R_q", &solution.rates[0], follows.rates[0]);
     close("R_1", &solution.rates[1], follows.rates[1]);
-    let nu = mu / w;
+    let nu = b_m * mu / w;
     let kappa = [k0 / (w * w), k1 / w.powi(4)];
-    let mean = |[q, q_t]: [f64; 2]| kappa[0] * q * q + kappa[1] * q_t * q_t;
-    let swing = t / (2.0 * mu) * follows.rates[0].powi(2);
+    let mean = |[q, q_t]: [f64; 2]| (kappa[0] * q * q + kappa[1] * q_t * q_t) / (c_m * c_m);
+    let swing = t / (2.0 * mu) * follows.rates[0].powi(2) / swung;
     let mut z_squared = swing + mean(follows.rates);
     if given.q_0[0] {
         let pole = |k: f64| if given.matched { 2.0 / (nu * nu * k.powf(-1.5)) } else { f64::INFINITY };
         let transfer = |k: f64| least(&[k0 + k1 * (k * om / w).powi(2), pole(k)]);
         let harmonics = C[0] * C[0] / (nu * nu * 2.0) + sum(&|k, c| transfer(k) * c * c);
-        let z = harmonics.sqrt() / w + mean(rest).sqrt() + mean(follows.apart).sqrt();
+        let z = harmonics.sqrt() / w / c_m + mean(rest).sqrt() + mean(follows.apart).sqrt();
         z_squared = least(&[z_squared, swing + z * z]);
     }
     close("Z^2", &solution.z_squared, z_squared);
@@ -217,7 +229,9 @@ fn existence() {
     for bits in 0..128_u32 {
         let bit = |index: u32| bits >> index & 1 == 1;
         let q_0 = [bit(4), bit(5)];
-        let given = Given { f_x: bit(0), most: bit(1), bends: bit(2), rms: bit(3), q_0, matched: bit(6) };
+        // Without a gain, and with one that has each of the cases of its numbers.
+        let gain = [None, Some([0.375, 1.5]), None, Some([0.875, 4.0])][(bits.count_ones() % 4) as usize];
+        let given = Given { f_x: bit(0), most: bit(1), bends: bit(2), rms: bit(3), q_0, matched: bit(6), gain };
         for (sigma, kap) in [((3, 1), (0, 1)), ((40, 1), (0, 1)), ((2, 1), (1, 2)), ((2, 1), (5, 1)), ((9, 1), (9, 1))]
         {
             for (index, r) in means.iter().enumerate() {
@@ -235,7 +249,7 @@ fn stability() {
     for (paths, most, rate) in pairs.flat_map(|paths| {
         [(false, false), (true, false), (false, true), (true, true)].map(|(most, rate)| (paths, most, rate))
     }) {
-        let none = Given { f_x: false, most, bends: false, rms: false, q_0: [false; 2], matched: true };
+        let none = Given { f_x: false, most, bends: false, rms: false, q_0: [false; 2], matched: true, gain: None };
         let mut spec = plant(none);
         if !rate {
             spec.rate = None;
@@ -263,7 +277,7 @@ fn stability() {
             let (w_x, h) = (2.0, n as f64 / q as f64);
             let (ht, k_x, k_f) = (h / 0.5, 0.3 + 0.5 * x_b + 0.7 * e_q, 0.2 + x_f + 2.0 * e_b);
             let size = f64::max((1.0 + ht * m).abs(), (1.0 - ht * k_l).abs());
-            let [coupling, curvature, threshold] = error_box.decay(&d, &d.int(2), &d.ratio(n, q));
+            let [coupling, curvature, threshold] = error_box.decay(&d, [&d.int(2), &d.ratio(n, q)], &d.int(1));
             close("ht k_x^2", &coupling, ht * k_x * k_x);
             close("4A", &curvature, 4.0 * w_x * a_2);
             if 4.0 * w_x * a_2 > ht * k_x * k_x {
@@ -280,7 +294,8 @@ fn stability() {
 /// bt and tau against their series, of which the rest after J terms lies between two integrals.
 #[test]
 fn periodic_facts() {
-    let spec = plant(Given { f_x: false, most: false, bends: false, rms: false, q_0: [false; 2], matched: true });
+    let spec =
+        plant(Given { f_x: false, most: false, bends: false, rms: false, q_0: [false; 2], matched: true, gain: None });
     let d = Data::new(&spec, 128);
     let (t, om) = (2.0_f64, std::f64::consts::PI);
     for (n, m) in [(1, 1000), (1, 10), (1, 1), (7, 2), (50, 1), (1000, 1)] {
@@ -333,8 +348,9 @@ fn periodic_facts() {
 #[test]
 fn exact_regulation() {
     let cases = [(false, [false; 2]), (true, [false; 2]), (true, [true, false]), (true, [true; 2])];
-    for ((rms, q_0), aligned) in cases.into_iter().flat_map(|case| [(case, false), (case, true)]) {
-        let spec = plant(Given { f_x: false, most: true, bends: false, rms, q_0, matched: true });
+    let variants = [(false, None), (true, None), (false, Some([0.75, 1.5])), (true, Some([0.75, 1.5]))];
+    for ((rms, q_0), (aligned, gain)) in cases.into_iter().flat_map(|case| variants.map(|variant| (case, variant))) {
+        let spec = plant(Given { f_x: false, most: true, bends: false, rms, q_0, matched: true, gain });
         let d = Data::new(&spec, 128);
         let one = || Rational::from(1);
         let w = regulation::Witness {
@@ -361,8 +377,10 @@ fn exact_regulation() {
         let conditions = regulation::evaluate(&d, &set, &w, (None, None)).unwrap();
         let ids: Vec<&str> = conditions.iter().map(|condition| condition.id).collect();
         assert_eq!(ids, ["domain", "domain", "C4", "M", "C5", "C5b"]);
-        let reach = if aligned { z / mu } else { 2.0 + n_bar * 0.125 + z / mu };
-        close("C4", &conditions[2].lhs, 4.0 / 16.0 + 1.0 / 64.0 + reach * reach);
+        let [low, high] = gain.unwrap_or([1.0; 2]);
+        let z = z / (low * mu);
+        let reach = if aligned { z } else { 2.0 + n_bar * 0.125 + z };
+        close("C4", &conditions[2].lhs, 4.0 / 16.0 + 1.0 / 64.0 + high * reach * reach);
         // Around the origin: (D_x, D_e), and the rate at (D_x, 0), or at (D_x, D_e) where f is not split over x first.
         close("C5", &conditions[4].rhs, 4.0 * 2.5);
         for f in [Path::ErrorFirst, Path::Straight] {

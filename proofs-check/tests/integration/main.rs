@@ -17,6 +17,8 @@ mod forged;
 mod formulas;
 mod fuzz;
 mod hostile;
+mod input_gain;
+mod input_gain_formulas;
 mod intervals;
 mod joint_formulas;
 mod joint_inequality;

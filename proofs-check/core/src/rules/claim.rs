@@ -6,6 +6,7 @@ use super::sampled::claim::{N_O, Regulator};
 use super::set::ClaimedSet;
 use crate::constant::Constant;
 use crate::data::Data;
+use crate::input_gain::InputGain;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::plant::OfPlant;
@@ -35,6 +36,10 @@ pub struct Claim<'a> {
     pub statement: Field<'a>,
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.
     ball: Option<(Rational, Field<'a>)>,
+    /// The input gain that it is about, if it names one.
+    input_gain: Option<Field<'a>>,
+    /// Where it stands in the file.
+    pointer: String,
     sigma_text: &'a str,
     /// X_0 as it is written, and how e and the regulator start in words.
     set_text: (&'a str, String),
@@ -98,6 +103,8 @@ impl<'a> Claim<'a> {
             sampled,
             set: numbers,
             ball,
+            input_gain: fields.optional("input_gain"),
+            pointer: field.pointer.clone(),
             sigma_text,
             set_text,
             verdict: fields.required("verdict")?,
@@ -130,6 +137,7 @@ impl<'a> Claim<'a> {
         if !same {
             return reads(RULE, &self.mu, &spec.mu.text);
         }
+        InputGain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
         let kind = match spec.initial_set {
             AskedSet::Paper => "paper",
             AskedSet::AtRest(_) => "at-rest",
@@ -203,8 +211,9 @@ impl<'a> Claim<'a> {
             return (regulator.in_words(spec), "sampling instant");
         }
         let reach = if spec.matched { "" } else { " (which need not match the period)" };
+        let gain = spec.input_gain.as_ref().map_or_else(String::new, InputGain::in_words);
         let words = format!(
-            "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+            "For every number of oscillators n_o >= 0 and every gain sigma >= {}{gain}, with period T = {}, mu = {} and base \
              frequency {}{reach}",
             self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
         );

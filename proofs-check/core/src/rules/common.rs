@@ -116,7 +116,11 @@ impl Free {
     pub fn level(&self, d: &Data<'_>, reach: &[Interval; 3], of_u: [&Interval; 2]) -> (Condition, Interval) {
         let [d_x, d_e, w_x, h] = [&self.d_x, &self.d_e, &self.w_x, &self.h].map(|value| d.number(value));
         let [start, exit] = level(d, reach, [&d_x, &d_e, &w_x, &h]);
-        let transient = control::transient(d, of_u, [&d.int(1), &h], &start);
-        (Condition::less("C4", "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}", start, exit), transient)
+        // At the gain b the weight of zeta is b h, and the level no larger than at b_hi.
+        let least = d.gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h);
+        let transient = control::transient(d, of_u, [&d.int(1), &least], &start);
+        let weight = if d.gain.is_some() { "b_hi h" } else { "h" };
+        let what = format!("w_x P_up dX^2 + dE^2 + {weight} dZ^2 < min{{w_x P_low D_x^2, D_e^2}}");
+        (Condition::less("C4", what, start, exit), transient)
     }
 }

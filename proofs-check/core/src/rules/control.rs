@@ -12,24 +12,33 @@ pub const NAMES: [&str; 2] = ["steady", "transient"];
 /// `|u_j| <= factor |q_j|` for the harmonics of q but for the mean, which u answers by its opposite; `by_rate` bounds the sum of all
 /// of these |u_j| over the root mean square of q'.
 pub struct Answer {
+    /// |u_0| over |q_0|.
+    pub mean: Interval,
     pub factor: Interval,
     pub by_rate: Interval,
 }
 
 impl Answer {
-    /// `2/sqrt(3)`; with `sum 1/om_j^2 = T^2/12` over both signs `T/3`.
+    /// `2/sqrt(3)`; with `sum 1/om_j^2 = T^2/12` over both signs `T/3`. With a gain b u_j is `(i om e_j - q_j)/b` and u_0 `-q_0/b`, and the factor
+    /// `sqrt(1 + 2/(4 b - 1 + sqrt(1 + 8 b)))/b`, which falls in b.
     pub fn continuous(d: &Data<'_>) -> Answer {
-        Answer { factor: 2 / d.int(3).sqrt(), by_rate: &d.period / 3 }
+        let Some(gain) = &d.gain else {
+            return Answer { mean: d.int(1), factor: 2 / d.int(3).sqrt(), by_rate: &d.period / 3 };
+        };
+        let b = &gain.low;
+        let more = 2 / (b * 4 - 1 + (b * 8 + 1).sqrt());
+        let factor = (more + 1).sqrt() / b;
+        Answer { mean: b.recip(), by_rate: &factor * &d.period / d.int(12).sqrt(), factor }
     }
 
     /// The least of what the harmonics of q say, with its root mean squares and with `q_0`, and of what the sizes of e and zeta do:
     /// u = -sigma e + mu M'N zeta.
     pub fn steady(&self, along: &Along, by_parts: &Interval) -> Interval {
         let [[r_q, r_1], [d_0, d_1]] = &along.inputs;
-        let plain = |mean: &Interval| (mean + &self.by_rate * r_1).least(by_parts);
+        let plain = |mean: &Interval| (&self.mean * mean + &self.by_rate * r_1).least(by_parts);
         let Some([mean, others, rest, rest_t]) = &along.harmonics else { return plain(r_q) };
         let mean = r_q.least(&(mean + rest + d_0));
-        plain(&mean).least(&(&mean + &self.factor * others + &self.by_rate * (rest_t + d_1)))
+        plain(&mean).least(&(&self.mean * &mean + &self.factor * others + &self.by_rate * (rest_t + d_1)))
     }
 }
 

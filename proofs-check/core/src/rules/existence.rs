@@ -10,6 +10,11 @@
 //! `c_x rms(x)^2 + 2 (sigma - threshold) rms(e)^2 + c_y rms(y)^2 <= k_p mean(y l q_0) <= k_p Q_m rms(y)`: y has the mean 0 (the
 //! integrator), so `q_0` counts without its mean, and `Q_m = sqrt(2 sum_{k>=1} C_k^2) + r_0`. Hence [`Answer`].
 //!
+//! With an input gain (section 13.1) `d + (1-b) threshold` stands in the place of d, at both ends of b, and `b k_p mu/2` is the weight of
+//! `|zeta|_N^2`, with y = q + (1-b) sigma e + b mu s: the mean is the same, and e' = y - sigma e is. At `threshold/l`,
+//! 0 < l <= 1, with l k_p, the form is in `(x/sqrt(l), e/sqrt(l), y sqrt(l))` l times the one at the threshold, and (1 - l) times that of
+//! e and y with d = 0 besides. So with E4 it is not below `diag(c_x, 0, l c_y)`: rms(y) and rms(x) are bounded as at the threshold, and e by y.
+//!
 //! In the joint form there are two metrics (`metric`), of any sign, in the place of P. At a gain `sigma' >= threshold` the one between them
 //! has `c_x rms(x)^2 + c_e rms(e)^2 + c_y rms(y)^2 <= k_p Q_m rms(y)` in the same way. The threshold may be sigma itself: c_e > 0 has the part of
 //! what a gain above it leaves. The rest is the same, for of P and w no more is used than that.
@@ -71,12 +76,26 @@ impl Existence {
         Ok(existence)
     }
 
+    /// The place of two metrics, where there are two.
+    pub fn joint(&self) -> Option<&String> {
+        matches!(self.form, Form::Joint(_)).then_some(&self.pointer)
+    }
+
+    /// E4, for a gain: with 0 for d the part of e and y is not below `diag(0, c_y)`.
+    fn undamped(&self, d: &Data<'_>) -> Option<Condition> {
+        let (Some(gain), Form::Block(metric)) = (&d.gain, &self.form) else { return None };
+        let [k_p, c_y, threshold] = [&metric.k_p, &metric.least[2], &self.threshold].map(|value| d.number(value));
+        let [undamped, room] = gain.undamped(&(k_p / 2), &threshold);
+        let what = "(1 + (k_p/2) (1-b) threshold)^2 <= 2 threshold (k_p - c_y) at both ends of b";
+        Some(Condition::at_most("E4", what, undamped, room - threshold * c_y * 2))
+    }
+
     /// At the gain sigma and every larger one, with Q_m. In the block form c_e is `2 (sigma - threshold)`, and nothing is known of rms(e)
-    /// where the threshold is not below sigma.
+    /// where the threshold is not below sigma, or with an input gain.
     pub fn answer(&self, d: &Data<'_>, sigma: &Rational, oscillation: &Interval) -> Answer {
         match &self.form {
             Form::Joint(metrics) => metrics.answer(d, oscillation),
-            Form::Block(metric) if sigma > &self.threshold => {
+            Form::Block(metric) if sigma > &self.threshold && d.gain.is_none() => {
                 metric.answer(d, oscillation, &(d.number(&Rational::from(sigma - &self.threshold)) * 2))
             }
             Form::Block(metric) => metric.answer(d, oscillation, &Interval::undefined(d.precision)),
@@ -108,7 +127,7 @@ impl Existence {
         with_kap: bool,
     ) -> Vec<Condition> {
         let (enough, c_e) = self.exceeded(d, sigma);
-        let mut conditions = vec![enough, contracts];
+        let mut conditions: Vec<Condition> = [enough].into_iter().chain(self.undamped(d)).chain([contracts]).collect();
         let [damped, damped_t] = if with_kap { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
         let of_e = format!("k_p Q_m/(2 sqrt({c_e} c_y))");
         let what = [

@@ -56,9 +56,11 @@ fn scaled(d: &Data<'_>, sigma: &Interval, most: i64, square: impl Fn(&Interval) 
 }
 
 /// `g_k = 1/(sigma + kap)` if kap <= sigma, else `1/(2 sqrt(sigma kap))`: rms(e) over the input of the loop with -kap e
-/// (docs/mathematics.md, section 10.4).
+/// (docs/mathematics.md, section 10.4). With a gain [`crate::gain::Gain::damped`].
 pub fn damped(d: &Data<'_>, sigma: &Rational, kap: &Rational) -> Interval {
-    if kap <= sigma {
+    if let Some(gain) = &d.gain {
+        gain.damped(&d.number(sigma), &d.number(kap))
+    } else if kap <= sigma {
         d.number(&Rational::from(sigma + kap)).recip()
     } else {
         (d.number(&Rational::from(sigma * kap)).sqrt() * 2).recip()

@@ -2,6 +2,11 @@
 //!
 //! Guarantee: with the conditions, and the inequality proved of the plant's formulas (whoever reads them does: the crate
 //! `proofs-plants`), what C5 is there for holds at every gain from sigma on: U decreases in the error box.
+//!
+//! With an input gain (section 13.1) F has `d + (1-b) threshold` in the place of d, at both ends of b, in which it is affine, and C5B says
+//! that L, its part in e and y with d = 0, is positive definite. At `sigma' = threshold/l`, 0 < l < 1, the weight l h serves, with b l h for
+//! zeta: in `(x/sqrt(l), e/sqrt(l), y sqrt(l))` the form is l times F, and (1 - l) L besides. So it is not below
+//! `2 w_x rate P` for x, and definite in e and y: U decreases, and C4 with b_hi h is more than what its level needs.
 
 use super::paths::{Path, Paths};
 use super::stability::ErrorBox;
@@ -143,6 +148,11 @@ impl Inequality {
         }));
         let what = format!("threshold of the matrix inequality < {name}");
         conditions.push(Condition::less("C5m", what, d.number(&self.sigma), sigma));
+        conditions.extend(d.gain.as_ref().map(|gain| {
+            let [undamped, room] = gain.undamped(&(d.number(&self.h) / &d.mu), &d.number(&self.sigma));
+            let what = "(1 + ht (1-b) threshold)^2 < 4 ht threshold at both ends of b, ht = h/mu";
+            Condition::less("C5B", what, undamped, room)
+        }));
         conditions
     }
 }

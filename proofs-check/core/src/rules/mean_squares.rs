@@ -12,14 +12,15 @@
 
 use super::control::{self, Along};
 use super::existence::Existence;
+use super::forced::{Forced, twice_sum};
 use super::gains::{beta_s, bt, damped, tau};
 use super::metric::Answer;
 use super::stability::one_sided;
 use crate::bound::Bound;
 use crate::data::Data;
+use crate::gain::Gain;
 use crate::interval::Interval;
 use crate::json::Field;
-use crate::spec::Forcing;
 use crate::verdict::{Condition, Outcome};
 use rug::Rational;
 
@@ -88,23 +89,14 @@ pub struct Bounds<'a> {
     pub(super) x_gain: Interval,
     /// K2(a_1) b_fe: sup|x| over rms(e).
     from_rms: Interval,
+    /// bt and tau, with a gain over b_m.
     bt: Interval,
     tau: Interval,
-    /// Om, and sg = sqrt(sigma^2 + Om^2).
+    /// Om, and sg = sqrt(sigma^2 + Om^2), with a gain times b_m.
     om: Interval,
     sg: Interval,
-}
-
-/// What `q_0` gives at sigma: of the response to the harmonics, and of the rest.
-struct Forced {
-    /// C_0, C_1, ...
-    harmonics: Vec<Interval>,
-    sup_e: Interval,
-    rms_e: Interval,
-    /// rms of the derivative of the harmonics.
-    rate: Interval,
-    /// r_0, r_1.
-    rest: [Interval; 2],
+    /// bt and sg themselves: they serve y, whatever the gain is.
+    of_y: [Interval; 2],
 }
 
 /// What follows for a solution with given root mean squares.
@@ -116,51 +108,6 @@ pub struct Follows {
     rates: [Interval; 2],
     /// d_0, d_1: the root mean squares of q(t,x,e) - q(t,0,0) and of its derivative.
     apart: [Interval; 2],
-}
-
-/// The numbers of `q_0` under their names in the derivation: C_k, r_0, r_1.
-pub fn forcing(d: &Data<'_>, given: &Forcing) -> (Vec<Interval>, [Interval; 2]) {
-    let number = |size: &crate::spec::Size| size.enclose(d.precision);
-    let harmonics: Vec<Interval> = given.harmonics.iter().map(number).collect();
-    let zero = d.int(0);
-    // What follows from the other data bounds it too.
-    let derived = d.bound(Bound::QtRms, &zero, &zero) + derivative(d, &harmonics);
-    let rest_t = given.rest_t_rms.as_ref().map_or(derived.clone(), |rest_t| number(rest_t).least(&derived));
-    (harmonics, [number(&given.rest_rms), rest_t])
-}
-
-/// `sqrt(sum_{k>=1} 2 (k Om C_k)^2)`.
-fn derivative(d: &Data<'_>, harmonics: &[Interval]) -> Interval {
-    twice_sum(d, harmonics, |k, c| (c * d.frequency() * k).sqr()).sqrt()
-}
-
-/// `2 sum_{k>=1} term(k, C_k)`.
-fn twice_sum(d: &Data<'_>, harmonics: &[Interval], term: impl Fn(i64, &Interval) -> Interval) -> Interval {
-    (1..).zip(harmonics.iter().skip(1)).fold(d.int(0), |sum, (k, c)| sum + term(k, c)) * 2
-}
-
-impl Forced {
-    fn new(d: &Data<'_>, sigma: &Interval, given: &Forcing) -> Forced {
-        let (harmonics, rest) = forcing(d, given);
-        let gain = |k: i64| sigma.sqr() + (d.frequency() * k).sqr();
-        Forced {
-            sup_e: twice_sum(d, &harmonics, |k, c| c / gain(k).sqrt()),
-            rms_e: twice_sum(d, &harmonics, |k, c| c.sqr() / gain(k)).sqrt(),
-            rate: derivative(d, &harmonics),
-            harmonics,
-            rest,
-        }
-    }
-
-    /// `sqrt(C_0^2 + 2 sum C_k^2) + r_0`.
-    fn rms(&self, d: &Data<'_>) -> Interval {
-        self.with_mean(d, self.harmonics[0].sqr())
-    }
-
-    /// The same with another square of the mean.
-    fn with_mean(&self, d: &Data<'_>, square: Interval) -> Interval {
-        (square + twice_sum(d, &self.harmonics, |_, c| c.sqr())).sqrt() + &self.rest[0]
-    }
 }
 
 impl<'a> Bounds<'a> {
@@ -176,6 +123,8 @@ impl<'a> Bounds<'a> {
         let start = d.bound(Bound::QRms, &zero, &zero);
         let bends = d.given(Bound::Qtx, x_p, e_p).zip(d.given(Bound::Qte, x_p, e_p));
         let om = d.frequency();
+        let of_y = [bt(d, sigma), (sigma.sqr() + om.sqr()).sqrt()];
+        let sg = d.gain.as_ref().map_or_else(|| of_y[1].clone(), |gain| &of_y[1] * gain.of_error());
         Bounds {
             f_x: d.given(Bound::Fx, x_p, &zero).map_or(secant.clone(), |f_x| f_x.least(&secant)),
             f_e: at(Bound::Fe),
@@ -191,9 +140,10 @@ impl<'a> Bounds<'a> {
             rate: a_1,
             x_p: x_p.clone(),
             e_p: e_p.clone(),
-            bt: bt(d, sigma),
-            tau: tau(d, sigma),
-            sg: (sigma.sqr() + om.sqr()).sqrt(),
+            bt: d.of_error(of_y[0].clone()),
+            tau: d.of_error(tau(d, sigma)),
+            of_y,
+            sg,
             om,
             d,
         }
@@ -275,10 +225,12 @@ impl<'a> Bounds<'a> {
             sup_e = sup_e.least(&(&f.sup_e + sup(&f.rest[0], &f.rest[1]) + sup(&d_0, &d_1)));
             rms_e = rms_e.least(&(&f.rms_e + rms(&f.rest[0], &f.rest[1]) + rms(&d_0, &d_1)));
         }
-        let mut rms_e_t = r_q.least(&(&r_1 / &self.sg));
+        let slope = self.d.gain.as_ref().map_or_else(|| r_q.clone(), |gain| gain.of_slope() * &r_q);
+        let mut rms_e_t = slope.least(&(&r_1 / &self.sg));
         if let Some(answer) = answer {
-            sup_e = sup_e.least(&(&self.bt * &answer.rms_y));
-            rms_e = rms_e.least(&(&answer.rms_y / &self.sg)).least(&answer.rms_e);
+            let [bt, sg] = &self.of_y;
+            sup_e = sup_e.least(&(bt * &answer.rms_y));
+            rms_e = rms_e.least(&(&answer.rms_y / sg)).least(&answer.rms_e);
             rms_e_t = rms_e_t.least(&answer.rms_y);
         }
         Follows { sup_e, rms_e, rms_e_t, rates: [r_q, r_1], apart: [d_0, d_1] }
@@ -326,17 +278,25 @@ impl<'a> Bounds<'a> {
         [rms_x, rms_e, rms_e_t]
     }
 
-    /// Section 10.4 at (r_x, r_e): rms(e) <= g_k Rt and rms(e') <= Rt + kap r_e, with Rt = Q_0 + b_qx r_x + rho r_e.
+    /// Section 10.4 at (r_x, r_e): rms(e) <= g_k Rt and rms(e') <= Rt + kap r_e, with Rt = Q_0 + b_qx r_x + rho r_e; with a gain
+    /// rms(e') <= d_b Rt, for `|om| sqrt(sigma^2 + om^2)/(beta sigma + om^2)` with `beta = b sigma + kap` is no larger than with kap = 0.
     fn damped(&self, [r_x, r_e, _]: &[Interval; 3], [gain, kap, rho]: &[Interval; 3]) -> [Interval; 2] {
         let input = &self.start + &self.q_x * r_x + rho * r_e;
-        [gain * &input, input + kap * r_e]
+        let slope = match &self.d.gain {
+            Some(gain) => gain.of_slope() * &input,
+            None => &input + kap * r_e,
+        };
+        [gain * &input, slope]
     }
 
-    /// Z^2, the least of `(T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2` and the form of `q_0`.
+    /// Z^2, the least of `(T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2` and the form of `q_0`; with a gain the part of T is over `b_lo^3`, and
+    /// what the transfer bound gives is over c_m.
     fn z_squared(&self, follows: &Follows, pair: [&Interval; 2], kappa: &[Interval; 2]) -> Interval {
         let d = self.d;
-        let mean = |[q, q_t]: &[Interval; 2]| &kappa[0] * q.sqr() + &kappa[1] * q_t.sqr();
+        let of_answer = d.gain.as_ref().map_or_else(|| d.int(1), Gain::of_answer);
+        let mean = |[q, q_t]: &[Interval; 2]| (&kappa[0] * q.sqr() + &kappa[1] * q_t.sqr()) / of_answer.sqr();
         let swing = &d.period * follows.rates[0].sqr() / (&d.mu * 2);
+        let swing = d.gain.as_ref().map_or_else(|| swing.clone(), |gain| &swing / gain.of_swing());
         let plain = &swing + mean(&follows.rates);
         let Some(forced) = &self.forced else { return plain };
         // Bounds of sup_N T_N(k Om/w).
@@ -348,7 +308,7 @@ impl<'a> Bounds<'a> {
         };
         let mean_part = &inverse / &d.n_0 * forced.harmonics[0].sqr();
         let harmonics = mean_part + twice_sum(d, &forced.harmonics, |k, c| transfer(k) * c.sqr());
-        let z = harmonics.sqrt() / &d.w + mean(&forced.rest).sqrt() + mean(&follows.apart).sqrt();
+        let z = harmonics.sqrt() / &d.w / &of_answer + mean(&forced.rest).sqrt() + mean(&follows.apart).sqrt();
         plain.least(&(swing + z.sqr()))
     }
 }

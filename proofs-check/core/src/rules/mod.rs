@@ -5,6 +5,7 @@ pub mod common;
 pub mod control;
 pub mod derivation;
 pub mod existence;
+pub mod forced;
 pub mod gains;
 pub mod inequality;
 pub mod joint;

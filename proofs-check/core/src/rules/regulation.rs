@@ -3,9 +3,9 @@
 //! Guarantee, for a matched base frequency: with n_o infinite, for every sigma' >= sigma, solutions from the claimed
 //! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
 
+use super::forced::forcing;
 use super::inequality::Inequality;
 use super::joint::Joint;
-use super::mean_squares::forcing;
 use super::paths::Paths;
 use super::set::{self, ClaimedSet};
 use super::stability::{ErrorBox, distances, level};
@@ -51,18 +51,20 @@ impl Witness {
     }
 }
 
-/// `z_oo = (1/mu) sqrt(b_q_rms(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt_rms(0,0)^2)`, or, where it is less and `q_0` is given, `(1/mu)[sqrt(C_0^2/n_0 + sum_{k>=1} 4 C_k^2/n_k) + sqrt(r_0^2/n_0 + (2/n_1)(T/2pi)^2 r_1^2)]`.
+/// `z_oo = (1/mu) sqrt(b_q_rms(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt_rms(0,0)^2)`, or, where it is less and `q_0` is given, `(1/mu)[sqrt(C_0^2/n_0 + sum_{k>=1} 4 C_k^2/n_k) + sqrt(r_0^2/n_0 + (2/n_1)(T/2pi)^2 r_1^2)]`. With a gain b the internal
+/// model puts out -q/b: b_lo mu stands for mu.
 fn steady_state(d: &Data<'_>) -> Interval {
     let zero = d.int(0);
     let at = |which| d.bound(which, &zero, &zero);
     let root = |q: &Interval, q_t: &Interval| (q.sqr() / &d.n_0 + (q_t / d.frequency()).sqr() * 2 / &d.n_1).sqrt();
     let generic = root(&at(Bound::QRms), &at(Bound::QtRms));
-    let Some(given) = &d.spec.q_0 else { return generic / &d.mu };
+    let mu = d.gain.as_ref().map_or_else(|| d.mu.clone(), |gain| &gain.low * &d.mu);
+    let Some(given) = &d.spec.q_0 else { return generic / mu };
     let (harmonics, [rest, rest_t]) = forcing(d, given);
     let weight = |k: u64| d.spec.weights.weight(k, d.precision);
     let later = (1..).zip(&harmonics[1..]).fold(d.int(0), |sum, (k, c)| sum + c.sqr() * 4 / weight(k));
     let forced = (harmonics[0].sqr() / &d.n_0 + later).sqrt() + root(&rest, &rest_t);
-    generic.least(&forced) / &d.mu
+    generic.least(&forced) / mu
 }
 
 /// Evaluates the conditions; only `matched` and the signs are decided yet. An inequality of the claim serves here too, where it is
@@ -91,7 +93,10 @@ pub fn evaluate(
             let place = (w.paths, [&zero, &zero], &error_box);
             conditions.extend(inequality.conditions(d, place, (sigma, "sigma_oo")));
         }
-        None => conditions.extend(error_box.conditions(error_box.decay(d, &w_x, &h), sigma, "sigma_oo")),
+        None => {
+            let decay = error_box.decay(d, [&w_x, &h], &sigma);
+            conditions.extend(error_box.conditions(decay, sigma, "sigma_oo"));
+        }
     }
     let by_norms = conditions.iter().all(|condition| condition.truth() == Some(true));
     Ok(match joint.filter(|_| !by_norms) {

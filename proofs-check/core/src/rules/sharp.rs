@@ -14,10 +14,11 @@ use super::set::ClaimedSet;
 use super::stability::ErrorBox;
 use super::transfer::{self, Proof};
 use crate::data::Data;
+use crate::input_gain;
 use crate::interval::Interval;
 use crate::json::Fields;
 use crate::rules::common::Sizes;
-use crate::verdict::{Outcome, bad, invalid};
+use crate::verdict::{Outcome, Verdict, bad, finding, invalid};
 use rug::Rational;
 
 /// The free numbers.
@@ -99,6 +100,18 @@ impl Witness {
         Ok(Witness { free, sigma, existence, transfer, stability })
     }
 
+    /// With two metrics nothing is proved about a gain.
+    fn without_gain(&self, d: &Data<'_>) -> Outcome<()> {
+        let existence = self.existence.inequality.as_ref().and_then(Existence::joint);
+        match self.stability.joint().map(|joint| &joint.pointer).or(existence).filter(|_| d.gain.is_some()) {
+            None => Ok(()),
+            Some(pointer) => {
+                let message = "two metrics are not available with `input_gain`: nothing is proved of them";
+                Err(finding(Verdict::Undecided, input_gain::RULE, pointer, message))
+            }
+        }
+    }
+
     fn signs(&self) -> Outcome<()> {
         let (w, pointer) = (&self.existence, &self.free.pointer);
         if w.kap < 0 {
@@ -114,6 +127,7 @@ impl Witness {
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     w.signs()?;
     w.stability.demand(d)?;
+    w.without_gain(d)?;
     let (free, inequality) = (&w.free, w.existence.inequality.iter());
     inequality.clone().try_for_each(|part| demand_plant(d, &part.pointer))?;
     let covers = inequality.flat_map(|part| covers(d, [&free.x_p, &free.e_p], [&part.x, &part.e]));
@@ -149,7 +163,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
             d.number(&inequality.sigma)
         }
         Stability::Norms => {
-            let decay = error_box.decay(d, &w_x, &h);
+            let decay = error_box.decay(d, [&w_x, &h], &sigma);
             let threshold = decay[2].clone();
             evaluated.conditions.extend(error_box.conditions(decay, sigma, "sigma"));
             threshold

@@ -49,12 +49,22 @@ impl ErrorBox {
         }
     }
 
+    /// k_e and most, with a gain those of [`crate::gain::Gain::sector`].
+    fn sector(&self, d: &Data<'_>, ht: &Interval, sigma: &Interval) -> [Interval; 2] {
+        match &d.gain {
+            Some(gain) => gain.sector([ht, sigma], [&self.k_e, &self.most]),
+            None => [self.k_e.clone(), self.most.clone()],
+        }
+    }
+
     /// C5 by its closed form, with ht = h/mu, A = w_x a_2 and D = max{|1 + ht most|, |1 - ht k_e|}: `ht k_x^2`, `4 A`, and, if the
-    /// first is below the second, the threshold `D^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x D/2)^2/(4A - ht k_x^2)` of sigma.
-    pub fn decay(&self, d: &Data<'_>, w_x: &Interval, h: &Interval) -> [Interval; 3] {
+    /// first is below the second, the threshold `D^2/(4 ht) + (w_x sqrt(P_up) k_f + k_x D/2)^2/(4A - ht k_x^2)` of sigma. With a gain
+    /// they are those of its sector, at sigma.
+    pub fn decay(&self, d: &Data<'_>, [w_x, h]: [&Interval; 2], sigma: &Interval) -> [Interval; 3] {
         let ht = h / &d.mu;
         let (coupling, curvature) = (&ht * self.k_x.sqr(), w_x * &self.rate * 4);
-        let size = (1 + &ht * &self.most).abs().max(&(1 - &ht * &self.k_e).abs());
+        let [k_e, most] = self.sector(d, &ht, sigma);
+        let size = (1 + &ht * &most).abs().max(&(1 - &ht * &k_e).abs());
         let cross = w_x * d.p_up.sqrt() * &self.k_f + &self.k_x * &size / 2;
         let room = &curvature - &coupling;
         let share = if room.is_positive() { cross.sqr() / room } else { Interval::undefined(d.precision) };
@@ -89,8 +99,10 @@ pub fn distances(d: &Data<'_>, set: &ClaimedSet, [x_per, e_per, z]: [&Interval; 
     [x0 + x_per, &e0 + e_per, of_zeta]
 }
 
-/// The two sides of C4: `w_x P_up dX^2 + dE^2 + h dZ^2` and `min{w_x P_low D_x^2, D_e^2}`.
+/// The two sides of C4: `w_x P_up dX^2 + dE^2 + h dZ^2` and `min{w_x P_low D_x^2, D_e^2}`. At the gain b the weight of `|zeta|_N^2` is
+/// b h: with a gain b_hi h stands for h.
 pub fn level(d: &Data<'_>, [x, e, z]: &[Interval; 3], [d_x, d_e, w_x, h]: [&Interval; 4]) -> [Interval; 2] {
+    let h = d.gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.high * h);
     let start = w_x * &d.p_up * x.sqr() + e.sqr() + h * z.sqr();
     [start, (w_x * &d.p_low * d_x.sqr()).min(&d_e.sqr())]
 }

@@ -86,7 +86,7 @@ impl<'a> Law<'a> {
         let below = 3 - &g;
         let factor = if below.is_nonnegative() { 2 / (4 - &g).sqrt() } else { (g - 1).max(&self.d.int(2)) };
         let by_rate = &factor * ((self.d.period.sqr() - self.h.sqr()) / 12).sqrt();
-        Answer { factor, by_rate }
+        Answer { mean: self.d.int(1), factor, by_rate }
     }
 
     /// S0, all of it decided here: what follows is not even defined without it.

@@ -20,8 +20,9 @@ use super::existence::covers;
 use super::inequality::{RULE, demand_plant, reaches};
 use super::set::{self, ClaimedSet};
 use crate::data::Data;
+use crate::input_gain;
 use crate::json::Fields;
-use crate::verdict::{Outcome, bad, demand};
+use crate::verdict::{Outcome, Verdict, bad, demand, finding};
 use inequality::{Existence, Inequalities, Stability};
 use law::{Law, Terms};
 
@@ -69,6 +70,10 @@ impl Witness {
 /// Evaluates all conditions; S0, the transfer proof and the signs are decided here.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     w.signs()?;
+    if d.spec.input_gain.is_some() {
+        let message = "a claim about the regulator at samples is not available with `input_gain` yet";
+        return Err(finding(Verdict::Undecided, input_gain::RULE, "/claim/regulator", message));
+    }
     let (free, law) = (&w.free, Law::new(d, &w.terms));
     let mut pointers = w.existence.iter().map(|part| &part.pointer).chain(w.stability.iter().map(|part| &part.pointer));
     pointers.try_for_each(|pointer| demand_plant(d, pointer))?;
