@@ -186,6 +186,8 @@ impl FoundByMatrix {
         let proved = prove_bounds(&proofs, chosen)?;
         let proved = match gain {
             Some(gain) if *gain >= proved.proposal.sigma => proved,
+            // Joint metrics are not proved for an uncertain input gain.
+            _ if chosen.model.input_gain.is_some() => proved,
             _ => with_joint_metrics(&proofs, &chosen.model, &chosen.proposal, proved),
         };
         // It is one of (M): beside joint metrics it may be larger than what they prove from another start.
