@@ -54,6 +54,16 @@ impl InputGain {
         same(&self.low) && same(&self.high)
     }
 
+    /// Whether the other one is certainly the same in all three numbers, however they are written.
+    #[must_use]
+    pub fn is(&self, other: &InputGain) -> bool {
+        let same = |a: &Constant, b: &Constant| {
+            let exactly = Quantity::constant(a).equals(&Quantity::constant(b)).is_true();
+            exactly || a.text == b.text
+        };
+        same(&self.nominal, &other.nominal) && same(&self.low, &other.low) && same(&self.high, &other.high)
+    }
+
     /// The same nominal gain, known exactly.
     #[must_use]
     pub fn closed(&self) -> InputGain {
