@@ -11,7 +11,7 @@ use super::options::Options;
 use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
 use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
-use super::sensitivity::{aligned, ranked};
+use super::sensitivity::{aligned, ranked, with_nominal_gain};
 use super::verdict::Verdict;
 use crate::search::{Failing, FloatModel, SharpProposal, search_printed, search_repaired, without_optional_data};
 use rug::Rational;
@@ -179,7 +179,11 @@ fn assemble<'s>(
         (Outcome::Proved(_), Some(proposal)) => aligned(model, proposal),
         _ => None,
     };
-    let alternatives = Alternatives { by_norms: None, aligned };
+    let nominal_gain = match (&sharp, &proposal) {
+        (Outcome::Proved(proof), Some(proposal)) => with_nominal_gain(spec, model, proposal, proof),
+        _ => None,
+    };
+    let alternatives = Alternatives { by_norms: None, aligned, nominal_gain };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
     let used = reach(&sharp).or_else(|| repaired.as_ref().and_then(reach));
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
