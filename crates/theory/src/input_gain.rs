@@ -72,7 +72,7 @@ where
     #[must_use]
     pub fn sector(&self, [below, above]: [&R; 2], h_over_mu: &R, sigma: &R) -> [R; 2] {
         let one = R::int(1);
-        let above = if self.allows_damping(h_over_mu, sigma) { above.clone() } else { above.max(&(&one - &one)) };
+        let above = if self.allows_damping(h_over_mu, sigma) { above.clone() } else { above.max(&R::int(0)) };
         [below + (&self.high - &one) * sigma, above + (one - &self.low) * sigma]
     }
 
@@ -176,6 +176,9 @@ mod tests {
         let reached = om / denominator(low, 1.0, om, y);
         assert!((reached / gain.of_error_rate() - 1.0).abs() < 1e-12, "{reached}");
         assert!((1.0 / denominator(low, 1.0, 0.0, 0.0) - 1.0 / low).abs() < 1e-12);
+        // There sup - inf of |zeta|_N^2 has its bound, too.
+        let still = 1.0 / denominator(low, 1.0, 1e-9, 0.0);
+        assert!((still * still / low * gain.of_swing() - 1.0).abs() < 1e-6);
         // c_b beyond 1: the largest over C and y of the quotient, on a grid.
         let high = 2.5_f64;
         let quotient = |om: f64, y: f64| om.hypot(1.0) * 1.0_f64.hypot(y) / denominator(high, 1.0, om, y);

@@ -66,7 +66,7 @@ fn every_export_divides_by_the_nominal_gain() {
     let matrices = sigmastar::regulator_matrices(&subject, "40", 3).unwrap();
     let z = vec![0.3; 7];
     let undivided = sigmastar::regulator_matrices(
-        &sigmastar::Specification::from_json(&crate::support::specification_text("paper-example")).unwrap(),
+        sigmastar::Specification::from_json(&crate::support::specification_text("paper-example")).unwrap(),
         "40",
         3,
     );

@@ -213,11 +213,11 @@ pub(super) fn moves(plant: &Plant) -> Option<[Rational; 2]> {
     let gain = plant.input_gain.as_ref()?;
     let one = Rational::from(1);
     if let (Some([low, high]), false) = (gain.exact_factors(), gain.is_nominal()) {
-        return Some([Rational::from(&one - low), one - high]);
+        return Some([&one - low, one - high]);
     }
     let [low, high] = gain.factors(PRECISION)?;
     // What is enclosed has bounds.
-    Some([Rational::from(&one - low.lower_rational()?), one - high.upper_rational()?])
+    Some([&one - low.lower_rational()?, one - high.upper_rational()?])
 }
 
 fn is_symmetric(rows: &[Vec<Rational>], order: usize) -> bool {
