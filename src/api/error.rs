@@ -33,6 +33,8 @@ pub enum ErrorKind {
     NotCertified,
     /// A result is beyond double precision.
     Overflow,
+    /// What was asked for does not know how to honour a field of the document, such as `input_gain`.
+    NotAvailable,
 }
 
 impl ErrorKind {
@@ -47,6 +49,7 @@ impl ErrorKind {
             Kind::Expression => ErrorKind::Expression,
             Kind::Range | Kind::Matched | Kind::Weights => ErrorKind::Range,
             Kind::Undecided => ErrorKind::Undecided,
+            Kind::NotAvailable => ErrorKind::NotAvailable,
         }
     }
 }

@@ -7,7 +7,7 @@ use super::subject::Subject;
 use super::{rational, rounded_down};
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
-use sigmastar_prove::certify::{Options, Verdict, certify_near};
+use sigmastar_prove::certify::{Options, Verdict, WITHOUT_INPUT_GAIN, certify_near, not_available_with_input_gain};
 use sigmastar_prove::reduction::Run;
 use sigmastar_report::RateReport;
 use sigmastar_studies::rate::{self, MAX_OSCILLATORS, Method, NoRates, certified_rates};
@@ -159,6 +159,10 @@ fn found(subject: Subject, sigma: Option<&str>, n_o: &[u32]) -> Result<Rates, Er
             let message = format!("sigma is below the certified sigma* = {}", write_exact(&sigma_star));
             let help = "give a gain of at least sigma*, or none for sigma* itself";
             return Err(Error::new(ErrorKind::Range, message, help));
+        }
+        Err(NoRates::InputGain) => {
+            let message = not_available_with_input_gain("a rate of convergence");
+            return Err(Error::new(ErrorKind::NotAvailable, message, WITHOUT_INPUT_GAIN));
         }
         Err(NoRates::NotCertified(_)) => return Err(not_certified(&Run::Continuous(Box::new(run)))),
         Err(NoRates::NoPlant(reason)) => {

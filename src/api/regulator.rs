@@ -6,7 +6,7 @@ use super::subject::Subject;
 use sigmastar_lang::spec::Constant;
 use sigmastar_regulator::{Convergence, Design, Discrete, MAX_EXPORTED_OSCILLATORS, Regulator};
 
-/// The regulator `z' = Phi z + Gamma e`, `u = -sigma e + mu M'N(z - M e)` in double precision. Each number is the exact one
+/// The regulator `z' = Phi z + Gamma e`, `u = -sigma e + mu M'N(z - M e)`, over the nominal gain where there is one, in double precision. Each number is the exact one
 /// of the specification, rounded once to nearest; no claim is made of them.
 ///
 /// The state has the dimension `2 n_o + 1`: the integrator, then two numbers for each oscillator.
@@ -25,20 +25,22 @@ pub struct RegulatorMatrices {
     pub m: Vec<f64>,
     /// The diagonal of N.
     pub n_diagonal: Vec<f64>,
+    /// The nominal gain of the actuator, by which the control is divided, where the document states one.
+    pub nominal: Option<f64>,
 }
 
 impl RegulatorMatrices {
     /// The most oscillators for which matrices are made.
     pub const MAX_OSCILLATORS: u32 = MAX_EXPORTED_OSCILLATORS;
 
-    /// The control u for a state z and a measured error e.
+    /// The control u for a state z and a measured error e, as the actuator is given it.
     ///
     /// `None` where z does not have the dimension of the regulator.
     #[must_use]
     pub fn control(&self, z: &[f64], e: f64) -> Option<f64> {
         let terms = z.iter().zip(&self.m).zip(&self.n_diagonal);
         let sum: f64 = terms.map(|((z, m), n)| m * n * (z - m * e)).sum();
-        (z.len() == self.m.len()).then_some(self.mu * sum - self.sigma * e)
+        (z.len() == self.m.len()).then_some((self.mu * sum - self.sigma * e) / self.nominal.unwrap_or(1.0))
     }
 }
 
@@ -96,6 +98,7 @@ pub fn regulator_matrices(subject: impl Into<Subject>, sigma: &str, n_o: u32) ->
         gamma: regulator.gamma(),
         m: regulator.m(),
         n_diagonal: regulator.n_diagonal(),
+        nominal: regulator.nominal,
     })
 }
 
@@ -135,7 +138,7 @@ fn design<'s>(subject: &'s Subject, sigma: &'s Constant, n_o: u32) -> Result<Des
         let help = format!("choose at most {MAX_EXPORTED_OSCILLATORS}");
         return Err(Error::new(ErrorKind::Range, format!("n_o: {n_o} oscillators are too many"), &help));
     }
-    Ok(Design::new(subject.read.internal_model(), sigma, n_o))
+    Ok(Design::new(subject.read.internal_model(), sigma, n_o).for_actuator(subject.read.input_gain()))
 }
 
 fn representable(design: &Design<'_>) -> Result<Regulator, Error> {

@@ -203,6 +203,14 @@ impl SpecificationBuilder {
         )
     }
 
+    /// An actuator whose gain is one constant from `low` to `high`, `low <= nominal <= high`: the regulator divides its control by
+    /// `nominal`, and a claim covers every such gain. Without it the gain is 1.
+    #[must_use]
+    pub fn input_gain(self, nominal: &str, low: &str, high: &str) -> SpecificationBuilder {
+        let ends = [("nominal", text(nominal)), ("low", text(low)), ("high", text(high))];
+        self.with("input_gain", object(ends).into())
+    }
+
     /// The weights n_0 and `n_l = l^-(1 + epsilon)` for l >= 1.
     #[must_use]
     pub fn power_weights(self, n0: &str, epsilon: &str) -> SpecificationBuilder {

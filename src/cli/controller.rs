@@ -44,7 +44,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     })?;
 
     let step = step.or_else(|| given.as_ref().and_then(Given::step).cloned());
-    let design = Design::new(subject.internal_model(), &sigma, args.n_o);
+    let design = Design::new(subject.internal_model(), &sigma, args.n_o).for_actuator(subject.input_gain());
     let asked = Asked { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), n_o: args.n_o };
     let certificate = provenance(given.as_ref(), &subject, &asked);
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;

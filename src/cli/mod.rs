@@ -23,6 +23,7 @@ mod rate;
 mod reproduce;
 mod sampling;
 mod simulate;
+mod simulate_gain;
 mod simulate_sampled;
 mod subject;
 mod sweep;

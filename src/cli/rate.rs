@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::subject::{Subject, proved};
 use super::{input, output};
 use sigmastar_exact::number::write_exact;
-use sigmastar_prove::certify::{Options, Verdict, certify_near};
+use sigmastar_prove::certify::{Options, Verdict, WITHOUT_INPUT_GAIN, certify_near, not_available_with_input_gain};
 use sigmastar_report::RateReport;
 use sigmastar_studies::rate::{MAX_OSCILLATORS, NoRates, certified_rates};
 
@@ -19,6 +19,9 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     let n_o = finite_counts(&args.n_o, MAX_OSCILLATORS)?;
     let subject = Subject::read(&input::document(&args.spec)?)?;
     let sigma = args.sigma.as_ref().map(|text| input::rational("--sigma", text)).transpose()?;
+    if subject.input_gain().is_some_and(|gain| !gain.is_nominal()) {
+        subject.without_input_gain("`rate`").map_err(Failure::Documents)?;
+    }
     let (spec, start) = proved(subject, false)?;
     let run = certify_near(&spec, Options { compare: false, ..Options::default() }, start.as_ref())
         .map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
@@ -28,6 +31,9 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
             let message = format!("--sigma is below the certified sigma* = {}", write_exact(&sigma_star));
             let help = "give a gain of at least sigma*, or leave the flag out for sigma* itself";
             return Err(Failure::call(message, help));
+        }
+        Err(NoRates::InputGain) => {
+            return Err(Failure::call(not_available_with_input_gain("`rate`"), WITHOUT_INPUT_GAIN));
         }
         Err(NoRates::NotCertified(verdict)) => {
             output::remark(&format!("{verdict}: without a certified gain there are no rates; see `sigmastar certify`"));

@@ -6,6 +6,7 @@ use super::files::Input;
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
+use super::simulate_gain::{gain_remarks, nominal, ordinary};
 use super::simulate_sampled;
 use sigmastar_lab::simulate::{
     ClosedLoop, FIGURE_FILES, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures,
@@ -28,11 +29,14 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     let csv_file = args.replace.asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
+    let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
     let regulator = match (&args.controller, &sigma, args.n_o) {
         (Some(path), ..) => read_regulator(&input::written(path)?)?,
-        (None, Some(sigma), Some(n_o)) => Design::new(&plant.internal_model, sigma, n_o).regulator(),
-        (None, Some(sigma), None) => Regulator::high_gain(sigma.to_f64()),
+        (None, Some(sigma), Some(n_o)) => {
+            Design::new(&plant.internal_model, sigma, n_o).for_actuator(plant.input_gain.as_ref()).regulator()
+        }
+        (None, Some(sigma), None) => Regulator::high_gain(sigma.to_f64()).for_actuator(nominal(&plant)),
         (None, None, _) => return Err(Failure::call("no regulator is given", "give --sigma or --controller")),
     };
     let power = power.map(|power| power.to_f64());
@@ -58,8 +62,13 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     };
     if !args.quiet {
         remarks(&plant, &regulator, &settings, args);
+        gain_remarks(&plant, gain.as_ref(), &regulator);
     }
     let closed_loop = ClosedLoop::new(&plant, regulator);
+    let closed_loop = match &gain {
+        Some(gain) => closed_loop.with_input_gain(ordinary(gain)?),
+        None => closed_loop,
+    };
     let start = closed_loop.start_of(&plant.initial).map_err(simulate_sampled::wrong_dimension)?;
     let runs = if power.is_some() { 2 } else { 1 };
     let bar = Bar::new(u64::from(args.periods) * runs, args.quiet);

@@ -6,6 +6,7 @@ use super::files::Input;
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
+use super::simulate_gain::{gain_remarks, ordinary};
 use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
@@ -26,11 +27,12 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     let converters = converters(args, &step)?;
     let limit = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
     let phase = args.phase.as_deref().map(|text| input::nonnegative("--phase", text)).transpose()?;
+    let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
     let (regulator, discrete) = match (&args.controller, &sigma, args.n_o) {
         (Some(_), ..) => from_file(args, &step)?,
         (None, Some(sigma), Some(n_o)) => {
-            let design = Design::new(&plant.internal_model, sigma, n_o);
+            let design = Design::new(&plant.internal_model, sigma, n_o).for_actuator(plant.input_gain.as_ref());
             if !args.quiet {
                 for error in design.sampling_errors(&step) {
                     output::remark(&format!("{error}; it is simulated as it is"));
@@ -44,7 +46,14 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
         None => discrete,
         Some(limit) => discrete.saturated(Some(limit.to_f64())),
     };
-    let mut sampled = SampledLoop::new(&plant, regulator, discrete);
+    if !args.quiet {
+        gain_remarks(&plant, gain.as_ref(), &regulator);
+    }
+    let sampled = SampledLoop::new(&plant, regulator, discrete);
+    let mut sampled = match &gain {
+        Some(gain) => sampled.with_input_gain(ordinary(gain)?),
+        None => sampled,
+    };
     (sampled.converters, sampled.phase) = (converters, phase.map_or(0.0, |phase| phase.to_f64()));
     let ordinary = sampled.regulator.is_representable() && sampled.discrete.is_representable();
     if !ordinary || !sampled.period().is_normal() || !sampled.phase.is_finite() {

@@ -29,6 +29,7 @@ mod front_door;
 mod fuzz;
 mod gallery;
 mod html;
+mod input_gain;
 mod lmi_decay;
 mod lmi_specs;
 mod lyapunov;

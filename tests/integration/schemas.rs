@@ -216,6 +216,7 @@ fn specifications() -> Vec<Value> {
                 ("relative_degree", json!({ "a": ["1/2"] })),
                 ("internal_model", explicit),
                 ("initial_set", at_rest),
+                ("input_gain", json!({ "nominal": 1, "low": "4/5", "high": 1.25 })),
             ],
         ),
         with(
@@ -236,7 +237,7 @@ fn plants() -> Vec<Value> {
     let set = |set: Value| with(file, &[("initial_set", set), ("domain", json!({ "x": 1, "e": 1 }))]);
     vec![
         with(file, &[("$schema", json!("x")), ("initial", start)]),
-        with(file, &[("internal_model", explicit)]),
+        with(file, &[("internal_model", explicit), ("input_gain", json!({ "nominal": 2, "low": 1, "high": 3 }))]),
         set(json!({ "kind": "paper" })),
         set(json!({ "kind": "at-rest" })),
         set(json!({ "kind": "at-rest", "ball": 1, "E0": 1 })),
@@ -335,8 +336,13 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     let (axis, sampled) =
         (format!("{ROOT}/specs/plants/motor-axis.json"), folder.path().join("sampled.certificate.json"));
     program().args(["certify", "-q", &axis, "--sampling-period", "1/50000", "-o"]).arg(&sampled).assert().code(0);
+    // An actuator whose gain is known to an interval.
+    let uncertain = with("specs/no-x.json", &[("input_gain", json!({ "nominal": 1, "low": 0.9, "high": 1.1 }))]);
+    let (spec, of_gain) = (folder.path().join("gain.json"), folder.path().join("gain.certificate.json"));
+    std::fs::write(&spec, uncertain.to_string()).expect("a file");
+    program().args(["certify", "-q"]).arg(&spec).arg("-o").arg(&of_gain).assert().code(0);
     let mut used = BTreeSet::new();
-    for certificate in [contradicted, parsed(&file), parsed(&sampled)] {
+    for certificate in [contradicted, parsed(&file), parsed(&sampled), parsed(&of_gain)] {
         assert_eq!(validator.complaints(&certificate), None);
         names(&certificate, &mut used);
     }

@@ -296,12 +296,13 @@ pub struct ToldRegulator {
     gamma: Vec<f64>,
     m: Vec<f64>,
     n: Vec<f64>,
+    nominal: f64,
 }
 
 impl From<RegulatorMatrices> for ToldRegulator {
     fn from(regulator: RegulatorMatrices) -> ToldRegulator {
-        let RegulatorMatrices { sigma, mu, phi, gamma, m, n_diagonal: n, .. } = regulator;
-        ToldRegulator { sigma, mu, phi, gamma, m, n }
+        let RegulatorMatrices { sigma, mu, phi, gamma, m, n_diagonal: n, nominal, .. } = regulator;
+        ToldRegulator { sigma, mu, phi, gamma, m, n, nominal: nominal.unwrap_or(1.0) }
     }
 }
 

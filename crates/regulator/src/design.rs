@@ -3,7 +3,7 @@
 use super::{Discrete, Regulator};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::{Constant, InternalModel, SampledGain};
+use sigmastar_lang::spec::{Constant, InputGain, InternalModel, SampledGain};
 
 /// The most oscillators that are exported: the matrices are written out in full.
 pub const MAX_EXPORTED_OSCILLATORS: u32 = 1000;
@@ -18,13 +18,20 @@ pub struct Design<'m> {
     pub(super) model: &'m InternalModel,
     pub(super) sigma: &'m Constant,
     pub(super) n_o: u32,
+    nominal: Option<&'m Constant>,
 }
 
 impl<'m> Design<'m> {
     /// The regulator of an internal model with the gain sigma and n_o oscillators.
     #[must_use]
     pub fn new(model: &'m InternalModel, sigma: &'m Constant, n_o: u32) -> Design<'m> {
-        Design { model, sigma, n_o }
+        Design { model, sigma, n_o, nominal: None }
+    }
+
+    /// The same for an actuator with this input gain: the control is divided by its nominal value (derivation, 13.1).
+    #[must_use]
+    pub fn for_actuator(self, gain: Option<&'m InputGain>) -> Design<'m> {
+        Design { nominal: gain.map(|gain| &gain.nominal), ..self }
     }
 
     /// The regulator in double precision.
@@ -37,6 +44,7 @@ impl<'m> Design<'m> {
             mu: self.model.mu.enclose(PRECISION).midpoint_f64(),
             frequencies: self.frequencies().iter().map(Enclosure::midpoint_f64).collect(),
             weights: self.weights().iter().map(Enclosure::midpoint_f64).collect(),
+            nominal: self.nominal.map(|nominal| nominal.enclose(PRECISION).midpoint_f64()),
         }
     }
 
@@ -64,7 +72,12 @@ impl<'m> Design<'m> {
         let product = &sigma * &step;
         let weights = self.weights();
         let (mut rotations, mut input) = (Vec::new(), vec![(-&product).midpoint_f64()]);
-        let mut output = vec![(&exact_gain * &weights[0]).midpoint_f64()];
+        // What is put out is over the nominal gain of the actuator.
+        let nominal = self.nominal.map(|nominal| nominal.enclose(PRECISION));
+        let put_out = |value: Enclosure| {
+            nominal.as_ref().map_or_else(|| value.clone(), |nominal| &value / nominal).midpoint_f64()
+        };
+        let mut output = vec![put_out(&exact_gain * &weights[0])];
         let mut direct = weights[0].clone();
         for (frequency, weight) in self.frequencies().iter().zip(&weights[1..]) {
             let angle = frequency * &step;
@@ -73,7 +86,7 @@ impl<'m> Design<'m> {
             let versine = 2 * (angle / 2).sin().sqr();
             input.extend([(&versine - &product).midpoint_f64(), sine.midpoint_f64()]);
             let scaled = &exact_gain * weight;
-            output.extend([(&scaled * &cosine).midpoint_f64(), (&scaled * &sine).midpoint_f64()]);
+            output.extend([put_out(&scaled * &cosine), put_out(&scaled * &sine)]);
             direct = &direct + &(weight * &cosine);
             rotations.push([cosine.midpoint_f64(), sine.midpoint_f64()]);
         }
@@ -85,7 +98,7 @@ impl<'m> Design<'m> {
             rotations,
             input,
             output,
-            feedthrough: (-(sigma + exact_gain * direct)).midpoint_f64(),
+            feedthrough: put_out(-(sigma + exact_gain * direct)),
             saturation: None,
         })
     }

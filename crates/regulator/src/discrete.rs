@@ -10,7 +10,7 @@ use super::Regulator;
 /// the balance that it has in continuous time, for every number of oscillators that the samples can tell apart. (e^(Phi h)
 /// with the error held and the continuous u is unstable for many oscillators.) The same as a linear system:
 /// z_next = Phi z + Gamma e, u = C z + D e with Phi = R, Gamma = (1 - h sigma) M - R M, C = K M'N R,
-/// D = -sigma - K M'N R M.
+/// D = -sigma - K M'N R M. For an actuator with a nominal gain u, and with it C and D, are over that gain.
 ///
 /// Made by [`Design::discretise`](super::Design::discretise), which says how each number is rounded.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +109,10 @@ impl Stepper {
     /// and it is the u applied that the plant sees. So z moves as an observer of the disturbance that is told the control
     /// applied: zeta = z - M e has the same recursion with and without clipping, and its balance of energy.
     pub fn step(&mut self, e: f64) -> f64 {
-        let Some((n_0, weights)) = self.regulator.weights.split_first() else { return -self.regulator.sigma * e };
+        let nominal = self.regulator.divisor();
+        let Some((n_0, weights)) = self.regulator.weights.split_first() else {
+            return -self.regulator.sigma * e / nominal;
+        };
         // z becomes R (z - M e).
         self.z[0] -= e;
         let mut sum = n_0 * self.z[0];
@@ -122,15 +125,18 @@ impl Stepper {
         }
         let wanted = self.discrete.gain * sum - self.regulator.sigma * e;
         let mut carry = self.discrete.decay * e;
-        let mut u = wanted;
+        let mut u = wanted / nominal;
         if let Some(limit) = self.discrete.saturation {
+            let mut applied = wanted;
             if u > limit {
                 u = limit;
+                applied = nominal * limit;
             }
             if u < -limit {
                 u = -limit;
+                applied = -(nominal * limit);
             }
-            carry += self.discrete.step * (u - wanted);
+            carry += self.discrete.step * (applied - wanted);
         }
         self.z[0] += carry;
         for at in 0..self.discrete.rotations.len() {

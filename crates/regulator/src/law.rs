@@ -18,6 +18,9 @@ pub struct Regulator {
     pub frequencies: Vec<f64>,
     /// n_0, ..., n_(n_o).
     pub weights: Vec<f64>,
+    /// The nominal gain of the actuator, by which the control is divided before it is put out; where there is none it is put out as it
+    /// is (derivation, 13.1).
+    pub nominal: Option<f64>,
 }
 
 /// An initial z for another number of oscillators.
@@ -36,13 +39,25 @@ impl Regulator {
     #[must_use]
     pub fn new(sigma: f64, mu: f64, base_frequency: f64, weights: Vec<f64>) -> Regulator {
         let frequencies = (1..weights.len()).map(|l| l as f64 * base_frequency).collect();
-        Regulator { sigma, mu, frequencies, weights }
+        Regulator { sigma, mu, frequencies, weights, nominal: None }
     }
 
     /// The high-gain feedback u = -sigma e, which has no state.
     #[must_use]
     pub fn high_gain(sigma: f64) -> Regulator {
-        Regulator { sigma, mu: 0.0, frequencies: Vec::new(), weights: Vec::new() }
+        Regulator { sigma, mu: 0.0, frequencies: Vec::new(), weights: Vec::new(), nominal: None }
+    }
+
+    /// The same regulator for an actuator of this nominal gain.
+    #[must_use]
+    pub fn for_actuator(self, nominal: Option<f64>) -> Regulator {
+        Regulator { nominal, ..self }
+    }
+
+    /// What the control is divided by.
+    #[must_use]
+    pub fn divisor(&self) -> f64 {
+        self.nominal.unwrap_or(1.0)
     }
 
     /// The number of oscillators n_o; `None` for the high-gain feedback, which has no integrator either.
@@ -57,7 +72,8 @@ impl Regulator {
     pub fn is_representable(&self) -> bool {
         let ordinary = |value: &f64| *value > 0.0 && value.is_finite();
         let mu = self.weights.is_empty() || ordinary(&self.mu);
-        mu && ordinary(&self.sigma) && self.frequencies.iter().chain(&self.weights).all(ordinary)
+        let nominal = self.nominal.as_ref().is_none_or(ordinary);
+        mu && nominal && ordinary(&self.sigma) && self.frequencies.iter().chain(&self.weights).all(ordinary)
     }
 
     /// The dimension of z: 2 n_o + 1, or 0 for the high-gain feedback.

@@ -37,8 +37,15 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<Regulator, Reported> {
         let help = "without an internal model use `simulate --high-gain --sigma V` instead of a file";
         Err(errors.report(if weights.is_empty() { error.help(help) } else { error }))
     });
+    let nominal = file.optional("input_gain").map(|value| {
+        let mut gain = value.object(errors)?;
+        let nominal = gain.required("nominal", errors).and_then(|value| positive(&value, errors));
+        gain.finish(errors);
+        nominal
+    });
     file.finish(errors);
-    Ok(Regulator { sigma: sigma?, mu: mu?, frequencies: frequencies?, weights: weights? })
+    let nominal = nominal.transpose();
+    Ok(Regulator { sigma: sigma?, mu: mu?, frequencies: frequencies?, weights: weights?, nominal: nominal? })
 }
 
 fn list(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<f64>, Reported> {

@@ -4,8 +4,8 @@
 use super::sensitivity;
 use super::verdict::assumed;
 use super::words;
-use sigmastar_document::Block;
 use sigmastar_document::number::{estimate, exact, upper};
+use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
@@ -46,6 +46,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
             .filter(|_| run.given_gain.is_none())
             .map(|sigma| ("aligned start", sensitivity::aligned(sigma))),
     );
+    facts.extend(input_gain(run).map(|said| ("input gain", said)));
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), run.control())));
@@ -130,6 +131,15 @@ fn set_by(run: &Certification<'_>) -> Option<String> {
         format!("; {} lowers sigma* by about {} %", sensitivity::one_per_cent(run.spec, *datum), estimate(100.0 * gain))
     });
     Some(format!("{}{} (estimates)", binding.describe(), best.unwrap_or_default()))
+}
+
+/// The interval of the input gain, and what it costs.
+fn input_gain(run: &Certification<'_>) -> Option<String> {
+    let interval = words::input_gain(run.spec)?;
+    let nominal = run.spec.input_gain.as_ref().map_or_else(String::new, |gain| clean(&gain.nominal.text));
+    let known = run.alternatives.nominal_gain.filter(|_| run.given_gain.is_none());
+    let known = known.map_or_else(String::new, |sigma| format!("; {}", sensitivity::nominal_gain(sigma)));
+    Some(format!("any constant from {interval}; the regulator divides by {nominal}{known}"))
 }
 
 /// The bounds of the error for a few n_o.

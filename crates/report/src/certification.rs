@@ -5,6 +5,7 @@ use super::{
     relative_degree, sensitivity, sets, verdict,
 };
 use sigmastar_document::{Block, Readable, clean};
+use sigmastar_lang::spec::InputGain;
 use sigmastar_prove::certify::Certification;
 use sigmastar_theory::derivation::targets::{Consequences, Target};
 
@@ -55,8 +56,9 @@ impl Readable for Report<'_> {
         blocks.extend(conditions::section(run));
         blocks.extend(matrix_checks::section(run));
         blocks.extend(constants::section(run));
-        // The printed formulas need data that are not computed from a plant's formulas.
-        if run.spec.plant().is_none() {
+        // The printed formulas need data that are not computed from a plant's formulas, and know of no input gain.
+        let known_gain = run.spec.input_gain.as_ref().is_none_or(InputGain::is_nominal);
+        if run.spec.plant().is_none() && known_gain {
             blocks.extend(printed::section(run, self.rechecked));
         }
         blocks.extend(sensitivity::section(run));

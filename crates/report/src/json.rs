@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, full};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::InputGain;
 use sigmastar_prove::certificate::{conditions_json, constants_json, no_plant_json, set_fields};
 use sigmastar_prove::certify::{Certification, Outcome, Verdict};
 use sigmastar_prove::search::{Binding, OptionalDatum};
@@ -69,6 +70,10 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("relative_degree", gains_json(run)),
     ] {
         report[name] = value;
+    }
+    if let Some(InputGain { nominal, low, high }) = &run.spec.input_gain {
+        report["input_gain"] = json!({ "nominal": nominal.text, "low": low.text, "high": high.text });
+        report["sigma_star_nominal_gain_estimate"] = json!(run.alternatives.nominal_gain.map(estimate));
     }
     report
 }

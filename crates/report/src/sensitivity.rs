@@ -29,6 +29,11 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         ))
     }));
     blocks.extend(run.alternatives.aligned.map(|sigma| Block::says(format!("Aligned start: {}.", aligned(sigma)))));
+    blocks.extend(
+        run.alternatives
+            .nominal_gain
+            .map(|sigma| Block::says(format!("What the interval of the input gain costs: {}.", nominal_gain(sigma)))),
+    );
     blocks.extend(ingredients(run).map(Block::Bars));
     if !run.without_optional.is_empty() {
         blocks.push(Block::says("What the optional data bring: sigma* without each."));
@@ -65,6 +70,11 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 /// What a start with z = M e would bring.
 pub(super) fn aligned(sigma: f64) -> String {
     format!("sigma* about {}, with the initial set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
+}
+
+/// What an input gain that is known would bring.
+pub(super) fn nominal_gain(sigma: f64) -> String {
+    format!("with the gain known to be the nominal one sigma* is about {} (an estimate)", estimate(sigma))
 }
 
 /// What a datum is called in the file; the X0 of a plant may be given by a ball.

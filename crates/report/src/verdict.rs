@@ -19,11 +19,13 @@ pub fn sentence(run: &Certification<'_>) -> String {
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
             "Certified: with sigma = {} (or any larger), mu = {} and base frequency {}, for every number of oscillators \
-             n_o >= 0, every solution that starts, at any time, from {} converges exponentially to a T-periodic solution, \
+             n_o >= 0{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic solution, \
              T = {}.",
             exact(sigma, Direction::Up),
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
+            words::input_gain(spec)
+                .map_or_else(String::new, |interval| format!(" and every constant input gain from {interval}")),
             words::set(spec, set),
             clean(&spec.period.text),
         ),
@@ -67,7 +69,8 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         (true, None) => ", and (M) of 13.7 in the place of C5",
         (false, None) => "",
     };
-    let derivation = format!("Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics{of_stability}).");
+    let of_gain = if run.spec.input_gain.is_some() { ", 13.1 for the input gain" } else { "" };
+    let derivation = format!("Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics{of_gain}{of_stability}).");
     let mut items = vec![derivation];
     let further = run.exact_arguments().filter(|_| run.largest_arguments().is_some());
     items.extend(of_the_data(run.spec, run.largest_arguments(), further));
@@ -118,8 +121,15 @@ pub(super) fn of_the_data(
 }
 
 /// What nobody proves: that the formulas are the plant, or that the data of a specification bound it up to the arguments that
-/// are used.
+/// are used; and what is assumed of the actuator.
 pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, further: Option<[Enclosure; 2]>) -> String {
+    let of_the_actuator = words::input_gain(spec).map_or_else(String::new, |interval| {
+        format!(", and that the gain of the actuator is one constant from {interval}")
+    });
+    assumed_of_the_plant(spec, used, further) + &of_the_actuator
+}
+
+fn assumed_of_the_plant(spec: &Specification, used: Option<[Enclosure; 2]>, further: Option<[Enclosure; 2]>) -> String {
     if let Some(plant) = spec.plant() {
         let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
             let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));

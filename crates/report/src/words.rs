@@ -1,9 +1,10 @@
 //! How a report names the state of the zero dynamics: x, its coordinates y of a plant's formulas, or nothing where a plant
 //! has none.
 
+use sigmastar_document::clean;
 use sigmastar_document::number::exact;
 use sigmastar_exact::number::Direction;
-use sigmastar_lang::spec::{Specification, StartSizes};
+use sigmastar_lang::spec::{InputGain, Specification, StartSizes};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
 /// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`, or `z = M e`.
@@ -12,6 +13,11 @@ pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
     let of_state = spec.state_name().map_or_else(String::new, |name| format!("|{name}| <= {x0}, "));
     let of_regulator = z0.map_or_else(|| "z = M e".to_owned(), |z0| format!("|z|_N <= {z0}"));
     format!("{of_state}|e| <= {e0}, {of_regulator}")
+}
+
+/// "0.8 to 1.25": the interval of the input gain, where the document has one.
+pub(super) fn input_gain(spec: &Specification) -> Option<String> {
+    spec.input_gain.as_ref().map(|InputGain { low, high, .. }| format!("{} to {}", clean(&low.text), clean(&high.text)))
 }
 
 /// The arguments up to which bounding functions are used: `X = 1, E = 2`.

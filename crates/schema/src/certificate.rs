@@ -93,6 +93,15 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
             must("sigma_star", "sigma*", "Every gain from this one on is certified, in 1/time.", rational()),
             word("n_o", "n_o", "For which numbers of oscillators.", "every n_o >= 0"),
         ]);
+        let exact = |name, title: &str, text: &str| must(name, title, text, Shape::Constant(Sign::Positive));
+        let gain = vec![
+            exact("nominal", "Nominal gain", "What the regulator divides its control by."),
+            exact("low", "Smallest gain", "The smallest gain that is covered."),
+            exact("high", "Largest gain", "The largest gain that is covered."),
+        ];
+        let text =
+            "Every constant gain of the actuator from `low` to `high` is covered; there where the document has one.";
+        fields.push(may("input_gain", "Input gain", text, Shape::Object(gain)));
     }
     let set = |kinds: &[&'static str], sizes: Vec<Field>| {
         let kind = must("kind", "Kind", "What was asked for.", Shape::Word(kinds.to_vec()));

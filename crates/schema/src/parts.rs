@@ -55,6 +55,31 @@ pub(super) fn internal_model() -> Field {
     must("internal_model", "Internal model", "The oscillators of the regulator.", Shape::Object(fields))
 }
 
+/// `input_gain`.
+pub(super) fn input_gain() -> Field {
+    let fields = vec![
+        must("nominal", "Nominal gain", "What the regulator divides its control by.", POSITIVE),
+        must(
+            "low",
+            "Smallest gain",
+            "The true gain of the actuator is at least this, at most the nominal one.",
+            POSITIVE,
+        ),
+        must(
+            "high",
+            "Largest gain",
+            "The true gain of the actuator is at most this, at least the nominal one.",
+            POSITIVE,
+        ),
+    ];
+    may(
+        "input_gain",
+        "Input gain",
+        "An actuator whose gain is one constant that is known to an interval: e' = q + gain u. Without it the gain is 1.",
+        Shape::Object(fields),
+    )
+}
+
 fn weights() -> Shape {
     let family = |name| must("family", "Family", "How the weights are given.", Shape::Word(vec![name]));
     let power = vec![

@@ -1,6 +1,6 @@
 //! The fields of a plant.
 
-use super::parts::{POSITIVE, header, initial_set, internal_model};
+use super::parts::{POSITIVE, header, initial_set, input_gain, internal_model};
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use sigmastar_lang::plant::{FORMAT, VERSIONS};
 
@@ -41,6 +41,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         may("initial_set", "Initial set", "The initial conditions that the claim covers.", initial_set(true)),
         may("domain", "Domain", "Where the model holds; everywhere without it.", Shape::Object(domain)),
         internal_model(),
+        input_gain(),
     ]);
     fields
 }

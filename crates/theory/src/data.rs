@@ -1,5 +1,6 @@
 //! The data of a specification, enclosed at one working precision.
 
+use crate::input_gain::InputGain;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 pub use sigmastar_lang::spec::Bound;
@@ -26,7 +27,7 @@ pub struct Numbers<R> {
     pub base_frequency: R,
     /// c = sqrt(P_up / P_low) >= 1.
     pub c: R,
-    /// nu = mu / w.
+    /// nu = mu / w; with an input gain that of the smallest one, b_lo mu/w: T_N decreases in nu.
     pub nu: R,
     /// n_0.
     pub n_0: R,
@@ -44,6 +45,8 @@ pub struct Numbers<R> {
     pub q_0: Option<KnownForcing<R>>,
     /// Whether w = Om, proved.
     pub matched: bool,
+    /// The interval of the input gain; none where it is 1 (derivation, 13.1).
+    pub input_gain: Option<InputGain<R>>,
 }
 
 /// c = sqrt(P_up/P_low) and alpha of a P(t) for the zero dynamics.
@@ -130,6 +133,7 @@ impl Numbers<Enclosure> {
                 rest_t_rms: known.rest_t_rms.as_ref().map(Enclosure::midpoint_f64),
             }),
             matched: self.matched,
+            input_gain: self.input_gain.as_ref().map(InputGain::midpoints),
         }
     }
 }
@@ -194,6 +198,9 @@ impl<'s> Data<'s> {
             rest_rms: known.rest_rms.enclose(precision),
             rest_t_rms: known.rest_t_rms.as_ref().map(|bound| bound.enclose(precision)),
         });
+        let factors = spec.input_gain.as_ref().and_then(|gain| gain.factors(precision));
+        let input_gain = factors.map(|[low, high]| InputGain { low, high });
+        let nu = &mu / &base_frequency;
         let numbers = Numbers {
             fundamental: 2 * Enclosure::pi(precision) / &period,
             existence,
@@ -202,7 +209,8 @@ impl<'s> Data<'s> {
             period,
             alpha,
             c,
-            nu: &mu / &base_frequency,
+            nu: input_gain.as_ref().map_or_else(|| nu.clone(), |gain| &gain.low * &nu),
+            input_gain,
             n_0: model.weights.weight(0, precision),
             n_1: model.weights.weight(1, precision),
             n_bar: n_bar_squared.sqrt(),

@@ -6,4 +6,5 @@
 
 pub mod data;
 pub mod derivation;
+pub mod input_gain;
 pub mod transfer;

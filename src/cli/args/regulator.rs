@@ -117,6 +117,10 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_FIXED_STEPS)))]
     pub fixed: Option<u32>,
 
+    /// The true gain of the actuator, an exact positive constant; the nominal one of the plant file's `input_gain` without this flag
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub input_gain: Option<String>,
+
     /// Samples per period in the CSV file and the time response
     #[arg(long, value_name = "S", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub samples: u32,

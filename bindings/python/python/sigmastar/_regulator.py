@@ -40,8 +40,8 @@ class _System:
 
 @dataclass(frozen=True, eq=False)
 class Regulator(_System):
-    """The regulator `z' = Phi z + Gamma e`, `u = -sigma e + mu M'N(z - M e)`, in double precision; no claim is made of the
-    rounded numbers."""
+    """The regulator `z' = Phi z + Gamma e`, `u = (-sigma e + mu M'N(z - M e))/nominal`, in double precision; no claim is made of
+    the rounded numbers."""
 
     sigma: float
     """The gain sigma."""
@@ -57,6 +57,8 @@ class Regulator(_System):
     """The diagonal of N."""
     step: None = None
     """There is no sampling time."""
+    nominal: float = 1.0
+    """The nominal gain of the actuator, by which u is divided; 1 where the document states none."""
 
     @property
     def A(self) -> Matrix:  # type: ignore[override]
@@ -70,13 +72,13 @@ class Regulator(_System):
 
     @property
     def C(self) -> Matrix:  # type: ignore[override]
-        """mu M'N as a row."""
-        return self.mu * (self.M * self.N)[np.newaxis, :]
+        """mu M'N over the nominal gain, as a row."""
+        return self.mu * (self.M * self.N)[np.newaxis, :] / self.nominal
 
     @property
     def D(self) -> Matrix:  # type: ignore[override]
-        """-sigma - mu M'N M, as a matrix of one entry."""
-        return np.array([[-self.sigma - self.mu * float(np.sum(self.M * self.N * self.M))]])
+        """-sigma - mu M'N M over the nominal gain, as a matrix of one entry."""
+        return np.array([[(-self.sigma - self.mu * float(np.sum(self.M * self.N * self.M))) / self.nominal]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +105,7 @@ class SampledRegulator(_System):
 def regulator(told: Dict[str, Any]) -> Regulator:
     """The regulator in continuous time from the library's answer."""
     phi, gamma, m, n = (np.array(told[name]) for name in ("phi", "gamma", "m", "n"))
-    return Regulator(sigma=told["sigma"], mu=told["mu"], Phi=phi, Gamma=gamma, M=m, N=n)
+    return Regulator(sigma=told["sigma"], mu=told["mu"], Phi=phi, Gamma=gamma, M=m, N=n, nominal=told["nominal"])
 
 
 def sampled(told: Dict[str, Any]) -> SampledRegulator:

@@ -1,5 +1,6 @@
 //! What a certificate claims, as a simulation can check it.
 
+use super::finding::Trial;
 use super::frame::{ABOVE, OwnPlant};
 use super::joint::JointFunction;
 use super::sampled_claim::SampledClaim;
@@ -104,6 +105,15 @@ impl TriedClaim {
             own,
             sampled,
         })
+    }
+
+    /// The weight of |zeta|_N^2 in what falls in a trial, as a share of h: with an input gain b the true gain over the nominal one, and at
+    /// a larger sigma less in proportion (derivation, 13.1).
+    pub(super) fn share_of_h(&self, trial: &Trial) -> f64 {
+        let Some((gain, uncertain)) = trial.input_gain.zip(self.spec.input_gain.as_ref()) else { return 1.0 };
+        let threshold = self.spec.bounds.proved_values().inequality().map(|known| known.value.to_f64());
+        let falls = if uncertain.is_nominal() { 1.0 } else { threshold.unwrap_or(self.sigma) / trial.sigma };
+        gain / uncertain.nominal.to_f64() * falls
     }
 
     /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*, for a matched base frequency.

@@ -10,7 +10,8 @@ use sigmastar_lang::spec::{Document, SpecErrors};
 /// The flags with which `simulate` shows a trial.
 #[must_use]
 pub fn flags(claim: &TriedClaim, trial: &Trial) -> String {
-    let plain = format!("--sigma {:?} --n-o {}", trial.sigma, trial.n_o);
+    let gain = trial.input_gain.map_or_else(String::new, |gain| format!(" --input-gain {gain:?}"));
+    let plain = format!("--sigma {:?} --n-o {}{gain}", trial.sigma, trial.n_o);
     match claim.sampled.as_ref().zip(trial.phase) {
         None => plain,
         Some((sampled, phase)) => format!("{plain} --sampled \"{}\" --phase {phase:?}", sampled.step.text),
@@ -35,7 +36,7 @@ pub fn counterexample_plant(
         format!("Counterexample: {quantity} is {found} where at most {bound} is claimed. ")
     });
     let description = format!("{found}Simulate it with {}.", flags(claim, trial));
-    let file = json!({
+    let mut file = json!({
         "format": plant::FORMAT, "version": 1,
         "name": format!("Trial {} for {}", trial.number, clean(&claim.spec.name)),
         "description": description,
@@ -44,5 +45,8 @@ pub fn counterexample_plant(
         "initial": { "x": x, "e": e, "z": z },
         "internal_model": claim.spec.document["internal_model"],
     });
+    if let Some(gain) = claim.spec.document.get("input_gain") {
+        file["input_gain"] = gain.clone();
+    }
     Document::parse("trial", &format!("{file:#}\n"))
 }

@@ -63,6 +63,8 @@ pub struct Trial {
     pub n_o: u32,
     /// x, e, z at the start, on the boundary of the initial set.
     pub start: Vec<f64>,
+    /// The gain of the actuator, of a claim for an interval of them.
+    pub input_gain: Option<f64>,
     /// With the law at samples the time of the first sample, where the trial starts: the phase of the sampling grid.
     pub phase: Option<f64>,
 }

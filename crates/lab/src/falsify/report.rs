@@ -72,8 +72,11 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
         blocks.push(Block::heading("Counterexample"));
         let [found, bound] = told_apart([violation.found, violation.bound]);
         blocks.push(Block::says(format!(
-            "Trial {}, n_o = {}: {} is about {found}, and the claim allows about {bound}.",
-            trial.number, trial.n_o, violation.quantity
+            "Trial {}, n_o = {}{}: {} is about {found}, and the claim allows about {bound}.",
+            trial.number,
+            trial.n_o,
+            gain_words(trial),
+            violation.quantity
         )));
     }
     if let Some(worst) = outcome.worst() {
@@ -129,13 +132,14 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     vec![
         Block::heading("The worst plant"),
         Block::says(format!(
-            "Trial {}, sigma = {:?}, n_o = {}{}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
+            "Trial {}, sigma = {:?}, n_o = {}{}{}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
              (The multiplier and the Lyapunov function are close to theirs with any plant.) `sigmastar falsify` with \
              `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description; so \
              for any other trial.",
             trial.number,
             trial.sigma,
             trial.n_o,
+            gain_words(trial),
             trial.phase.map_or_else(String::new, |phase| format!(", first sample at t = {phase:?}")),
             trial.number
         )),
@@ -152,6 +156,9 @@ fn worst_json(claim: &TriedClaim, worst: &Closest<'_>) -> Value {
     let mut worst = json!({ "trial": number, "quantity": quantity, "share": share, "sigma": sigma, "n_o": n_o });
     if let Some(phase) = phase {
         worst["phase"] = json!(phase);
+    }
+    if let Some(gain) = trial.input_gain {
+        worst["input_gain"] = json!(gain);
     }
     worst["plant"] = plant;
     worst
@@ -199,10 +206,18 @@ fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
     report
 }
 
-/// A trial of the law at samples with the time of its first sample.
+/// The gain of the actuator, of a claim for an interval of them.
+fn gain_words(trial: &Trial) -> String {
+    trial.input_gain.map_or_else(String::new, |gain| format!(", input gain {gain:?}"))
+}
+
+/// A trial of the law at samples with the time of its first sample, and with its input gain where there is one.
 fn with_phase(mut finding: Value, trial: &Trial) -> Value {
     if let Some(phase) = trial.phase {
         finding["phase"] = json!(phase);
+    }
+    if let Some(gain) = trial.input_gain {
+        finding["input_gain"] = json!(gain);
     }
     finding
 }

@@ -71,7 +71,8 @@ pub(super) fn boundary(claim: &TriedClaim, n: usize, regulator: &Regulator, rand
 pub(super) fn regulator(claim: &TriedClaim, sigma: f64, n_o: u32) -> Regulator {
     let model = &claim.spec.internal_model;
     let weights = (0..=u64::from(n_o)).map(|l| model.weights.weight_f64(l)).collect();
-    Regulator::new(sigma, model.mu.to_f64(), model.base_frequency.to_f64(), weights)
+    let nominal = claim.spec.input_gain.as_ref().map(|gain| gain.nominal.to_f64());
+    Regulator::new(sigma, model.mu.to_f64(), model.base_frequency.to_f64(), weights).for_actuator(nominal)
 }
 
 #[cfg(test)]

@@ -62,12 +62,14 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
     let start = boundary(claim, plant.family.states(), &regulator, &mut random);
-    let trial = Trial { number, plant: TriedPlant::Drawn(Box::new(plant)), sigma, n_o, start, phase: None };
+    let input_gain = input_gain(claim, number, &mut random);
+    let plant = TriedPlant::Drawn(Box::new(plant));
+    let trial = Trial { number, plant, sigma, n_o, start, input_gain, phase: None };
     let file = match file(claim, &trial) {
         Ok(file) => file,
         Err(unfinished) => return unfinished,
     };
-    let closed_loop = ClosedLoop::new(&file, regulator);
+    let closed_loop = with_gain(ClosedLoop::new(&file, regulator), input_gain);
     check(claim, trial, &closed_loop)
 }
 
@@ -80,9 +82,28 @@ fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) 
     let mut start = boundary(claim, n, &regulator, &mut random);
     let x = own.state(0.0, &start[..n]);
     start[..n].copy_from_slice(&x);
-    let closed_loop = ClosedLoop::new(&own.plant, regulator);
+    let input_gain = input_gain(claim, number, &mut random);
+    let closed_loop = with_gain(ClosedLoop::new(&own.plant, regulator), input_gain);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
-    check(claim, Trial { number, plant, sigma, n_o, start, phase: None }, &closed_loop)
+    check(claim, Trial { number, plant, sigma, n_o, start, input_gain, phase: None }, &closed_loop)
+}
+
+/// The gain of the actuator in a trial of a claim for an interval: at its ends first, then inside.
+fn input_gain(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<f64> {
+    let gain = claim.spec.input_gain.as_ref()?;
+    let (low, high) = (gain.low.to_f64(), gain.high.to_f64());
+    Some(match number {
+        1 => low,
+        2 => high,
+        _ => low + (high - low) * random.uniform(),
+    })
+}
+
+fn with_gain(closed_loop: ClosedLoop, gain: Option<f64>) -> ClosedLoop {
+    match gain {
+        Some(gain) => closed_loop.with_input_gain(gain),
+        None => closed_loop,
+    }
 }
 
 pub(super) fn check(claim: &TriedClaim, trial: Trial, closed_loop: &ClosedLoop) -> Finding {
@@ -192,6 +213,7 @@ fn check_approach(
     let m = closed_loop.regulator.m();
     let (mut y, mut away, mut level, mut control) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2], 0.0_f64);
     let period = closed_loop.period;
+    let share_of_h = claim.share_of_h(trial);
     for index in 0..PERIODS {
         let t = index as f64 * period;
         let samples = trajectory(closed_loop, t, period, SAMPLES, &y, Tolerance::ORDINARY)?;
@@ -212,7 +234,7 @@ fn check_approach(
                 level[1] = level[1].max(value);
             }
             if let Some([low, up, h]) = claim.lyapunov {
-                let rest = e * e + h * zeta.portable_powi(2);
+                let rest = e * e + h * share_of_h * zeta.portable_powi(2);
                 if index == 0 && at == 0 {
                     level[0] = up * x * x + rest;
                 }

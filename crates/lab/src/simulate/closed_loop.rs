@@ -35,7 +35,8 @@ impl Noise {
 }
 
 /// The closed loop with the state y = (x, e, z): x' = f(t, x, e), e' = q(t, x, e) + u, z' = Phi z + Gamma e,
-/// u = -sigma e + mu M'N(z - M e).
+/// u = -sigma e + mu M'N(z - M e). With an actuator of an uncertain gain e' = q(t, x, e) + gain u, and u is over its nominal value
+/// (derivation, 13.1).
 #[derive(Clone, Debug)]
 pub struct ClosedLoop {
     /// The regulator.
@@ -48,10 +49,12 @@ pub struct ClosedLoop {
     pub(super) effort: Arc<Effort>,
     /// A constant that is added to the control: what a computer holds between samples. 0 in continuous time.
     held: f64,
+    /// The gain of the actuator.
+    gain: f64,
 }
 
 impl ClosedLoop {
-    /// Joins a plant and a regulator.
+    /// Joins a plant and a regulator; the gain of the actuator is the nominal one.
     #[must_use]
     pub fn new(plant: &Plant, regulator: Regulator) -> ClosedLoop {
         ClosedLoop {
@@ -62,7 +65,19 @@ impl ClosedLoop {
             derivatives: Arc::new(plant.program_with_derivatives()),
             effort: Arc::default(),
             held: 0.0,
+            gain: plant.input_gain.as_ref().map_or(1.0, |gain| gain.nominal.to_f64()),
         }
+    }
+
+    /// The same with an actuator of this gain.
+    #[must_use]
+    pub fn with_input_gain(self, gain: f64) -> ClosedLoop {
+        ClosedLoop { gain, ..self }
+    }
+
+    /// b: what of the law's control reaches the plant.
+    pub(super) fn acting(&self) -> f64 {
+        self.gain / self.regulator.divisor()
     }
 
     /// The plant with a control that is held: x' = f(t, x, e), e' = q(t, x, e) + u, with u = 0 at first.
@@ -76,9 +91,9 @@ impl ClosedLoop {
         self.held = u;
     }
 
-    /// What is held.
+    /// What the control that is held adds to e'.
     pub(super) fn held_control(&self) -> f64 {
-        self.held
+        self.gain * self.held
     }
 
     /// The number of states of the plant without e; `y[states()]` is e.
@@ -135,12 +150,13 @@ impl ClosedLoop {
         program.operations() as u64
     }
 
-    /// The control u for a state.
+    /// The control u for a state, as it is put out.
     #[must_use]
     pub fn control(&self, y: &[f64], noise: Disturbance) -> f64 {
         let e = y[self.states];
         let sum = self.regulator.internal_model_output(&y[self.states + 1..], e + noise.model);
-        self.held + self.regulator.mu * sum - self.regulator.sigma * (e + noise.feedback)
+        let law = self.regulator.mu * sum - self.regulator.sigma * (e + noise.feedback);
+        self.held + law / self.regulator.divisor()
     }
 
     /// y' at the time that the evaluator (of [`ClosedLoop::evaluator`]) was set to.
@@ -155,10 +171,12 @@ impl ClosedLoop {
     /// Adds u to e' and sets z'.
     #[inline]
     fn add_regulator(&self, y: &[f64], noise: Disturbance, de: &mut f64, dz: &mut [f64]) {
-        let Regulator { sigma, mu, frequencies, weights } = &self.regulator;
+        let Regulator { sigma, mu, frequencies, weights, .. } = &self.regulator;
         let (e, z) = (y[self.states], &y[self.states + 1..]);
-        *de -= sigma * (e + noise.feedback);
-        *de += self.held;
+        // With 1 for the gain the same bits.
+        let b = self.acting();
+        *de -= b * (sigma * (e + noise.feedback));
+        *de += self.gain * self.held;
         let (Some((n_0, weights)), Some((z_0, z)), Some((dz_0, dz))) =
             (weights.split_first(), z.split_first(), dz.split_first_mut())
         else {
@@ -173,7 +191,7 @@ impl ClosedLoop {
             dz[0] = frequency * z[1] - sigma * measured;
             dz[1] = frequency * (measured - z[0]);
         }
-        *de += mu * sum;
+        *de += b * (mu * sum);
     }
 
     /// The derivatives of (f, q) by x and e at a time and state, column by column. `evaluator` is one of
@@ -213,12 +231,13 @@ impl ClosedLoop {
                 jacobian[row * d + variable] = *derivative;
             }
         }
-        let Regulator { sigma, mu, frequencies, weights } = &self.regulator;
-        jacobian[n * d + n] -= sigma + mu * weights.iter().sum::<f64>();
+        let Regulator { sigma, mu, frequencies, weights, .. } = &self.regulator;
+        let b = self.acting();
+        jacobian[n * d + n] -= b * (sigma + mu * weights.iter().sum::<f64>());
         for (l, weight) in weights.iter().enumerate() {
             // z_0, z_11, z_21, ... follow e.
             let first = if l == 0 { n + 1 } else { n + 2 * l };
-            jacobian[n * d + first] = mu * weight;
+            jacobian[n * d + first] = b * (mu * weight);
             jacobian[first * d + n] = -sigma;
             if l > 0 {
                 let frequency = frequencies[l - 1];

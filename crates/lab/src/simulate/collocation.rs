@@ -74,7 +74,8 @@ impl Row {
     /// Adds to `sum` what the output mu M'N z is at the place if e is 0 on the way.
     pub(super) fn add_output(&self, closed_loop: &ClosedLoop, z: &[f64], columns: usize, sum: &mut [f64]) {
         let regulator = &closed_loop.regulator;
-        let mut weights = regulator.weights.iter().map(|weight| regulator.mu * weight);
+        let b = closed_loop.acting();
+        let mut weights = regulator.weights.iter().map(|weight| b * (regulator.mu * weight));
         let (Some(n_0), Some((first, pairs))) = (weights.next(), z.split_at_checked(columns)) else { return };
         sum.iter_mut().zip(first).for_each(|(sum, z)| *sum += n_0 * z);
         for ((pair, (cosine, sine)), n_l) in pairs.chunks_exact(2 * columns).zip(&self.turns).zip(weights) {
@@ -107,7 +108,8 @@ impl Table {
         let regulator = &closed_loop.regulator;
         let rows: Vec<Row> = NODES.iter().map(|node| Row::new(closed_loop, h, *node)).collect();
         let method = NODES.map(|node| Integrals::new(node).plain().map(|integral| h * integral));
-        let direct = regulator.sigma + regulator.mu * regulator.weights.iter().sum::<f64>();
+        let b = closed_loop.acting();
+        let direct = b * (regulator.sigma + regulator.mu * regulator.weights.iter().sum::<f64>());
         // u at node i from e at node k.
         let mut control = [[0.0; STAGES]; STAGES];
         for (i, row) in rows.iter().enumerate() {
@@ -115,7 +117,7 @@ impl Table {
             // z_0, z_11, z_21, ... are weighted.
             let cosine_like = row.weights.iter().take(1).chain(row.weights.iter().skip(1).step_by(2));
             for (weights, n_l) in cosine_like.zip(&regulator.weights) {
-                control[i].iter_mut().zip(weights).for_each(|(u, weight)| *u += regulator.mu * n_l * weight);
+                control[i].iter_mut().zip(weights).for_each(|(u, weight)| *u += b * (regulator.mu * n_l * weight));
             }
         }
         let feedback =

@@ -7,7 +7,7 @@ pub use periodicity::PeriodicityFailure;
 pub use read::{FORMAT, VERSIONS};
 
 use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, Program};
-use crate::spec::{Constant, Document, Domain, ErrorKind, InitialSet, InternalModel, SpecErrors};
+use crate::spec::{Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, SpecErrors};
 use std::ops::Range;
 
 /// A plant as read from its file.
@@ -35,6 +35,8 @@ pub struct Plant {
     pub domain: Option<Domain>,
     /// The internal model of the regulator.
     pub internal_model: InternalModel,
+    /// The gain of the actuator, where it is not exactly 1.
+    pub input_gain: Option<InputGain>,
     /// The document as it was read.
     pub document: serde_json::Value,
     /// SHA-256, in hexadecimal, of the canonical form of the document.

@@ -4,7 +4,7 @@ use super::{Initial, InitialRegulator, Plant, periodicity};
 use crate::expr::{PlantExpr, PlantNames};
 use crate::spec::{
     Constant, Document, Domain, ErrorKind, Errors, InitialSet, Reported, SpecErrors, Value, any_constant,
-    positive_constant, read_internal_model, read_with_ball,
+    positive_constant, read_input_gain, read_internal_model, read_with_ball,
 };
 use std::path::Path;
 
@@ -59,6 +59,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let internal_model = object
         .required("internal_model", errors)
         .and_then(|value| read_internal_model(&value, period.as_ref().ok(), errors));
+    let input_gain = object.optional("input_gain").map(|value| read_input_gain(&value, errors)).transpose();
     object.finish(errors);
     // Without the names of the states the right sides have no meaning to check.
     let names = names?;
@@ -91,6 +92,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         ball,
         domain: domain?,
         internal_model: internal_model?,
+        input_gain: input_gain?,
         document,
         sha256,
         source: value.document().clone(),

@@ -46,6 +46,8 @@ pub enum ErrorKind {
     Weights,
     /// A condition that could be neither proved nor refuted at the highest precision.
     Undecided,
+    /// A field that is right, and that what was asked for does not know how to honour.
+    NotAvailable,
 }
 
 impl ErrorKind {
@@ -70,6 +72,7 @@ impl ErrorKind {
             ErrorKind::Matched => "not-matched",
             ErrorKind::Weights => "weights",
             ErrorKind::Undecided => "undecided",
+            ErrorKind::NotAvailable => "not-available",
         }
     }
 }

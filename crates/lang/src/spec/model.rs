@@ -3,6 +3,7 @@
 use super::bound::Bound;
 use super::bounding::Bounds;
 use super::document::Document;
+use super::input_gain::InputGain;
 use super::of_plant::OfPlant;
 pub use super::parts::{
     Constant, Domain, InitialSet, Jacobian, JacobianEntry, KnownForcing, Lyapunov, PeriodicMatrix, RelativeDegree,
@@ -38,6 +39,8 @@ pub struct Specification {
     pub internal_model: InternalModel,
     /// The initial conditions to be covered.
     pub initial_set: InitialSet,
+    /// The gain of the actuator, where it is not exactly 1.
+    pub input_gain: Option<InputGain>,
     /// The relative-degree filter, when e is a combination of xi_1, ..., xi_r.
     pub relative_degree: Option<RelativeDegree>,
     /// The document as it was read, without `$schema`: key order and the text of numbers as written.

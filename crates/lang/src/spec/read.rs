@@ -6,6 +6,7 @@ use super::constant::{any_constant, expression, nonnegative_constant, positive_c
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
+use super::input_gain::read_input_gain;
 use super::model::{InternalModel, LyapunovSource, Specification};
 use super::object::Object;
 use super::parts::{Constant, Domain, KnownForcing, Lyapunov, RelativeDegree};
@@ -95,6 +96,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
         .required("internal_model", errors)
         .and_then(|value| read_internal_model(&value, period.as_ref().ok(), errors));
     let initial_set = object.required("initial_set", errors).and_then(|value| initial_set::read(&value, errors));
+    let input_gain = object.optional("input_gain").map(|value| read_input_gain(&value, errors)).transpose();
     let relative_degree =
         object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
     object.finish(errors);
@@ -111,6 +113,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
         domain: domain?,
         internal_model: internal_model?,
         initial_set: initial_set?,
+        input_gain: input_gain?,
         relative_degree: relative_degree?,
         document,
         sha256,

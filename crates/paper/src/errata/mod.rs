@@ -162,7 +162,9 @@ impl Erratum {
 /// The list E1, ..., E23, in order, with its evidence; with a specification, also what each item means for it.
 #[must_use]
 pub fn errata(spec: Option<&Specification>) -> Vec<Erratum> {
-    let data = spec.map(|spec| Data::new(spec, DEFAULT_PRECISION));
+    // The paper knows of no input gain.
+    let spec = spec.map(|spec| Specification { input_gain: None, ..spec.clone() });
+    let data = spec.as_ref().map(|spec| Data::new(spec, DEFAULT_PRECISION));
     let data = data.as_ref();
     vec![
         size::e1(data),

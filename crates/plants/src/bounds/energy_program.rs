@@ -26,27 +26,27 @@ impl FloatSuprema {
     #[must_use]
     pub fn energy_at(&self, at: [f64; 2], places: &Places, weights: &EnergyWeights) -> Vec<EnergyAt> {
         let mut found = Vec::new();
-        self.derivatives_at_points(at, places, |_, derivatives, _| found.push(weights.at(derivatives)));
+        self.derivatives_at_points(at, places, |_, derivatives, _| found.push(weights.at(derivatives, self.moves)));
         found
     }
 
     /// The largest c_y that serves at all points, by a longer search.
     pub(super) fn refined_margin(&self, at: [f64; 2], weights: &EnergyWeights) -> f64 {
-        -self.refined_of_derivatives(at, |derivatives, _| -weights.margin(derivatives))
+        -self.refined_of_derivatives(at, |derivatives, _| -weights.margin(derivatives, self.moves))
     }
 
     /// P, k_p, c_x with a large share of c_y in k_p, at a threshold that is given; `None` where there are none.
     #[must_use]
     pub fn propose_energy(&self, at: [f64; 2], value: f64) -> Option<EnergyWeights> {
         let all = Places::Stride(1);
-        let mut program = Program { points: Vec::new(), value };
+        let mut program = Program { points: Vec::new(), value, moves: self.moves };
         let first = self.where_largest(at, &all, [Bound::Rate, Bound::Qx, Bound::Fe, Bound::QeMax]);
         program.add(self, at, first);
         let mut found = program.solve()?;
         for _ in 0..ROUNDS {
             let mut worst: Vec<(f64, Place)> = Vec::new();
             self.derivatives_at_points(at, &all, |place, derivatives, _| {
-                keep(&mut worst, POINTS, -found.0.margin(derivatives), place);
+                keep(&mut worst, POINTS, -found.0.margin(derivatives, self.moves), place);
             });
             let expected = found.1 - TOLERANCE * found.0.k_p;
             let beyond: Vec<Place> =
@@ -73,6 +73,8 @@ struct Point {
 struct Program {
     points: Vec<Point>,
     value: f64,
+    /// The 1 - b of an input gain.
+    moves: Option<[f64; 2]>,
 }
 
 impl Program {
@@ -80,7 +82,10 @@ impl Program {
         places.sort_unstable();
         places.dedup();
         samples.derivatives_at_points(at, &Places::Listed(Arc::new(places)), |_, Derivatives { j, g, r, d }, _| {
-            self.points.push(Point { j: j.to_vec(), g: g.to_vec(), r: r.to_vec(), d: *d });
+            // (1-b) sigma, at both ends, has its place beside d.
+            let slopes = self.moves.map_or_else(|| vec![*d], |moves| moves.map(|share| d + share * self.value).into());
+            let at = |d: f64| Point { j: j.to_vec(), g: g.to_vec(), r: r.to_vec(), d };
+            self.points.extend(slopes.into_iter().map(at));
         });
     }
 
@@ -128,7 +133,7 @@ impl Program {
         let (w, last) = (triangle.len(), triangle.len() + 1);
         let (e, y) = (n, n + 1);
         let value = self.value;
-        let constraints: Vec<AffineMatrix<f64>> = self
+        let mut constraints: Vec<AffineMatrix<f64>> = self
             .points
             .iter()
             .map(|Point { j: matrix, g, r, d }| {
@@ -171,6 +176,21 @@ impl Program {
                 AffineMatrix::from_fn(n + 2, last + 1, constant, term)
             })
             .collect();
+        // What serves every larger sigma: `[[2 w, -w - (1-b)/2], [., 1 - c]]` at both ends (E4).
+        for share in self.moves.into_iter().flatten() {
+            let constant = |i: usize, k: usize| match (i.min(k), i.max(k)) {
+                (0, 1) => -0.5 * share,
+                (1, 1) => 1.0 - given.unwrap_or(0.0),
+                _ => 0.0,
+            };
+            let term = |variable: usize, i: usize, k: usize| match (i.min(k), i.max(k)) {
+                (0, 0) if variable == w => 2.0,
+                (0, 1) if variable == w => -1.0,
+                (1, 1) if variable == last && given.is_none() => -1.0,
+                _ => 0.0,
+            };
+            constraints.push(AffineMatrix::from_fn(2, last + 1, constant, term));
+        }
         let mut cost = vec![0.0; last + 1];
         cost[last] = -1.0;
         let mut found = propose(&cost, &constraints).ok()?.x;

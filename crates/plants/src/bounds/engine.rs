@@ -35,6 +35,8 @@ pub struct Engine {
     matrices: [Option<PeriodicMatrix>; 2],
     cells: Mutex<HashMap<Side, Arc<TimeCell>>>,
     extents: Vec<OnceLock<[Rational; 2]>>,
+    /// The 1 - b at both ends of an input gain; none where it is 1.
+    moves: Option<[Rational; 2]>,
 }
 
 impl Engine {
@@ -71,13 +73,26 @@ impl Engine {
             Quantity::new(formulas, f, q[0], kind, moves)
         };
         let quantities = Bound::ALL.map(|kind| quantity(kind, &mut formulas));
-        let moves = matrices[0].as_ref().is_some_and(|matrix| !matrix.harmonics.is_empty());
-        let first_derivatives = Part::EACH.map(|part| Quantity::first_derivatives(&mut formulas, &sides, part, moves));
+        let is_moving = matrices[0].as_ref().is_some_and(|matrix| !matrix.harmonics.is_empty());
+        let first_derivatives =
+            Part::EACH.map(|part| Quantity::first_derivatives(&mut formulas, &sides, part, is_moving));
         let velocity = formulas.walk(f);
         let extents = (0..order).map(|_| OnceLock::new()).collect();
         let period = plant.period.clone();
         let cells = Mutex::new(HashMap::new());
-        Ok(Engine { region, period, quantities, first_derivatives, requirements, velocity, matrices, cells, extents })
+        let moves = moves(plant);
+        Ok(Engine {
+            region,
+            period,
+            quantities,
+            first_derivatives,
+            requirements,
+            velocity,
+            matrices,
+            cells,
+            extents,
+            moves,
+        })
     }
 
     /// The number of states.
@@ -100,6 +115,17 @@ impl Engine {
     /// First derivatives of f and q.
     pub(super) fn first_derivatives(&self, part: Part) -> &Quantity {
         &self.first_derivatives[part as usize]
+    }
+
+    /// The 1 - b at both ends of an input gain; none where it is 1.
+    pub(super) fn moves(&self) -> Option<&[Rational; 2]> {
+        self.moves.as_ref()
+    }
+
+    /// What d of a matrix inequality is moved by at a threshold of sigma, in turn: (1-b) sigma at both ends of an input gain, 0 without one.
+    pub(super) fn moved_slopes(&self, threshold: &Rational) -> Vec<Rational> {
+        let moved = |share: &Rational| Rational::from(share * threshold);
+        self.moves().map_or_else(|| vec![Rational::new()], |moves| moves.iter().map(moved).collect())
     }
 
     /// Whether there is a P for a rate.
@@ -180,6 +206,18 @@ impl Engine {
         let velocity = self.velocity.evaluate(&mut OnBox { frame: &frame, t: &t, x: &x, e: &e });
         TimeCell { orbit, velocity, matrices }
     }
+}
+
+/// The 1 - b at both ends of the input gain of a plant, outwards; none where it is 1.
+pub(super) fn moves(plant: &Plant) -> Option<[Rational; 2]> {
+    let gain = plant.input_gain.as_ref()?;
+    let one = Rational::from(1);
+    if let (Some([low, high]), false) = (gain.exact_factors(), gain.is_nominal()) {
+        return Some([&one - low, one - high]);
+    }
+    let [low, high] = gain.factors(PRECISION)?;
+    // What is enclosed has bounds.
+    Some([&one - low.lower_rational()?, one - high.upper_rational()?])
 }
 
 fn is_symmetric(rows: &[Vec<Rational>], order: usize) -> bool {

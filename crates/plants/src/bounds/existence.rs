@@ -25,7 +25,8 @@ impl Engine {
     ///
     /// Guarantee: `True` only if, for every t, every point of `|y| <= X`, `|e| <= E` around any x_0 within r of xb, and the
     /// derivatives of f and q there in the coordinates y, the matrix of [`ExistenceInequality`] is positive definite, P is symmetric of
-    /// the order of the plant, and k_p, c_x and c_y are positive. `False` only if it is not so at a point, or a number is not. For the
+    /// the order of the plant, and k_p, c_x and c_y are positive; with an input gain so at both ends of b with d + (1-b) value in the
+    /// place of d. `False` only if it is not so at a point, or a number is not. For the
     /// caller to prove: what [`Engine::decide`] leaves to him.
     #[must_use]
     pub fn decide_existence(&self, inequality: &ExistenceInequality, effort: usize) -> Decision {
@@ -42,7 +43,7 @@ impl Engine {
         }
         // With the metric [P 0; 0 1], and no margin of e.
         let zeros = vec![Rational::new(); order];
-        let form = MetricForm {
+        let form = |moved: &Rational| MetricForm {
             metric: Metric {
                 matrix: matrix.clone(),
                 cross: zeros.clone(),
@@ -52,10 +53,12 @@ impl Engine {
                 c_e: Rational::new(),
                 c_y: c_y.clone(),
             },
-            pulled: zeros,
+            pulled: zeros.clone(),
             of_e: Rational::from(value * 2u32),
+            moved: moved.clone(),
         };
-        self.decide_part(Part::All, [x, e], effort, |values| form.matrix(values))
+        let ends = self.moved_slopes(value);
+        self.decide_ends(&ends, (Part::All, [x, e]), effort, |values, moved| form(moved).matrix(values))
     }
 
     /// The inequality with the largest c_y that is proved and little below that of the samples; `None` if none is. `samples` must be

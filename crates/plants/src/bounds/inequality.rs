@@ -17,8 +17,8 @@ impl Engine {
     /// Guarantee: `True` only if, for every t, every point of `|y| <= X`, `|e| <= E` around any x_0 within r of xb, and the
     /// derivatives (J, g, r, d) of f and q there in the coordinates y, with `kp = 2 h/mu` and `J_+ = J + rate I`,
     /// `F = [[-w_x (P' + P J_+ + J_+'P), -w_x P g, -(kp/2) r'], [., 2 value, -1 - (kp/2) d], [., ., kp]]` is positive definite; with a
-    /// splitting for (J, r) at every point of one region and (g, d) at every point of another one, at the same t; and `w_x`, `h` and
-    /// `rate` are positive. `False` only if it, or what the splitting asks for, is not so at a point. For the caller to prove:
+    /// splitting for (J, r) at every point of one region and (g, d) at every point of another one, at the same t; with an input gain so
+    /// at both ends of b with d + (1-b) value in the place of d; and `w_x`, `h` and `rate` are positive. `False` only if it, or what the splitting asks for, is not so at a point. For the caller to prove:
     /// what [`Engine::decide`] leaves to him.
     #[must_use]
     pub fn decide_inequality(&self, inequality: &MatrixInequality, mu: &Constant, effort: usize) -> Decision {
@@ -33,8 +33,9 @@ impl Engine {
             return undecided;
         }
         let form = Form::new(inequality, mu);
+        let ends = self.moved_slopes(&inequality.value);
         let Some(Splitting { matrix, .. }) = splitting else {
-            return self.decide_part(Part::All, of_states, effort, |values| form.whole(values));
+            return self.decide_ends(&ends, (Part::All, of_states), effort, |values, moved| form.whole(values, moved));
         };
         let order = self.states() + 1;
         let is_symmetric = matrix.len() == order
@@ -48,8 +49,28 @@ impl Engine {
         if !first.truth.is_true() {
             return first;
         }
-        let second = self.decide_part(Part::Error, of_error, effort, |values| form.beside(matrix, values));
+        let beside = |values: &Values<'_>, moved: &Rational| form.beside(matrix, values, moved);
+        let second = self.decide_ends(&ends, (Part::Error, of_error), effort, beside);
         Decision { boxes: first.boxes + second.boxes, ..second }
+    }
+
+    /// The same of a matrix at each of the moves of d, of which there are two where there is an input gain.
+    pub(super) fn decide_ends(
+        &self,
+        ends: &[Rational],
+        (part, at): (Part, [&Rational; 2]),
+        effort: usize,
+        matrix: impl Fn(&Values<'_>, &Rational) -> Option<SymmetricValues>,
+    ) -> Decision {
+        let mut all = Decision { truth: Truth::True, boxes: 0 };
+        for moved in ends {
+            let decision = self.decide_part(part, at, effort, |values| matrix(values, moved));
+            all = Decision { boxes: all.boxes + decision.boxes, ..decision };
+            if !all.truth.is_true() {
+                break;
+            }
+        }
+        all
     }
 
     /// Decides that a matrix of these derivatives is positive definite on `G(X, E)`.
@@ -74,6 +95,11 @@ impl Engine {
     }
 }
 
+/// d, moved by an input gain where there is one.
+pub(super) fn moved_by(frame: &Frame, slope: Centred, moved: &Rational) -> Centred {
+    if *moved == 0 { slope } else { frame.add(&slope, &frame.rational(moved)) }
+}
+
 /// The numbers of F.
 struct Form {
     w_x: Enclosure,
@@ -92,8 +118,8 @@ impl Form {
         Form { w_x: exact(w_x), half_k_p, rate: exact(rate), value: exact(value) }
     }
 
-    /// F in (x, e, y), from all derivatives.
-    fn whole(&self, values: &Values<'_>) -> Option<SymmetricValues> {
+    /// F in (x, e, y), from all derivatives, and what d is moved by.
+    fn whole(&self, values: &Values<'_>, moved: &Rational) -> Option<SymmetricValues> {
         let matrix = values.matrix();
         let n = matrix.len() - 1;
         let halves: Vec<(Vec<Centred>, Vec<Centred>)> = matrix
@@ -105,7 +131,7 @@ impl Form {
             .collect();
         let (of_states, of_error): (Vec<_>, Vec<_>) = halves.into_iter().unzip();
         let mut entries = self.of_states(values, of_states, n + 1)?;
-        entries.extend(self.of_error(values, of_error)?);
+        entries.extend(self.of_error(values, of_error, moved)?);
         Some(SymmetricValues { order: n + 2, entries })
     }
 
@@ -122,11 +148,11 @@ impl Form {
     }
 
     /// `[[S, v], [v', 2 value]]` in the order (x, e, y), from (g, d).
-    fn beside(&self, s: &[Vec<Rational>], values: &Values<'_>) -> Option<SymmetricValues> {
+    fn beside(&self, s: &[Vec<Rational>], values: &Values<'_>, moved: &Rational) -> Option<SymmetricValues> {
         let frame = values.frame;
         let of_error = values.matrix();
         let n = of_error.len() - 1;
-        let mut entries = self.of_error(values, of_error)?;
+        let mut entries = self.of_error(values, of_error, moved)?;
         let place = |index: usize| if index == n { n + 1 } else { index };
         let upper = (0..=n).flat_map(|i| (i..=n).map(move |j| (i, j)));
         entries.extend(upper.map(|(i, j)| (place(i), place(j), frame.rational(&s[i][j]))));
@@ -154,9 +180,9 @@ impl Form {
     }
 
     /// The row of e, which is the last but one.
-    fn of_error(&self, values: &Values<'_>, mut derivatives: Vec<Vec<Centred>>) -> Option<Entries> {
+    fn of_error(&self, values: &Values<'_>, mut derivatives: Vec<Vec<Centred>>, moved: &Rational) -> Option<Entries> {
         let frame = values.frame;
-        let slope = derivatives.pop()?.pop()?;
+        let slope = moved_by(frame, derivatives.pop()?.pop()?, moved);
         let n = derivatives.len();
         let mut entries = Entries::new();
         if n > 0 {

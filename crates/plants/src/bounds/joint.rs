@@ -18,6 +18,7 @@ impl Engine {
     /// derivatives of f and q there in the coordinates y, both matrices of [`JointInequality`] are positive definite, both P are
     /// symmetric of the order of the plant, k_p, c_x, c_e and c_y are positive, w of the far metric is not negative and its p is 0.
     /// `False` only if it is not so at a point, or a number is not. For the caller to prove: what [`Engine::decide`] leaves to him.
+    /// Of an uncertain input gain nothing is decided: joint metrics are not proved for it.
     #[must_use]
     pub fn decide_joint(&self, inequality: &JointInequality, effort: usize) -> Decision {
         let JointInequality { x, e, value, near, far } = inequality;
@@ -32,7 +33,7 @@ impl Engine {
         if !fits(near) || !fits(far) || !far_fits || *value <= 0 {
             return FALSE;
         }
-        if *x < 0 || *e < 0 {
+        if *x < 0 || *e < 0 || self.moves().is_some() {
             return Decision { truth: Truth::Undecided, boxes: 0 };
         }
         let sum = Rational::from(&near.weight + &far.weight);
@@ -40,6 +41,7 @@ impl Engine {
             metric: metric.clone(),
             pulled: near.cross.iter().map(|entry| Rational::from(entry * value)).collect(),
             of_e: Rational::from(of_e * value) * 2,
+            moved: Rational::new(),
         });
         let first = self.decide_part(Part::All, [x, e], effort, |values| of_near.matrix(values));
         if !first.truth.is_true() {

@@ -4,6 +4,7 @@ use super::PRECISION;
 use super::centred::{Centred, negated};
 use super::decide::Values;
 use super::definite::SymmetricValues;
+use super::inequality::moved_by;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Metric;
@@ -15,13 +16,15 @@ pub(super) struct MetricForm {
     pub(super) pulled: Vec<Rational>,
     /// The corner of e, without what the derivatives take from it.
     pub(super) of_e: Rational,
+    /// What d is moved by; 0 without an input gain.
+    pub(super) moved: Rational,
 }
 
 impl MetricForm {
     /// `[[-(P J + J'P) - c_x I, pulled - P g - J'p, -p - (k_p/2) r'], [., of_e - 2 p'g - c_e, -w - (k_p/2) d], [., ., k_p - c_y]]` in
     /// (x, e, y), in the coordinates y of the states.
     pub(super) fn matrix(&self, values: &Values<'_>) -> Option<SymmetricValues> {
-        let MetricForm { metric: Metric { matrix: p, cross, weight, k_p, c_x, c_e, c_y }, pulled, of_e } = self;
+        let MetricForm { metric: Metric { matrix: p, cross, weight, k_p, c_x, c_e, c_y }, pulled, of_e, moved } = self;
         let frame = values.frame;
         let region = &values.engine.region;
         let half_k_p = Enclosure::from_rational(k_p, PRECISION) / 2;
@@ -29,17 +32,17 @@ impl MetricForm {
         let mut of_f = values.matrix();
         let mut of_q = of_f.pop()?;
         let n = of_f.len();
-        let slope = of_q.pop()?;
+        let slope = moved_by(frame, of_q.pop()?, moved);
         let column: Vec<Vec<Centred>> = of_f.iter_mut().map(|row| row.split_off(n)).collect();
         let jacobian = values.product(region.matrix(), &values.product(region.inverse(), &of_f, false), true);
         let column = values.product(region.inverse(), &column, false);
         let row = values.product(region.matrix(), &[of_q], true).concat();
 
         let mut entries = Vec::new();
-        let moved = values.product(p, &jacobian, false);
+        let turned = values.product(p, &jacobian, false);
         let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
         entries.extend(upper.map(|(i, j)| {
-            let sum = frame.add(&moved[i][j], &moved[j][i]);
+            let sum = frame.add(&turned[i][j], &turned[j][i]);
             let sum = if i == j { frame.add(&sum, &frame.rational(c_x)) } else { sum };
             (i, j, negated(&sum))
         }));

@@ -6,7 +6,7 @@
 use super::entry::of_table;
 use super::pointwise::Asked;
 use super::suprema::{FloatSuprema, Place, Places, keep};
-use super::weights::{FloatWeights, Root};
+use super::weights::{Column, FloatWeights, Root, Thresholds};
 use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
 
@@ -54,7 +54,7 @@ impl FloatSuprema {
             let roots = self.roots(at.states, &listed(&states), weights).unwrap_or_default();
             let mut best = Vec::new();
             self.derivatives_at_points(at.error, places, |place, derivatives, _| {
-                let column = weights.of_error(derivatives);
+                let column = weights.of_error(derivatives, self.moves);
                 keep(&mut best, each, largest(&roots, |root| root.threshold(&column)), place);
             });
             error.extend(best.into_iter().map(|(_, place)| place));
@@ -67,7 +67,12 @@ impl FloatSuprema {
     pub fn threshold_of_pairs(&self, at: MatrixArguments, corners: &Corners, weights: FloatWeights) -> f64 {
         let columns = self.columns(at.error, &corners.error, weights);
         match self.roots(at.states, &corners.states, weights) {
-            Ok(roots) => largest(&roots, |root| largest(&columns, |column| root.threshold(column))),
+            Ok(roots) => {
+                let pairs = roots.iter().flat_map(|root| columns.iter().map(|column| root.thresholds(column)));
+                let value = pairs.fold(Thresholds::ALL, Thresholds::and).value();
+                // What is not a number counts as infinite.
+                if value.is_nan() { f64::INFINITY } else { value }
+            }
             Err(without) => without,
         }
     }
@@ -80,9 +85,11 @@ impl FloatSuprema {
         roots.into_iter().collect()
     }
 
-    fn columns(&self, at: [f64; 2], places: &Places, weights: FloatWeights) -> Vec<Vec<f64>> {
+    fn columns(&self, at: [f64; 2], places: &Places, weights: FloatWeights) -> Vec<Column> {
         let mut columns = Vec::new();
-        self.derivatives_at_points(at, places, |_, derivatives, _| columns.push(weights.of_error(derivatives)));
+        self.derivatives_at_points(at, places, |_, derivatives, _| {
+            columns.push(weights.of_error(derivatives, self.moves));
+        });
         columns
     }
 

@@ -124,7 +124,7 @@ impl SampledWeights {
             let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
             let own = last.pop().unwrap_or(f64::NAN);
             match Root::new(&before) {
-                Ok(root) => 2.0 * root.threshold(&last) / own,
+                Ok(root) => 2.0 * root.half_square(&last) / own,
                 Err(without) => without,
             }
         };
@@ -180,7 +180,7 @@ impl SampledEnergy {
             let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
             last.pop();
             match Root::new(&before) {
-                Ok(root) => 2.0 * root.threshold(&last),
+                Ok(root) => 2.0 * root.half_square(&last),
                 Err(without) => without,
             }
         };

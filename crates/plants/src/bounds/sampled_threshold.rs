@@ -4,7 +4,7 @@ use super::entry::TABLE;
 use super::pointwise::{Asked, Derivatives, MatrixAt};
 use super::sampled_pairs::{Corners, MatrixArguments};
 use super::suprema::{FloatSuprema, Place, Places, keep};
-use super::weights::{FloatWeights, Root};
+use super::weights::{FloatWeights, Root, Thresholds};
 use std::sync::Arc;
 
 /// So many times more points are listed for the threshold of the matrix inequality, which all derivatives enter.
@@ -48,8 +48,8 @@ impl FloatSuprema {
             }
             Some((at, weights)) => {
                 let mut best = Vec::new();
-                self.thresholds_at_points(at.states, &Places::Stride(1), weights, |place, value| {
-                    keep(&mut best, OF_THRESHOLD * each, value, place);
+                self.thresholds_at_points(at.states, &Places::Stride(1), weights, |place, at| {
+                    keep(&mut best, OF_THRESHOLD * each, at.value(), place);
                 });
                 kept.push(best);
             }
@@ -78,12 +78,9 @@ impl FloatSuprema {
     /// the identity.
     #[must_use]
     pub fn threshold(&self, at: [f64; 2], places: &Places, weights: FloatWeights) -> f64 {
-        let mut largest = f64::NEG_INFINITY;
-        self.thresholds_at_points(at, places, weights, |_, value| {
-            // Where a value is undefined, so is the supremum.
-            largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
-        });
-        largest
+        let mut all = Thresholds::ALL;
+        self.thresholds_at_points(at, places, weights, |_, at| all = all.and(at));
+        all.value()
     }
 
     /// Calls `see` with every place and the least sigma there.
@@ -92,31 +89,36 @@ impl FloatSuprema {
         at: [f64; 2],
         places: &Places,
         weights: FloatWeights,
-        mut see: impl FnMut(Place, f64),
+        mut see: impl FnMut(Place, Thresholds),
     ) {
         self.derivatives_at_points(at, places, |place, derivatives, matrix| {
-            see(place, threshold(derivatives, matrix, weights));
+            see(place, thresholds(derivatives, matrix, weights, self.moves));
         });
     }
 
     /// The same at these points: t/T, y in the unit ball, e/E.
     #[must_use]
     pub fn threshold_at(&self, at: [f64; 2], points: &[(f64, Vec<f64>, f64)], weights: FloatWeights) -> f64 {
-        self.largest_of_derivatives_at(at, points, |derivatives, matrix| threshold(derivatives, matrix, weights))
+        let value = |derivatives: &Derivatives<'_>, matrix: &MatrixAt| {
+            thresholds(derivatives, matrix, weights, self.moves).value()
+        };
+        self.largest_of_derivatives_at(at, points, value)
     }
 
     /// The same by a longer search.
     #[must_use]
     pub fn refined_threshold(&self, at: [f64; 2], weights: FloatWeights) -> f64 {
-        self.refined_of_derivatives(at, |derivatives, matrix| threshold(derivatives, matrix, weights))
+        self.refined_of_derivatives(at, |derivatives, matrix| {
+            thresholds(derivatives, matrix, weights, self.moves).value()
+        })
     }
 }
 
-/// That of one point.
-fn threshold(at: &Derivatives<'_>, matrix: &MatrixAt, weights: FloatWeights) -> f64 {
+/// Those of one point.
+fn thresholds(at: &Derivatives<'_>, matrix: &MatrixAt, weights: FloatWeights, moves: Option<[f64; 2]>) -> Thresholds {
     match Root::new(&weights.of_states(at, matrix)) {
-        Ok(root) => root.threshold(&weights.of_error(at)),
-        Err(without) => without,
+        Ok(root) => root.thresholds(&weights.of_error(at, moves)),
+        Err(without) => Thresholds::from(without),
     }
 }
 
@@ -127,13 +129,14 @@ mod tests {
     const WEIGHTS: FloatWeights = FloatWeights { w_x: 0.7, k_p: 1.3, rate: 0.1 };
 
     fn threshold(j: &[f64], g: &[f64], r: &[f64], d: f64, weights: FloatWeights) -> f64 {
-        super::threshold(&Derivatives { j, g, r, d }, &MatrixAt::Identity, weights)
+        thresholds(&Derivatives { j, g, r, d }, &MatrixAt::Identity, weights, None).value()
     }
 
     /// F = [[2 sigma, -1 - kp d/2], [., kp]].
     #[test]
     fn without_states() {
-        let found = super::threshold(&Derivatives { j: &[], g: &[], r: &[], d: 3.0 }, &MatrixAt::Missing, WEIGHTS);
+        let at = Derivatives { j: &[], g: &[], r: &[], d: 3.0 };
+        let found = thresholds(&at, &MatrixAt::Missing, WEIGHTS, None).value();
         assert!((found - (1.0_f64 + 1.95).powi(2) / 2.6).abs() < 1e-14);
     }
 
@@ -151,7 +154,7 @@ mod tests {
         let grows = threshold(&[-0.05], &[0.4], &[0.3], -0.5, WEIGHTS);
         assert_eq!(grows, f64::INFINITY);
         let moving = Derivatives { j: &[-2.0], g: &[0.4], r: &[0.3], d: 0.0 };
-        let moving = super::threshold(&moving, &MatrixAt::Missing, WEIGHTS);
+        let moving = thresholds(&moving, &MatrixAt::Missing, WEIGHTS, None).value();
         assert!(moving.is_nan());
     }
 

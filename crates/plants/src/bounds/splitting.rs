@@ -94,7 +94,8 @@ impl FloatSuprema {
             });
             let so_far = program.threshold;
             self.derivatives_at_points(at.error, &all, |place, derivatives, _| {
-                keep(&mut of_error, POINTS, cholesky.threshold(&weights.of_error(derivatives)) / so_far, place);
+                let needed = cholesky.threshold(&weights.of_error(derivatives, self.moves));
+                keep(&mut of_error, POINTS, needed / so_far, place);
             });
             let beyond = |list: Vec<(f64, Place)>| {
                 let mut places: Vec<Place> =
@@ -123,7 +124,8 @@ impl FloatSuprema {
     /// The least sigma for a given S, by a longer search.
     fn refined_threshold_with(&self, s: &[Vec<f64>], at: [f64; 2], weights: FloatWeights) -> Option<f64> {
         let root = Root::new(&lower(s)).ok()?;
-        let found = self.refined_of_derivatives(at, |derivatives, _| root.threshold(&weights.of_error(derivatives)));
+        let found = self
+            .refined_of_derivatives(at, |derivatives, _| root.threshold(&weights.of_error(derivatives, self.moves)));
         (found.is_finite() && found > 0.0).then_some(found)
     }
 }
@@ -148,7 +150,7 @@ impl Program {
             self.above.push(full(&weights.of_states(derivatives, matrix), derivatives.r.len() + 1));
         });
         samples.derivatives_at_points(at.error, places[1], |_, derivatives, _| {
-            self.columns.push(weights.of_error(derivatives));
+            self.columns.extend(weights.of_error(derivatives, samples.moves).at(self.threshold));
         });
     }
 

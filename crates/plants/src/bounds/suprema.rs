@@ -1,5 +1,6 @@
 //! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
 
+use super::engine::moves;
 use super::entry::{TABLE, of_table};
 use super::narrow::extreme_errors;
 use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise, roots};
@@ -96,6 +97,8 @@ pub struct FloatSuprema {
     /// changes over a small part of the errors is not seen by shares of them.
     narrow: Option<Arc<Vec<[f64; 2]>>>,
     velocity: Arc<Program>,
+    /// The 1 - b at both ends of an input gain.
+    pub(super) moves: Option<[f64; 2]>,
 }
 
 /// P(t).
@@ -163,6 +166,7 @@ impl FloatSuprema {
             by_error,
             narrow: None,
             velocity,
+            moves: moves(plant).map(|moves| moves.map(|share| share.to_f64())),
         };
         let mut evaluator = Evaluator::new(suprema.program.clone());
         let mut slow = Evaluator::new(suprema.velocity.clone());
@@ -214,6 +218,7 @@ impl FloatSuprema {
             by_error: self.by_error,
             narrow: self.narrow.clone(),
             velocity: self.velocity.clone(),
+            moves: self.moves,
         }
     }
 

@@ -3,6 +3,7 @@
 mod directions;
 mod existence;
 mod inequality;
+mod input_gain;
 mod joint;
 mod narrow;
 mod outside;
@@ -161,6 +162,14 @@ fn the_papers_plant() {
         }
         assert_eq!(case.engine.smooth(&x, &e), Ok(()));
     }
+}
+
+/// A plant whose actuator has this nominal, smallest and largest gain.
+fn with_input_gain(states: &[&str], f: &[&str], q: &str, [nominal, low, high]: [&str; 3]) -> Plant {
+    let plain = plant(states, f, q).document.to_string();
+    let gain = format!(r#"{{"input_gain": {{"nominal": {nominal:?}, "low": {low:?}, "high": {high:?}}}, "#);
+    let document = plain.replacen('{', &gain, 1);
+    Plant::from_json("test", &document).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
 fn plant(states: &[&str], f: &[&str], q: &str) -> Plant {

@@ -33,10 +33,62 @@ impl FloatWeights {
         rows
     }
 
-    /// v: the column of e, in x and y, with P = 1.
-    pub(super) fn of_error(self, at: &Derivatives<'_>) -> Vec<f64> {
+    /// v: the column of e, in x and y, with P = 1; `moves` are the 1 - b of an input gain.
+    pub(super) fn of_error(self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> Column {
         let of_states = at.g.iter().map(|slope| -self.w_x * slope);
-        of_states.chain([-1.0 - 0.5 * self.k_p * at.d]).collect()
+        Column {
+            fixed: of_states.chain([-1.0 - 0.5 * self.k_p * at.d]).collect(),
+            moved: moves.map(|moves| moves.map(|share| -0.5 * self.k_p * share)),
+        }
+    }
+}
+
+/// The column of e beside its diagonal. With an input gain its entry with y changes with sigma, at either end of b (derivation, 13.1).
+pub(super) struct Column {
+    fixed: Vec<f64>,
+    /// What sigma adds to the last entry, at both ends.
+    moved: Option<[f64; 2]>,
+}
+
+impl Column {
+    /// The column at a sigma: at both ends where they differ.
+    pub(super) fn at(&self, sigma: f64) -> Vec<Vec<f64>> {
+        let Some(moved) = self.moved else { return vec![self.fixed.clone()] };
+        let end = |by: f64| {
+            let mut column = self.fixed.clone();
+            column.iter_mut().last().into_iter().for_each(|entry| *entry += by * sigma);
+            column
+        };
+        moved.map(end).into()
+    }
+}
+
+/// The sigma at which F is positive semidefinite, with an input gain an interval: of one point, or of many together.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Thresholds {
+    /// The least; infinite where there is none, not a number where a value is undefined.
+    pub(super) least: f64,
+    largest: f64,
+}
+
+impl Thresholds {
+    /// Where nothing is asked for.
+    pub(super) const ALL: Thresholds = Thresholds { least: f64::NEG_INFINITY, largest: f64::INFINITY };
+
+    pub(super) fn from(least: f64) -> Thresholds {
+        Thresholds { least, largest: f64::INFINITY }
+    }
+
+    /// Those that are in both.
+    pub(super) fn and(self, other: Thresholds) -> Thresholds {
+        let undefined = self.least.is_nan() || other.least.is_nan();
+        let least = if undefined { f64::NAN } else { self.least.max(other.least) };
+        Thresholds { least, largest: self.largest.min(other.largest) }
+    }
+
+    /// The least of them; infinite where there are none.
+    pub(super) fn value(self) -> f64 {
+        if self.least > self.largest { f64::INFINITY } else { self.least }
     }
 }
 
@@ -61,13 +113,13 @@ impl From<&ExistenceInequality> for EnergyWeights {
 }
 
 impl EnergyWeights {
-    /// The largest c_y at one point.
-    pub(super) fn margin(&self, at: &Derivatives<'_>) -> f64 {
-        self.at(at).margin(self.k_p, self.value)
+    /// The largest c_y at one point; `moves` are the 1 - b of an input gain.
+    pub(super) fn margin(&self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> f64 {
+        self.at(at, moves).margin(self.k_p, self.value)
     }
 
     /// c_y at one point as a function of the threshold.
-    pub(super) fn at(&self, at: &Derivatives<'_>) -> EnergyAt {
+    pub(super) fn at(&self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> EnergyAt {
         let EnergyWeights { p, k_p, c_x, .. } = self;
         let n = at.r.len();
         let moved = |i: usize, k: usize| -> f64 { (0..n).map(|m| p[i][m] * at.j[m * n + k]).sum() };
@@ -77,7 +129,7 @@ impl EnergyWeights {
         }
         let root = match Root::new(&rows) {
             Ok(root) => root,
-            Err(without) => return EnergyAt { of_y: without, between: 0.0, of_e: 0.0 },
+            Err(without) => return EnergyAt { of_y: without, between: 0.0, of_e: 0.0, moves },
         };
         let of_e = root.solved(&(0..n).map(|i| -(0..n).map(|m| p[i][m] * at.g[m]).sum::<f64>()).collect::<Vec<f64>>());
         let of_y = root.solved(&at.r.iter().map(|slope| -0.5 * k_p * slope).collect::<Vec<f64>>());
@@ -85,25 +137,39 @@ impl EnergyWeights {
             between: -1.0 - 0.5 * k_p * at.d - dot(&of_e, &of_y),
             of_e: dot(&of_e, &of_e),
             of_y: dot(&of_y, &of_y),
+            moves,
         }
     }
 }
 
-/// What is left of the rows of e and y of (E) where those of x are eliminated: `[[2 sigma - of_e, between], [., k_p - of_y]]`.
+/// What is left of the rows of e and y of (E) where those of x are eliminated: `[[2 sigma - of_e, between], [., k_p - of_y]]`; with an
+/// input gain `-(k_p/2) (1-b) sigma` more in `between`, at both ends.
 #[derive(Clone, Copy, Debug)]
 pub struct EnergyAt {
     of_y: f64,
     between: f64,
     of_e: f64,
+    moves: Option<[f64; 2]>,
 }
 
 impl EnergyAt {
-    /// The largest c_y at a threshold of sigma; negative and infinite where there is none.
+    /// The largest c_y at a threshold of sigma; negative and infinite where there is none. With an input gain it serves every larger
+    /// sigma (E4).
     #[must_use]
     pub fn margin(self, k_p: f64, value: f64) -> f64 {
-        let EnergyAt { of_y, between, of_e } = self;
+        let EnergyAt { of_y, between, of_e, moves } = self;
         let left = 2.0 * value - of_e;
-        let margin = k_p - of_y - between * between / left;
+        let with = |moved: f64| k_p - of_y - (between - moved) * (between - moved) / left;
+        let margin = match moves {
+            None => with(0.0),
+            Some(moves) => {
+                let at = |share: f64| {
+                    let moved = 0.5 * k_p * share * value;
+                    with(moved).min(k_p - (1.0 + moved) * (1.0 + moved) / (2.0 * value))
+                };
+                at(moves[0]).min(at(moves[1]))
+            }
+        };
         if left > 0.0 || left.is_nan() { margin } else { f64::NEG_INFINITY }
     }
 }
@@ -151,9 +217,36 @@ impl Root {
         solved
     }
 
-    /// Half of `v' G^-1 v`.
-    pub(super) fn threshold(&self, v: &[f64]) -> f64 {
-        let solved = self.solved(v);
+    /// Half of `v' G^-1 v` of a column that does not change with sigma.
+    pub(super) fn half_square(&self, column: &[f64]) -> f64 {
+        let solved = self.solved(column);
         0.5 * dot(&solved, &solved)
+    }
+
+    /// Half of `v' G^-1 v`; with an input gain the sigma with `v(sigma)' G^-1 v(sigma) <= 2 sigma` at both ends.
+    pub(super) fn thresholds(&self, column: &Column) -> Thresholds {
+        let solved = self.solved(&column.fixed);
+        let square = dot(&solved, &solved);
+        let Some(moved) = column.moved else { return Thresholds::from(0.5 * square) };
+        // Of the last unit vector the last entry alone is left: one over the last one of the factor.
+        let last = self.0.last().map_or(f64::NAN, |last| last.recip());
+        let beside = solved.last().map_or(f64::NAN, |entry| entry * last);
+        let at_end = |by: f64| {
+            // square + 2 half sigma + curved sigma^2 <= 2 sigma.
+            let (half, curved) = (1.0 - beside * by, by * by * last * last);
+            let discriminant = half * half - square * curved;
+            if !(half > 0.0 && discriminant >= 0.0) {
+                let undefined = half.is_nan() || discriminant.is_nan();
+                return Thresholds::from(if undefined { f64::NAN } else { f64::INFINITY });
+            }
+            let root = half + discriminant.sqrt();
+            Thresholds { least: square / root, largest: root / curved }
+        };
+        at_end(moved[0]).and(at_end(moved[1]))
+    }
+
+    /// The least of them.
+    pub(super) fn threshold(&self, column: &Column) -> f64 {
+        self.thresholds(column).value()
     }
 }

@@ -6,7 +6,7 @@ use super::write::{FORMAT, VERSION};
 use crate::certify::GivenWitness;
 use rug::Rational;
 use sigmastar_lang::spec::model::PeriodicMatrix;
-use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value};
+use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, read_input_gain};
 use sigmastar_plants::lyapunov::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sharp::SharpWitness;
@@ -33,7 +33,9 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
     for unused in COMMON.iter().chain(&["no_plant", "comparison", "constants"]) {
         let _ = file.optional(unused);
     }
-    let claim = file.required("claim", errors).and_then(|value| claim_part(&value, errors));
+    let subject = ["plant", "specification"].into_iter().find_map(|name| root.member(name));
+    let input_gain = subject.and_then(|subject| subject.member("input_gain"));
+    let claim = file.required("claim", errors).and_then(|value| claim_part(&value, input_gain, errors));
     let witness = file.required("witness", errors);
     file.finish(errors);
     let ((sigma, set), witness) = (claim?, witness?);
@@ -106,8 +108,12 @@ pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> R
     Ok(rows)
 }
 
-/// What the claim contributes to the witness: sigma*, and the initial set.
-fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(Rational, ClaimedSet), Reported> {
+/// What the claim contributes to the witness: sigma*, and the initial set. Its input gain is that of the embedded document.
+fn claim_part(
+    value: &Value<'_>,
+    embedded: Option<Value<'_>>,
+    errors: &mut Errors,
+) -> Result<(Rational, ClaimedSet), Reported> {
     let mut claim = value.object(errors)?;
     if let Some(regulator) = value.member("regulator") {
         let message = "this certificate is about the regulator at samples, not about the one in continuous time";
@@ -124,11 +130,39 @@ fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(Rational, Claim
             Err(errors.report(value.error(ErrorKind::UnknownName, message).expected("expected `sharp`")))
         }
     });
+    let input_gain = match (claim.optional("input_gain"), embedded) {
+        (None, None) => Ok(()),
+        (stated, embedded) => same_input_gain(stated, embedded, value, errors),
+    };
     let sigma = rational(&mut claim, "sigma_star", errors);
     let set = read_set(&mut claim, errors);
     claim.finish(errors);
     derivation?;
+    input_gain?;
     Ok((sigma?, set?))
+}
+
+/// That the input gain of a claim is the one of the document that it embeds.
+fn same_input_gain(
+    stated: Option<Value<'_>>,
+    embedded: Option<Value<'_>>,
+    claim: &Value<'_>,
+    errors: &mut Errors,
+) -> Result<(), Reported> {
+    let place = stated.clone().unwrap_or_else(|| claim.clone());
+    let [stated, embedded] =
+        [stated, embedded].map(|value| value.map(|value| read_input_gain(&value, errors)).transpose());
+    let same = match (stated?, embedded?) {
+        (Some(stated), Some(embedded)) => stated.is(&embedded),
+        _ => false,
+    };
+    if same {
+        return Ok(());
+    }
+    let message = "the claim and the document in the certificate differ in `input_gain`";
+    let error =
+        place.error(ErrorKind::Range, message).expected("expected the same three numbers in both, or in neither");
+    Err(errors.report(error.help("`certify` writes a new one")))
 }
 
 /// `initial_set` of a claim.

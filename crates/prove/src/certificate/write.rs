@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::spec::model::LyapunovSource;
-use sigmastar_lang::spec::{Bound, OfPlant, Specification};
+use sigmastar_lang::spec::{Bound, Constant, InputGain, OfPlant, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::control::Control;
@@ -44,6 +44,11 @@ fn interval(value: &Enclosure) -> Value {
     Value::Array(value.decimals().into_iter().map(Value::String).collect())
 }
 
+/// A constant exactly, as a number where it is rational.
+fn constant(value: &Constant) -> String {
+    value.as_rational().map_or_else(|| value.text.clone(), write_exact)
+}
+
 /// An upper end, rounded up; the text "inf" when there is none.
 pub(super) fn upper_end(value: &Enclosure) -> Value {
     match value.upper_rational() {
@@ -69,12 +74,18 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let [x, e, zeta, z] = run.periodic_solution()?;
     let spec = run.spec;
     let mu = &spec.internal_model.mu;
-    let claim = object([
+    let heading = [
         ("verdict", text(run.verdict.to_string())),
         ("derivation", text("sharp")),
         ("sigma_star", exact(sigma)),
         ("n_o", text("every n_o >= 0")),
-        ("mu", text(mu.as_rational().map_or_else(|| mu.text.clone(), write_exact))),
+        ("mu", text(constant(mu))),
+    ];
+    let input_gain = spec.input_gain.as_ref().map(|InputGain { nominal, low, high }| {
+        let ends = [("nominal", nominal), ("low", low), ("high", high)];
+        ("input_gain", object(ends.map(|(name, value)| (name, text(constant(value))))))
+    });
+    let rest = [
         ("initial_set", set_json(spec, set)),
         (
             "periodic_solution",
@@ -82,7 +93,8 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ),
         ("control", control_json(run.control()?)),
         ("statement", text(statement(run, sigma, set))),
-    ]);
+    ];
+    let claim = object(heading.into_iter().chain(input_gain).chain(rest));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))
@@ -193,10 +205,17 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
     let spec = run.spec;
     let model = &spec.internal_model;
     let reach = if model.matched { "" } else { " (which need not match the period)" };
+    let input_gain = spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high }| {
+        format!(
+            " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {}),",
+            low.text, high.text, nominal.text
+        )
+    });
     format!(
-        "For every number of oscillators n_o >= 0 and every gain sigma >= {}, with period T = {}, mu = {} and base \
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}{}{input_gain} with period T = {}, mu = {} and base \
          frequency {}{reach}, {}",
         write_exact(sigma),
+        if spec.input_gain.is_some() { "" } else { "," },
         spec.period.text,
         model.mu.text,
         model.base_frequency.text,

@@ -56,6 +56,8 @@ pub struct Alternatives {
     pub by_norms: Option<f64>,
     /// With an aligned start, where the start is another one and that lowers sigma* by a share that matters.
     pub aligned: Option<f64>,
+    /// With the input gain known to be the nominal one, where it is uncertain; by the kind of proof that the claim has.
+    pub nominal_gain: Option<f64>,
 }
 
 /// Everything a run found out.

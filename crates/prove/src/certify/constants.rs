@@ -94,9 +94,10 @@ fn rough(value: &Enclosure) -> bool {
     !width.le(&(value.abs().ceiling() * unit)).is_true()
 }
 
-/// The table, at the witness of the claim; nothing where that is not proved.
+/// The table, at the witness of the claim; nothing where that is not proved, and with an input gain, of which the formulas that are
+/// compared know nothing.
 fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
-    let Some(sharp) = columns.sharp.proved() else { return Vec::new() };
+    let Some(sharp) = columns.sharp.proved().filter(|_| data.input_gain.is_none()) else { return Vec::new() };
     let rows = table(&TableInput {
         data,
         sharp: (&sharp.witness, &sharp.evaluation),

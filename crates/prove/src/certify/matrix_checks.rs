@@ -55,10 +55,12 @@ impl MatrixChecks {
     #[must_use]
     pub fn new(spec: &Specification, sharp: Option<&SharpProof>, repaired: Option<&RepairedProof>) -> MatrixChecks {
         MatrixChecks {
-            // With a matrix inequality of its own C5 is not asked for.
+            // With a matrix inequality of its own C5 is not asked for. With an input gain it contains sigma in another way than the program.
             decay: sharp
                 .filter(|proof| proof.evaluation.by_matrix.is_none())
-                .map(|proof| cross_check(&proof.evaluation, &proof.witness, &Data::new(spec, proof.precision))),
+                .map(|proof| (proof, Data::new(spec, proof.precision)))
+                .filter(|(_, data)| data.input_gain.is_none())
+                .map(|(proof, data)| cross_check(&proof.evaluation, &proof.witness, &data)),
             contraction: sharp.and_then(contraction),
             sylvester: repaired.and_then(|proof| sylvester(spec, proof)),
         }

@@ -11,7 +11,7 @@ use super::options::Options;
 use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
 use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
-use super::sensitivity::{aligned, ranked};
+use super::sensitivity::{aligned, ranked, with_nominal_gain};
 use super::verdict::Verdict;
 use crate::search::{Failing, FloatModel, SharpProposal, search_printed, search_repaired, without_optional_data};
 use rug::Rational;
@@ -74,8 +74,8 @@ fn certify_wanted<'s>(
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
     let paper_model = model(&data, TransferKind::ClosedForm);
-    // From a plant's formulas only the data of the claim are computed.
-    let others = spec.plant().is_none();
+    // From a plant's formulas only the data of the claim are computed; the other derivations know of no input gain.
+    let others = spec.plant().is_none() && data.input_gain.is_none();
     let repaired = (options.compare && others).then(|| match search_repaired(&paper_model) {
         Err(obstacle) => Outcome::NotFound(obstacle),
         Ok(proposal) => round_repaired(&data, &paper_model, &proposal, options.ladder).into(),
@@ -179,7 +179,11 @@ fn assemble<'s>(
         (Outcome::Proved(_), Some(proposal)) => aligned(model, proposal),
         _ => None,
     };
-    let alternatives = Alternatives { by_norms: None, aligned };
+    let nominal_gain = match (&sharp, &proposal) {
+        (Outcome::Proved(proof), Some(proposal)) => with_nominal_gain(spec, model, proposal, proof),
+        _ => None,
+    };
+    let alternatives = Alternatives { by_norms: None, aligned, nominal_gain };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
     let used = reach(&sharp).or_else(|| repaired.as_ref().and_then(reach));
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));

@@ -179,7 +179,7 @@ fn sharp_witness(
     let [dist_x, dist_e, dist_z] =
         claimed_distances(data, &set, [&periodic.x_per, &periodic.e_per, &z]).map(|distance| distance.upper_f64());
     let d_x = at.d_x.max(at.rho * model.c * dist_x);
-    let far = [at.dist_e.max(dist_e), at.dist_z.max(dist_z)];
+    let far = [at.dist_e.max(dist_e), at.dist_z.max(model.weighed(dist_z))];
     let box_of =
         |[w_x, h]: [&Rational; 2]| box_with(model, [w_x, h], [d_x / (at.rho * model.c), far[0], far[1]], slack);
     let given = model.by_matrix.as_ref().and_then(ByMatrix::weights).map(box_of);
@@ -311,7 +311,7 @@ pub(super) fn exact_claim(data: &Data<'_>, model: &FloatModel, set: &ClaimedSet,
     let scale = if dist_e > 0.0 { dist_e } else { 1.0 };
     let dist_x = if dist_x > 0.0 { dist_x } else { scale * 1e-6 };
     let dist_e = if dist_e > 0.0 { dist_e } else { dist_x * 1e-6 };
-    let dist_z = dist_z.max(1e-6 * model.n_bar * dist_e);
+    let dist_z = model.weighed(dist_z.max(1e-6 * model.n_bar * dist_e));
     let at = search_exact(model, [dist_x, dist_e, dist_z]).ok()?;
     SLACKS.iter().find_map(|&slack| {
         let given = model.by_matrix.as_ref().and_then(ByMatrix::weights);

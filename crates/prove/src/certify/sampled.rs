@@ -112,6 +112,9 @@ pub fn certify_sampled<'s>(
     start: Option<&SampledProposal>,
     ladder: Ladder,
 ) -> Result<SampledCertification<'s>, Refusal> {
+    if spec.input_gain.is_some() {
+        return Err(Refusal::InputGainAtSamples);
+    }
     let unproved = undecided_or_error(prove_on_domain(spec))?;
     let data = Data::new(spec, ladder.start.max(53));
     let Some(law) = spec.internal_model.sampled_gain(&sampling.step) else {
@@ -153,6 +156,9 @@ pub fn recheck_sampled<'s>(
     witness: &SampledWitness,
     ladder: Ladder,
 ) -> Result<SampledCertification<'s>, Refusal> {
+    if spec.input_gain.is_some() {
+        return Err(Refusal::InputGainAtSamples);
+    }
     let unproved = undecided_or_error(prove_on_domain(spec))?;
     let proof = decide(spec, witness.clone(), ladder);
     let mut run = assemble(spec, &witness.sampling, None, (Some(proof).into(), None), unproved)?;

@@ -43,6 +43,27 @@ pub(super) fn aligned(model: &FloatModel, proposal: &SharpProposal) -> Option<f6
     (found.sigma < proposal.sigma * (1.0 - STEP)).then_some(found.sigma)
 }
 
+/// sigma* with the input gain known to be the nominal one, where it is uncertain; none where a matrix inequality of the uncertain gain
+/// stands in the place of C5, which says nothing of the other.
+pub(super) fn with_nominal_gain(
+    spec: &Specification,
+    model: &FloatModel,
+    proposal: &SharpProposal,
+    proof: &SharpProof,
+) -> Option<f64> {
+    if model.input_gain.is_none() || model.by_matrix.is_some() {
+        return None;
+    }
+    let kind = match proof.witness.transfer {
+        TransferProof::Matched { .. } => TransferKind::Matched,
+        TransferProof::ClosedForm => TransferKind::ClosedForm,
+        TransferProof::Boxes(_) => TransferKind::Boxes,
+    };
+    let known = Specification { input_gain: None, ..spec.clone() };
+    let found = search_sharp_near(&model_of(&Data::new(&known, PRECISION), kind), proposal).ok()?;
+    (found.sigma < proposal.sigma).then_some(found.sigma)
+}
+
 /// The models of a smaller and of a larger mu, with the transfer bound that belongs to it. None where that bound is proved by
 /// boxes, which take long to find.
 fn with_other_mu(spec: &Specification, model: &FloatModel, proof: &SharpProof) -> Vec<(Datum, FloatModel)> {

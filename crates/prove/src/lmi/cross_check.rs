@@ -148,7 +148,7 @@ fn best_weights(
     let weight =
         |value: f64| Rational::from_f64(value).map(|value| data.rational(&value)).ok_or(SolverFailure::Unusable);
     let (w_x, h) = (weight(found.w_x)?, weight(found.h)?);
-    let closed_form = DecayCondition::new(data, &evaluation.error_box, &w_x, &h);
+    let closed_form = DecayCondition::new(data, &evaluation.error_box, [&w_x, &h], &evaluation.sigma);
     let exact = |value: f64| Rational::from_f64(value).ok_or(SolverFailure::Unusable);
     let there = DecayData { w_x: exact(found.w_x)?, h: exact(found.h)?, ..decay.clone() };
     Ok(SigmaBothWays::new(closed_form.sigma_threshold, found.sigma, two_sided_threshold(&there), found.remark))

@@ -191,12 +191,15 @@ impl FoundByMatrix {
         let proved = prove_bounds(&proofs, chosen)?;
         let proved = match gain {
             Some(gain) if *gain >= proved.proposal.sigma => proved,
+            // Joint metrics are not proved for an uncertain input gain.
+            _ if chosen.model.input_gain.is_some() => proved,
             _ => with_joint_metrics(&proofs, &chosen.model, &chosen.proposal, proved),
         };
         // It is one of (M): beside joint metrics it may be larger than what they prove from another start.
         let lower = |aligned: &f64| *aligned < proved.proposal.sigma * (1.0 - WORTH_A_REMARK);
         let aligned = aligned(sampling, chosen, *path).filter(lower);
-        Ok(Reduced { alternatives: Alternatives { by_norms: Some(by_norms), aligned }, ..proved })
+        let nominal_gain = with_nominal_gain(sampling, along, chosen, *path);
+        Ok(Reduced { alternatives: Alternatives { by_norms: Some(by_norms), aligned, nominal_gain }, ..proved })
     }
 }
 
@@ -212,6 +215,18 @@ fn aligned(sampling: &Sampling<'_>, chosen: &Chosen, path: Path) -> Option<f64> 
     let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
     let sigma = with_search(&sampling, Some(path), search).ok().flatten()?;
     (sigma < chosen.proposal.sigma * (1.0 - WORTH_A_REMARK)).then_some(sigma)
+}
+
+/// The gain near a choice with the input gain known to be the nominal one, in its coordinates; none where it is.
+fn with_nominal_gain(sampling: &Sampling<'_>, along: &Along, chosen: &Chosen, path: Path) -> Option<f64> {
+    sampling.model.input_gain.as_ref()?;
+    let plant = Plant { input_gain: None, ..sampling.plant.clone() };
+    let spec = along.specification(&plant, ProvedValues::default()).ok()?;
+    let data = Data::new(&spec, PRECISION);
+    let model = FloatModel::new(&data, trade_off(&data));
+    let sampling = Sampling::new(&plant, sampling.curve, &model);
+    let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
+    with_search(&sampling, Some(path), search).ok().flatten()
 }
 
 /// The best coordinates near one of these starts, and the gain with them, where stability is proved by a matrix

@@ -93,12 +93,14 @@ impl Prepared {
                     Some(gain) => certify_at(spec, options, proposal, gain),
                 }
                 .map(|mut run| {
-                    if let (Some((_, Alternatives { by_norms, aligned })), None) = (start, gain)
+                    if let (Some((_, Alternatives { by_norms, aligned, nominal_gain })), None) = (start, gain)
                         && let Some(sigma) = run.sigma_star().map(Rational::to_f64)
                     {
                         // From few samples norms may seem to need less than they do.
                         run.alternatives.by_norms = by_norms.filter(|by_norms| *by_norms > sigma);
                         run.alternatives.aligned = run.alternatives.aligned.or(*aligned);
+                        let nominal_gain = run.alternatives.nominal_gain.or(*nominal_gain);
+                        run.alternatives.nominal_gain = nominal_gain.filter(|nominal| *nominal < sigma);
                     }
                     Run::Continuous(Box::new(run))
                 })

@@ -1,11 +1,13 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
 use super::{reduce, reduce_sampled};
-use crate::certify::{Alternatives, with_triple};
+use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
 use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
-use sigmastar_lang::spec::{Constant, Document, ErrorKind, InternalModel, Sampling, SpecErrors, Specification, Value};
+use sigmastar_lang::spec::{
+    Constant, Document, ErrorKind, InputGain, InternalModel, Sampling, SpecErrors, Specification, Value,
+};
 
 /// Where the search for a gain may start, and what it saw beside.
 pub(super) type Sought = (SharpProposal, Alternatives);
@@ -126,6 +128,27 @@ impl Subject {
         }
     }
 
+    /// The gain of the actuator, where the document has one.
+    #[must_use]
+    pub fn input_gain(&self) -> Option<&InputGain> {
+        match self {
+            Subject::Specification(spec) => spec.input_gain.as_ref(),
+            Subject::Plant(plant) => plant.input_gain.as_ref(),
+        }
+    }
+
+    /// That what is asked for can be had of a document with this input gain, which it does not honour.
+    ///
+    /// # Errors
+    /// That there is an input gain, at its place.
+    pub fn without_input_gain(&self, what: &str) -> Result<(), Vec<SpecErrors>> {
+        if self.input_gain().is_none() {
+            return Ok(());
+        }
+        let message = not_available_with_input_gain(what);
+        Err(vec![self.errors_at("/input_gain", ErrorKind::NotAvailable, message, WITHOUT_INPUT_GAIN)])
+    }
+
     /// The samples that the regulator is asked for at, if any.
     #[must_use]
     pub fn sampling(&self) -> Option<&Sampling> {
@@ -174,6 +197,7 @@ impl Subject {
         sampling: &Sampling,
         gain: Option<&Rational>,
     ) -> Result<(Specification, Option<SampledProposal>), Vec<SpecErrors>> {
+        self.without_input_gain("the regulator at samples")?;
         match self {
             Subject::Plant(plant) => {
                 let reduced = reduce_sampled(&plant, sampling, gain).map_err(|refusal| refusal.errors(&plant))?;

@@ -22,7 +22,7 @@ pub struct AtSigma {
     pub d_x: f64,
     /// dE.
     pub dist_e: f64,
-    /// dZ.
+    /// dZ, with an input gain times sqrt(b_hi): the weight in C4 is b_hi h.
     pub dist_z: f64,
     /// The paths of f and of q.
     pub paths: Paths,
@@ -122,16 +122,16 @@ impl Shape {
     }
 }
 
-/// D_x = rho c dX, h from eta, and the threshold of C5 with the level condition active.
+/// D_x = rho c dX, h from eta, and the threshold of C5 at a sigma with the level condition active.
 pub(super) fn error_box_by_norms(
     model: &FloatModel,
     periodic: (f64, f64),
     distances: [f64; 3],
-    (rho, eta): (f64, f64),
+    ((rho, eta), sigma): ((f64, f64), f64),
 ) -> Result<AtSigma, Obstacle> {
     let [_, dist_e, dist_z] = distances;
     Shape::best(model, periodic, distances, (rho, eta), |Shape { d_x, w_x, weight, paths, error_box }| {
-        let decay = DecayCondition::new(model, &error_box, &w_x, &weight);
+        let decay = DecayCondition::new(model, &error_box, [&w_x, &weight], &sigma);
         let (x_b, e_b) = (error_box.x_b, error_box.e_b);
         let margin = decay.curvature - decay.coupling;
         if margin.is_nan() || margin <= (1.0 - BELOW_ONE) * 4.0 * w_x * model.alpha {

@@ -20,7 +20,8 @@ const FAR: usize = 60;
 /// So many values in a row that do not help end that.
 const PATIENCE: usize = 3;
 
-/// The error box of a shape, and the threshold of C5, or of what stands in its place.
+/// The error box of a shape, and the threshold of C5, or of what stands in its place, at a sigma, which it contains where there is an
+/// input gain.
 ///
 /// # Errors
 /// What stands in the way.
@@ -28,11 +29,11 @@ pub(super) fn error_box(
     model: &FloatModel,
     periodic: (f64, f64),
     distances: [f64; 3],
-    shape: (f64, f64),
+    (shape, sigma): ((f64, f64), f64),
 ) -> Result<AtSigma, Obstacle> {
     match &model.by_matrix {
         Some(by_matrix) => error_box_by_matrix(by_matrix, model, periodic, distances, shape),
-        None => error_box_by_norms(model, periodic, distances, shape),
+        None => error_box_by_norms(model, periodic, distances, (shape, sigma)),
     }
 }
 
@@ -41,8 +42,13 @@ pub(super) fn error_box(
 ///
 /// # Errors
 /// The obstacle of the candidate that came closest, when none is feasible.
-pub fn best_error_box(model: &FloatModel, periodic: (f64, f64), distances: [f64; 3]) -> Result<AtSigma, Obstacle> {
-    best_shape(model, |rho, eta| error_box(model, periodic, distances, (rho, eta)))
+pub fn best_error_box(
+    model: &FloatModel,
+    periodic: (f64, f64),
+    distances: [f64; 3],
+    sigma: f64,
+) -> Result<AtSigma, Obstacle> {
+    best_shape(model, |rho, eta| error_box(model, periodic, distances, ((rho, eta), sigma)))
 }
 
 /// The best rho and eta of any boxes.
@@ -99,9 +105,9 @@ pub fn error_box_near(
     model: &FloatModel,
     periodic: (f64, f64),
     distances: [f64; 3],
-    (rho, eta): (f64, f64),
+    (shape, sigma): ((f64, f64), f64),
 ) -> Option<AtSigma> {
-    shape_near(model, |rho, eta| error_box(model, periodic, distances, (rho, eta)), (rho, eta))
+    shape_near(model, |rho, eta| error_box(model, periodic, distances, ((rho, eta), sigma)), shape)
 }
 
 /// The best shape that local minimisation reaches from a known one; `None` where that is not feasible here.

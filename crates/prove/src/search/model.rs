@@ -9,6 +9,7 @@ use super::threshold::ByMatrix;
 use sigmastar_lang::spec::model::{InitialSet, SIZES, StartSizes};
 use sigmastar_theory::data::{Bound, Data, ExistenceTriple, Numbers, Problem};
 use sigmastar_theory::derivation::initial_set::paper_z0;
+use sigmastar_theory::input_gain::InputGain;
 use sigmastar_theory::transfer::TradeOff;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -239,6 +240,12 @@ impl FloatModel {
         if self.rough { effort.rough() } else { effort }
     }
 
+    /// dZ as C4 has it beside h: with an input gain times sqrt(b_hi), for the weight there is b_hi h.
+    #[must_use]
+    pub fn weighed(&self, dist_z: f64) -> f64 {
+        self.input_gain.as_ref().map_or(dist_z, |gain| dist_z * gain.high.sqrt())
+    }
+
     /// That an error box lies in the domain.
     ///
     /// # Errors
@@ -256,8 +263,14 @@ impl FloatModel {
     /// That every number, and every bounding function at X = E = 0, is one that doubles can work with.
     ///
     /// # Errors
-    /// The first that is not.
+    /// The first that is not; and an input gain that no sigma serves.
     pub fn in_range(&self) -> Result<(), Obstacle> {
+        // Both ends have an h/mu with (1 + ht (1-b) sigma)^2 < 4 ht sigma, and share one only then.
+        if let Some(InputGain { low, high }) = &self.input_gain
+            && high.sqrt() >= 2.0 + low.sqrt()
+        {
+            return Err(Failing::InputGain { low: *low, high: *high }.into());
+        }
         let numbers = [
             ("the period", self.period),
             ("p_low", self.p_low),

@@ -37,6 +37,13 @@ pub enum Failing {
         /// Whether the gain is given.
         given: bool,
     },
+    /// The interval of the input gain is so wide that C5 has no h for it at any gain (derivation, 13.1).
+    InputGain {
+        /// b_lo.
+        low: f64,
+        /// b_hi.
+        high: f64,
+    },
     /// C5h: the decay from sample to sample is not positive.
     Sampling,
     /// A period would need more samples than are taken.
@@ -79,7 +86,7 @@ impl Failing {
     /// Larger ones come closer to a certificate.
     fn rank(self) -> u8 {
         match self {
-            Failing::Magnitude(_) => 0,
+            Failing::Magnitude(_) | Failing::InputGain { .. } => 0,
             Failing::NotFinite(_) => 1,
             Failing::Existence => 2,
             Failing::DomainX => 3,
@@ -150,6 +157,12 @@ impl Obstacle {
                  {}, and 1/h is {}",
                 short(sigma),
                 short(largest)
+            ),
+            Failing::InputGain { low, high } => format!(
+                "the input gain is too uncertain: with b from {} to {} times the nominal one C5 has no weight of the internal model at \
+                 any gain, which asks for sqrt(b_hi) < 2 + sqrt(b_lo)",
+                short(low),
+                short(high)
             ),
             Failing::Sampling => {
                 format!("C5h: the decay from sample to sample is not positive for any error box that was tried{place}")

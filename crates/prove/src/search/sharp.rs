@@ -75,10 +75,12 @@ impl Search<'_> {
         let periodic = (set.x_per, set.e_per);
         let at = match self.near {
             // A shape is sought together with the coordinates where it is dear.
-            Some(shape) if self.model.by_matrix.is_some() => error_box(self.model, periodic, distances, shape)?,
+            Some(shape) if self.model.by_matrix.is_some() => {
+                error_box(self.model, periodic, distances, (shape, sigma))?
+            }
             near => {
-                let near = near.and_then(|shape| error_box_near(self.model, periodic, distances, shape));
-                near.map_or_else(|| best_error_box(self.model, periodic, distances), Ok)?
+                let near = near.and_then(|shape| error_box_near(self.model, periodic, distances, (shape, sigma)));
+                near.map_or_else(|| best_error_box(self.model, periodic, distances, sigma), Ok)?
             }
         };
         Ok((set, at))
@@ -160,13 +162,14 @@ impl Search<'_> {
     }
 }
 
-/// dX, dE, dZ of the required set from a periodic solution, kept away from 0: a larger distance only strengthens C4.
+/// dX, dE, dZ of the required set from a periodic solution, kept away from 0: a larger distance only strengthens C4. dZ is that of
+/// [`FloatModel::weighed`].
 #[must_use]
 pub fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
     let start = model.required_set(set.x_p, set.e_p, set.z);
     let [x, e, z] = distances(model, &start, [&set.x_per, &set.e_per, &set.z]);
     let e = e.max(FLOOR * set.e_p);
-    [x.max(FLOOR * set.x_p), e, z.max(FLOOR * model.n_bar * e)]
+    [x.max(FLOOR * set.x_p), e, model.weighed(z.max(FLOOR * model.n_bar * e))]
 }
 
 /// Searches for the smallest sigma.
@@ -281,7 +284,7 @@ fn proposal(search: &Search<'_>, sigma: f64) -> Result<SharpProposal, Obstacle> 
         _ if matches!(search.model.by_matrix, Some(ByMatrix::Joint(_))) => Binding::JointMetrics,
         Err(Obstacle { failing: Failing::Existence, .. }) => Binding::Existence,
         _ if search.model.by_matrix.is_some() => Binding::MatrixInequality,
-        _ => Binding::of_decay(search.model, &set, &at),
+        _ => Binding::of_decay(search.model, &set, &at, sigma),
     };
     Ok(SharpProposal { parameters, sigma, binding })
 }

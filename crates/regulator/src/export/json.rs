@@ -1,6 +1,6 @@
 //! The regulator as JSON.
 
-use super::{Export, Provenance, SAMPLED_LAW, notice};
+use super::{Export, Provenance, continuous_law, notice, sampled_law};
 use faer::Mat;
 use serde_json::{Value, json as object};
 
@@ -19,7 +19,7 @@ pub fn json(export: &Export<'_>) -> Value {
     let discrete = export.discrete.map(|(discrete, sampled)| {
         object!({
             "hold": "zero-order",
-            "law": SAMPLED_LAW,
+            "law": sampled_law(regulator),
             "step": discrete.step,
             "K": discrete.gain,
             "weight_sum": discrete.weight_sum,
@@ -39,7 +39,7 @@ pub fn json(export: &Export<'_>) -> Value {
         let covers = if scope.is_sampled() { "covers_law" } else { "covers_sigma" };
         object!({ "sha256": sha256, gain: sigma_star, "statement": statement, covers: scope.covers() })
     });
-    object!({
+    let mut file = object!({
         "format": FORMAT, "version": VERSION,
         "name": export.name,
         "notice": notice(export),
@@ -50,13 +50,18 @@ pub fn json(export: &Export<'_>) -> Value {
         "frequencies": regulator.frequencies,
         "weights": regulator.weights,
         "start": if export.aligned { "z = M e" } else { "z = 0" },
-        "law": "z' = Phi z + Gamma e, u = -sigma e + mu M'N(z - M e)",
+        "law": continuous_law(regulator),
         "Phi": rows(&regulator.phi()),
         "Gamma": regulator.gamma(),
         "M": regulator.m(),
         "N_diagonal": regulator.n_diagonal(),
         "discrete": discrete,
-    })
+    });
+    // The gain of the actuator, where the document states one.
+    if let Some(nominal) = regulator.nominal {
+        file["input_gain"] = object!({ "nominal": nominal });
+    }
+    file
 }
 
 fn rows(matrix: &Mat<f64>) -> Vec<Vec<f64>> {

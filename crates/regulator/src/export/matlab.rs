@@ -1,9 +1,9 @@
 //! The regulator as a script for MATLAB and Octave.
 
 use super::notice::comment;
-use super::{Export, SAMPLED_LAW, decimal, notice};
+use super::{Export, decimal, notice, sampled_law};
 
-/// A script that sets `sigma`, `mu`, `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N`, `z_start` (z at the first instant, of e
+/// A script that sets `sigma`, `mu`, `nominal` (the gain of the actuator, where there is one), `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N`, `z_start` (z at the first instant, of e
 /// there) and, with a discretisation, `step`, `K`, `weight_sum`, `decay`, `spectral_radius` (of the sampled loop on e' = u), `Phi_d`, `Gamma_d`, `C_d`, `D_d`, and
 /// `saturation` where u is clipped. It uses base functions only and runs in MATLAB and in Octave.
 #[must_use]
@@ -12,9 +12,15 @@ pub fn matlab(export: &Export<'_>) -> String {
     let row = |values: &[f64]| values.iter().map(|value| decimal(*value)).collect::<Vec<_>>().join(", ");
     let mut script = format!("% Regulator for: {}\n", export.name);
     script.push_str(&comment(&notice(export), "% "));
-    script.push_str("% z' = Phi*z + Gamma*e, u = -sigma*e + mu*M'*N*(z - M*e)\n");
+    script.push_str(match regulator.nominal {
+        None => "% z' = Phi*z + Gamma*e, u = -sigma*e + mu*M'*N*(z - M*e)\n",
+        Some(_) => "% z' = Phi*z + Gamma*e, u = (-sigma*e + mu*M'*N*(z - M*e))/nominal\n",
+    });
     script.push_str(&format!("sigma = {};\n", decimal(regulator.sigma)));
     script.push_str(&format!("mu = {};\n", decimal(regulator.mu)));
+    if let Some(nominal) = regulator.nominal {
+        script.push_str(&format!("nominal = {};\n", decimal(nominal)));
+    }
     script.push_str(&format!("frequencies = [{}];\n", row(&regulator.frequencies)));
     script.push_str(&format!("weights = [{}];\n", row(&regulator.weights)));
     let dimension = regulator.dimension();
@@ -31,7 +37,7 @@ pub fn matlab(export: &Export<'_>) -> String {
     let start = if export.aligned { "M*e" } else { "0*M" };
     script.push_str(&format!("z_start = @(e) {start};\n"));
     if let Some((discrete, sampled)) = export.discrete {
-        script.push_str(&format!("% At samples, with Phi for Phi_d: {SAMPLED_LAW},\n"));
+        script.push_str(&format!("% At samples, with Phi for Phi_d: {},\n", sampled_law(regulator)));
         script.push_str("% which is z_next = Phi_d*z + Gamma_d*e, u = C_d*z + D_d*e (u is held over the sample)\n");
         script.push_str(&format!("% In floating point, {sampled}\n"));
         let numbers = [

@@ -29,6 +29,22 @@ pub struct Export<'r> {
     pub certificate: Option<&'r Provenance>,
 }
 
+/// The law in continuous time, as exports write it.
+fn continuous_law(regulator: &Regulator) -> &'static str {
+    match regulator.nominal {
+        None => "z' = Phi z + Gamma e, u = -sigma e + mu M'N(z - M e)",
+        Some(_) => "z' = Phi z + Gamma e, u = (-sigma e + mu M'N(z - M e))/nominal",
+    }
+}
+
+/// The law at samples.
+fn sampled_law(regulator: &Regulator) -> String {
+    match regulator.nominal {
+        None => SAMPLED_LAW.to_owned(),
+        Some(_) => SAMPLED_LAW.replace("u = -sigma e + K v", "u = (-sigma e + K v)/nominal"),
+    }
+}
+
 /// A double in the fewest digits that give it back.
 fn decimal(value: f64) -> String {
     let plain = format!("{value:?}");

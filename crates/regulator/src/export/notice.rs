@@ -85,6 +85,16 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     if export.aligned {
         lines.push("Start with z = M e, e the error at the first instant: the initial set is `aligned`.".to_owned());
     }
+    if let Some(nominal) = export.regulator.nominal {
+        let sampled = match export.discrete {
+            Some(_) => " What is said of the sampled loop is for exactly this gain.",
+            None => "",
+        };
+        lines.push(format!(
+            "u is what the actuator is given: the control of the law is divided by the nominal input gain {}.{sampled}",
+            super::decimal(nominal)
+        ));
+    }
     lines.push(NOT_COVERED.to_owned());
     if let Some(limit) = export.discrete.and_then(|(discrete, _)| discrete.saturation) {
         let limit = super::decimal(limit);

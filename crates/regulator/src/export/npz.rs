@@ -7,7 +7,8 @@ use zip::result::ZipResult;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-/// The regulator as a NumPy `.npz` archive (stored, no time stamps): `sigma`, `mu`, `frequencies`, `weights`, `Phi`,
+/// The regulator as a NumPy `.npz` archive (stored, no time stamps): `sigma`, `mu`, `nominal` (the gain of the actuator, by which u is
+/// divided, where there is one), `frequencies`, `weights`, `Phi`,
 /// `Gamma`, `M`, `N`, `aligned` (whether z = M e at the first instant; else z = 0 there), `notice` (what is claimed and what is not:
 /// bytes of UTF-8) and, with a discretisation, `step`, `K`,
 /// `weight_sum`, `decay`, `Phi_d`, `Gamma_d`, `C_d`, `D_d`, `saturation` where u is clipped, and of the sampled loop on e' = u
@@ -22,6 +23,9 @@ pub fn npz(export: &Export<'_>) -> ZipResult<Vec<u8>> {
     let mut archive = Archive(ZipWriter::new(Cursor::new(Vec::new())));
     archive.number("sigma", regulator.sigma)?;
     archive.number("mu", regulator.mu)?;
+    if let Some(nominal) = regulator.nominal {
+        archive.number("nominal", nominal)?;
+    }
     archive.vector("frequencies", &regulator.frequencies)?;
     archive.vector("weights", &regulator.weights)?;
     archive.matrix("Phi", &regulator.phi())?;

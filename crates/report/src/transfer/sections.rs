@@ -12,9 +12,11 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
     let mut blocks = vec![
         Block::Verdict(format!(
             "Proved: T_N(x) <= k0 + k1 x^2 with k0 = {} and k1 = {}, for every number of oscillators N = n_o >= 0 and every \
-             x = omega/w >= 0, where nu = mu/w = {}.",
+             x = omega/w >= 0, where nu = {} = {}.",
             write_exact(&pair.k0),
             write_exact(&pair.k1),
+            // That of the smallest input gain serves all of an interval.
+            if data.input_gain.is_some() { "b_lo mu/w" } else { "mu/w" },
             compact(&data.nu),
         )),
         Block::says(format!(

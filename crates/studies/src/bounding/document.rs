@@ -110,7 +110,8 @@ fn write(
         ("internal_model", copied("internal_model")),
         ("initial_set", initial_set(&spec.initial_set)),
     ];
-    object(all.into_iter().chain(forcing).chain(rest))
+    let input_gain = plant.document.get("input_gain").map(|gain| ("input_gain", gain.clone()));
+    object(all.into_iter().chain(forcing).chain(rest).chain(input_gain))
 }
 
 fn description(of_plant: &OfPlant) -> String {

@@ -64,6 +64,8 @@ pub enum NoRates {
     NoPlant(Box<NoPlant>),
     /// The gain is below this sigma*.
     BelowSigmaStar(Rational),
+    /// The input gain is uncertain: the inequalities of a rate are those of one gain.
+    InputGain,
 }
 
 /// The [`rates`] of a certified run, with the gain they are for: sigma* where none is given.
@@ -81,11 +83,15 @@ pub fn certified_rates(
     if let Some(reason) = &run.no_plant {
         return Err(NoRates::NoPlant(Box::new(reason.clone())));
     }
+    let data = Data::new(run.spec, proof.precision);
+    if data.input_gain.is_some() {
+        return Err(NoRates::InputGain);
+    }
     let sigma = sigma.unwrap_or_else(|| sigma_star.clone());
     if sigma < *sigma_star {
         return Err(NoRates::BelowSigmaStar(sigma_star.clone()));
     }
-    let found = rates(&Data::new(run.spec, proof.precision), proof, &sigma, n_o);
+    let found = rates(&data, proof, &sigma, n_o);
     Ok((sigma, found))
 }
 

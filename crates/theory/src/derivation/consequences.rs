@@ -24,11 +24,11 @@ pub struct Excitation {
 /// psi_1, psi_x and psi_2: bounds for every n_o and mu at once.
 #[derive(Clone, Debug)]
 pub struct Psi {
-    /// psi_1 = T R_1/sqrt(12): sup|e| <= psi_1/sigma.
+    /// psi_1 = T R_1/sqrt(12), with an input gain over b_m: sup|e| <= psi_1/sigma.
     pub psi_1: Enclosure,
     /// psi_x = (c/a_1) b_fe psi_1: sup|x| <= psi_x/sigma.
     pub psi_x: Enclosure,
-    /// psi_2 = T R_q^2/Om^2, Om = 2 pi/T: the integral of e^2 over a period is at most psi_2/(n_o+1)^2 (matched only).
+    /// psi_2 = T R_q^2/Om^2, Om = 2 pi/T, with an input gain over b_m^2: the integral of e^2 over a period is at most psi_2/(n_o+1)^2 (matched only).
     pub psi_2: Enclosure,
 }
 
@@ -36,13 +36,20 @@ impl Psi {
     /// Evaluates the three constants.
     #[must_use]
     pub fn new(data: &Data<'_>, excitation: &Excitation) -> Psi {
-        let psi_1 = &data.period * &excitation.q_rate_rms / Enclosure::from_integer(12, data.precision).sqrt();
+        let of_error = |rms: &Enclosure| over_input_gain(data, rms);
+        let psi_1 =
+            &data.period * of_error(&excitation.q_rate_rms) / Enclosure::from_integer(12, data.precision).sqrt();
         Psi {
             psi_x: &excitation.x_gain * &psi_1,
             psi_1,
-            psi_2: &data.period * excitation.q_rms.sqr() / data.fundamental.sqr(),
+            psi_2: &data.period * of_error(&excitation.q_rms).sqr() / data.fundamental.sqr(),
         }
     }
+}
+
+/// What bounds q, over b_m where there is an input gain: with it e answers as to that much more of q (derivation, 13.1).
+fn over_input_gain(data: &Data<'_>, rms: &Enclosure) -> Enclosure {
+    data.input_gain.as_ref().map_or_else(|| rms.clone(), |gain| rms / gain.of_error())
 }
 
 /// Certified bounds of the periodic error for one number of oscillators, upper bounds only.
@@ -59,7 +66,7 @@ pub struct ErrorBounds {
 /// Harmonics |k| <= n_o of e vanish and |e_k| <= |q_k|/sqrt((k Om)^2 + sigma^2), so with a = (n_o+1) Om
 /// rms(e) <= min{ R_q/sqrt(a^2 + sigma^2), R_1/(a sqrt(a^2 + sigma^2)) },
 /// sup|e| <= min{ e_per, R_q sqrt(2 S_0), R_1 sqrt(2 S_1) } with S_0 = sum_{k>n_o} 1/((k Om)^2 + sigma^2) and
-/// S_1 = sum_{k>n_o} 1/((k Om)^2 ((k Om)^2 + sigma^2)), by Cauchy-Schwarz.
+/// S_1 = sum_{k>n_o} 1/((k Om)^2 ((k Om)^2 + sigma^2)), by Cauchy-Schwarz. With an input gain R_q and R_1 are over b_m.
 ///
 /// Hypotheses: existence at sigma; base_frequency = 2 pi/T. Guarantee: both are upper bounds, nonincreasing in n_o up to
 /// rounding; e_per also bounds the rms.
@@ -72,12 +79,12 @@ pub fn error_bounds(
     n_o: u64,
 ) -> ErrorBounds {
     let omega = &data.fundamental;
+    let [q_rms, q_rate_rms] = [&excitation.q_rms, &excitation.q_rate_rms].map(|rms| over_input_gain(data, rms));
     let first = harmonic(data, u128::from(n_o) + 1) * omega;
     let modulus = (first.sqr() + sigma.sqr()).sqrt();
-    let rms = e_per.min(&(&excitation.q_rms / &modulus)).min(&(&excitation.q_rate_rms / (first * modulus)));
+    let rms = e_per.min(&(&q_rms / &modulus)).min(&(&q_rate_rms / (first * modulus)));
     let [by_size, by_rate] = tail_sums(data, sigma, n_o);
-    let sup =
-        e_per.min(&(&excitation.q_rms * (2 * by_size).sqrt())).min(&(&excitation.q_rate_rms * (2 * by_rate).sqrt()));
+    let sup = e_per.min(&(&q_rms * (2 * by_size).sqrt())).min(&(&q_rate_rms * (2 * by_rate).sqrt()));
     ErrorBounds { rms: rms.ceiling(), sup: sup.ceiling() }
 }
 

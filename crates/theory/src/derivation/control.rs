@@ -20,6 +20,8 @@ pub struct Control<R> {
 /// What the control makes of the harmonics of q but for the mean, which it answers by its opposite.
 #[derive(Clone, Debug)]
 pub struct Answer<R> {
+    /// |u_0| over |q_0|.
+    pub mean: R,
     /// F: |u_j| <= F |q_j|.
     pub harmonic: R,
     /// Of the sum of all |u_j| over rms(q').
@@ -30,13 +32,20 @@ impl<R: Real> Answer<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    /// In continuous time F = 2/sqrt(3) and `F T/sqrt(12) = T/3`, by Cauchy-Schwarz.
+    /// In continuous time F = 2/sqrt(3) and `F T/sqrt(12) = T/3`, by Cauchy-Schwarz; with an input gain b_lo stands for b in
+    /// F = sqrt(1 + 2/(4b - 1 + sqrt(1 + 8b)))/b and in 1/b, both of which fall in b.
     ///
     /// u_j = (P S - 1) q_j where P = i om/(i om + sigma) and S both are on the circle |z - 1/2| = 1/2.
     #[must_use]
     pub fn continuous(problem: &impl Problem<R>) -> Answer<R> {
-        let harmonic = R::int(2) / R::int(3).sqrt();
-        Answer { harmonic, by_rate: &problem.numbers().period / R::int(3) }
+        let Numbers { period, input_gain, .. } = problem.numbers();
+        let Some(gain) = input_gain else {
+            return Answer { mean: R::int(1), harmonic: R::int(2) / R::int(3).sqrt(), by_rate: period / R::int(3) };
+        };
+        let b = &gain.low;
+        let more = R::int(2) / (R::int(4) * b - R::int(1) + (R::int(1) + R::int(8) * b).sqrt());
+        let harmonic = (R::int(1) + more).sqrt() / b;
+        Answer { mean: R::int(1) / b, by_rate: &harmonic * period / R::int(12).sqrt(), harmonic }
     }
 
     /// min{ m_0 + F' R_1, m_0 + F 2 sum_{k>=1} C_k + F' (r_1 + d_1), `by_parts` } with m_0 = min{ R_q, C_0 + r_0 + d_0 }, where `by_parts`
@@ -45,10 +54,10 @@ where
     /// Hypothesis: `forcing` bounds q along the periodic solution. Guarantee: |u| of that solution is not larger.
     #[must_use]
     pub fn steady(&self, origin: &AtOrigin<R>, forcing: &Forcing<R>, by_parts: &R) -> R {
-        let Answer { harmonic, by_rate } = self;
+        let Answer { mean: of_mean, harmonic, by_rate } = self;
         let Forcing { q_rms, q_rate_rms, change: [change, change_rate] } = forcing;
-        let Some(known) = &origin.known else { return (q_rms + by_rate * q_rate_rms).min_known(by_parts) };
-        let mean = q_rms.min_known(&(&known.mean + &known.rest_rms + change));
+        let Some(known) = &origin.known else { return (of_mean * q_rms + by_rate * q_rate_rms).min_known(by_parts) };
+        let mean = of_mean * &q_rms.min_known(&(&known.mean + &known.rest_rms + change));
         let superposed = harmonic * &known.sum + by_rate * (&known.rest_t_rms + change_rate);
         (&mean + by_rate * q_rate_rms).min_known(&(&mean + superposed)).min_known(by_parts)
     }
@@ -107,6 +116,7 @@ mod tests {
     use crate::derivation::sampled::SampledLaw;
     use crate::derivation::sampled::examples::{example, law};
     use num_complex::Complex;
+    use serde_json::json;
     use sigmastar_exact::enclosure::Enclosure;
     use std::f64::consts::{PI, TAU};
 
@@ -144,10 +154,28 @@ mod tests {
         }
         let spec = example(2, "1", |_| ());
         let data = Data::new(&spec, 128);
-        let Answer { harmonic, by_rate } = Answer::continuous(&data);
+        let Answer { harmonic, by_rate, .. } = Answer::continuous(&data);
         let [factor, by_rate, period] = [&harmonic, &by_rate, &data.period].map(Enclosure::midpoint_f64);
         assert!((by_rate - factor * period / 12f64.sqrt()).abs() < 1e-12);
         assert!(worst <= factor * (1.0 + 1e-9) && worst > 0.995 * factor, "{worst} {factor}");
+    }
+
+    /// The same with an input gain: u = (y - q - sigma e)/b.
+    #[test]
+    fn harmonics_with_an_input_gain() {
+        let spec = example(2, "1", |file| file["input_gain"] = json!({ "nominal": 1, "low": "0.4", "high": "3" }));
+        let Answer { mean, harmonic, .. } = Answer::continuous(&Data::new(&spec, 128));
+        let (mut random, mut worst) = (Random(9), 0.0_f64);
+        let i = Complex::<f64>::i();
+        for _ in 0..40_000 {
+            let (sigma, eta) = (random.exponential(1e2), random.next() * random.exponential(1e2));
+            let b = 0.4 + (1.3 * (1.0 + random.next())).min(2.6) * f64::from(u8::from(random.next() > 0.5));
+            let e = 1.0 / (i + b * sigma + i * eta * (i + sigma));
+            worst = worst.max((i * e - 1.0).norm() / b);
+        }
+        let factor = harmonic.midpoint_f64();
+        assert!(worst <= factor * (1.0 + 1e-9) && worst > 0.99 * factor, "{worst} {factor}");
+        assert!((mean.midpoint_f64() - 2.5).abs() < 1e-12);
     }
 
     /// The same at samples, for every load K h Nb2 and every h sigma: (12.1).
@@ -171,7 +199,7 @@ mod tests {
             let found = (y * (point(phi) - 1.0) / (point(phi) - (1.0 - product)) - 1.0).norm();
             let g = 2.0 / ((2.0 - product) * (1.0 - load / 2.0));
             let of = SampledLaw { step: 1.0, enlarged: 1.0 / (1.0 - load / 2.0), ..known.clone() };
-            let Answer { harmonic: factor, by_rate } = of.answer(&product, &f64::from(samples));
+            let Answer { harmonic: factor, by_rate, .. } = of.answer(&product, &f64::from(samples));
             let sum: f64 = (1..samples).map(|j| (2.0 * (PI * f64::from(j) / f64::from(samples)).sin()).powi(-2)).sum();
             assert!((by_rate / (factor * sum.sqrt()) - 1.0).abs() < 1e-9);
             assert!(found <= factor * (1.0 + 1e-6), "{n_o} {load} {product} {phi}: {found} {factor}");

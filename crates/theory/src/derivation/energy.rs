@@ -103,6 +103,10 @@ pub fn proved(data: &Data<'_>, origin: &AtOrigin<Enclosure>, sigma: &Enclosure) 
 /// What is left to decide of it: that (X_p, E_p) lies where it holds, and that sigma is not below its threshold, and above it where
 /// the inequality has no c_e.
 ///
+/// With an input gain the inequality has d + (1-b) threshold in the place of d and is proved at both ends of b; E4 is asked for beside:
+/// with 0 for d the block of (e, y) is at least diag(0, c_y). Then F >= diag(c_x, 0, lam c_y) at threshold/lam with lam k_p in the place
+/// of k_p, as in [`super::matrix_inequality::conditions`]; so rms(y) and rms(x) are bounded as at the threshold (derivation, 13.1).
+///
 /// Differences of rationals are exact, so that equality is decided.
 #[must_use]
 pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Rational) -> Vec<Condition> {
@@ -120,8 +124,14 @@ pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Rational)
         let reached = difference("E3", "threshold of the existence inequality - sigma <= 0", value, sigma);
         return within(x, e).into_iter().chain([reached]).collect();
     }
-    let Some(ExistenceInequality { x, e, value, .. }) = values.existence() else { return Vec::new() };
+    let Some(ExistenceInequality { x, e, k_p, c_y, value, .. }) = values.existence() else { return Vec::new() };
     let [threshold, sigma] = [value, sigma].map(|number| data.rational(number));
-    let exceeded = Condition::less("E3", "threshold of the existence inequality < sigma", threshold, sigma);
-    within(x, e).into_iter().chain([exceeded]).collect()
+    let exceeded = Condition::less("E3", "threshold of the existence inequality < sigma", threshold.clone(), sigma);
+    let any_larger = data.input_gain.as_ref().map(|gain| {
+        let [k_p, c_y] = [k_p, c_y].map(|number| data.rational(number));
+        let [worst, room] = gain.damping(&(k_p / 2), &threshold);
+        let what = "(1 + (k_p/2) (1-b) threshold)^2 <= 2 threshold (k_p - c_y) at both ends of b";
+        Condition::at_most("E4", what, worst, room - 2 * threshold * c_y)
+    });
+    within(x, e).into_iter().chain([exceeded]).chain(any_larger).collect()
 }

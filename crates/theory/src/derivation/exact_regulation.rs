@@ -34,7 +34,8 @@ pub struct ExactWitness {
 /// `z_oo = (1/mu) sqrt( b_q_rms(0,0)^2/n_0 + (2/n_1)(T/2pi)^2 b_qt_rms(0,0)^2 )`: the norm of the steady state of the
 /// internal model (the paper drops the k = 0 term, a square root and n_0: erratum E13); where harmonics of q(t,0,0) are known,
 /// `(1/mu)[ sqrt(C_0^2/n_0 + sum_{k>=1} 4 C_k^2/n_k) + sqrt(r_0^2/n_0 + (2/n_1)(T/2pi)^2 r_1^2) ]`, if that is smaller
-/// (derivation, 10.6). Only the mean squares of q(t,0,0) and of its derivative enter (Parseval).
+/// (derivation, 10.6). Only the mean squares of q(t,0,0) and of its derivative enter (Parseval). With an input gain b the internal
+/// model has to put out -q(t,0,0)/b: all of it is over b_lo (derivation, 13.1).
 #[must_use]
 pub fn steady_state_norm(data: &Data<'_>) -> Enclosure {
     let at_origin = |which| data.bound(which, &data.zero(), &data.zero());
@@ -50,7 +51,8 @@ pub fn steady_state_norm(data: &Data<'_>) -> Enclosure {
             general.min_known(&(harmonics::weighted_norm(data, known) + rest))
         }
     };
-    norm / &data.mu
+    let norm = norm / &data.mu;
+    data.input_gain.as_ref().map_or_else(|| norm.clone(), |gain| &norm / &gain.low)
 }
 
 /// Everything computed for exact regulation.
@@ -75,7 +77,7 @@ impl ExactEvaluation {
         let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
         let (w_x, h, sigma) = (number(&witness.w_x), number(&witness.h), number(&witness.sigma));
         let error_box = ErrorBox::new(data, witness.paths, [&data.zero(), &data.zero()], [&d_x, &d_e]);
-        let decay = DecayCondition::new(data, &error_box, &w_x, &h);
+        let decay = DecayCondition::new(data, &error_box, [&w_x, &h], &sigma);
         let mut conditions = sign_conditions(
             data,
             &[

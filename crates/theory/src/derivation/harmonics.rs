@@ -59,7 +59,8 @@ where
     }
 }
 
-/// The regulator's responses to the known harmonics, for every n_o and mu; the one to k = 0 vanishes.
+/// The regulator's responses to the known harmonics, for every n_o and mu; the one to k = 0 vanishes. With an input gain both are
+/// over b_m (derivation, 13.1).
 #[derive(Clone, Debug)]
 pub struct Response<R> {
     /// sum_{k>=1} 2 C_k/sqrt(sigma^2 + (k Om)^2), of sup|e|.
@@ -75,11 +76,15 @@ where
     /// Evaluates the two sums.
     #[must_use]
     pub fn new(problem: &impl Problem<R>, known: &KnownForcing<R>, sigma: &R) -> Response<R> {
-        let fundamental = &problem.numbers().fundamental;
+        let Numbers { fundamental, input_gain, .. } = problem.numbers();
         let gain = |k: i64| R::int(1) / (sigma.sqr() + (R::int(k) * fundamental).sqr());
         let sup = sum_of_harmonics(known, &problem.zero(), |k, c| c * gain(k).sqrt());
         let squares = sum_of_harmonics(known, &problem.zero(), |k, c| c.sqr() * gain(k));
-        Response { sup: R::int(2) * sup, rms: (R::int(2) * squares).sqrt() }
+        let (sup, rms) = (R::int(2) * sup, (R::int(2) * squares).sqrt());
+        match input_gain {
+            None => Response { sup, rms },
+            Some(input) => Response { sup: sup / input.of_error(), rms: rms / input.of_error() },
+        }
     }
 }
 

@@ -24,6 +24,11 @@ pub fn proved_for<'d>(data: &'d Data<'_>, w_x: &Rational, h: &Rational) -> Optio
 /// are where the inequality holds (with a splitting they are two hulls, on the straight path one of all four); F is affine in
 /// them; F at sigma' and without `rate` is F as it is proved, and `2 w_x rate P` and `2 (sigma' - value)` more on its diagonal;
 /// with these positive, F v = 0 leaves v = 0, as kp > 0. The points at one t are compact.
+///
+/// With an input gain F has d + (1-b) value in the place of d, and is proved at both ends of b, in which it is affine. It then moves with
+/// sigma, and C5B is asked for beside: L, the block of (e, y) at d = 0, is positive definite at the threshold for both b. At
+/// sigma' = value/lam, with lam kp in the place of kp, F is in (x, e/sqrt(lam), y sqrt(lam)) that at the threshold in (x, sqrt(lam) .),
+/// and (1 - lam) L more (derivation, 13.1).
 #[must_use]
 pub fn conditions(
     data: &Data<'_>,
@@ -48,5 +53,11 @@ pub fn conditions(
     }
     let what = format!("{of}threshold of the matrix inequality < sigma");
     conditions.push(Condition::less("C5m", what, number(&inequality.value), sigma.clone()));
+    if let Some(gain) = &data.input_gain {
+        let h_over_mu = number(&inequality.h) / &data.mu;
+        let [worst, room] = gain.damping(&h_over_mu, &number(&inequality.value));
+        let what = format!("{of}(1 + ht (1-b) threshold)^2 < 4 ht threshold at both ends of b, ht = h/mu");
+        conditions.push(Condition::less("C5B", what, worst, room));
+    }
     conditions
 }

@@ -4,6 +4,7 @@ use super::energy::EnergyBounds;
 use super::gains;
 use super::harmonics::{self, AtOrigin};
 use crate::data::{Bound, Numbers, Problem};
+use crate::input_gain::InputGain;
 use sigmastar_exact::real::{Operand, Real};
 
 /// Bounds of rms(x), rms(e) and rms(e') along a periodic solution.
@@ -38,10 +39,21 @@ pub struct ErrorGains<R> {
     pub rms: R,
     /// 1/(Om sg): rms(e) <= rms(q')/(Om sg).
     pub rms_by_rate: R,
+    /// What an input gain changes: none without one.
+    input: Option<OfInput<R>>,
     /// The responses to the known harmonics of q(t,0,0), where some are known.
     known: Option<harmonics::Response<R>>,
     /// What a matrix inequality says of the periodic solution, where there is one (derivation, 13.7, (E)).
     energy: Option<EnergyBounds<R>>,
+}
+
+/// What an input gain changes in the gains, which then are those for q over b_m (derivation, 13.1).
+#[derive(Clone, Debug)]
+struct OfInput<R> {
+    /// d_b: rms(e') <= d_b rms(q).
+    rate: R,
+    /// bt and 1/sg, which serve y = q + (1-b) sigma e + b mu s: e' = y - sigma e has no b.
+    of_y: [R; 2],
 }
 
 impl<R: Real> ErrorGains<R>
@@ -51,13 +63,20 @@ where
     /// Evaluates the gains. Each decreases in sigma.
     #[must_use]
     pub fn new(problem: &impl Problem<R>, sigma: &R) -> ErrorGains<R> {
-        let Numbers { period, fundamental, q_0, .. } = problem.numbers();
+        let Numbers { period, fundamental, q_0, input_gain, .. } = problem.numbers();
         let rms = R::int(1) / (sigma.sqr() + fundamental.sqr()).sqrt();
+        let sup = gains::zero_mean_gain(sigma, period);
+        let input =
+            input_gain.as_ref().map(|gain| OfInput { rate: gain.of_error_rate(), of_y: [sup.clone(), rms.clone()] });
+        // What a harmonic of q does to e, over b_m.
+        let of_error = |gain: R| input_gain.as_ref().map_or_else(|| gain.clone(), |input| &gain / input.of_error());
+        let rms = of_error(rms);
         ErrorGains {
-            sup: gains::zero_mean_gain(sigma, period),
-            sup_by_rate: gains::tau(sigma, period),
+            sup: of_error(sup),
+            sup_by_rate: of_error(gains::tau(sigma, period)),
             rms_by_rate: &rms / fundamental,
             rms,
+            input,
             known: q_0.as_ref().map(|known| harmonics::Response::new(problem, known, sigma)),
             sigma: sigma.clone(),
             energy: None,
@@ -68,6 +87,11 @@ where
     /// times a number in [0, 1] then is only strictly below what it shows.
     #[must_use]
     pub fn with_energy(self, energy: Option<EnergyBounds<R>>) -> ErrorGains<R> {
+        // With an input gain the form moves with sigma in its entry with e and y: what it says of e is by y alone.
+        let energy = match self.input {
+            Some(_) => energy.map(|energy| EnergyBounds { e: R::unknown(), ..energy }),
+            None => energy,
+        };
         ErrorGains { energy, ..self }
     }
 
@@ -115,6 +139,8 @@ pub struct SetBounds<R> {
     pub q_x: R,
     /// m = min{q_e_max, b_qe}, an upper bound of dq/de.
     pub q_e_max: R,
+    /// The interval of the input gain.
+    input_gain: Option<InputGain<R>>,
     /// b_qtx and b_qte, where both are given.
     mixed: Option<[R; 2]>,
 }
@@ -130,7 +156,7 @@ where
     /// b_fxx X/2. Where a_1 is not certainly positive, the gains are unknown.
     #[must_use]
     pub fn new(problem: &impl Problem<R>, x_p: R, e_p: R) -> SetBounds<R> {
-        let Numbers { period, existence, .. } = problem.numbers();
+        let Numbers { period, existence, input_gain, .. } = problem.numbers();
         let zero = problem.zero();
         let at_box = |which| problem.bound(which, &x_p, &e_p);
         let on_axis = |which| problem.bound(which, &x_p, &zero);
@@ -154,6 +180,7 @@ where
             q_x: at_box(Bound::Qx),
             q_e_max: at_box(Bound::QeMax),
             mixed: mixed.then(|| [at_box(Bound::Qtx), at_box(Bound::Qte)]),
+            input_gain: input_gain.clone(),
             rate,
             f_e,
             f_x,
@@ -264,10 +291,13 @@ where
         let Forcing { q_rms, q_rate_rms, change: [change, change_rate] } = forcing;
         let mut sup = self.sup_of(q_rms, q_rate_rms);
         let mut rms = self.rms_of(q_rms, q_rate_rms);
-        let mut rate_rms = q_rms.min(&(q_rate_rms * &self.rms));
+        let by_size = self.input.as_ref().map_or_else(|| q_rms.clone(), |input| &input.rate * q_rms);
+        let mut rate_rms = by_size.min(&(q_rate_rms * &self.rms));
         if let Some(EnergyBounds { y, e, .. }) = &self.energy {
-            sup = sup.min_known(&(&self.sup * y));
-            rms = rms.min_known(&(&self.rms * y)).min_known(e);
+            let [sup_of_y, rms_of_y] =
+                self.input.as_ref().map_or([&self.sup, &self.rms], |input| input.of_y.each_ref());
+            sup = sup.min_known(&(sup_of_y * y));
+            rms = rms.min_known(&(rms_of_y * y)).min_known(e);
             rate_rms = rate_rms.min_known(y);
         }
         let (Some(known), Some(response)) = (&origin.known, &self.known) else {
@@ -284,17 +314,24 @@ where
         self.energy.as_ref().map_or_else(R::unknown, |energy| energy.x.clone())
     }
 
-    /// `Z^2 = (T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2`, or the superposed form where harmonics of q(t,0,0) are known.
+    /// `Z^2 = (T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2`, or the superposed form where harmonics of q(t,0,0) are known; with an input
+    /// gain `T R_q^2/(2 b_lo^3 mu) + (kappa_0 R_q^2 + kappa_1 R_1^2)/c_m^2`, and the superposed one over c_m.
     fn z_squared(&self, problem: &impl Problem<R>, forcing: &Forcing<R>, [k0, k1]: [&R; 2]) -> R {
-        let Numbers { period, mu, q_0, .. } = problem.numbers();
+        let Numbers { period, mu, q_0, input_gain, .. } = problem.numbers();
         let [kappa_0, kappa_1] = problem.numbers().kappas(k0, k1);
         let swing = period / (R::int(2) * mu) * forcing.q_rms.sqr();
-        let mean = |size: &R, rate: &R| &kappa_0 * size.sqr() + &kappa_1 * rate.sqr();
+        let steady = input_gain.as_ref().map(InputGain::of_steady_state);
+        let swing = input_gain.as_ref().map_or_else(|| swing.clone(), |input| &swing / input.of_swing());
+        let mean = |size: &R, rate: &R| {
+            let mean = &kappa_0 * size.sqr() + &kappa_1 * rate.sqr();
+            steady.as_ref().map_or_else(|| mean.clone(), |steady| &mean / steady.sqr())
+        };
         let plain = &swing + mean(&forcing.q_rms, &forcing.q_rate_rms);
         let Some(known) = q_0 else { return plain };
         let rest = harmonics::rest_t_rms(problem, known);
         let [change, change_rate] = &forcing.change;
-        let superposed = harmonics::steady_state_norm(problem, known, [k0, k1])
+        let of_harmonics = harmonics::steady_state_norm(problem, known, [k0, k1]);
+        let superposed = steady.as_ref().map_or_else(|| of_harmonics.clone(), |steady| &of_harmonics / steady)
             + mean(&known.rest_rms, &rest).sqrt()
             + mean(change, change_rate).sqrt();
         plain.min(&(swing + superposed.sqr()))
@@ -309,7 +346,7 @@ where
 pub struct DampedResponse<R> {
     /// g_k Rt, of rms(e).
     pub rms: R,
-    /// Rt + kap r_e, of rms(e').
+    /// Rt + kap r_e, of rms(e'); with an input gain d_b Rt.
     pub rate_rms: R,
 }
 
@@ -318,7 +355,8 @@ where
     for<'a> &'a R: Operand<R>,
 {
     /// `Rt = Q_0 + b_qx r_x + max{m + kap, b_qe - kap} r_e`; `g_k = 1/(sigma + kap)` where kap is certainly below sigma, else
-    /// `1/(2 sqrt(sigma kap))`, which is never smaller.
+    /// `1/(2 sqrt(sigma kap))`, which is never smaller. With an input gain `1/(b_lo sigma + kap)` where kap is certainly below
+    /// `(2 - b_lo) sigma`, else `1/(2 sqrt(sigma (kap - (1 - b_lo) sigma)))` (derivation, 13.1).
     #[must_use]
     pub fn new(
         bounds: &SetBounds<R>,
@@ -328,6 +366,16 @@ where
     ) -> DampedResponse<R> {
         let slope = (&bounds.q_e_max + kap).max(&(&bounds.q_e - kap));
         let forcing = &origin.q_rms + &bounds.q_x * &squares.x + slope * &squares.e;
+        if let Some(input) = &bounds.input_gain {
+            let InputGain { low, .. } = input;
+            let one = R::int(1);
+            let small = (R::int(2) - low) * sigma - kap;
+            let gain = match small.is_certainly_positive() {
+                true => one / (low * sigma + kap),
+                false => &one / (R::int(2) * (sigma * (kap - (&one - low) * sigma)).sqrt()),
+            };
+            return DampedResponse { rms: gain * &forcing, rate_rms: input.of_error_rate() * forcing };
+        }
         let gain = match (sigma - kap).is_certainly_positive() {
             true => R::int(1) / (sigma + kap),
             false => R::int(1) / (R::int(2) * (sigma * kap).sqrt()),

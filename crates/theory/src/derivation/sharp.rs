@@ -130,7 +130,7 @@ impl SharpEvaluation {
         let (d_x, d_e) = (number(&witness.d_x), number(&witness.d_e));
         let (w_x, h) = (number(&witness.w_x), number(&witness.h));
         let error_box = ErrorBox::new(data, witness.paths, [&periodic.x_per, &periodic.e_per], [&d_x, &d_e]);
-        let decay = DecayCondition::new(data, &error_box, &w_x, &h);
+        let decay = DecayCondition::new(data, &error_box, [&w_x, &h], &sigma);
 
         let mut conditions = signs(data, witness);
         conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
@@ -163,8 +163,11 @@ impl SharpEvaluation {
             control::joint_transient(data, joint, number, &witness.sigma, distances)
         } else {
             let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
-            let what = "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}";
-            let transient = control::transient(data, [&sigma, &data.mu], &h, &start);
+            let h_at_most = if data.input_gain.is_some() { "b_hi h" } else { "h" };
+            let what = format!("w_x P_up dX^2 + dE^2 + {h_at_most} dZ^2 < min{{w_x P_low D_x^2, D_e^2}}");
+            // At the gain b the weight of zeta is b h, and the level no larger than at b_hi.
+            let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h);
+            let transient = control::transient(data, [&sigma, &data.mu], &least, &start);
             conditions.push(Condition::less("C4", what, start, exit));
             match inequality {
                 Some(inequality) => {

@@ -2,6 +2,8 @@
 
 use super::paths::{Path, Paths};
 use crate::data::{Bound, Numbers, Problem};
+#[cfg(doc)]
+use crate::input_gain::InputGain;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::real::{Operand, Real};
 
@@ -209,14 +211,20 @@ impl<R: Real> DecayCondition<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    /// `coupling < curvature` and sigma above the threshold of [`DecayTerms`].
+    /// `coupling < curvature` and sigma above the threshold of [`DecayTerms`]; with an input gain the sector is that of
+    /// [`InputGain::sector`] at this sigma.
     ///
     /// Guarantee: then U' <= -rho (xi^2 + et^2 + s^2) for some rho > 0 in the error box (complete the square in s, take the
     /// worst signs of u_x, u_e, phi).
     #[must_use]
-    pub fn new(problem: &impl Problem<R>, error_box: &ErrorBox<R>, w_x: &R, h: &R) -> DecayCondition<R> {
-        let Numbers { mu, p_up, .. } = problem.numbers();
+    pub fn new(problem: &impl Problem<R>, error_box: &ErrorBox<R>, [w_x, h]: [&R; 2], sigma: &R) -> DecayCondition<R> {
+        let Numbers { mu, p_up, input_gain, .. } = problem.numbers();
         let ErrorBox { k_x, k_f, sector, rate, .. } = error_box;
+        let moved = input_gain.as_ref().map(|gain| {
+            let [below, above] = gain.sector([&sector.below, &sector.above], &(h / mu), sigma);
+            Sector { below, above }
+        });
+        let sector = moved.as_ref().unwrap_or(sector);
         let terms = DecayTerms::new([w_x, h], [rate, mu, &p_up.sqrt()], [k_x, k_f], sector);
         let margin = &terms.curvature - &terms.coupling;
         // Where the margin is not proved positive the threshold has no meaning; unknown keeps it from being used.
@@ -237,7 +245,8 @@ impl DecayCondition<Enclosure> {
     }
 }
 
-/// The two sides of (C4): `w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}`.
+/// The two sides of (C4): `w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}`, with an input gain b_hi h in the place of h:
+/// at the gain b the weight of |zeta|_N^2 is b h.
 ///
 /// Guarantee: when it holds, the initial set lies in a sublevel set of U that lies in the error box.
 #[must_use]
@@ -246,7 +255,9 @@ where
     for<'a> &'a R: Operand<R>,
 {
     let [dist_x, dist_e, dist_z] = distances;
-    let start = w_x * &problem.numbers().p_up * dist_x.sqr() + dist_e.sqr() + h * dist_z.sqr();
-    let exit = (w_x * &problem.numbers().p_low * d_x.sqr()).min(&d_e.sqr());
+    let Numbers { p_up, p_low, input_gain, .. } = problem.numbers();
+    let largest = input_gain.as_ref().map(|gain| h * &gain.high);
+    let start = w_x * p_up * dist_x.sqr() + dist_e.sqr() + largest.as_ref().unwrap_or(h) * dist_z.sqr();
+    let exit = (w_x * p_low * d_x.sqr()).min(&d_e.sqr());
     (start, exit)
 }

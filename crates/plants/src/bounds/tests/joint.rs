@@ -124,6 +124,20 @@ fn altered_numbers_are_refused() {
     assert!(!engine.decide_joint_stability(&nowhere, EFFORT).truth.is_true());
 }
 
+/// Of an uncertain input gain nothing is decided; of one that is known it is the same.
+#[test]
+fn no_uncertain_input_gain() {
+    let Case { samples, .. } = filter();
+    let joint = stability(&samples);
+    for (ends, proved) in [(["2", "2"], true), (["1.999", "2"], false)] {
+        let text = ["2", ends[0], ends[1]];
+        let plant = with_input_gain(&["x"], &["-x/2 + 4*e + cos(2*pi*t)"], "-4*x - e/2 + tanh(e)", text);
+        let Case { engine, .. } = case(&plant, &[vec![1.0]], curve(&["0"], &[["0.1", "0"]]), "0.01");
+        assert_eq!(engine.decide_joint_stability(&joint, EFFORT).truth.is_true(), proved, "{ends:?}");
+        assert_eq!(engine.decide_joint(&joint.inequality, EFFORT).truth.is_true(), proved, "{ends:?}");
+    }
+}
+
 /// Without states nothing but its sign is asked of P_up, which C4 multiplies with dX^2.
 #[test]
 fn without_states_the_numbers_of_a_level_are_positive() {

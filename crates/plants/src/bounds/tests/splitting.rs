@@ -48,7 +48,7 @@ fn a_proved_splitting_holds_at_random_pairs() {
             0.0
         });
         samples.largest_of_derivatives_at(of_error, &points, |derivatives, _| {
-            columns.push(WEIGHTS.of_error(derivatives));
+            columns.push(WEIGHTS.of_error(derivatives, None));
             0.0
         });
         let pairs = roots.iter().zip(&columns).chain(roots.iter().rev().zip(&columns));

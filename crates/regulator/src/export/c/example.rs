@@ -13,10 +13,12 @@ pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) 
     let samples = (period / discrete.step).round().clamp(1.0, 1e6);
     // Half of what the control can do.
     let amplitude = discrete.saturation.map_or(1.0, |limit| limit / 2.0);
+    // What the actuator makes of u.
+    let acting = export.regulator.nominal.map_or_else(|| "u".to_owned(), |gain| format!("{} * u", decimal(gain)));
     let argument = if export.aligned { ", e" } else { "" };
     format!(
         "/* A first run of the regulator for: {}\n\
-         \x20* The plant is e' = q(t) + u; q is two arcs of a parabola in each period of {samples} samples. Prints the largest |e| of\n\
+         \x20* The plant is e' = q(t) + {acting}; q is two arcs of a parabola in each period of {samples} samples. Prints the largest |e| of\n\
          \x20* each period. Replace the plant by a measurement of e and an output of u in the interrupt of a timer. */\n\
          #include \"{}\"\n#include <stdio.h>\n\n\
          static const int samples = {samples};\n\
@@ -32,7 +34,7 @@ pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) 
          \x20           double u = {prefix}_step(&controller, e);\n\
          \x20           double size = e < 0.0 ? -e : e;\n\n\
          \x20           if (size > largest) {{\n                largest = size;\n            }}\n\
-         \x20           e += {upper}_SAMPLING_TIME * (disturbance((k + 0.5) / samples) + u);\n        }}\n\
+         \x20           e += {upper}_SAMPLING_TIME * (disturbance((k + 0.5) / samples) + {acting});\n        }}\n\
          \x20       printf(\"period %2d: largest |e| = %.3e\\n\", period, largest);\n    }}\n    return 0;\n}}\n",
         harmless(export.name),
         names.header,

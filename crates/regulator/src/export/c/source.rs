@@ -16,7 +16,8 @@ pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) 
     );
     let numbers = [("sigma", regulator.sigma), ("gain", discrete.gain), ("decay", discrete.decay)];
     let saturation = discrete.saturation.map(|limit| [("step", discrete.step), ("limit", limit)]);
-    for (name, value) in numbers.into_iter().chain(saturation.into_iter().flatten()) {
+    let nominal = regulator.nominal.map(|nominal| ("nominal", nominal));
+    for (name, value) in numbers.into_iter().chain(nominal).chain(saturation.into_iter().flatten()) {
         source.push_str(&format!("static const double {name} = {};\n", literal(value)));
     }
     source.push_str(&array("weight", &regulator.weights));
@@ -26,7 +27,8 @@ pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) 
     }
     let upper = prefix.upper();
     source.push_str(&reset(&upper, prefix, !cosines.is_empty(), export.aligned));
-    source.push_str(&step(&upper, prefix, !cosines.is_empty(), discrete.saturation.is_some()));
+    let put_out = PutOut { saturation: discrete.saturation.is_some(), nominal: regulator.nominal.is_some() };
+    source.push_str(&step(&upper, prefix, !cosines.is_empty(), put_out));
     source
 }
 
@@ -54,9 +56,24 @@ fn reset(upper: &str, prefix: &Prefix, oscillators: bool, aligned: bool) -> Stri
     )
 }
 
+/// What is done to the control before it is put out.
+#[derive(Clone, Copy)]
+struct PutOut {
+    /// Whether it is clipped.
+    saturation: bool,
+    /// Whether it is divided by a nominal gain.
+    nominal: bool,
+}
+
 /// The operations of the Rust stepper, in its order.
-fn step(upper: &str, prefix: &Prefix, oscillators: bool, saturation: bool) -> String {
-    let (wanted, index) = (if saturation { ", wanted" } else { "" }, if oscillators { "    int l;\n" } else { "" });
+fn step(upper: &str, prefix: &Prefix, oscillators: bool, put_out: PutOut) -> String {
+    let PutOut { saturation, nominal } = put_out;
+    let wanted = match (saturation, nominal) {
+        (false, _) => "",
+        (true, false) => ", wanted",
+        (true, true) => ", wanted, applied",
+    };
+    let index = if oscillators { "    int l;\n" } else { "" };
     let mut text = format!(
         "double {prefix}_step({prefix}_controller *controller, double e)\n{{\n    double *z = controller->z;\n\
          \x20   double sum, carry, u{wanted};\n{index}\n\
@@ -72,7 +89,19 @@ fn step(upper: &str, prefix: &Prefix, oscillators: bool, saturation: bool) -> St
         ));
     }
     text.push_str("    u = gain * sum - sigma * e;\n    carry = decay * e;\n");
-    if saturation {
+    if nominal && !saturation {
+        text.push_str("    /* What is put out is over the nominal gain of the actuator. */\n    u = u / nominal;\n");
+    }
+    if nominal && saturation {
+        text.push_str(
+            "    /* What is put out is over the nominal gain of the actuator. Against windup: z is told the control that\n\
+             \x20    * is applied. */\n    wanted = u;\n    applied = u;\n    u = wanted / nominal;\n\
+             \x20   if (u > limit) {\n        u = limit;\n        applied = nominal * limit;\n    }\n\
+             \x20   if (u < -limit) {\n        u = -limit;\n        applied = -(nominal * limit);\n    }\n\
+             \x20   carry += step * (applied - wanted);\n",
+        );
+    }
+    if saturation && !nominal {
         text.push_str(
             "    /* Against windup: z is told the control that is applied. */\n    wanted = u;\n\
              \x20   if (u > limit) {\n        u = limit;\n    }\n    if (u < -limit) {\n        u = -limit;\n    }\n\

@@ -92,7 +92,7 @@ where
             false => R::int(2).max(&(most - R::int(1))),
         };
         let by_rate = &harmonic * ((period.sqr() - self.step.sqr()) / R::int(12)).sqrt();
-        Answer { harmonic, by_rate }
+        Answer { mean: R::int(1), harmonic, by_rate }
     }
 
     /// om_j^2 = (4/h^2) sin^2(pi j/N_s) of one of the sines.
