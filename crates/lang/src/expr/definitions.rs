@@ -70,6 +70,16 @@ impl Definitions {
     /// # Errors
     /// [`DefinitionError`]: names are as those of states, and not `u`, which is the input.
     pub fn define(&mut self, name: &str, value: Expr) -> Result<(), DefinitionError> {
+        self.admits(name)?;
+        self.list.push((name.to_owned(), value));
+        Ok(())
+    }
+
+    /// Whether a constant could have this name.
+    ///
+    /// # Errors
+    /// Those of [`Definitions::define`].
+    pub fn admits(&self, name: &str) -> Result<(), DefinitionError> {
         if !is_name(name) {
             return Err(DefinitionError::Malformed);
         }
@@ -79,7 +89,6 @@ impl Definitions {
         if self.list.iter().any(|(known, _)| known == name) {
             return Err(DefinitionError::Duplicate);
         }
-        self.list.push((name.to_owned(), value));
         Ok(())
     }
 

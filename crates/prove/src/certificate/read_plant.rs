@@ -64,6 +64,7 @@ fn parts(witness: &mut Object<'_>, plant: &Plant, errors: &mut Errors) -> Result
     };
     let (triple, matrix) = parts(triple?);
     let of_plant = OfPlant {
+        parameters: plant.parameters.clone(),
         coordinates: rows,
         orbit: orbit?,
         triple,
