@@ -303,12 +303,13 @@ pub fn interval_op(op: &Op, a: &Interval, b: &Interval) -> Interval {
     }
 }
 
-/// A text with others in the given places of it, each in parentheses.
+/// A text with others in the given places of it, in parentheses but for digits and a point.
 fn spelled_out(text: &str, named: &[(usize, usize, &str)]) -> String {
     let (mut whole, mut from) = (String::new(), 0);
     for (start, end, value) in named {
         whole.push_str(text.get(from..*start).unwrap_or(""));
-        whole.push_str(&format!("({value})"));
+        let is_numeral = value.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+        whole.push_str(&if is_numeral { (*value).to_owned() } else { format!("({value})") });
         from = *end;
     }
     whole.push_str(text.get(from..).unwrap_or(""));
@@ -324,8 +325,7 @@ impl Expr {
         Expr::parse_with(text, variables, &[]).map(|(expr, _)| expr)
     }
 
-    /// The same where names of constants may stand besides, and the text with the constants in the places of their names: in
-    /// parentheses where it is not a name alone.
+    /// The same where names of constants may stand besides, and the text with the constants in the places of their names.
     ///
     /// # Errors
     /// The same.
@@ -335,8 +335,7 @@ impl Expr {
         }
         let bytes = text.as_bytes();
         let (ops, exact) = (Vec::new(), Vec::new());
-        let mut parser =
-            Parser { text: bytes, at: 0, depth: 0, ops, exact, variables, constants, named: Vec::new() };
+        let mut parser = Parser { text: bytes, at: 0, depth: 0, ops, exact, variables, constants, named: Vec::new() };
         parser.sum()?;
         match parser.peek() {
             0 if parser.at == bytes.len() => {

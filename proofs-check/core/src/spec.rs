@@ -292,11 +292,7 @@ fn read_forcing(field: &Field<'_>) -> Outcome<Forcing> {
 
 /// Reads the set that is asked for; that of a plant may have `ball` in the place of `X0`: then it is returned too. Names of the
 /// plant's constants may stand in its numbers.
-pub fn read_set(
-    field: &Field<'_>,
-    of_plant: bool,
-    constants: &[Named],
-) -> Outcome<(AskedSet, Option<Constant>)> {
+pub fn read_set(field: &Field<'_>, of_plant: bool, constants: &[Named]) -> Outcome<(AskedSet, Option<Constant>)> {
     let nonnegative = |field: Field<'_>| nonnegative(field, constants);
     let mut fields = field.fields()?;
     let kind = fields.required("kind")?;

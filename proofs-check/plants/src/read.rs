@@ -86,11 +86,10 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     };
     let period = spec::positive_with(&mut file, "period", &constants)?;
     let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).collect();
-    let formula =
-        |field: &Field<'_>| {
-            let expr = expression_with(field, &variables, &constants);
-            expr.map(|(expr, _)| Formula { pointer: field.pointer.clone(), expr })
-        };
+    let formula = |field: &Field<'_>| {
+        let expr = expression_with(field, &variables, &constants);
+        expr.map(|(expr, _)| Formula { pointer: field.pointer.clone(), expr })
+    };
     let list = file.required("f")?;
     let f: Vec<Formula> = list.elements()?.iter().map(formula).collect::<Outcome<_>>()?;
     if f.len() != names.len() {

@@ -101,7 +101,8 @@ impl Definitions {
         self.list.iter().find(|(known, _)| known == name).map(|(_, value)| &*value.nodes)
     }
 
-    /// A constant expression with the constants in the places of their names: a text that stands for itself.
+    /// A constant expression with the constants in the places of their names, in parentheses but for digits and a point: a text
+    /// that stands for itself.
     ///
     /// # Errors
     /// That of the text as it is written, in its place.
@@ -115,7 +116,8 @@ impl Definitions {
         for token in tokens(text).into_iter().filter(|token| token.kind == TokenKind::Name) {
             let Some(value) = text.get(token.span.clone()).and_then(value) else { continue };
             out.push_str(text.get(from..token.span.start).unwrap_or_default());
-            out.push_str(&format!("({value})"));
+            let is_numeral = value.bytes().all(|c| c.is_ascii_digit() || c == b'.');
+            out.push_str(&if is_numeral { value.to_owned() } else { format!("({value})") });
             from = token.span.end;
         }
         out.push_str(text.get(from..).unwrap_or_default());
@@ -190,7 +192,7 @@ mod tests {
             (" k ", "1 - 3"),
             ("k^2", "(1 - 3)^2"),
             ("2*pi/Ts", "2*pi/(1/50)"),
-            ("-k*J + 1", "-(1 - 3)*(0.02) + 1"),
+            ("-k*J + 1", "-(1 - 3)*0.02 + 1"),
             ("sqrt(3)", "sqrt(3)"),
         ] {
             assert_eq!(all.spelled_out(text).unwrap(), spelled);

@@ -13,8 +13,7 @@ use thiserror::Error;
 pub const MAX_STATES: usize = 100;
 
 const OPERAND: &str = "a number, t, a state, e, pi, a function or an opening parenthesis";
-const OPERAND_WITH_PARAMETERS: &str =
-    "a number, t, a state, e, a parameter, pi, a function or an opening parenthesis";
+const OPERAND_WITH_PARAMETERS: &str = "a number, t, a state, e, a parameter, pi, a function or an opening parenthesis";
 
 /// A variable of a plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

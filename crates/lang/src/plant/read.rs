@@ -3,8 +3,8 @@
 use super::{Initial, InitialRegulator, Plant, periodicity};
 use crate::expr::{Definitions, PlantExpr, PlantNames};
 use crate::spec::{
-    Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Reported, SpecErrors, Value, any_constant_in,
-    positive_constant_in, read_internal_model, read_parameters, read_with_ball,
+    Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Reported, SpecErrors, Value,
+    any_constant_in, positive_constant_in, read_internal_model, read_parameters, read_with_ball,
 };
 use std::path::Path;
 
@@ -155,7 +155,8 @@ fn expression(value: &Value<'_>, names: &PlantNames, errors: &mut Errors) -> Res
 /// Where the model holds: `x` and `e`.
 fn read_domain(value: &Value<'_>, constants: &Definitions, errors: &mut Errors) -> Result<Domain, Reported> {
     let mut object = value.object(errors)?;
-    let mut end = |name| object.required(name, errors).and_then(|value| positive_constant_in(&value, constants, errors));
+    let mut end =
+        |name| object.required(name, errors).and_then(|value| positive_constant_in(&value, constants, errors));
     let (x, e) = (end("x"), end("e"));
     object.finish(errors);
     Ok(Domain { x: x?, e: e? })
@@ -186,7 +187,8 @@ fn read_initial(
         }
         Some(value) => {
             let elements = value.array(errors)?;
-            let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, constants, errors)).collect();
+            let read: Vec<Result<f64, Reported>> =
+                elements.iter().map(|value| double(value, constants, errors)).collect();
             read.into_iter().collect::<Result<Vec<f64>, Reported>>().map(InitialRegulator::Given)
         }
     };
@@ -196,7 +198,8 @@ fn read_initial(
 
 /// A constant that is a finite double.
 fn double(value: &Value<'_>, constants: &Definitions, errors: &mut Errors) -> Result<f64, Reported> {
-    let number = any_constant_in(value, constants, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)?;
+    let number =
+        any_constant_in(value, constants, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)?;
     if number.is_finite() {
         return Ok(number);
     }

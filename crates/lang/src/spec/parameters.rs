@@ -73,9 +73,8 @@ pub fn read_parameters(value: &Value<'_>, states: &[String], errors: &mut Errors
     let members: Vec<(&str, Value<'_>)> = value.members().collect();
     if members.len() > MAX_PARAMETERS {
         let message = format!("{} parameters", members.len());
-        return Err(errors.report(value.error(ErrorKind::Range, message).expected(format!(
-            "expected at most {MAX_PARAMETERS}"
-        ))));
+        return Err(errors
+            .report(value.error(ErrorKind::Range, message).expected(format!("expected at most {MAX_PARAMETERS}"))));
     }
     let mut parameters = Parameters::default();
     let mut outcome = Ok(());
@@ -134,7 +133,8 @@ mod tests {
     #[test]
     fn constants_under_their_names() {
         let all = read(r#"{ "J": "0.02", "k": 4, "w": "2*pi/3" }"#).unwrap();
-        let written: Vec<(&str, &str)> = all.list().iter().map(|one| (one.name.as_str(), one.value.text.as_str())).collect();
+        let written: Vec<(&str, &str)> =
+            all.list().iter().map(|one| (one.name.as_str(), one.value.text.as_str())).collect();
         assert_eq!(written, [("J", "0.02"), ("k", "4"), ("w", "2*pi/3")]);
         assert!(read("{}").unwrap().list().is_empty());
         let members = [serde_json::json!(["-k*x1"]), serde_json::json!({ "kind": "box", "X0": "w/2" })];

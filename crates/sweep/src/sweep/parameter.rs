@@ -52,11 +52,7 @@ impl Parameter {
 }
 
 /// Where the values go, and what that place is called: `pointer`, or the name of a `parameter` of the plant.
-fn read_place(
-    object: &mut Object<'_>,
-    value: &Value<'_>,
-    errors: &mut Errors,
-) -> Result<(String, String), Reported> {
+fn read_place(object: &mut Object<'_>, value: &Value<'_>, errors: &mut Errors) -> Result<(String, String), Reported> {
     let (pointer, parameter) = (object.optional("pointer"), object.optional("parameter"));
     match (pointer, parameter) {
         (Some(value), None) => {
