@@ -40,6 +40,7 @@ mod mutated_specifications;
 mod no_plant;
 mod notations;
 mod obstacles;
+mod parameters;
 mod periodic_bounds;
 mod plain;
 mod plants;

@@ -19,6 +19,11 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Block> {
     let Some(plant) = spec.plant() else { return Vec::new() };
     let mut blocks = vec![Block::heading("From the plant's formulas")];
+    let parameters = plant.parameters.list();
+    if !parameters.is_empty() {
+        let written = parameters.iter().map(|parameter| format!("{} = {}", parameter.name, parameter.value.text));
+        blocks.push(Block::facts([("parameters", written.collect::<Vec<_>>().join(", "))]));
+    }
     if plant.states() > 0 {
         blocks.push(Block::says(
             "x_0(t) is the T-periodic solution of x' = f(t,x,0), and y = L^-1 (x - x_0) are the coordinates in which all norms are \

@@ -3,12 +3,13 @@
 use rug::Rational;
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_exact::number::Direction;
-use sigmastar_lang::spec::ProvedValue;
+use sigmastar_lang::spec::{ProvedValue, Specification};
 use sigmastar_prove::certify::{Certification, ExceededBy, NoPlant, SampledCertification};
 
 /// One sentence or two for each.
 pub fn remarks(run: &Certification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
+    remarks.extend(unused_parameters(run.spec));
     if let Some(sigma) = run.sigma_star().filter(|_| run.given_gain.is_none())
         && sigma.to_f64() * run.spec.period.to_f64() > LARGE
     {
@@ -49,7 +50,20 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
 
 /// The same of a run about the regulator at samples.
 pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
-    of(run.no_plant.as_ref(), run.has_force_at_origin())
+    let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
+    remarks.extend(unused_parameters(run.spec));
+    remarks
+}
+
+/// That parameters of a plant are used nowhere.
+fn unused_parameters(spec: &Specification) -> Option<String> {
+    let unused = spec.plant()?.parameters.unused();
+    let (noun, verb) = match unused {
+        [] => return None,
+        [_] => ("parameter", "is"),
+        _ => ("parameters", "are"),
+    };
+    Some(format!("Remark: the {noun} {} {verb} used nowhere in the plant.", unused.join(", ")))
 }
 
 fn of(no_plant: Option<&NoPlant>, force_at_origin: bool) -> Vec<String> {

@@ -4,6 +4,9 @@ use super::parts::{POSITIVE, header, initial_set, input_gain, internal_model};
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use sigmastar_lang::plant::{FORMAT, VERSIONS};
 
+/// What formulas are in.
+const VARIABLES: &str = "t, the states, e and the parameters";
+
 /// All fields; those of a file of its own, or of a copy in another one.
 pub(super) fn fields(whole: bool) -> Vec<Field> {
     let number = || Shape::Constant(Sign::Any);
@@ -29,9 +32,16 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
             "f",
             "f",
             "x' = f(t,x,e): for each state a formula in t, the states and e.",
-            any_list(Shape::Expression("t, the states and e")),
+            any_list(Shape::Expression(VARIABLES)),
         ),
-        must("q", "q", "e' = q(t,x,e) + u.", Shape::Expression("t, the states and e")),
+        must("q", "q", "e' = q(t,x,e) + u.", Shape::Expression(VARIABLES)),
+        may(
+            "parameters",
+            "Parameters",
+            "Constants by their names, which may stand for them in f, q, period, initial, initial_set, domain, and in mu, \
+             base_frequency and sampling_period of internal_model; at most 12.",
+            Shape::Map(Box::new(number())),
+        ),
         may(
             "initial",
             "Start of simulations",

@@ -32,13 +32,15 @@ fn fields(design: &'static str) -> Vec<Field> {
         fields.push(must("count", "Count", "How many cases there are.", Shape::Whole(2, MAX_CASES)));
         fields.push(must("seed", "Seed", "From which the cases are drawn.", Shape::Whole(0, u64::MAX)));
     }
-    let kinds = ["values", "linear", "logarithmic"].map(|kind| Shape::Object(parameter(kind, latin)));
+    let of = |named: bool| ["values", "linear", "logarithmic"].map(|kind| Shape::Object(parameter(kind, latin, named)));
+    let kinds: Vec<Shape> = of(false).into_iter().chain(of(true)).collect();
     let text = "What is varied, and through which values.";
-    fields.push(must("parameters", "Parameters", text, list(Shape::OneOf(kinds.into()), MAX_PARAMETERS)));
+    fields.push(must("parameters", "Parameters", text, list(Shape::OneOf(kinds), MAX_PARAMETERS)));
     fields
 }
 
-fn parameter(kind: &'static str, latin: bool) -> Vec<Field> {
+/// A place by its pointer, or by the name of a parameter of the plant, and its values.
+fn parameter(kind: &'static str, latin: bool, named: bool) -> Vec<Field> {
     let range = || {
         let mut fields = vec![
             must("from", "From", "The first value, a rational number.", Shape::Constant(Sign::Any)),
@@ -57,14 +59,16 @@ fn parameter(kind: &'static str, latin: bool) -> Vec<Field> {
         "linear" => must(kind, "Linear range", "Values at equal distances, exactly.", range()),
         _ => must(kind, "Logarithmic range", "Positive values at equal ratios, to six digits.", range()),
     };
+    let place = if named {
+        must("parameter", "Parameter", "The name of one of the plant's parameters.", Shape::Text)
+    } else {
+        let text = "The JSON pointer (RFC 6901) of the value in the subject, as /lyapunov/alpha.";
+        must("pointer", "Pointer", text, Shape::Text)
+    };
+    let usual = if named { "its name" } else { "the pointer" };
     vec![
-        must(
-            "pointer",
-            "Pointer",
-            "The JSON pointer (RFC 6901) of the value in the subject, as /lyapunov/alpha.",
-            Shape::Text,
-        ),
-        may("name", "Name", "What tables and figures call it; the pointer without it.", Shape::Text),
+        place,
+        may("name", "Name", format!("What tables and figures call it; {usual} without it."), Shape::Text),
         values,
     ]
 }

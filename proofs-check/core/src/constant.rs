@@ -1,7 +1,7 @@
 //! Real constants of a file: exact where they have an exact form, and enclosed at any precision.
 
 use crate::exact::Exact;
-use crate::expr::{Expr, NONE};
+use crate::expr::{Expr, NONE, Named};
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::verdict::{Outcome, bad, demand};
@@ -16,7 +16,7 @@ pub const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
 /// A real constant of a file.
 #[derive(Clone, Debug)]
 pub struct Constant {
-    /// As written.
+    /// As written, with constants in the places of their names.
     pub text: String,
     expr: Expr,
     /// Its exact form, if it has one.
@@ -26,9 +26,13 @@ pub struct Constant {
 impl Constant {
     /// Reads a number or a constant expression that has a finite value.
     pub fn read(field: &Field<'_>) -> Outcome<Constant> {
-        let text = field.numeral()?;
-        let expr = expression(field, NONE)?;
-        let constant = Constant { text: text.to_owned(), exact: expr.exact(), expr };
+        Constant::read_with(field, &[])
+    }
+
+    /// The same where names of other constants may stand.
+    pub fn read_with(field: &Field<'_>, constants: &[Named]) -> Outcome<Constant> {
+        let (expr, text) = expression_with(field, NONE, constants)?;
+        let constant = Constant { text, exact: expr.exact(), expr };
         if PRECISIONS.iter().any(|p| constant.enclose(*p).is_bounded()) {
             return Ok(constant);
         }
@@ -94,8 +98,13 @@ impl<'a> Number<'a> {
 
 /// Reads a constant that has to be positive.
 pub fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
+    positive_with(fields, name, &[])
+}
+
+/// The same where names of a plant's constants may stand.
+pub fn positive_with(fields: &mut Fields<'_>, name: &str, constants: &[Named]) -> Outcome<Constant> {
     let field = fields.required(name)?;
-    let constant = Constant::read(&field)?;
+    let constant = Constant::read_with(&field, constants)?;
     let truth = Number::rational(Rational::new()).lt(&constant.number());
     demand(truth, RULE, &field.pointer, format!("{name} > 0"))?;
     Ok(constant)
@@ -103,5 +112,11 @@ pub fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
 
 /// Reads an expression in the given variables.
 pub fn expression(field: &Field<'_>, variables: &[&str]) -> Outcome<Expr> {
-    Expr::parse(field.numeral()?, variables).or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))
+    expression_with(field, variables, &[]).map(|(expr, _)| expr)
+}
+
+/// The same where names of constants may stand besides, and the text with these written out.
+pub fn expression_with(field: &Field<'_>, variables: &[&str], constants: &[Named]) -> Outcome<(Expr, String)> {
+    Expr::parse_with(field.numeral()?, variables, constants)
+        .or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))
 }

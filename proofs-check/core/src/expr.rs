@@ -59,6 +59,17 @@ struct Parser<'a> {
     /// The exact values of the operands so far, to recognise integer exponents.
     exact: Vec<Option<Exact>>,
     variables: &'a [&'a str],
+    constants: &'a [Named],
+    /// Where the name of a constant stands, and the text of that constant.
+    named: Vec<(usize, usize, &'a str)>,
+}
+
+/// A constant under its name: an expression without variables, and its text.
+#[derive(Clone, Debug)]
+pub struct Named {
+    pub name: String,
+    pub text: String,
+    pub value: Expr,
 }
 
 type Parsed = Result<(), String>;
@@ -185,6 +196,12 @@ impl Parser<'_> {
                 _ => Op::State(index),
             });
         }
+        let constants = self.constants;
+        if let Some(constant) = constants.iter().find(|constant| constant.name == name) {
+            self.named.push((start, self.at, &constant.text));
+            // As if it stood there in parentheses.
+            return constant.value.ops.iter().try_for_each(|op| self.push(op.clone()));
+        }
         let Some(function) = FUNCTIONS.iter().find(|function| function.0 == name).map(|function| function.1.clone())
         else {
             return Err(format!("no number, variable or function at byte {start}"));
@@ -286,20 +303,47 @@ pub fn interval_op(op: &Op, a: &Interval, b: &Interval) -> Interval {
     }
 }
 
+/// A text with others in the given places of it, in parentheses but for digits and a point.
+fn spelled_out(text: &str, named: &[(usize, usize, &str)]) -> String {
+    let (mut whole, mut from) = (String::new(), 0);
+    for (start, end, value) in named {
+        whole.push_str(text.get(from..*start).unwrap_or(""));
+        let is_numeral = value.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+        whole.push_str(&if is_numeral { (*value).to_owned() } else { format!("({value})") });
+        from = *end;
+    }
+    whole.push_str(text.get(from..).unwrap_or(""));
+    whole
+}
+
 impl Expr {
     /// Reads an expression in [`NONE`], [`ARGUMENTS`], [`TIME`] or other variables.
     ///
     /// # Errors
     /// What is wrong, in words; sizes are bounded before anything is computed.
     pub fn parse(text: &str, variables: &[&str]) -> Result<Expr, String> {
+        Expr::parse_with(text, variables, &[]).map(|(expr, _)| expr)
+    }
+
+    /// The same where names of constants may stand besides, and the text with the constants in the places of their names.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn parse_with(text: &str, variables: &[&str], constants: &[Named]) -> Result<(Expr, String), String> {
         if text.len() > MAX_TEXT {
             return Err(format!("an expression of more than {MAX_TEXT} bytes"));
         }
         let bytes = text.as_bytes();
-        let mut parser = Parser { text: bytes, at: 0, depth: 0, ops: Vec::new(), exact: Vec::new(), variables };
+        let (ops, exact) = (Vec::new(), Vec::new());
+        let mut parser = Parser { text: bytes, at: 0, depth: 0, ops, exact, variables, constants, named: Vec::new() };
         parser.sum()?;
         match parser.peek() {
-            0 if parser.at == bytes.len() => Ok(Expr { ops: parser.ops }),
+            0 if parser.at == bytes.len() => {
+                let whole = text.trim();
+                let alone = constants.iter().find(|constant| constant.name == whole);
+                let spelled_out = alone.map_or_else(|| spelled_out(text, &parser.named), |one| one.text.clone());
+                Ok((Expr { ops: parser.ops }, spelled_out))
+            }
             _ => Err(format!("an operator or the end was expected at byte {}", parser.at)),
         }
     }

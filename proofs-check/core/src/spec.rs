@@ -5,9 +5,9 @@
 //! where period / sampling_period is a whole number >= 2 exactly.
 
 use crate::bound::{BOUND_NAMES, BOUNDS, REQUIRED};
-use crate::constant::{Constant, Number, PRECISIONS, RULE, expression, positive};
+use crate::constant::{Constant, Number, PRECISIONS, RULE, expression, positive, positive_with};
 use crate::exact::Exact;
-use crate::expr::{ARGUMENTS, Expr};
+use crate::expr::{ARGUMENTS, Expr, Named};
 use crate::input_gain::InputGain;
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
@@ -113,18 +113,23 @@ pub fn samples(period: &Constant, sampling: &Constant, pointer: &str) -> Outcome
 }
 
 /// Reads `sampling_period`, if it is given.
-fn read_samples(fields: &mut Fields<'_>, period: &Constant, matched: bool) -> Outcome<Option<Integer>> {
+fn read_samples(
+    fields: &mut Fields<'_>,
+    period: &Constant,
+    matched: bool,
+    constants: &[Named],
+) -> Outcome<Option<Integer>> {
     if !fields.has("sampling_period") {
         return Ok(None);
     }
     let pointer = format!("{}/sampling_period", fields.pointer);
-    let sampling = positive(fields, "sampling_period")?;
+    let sampling = positive_with(fields, "sampling_period", constants)?;
     demand(Some(matched), RULE, &pointer, "a sampling period needs `matched`")?;
     samples(period, &sampling, &pointer).map(Some)
 }
 
-fn nonnegative(field: Field<'_>) -> Outcome<Constant> {
-    let constant = Constant::read(&field)?;
+fn nonnegative(field: Field<'_>, constants: &[Named]) -> Outcome<Constant> {
+    let constant = Constant::read_with(&field, constants)?;
     let truth = Number::rational(Rational::new()).le(&constant.number());
     demand(truth, RULE, &field.pointer, "the number is nonnegative")?;
     Ok(constant)
@@ -175,9 +180,9 @@ impl Specification {
         });
 
         let InternalModel { mu, base_frequency, matched, samples, weights } =
-            InternalModel::read(&file.required("internal_model")?, &period)?;
+            InternalModel::read(&file.required("internal_model")?, &period, &[])?;
 
-        let (initial_set, _) = read_set(&file.required("initial_set")?, false)?;
+        let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
         let input_gain = InputGain::read(&mut file)?;
         file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
         file.finish()?;
@@ -206,10 +211,12 @@ impl Specification {
 }
 
 impl InternalModel {
-    /// Reads `internal_model`; `matched` only where base_frequency * period = 2 pi exactly.
-    pub fn read(field: &Field<'_>, period: &Constant) -> Outcome<InternalModel> {
+    /// Reads `internal_model`; `matched` only where base_frequency * period = 2 pi exactly. Names of a plant's constants may stand in
+    /// mu, the base frequency and the sampling period.
+    pub fn read(field: &Field<'_>, period: &Constant, constants: &[Named]) -> Outcome<InternalModel> {
         let mut model = field.fields()?;
-        let (mu, base_frequency) = (positive(&mut model, "mu")?, positive(&mut model, "base_frequency")?);
+        let mut read = |name| positive_with(&mut model, name, constants);
+        let (mu, base_frequency) = (read("mu")?, read("base_frequency")?);
         let matched = match model.optional("matched") {
             None => false,
             Some(field) => match field.json {
@@ -231,7 +238,7 @@ impl InternalModel {
             };
             demand(equal, RULE, &format!("{}/matched", model.pointer), "base_frequency * period = 2 pi")?;
         }
-        let samples = read_samples(&mut model, period, matched)?;
+        let samples = read_samples(&mut model, period, matched, constants)?;
         model.finish()?;
         Ok(InternalModel { mu, base_frequency, matched, samples, weights })
     }
@@ -272,8 +279,10 @@ fn read_forcing(field: &Field<'_>) -> Outcome<Forcing> {
     Ok(forcing)
 }
 
-/// Reads the set that is asked for; that of a plant may have `ball` in the place of `X0`: then it is returned too.
-pub fn read_set(field: &Field<'_>, of_plant: bool) -> Outcome<(AskedSet, Option<Constant>)> {
+/// Reads the set that is asked for; that of a plant may have `ball` in the place of `X0`: then it is returned too. Names of the
+/// plant's constants may stand in its numbers.
+pub fn read_set(field: &Field<'_>, of_plant: bool, constants: &[Named]) -> Outcome<(AskedSet, Option<Constant>)> {
+    let nonnegative = |field: Field<'_>| nonnegative(field, constants);
     let mut fields = field.fields()?;
     let kind = fields.required("kind")?;
     let name = kind.text()?;
@@ -299,7 +308,7 @@ pub fn read_set(field: &Field<'_>, of_plant: bool) -> Outcome<(AskedSet, Option<
 }
 
 fn size(field: Field<'_>) -> Outcome<Size> {
-    nonnegative(field).map(Size::Constant)
+    nonnegative(field, &[]).map(Size::Constant)
 }
 
 /// The filter e = xi_r + sum a_i xi_i: s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 must be Hurwitz (docs/mathematics.md, section 6),

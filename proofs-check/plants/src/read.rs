@@ -2,8 +2,8 @@
 //! of a plant"): read and checked in form. What is proved of them is in the other files of this folder.
 
 use super::time::Wave;
-use proofs_core::constant::{Constant, expression, positive};
-use proofs_core::expr::Expr;
+use proofs_core::constant::{Constant, expression_with, positive_with};
+use proofs_core::expr::{Expr, Named};
 use proofs_core::input_gain::InputGain;
 use proofs_core::jacobian;
 use proofs_core::json::{Field, Fields};
@@ -20,7 +20,9 @@ pub const MAX_STATES: usize = 6;
 const MAX_NAME: usize = 40;
 /// The most harmonics of the orbit and of the forcing.
 const MAX_HARMONICS: usize = 200;
-/// What a state may not be called, besides t, e and pi.
+/// The most named constants of a plant.
+const MAX_PARAMETERS: usize = 12;
+/// What a state may not be called.
 #[rustfmt::skip]
 const TAKEN: [&str; 14] = [
     "t", "e", "pi", "sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "min", "max",
@@ -78,30 +80,37 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     header(&mut file, "sigmastar/plant")?;
     file.required("name")?.text()?;
     file.optional("description").map(|field| field.text().map(drop)).transpose()?;
-    let period = positive(&mut file, "period")?;
     let names = states(&file.required("states")?)?;
+    let constants = match file.optional("parameters") {
+        Some(field) => parameters(&field, &names)?,
+        None => Vec::new(),
+    };
+    let period = positive_with(&mut file, "period", &constants)?;
     let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).collect();
-    let formula =
-        |field: &Field<'_>| expression(field, &variables).map(|expr| Formula { pointer: field.pointer.clone(), expr });
+    let formula = |field: &Field<'_>| {
+        let expr = expression_with(field, &variables, &constants);
+        expr.map(|(expr, _)| Formula { pointer: field.pointer.clone(), expr })
+    };
     let list = file.required("f")?;
     let f: Vec<Formula> = list.elements()?.iter().map(formula).collect::<Outcome<_>>()?;
     if f.len() != names.len() {
         return bad(&list.pointer, format!("expected {} expressions, one for each state", names.len()));
     }
     let q = formula(&file.required("q")?)?;
-    file.optional("initial").map(|field| initial(&field, names.len())).transpose()?;
+    file.optional("initial").map(|field| initial(&field, names.len(), &constants)).transpose()?;
     let (initial_set, ball) = match file.optional("initial_set") {
-        Some(field) => spec::read_set(&field, true)?,
+        Some(field) => spec::read_set(&field, true, &constants)?,
         None => (AskedSet::AtRest([None, None]), None),
     };
     let domain = file.optional("domain").map(|field| {
         let mut fields = field.fields()?;
-        let ends = [positive(&mut fields, "x")?, positive(&mut fields, "e")?];
+        let mut end = |name| positive_with(&mut fields, name, &constants);
+        let ends = [end("x")?, end("e")?];
         fields.finish().map(|()| ends)
     });
     let domain = domain.transpose()?;
     let input_gain = InputGain::read(&mut file)?;
-    let model = spec::InternalModel::read(&file.required("internal_model")?, &period)?;
+    let model = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;
 
     let order = names.len();
@@ -150,10 +159,7 @@ fn states<'a>(list: &Field<'a>) -> Outcome<Vec<&'a str>> {
     let mut names: Vec<&str> = Vec::new();
     for field in list.elements()? {
         let name = field.text()?;
-        let begins = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-        if !begins || name.len() > MAX_NAME || !name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
-            return bad(&field.pointer, format!("expected a name of at most {MAX_NAME} letters, digits and `_`"));
-        }
+        well_formed(name, &field.pointer)?;
         if TAKEN.contains(&name) || names.contains(&name) {
             return bad(&field.pointer, "this name is taken");
         }
@@ -165,8 +171,34 @@ fn states<'a>(list: &Field<'a>) -> Outcome<Vec<&'a str>> {
     Ok(names)
 }
 
+fn well_formed(name: &str, pointer: &str) -> Outcome<()> {
+    let begins = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    if begins && name.len() <= MAX_NAME && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
+        return Ok(());
+    }
+    bad(pointer, format!("expected a name of at most {MAX_NAME} letters, digits and `_`"))
+}
+
+/// Named constants: numbers or constant expressions without names of others. None has the name of a state, of t, e, u, pi or of a
+/// function.
+fn parameters(field: &Field<'_>, states: &[&str]) -> Outcome<Vec<Named>> {
+    let mut constants: Vec<Named> = Vec::new();
+    for (name, field) in field.fields()?.rest() {
+        well_formed(name, &field.pointer)?;
+        if name == "u" || TAKEN.contains(&name) || states.contains(&name) {
+            return bad(&field.pointer, "this name is taken");
+        }
+        let constant = Constant::read(&field)?;
+        constants.push(Named { name: name.to_owned(), text: constant.text.clone(), value: constant.expr().clone() });
+    }
+    if constants.len() > MAX_PARAMETERS {
+        return bad(&field.pointer, format!("at most {MAX_PARAMETERS} parameters are taken"));
+    }
+    Ok(constants)
+}
+
 /// Where simulations start: constants, of which nothing is used.
-fn initial(field: &Field<'_>, order: usize) -> Outcome<()> {
+fn initial(field: &Field<'_>, order: usize, constants: &[Named]) -> Outcome<()> {
     let mut fields = field.fields()?;
     let x = fields.required("x")?;
     let list = x.elements()?;
@@ -174,8 +206,8 @@ fn initial(field: &Field<'_>, order: usize) -> Outcome<()> {
         return bad(&x.pointer, format!("expected {order} numbers, one for each state"));
     }
     let z = fields.optional("z").map(|field| field.elements()).transpose()?;
-    list.iter().chain(z.iter().flatten()).try_for_each(|field| Constant::read(field).map(drop))?;
-    Constant::read(&fields.required("e")?)?;
+    list.iter().chain(z.iter().flatten()).try_for_each(|field| Constant::read_with(field, constants).map(drop))?;
+    Constant::read_with(&fields.required("e")?, constants)?;
     fields.finish()
 }
 

@@ -30,6 +30,7 @@ mod matrix_inequality;
 mod mean_squares;
 mod monotone;
 mod mutations;
+mod parameters;
 mod plant_certificates;
 mod plant_corners;
 mod plant_mutations;

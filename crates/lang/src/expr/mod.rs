@@ -15,6 +15,7 @@
 //! and evaluation take time and memory linear in the number of nodes, apart from the arithmetic itself.
 
 mod coefficients;
+mod definitions;
 mod enclose;
 mod enclosing;
 mod error;
@@ -42,6 +43,7 @@ mod syntax;
 mod trigonometric;
 mod walk;
 
+pub use definitions::{DefinitionError, Definitions, occurs};
 pub use enclosing::{Enclosing, enclosed_step};
 pub use error::{ExprError, ExprErrorKind};
 pub use failure::{BoundingFailure, Counterexample, DomainBox, Evaluation, Property, Reason};

@@ -1,7 +1,7 @@
 //! Names that have a meaning, and which of them a writer may have meant.
 
 use super::Variables;
-use super::syntax::{Argument, Binary, Unary};
+use super::syntax::{Argument, Binary, Node, Unary};
 
 /// The functions of one argument.
 pub(super) const UNARY: [(&str, Unary); 9] = [
@@ -52,10 +52,16 @@ pub(super) trait Scope {
     /// here; `None` for any other name.
     fn variable(&self, name: &str) -> Option<Result<Self::Variable, Option<String>>>;
 
+    /// The constant that a name stands for.
+    fn definition(&self, name: &str) -> Option<&[Node]> {
+        let _ = name;
+        None
+    }
+
     /// What can stand where an operand is needed.
     fn operand(&self) -> &'static str;
 
-    /// The names of the variables.
+    /// The names of the variables, and of constants.
     fn names(&self) -> impl Iterator<Item = &str>;
 
     /// What to write for a name that means something to a writer, but nothing here.

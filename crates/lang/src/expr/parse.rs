@@ -10,6 +10,7 @@
 //!
 //! Which names are variables is the [`Scope`]'s to say.
 
+use super::definitions::carried;
 use super::exact::Constants;
 use super::lex::{Token, TokenKind, tokens};
 use super::monomial::Monomial;
@@ -211,6 +212,9 @@ impl<S: Scope> Parser<'_, S> {
             }
             None => {}
         }
+        if let Some(nodes) = self.scope.definition(name) {
+            return nodes.iter().filter_map(carried).try_for_each(|kind| self.push(kind, span.clone()));
+        }
         let unary = UNARY.iter().find(|f| f.0 == name).map(|f| f.1);
         let folded = FOLDED.iter().find(|f| f.0 == name).map(|f| f.1);
         if unary.is_none() && folded.is_none() {
@@ -316,6 +320,9 @@ impl<S: Scope> Parser<'_, S> {
             Some(Err(Some(advice))) => return advice,
             Some(_) => return product(right),
             None => {}
+        }
+        if self.scope.definition(right).is_some() {
+            return product(right);
         }
         let spelled_out = self.scope.spelled_out(right);
         if spelled_out != right {

@@ -1,7 +1,8 @@
 //! Expressions in the variables of a plant: t, the states and e.
 
 use super::ExprError;
-use super::names::{Scope, is_taken};
+use super::definitions::{Definitions, is_name, is_reserved};
+use super::names::Scope;
 use super::parse::parse;
 use super::syntax::Node;
 use std::fmt;
@@ -11,10 +12,8 @@ use thiserror::Error;
 /// The most states that a plant may have.
 pub const MAX_STATES: usize = 100;
 
-/// The longest name of a state, in bytes.
-const MAX_NAME: usize = 40;
-
 const OPERAND: &str = "a number, t, a state, e, pi, a function or an opening parenthesis";
+const OPERAND_WITH_PARAMETERS: &str = "a number, t, a state, e, a parameter, pi, a function or an opening parenthesis";
 
 /// A variable of a plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,10 +26,11 @@ pub enum PlantVariable {
     Error,
 }
 
-/// The names of a plant's states; t and e are always there.
+/// The names of a plant's states, and of constants; t and e are always there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlantNames {
     states: Vec<String>,
+    parameters: Definitions,
 }
 
 /// Why a list of state names was refused.
@@ -86,19 +86,23 @@ impl PlantNames {
             return Err(NameError::TooMany { found: states.len() });
         }
         for (index, name) in states.iter().enumerate() {
-            let starts = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-            let continues = name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_');
-            if !starts || !continues || name.len() > MAX_NAME {
+            if !is_name(name) {
                 return Err(NameError::Malformed { index });
             }
-            if name == "t" || name == "e" || is_taken(name) {
+            if is_reserved(name) {
                 return Err(NameError::Reserved { index });
             }
             if states[..index].contains(name) {
                 return Err(NameError::Duplicate { index });
             }
         }
-        Ok(PlantNames { states })
+        Ok(PlantNames { states, parameters: Definitions::default() })
+    }
+
+    /// The same states beside these constants. A name of both is that of the state.
+    #[must_use]
+    pub fn with_parameters(self, parameters: Definitions) -> PlantNames {
+        PlantNames { parameters, ..self }
     }
 
     /// The names of the states.
@@ -119,8 +123,12 @@ impl Scope for PlantNames {
         }
     }
 
+    fn definition(&self, name: &str) -> Option<&[Node]> {
+        self.parameters.nodes(name)
+    }
+
     fn operand(&self) -> &'static str {
-        OPERAND
+        if self.parameters.names().next().is_some() { OPERAND_WITH_PARAMETERS } else { OPERAND }
     }
 
     fn instead_of(&self, name: &str) -> Option<&'static str> {
@@ -128,7 +136,7 @@ impl Scope for PlantNames {
     }
 
     fn names(&self) -> impl Iterator<Item = &str> {
-        ["t", "e"].into_iter().chain(self.states.iter().map(String::as_str))
+        ["t", "e"].into_iter().chain(self.states.iter().map(String::as_str)).chain(self.parameters.names())
     }
 }
 
@@ -167,6 +175,7 @@ impl fmt::Display for PlantExpr {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Expr, Variables};
     use super::*;
 
     fn names(states: &[&str]) -> Result<PlantNames, NameError> {
@@ -209,6 +218,29 @@ mod tests {
             let error = PlantExpr::parse(text, &names).map(|_| ()).unwrap_err();
             assert_eq!((error.to_string().as_str(), error.help.as_deref()), (message, help), "{text}");
         }
+        let mut parameters = Definitions::default();
+        for (name, value) in [("k", "-3"), ("stiffness", "2*pi"), ("two", "2")] {
+            parameters.define(name, Expr::parse(value, Variables::None).unwrap()).unwrap();
+        }
+        let with = names.clone().with_parameters(parameters);
+        let nodes = |text: &str, names: &PlantNames| -> Vec<String> {
+            PlantExpr::parse(text, names).unwrap().nodes.iter().map(|node| format!("{:?}", node.kind)).collect()
+        };
+        for (text, written) in
+            [("k*x1", "(-3)*x1"), ("k^2 - sin(stiffness*t)", "(-3)^2 - sin((2*pi)*t)"), ("v^two", "v^(2)")]
+        {
+            assert_eq!(nodes(text, &with), nodes(written, &names), "{text}");
+        }
+        for (text, help) in [
+            ("stifness*x1", "did you mean stiffness?"),
+            ("2k", "write 2*k"),
+            ("k(x1)", "write k*("),
+            ("kv", "write k*v"),
+        ] {
+            let error = PlantExpr::parse(text, &with).map(|_| ()).unwrap_err();
+            assert_eq!(error.help.as_deref(), Some(help), "{text}");
+        }
+        assert_eq!(PlantExpr::parse("2*", &with).map(|_| ()).unwrap_err().expected, Some(OPERAND_WITH_PARAMETERS));
         assert_eq!(PlantExpr::parse("2*", &names).map(|_| ()).unwrap_err().expected, Some(OPERAND));
     }
 }

@@ -7,7 +7,9 @@ pub use periodicity::PeriodicityFailure;
 pub use read::{FORMAT, VERSIONS};
 
 use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, Program};
-use crate::spec::{Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, SpecErrors};
+use crate::spec::{
+    Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, SpecErrors,
+};
 use std::ops::Range;
 
 /// A plant as read from its file.
@@ -21,7 +23,9 @@ pub struct Plant {
     pub period: Constant,
     /// The names of the states.
     pub names: PlantNames,
-    /// f, one expression for each state.
+    /// Its named constants.
+    pub parameters: Parameters,
+    /// f, one expression for each state; parameters are their values there.
     pub f: Vec<PlantExpr>,
     /// q.
     pub q: PlantExpr,

@@ -1,15 +1,18 @@
 //! From a document to a plant.
 
 use super::{Initial, InitialRegulator, Plant, periodicity};
-use crate::expr::{PlantExpr, PlantNames};
+use crate::expr::{Definitions, PlantExpr, PlantNames};
 use crate::spec::{
-    Constant, Document, Domain, ErrorKind, Errors, InitialSet, Reported, SpecErrors, Value, any_constant,
-    positive_constant, read_input_gain, read_internal_model, read_with_ball,
+    Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Reported, SpecErrors, Value,
+    any_constant_in, positive_constant_in, read_input_gain, read_internal_model, read_parameters, read_with_ball,
 };
 use std::path::Path;
 
 /// The `format` of a plant file.
 pub const FORMAT: &str = "sigmastar/plant";
+
+/// The members in which a parameter may be used.
+const WITH_PARAMETERS: [&str; 7] = ["period", "f", "q", "initial", "initial_set", "domain", "internal_model"];
 
 /// The versions of it that are read.
 pub const VERSIONS: [u64; 1] = [1];
@@ -49,20 +52,25 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let schema = object.schema_reference(errors);
     let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
     let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
-    let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
     let names = object.required("states", errors).and_then(|value| read_names(&value, errors));
+    let states = names.as_ref().map(|names| names.states().to_vec()).unwrap_or_default();
+    let parameters = object.optional("parameters").map(|value| read_parameters(&value, &states, errors)).transpose();
+    // Without the parameters no number has a meaning to check.
+    let parameters: Parameters = parameters?.unwrap_or_default();
+    let constants = parameters.definitions();
+    let period = object.required("period", errors).and_then(|value| positive_constant_in(&value, constants, errors));
     let f = object.required("f", errors);
     let q = object.required("q", errors);
     let initial = object.optional("initial");
-    let initial_set = object.optional("initial_set").map(|value| read_with_ball(&value, errors)).transpose();
-    let domain = object.optional("domain").map(|value| read_domain(&value, errors)).transpose();
+    let initial_set = object.optional("initial_set").map(|value| read_with_ball(&value, constants, errors)).transpose();
+    let domain = object.optional("domain").map(|value| read_domain(&value, constants, errors)).transpose();
     let internal_model = object
         .required("internal_model", errors)
-        .and_then(|value| read_internal_model(&value, period.as_ref().ok(), errors));
+        .and_then(|value| read_internal_model(&value, period.as_ref().ok(), constants, errors));
     let input_gain = object.optional("input_gain").map(|value| read_input_gain(&value, errors)).transpose();
     object.finish(errors);
     // Without the names of the states the right sides have no meaning to check.
-    let names = names?;
+    let names = names?.with_parameters(constants.clone());
     let f = f.and_then(|value| {
         let elements = of_length(&value, names.states().len(), "right sides", errors)?;
         let read: Vec<Result<_, Reported>> = elements.iter().map(|value| expression(value, &names, errors)).collect();
@@ -73,18 +81,21 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let initial_set = initial_set.map(|set| set.unwrap_or((InitialSet::AtRest { x0: None, e0: None }, None)));
     let aligned = initial_set.as_ref().is_ok_and(|(set, _)| set.is_aligned());
     let initial = match initial {
-        Some(value) => read_initial(&value, states, aligned, errors),
+        Some(value) => read_initial(&value, states, aligned, constants, errors),
         None => Ok(Initial { x: vec![0.0; states], e: 0.0, z: InitialRegulator::AtRest }),
     };
     let ((f_values, f), (q_value, q)) = (f?, q?);
     let (initial_set, ball) = initial_set?;
     schema?;
     let (document, sha256) = value.embedded();
+    let members = WITH_PARAMETERS.map(|name| document.get(name));
+    let parameters = parameters.used_in(&members.into_iter().flatten().collect::<Vec<_>>());
     let plant = Plant {
         name: name?,
         description: description?,
         period: period?,
         names,
+        parameters,
         f,
         q,
         initial: initial?,
@@ -144,23 +155,30 @@ fn expression(value: &Value<'_>, names: &PlantNames, errors: &mut Errors) -> Res
 }
 
 /// Where the model holds: `x` and `e`.
-fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reported> {
+fn read_domain(value: &Value<'_>, constants: &Definitions, errors: &mut Errors) -> Result<Domain, Reported> {
     let mut object = value.object(errors)?;
-    let mut end = |name| object.required(name, errors).and_then(|value| positive_constant(&value, errors));
+    let mut end =
+        |name| object.required(name, errors).and_then(|value| positive_constant_in(&value, constants, errors));
     let (x, e) = (end("x"), end("e"));
     object.finish(errors);
     Ok(Domain { x: x?, e: e? })
 }
 
 /// Reads `initial`; `aligned` says that the regulator sets z = M e.
-fn read_initial(value: &Value<'_>, states: usize, aligned: bool, errors: &mut Errors) -> Result<Initial, Reported> {
+fn read_initial(
+    value: &Value<'_>,
+    states: usize,
+    aligned: bool,
+    constants: &Definitions,
+    errors: &mut Errors,
+) -> Result<Initial, Reported> {
     let mut object = value.object(errors)?;
     let x = object.required("x", errors).and_then(|value| {
         let elements = of_length(&value, states, "initial values", errors)?;
-        let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, errors)).collect();
+        let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, constants, errors)).collect();
         read.into_iter().collect()
     });
-    let e = object.required("e", errors).and_then(|value| double(&value, errors));
+    let e = object.required("e", errors).and_then(|value| double(&value, constants, errors));
     let z = match object.optional("z") {
         None if aligned => Ok(InitialRegulator::Aligned),
         None => Ok(InitialRegulator::AtRest),
@@ -171,7 +189,8 @@ fn read_initial(value: &Value<'_>, states: usize, aligned: bool, errors: &mut Er
         }
         Some(value) => {
             let elements = value.array(errors)?;
-            let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, errors)).collect();
+            let read: Vec<Result<f64, Reported>> =
+                elements.iter().map(|value| double(value, constants, errors)).collect();
             read.into_iter().collect::<Result<Vec<f64>, Reported>>().map(InitialRegulator::Given)
         }
     };
@@ -180,8 +199,9 @@ fn read_initial(value: &Value<'_>, states: usize, aligned: bool, errors: &mut Er
 }
 
 /// A constant that is a finite double.
-fn double(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
-    let number = any_constant(value, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)?;
+fn double(value: &Value<'_>, constants: &Definitions, errors: &mut Errors) -> Result<f64, Reported> {
+    let number =
+        any_constant_in(value, constants, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)?;
     if number.is_finite() {
         return Ok(number);
     }

@@ -4,7 +4,7 @@ use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::parts::Constant;
 use super::quantity::{Quantity, decide};
-use crate::expr::{Expr, Variables};
+use crate::expr::{Definitions, Expr, Variables};
 use sigmastar_exact::enclosure::{MAX_PRECISION, Truth};
 
 /// Reads a constant: a JSON number, taken as the decimal that is written, or a string with a constant expression.
@@ -15,7 +15,20 @@ use sigmastar_exact::enclosure::{MAX_PRECISION, Truth};
 /// Reports another type, an expression that cannot be read, and one that has no value (as `1/0`) or none that can
 /// be enclosed.
 pub fn any_constant(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
-    let expr = expression(value, Variables::None, "a number or a string with a constant expression", errors)?;
+    any_constant_in(value, Definitions::none(), errors)
+}
+
+/// Reads a constant in which names of other constants may stand; it is the constant with these written out.
+///
+/// # Errors
+/// Those of [`any_constant`].
+pub fn any_constant_in(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<Constant, Reported> {
+    let expected = "a number or a string with a constant expression";
+    let Some(text) = value.numeral().or_else(|| value.text()) else {
+        return Err(value.wrong_type(expected, errors));
+    };
+    let read = names.spelled_out(text).and_then(|text| Expr::parse(&text, Variables::None));
+    let expr = read.map_err(|error| errors.report(value.expression_error(&error)))?;
     let exact = expr.exact();
     let constant = Constant { text: expr.text().to_owned(), expr, exact };
     let real = decide(|precision| match constant.enclose(precision).is_bounded() {
@@ -36,7 +49,15 @@ pub fn any_constant(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, 
 /// # Errors
 /// Those of [`any_constant`]; reports a number that is not positive, and one whose sign cannot be decided.
 pub fn positive_constant(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
-    let constant = any_constant(value, errors)?;
+    positive_constant_in(value, Definitions::none(), errors)
+}
+
+/// Reads a constant that is proved to be positive, in which names of other constants may stand.
+///
+/// # Errors
+/// Those of [`positive_constant`].
+pub fn positive_constant_in(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<Constant, Reported> {
+    let constant = any_constant_in(value, names, errors)?;
     let positive = Quantity::rational(0).lt(&Quantity::constant(&constant));
     in_range(value, constant, positive, "positive", errors)
 }
@@ -46,7 +67,19 @@ pub fn positive_constant(value: &Value<'_>, errors: &mut Errors) -> Result<Const
 /// # Errors
 /// Those of [`any_constant`]; reports a negative number, and one whose sign cannot be decided.
 pub fn nonnegative_constant(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
-    let constant = any_constant(value, errors)?;
+    nonnegative_constant_in(value, Definitions::none(), errors)
+}
+
+/// Reads a constant that is proved to be nonnegative, in which names of other constants may stand.
+///
+/// # Errors
+/// Those of [`nonnegative_constant`].
+pub(super) fn nonnegative_constant_in(
+    value: &Value<'_>,
+    names: &Definitions,
+    errors: &mut Errors,
+) -> Result<Constant, Reported> {
+    let constant = any_constant_in(value, names, errors)?;
     let nonnegative = Quantity::rational(0).le(&Quantity::constant(&constant));
     in_range(value, constant, nonnegative, "nonnegative", errors)
 }

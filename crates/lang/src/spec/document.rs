@@ -263,6 +263,12 @@ impl<'d> Value<'d> {
         SpecError::new(kind, self.pointer.clone(), self.anchor(), message)
     }
 
+    /// An error about the key under which this value stands.
+    #[must_use]
+    pub(super) fn error_at_key(&self, kind: ErrorKind, message: impl Into<String>) -> SpecError {
+        SpecError::new(kind, self.pointer.clone(), self.key_span(), message)
+    }
+
     /// An error about a part of the text in this value: `part` is in bytes of the decoded string or of the numeral,
     /// and is mapped back through the escapes of the literal.
     #[must_use]

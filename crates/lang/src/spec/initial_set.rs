@@ -1,35 +1,45 @@
 //! The initial set in a document.
 
-use super::constant::nonnegative_constant;
+use super::constant::nonnegative_constant_in;
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::object::{Object, choose};
 use super::parts::{Constant, InitialSet};
+use crate::expr::Definitions;
 
 /// Reads `initial_set`: `paper` has no other field, `at-rest` and `aligned` may have X0 and E0, `box` has X0, E0 and Z0.
 ///
 /// # Errors
 /// Reports an unknown kind, fields that are missing or do not belong to the kind, and numbers that are negative.
 pub(super) fn read(value: &Value<'_>, errors: &mut Errors) -> Result<InitialSet, Reported> {
-    read_kinds(value, false, errors).map(|(set, _)| set)
+    read_kinds(value, false, Definitions::none(), errors).map(|(set, _)| set)
 }
 
 /// Reads `initial_set` of a plant, where `ball` may stand for X0: the radius of a ball that the set contains. Then X0 of the
-/// set is that radius until the norm in which X0 is meant is known.
+/// set is that radius until the norm in which X0 is meant is known. Names of the plant's constants may stand in its numbers.
 ///
 /// # Errors
 /// Those of a specification's; and both of `X0` and `ball`.
-pub fn read_with_ball(value: &Value<'_>, errors: &mut Errors) -> Result<(InitialSet, Option<Constant>), Reported> {
-    read_kinds(value, true, errors)
+pub fn read_with_ball(
+    value: &Value<'_>,
+    names: &Definitions,
+    errors: &mut Errors,
+) -> Result<(InitialSet, Option<Constant>), Reported> {
+    read_kinds(value, true, names, errors)
 }
 
-fn read_kinds(value: &Value<'_>, balls: bool, errors: &mut Errors) -> Result<(InitialSet, Option<Constant>), Reported> {
+fn read_kinds(
+    value: &Value<'_>,
+    balls: bool,
+    names: &Definitions,
+    errors: &mut Errors,
+) -> Result<(InitialSet, Option<Constant>), Reported> {
     let mut object = value.object(errors)?;
     let kind = object.required("kind", errors);
     // Without a kind the other fields have no meaning to check.
     let kind =
         kind.and_then(|value| choose(&value, "kind of initial set", &["paper", "at-rest", "aligned", "box"], errors))?;
-    let ball = if balls && kind != "paper" { optional(&mut object, "ball", errors)? } else { None };
+    let ball = if balls && kind != "paper" { optional(&mut object, "ball", names, errors)? } else { None };
     if let (Some(_), Some(x0)) = (&ball, value.member("X0")) {
         let error = x0.error(ErrorKind::UnknownField, "`X0` and `ball` both say how far x may be from its orbit");
         return Err(errors.report(error.help("leave one of them out")));
@@ -47,15 +57,15 @@ fn read_kinds(value: &Value<'_>, balls: bool, errors: &mut Errors) -> Result<(In
             InitialSet::Paper
         }
         "at-rest" | "aligned" => {
-            let x0 = optional(&mut object, "X0", errors);
-            let e0 = optional(&mut object, "E0", errors);
+            let x0 = optional(&mut object, "X0", names, errors);
+            let e0 = optional(&mut object, "E0", names, errors);
             object.finish_as(&format!("for the kind `{kind}`"), errors);
             let (x0, e0) = (ball.clone().or(x0?), e0?);
             if kind == "aligned" { InitialSet::Aligned { x0, e0 } } else { InitialSet::AtRest { x0, e0 } }
         }
         _ => {
             let mut number =
-                |name| object.required(name, errors).and_then(|value| nonnegative_constant(&value, errors));
+                |name| object.required(name, errors).and_then(|value| nonnegative_constant_in(&value, names, errors));
             let x0 = match &ball {
                 Some(ball) => Ok(ball.clone()),
                 None => number("X0"),
@@ -68,6 +78,11 @@ fn read_kinds(value: &Value<'_>, balls: bool, errors: &mut Errors) -> Result<(In
     Ok((set, ball))
 }
 
-fn optional(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<Option<Constant>, Reported> {
-    object.optional(name).map(|value| nonnegative_constant(&value, errors)).transpose()
+fn optional(
+    object: &mut Object<'_>,
+    name: &'static str,
+    names: &Definitions,
+    errors: &mut Errors,
+) -> Result<Option<Constant>, Reported> {
+    object.optional(name).map(|value| nonnegative_constant_in(&value, names, errors)).transpose()
 }

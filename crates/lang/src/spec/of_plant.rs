@@ -1,5 +1,6 @@
 //! What was proved of a plant that is known by its formulas (derivation, 11): all that a certificate has to repeat.
 
+use super::parameters::Parameters;
 use super::parts::{Constant, Domain, Lyapunov, PeriodicMatrix, TrigonometricVector};
 use rug::Rational;
 
@@ -33,6 +34,8 @@ pub struct ProvedForcing {
 /// The plant behind the data of a specification.
 #[derive(Clone, Debug)]
 pub struct OfPlant {
+    /// Its named constants.
+    pub parameters: Parameters,
     /// The rows of L: `x = x_0 + L y`.
     pub coordinates: Vec<Vec<Rational>>,
     /// The orbit.

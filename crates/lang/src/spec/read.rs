@@ -2,7 +2,7 @@
 
 use super::bound::Bound;
 use super::bounding::Bounds;
-use super::constant::{any_constant, expression, nonnegative_constant, positive_constant, whole};
+use super::constant::{any_constant, expression, nonnegative_constant, positive_constant, positive_constant_in, whole};
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
@@ -12,8 +12,7 @@ use super::object::Object;
 use super::parts::{Constant, Domain, KnownForcing, Lyapunov, RelativeDegree};
 use super::quantity::Quantity;
 use super::{sampling, weights_read};
-use crate::expr::Monomial;
-use crate::expr::{Expr, Variables};
+use crate::expr::{Definitions, Expr, Monomial, Variables};
 use rug::Rational;
 use sigmastar_exact::enclosure::{MAX_PRECISION, Truth};
 use sigmastar_exact::number::write_exact;
@@ -94,7 +93,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let domain = object.optional("domain").map(|value| read_domain(&value, errors)).transpose();
     let internal_model = object
         .required("internal_model", errors)
-        .and_then(|value| read_internal_model(&value, period.as_ref().ok(), errors));
+        .and_then(|value| read_internal_model(&value, period.as_ref().ok(), Definitions::none(), errors));
     let initial_set = object.required("initial_set", errors).and_then(|value| initial_set::read(&value, errors));
     let input_gain = object.optional("input_gain").map(|value| read_input_gain(&value, errors)).transpose();
     let relative_degree =
@@ -206,19 +205,21 @@ fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reporte
     Ok(Domain { x: x?, e: e? })
 }
 
-/// The regulator's part of a specification or a plant; `period`, where it was read, is held against the base frequency.
+/// The regulator's part of a specification or a plant; `period`, where it was read, is held against the base frequency. In mu, the
+/// base frequency and the sampling period the names may stand.
 ///
 /// # Errors
 /// Reports fields that are missing or unknown and numbers that are out of range.
 pub fn read_internal_model(
     value: &Value<'_>,
     period: Option<&Constant>,
+    names: &Definitions,
     errors: &mut Errors,
 ) -> Result<InternalModel, Reported> {
     let mut object = value.object(errors)?;
-    let mu = positive_field(&mut object, "mu", errors);
+    let mu = object.required("mu", errors).and_then(|value| positive_constant_in(&value, names, errors));
     let frequency_value = object.required("base_frequency", errors);
-    let base_frequency = frequency_value.clone().and_then(|value| positive_constant(&value, errors));
+    let base_frequency = frequency_value.clone().and_then(|value| positive_constant_in(&value, names, errors));
     let matched = match object.optional("matched") {
         Some(value) => value.boolean(errors),
         None => Ok(false),
@@ -230,7 +231,7 @@ pub fn read_internal_model(
         prove_matched(period, frequency, value, errors)?;
     }
     let sampling = match (step, period) {
-        (Some(step), Some(period)) => Some(sampling::read(&step, period, matched, errors)?),
+        (Some(step), Some(period)) => Some(sampling::read(&step, period, matched, names, errors)?),
         _ => None,
     };
     Ok(InternalModel { mu: mu?, base_frequency: base_frequency?, matched: matched?, weights: weights?, sampling })

@@ -1,10 +1,11 @@
 //! The samples of a computer that runs the regulator (derivation, 12): a whole number of them in a period, proved.
 
-use super::constant::{positive_constant, whole};
+use super::constant::{positive_constant_in, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::parts::Constant;
 use super::quantity::Quantity;
+use crate::expr::Definitions;
 use rug::{Float, Rational};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::write_exact;
@@ -42,9 +43,10 @@ pub(super) fn read(
     value: &Value<'_>,
     period: &Constant,
     matched: Result<bool, Reported>,
+    names: &Definitions,
     errors: &mut Errors,
 ) -> Result<Sampling, Reported> {
-    let step = positive_constant(value, errors)?;
+    let step = positive_constant_in(value, names, errors)?;
     if !matched? {
         let message = "the regulator at samples needs a base frequency of 2 pi / period";
         let error = whole(value, ErrorKind::Matched, message).expected("expected `\"matched\": true` beside it");

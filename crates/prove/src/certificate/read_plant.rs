@@ -71,6 +71,7 @@ fn parts(
     };
     let (triple, matrix) = parts(triple?);
     let of_plant = OfPlant {
+        parameters: plant.parameters.clone(),
         coordinates: rows,
         orbit: orbit?,
         triple,

@@ -59,6 +59,7 @@ impl Along {
     pub(super) fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
         let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
         let of_plant = OfPlant {
+            parameters: plant.parameters.clone(),
             coordinates: self.coordinates.l.clone(),
             orbit: ProvedOrbit {
                 approximation: orbit.clone(),

@@ -139,7 +139,8 @@ fn fits(study: &Study, base: &Value) -> Result<(), SpecErrors> {
             Some(_) => format!("`{}` is no single value of the subject", parameter.pointer),
             None => format!("`{}` names nothing in the subject", parameter.pointer),
         };
-        let place = study.source.at(&format!("/parameters/{index}/pointer")).unwrap_or_else(|| study.source.root());
+        let named = ["pointer", "parameter"].map(|field| study.source.at(&format!("/parameters/{index}/{field}")));
+        let place = named.into_iter().flatten().next().unwrap_or_else(|| study.source.root());
         let error = place.error(ErrorKind::UnknownName, message);
         errors.report(error.help(
             "name a number, a string or a Boolean that the subject has; a field that may be left out \

@@ -107,8 +107,9 @@ impl TuneError {
     }
 }
 
-/// The names and pointers of the numbers that are free in an internal model.
-fn free(model: &InternalModel) -> Vec<(String, String)> {
+/// The names and pointers of the numbers that are free: of the internal model, and the parameters of a plant. One that has a name
+/// of the first goes by `parameters.NAME`.
+fn free(document: &Document, model: &InternalModel) -> Vec<(String, String)> {
     let at = |name: &str, place: &str| (name.to_owned(), format!("/internal_model/{place}"));
     let mut all = vec![at("mu", "mu")];
     match &model.weights {
@@ -121,6 +122,12 @@ fn free(model: &InternalModel) -> Vec<(String, String)> {
     if !model.matched {
         all.push(at("base_frequency", "base_frequency"));
     }
+    let parameters = document.at("/parameters").map(|value| value.to_json());
+    for name in parameters.as_ref().and_then(serde_json::Value::as_object).into_iter().flat_map(|all| all.keys()) {
+        let taken = name == "base_frequency" || all.iter().any(|(known, _)| known == name);
+        let shown = if taken { format!("parameters.{name}") } else { name.clone() };
+        all.push((shown, format!("/parameters/{name}")));
+    }
     all
 }
 
@@ -129,7 +136,7 @@ fn free(model: &InternalModel) -> Vec<(String, String)> {
 /// # Errors
 /// The first name or range that is wrong.
 pub fn parameters(text: &str, document: &Document, model: &InternalModel) -> Result<Vec<Parameter>, TuneError> {
-    let free = free(model);
+    let free = free(document, model);
     let mut all: Vec<Parameter> = Vec::new();
     for part in text.split(',').map(str::trim) {
         let (name, range) =
@@ -181,6 +188,7 @@ fn parameter(
 mod tests {
     use super::*;
     use sigmastar_exact::number::write_exact;
+    use sigmastar_lang::plant::Plant;
     use sigmastar_lang::spec::Specification;
 
     const POWER: &str = include_str!("../../../../specs/paper-example.json");
@@ -188,7 +196,10 @@ mod tests {
 
     fn read(spec: &str, over: &str) -> Result<Vec<Parameter>, TuneError> {
         let document = Document::parse("spec", spec).unwrap();
-        let model = Specification::from_value(&document.root()).unwrap().internal_model;
+        let model = match Specification::from_value(&document.root()) {
+            Ok(spec) => spec.internal_model,
+            Err(_) => Plant::from_value(&document.root()).unwrap().internal_model,
+        };
         parameters(over, &document, &model)
     }
 
@@ -207,6 +218,21 @@ mod tests {
         assert_eq!(explicit[1].pointer, "/internal_model/weights/values/3");
         let free = POWER.replace("\"matched\": true", "\"matched\": false");
         assert_eq!(read(&free, "base_frequency=6..7").unwrap().len(), 1);
+    }
+
+    #[test]
+    fn parameters_of_a_plant_go_by_their_names() {
+        let plant = include_str!("../../../../specs/plants/linear.json").replacen(
+            "\"states\"",
+            "\"parameters\": { \"a\": \"3\", \"mu\": 2 }, \"states\"",
+            1,
+        );
+        let all = read(&plant, "a=1..5, parameters.mu=1/2..3, mu").unwrap();
+        let places: Vec<&str> = all.iter().map(|one| one.pointer.as_str()).collect();
+        assert_eq!(places, ["/parameters/a", "/parameters/mu", "/internal_model/mu"]);
+        assert_eq!(all[0].written, "3");
+        assert!(told(&plant, "a").contains("`a=5..8`"));
+        assert!(told(&plant, "b").contains("the free numbers are mu, n0, epsilon, a, parameters.mu"));
     }
 
     #[test]
