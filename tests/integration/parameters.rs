@@ -1,11 +1,11 @@
 //! Named constants of a plant: each counts as the number that it stands for, from the file to the certificate.
 
 use super::support::{json, program};
-use tempfile::TempDir;
 use serde_json::{Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::ErrorKind;
 use std::path::{Path, PathBuf};
+use tempfile::TempDir;
 
 fn shipped(name: &str) -> Value {
     let text = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("specs/plants/{name}.json")));
@@ -44,8 +44,12 @@ fn example(named: bool) -> Value {
 fn certified(folder: &TempDir, plant: &Value) -> (PathBuf, Value) {
     let (file, certificate) = (folder.path().join("plant.json"), folder.path().join("certificate.json"));
     std::fs::write(&file, plant.to_string()).unwrap();
-    let output =
-        program().arg("certify").arg(&file).args(["--quiet", "--force", "--format", "json", "-o"]).arg(&certificate).output();
+    let output = program()
+        .arg("certify")
+        .arg(&file)
+        .args(["--quiet", "--force", "--format", "json", "-o"])
+        .arg(&certificate)
+        .output();
     let output = output.unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     (certificate, json(&output.stdout))

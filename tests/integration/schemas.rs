@@ -253,7 +253,10 @@ fn studies() -> Vec<Value> {
     let latin = json!([{ "pointer": "/period", "name": "T", "linear": { "from": 1, "to": 2 } },
         { "pointer": "/name", "values": ["a", 1, true] }]);
     let embedded = parsed(&Path::new(ROOT).join("specs/linear.json"));
+    let named = with("specs/plants/paper-example.json", &[("parameters", json!({ "k": "1/5" }))]);
+    let by_name = json!([{ "parameter": "k", "values": ["1/5", "1/4"] }]);
     vec![
+        with(file, &[("subject", named), ("parameters", by_name)]),
         with(file, &[("$schema", json!("x")), ("derivation", json!("sharp")), ("subject", embedded)]),
         with(file, &[("parameters", logarithmic), ("sampling_period", json!("1/9"))]),
         with(file, &[("design", json!("latin")), ("count", json!(3)), ("seed", json!(1)), ("parameters", latin)]),
