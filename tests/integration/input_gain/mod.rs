@@ -205,6 +205,29 @@ fn plants_are_certified_for_every_gain_of_the_interval() {
     }
 }
 
+/// By norms, by (M) and by (M) with (E), with the interval of the file and with a wider one in the place of it.
+#[test]
+fn the_checker_believes_the_interval_that_was_proved() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, forged) = (folder.path().join("certificate.json"), folder.path().join("forged.json"));
+    for name in ["paper-example", "plants/paper-example", "plants/converter"] {
+        let input = written(folder.path(), name, &gain("1", "0.8", "1.25"));
+        program().args(["certify", "-q", "--force", &input, "-o"]).arg(&file).assert().code(0);
+        let report =
+            |file: &Path| json(&program().args(["check", "--format", "json"]).arg(file).output().unwrap().stdout);
+        let checked = report(&file);
+        assert_eq!(
+            (&checked["verdict"], &checked["figures"]["verdict"]),
+            (&object!("valid"), &object!("agree")),
+            "{name}"
+        );
+        let mut certificate = json(&std::fs::read(&file).unwrap());
+        certificate["claim"]["input_gain"]["high"] = "1.3".into();
+        std::fs::write(&forged, certificate.to_string()).unwrap();
+        assert_eq!(report(&forged)["verdict"], "invalid", "{name}");
+    }
+}
+
 fn written_wider(folder: &Path, name: &str) -> String {
     let file = folder.join("wider.json");
     std::fs::write(&file, text(name, &gain("1", "0.4", "3"))).unwrap();
