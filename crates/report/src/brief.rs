@@ -49,7 +49,9 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
-    facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), run.control())));
+    // It grows with the gain, of which the claim says "or any larger".
+    let control = run.control().map(|bounds| (bounds, " at this gain"));
+    facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
 }
@@ -75,7 +77,7 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
         vec![("gain", gain), ("from", from(run.spec, &witness.set, "a sampling instant")), ("next", next.to_owned())];
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
-    facts.push(("to", to(run.spec, &periodic, radii, run.control())));
+    facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
     let of_the_computer = "no delay, rounding, quantisation or saturation";
     facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
@@ -107,7 +109,7 @@ fn to(
     spec: &Specification,
     periodic: &[Enclosure; 4],
     [d_x, d_e]: [String; 2],
-    control: Option<&Control<Enclosure>>,
+    control: Option<(&Control<Enclosure>, &str)>,
 ) -> String {
     let [x, e, _, _] = periodic.each_ref().map(upper);
     let (along, on_the_way) = match spec.state_name() {
@@ -118,7 +120,9 @@ fn to(
     };
     let of_u = |bound: &Enclosure| format!(", |u| <= {}", upper(bound));
     let [steady, largest] = match control {
-        Some(Control { steady, transient }) => [of_u(steady), of_u(&(steady + transient))],
+        Some((Control { steady, transient }, which)) => {
+            [of_u(steady), format!("{}{which}", of_u(&(steady + transient)))]
+        }
         None => [String::new(), String::new()],
     };
     format!("a periodic solution with {along}{steady}; on the way {on_the_way}{largest}")
