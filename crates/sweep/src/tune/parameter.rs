@@ -177,7 +177,11 @@ fn parameter(
     }
     let range = match range {
         Some(text) => given(text).ok_or_else(|| TuneError::Range { name: name.clone(), text: text.to_owned() })?,
-        None => usual(&name, constant).ok_or_else(|| TuneError::NoRange { name: name.clone() })?,
+        // What a parameter of a plant may be, its owner knows.
+        None => Some(pointer)
+            .filter(|pointer| !pointer.starts_with("/parameters/"))
+            .and_then(|_| usual(&name, constant))
+            .ok_or_else(|| TuneError::NoRange { name: name.clone() })?,
     };
     let [low, high] = range.each_ref().map(|end| end.to_f64().portable_ln());
     let start = constant.portable_ln().clamp(low, high);
@@ -232,7 +236,7 @@ mod tests {
         assert_eq!(places, ["/parameters/a", "/parameters/mu", "/internal_model/mu"]);
         assert_eq!(all[0].written, "3");
         assert!(told(&plant, "a").contains("`a=5..8`"));
-        assert!(told(&plant, "b").contains("the free numbers are mu, n0, epsilon, a, parameters.mu"));
+        assert!(told(&plant, "friction").contains("the free numbers are mu, n0, epsilon, a, parameters.mu"));
     }
 
     #[test]
