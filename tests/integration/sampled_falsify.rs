@@ -77,6 +77,8 @@ fn a_forged_claim_is_contradicted() {
         ("/claim/periodic_solution/e", 0.01, "sup|e|", 4),
         ("/claim/periodic_solution/zeta", 0.01, "sup|zeta|_N", 4),
         ("/claim/periodic_solution/z", 0.01, "sup|z|_N", 4),
+        ("/claim/control/steady", 0.01, "sup|u|", 4),
+        ("/claim/control/transient", 0.01, "|u - u_p|", 4),
         ("/witness/D_e", 0.03, "against D_e", 4),
         ("/witness/D_x", 0.03, "against D_x", 4),
         // A gain K of the wrong sign feeds the oscillators.

@@ -50,7 +50,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
     // It grows with the gain, of which the claim says "or any larger".
-    let control = run.control().map(|bounds| (bounds, " at this gain"));
+    let control = run.control().map(|bounds| (bounds, " (both at this gain)"));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]

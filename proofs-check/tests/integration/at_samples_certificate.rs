@@ -1,13 +1,13 @@
 //! Certificates at samples with matrix inequalities, each of their parts and each of their conditions forged: the converter at 1000
 //! samples a period, from its certificate by norms, with numbers from semidefinite programs apart from both programs.
 
-use super::common::{assert_refused, every, text};
+use super::common::{accepted, assert_refused, every, fails, judged, open, text};
 use super::existence_inequality::number;
 use super::matrix_inequality::{PLACE, RULE, stored, times};
 use super::mutations::{pointers, replacements};
 use proofs_check::json::{Json, parse};
 use proofs_check::verdict::Verdict;
-use proofs_check::{Report, check, sha256};
+use proofs_check::{Report, sha256};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
@@ -77,33 +77,6 @@ fn bounds(made: &Value) -> [f64; 4] {
     let sup_e = (1..samples).map(gain).sum::<f64>().sqrt() * r_y + (h * period).sqrt() / 2.0 * r_q;
     let rms_e_t = (2.0 * r_y / (2.0 - h * sigma)).hypot(r_q);
     [by(part, "c_x"), sup_e, by(part, "c_e"), rms_e_t]
-}
-
-fn judged(certificate: &Value) -> Report {
-    check(certificate.to_string().as_bytes())
-}
-
-/// The conditions of the claim that fail or are undecided, in order.
-fn open(report: &Report) -> Vec<String> {
-    let open = report.lines.iter().filter(|line| line.contains(" FAILS: ") || line.contains(" undecided: "));
-    open.map(|line| line.split_whitespace().next().unwrap().to_owned()).collect()
-}
-
-#[track_caller]
-fn accepted(certificate: &Value) -> Report {
-    let report = judged(certificate);
-    assert_eq!(report.verdict, Verdict::Valid, "{:?} {}", open(&report), report.text(false));
-    report
-}
-
-/// Invalid for these conditions, and for no other.
-#[track_caller]
-fn fails(certificate: &Value, conditions: &[&str]) {
-    let report = judged(certificate);
-    assert_eq!(
-        (open(&report), report.verdict),
-        (conditions.iter().map(ToString::to_string).collect(), Verdict::Invalid)
-    );
 }
 
 fn says(report: &Report, start: &str) -> bool {

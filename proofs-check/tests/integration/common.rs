@@ -53,6 +53,46 @@ pub fn with(name: &str, object: &str, field: &str, value: impl Into<Value>) -> R
     check(certificate.to_string().as_bytes())
 }
 
+/// The answer about a certificate as it is.
+pub fn judged(certificate: &Value) -> Report {
+    check(certificate.to_string().as_bytes())
+}
+
+/// The answer, which is that the claim is proved.
+#[track_caller]
+pub fn accepted(certificate: &Value) -> Report {
+    let report = judged(certificate);
+    assert_eq!(report.verdict, Verdict::Valid, "{:?} {}", open(&report), report.text(false));
+    report
+}
+
+/// Invalid for these conditions, and for no other.
+#[track_caller]
+pub fn fails(certificate: &Value, conditions: &[&str]) {
+    let report = judged(certificate);
+    let expected: Vec<String> = conditions.iter().map(ToString::to_string).collect();
+    assert_eq!((open(&report), report.verdict), (expected, Verdict::Invalid), "{}", report.text(false));
+}
+
+/// The conditions of the claim that fail or are undecided, in order.
+pub fn open(report: &Report) -> Vec<String> {
+    let open = report.lines.iter().filter(|line| line.contains(" FAILS: ") || line.contains(" undecided: "));
+    open.map(|line| line.split_whitespace().next().unwrap().to_owned()).collect()
+}
+
+/// The certificate with other values at JSON pointers; without a field where the value is null.
+pub fn edited(mut certificate: Value, changes: &[(&str, Value)]) -> Value {
+    for (pointer, value) in changes {
+        let (parent, name) = pointer.rsplit_once('/').unwrap();
+        let parent = certificate.pointer_mut(parent).unwrap_or_else(|| panic!("{parent} exists"));
+        match value {
+            Value::Null => drop(parent.as_object_mut().unwrap().remove(name)),
+            _ => parent[name] = value.clone(),
+        }
+    }
+    certificate
+}
+
 /// The claim is proved, and every figure agrees.
 #[track_caller]
 pub fn assert_valid(report: &Report) {

@@ -1,8 +1,8 @@
 //! The two joint metrics: their questions about formulas against what is left for c_e by hand, for stability and for existence.
 
+use super::common::judged;
 use super::common::{PAPER, certificate, drawn};
 use super::existence_inequality::number;
-use super::joint_inequality::judged;
 use super::matrix_inequality::{at_rest, stored};
 use super::plant_support::Parts;
 use proofs_check::data::Data;

@@ -1,7 +1,7 @@
 //! Rules of section 10: existence by mean squares, one-sided dq/de, rates, the harmonics of q(t,0,0). The certificates are made
 //! here, from one that leaves room.
 
-use crate::common::{assert_refused, certificate, rehash, text};
+use crate::common::{assert_refused, certificate, edited, open, rehash, text};
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
 use proofs_check::{Report, check};
 use serde_json::{Value, json};
@@ -37,15 +37,8 @@ fn harmonics() -> Value {
 }
 
 /// The answer after the changes, with the digest and the numbers in the statement made right.
-fn answer(mut made: Value, changes: &[(&str, Value)]) -> Report {
-    for (pointer, value) in changes {
-        let (parent, name) = pointer.rsplit_once('/').unwrap();
-        let parent = made.pointer_mut(parent).unwrap_or_else(|| panic!("{parent} exists"));
-        match value {
-            Value::Null => drop(parent.as_object_mut().unwrap().remove(name)),
-            _ => parent[name] = value.clone(),
-        }
-    }
+fn answer(made: Value, changes: &[(&str, Value)]) -> Report {
+    let mut made = edited(made, changes);
     let text = made["claim"]["statement"].as_str().unwrap();
     let alpha = made["specification"]["lyapunov"]["alpha"].as_str().unwrap_or_default();
     let text = text.replace("alpha = 0.58", &format!("alpha = {alpha}"));
@@ -60,12 +53,6 @@ fn answer(mut made: Value, changes: &[(&str, Value)]) -> Report {
     made["claim"]["statement"] = text.into();
     rehash(&mut made);
     check(made.to_string().as_bytes())
-}
-
-/// The conditions that fail or are undecided, in order.
-fn open(report: &Report) -> Vec<String> {
-    let open = report.lines.iter().filter(|line| line.contains(" FAILS: ") || line.contains(" undecided: "));
-    open.map(|line| line.split_whitespace().next().unwrap().to_owned()).collect()
 }
 
 #[track_caller]

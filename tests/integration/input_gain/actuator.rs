@@ -156,6 +156,37 @@ fn the_true_gain_acts_in_simulations() {
     program().args(["simulate", &file, "--sigma", "8", "--n-o", "2", "--input-gain", "0"]).assert().code(2);
 }
 
+/// What is put out is bounded: in other units of the actuator the same claim, with the bounds of u in these units, as the trials find.
+#[test]
+fn the_control_is_that_of_the_actuator() {
+    let folder = tempfile::tempdir().unwrap();
+    let certificate = folder.path().join("certificate.json");
+    let found = |nominal: f64| {
+        let sizes = [nominal, 0.8 * nominal, 1.25 * nominal].map(|gain| gain.to_string());
+        let file = written(folder.path(), "no-x", &gain(&sizes[0], &sizes[1], &sizes[2]));
+        program().args(["certify", "-q", &file, "--force", "-o"]).arg(&certificate).assert().code(0);
+        let checked = json(&program().args(["check", "--format", "json"]).arg(&certificate).output().unwrap().stdout);
+        assert_eq!(checked["figures"]["verdict"], "agree", "{checked}");
+        let claim = TriedClaim::from_document(&Document::load(&certificate).unwrap()).unwrap();
+        let outcome = falsify(&claim, TrialSettings { trials: 6, seed: 3, only: None }, &Silent);
+        let share = |part: &str| {
+            let all = outcome.closest();
+            all.iter().find(|closest| closest.quantity.contains(part)).map(|closest| closest.share).expect("tried")
+        };
+        (claim.control.expect("claimed"), [share("sup|u|"), share("|u - u_p|")])
+    };
+    let (plain, shares) = found(1.0);
+    assert!(shares.iter().all(|share| *share > 0.05 && *share < 1.0), "{shares:?}");
+    for nominal in [0.25, 2.0] {
+        let (control, of_trials) = found(nominal);
+        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
+        assert!(
+            (0..2).all(|i| close(control[i] * nominal, plain[i]) && close(of_trials[i], shares[i])),
+            "{nominal}: {control:?} {of_trials:?}"
+        );
+    }
+}
+
 /// The ends first, then inside; what is tried can be simulated again.
 #[test]
 fn trials_take_the_ends_first() {

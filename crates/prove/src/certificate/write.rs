@@ -207,15 +207,14 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
     let reach = if model.matched { "" } else { " (which need not match the period)" };
     let input_gain = spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high }| {
         format!(
-            " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {}),",
+            " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
             low.text, high.text, nominal.text
         )
     });
     format!(
-        "For every number of oscillators n_o >= 0 and every gain sigma >= {}{}{input_gain} with period T = {}, mu = {} and base \
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}{input_gain}, with period T = {}, mu = {} and base \
          frequency {}{reach}, {}",
         write_exact(sigma),
-        if spec.input_gain.is_some() { "" } else { "," },
         spec.period.text,
         model.mu.text,
         model.base_frequency.text,

@@ -46,27 +46,32 @@ pub fn reduce_sampled(
 ) -> Result<ReducedSampled, PlantRefusal> {
     with_candidates(plant, |candidates, sampled| {
         let starts = starts(candidates, sampled);
+        let by_norms = || {
+            let (along, chosen) = best_by_norms(candidates, &starts, sampled)?;
+            SampledPairs::new(plant, &along, sampled, &chosen)?.reduce(sampling, gain)
+        };
+        // What norms prove of a gain that is given is enough.
+        let of_given = gain.map(|_| by_norms());
+        if let Some(Ok(found)) = of_given {
+            return Ok(found);
+        }
         let straight = straight_by_matrix(&starts, sampled);
         let by_matrix = |known: Option<f64>| {
             let (along, chosen) = straight.as_ref()?;
             MatrixAtSamples::new(sampled, (along, chosen), sampling)?.reduce(gain, known)
         };
+        if let Some(refused) = of_given {
+            return by_matrix(None).map_or(refused, Ok);
+        }
         // As in continuous time, norms are not worth their descent where a matrix inequality does far better from the same start.
         let rough = starts.as_ref().map_or(f64::INFINITY, |(_, rough)| rough.best.proposal.sigma);
         let is_far_better = straight.as_ref().is_some_and(|(_, chosen)| chosen.proposal.sigma < FAR_BETTER * rough);
-        if gain.is_none()
-            && is_far_better
-            && let Some(found) = by_matrix(Some(rough))
-        {
+        if let Some(found) = is_far_better.then(|| by_matrix(Some(rough))).flatten() {
             return Ok(found);
         }
-        let by_norms = best_by_norms(candidates, &starts, sampled)
-            .and_then(|(along, chosen)| SampledPairs::new(plant, &along, sampled, &chosen)?.reduce(sampling, gain));
-        match &by_norms {
-            Ok(_) if gain.is_some() => by_norms,
-            Ok(found) => by_matrix(Some(found.proposal.sigma)).map_or(by_norms, Ok),
-            Err(_) => by_matrix(None).map_or(by_norms, Ok),
-        }
+        let by_norms = by_norms();
+        let known = by_norms.as_ref().ok().map(|found| found.proposal.sigma);
+        by_matrix(known).map_or(by_norms, Ok)
     })
 }
 

@@ -1,4 +1,6 @@
 //! How large the control gets (derivation, 13.5), at the gain of a claim; it grows with the gain, so of a larger one nothing is said.
+//!
+//! Inside of this file u is the control of the law; what an actuator with an input gain is given is that over its nominal value.
 
 use super::harmonics::AtOrigin;
 use super::joint;
@@ -8,13 +10,27 @@ use rug::Rational;
 use sigmastar_exact::real::{Operand, Real};
 use sigmastar_lang::spec::JointStability;
 
-/// Bounds of |u| for every n_o.
+/// Bounds of the |u| that is put out, for every n_o.
 #[derive(Clone, Debug)]
 pub struct Control<R> {
     /// Of |u| along the periodic solution.
     pub steady: R,
     /// Of |u - u_per(t)| of every solution from the claimed set, at all times.
     pub transient: R,
+}
+
+impl<R: Real> Control<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    /// Of the u that is put out: of the law's over the nominal input gain, where there is one.
+    #[must_use]
+    pub fn over(self, nominal: Option<&R>) -> Control<R> {
+        match nominal {
+            Some(nominal) => Control { steady: &self.steady / nominal, transient: &self.transient / nominal },
+            None => self,
+        }
+    }
 }
 
 /// What the control makes of the harmonics of q but for the mean, which it answers by its opposite.

@@ -183,6 +183,8 @@ impl SharpEvaluation {
         };
         let by_parts = control::by_parts(data, [&sigma, &data.mu], [&periodic.e_per, &z]);
         let steady = control::Answer::continuous(data).steady(&origin, &periodic.forcing, &by_parts);
+        let nominal = data.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(data.precision));
+        let control = Control { steady, transient }.over(nominal.as_ref());
         let by_matrix = match (joint, inequality) {
             (Some(joint), _) => Some((number(&joint.inequality.value), "section 13.7, (Jm)")),
             (None, Some(inequality)) => Some((number(&inequality.value), "section 13.7, (M)")),
@@ -205,7 +207,7 @@ impl SharpEvaluation {
             error_box,
             decay,
             by_matrix,
-            control: Control { steady, transient },
+            control,
             conditions,
         }
     }

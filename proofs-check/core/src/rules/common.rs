@@ -112,7 +112,7 @@ impl Free {
         (error_box, reach, Evaluated { sizes, control, conditions, transfer, arguments })
     }
 
-    /// C4 of U, at dX, dE, dZ, and how far the control goes from there where it is -sigma e + mu M'N zeta.
+    /// C4 of U, at dX, dE, dZ, and how far the control -sigma e + mu M'N zeta goes from there; `of_u`: sigma and mu.
     pub fn level(&self, d: &Data<'_>, reach: &[Interval; 3], of_u: [&Interval; 2]) -> (Condition, Interval) {
         let [d_x, d_e, w_x, h] = [&self.d_x, &self.d_e, &self.w_x, &self.h].map(|value| d.number(value));
         let [start, exit] = level(d, reach, [&d_x, &d_e, &w_x, &h]);

@@ -1,7 +1,8 @@
 //! How large the control of a proved claim gets (docs/mathematics.md, section 13.5), at the gain of the claim and no other.
 //!
 //! Guarantee: |u| of the periodic solution is at most `steady` for every n_o, and every solution from the claimed set has
-//! |u - u_per| <= `transient` at all times.
+//! |u - u_per| <= `transient` at all times. Of an actuator with an input gain that is so of what it is given, the control of the law over
+//! the nominal gain ([`put_out`]); before, u is that of the law.
 
 use crate::data::Data;
 use crate::interval::Interval;
@@ -48,6 +49,14 @@ pub struct Along {
     pub inputs: [[Interval; 2]; 2],
     /// C_0, 2 sum_{k>=1} C_k, r_0 and r_1, where `q_0` is given.
     pub harmonics: Option<[Interval; 4]>,
+}
+
+/// The bounds of what is put out, from those of the control of the law.
+pub fn put_out(d: &Data<'_>, bounds: [Interval; 2]) -> [Interval; 2] {
+    match &d.spec.input_gain {
+        Some(gain) => bounds.map(|bound| bound / gain.nominal.enclose(d.precision)),
+        None => bounds,
+    }
 }
 
 /// `sigma e_per + mu Nbar Z`.

@@ -5,6 +5,7 @@
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
 use super::common::{Evaluated, Free};
+use super::control;
 use super::existence::{Existence, covers};
 use super::gains::kappas;
 use super::inequality::{Inequality, demand_plant};
@@ -151,7 +152,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
         }
     };
     evaluated.conditions.extend(levels);
-    evaluated.control = [solution.steady.clone(), transient];
+    evaluated.control = control::put_out(d, [solution.steady.clone(), transient]);
     let threshold = match &w.stability {
         Stability::Joint(joint) => {
             evaluated.conditions.extend(joint.conditions(d, &error_box, &w.sigma));

@@ -79,8 +79,8 @@ impl<'a> Law<'a> {
         }
     }
 
-    /// How the control answers the means of q. With g = 2 (1 + theta)/(2 - h sigma): `2/sqrt(4 - g)` for g <= 3, `g - 1` for g >= 3, both at most 2 + (g - 3)_+ near there;
-    /// `sum 1/om_j^2 = (T^2 - h^2)/12` over the samples.
+    /// How the control answers the means of q: with g = 2 (1 + theta)/(2 - h sigma) the factor is `2/sqrt(4 - g)` for g <= 3 and `g - 1` for
+    /// g >= 3, which is 2 at 3 and rises with g; `sum 1/om_j^2 = (T^2 - h^2)/12` over the samples.
     pub fn answer(&self) -> Answer {
         let g = &self.growth * 2 / (2 - &self.share);
         let below = 3 - &g;
