@@ -14,6 +14,7 @@
 
 mod centred;
 mod chart;
+mod climb;
 mod decide;
 mod definite;
 mod directions;

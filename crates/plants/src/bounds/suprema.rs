@@ -1,5 +1,6 @@
 //! Bounds by sampling, in doubles: they guide a search, and nothing rests on them.
 
+use super::climb::{Point, ball_points, climb};
 use super::engine::moves;
 use super::entry::{TABLE, of_table};
 use super::narrow::extreme_errors;
@@ -16,12 +17,6 @@ const TIMES: usize = 64;
 /// Steps of the local search for the largest value, and how often its step is halved: roughly, and for a proof.
 const ROUGH: u32 = 3;
 const FINE: u32 = 14;
-
-/// Moves with the same step, at most.
-const MOVES: u32 = 4;
-
-/// The first step of the local search, in coordinates of the cube.
-const FIRST_STEP: f64 = 0.15;
 
 /// The best points from which a fine local search starts.
 const STARTS: usize = 6;
@@ -108,14 +103,6 @@ struct FloatMatrix {
     harmonics: Vec<[Vec<Vec<f64>>; 2]>,
     /// What serves at every time, where P is constant.
     steady: Option<MatrixAt>,
-}
-
-/// A point of the cube: t/T, y and e/E.
-#[derive(Clone, Debug)]
-struct Point {
-    time: f64,
-    y: Vec<f64>,
-    e: f64,
 }
 
 impl FloatSuprema {
@@ -525,84 +512,6 @@ pub(super) fn keep(best: &mut Vec<(f64, Place)>, count: usize, value: f64, at: P
     best.insert(place, (value, at));
     best.truncate(count);
 }
-
-/// A search along the coordinates with steps that are halved when none of them helps.
-fn climb(
-    mut point: Point,
-    mut value: f64,
-    halvings: u32,
-    errors: bool,
-    mut value_at: impl FnMut(&Point) -> f64,
-) -> f64 {
-    let mut step = FIRST_STEP;
-    for _ in 0..halvings {
-        for _ in 0..MOVES {
-            let mut moved = false;
-            for coordinate in 0..point.y.len() + 2 {
-                for sign in [1.0, -1.0] {
-                    let mut next = point.clone();
-                    match coordinate {
-                        0 => next.time += sign * step / TIME_SCALE,
-                        1 if !errors => continue,
-                        1 => next.e = (next.e + sign * step).clamp(-1.0, 1.0),
-                        _ => {
-                            next.y[coordinate - 2] += sign * step;
-                            let norm = next.y.iter().map(|y| y * y).sum::<f64>().sqrt();
-                            if norm > 1.0 {
-                                next.y.iter_mut().for_each(|y| *y /= norm);
-                            }
-                        }
-                    }
-                    let found = value_at(&next);
-                    if found > value {
-                        (point, value, moved) = (next, found, true);
-                    }
-                }
-            }
-            if !moved {
-                break;
-            }
-        }
-        step /= 2.0;
-    }
-    value
-}
-
-/// A step in time is so much smaller than one in the ball.
-const TIME_SCALE: f64 = 16.0;
-
-/// Points of the unit ball: its centre, the axes and the corners of the cube on the sphere, and points spread evenly.
-fn ball_points(order: usize) -> Vec<Vec<f64>> {
-    match order {
-        0 => vec![Vec::new()],
-        1 => [-1.0, -0.5, 0.0, 0.5, 1.0].map(|y| vec![y]).to_vec(),
-        2 => {
-            let circle = |count: u32, radius: f64| {
-                (0..count).map(move |i| {
-                    let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(count));
-                    vec![radius * cos, radius * sin]
-                })
-            };
-            std::iter::once(vec![0.0, 0.0]).chain(circle(12, 1.0)).chain(circle(6, 0.5)).collect()
-        }
-        _ => {
-            let axis = |i: usize, sign: f64| (0..order).map(|j| if i == j { sign } else { 0.0 }).collect::<Vec<f64>>();
-            let axes = (0..order).flat_map(|i| [axis(i, 1.0), axis(i, -1.0)]);
-            let spread = (1..=SPREAD).map(|k| {
-                // An additive recurrence, as even as square roots of odd numbers make it.
-                let direction: Vec<f64> =
-                    (0..order).map(|j| 2.0 * (f64::from(k) * ((2 * j + 3) as f64).sqrt()).fract() - 1.0).collect();
-                let norm = direction.iter().map(|y| y * y).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
-                let radius = if k % 4 == 0 { 0.5 } else { 1.0 };
-                direction.into_iter().map(|y| radius * y / norm).collect()
-            });
-            std::iter::once(vec![0.0; order]).chain(axes).chain(spread).collect()
-        }
-    }
-}
-
-/// Points in other directions than those of the axes, for three states and more.
-const SPREAD: u32 = 24;
 
 /// The inverse in doubles, by Gauss and Jordan with pivots; without one, entries that are not numbers. Rows may be in units of
 /// their own: they are brought to one size first.
