@@ -220,7 +220,8 @@ pub(super) fn moves(plant: &Plant) -> Option<[Rational; 2]> {
     Some([&one - low.lower_rational()?, one - high.upper_rational()?])
 }
 
-fn is_symmetric(rows: &[Vec<Rational>], order: usize) -> bool {
+/// Whether a matrix by rows is symmetric, and of this order.
+pub(super) fn is_symmetric(rows: &[Vec<Rational>], order: usize) -> bool {
     rows.len() == order
         && rows.iter().all(|row| row.len() == order)
         && (0..order).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]))

@@ -2,7 +2,7 @@
 //! proved.
 
 use super::decide::Decision;
-use super::engine::Engine;
+use super::engine::{Engine, is_symmetric};
 use super::metric_form::MetricForm;
 use super::quantity::Part;
 use super::suprema::FloatSuprema;
@@ -32,10 +32,7 @@ impl Engine {
     pub fn decide_existence(&self, inequality: &ExistenceInequality, effort: usize) -> Decision {
         let ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value } = inequality;
         let order = self.states();
-        let is_symmetric = matrix.len() == order
-            && matrix.iter().all(|row| row.len() == order)
-            && (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
-        if [k_p, c_x, c_y].into_iter().any(|number| *number <= 0) || !is_symmetric {
+        if [k_p, c_x, c_y].into_iter().any(|number| *number <= 0) || !is_symmetric(matrix, order) {
             return Decision { truth: Truth::False, boxes: 0 };
         }
         if *x < 0 || *e < 0 {

@@ -5,7 +5,7 @@ use super::centred::{Centred, Frame, negated};
 use super::chart::{Ball, Chart};
 use super::decide::{Decision, OnBoxes, Values, subdivide};
 use super::definite::{SymmetricValues, Verdict, definite};
-use super::engine::Engine;
+use super::engine::{Engine, is_symmetric};
 use super::quantity::Part;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
@@ -37,11 +37,7 @@ impl Engine {
         let Some(Splitting { matrix, .. }) = splitting else {
             return self.decide_ends(&ends, (Part::All, of_states), effort, |values, moved| form.whole(values, moved));
         };
-        let order = self.states() + 1;
-        let is_symmetric = matrix.len() == order
-            && matrix.iter().all(|row| row.len() == order)
-            && (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
-        if !is_symmetric {
+        if !is_symmetric(matrix, self.states() + 1) {
             return undecided;
         }
         // With the first, F is at least what the second is about.

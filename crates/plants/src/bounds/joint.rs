@@ -1,7 +1,7 @@
 //! The joint inequality (Jm) of existence or of stability (derivation, 13.7): decided with enclosures by subdivision.
 
 use super::decide::Decision;
-use super::engine::Engine;
+use super::engine::{Engine, is_symmetric};
 use super::metric_form::MetricForm;
 use super::quantity::Part;
 use rug::Rational;
@@ -24,10 +24,10 @@ impl Engine {
         let JointInequality { x, e, value, near, far } = inequality;
         let fits = |metric: &Metric| {
             let Metric { matrix, cross, k_p, c_x, c_e, c_y, .. } = metric;
-            let is_symmetric = matrix.len() == self.states()
-                && matrix.iter().all(|row| row.len() == self.states())
-                && (0..self.states()).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
-            is_symmetric && cross.len() == self.states() && [k_p, c_x, c_e, c_y].into_iter().all(|number| *number > 0)
+            let order = self.states();
+            is_symmetric(matrix, order)
+                && cross.len() == order
+                && [k_p, c_x, c_e, c_y].into_iter().all(|number| *number > 0)
         };
         let far_fits = far.weight >= 0 && far.cross.iter().all(|entry| *entry == 0);
         if !fits(near) || !fits(far) || !far_fits || *value <= 0 {

@@ -5,7 +5,7 @@ use super::PRECISION;
 use super::centred::{Centred, Frame};
 use super::decide::{Decision, Values};
 use super::definite::SymmetricValues;
-use super::engine::Engine;
+use super::engine::{Engine, is_symmetric};
 use super::quantity::Part;
 use super::sampled_form::{End, FormNumbers, Less, LoopNumbers, Parts, form};
 use super::sampled_point::SampledEnergy;
@@ -62,10 +62,7 @@ impl Engine {
     pub fn decide_sampled_existence(&self, inequality: &SampledExistence, effort: usize) -> Decision {
         let SampledExistence { x, e, matrix, k_p, c_x, c_e, c_y, gamma, lambda, at } = inequality;
         let order = self.states();
-        let is_symmetric = matrix.len() == order
-            && matrix.iter().all(|row| row.len() == order)
-            && (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
-        if [k_p, c_x, c_e, c_y, gamma, lambda].into_iter().any(|number| *number <= 0) || !is_symmetric {
+        if [k_p, c_x, c_e, c_y, gamma, lambda].into_iter().any(|number| *number <= 0) || !is_symmetric(matrix, order) {
             return Decision { truth: Truth::False, boxes: 0 };
         }
         if *x < 0 || *e < 0 {
