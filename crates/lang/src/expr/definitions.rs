@@ -3,7 +3,7 @@
 use super::Expr;
 use super::lex::{TokenKind, tokens};
 use super::names::{Scope, is_taken};
-use super::syntax::{Argument, Node, NodeKind};
+use super::syntax::{Argument, Node};
 use super::{ExprError, Variables, parse::parse};
 
 /// The longest name of a state or a parameter, in bytes.
@@ -158,18 +158,6 @@ impl Scope for Constants<'_> {
     fn instead_of(&self, name: &str) -> Option<&'static str> {
         Variables::None.instead_of(name)
     }
-}
-
-/// The operation of a constant as one among expressions with variables; none of a constant is a variable.
-pub(super) fn carried<V>(node: &Node) -> Option<NodeKind<V>> {
-    Some(match &node.kind {
-        NodeKind::Number(value) => NodeKind::Number(value.clone()),
-        NodeKind::Pi => NodeKind::Pi,
-        NodeKind::Unary(operation) => NodeKind::Unary(*operation),
-        NodeKind::Binary(operation) => NodeKind::Binary(*operation),
-        NodeKind::Power(exponent) => NodeKind::Power(*exponent),
-        NodeKind::Variable(_) => return None,
-    })
 }
 
 #[cfg(test)]

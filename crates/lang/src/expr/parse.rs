@@ -10,12 +10,11 @@
 //!
 //! Which names are variables is the [`Scope`]'s to say.
 
-use super::definitions::carried;
 use super::exact::Constants;
 use super::lex::{Token, TokenKind, tokens};
 use super::monomial::Monomial;
 use super::names::{FOLDED, Scope, UNARY, is_taken, suggest};
-use super::syntax::{Binary, Node, NodeKind, Unary, step};
+use super::syntax::{Binary, Node, NodeKind, Unary, carried, step};
 use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT};
 use sigmastar_exact::number::parse_decimal;
 use std::ops::Range;

@@ -30,6 +30,18 @@ pub(super) enum NodeKind<V = Argument> {
     Power(i32),
 }
 
+/// The operation of a constant as one among expressions with variables; none of a constant is a variable.
+pub(super) fn carried<V>(node: &Node) -> Option<NodeKind<V>> {
+    Some(match &node.kind {
+        NodeKind::Number(value) => NodeKind::Number(value.clone()),
+        NodeKind::Pi => NodeKind::Pi,
+        NodeKind::Unary(operation) => NodeKind::Unary(*operation),
+        NodeKind::Binary(operation) => NodeKind::Binary(*operation),
+        NodeKind::Power(exponent) => NodeKind::Power(*exponent),
+        NodeKind::Variable(_) => return None,
+    })
+}
+
 /// Operations on one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unary {
