@@ -27,8 +27,8 @@ fn example(named: bool) -> Value {
     };
     plant["f"][0] = put("- k * x1 + sqrt(3)*x2 + sin(x2)/10 + sin(2*pi*t)").into();
     plant["f"][1] = put("-sqrt(3)*x1 - x2 + c * x2^ two + x2*e + cos(4*pi*t)*(1 + sin(2*pi*t))").into();
-    plant["initial_set"] = json!({ "kind": "at-rest", "X0": put("k * m"), "E0": put(" c * 5") });
-    plant["domain"] = json!({ "x": "20", "e": put(" m * 20") });
+    plant["initial_set"] = json!({ "kind": "at-rest", "X0": put("k * m").trim(), "E0": put("c * 5").trim() });
+    plant["domain"] = json!({ "x": "20", "e": put("m * 20").trim() });
     plant["internal_model"]["mu"] = put("m ").trim().into();
     if named {
         plant["parameters"] = parameters.map(|(name, value)| (name.to_owned(), json!(value))).into_iter().collect();
@@ -44,8 +44,12 @@ fn example(named: bool) -> Value {
 fn certified(folder: &TempDir, plant: &Value) -> (PathBuf, Value) {
     let (file, certificate) = (folder.path().join("plant.json"), folder.path().join("certificate.json"));
     std::fs::write(&file, plant.to_string()).unwrap();
-    let output =
-        program().arg("certify").arg(&file).args(["--quiet", "--format", "json", "-o"]).arg(&certificate).output();
+    let output = program()
+        .arg("certify")
+        .arg(&file)
+        .args(["--quiet", "--force", "--format", "json", "-o"])
+        .arg(&certificate)
+        .output();
     let output = output.unwrap();
     assert_eq!(
         output.status.code(),

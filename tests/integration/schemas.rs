@@ -237,6 +237,7 @@ fn plants() -> Vec<Value> {
     vec![
         with(file, &[("$schema", json!("x")), ("initial", start)]),
         with(file, &[("internal_model", explicit)]),
+        with(file, &[("parameters", json!({ "k": "1/5", "J": 2 }))]),
         set(json!({ "kind": "paper" })),
         set(json!({ "kind": "at-rest" })),
         set(json!({ "kind": "at-rest", "ball": 1, "E0": 1 })),
@@ -251,7 +252,9 @@ fn studies() -> Vec<Value> {
     let latin = json!([{ "pointer": "/period", "name": "T", "linear": { "from": 1, "to": 2 } },
         { "pointer": "/name", "values": ["a", 1, true] }]);
     let embedded = parsed(&Path::new(ROOT).join("specs/linear.json"));
+    let named = json!([{ "parameter": "k", "values": [1, "3/2"] }]);
     vec![
+        with(file, &[("parameters", named)]),
         with(file, &[("$schema", json!("x")), ("derivation", json!("sharp")), ("subject", embedded)]),
         with(file, &[("parameters", logarithmic), ("sampling_period", json!("1/9"))]),
         with(file, &[("design", json!("latin")), ("count", json!(3)), ("seed", json!(1)), ("parameters", latin)]),
@@ -352,7 +355,7 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     properties_of(&schema, &mut all);
     let unused: Vec<_> = all.difference(&used).map(String::as_str).collect();
     // Parts of embedded files that these have not; the readers of those are held against the same tables above.
-    let embedded = ["a", "f_x", "q_e_max", "q_te", "q_tx", "rate", "relative_degree", "values", "z"];
+    let embedded = ["a", "f_x", "parameters", "q_e_max", "q_te", "q_tx", "rate", "relative_degree", "values", "z"];
     let rest: Vec<&str> = unused.into_iter().filter(|name| !embedded.contains(name)).collect();
     assert!(rest.is_empty(), "{rest:?}");
     // A field more, anywhere: refused.
