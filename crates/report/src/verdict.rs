@@ -126,7 +126,10 @@ pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, furthe
             spec.state_name()
                 .map_or_else(|| format!(", for |e| <= {e}"), |_| format!(", for |x - x_0| <= {x}, |e| <= {e}"))
         });
-        return format!("that these formulas are the plant{domain}");
+        return match members(plant) {
+            None => format!("that these formulas are the plant{domain}"),
+            Some(members) => format!("that these formulas, with {members}, are the plant{domain}"),
+        };
     }
     let [used, further] = [used, further].map(|some| some.map(|arguments| arguments.each_ref().map(upper)));
     let of_the_zero_dynamics = match &spec.lyapunov {

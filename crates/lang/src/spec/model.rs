@@ -6,7 +6,7 @@ use super::document::Document;
 use super::of_plant::OfPlant;
 pub use super::parts::{
     Constant, Domain, InitialSet, Jacobian, JacobianEntry, KnownForcing, Lyapunov, PeriodicMatrix, RelativeDegree,
-    SIZES, StartSizes, TrigonometricVector,
+    OrbitCurve, SIZES, StartSizes, TrigonometricVector,
 };
 use super::sampling::{PRECISION, SampledGain, Sampling};
 use super::weights::Weights;

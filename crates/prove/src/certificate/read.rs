@@ -114,7 +114,7 @@ fn claim_part(value: &Value<'_>, errors: &mut Errors) -> Result<(Rational, Claim
         let error = regulator.error(ErrorKind::UnknownField, message);
         return Err(errors.report(error.help("`certify --witness`, `controller` and `check` take it")));
     }
-    for unused in ["verdict", "n_o", "mu", "periodic_solution", "statement"] {
+    for unused in ["verdict", "n_o", "mu", "parameters", "periodic_solution", "statement"] {
         let _ = claim.optional(unused);
     }
     let derivation = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {

@@ -9,9 +9,7 @@ use crate::search::{FloatModel, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
-use sigmastar_lang::spec::{
-    OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
-};
+use sigmastar_lang::spec::{OfPlant, OrbitCurve, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification};
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
 use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, prove_forcing, prove_orbit};
 use sigmastar_theory::data::Data;
@@ -46,7 +44,7 @@ pub(super) struct Along {
 
 pub(super) fn along(
     plant: &Plant,
-    curve: &TrigonometricVector,
+    curve: &OrbitCurve,
     coordinates: &Coordinates,
 ) -> Result<Along, PlantRefusal> {
     let orbit = prove_orbit(plant, curve, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
@@ -103,7 +101,7 @@ impl Along {
 fn engine_around(
     plant: &Plant,
     Coordinates { l, p, .. }: &Coordinates,
-    (orbit, radius): (&TrigonometricVector, &Rational),
+    (orbit, radius): (&OrbitCurve, &Rational),
     existence: Option<PeriodicMatrix>,
 ) -> Result<Engine, PlantRefusal> {
     let region = Region::new(l.clone(), orbit.clone(), radius.clone());
