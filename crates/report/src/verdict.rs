@@ -9,6 +9,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::model::{Lyapunov, LyapunovSource};
 use sigmastar_lang::spec::{Bound, Specification};
+use sigmastar_prove::certificate::members;
 use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_theory::transfer::TransferProof;
 
@@ -19,11 +20,14 @@ pub fn sentence(run: &Certification<'_>) -> String {
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
             "Certified: with sigma = {} (or any larger), mu = {} and base frequency {}, for every number of oscillators \
-             n_o >= 0, every solution that starts, at any time, from {} converges exponentially to a T-periodic solution, \
+             n_o >= 0{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic solution, \
              T = {}.",
             exact(sigma, Direction::Up),
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
+            spec.plant()
+                .and_then(members)
+                .map_or_else(String::new, |members| format!(" and every plant with {members}")),
             words::set(spec, set),
             clean(&spec.period.text),
         ),

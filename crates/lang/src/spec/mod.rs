@@ -52,8 +52,8 @@ pub use joint_inequality::{JointInequality, JointStability, Level, Metric};
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use matrix_inequality::{MatrixInequality, Splitting};
 pub use model::{
-    Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
-    OrbitCurve, RelativeDegree, SIZES, Specification, StartSizes, TrigonometricVector,
+    Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, OrbitCurve,
+    PeriodicMatrix, RelativeDegree, SIZES, Specification, StartSizes, TrigonometricVector,
 };
 pub use notation::Notation;
 pub use object::choose;

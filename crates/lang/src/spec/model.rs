@@ -5,8 +5,8 @@ use super::bounding::Bounds;
 use super::document::Document;
 use super::of_plant::OfPlant;
 pub use super::parts::{
-    Constant, Domain, InitialSet, Jacobian, JacobianEntry, KnownForcing, Lyapunov, PeriodicMatrix, RelativeDegree,
-    OrbitCurve, SIZES, StartSizes, TrigonometricVector,
+    Constant, Domain, InitialSet, Jacobian, JacobianEntry, KnownForcing, Lyapunov, OrbitCurve, PeriodicMatrix,
+    RelativeDegree, SIZES, StartSizes, TrigonometricVector,
 };
 use super::sampling::{PRECISION, SampledGain, Sampling};
 use super::weights::Weights;

@@ -225,9 +225,7 @@ impl Chart {
         };
         let t = if self.time { coordinate(0, &self.period) } else { undefined() };
         let e = match &self.error {
-            Some(bound) => {
-                coordinate(sides - 1 - self.parameters.len(), &Enclosure::from_rational(bound, PRECISION))
-            }
+            Some(bound) => coordinate(sides - 1 - self.parameters.len(), &Enclosure::from_rational(bound, PRECISION)),
             None => undefined(),
         };
         let first = usize::from(self.time);
@@ -235,10 +233,8 @@ impl Chart {
         let mut deviations = vec![None; self.count];
         let mut p = vec![undefined(); self.count];
         for (place, axis) in self.parameters.iter().enumerate() {
-            let varied = coordinate(
-                sides - self.parameters.len() + place,
-                &Enclosure::from_rational(&axis.half, PRECISION),
-            );
+            let varied =
+                coordinate(sides - self.parameters.len() + place, &Enclosure::from_rational(&axis.half, PRECISION));
             let deviation = frame.add(&frame.rational(&axis.offset), &varied);
             p[axis.index] = frame.add(&frame.rational(&axis.nominal), &deviation);
             deviations[axis.index] = Some(deviation);

@@ -63,7 +63,12 @@ pub(super) fn bound(
 }
 
 /// D_i for each parameter.
-fn derivatives_in_parameters(curve: &Curve, slopes: &Walk, cell: usize, states: &[Vec<Taylor>; 2]) -> Vec<[Vec<Taylor>; 2]> {
+fn derivatives_in_parameters(
+    curve: &Curve,
+    slopes: &Walk,
+    cell: usize,
+    states: &[Vec<Taylor>; 2],
+) -> Vec<[Vec<Taylor>; 2]> {
     let sensitivities = curve.sensitivities(cell, ORDER + 1);
     if sensitivities.is_empty() {
         return Vec::new();
@@ -76,9 +81,8 @@ fn derivatives_in_parameters(curve: &Curve, slopes: &Walk, cell: usize, states: 
             (0..n)
                 .map(|row| {
                     let own = combine(&values[which][n * (n + i) + row], &slope(&part[which][row], &curve.period), -1);
-                    (0..n).fold(own, |sum, j| {
-                        combine(&sum, &mul(&values[which][n * row + j], &part[which][j], ORDER), 1)
-                    })
+                    (0..n)
+                        .fold(own, |sum, j| combine(&sum, &mul(&values[which][n * row + j], &part[which][j], ORDER), 1))
                 })
                 .collect()
         })

@@ -79,7 +79,12 @@ fn find_one(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
     }
     let mut field = Field::new(plant);
     if n == 0 {
-        return Ok(FloatOrbit { series: FloatSeries::zero(0), defect: 0.0, floquet: Vec::new(), sensitivities: Vec::new() });
+        return Ok(FloatOrbit {
+            series: FloatSeries::zero(0),
+            defect: 0.0,
+            floquet: Vec::new(),
+            sensitivities: Vec::new(),
+        });
     }
     // Another start may lead to another orbit: the first that is stable is taken, and the first failure told.
     let own = |mean: &[f64]| field.own(&FloatSeries::constant(mean)).mean;

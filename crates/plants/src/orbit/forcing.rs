@@ -54,9 +54,8 @@ fn harmonics_of(plant: &Plant, orbit: &TrigonometricVector) -> FloatSeries {
 /// intervals are known, by quotients of differences. `None` where q is not finite.
 fn propose(plant: &Plant, orbit: &OrbitCurve) -> Option<(Wave, Vec<Wave>)> {
     let nominal = plant.parameters.nominal();
-    let of_member = |values: &[Rational]| {
-        harmonics_of(&plant.member(values), &orbit.at(&plant.parameters.deviations(values)))
-    };
+    let of_member =
+        |values: &[Rational]| harmonics_of(&plant.member(values), &orbit.at(&plant.parameters.deviations(values)));
     let series = of_member(&nominal);
     let pairs: Vec<[f64; 2]> = series.harmonics.iter().map(|[a, b]| [a[0], b[0]]).collect();
     let mean = series.mean[0];
@@ -124,8 +123,7 @@ pub fn prove_forcing(
     let around = Around::new(plant, &proved.orbit, coordinates)?;
     let none = OrbitNotProved::Shape("q(t,xb,0) is not finite in floating point");
     let (Wave { mean, harmonics }, sensitivities) = propose(plant, &proved.orbit).ok_or_else(|| none.clone())?;
-    let mut forcing =
-        ProvedForcing { mean, harmonics, sensitivities, rest: Rational::new(), rest_t: Rational::new() };
+    let mut forcing = ProvedForcing { mean, harmonics, sensitivities, rest: Rational::new(), rest_t: Rational::new() };
     let sizes = sampled_rests(plant, &proved.orbit, &forcing);
     let [rest, rest_t] = rests(&around, &forcing, proved, sizes.map(|size| CLOSE * size))?;
     let up = |bound: &Enclosure| round_f64(bound.upper_f64(), DIGITS, Direction::Up).ok_or_else(|| none.clone());
@@ -200,7 +198,8 @@ fn rests(
     proved: &OrbitProof,
     enough: [f64; 2],
 ) -> Result<[Enclosure; 2], OrbitNotProved> {
-    let of_forcing = forcing.sensitivities.iter().map(|part| part.harmonics.len()).fold(forcing.harmonics.len(), usize::max);
+    let of_forcing =
+        forcing.sensitivities.iter().map(|part| part.harmonics.len()).fold(forcing.harmonics.len(), usize::max);
     if of_forcing > MAX_HARMONICS {
         return Err(OrbitNotProved::Shape("too many harmonics"));
     }
@@ -280,7 +279,8 @@ fn rests_on(
     exponent: u32,
 ) -> Result<([Enclosure; 2], [Enclosure; 2]), OrbitNotProved> {
     let n = around.plant.states();
-    let of_wave = |mean: &Rational, harmonics: &[[Rational; 2]]| wave(mean, harmonics.iter().map(|pair| [&pair[0], &pair[1]]));
+    let of_wave =
+        |mean: &Rational, harmonics: &[[Rational; 2]]| wave(mean, harmonics.iter().map(|pair| [&pair[0], &pair[1]]));
     let qb = of_wave(&forcing.mean, &forcing.harmonics);
     let parts: Vec<_> = forcing.sensitivities.iter().map(|part| of_wave(&part.mean, &part.harmonics)).collect();
     let curve = around.curve(exponent, std::iter::once(&qb).chain(&parts));
@@ -332,7 +332,8 @@ fn rests_on(
             if !curve.in_box(&formulas.smooth, &time[0], &tube) {
                 return [(); 4].map(|()| Enclosure::undefined(PRECISION));
             }
-            let mut natural = Enclosing { t: &time[0], x: &tube, e: &zero, p: &parameters.values, precision: PRECISION };
+            let mut natural =
+                Enclosing { t: &time[0], x: &tube, e: &zero, p: &parameters.values, precision: PRECISION };
             let rows = formulas.derivatives.evaluate(&mut natural);
             let [of_q, of_d] = [norm_of(&rows[..n]), norm_of(&rows[n..])];
             let [rest, rest_t] = [&radius * &of_q, &radius * of_d + &defect * of_q];

@@ -217,11 +217,7 @@ impl<'a> Around<'a> {
 ///
 /// # Errors
 /// [`OrbitNotProved`]; nothing is claimed then.
-pub fn prove_orbit(
-    plant: &Plant,
-    orbit: &OrbitCurve,
-    coordinates: &Coordinates,
-) -> Result<OrbitProof, OrbitNotProved> {
+pub fn prove_orbit(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates) -> Result<OrbitProof, OrbitNotProved> {
     let around = Around::new(plant, orbit, coordinates)?;
     if plant.states() == 0 {
         let one = || Rational::from(1);

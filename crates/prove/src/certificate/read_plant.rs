@@ -7,8 +7,9 @@ use super::triple::{EXISTENCE, STABILITY};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, OrbitCurve, ProvedForcing,
-    ProvedOrbit, ProvedValue, ProvedValues, Reported, SpecErrors, Splitting, TrigonometricVector, Value, Wave,
+    Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, OrbitCurve,
+    ProvedForcing, ProvedOrbit, ProvedValue, ProvedValues, Reported, SpecErrors, Splitting, TrigonometricVector, Value,
+    Wave,
 };
 use sigmastar_plants::lyapunov::ProvedTriple;
 

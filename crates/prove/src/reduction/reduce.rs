@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
-use sigmastar_lang::spec::{OfPlant, PeriodicMatrix, ProvedValues, Specification, OrbitCurve};
+use sigmastar_lang::spec::{OfPlant, OrbitCurve, PeriodicMatrix, ProvedValues, Specification};
 use sigmastar_plants::bounds::{Asked, Engine, Region};
 use sigmastar_plants::orbit::{
     self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
