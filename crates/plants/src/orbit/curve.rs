@@ -1,16 +1,13 @@
 //! Formulas along the curve xb(t): their Taylor series on each cell of the period.
 
+pub(super) use super::cells::PRECISION;
 use super::cells::{Cells, Wave};
 use super::members::Members;
 use super::recurrences::combine;
 use super::taylor::{Taylor, TaylorAlgebra};
-use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::Walk;
-use sigmastar_lang::spec::{Constant, TrigonometricVector};
-
-/// The precision of the enclosures, in bits: cells lose a dozen of them, and a defect is some 40 below the terms.
-pub(super) const PRECISION: u32 = 96;
+use sigmastar_lang::spec::Constant;
 
 /// The most harmonics of a curve, of a P and of q that are expanded.
 pub const MAX_HARMONICS: usize = 1_000;
@@ -21,18 +18,6 @@ pub(super) struct Curve {
     pub(super) members: Members,
     /// T.
     pub(super) period: Enclosure,
-}
-
-/// Rational coefficients as a wave.
-pub(super) fn wave<'a>(mean: &Rational, harmonics: impl Iterator<Item = [&'a Rational; 2]>) -> Wave {
-    let enclose = |value: &Rational| Enclosure::from_rational(value, PRECISION);
-    Wave { mean: enclose(mean), harmonics: harmonics.map(|pair| pair.map(enclose)).collect() }
-}
-
-/// The components of a vector as waves.
-pub(super) fn waves(vector: &TrigonometricVector) -> Vec<Wave> {
-    let component = |i: usize| wave(&vector.mean[i], vector.harmonics.iter().map(|[a, b]| [&a[i], &b[i]]));
-    (0..vector.mean.len()).map(component).collect()
 }
 
 impl Curve {

@@ -1,7 +1,8 @@
 //! The harmonics of q(t, x_0, 0) (derivation, 11.4): proposed in doubles, the rest proved.
 
+use super::cells::wave;
 use super::coordinates::Coordinates;
-use super::curve::{MAX_HARMONICS, PRECISION, wave};
+use super::curve::{MAX_HARMONICS, PRECISION};
 use super::defect::{CELLS, CLOSE, ORDER, first_exponent, largest};
 use super::failure::OrbitNotProved;
 use super::field::Field;

@@ -1,8 +1,8 @@
 //! The members of a family of plants and the curve that follows them (derivation, 13.2), in enclosures. A single plant is a
 //! family of no parameters.
 
-use super::cells::Wave;
-use super::curve::{PRECISION, waves};
+use super::cells::{PRECISION, Wave, waves};
+
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::Plant;

@@ -1,8 +1,8 @@
 //! The proof of the orbit (derivation, 11.2).
 
-use super::cells::Wave;
+use super::cells::{Wave, wave};
 use super::coordinates::Coordinates;
-use super::curve::{Curve, MAX_HARMONICS, PRECISION, wave};
+use super::curve::{Curve, MAX_HARMONICS, PRECISION};
 use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent};
 use super::failure::OrbitNotProved;
 use super::linear::enclosed;
