@@ -27,8 +27,8 @@ fn example(named: bool) -> Value {
     };
     plant["f"][0] = put("- k * x1 + sqrt(3)*x2 + sin(x2)/10 + sin(2*pi*t)").into();
     plant["f"][1] = put("-sqrt(3)*x1 - x2 + c * x2^ two + x2*e + cos(4*pi*t)*(1 + sin(2*pi*t))").into();
-    plant["initial_set"] = json!({ "kind": "at-rest", "X0": put("k * m"), "E0": put(" c * 5") });
-    plant["domain"] = json!({ "x": "20", "e": put(" m * 20") });
+    plant["initial_set"] = json!({ "kind": "at-rest", "X0": put("k * m").trim(), "E0": put("c * 5").trim() });
+    plant["domain"] = json!({ "x": "20", "e": put("m * 20").trim() });
     plant["internal_model"]["mu"] = put("m ").trim().into();
     if named {
         plant["parameters"] = parameters.map(|(name, value)| (name.to_owned(), json!(value))).into_iter().collect();
@@ -51,7 +51,13 @@ fn certified(folder: &TempDir, plant: &Value) -> (PathBuf, Value) {
         .arg(&certificate)
         .output();
     let output = output.unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}{}",
+        String::from_utf8_lossy(&output.stderr),
+        String::from_utf8_lossy(&output.stdout)
+    );
     (certificate, json(&output.stdout))
 }
 
@@ -73,16 +79,13 @@ fn a_parameter_is_its_number() {
         let fields = certificate.as_object_mut().unwrap();
         fields.remove("plant");
         fields.remove("plant_sha256");
-        // A number in parentheses and one without.
-        let domain = |text: &str| text.replace("(3 - 2)", "m").replace("  ", " ");
-        let statement = fields["claim"]["statement"].as_str().map(domain);
+        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let statement = fields["claim"]["statement"].as_str().map(words);
         fields["claim"]["statement"] = statement.into();
     }
     let [with, without] = &certificates;
-    assert_eq!(with["claim"]["sigma_star"], without["claim"]["sigma_star"]);
+    assert_eq!(with["claim"], without["claim"]);
     assert_eq!(with["witness"], without["witness"]);
-    assert_eq!(with["claim"]["initial_set"], without["claim"]["initial_set"]);
-    assert_eq!(with["claim"]["periodic_solution"], without["claim"]["periodic_solution"]);
 }
 
 /// A certificate is of the numbers that stand in it.
@@ -178,4 +181,106 @@ weights = { family = "power", n0 = "2", epsilon = "1/2" }
     let gain = |line: &Value| line["sigma_star"].as_str().and_then(|text| text.parse::<f64>().ok()).expect("a gain");
     assert_eq!((&lines[1]["values"], &lines[2]["values"]), (&json!(["1"]), &json!(["3"])));
     assert!(gain(&lines[1]) > 0.0 && gain(&lines[2]) > 0.0);
+}
+
+/// The paper's example with two numbers in intervals.
+fn family(k: [&str; 2], c: [&str; 2]) -> Value {
+    let mut plant = shipped("paper-example");
+    for (side, number, name) in [(0, "x1/5", "k*x1"), (1, "x2^2/10", "c*x2^2")] {
+        plant["f"][side] = plant["f"][side].as_str().unwrap().replacen(number, name, 1).into();
+    }
+    let interval = |nominal: &str, [low, high]: [&str; 2]| json!({ "nominal": nominal, "low": low, "high": high });
+    plant["parameters"] = json!({ "k": interval("1/5", k), "c": interval("1/10", c) });
+    plant
+}
+
+/// What the certificate of a plant is refused with when another plant is asked for with its witness.
+fn with_witness(folder: &TempDir, certificate: &Path, plant: &Value) -> Value {
+    let file = folder.path().join("other.json");
+    std::fs::write(&file, plant.to_string()).unwrap();
+    let call = program()
+        .arg("certify")
+        .arg(&file)
+        .args(["--quiet", "--format", "json", "--witness"])
+        .arg(certificate)
+        .output();
+    json(&call.unwrap().stdout)
+}
+
+/// One gain for every member, not far above that of the nominal plant; the witness is decided again, for a narrower box too, and not
+/// for a wider one.
+#[test]
+fn a_family_is_certified_and_decided_again() {
+    let folder = TempDir::new().unwrap();
+    let plant = family(["0.18", "0.22"], ["0", "0.2"]);
+    let (file, report) = certified(&folder, &plant);
+    let sigma: f64 = report["sigma_star"].as_str().and_then(|text| text.parse().ok()).expect("a gain");
+    // By norms 9.15 were expected; (M) takes less.
+    assert!(sigma > 6.1 && sigma < 8.0, "{sigma}");
+    let certificate = json(&std::fs::read(&file).unwrap());
+    assert_eq!(certificate["claim"]["parameters"]["c"], json!({ "nominal": "0.1", "low": "0", "high": "0.2" }));
+    let statement = certificate["claim"]["statement"].as_str().unwrap();
+    assert!(
+        statement
+            .contains("every plant of these formulas with a constant k in [0.18, 0.22] and a constant c in [0, 0.2]")
+    );
+    for part in ["orbit", "forcing"] {
+        assert_eq!(certificate["witness"][part]["sensitivities"].as_array().map(Vec::len), Some(2), "{part}");
+    }
+    assert_eq!(with_witness(&folder, &file, &plant)["verdict"], "certified");
+    assert_eq!(with_witness(&folder, &file, &family(["0.19", "0.21"], ["0.05", "0.15"]))["verdict"], "certified");
+    assert_ne!(with_witness(&folder, &file, &family(["0.1", "0.3"], ["0", "0.2"]))["verdict"], "certified");
+    // The checker takes no family yet, and says so by its exit.
+    assert_ne!(checked(&file)["verdict"], "valid");
+}
+
+/// An interval of one point is a number.
+#[test]
+fn a_family_of_one_point_is_its_plant() {
+    let folder = TempDir::new().unwrap();
+    let (_, report) = certified(&folder, &family(["1/5", "1/5"], ["0.1", "0.1"]));
+    let mut plain = family(["1/5", "1/5"], ["0.1", "0.1"]);
+    plain["parameters"] = json!({ "k": "1/5", "c": "1/10" });
+    let (_, other) = certified(&folder, &plain);
+    assert_eq!(report["sigma_star"], other["sigma_star"]);
+}
+
+#[test]
+fn what_is_wrong_with_intervals_is_told() {
+    use ErrorKind::{Expression, MissingField, Range};
+    let with = |interval: Value| {
+        let mut plant = family(["0.18", "0.22"], ["0", "0.2"]);
+        plant["parameters"]["k"] = interval;
+        plant
+    };
+    let mut in_a_constant = with(json!({ "nominal": 1, "low": 0, "high": 2 }));
+    in_a_constant["domain"] = json!({ "x": "k", "e": 1 });
+    let mut many = with(json!(1));
+    for name in ["k1", "k2", "k3", "k4"] {
+        many["parameters"][name] = json!({ "nominal": 1, "low": 0, "high": 2 });
+    }
+    for (plant, kind, pointer) in [
+        (with(json!({ "nominal": 3, "low": 0, "high": 2 })), Range, "/parameters/k/nominal"),
+        (with(json!({ "nominal": 1, "low": 0 })), MissingField, "/parameters/k/high"),
+        (with(json!({ "nominal": "sqrt(2)", "low": 0, "high": 2 })), Range, "/parameters/k/nominal"),
+        (with(json!({ "nominal": "c", "low": 0, "high": 2 })), Expression, "/parameters/k/nominal"),
+        (in_a_constant, Expression, "/domain/x"),
+        (many, Range, "/parameters"),
+    ] {
+        let errors = Plant::from_json("plant", &plant.to_string()).map(|_| ()).unwrap_err();
+        let found: Vec<_> = errors.errors().iter().map(|error| (error.kind, error.pointer.as_str())).collect();
+        assert_eq!(found, [(kind, pointer)], "{errors}");
+    }
+    let folder = TempDir::new().unwrap();
+    let refused = |plant: Value, more: &[&str], words: &str| {
+        let file = folder.path().join("plant.json");
+        std::fs::write(&file, plant.to_string()).unwrap();
+        let output = program().arg("certify").arg(&file).arg("--quiet").args(more).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(output.status.code() != Some(0) && said.contains(words), "{said}");
+    };
+    let narrow = family(["0.19", "0.21"], ["0.05", "0.15"]);
+    refused(narrow, &["--sampling-period", "1/100"], "intervals of parameters are not available");
+    // A corner whose zero dynamics are unstable.
+    refused(family(["-3", "0.22"], ["0", "0.2"]), &[], "Floquet exponents");
 }

@@ -237,7 +237,7 @@ fn plants() -> Vec<Value> {
     let set = |set: Value| with(file, &[("initial_set", set), ("domain", json!({ "x": 1, "e": 1 }))]);
     vec![
         with(file, &[("$schema", json!("x")), ("initial", start)]),
-        with(file, &[("parameters", json!({ "k": "1/5" }))]),
+        with(file, &[("parameters", json!({ "k": "1/5", "J": { "nominal": 2, "low": 1, "high": 3 } }))]),
         with(file, &[("internal_model", explicit), ("input_gain", json!({ "nominal": 2, "low": 1, "high": 3 }))]),
         set(json!({ "kind": "paper" })),
         set(json!({ "kind": "at-rest" })),
@@ -366,7 +366,22 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     properties_of(&schema, &mut all);
     let unused: Vec<_> = all.difference(&used).map(String::as_str).collect();
     // Parts of embedded files that these have not; the readers of those are held against the same tables above.
-    let embedded = ["a", "f_x", "parameters", "q_e_max", "q_te", "q_tx", "rate", "relative_degree", "values", "z"];
+    let embedded = [
+        "a",
+        "f_x",
+        "high",
+        "low",
+        "nominal",
+        "parameters",
+        "q_e_max",
+        "q_te",
+        "q_tx",
+        "rate",
+        "relative_degree",
+        "sensitivities",
+        "values",
+        "z",
+    ];
     let rest: Vec<&str> = unused.into_iter().filter(|name| !embedded.contains(name)).collect();
     assert!(rest.is_empty(), "{rest:?}");
     // A field more, anywhere: refused.

@@ -8,8 +8,8 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    ExistenceInequality, JointStability, MatrixInequality, OfPlant, ProvedValue, SampledExistence, SampledInequalities,
-    SampledInequality, Specification, Splitting,
+    ExistenceInequality, Interval, JointStability, MatrixInequality, OfPlant, Parameter, ProvedValue, SampledExistence,
+    SampledInequalities, SampledInequality, Specification, Splitting,
 };
 use sigmastar_prove::certificate::{joint_existence_json, joint_stability_json};
 use sigmastar_prove::certify::claimed_ball;
@@ -21,8 +21,19 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     let mut blocks = vec![Block::heading("From the plant's formulas")];
     let parameters = plant.parameters.list();
     if !parameters.is_empty() {
-        let written = parameters.iter().map(|parameter| format!("{} = {}", parameter.name, parameter.value.text));
+        let written = parameters.iter().map(|Parameter { name, value, interval }| match interval {
+            None => format!("{name} = {}", value.text),
+            Some(Interval { low, high, .. }) => {
+                format!("{name} in [{}, {}] (nominal {})", write_exact(low), write_exact(high), value.text)
+            }
+        });
         blocks.push(Block::facts([("parameters", written.collect::<Vec<_>>().join(", "))]));
+    }
+    if parameters.iter().any(|parameter| parameter.interval.is_some()) {
+        blocks.push(Block::says(
+            "Everything below is proved for every value of the parameters in these intervals, each of them constant in time; x_0(t) is that of \
+             the member, and xb(t) follows it as an affine function of the parameters.",
+        ));
     }
     if plant.states() > 0 {
         blocks.push(Block::says(
@@ -134,7 +145,7 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
             "orbit",
             format!(
                 "a trigonometric polynomial with {} harmonics; |L^-1 (x_0 - xb)| <= {} (defect {}, tube {})",
-                orbit.approximation.harmonics.len(),
+                orbit.approximation.harmonics(),
                 up(&orbit.radius),
                 up(&orbit.defect),
                 up(&orbit.tube)
@@ -208,7 +219,7 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
     json!({
         "coordinates": rows(&plant.coordinates),
         "orbit": {
-            "harmonics": plant.orbit.approximation.harmonics.len(), "defect": write_exact(&plant.orbit.defect),
+            "harmonics": plant.orbit.approximation.harmonics(), "defect": write_exact(&plant.orbit.defect),
             "tube": write_exact(&plant.orbit.tube), "radius": write_exact(&plant.orbit.radius),
         },
         "alpha": plant.triple.alpha.text, "ball": ball.as_ref().map(write_exact), "bounds": values,

@@ -78,7 +78,7 @@ impl Readable for OrbitReport<'_> {
         }
         report["coordinates"] = json!(matrix(&coordinates.l));
         report["orbit"] = json!({
-            "harmonics": orbit.orbit.harmonics.len(), "defect": write_exact(&orbit.defect),
+            "harmonics": orbit.orbit.harmonics(), "defect": write_exact(&orbit.defect),
             "tube": write_exact(&orbit.tube), "radius": write_exact(&orbit.radius),
         });
         let tried = candidates.iter().map(|candidate| {

@@ -9,6 +9,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::model::{Lyapunov, LyapunovSource};
 use sigmastar_lang::spec::{Bound, Specification};
+use sigmastar_prove::certificate::members;
 use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_theory::transfer::TransferProof;
 
@@ -25,7 +26,10 @@ pub fn sentence(run: &Certification<'_>) -> String {
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
             words::input_gain(spec)
-                .map_or_else(String::new, |interval| format!(" and every constant input gain from {interval}")),
+                .map(|interval| format!(" and every constant input gain from {interval}"))
+                .into_iter()
+                .chain(spec.plant().and_then(members).map(|members| format!(" and every plant with {members}")))
+                .collect::<String>(),
             words::set(spec, set),
             clean(&spec.period.text),
         ),
@@ -136,7 +140,10 @@ fn assumed_of_the_plant(spec: &Specification, used: Option<[Enclosure; 2]>, furt
             spec.state_name()
                 .map_or_else(|| format!(", for |e| <= {e}"), |_| format!(", for |x - x_0| <= {x}, |e| <= {e}"))
         });
-        return format!("that these formulas are the plant{domain}");
+        return match members(plant) {
+            None => format!("that these formulas are the plant{domain}"),
+            Some(members) => format!("that these formulas, with {members}, are the plant{domain}"),
+        };
     }
     let [used, further] = [used, further].map(|some| some.map(|arguments| arguments.each_ref().map(upper)));
     let of_the_zero_dynamics = match &spec.lyapunov {

@@ -125,6 +125,12 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         may("control", "Control", "Bounds of |u| at the gain of the claim.", Shape::Object(control.into())),
         must("statement", "Statement", "The claim in words.", Shape::Text),
     ]);
+    if of_plant && !sampled {
+        let ends = ["nominal", "low", "high"];
+        let interval = ends.map(|name| must(name, name, "A value of the parameter.", rational()));
+        let text = "The intervals of the parameters: the claim is for every constant value in them.";
+        fields.push(may("parameters", "Parameters", text, Shape::Map(Box::new(Shape::Object(interval.into())))));
+    }
     fields
 }
 
@@ -237,8 +243,14 @@ fn of_data() -> Vec<Field> {
     };
     let vector = || any_list(rational());
     let mut orbit = vec![must("mean", "Mean", "The mean of the approximate orbit.", vector()), harmonics(&vector)];
+    let parts = |part: Vec<Field>| {
+        let text = "How it changes with each parameter of which an interval is given.";
+        may("sensitivities", "Sensitivities", text, any_list(Shape::Object(part)))
+    };
+    orbit.push(parts(vec![must("mean", "Mean", "The mean.", vector()), harmonics(&vector)]));
     orbit.extend(numbers(&["defect", "tube", "radius"], "A size of the proof of the orbit."));
     let mut forcing = vec![must("mean", "Mean", "The mean of q along the orbit.", rational()), harmonics(&rational)];
+    forcing.push(parts(vec![must("mean", "Mean", "The mean.", rational()), harmonics(&rational)]));
     forcing.extend(numbers(&["rest", "rest_t"], "A bound of what the harmonics leave."));
     let names = Bound::ALL.map(Bound::field).to_vec();
     let mut value = vec![must("bound", "Bound", "Which bounding function.", Shape::Word(names))];

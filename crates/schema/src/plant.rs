@@ -19,6 +19,11 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         must("x", "x", "The model holds for |x - x_0(t)| up to this.", POSITIVE),
         must("e", "e", "The model holds for |e| up to this.", POSITIVE),
     ];
+    let interval = vec![
+        must("nominal", "Nominal value", "What is expected, a rational number.", number()),
+        must("low", "Low", "The least value, a rational number.", number()),
+        must("high", "High", "The largest value, a rational number.", number()),
+    ];
     let mut fields = header(FORMAT, &VERSIONS, whole);
     fields.extend([
         must("period", "Period T", "The period of f and q in t, in units of time.", POSITIVE),
@@ -40,7 +45,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
             "Parameters",
             "Constants by their names, which may stand for them in f, q, period, initial, initial_set, domain, and in mu, \
              base_frequency and sampling_period of internal_model; at most 12.",
-            Shape::Map(Box::new(number())),
+            Shape::Map(Box::new(Shape::OneOf(vec![number(), Shape::Object(interval)]))),
         ),
         may(
             "initial",

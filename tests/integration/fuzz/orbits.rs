@@ -42,7 +42,7 @@ fn along(exprs: &[PlantExpr], orbit: &TrigonometricVector, time: &Enclosure) -> 
     let all: Vec<_> = exprs.iter().map(|expr| formulas.insert(expr)).collect();
     let [x, _] = at(orbit, time);
     let zero = Enclosure::zero(PRECISION);
-    formulas.walk(&all).evaluate(&mut Enclosing { t: time, x: &x, e: &zero, precision: PRECISION })
+    formulas.walk(&all).evaluate(&mut Enclosing { t: time, x: &x, e: &zero, p: &[], precision: PRECISION })
 }
 
 fn times() -> impl Iterator<Item = Enclosure> {
@@ -103,7 +103,7 @@ fn fuzz_defects_of_orbits() {
             // sqrt(p_up/p_low) is below 3/2.
             let radius = Rational::from(&defect * 2) / &drawn.alpha[0];
             let tube = Rational::from(&radius * 2).max(drawn.tube.clone());
-            let proof = OrbitProof { orbit: orbit.clone(), defect, radius, tube, ..drawn.proof() };
+            let proof = OrbitProof { orbit: orbit.clone().into(), defect, radius, tube, ..drawn.proof() };
             let producer = decide_orbit(&drawn.plant, &drawn.coordinates(), &proof).is_ok();
             let checker = drawn.checked(&drawn.witness(&proof, [&large, &large], &[])) == Some(true);
             if right {
@@ -129,7 +129,8 @@ fn fuzz_rests_of_the_forcing() {
             let mut rests = [rational("1e9"), rational("1e9")];
             rests[which] = part_of(largest[which], part);
             let [rest, rest_t] = rests.clone();
-            let forcing = ProvedForcing { mean: Rational::new(), harmonics: Vec::new(), rest, rest_t };
+            let forcing =
+                ProvedForcing { mean: Rational::new(), harmonics: Vec::new(), sensitivities: Vec::new(), rest, rest_t };
             let proof = drawn.proof();
             let producer = decide_forcing(&drawn.plant, &drawn.coordinates(), &proof, &forcing).is_ok();
             let checker = drawn.checked(&drawn.witness(&proof, rests.each_ref(), &[])) == Some(true);

@@ -76,7 +76,7 @@ fn repeats(expr: &PlantExpr, period: &Enclosure, random: &mut StdRng) -> bool {
         let (t, x, e) = (any(), [any()], any());
         let later = &t + period;
         let [now, then] = [&t, &later].map(|t| {
-            let mut algebra = Enclosing { t, x: &x, e: &e, precision: PRECISION };
+            let mut algebra = Enclosing { t, x: &x, e: &e, p: &[], precision: PRECISION };
             walk.evaluate(&mut algebra).remove(0)
         });
         // Defined at one and certainly not the same at the other.

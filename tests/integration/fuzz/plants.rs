@@ -201,7 +201,7 @@ impl Drawn {
     /// What is known of the orbit.
     pub fn proof(&self) -> OrbitProof {
         OrbitProof {
-            orbit: self.orbit.clone(),
+            orbit: self.orbit.clone().into(),
             defect: defect(),
             tube: self.tube.clone(),
             radius: radius(),
@@ -226,14 +226,14 @@ impl Drawn {
             })
         };
         let pair = |[cos, sin]: &[Vec<Rational>; 2]| json!({ "cos": row(cos), "sin": row(sin) });
-        let harmonics: Value = proof.orbit.harmonics.iter().map(pair).collect();
+        let harmonics: Value = proof.orbit.centre.harmonics.iter().map(pair).collect();
         let [x, e] = [&self.x, &self.e].map(write_exact);
         let entry =
             |(name, value): &(&str, &Rational)| json!({ "bound": name, "X": x, "E": e, "value": write_exact(value) });
         json!({
             "coordinates": rows(&self.l),
             "orbit": {
-                "mean": row(&proof.orbit.mean), "harmonics": harmonics, "defect": write_exact(&proof.defect),
+                "mean": row(&proof.orbit.centre.mean), "harmonics": harmonics, "defect": write_exact(&proof.defect),
                 "tube": write_exact(&proof.tube), "radius": write_exact(&proof.radius),
             },
             "lyapunov": lyapunov(0),

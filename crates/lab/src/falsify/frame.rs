@@ -31,7 +31,7 @@ impl OwnPlant {
         let coordinates = DMatrix::from_fn(n, n, |i, j| proved.coordinates[i][j].to_f64());
         let inverse = if n == 0 { coordinates.clone() } else { coordinates.clone().try_inverse()? };
         let vector = |values: &[Rational]| DVector::from_iterator(n, values.iter().map(Rational::to_f64));
-        let TrigonometricVector { mean, harmonics } = &proved.orbit.approximation;
+        let TrigonometricVector { mean, harmonics } = &proved.orbit.approximation.centre;
         let harmonics = harmonics.iter().map(|pair| pair.each_ref().map(|part| vector(part))).collect();
         let radius = proved.orbit.radius.to_f64();
         Some(OwnPlant { plant, coordinates, inverse, mean: vector(mean), harmonics, radius })

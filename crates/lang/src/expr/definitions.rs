@@ -6,6 +6,9 @@ use super::names::{Scope, is_taken};
 use super::syntax::{Argument, Node};
 use super::{ExprError, Variables, parse::parse};
 
+/// The most names of variables that stand for a number in an interval.
+pub const MAX_INTERVALS: usize = 4;
+
 /// The longest name of a state or a parameter, in bytes.
 pub(super) const MAX_NAME: usize = 40;
 
@@ -29,6 +32,8 @@ pub(super) fn is_reserved(name: &str) -> bool {
 #[derive(Clone, Debug, Default)]
 pub struct Definitions {
     list: Vec<(String, Expr)>,
+    /// Names of which only an interval is known.
+    intervals: Vec<String>,
 }
 
 /// Two lists are the same when they are written in the same way.
@@ -37,7 +42,7 @@ impl PartialEq for Definitions {
         let written = |all: &Definitions| -> Vec<(String, String)> {
             all.list.iter().map(|(name, value)| (name.clone(), value.text().to_owned())).collect()
         };
-        written(self) == written(other)
+        written(self) == written(other) && self.intervals == other.intervals
     }
 }
 
@@ -61,7 +66,7 @@ impl Definitions {
     /// No names.
     #[must_use]
     pub fn none() -> &'static Definitions {
-        static NONE: Definitions = Definitions { list: Vec::new() };
+        static NONE: Definitions = Definitions { list: Vec::new(), intervals: Vec::new() };
         &NONE
     }
 
@@ -75,6 +80,21 @@ impl Definitions {
         Ok(())
     }
 
+    /// Gives a name to a variable that stands for a number in an interval.
+    ///
+    /// # Errors
+    /// Those of [`Definitions::define`].
+    pub fn define_interval(&mut self, name: &str) -> Result<(), DefinitionError> {
+        self.admits(name)?;
+        self.intervals.push(name.to_owned());
+        Ok(())
+    }
+
+    /// The place of a name among those of intervals.
+    pub(super) fn interval(&self, name: &str) -> Option<usize> {
+        self.intervals.iter().position(|known| known == name)
+    }
+
     /// Whether a constant could have this name.
     ///
     /// # Errors
@@ -86,7 +106,7 @@ impl Definitions {
         if name == "u" || is_reserved(name) {
             return Err(DefinitionError::Reserved);
         }
-        if self.list.iter().any(|(known, _)| known == name) {
+        if self.names().any(|known| known == name) {
             return Err(DefinitionError::Duplicate);
         }
         Ok(())
@@ -94,7 +114,7 @@ impl Definitions {
 
     /// The names, in their order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.list.iter().map(|(name, _)| name.as_str())
+        self.list.iter().map(|(name, _)| name.as_str()).chain(self.intervals.iter().map(String::as_str))
     }
 
     pub(super) fn nodes(&self, name: &str) -> Option<&[Node]> {
@@ -140,6 +160,10 @@ impl Scope for Constants<'_> {
     type Variable = Argument;
 
     fn variable(&self, name: &str) -> Option<Result<Argument, Option<String>>> {
+        if self.definitions.interval(name).is_some() {
+            let help = "of this parameter an interval is given, and one number is needed here";
+            return Some(Err(Some(help.to_owned())));
+        }
         Variables::None.variable(name)
     }
 

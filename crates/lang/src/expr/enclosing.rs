@@ -10,7 +10,7 @@ use sigmastar_exact::enclosure::{Enclosure, Truth};
 /// The algebra of natural interval evaluation on a box of (t, x, e).
 ///
 /// Guarantee: a defined value contains that of the formula at every point of the box, and proves that it has one there. A
-/// state for which there is no interval is undefined.
+/// state or parameter for which there is no interval is undefined.
 #[derive(Clone, Copy, Debug)]
 pub struct Enclosing<'a> {
     /// The time.
@@ -19,6 +19,8 @@ pub struct Enclosing<'a> {
     pub x: &'a [Enclosure],
     /// The error.
     pub e: &'a Enclosure,
+    /// The parameters of which intervals are known.
+    pub p: &'a [Enclosure],
     /// The precision of constants, in bits.
     pub precision: u32,
 }
@@ -50,6 +52,9 @@ impl Operations for Enclosing<'_> {
             PlantVariable::Error => self.e.clone(),
             PlantVariable::State(index) => {
                 self.x.get(index).cloned().unwrap_or_else(|| Enclosure::undefined(self.precision))
+            }
+            PlantVariable::Parameter(index) => {
+                self.p.get(index).cloned().unwrap_or_else(|| Enclosure::undefined(self.precision))
             }
         }
     }
@@ -103,7 +108,7 @@ mod tests {
     fn at(formulas: &Formulas, outputs: &[Formula], point: &[Rational; 4]) -> Vec<Enclosure> {
         let [t, x, y, e] = point.each_ref().map(|value| Enclosure::from_rational(value, 256));
         let x = [x, y];
-        formulas.walk(outputs).evaluate(&mut Enclosing { t: &t, x: &x, e: &e, precision: 256 })
+        formulas.walk(outputs).evaluate(&mut Enclosing { t: &t, x: &x, e: &e, p: &[], precision: 256 })
     }
 
     /// First and second derivatives in all variables against central differences of what they are derivatives of.
@@ -159,7 +164,7 @@ mod tests {
         let (t, x) = (Enclosure::from_integer(2, 64), [3, 4].map(|x| Enclosure::from_integer(x, 64)));
         for number in 1..4 {
             e = Enclosure::from_integer(number, 64);
-            let mut algebra = Enclosing { t: &t, x: &x, e: &e, precision: 64 };
+            let mut algebra = Enclosing { t: &t, x: &x, e: &e, p: &[], precision: 64 };
             let changed = VariableSet::of(PlantVariable::Error);
             assert_eq!(walk.evaluate_again(&mut algebra, &mut memory, changed), walk.evaluate(&mut algebra));
         }

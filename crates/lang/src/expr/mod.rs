@@ -43,7 +43,7 @@ mod syntax;
 mod trigonometric;
 mod walk;
 
-pub use definitions::{DefinitionError, Definitions, occurs};
+pub use definitions::{DefinitionError, Definitions, MAX_INTERVALS, occurs};
 pub use enclosing::{Enclosing, enclosed_step};
 pub use error::{ExprError, ExprErrorKind};
 pub use failure::{BoundingFailure, Counterexample, DomainBox, Evaluation, Property, Reason};

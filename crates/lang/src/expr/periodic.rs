@@ -88,7 +88,7 @@ impl Algebra<PlantVariable> for Prover<'_> {
     fn variable(&mut self, variable: PlantVariable) -> Part {
         match variable {
             PlantVariable::Time => Part::Line(Monomial::rational(Rational::from(1))),
-            PlantVariable::State(_) | PlantVariable::Error => Part::Free(None),
+            PlantVariable::State(_) | PlantVariable::Error | PlantVariable::Parameter(_) => Part::Free(None),
         }
     }
 

@@ -4,7 +4,8 @@ use super::ExprError;
 use super::definitions::{Definitions, is_name, is_reserved};
 use super::names::Scope;
 use super::parse::parse;
-use super::syntax::Node;
+use super::syntax::{Node, NodeKind};
+use rug::Rational;
 use std::fmt;
 use std::sync::Arc;
 use thiserror::Error;
@@ -24,6 +25,8 @@ pub enum PlantVariable {
     State(usize),
     /// The regulated error e.
     Error,
+    /// A parameter of which an interval is known, by its index among these from 0.
+    Parameter(usize),
 }
 
 /// The names of a plant's states, and of constants; t and e are always there.
@@ -119,7 +122,10 @@ impl Scope for PlantNames {
         match name {
             "t" => Some(Ok(PlantVariable::Time)),
             "e" => Some(Ok(PlantVariable::Error)),
-            _ => self.states.iter().position(|state| state == name).map(|index| Ok(PlantVariable::State(index))),
+            _ => {
+                let state = self.states.iter().position(|state| state == name).map(PlantVariable::State);
+                state.or_else(|| self.parameters.interval(name).map(PlantVariable::Parameter)).map(Ok)
+            }
         }
     }
 
@@ -158,6 +164,19 @@ impl PlantExpr {
     pub fn parse(text: &str, names: &PlantNames) -> Result<PlantExpr, ExprError> {
         let nodes = parse(text, names)?;
         Ok(PlantExpr { text: text.into(), nodes: nodes.into() })
+    }
+
+    /// The expression with numbers in the places of the parameters with intervals; those without a number stay.
+    #[must_use]
+    pub fn at(&self, parameters: &[Rational]) -> PlantExpr {
+        let fixed = |node: &Node<PlantVariable>| match &node.kind {
+            NodeKind::Variable(PlantVariable::Parameter(index)) => match parameters.get(*index) {
+                Some(value) => Node { kind: NodeKind::Number(value.clone()), span: node.span.clone() },
+                None => node.clone(),
+            },
+            _ => node.clone(),
+        };
+        PlantExpr { text: self.text.clone(), nodes: self.nodes.iter().map(fixed).collect() }
     }
 
     /// The source text, exactly as it was parsed.

@@ -13,16 +13,18 @@ impl VariableSet {
     pub const NONE: VariableSet = VariableSet(0);
     /// All of them.
     pub const ALL: VariableSet = VariableSet(u128::MAX);
-    /// The states and e.
+    /// The states, e and the parameters.
     pub const ALL_BUT_TIME: VariableSet = VariableSet(u128::MAX - 1);
 
-    /// One variable. There are at most [`super::MAX_STATES`] states, which 126 places hold; more would share the last one.
+    /// One variable. There are at most [`super::MAX_STATES`] states and [`super::MAX_INTERVALS`] parameters, which 118 and 8 places
+    /// hold; more would share the last one.
     #[must_use]
     pub fn of(variable: PlantVariable) -> VariableSet {
         let place = match variable {
             PlantVariable::Time => 0,
             PlantVariable::Error => 1,
-            PlantVariable::State(index) => (2 + index).min(127),
+            PlantVariable::State(index) => (2 + index).min(119),
+            PlantVariable::Parameter(index) => (120 + index).min(127),
         };
         VariableSet(1 << place)
     }

@@ -10,6 +10,7 @@ use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, Program};
 use crate::spec::{
     Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, SpecErrors,
 };
+use rug::Rational;
 use std::ops::Range;
 
 /// A plant as read from its file.
@@ -94,6 +95,29 @@ impl Plant {
         self.source.errors_at(&format!("{}{field}", self.pointer), part, kind, message, help)
     }
 
+    /// Whether there are parameters of which only an interval is known: then it is a family of plants.
+    #[must_use]
+    pub fn is_family(&self) -> bool {
+        self.parameters.intervals().next().is_some()
+    }
+
+    /// The member of the family with these values of the parameters with intervals. Its document is that of the family.
+    #[must_use]
+    pub fn member(&self, values: &[Rational]) -> Plant {
+        Plant {
+            f: self.f.iter().map(|f| f.at(values)).collect(),
+            q: self.q.at(values),
+            parameters: self.parameters.fixed(values),
+            ..self.clone()
+        }
+    }
+
+    /// The nominal values of the parameters with intervals, in doubles.
+    #[must_use]
+    pub fn nominal(&self) -> Vec<f64> {
+        self.parameters.nominal().iter().map(Rational::to_f64).collect()
+    }
+
     /// f and then q.
     fn right_sides(&self) -> Vec<&PlantExpr> {
         self.f.iter().chain([&self.q]).collect()
@@ -110,13 +134,13 @@ impl Plant {
     /// f and q compiled: n + 1 outputs.
     #[must_use]
     pub fn program(&self) -> Program {
-        Program::values(&self.right_sides(), self.states())
+        Program::values(&self.right_sides(), self.states()).with_parameters(&self.nominal())
     }
 
     /// f and q with their derivatives with respect to x and e: (n + 2)(n + 1) outputs, as in
     /// [`Program::with_derivatives`].
     #[must_use]
     pub fn program_with_derivatives(&self) -> Program {
-        Program::with_derivatives(&self.right_sides(), self.states())
+        Program::with_derivatives(&self.right_sides(), self.states()).with_parameters(&self.nominal())
     }
 }

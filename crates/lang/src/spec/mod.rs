@@ -55,14 +55,14 @@ pub use joint_inequality::{JointInequality, JointStability, Level, Metric};
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use matrix_inequality::{MatrixInequality, Splitting};
 pub use model::{
-    Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix,
-    RelativeDegree, SIZES, Specification, StartSizes, TrigonometricVector,
+    Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, OrbitCurve,
+    PeriodicMatrix, RelativeDegree, SIZES, Specification, StartSizes, TrigonometricVector,
 };
 pub use notation::Notation;
 pub use object::choose;
 pub use object::{MAX_UNKNOWN, Object};
-pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit};
-pub use parameters::{MAX_PARAMETERS, Parameter, Parameters, read_parameters};
+pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit, Wave};
+pub use parameters::{Interval, MAX_PARAMETERS, Parameter, Parameters, read_parameters};
 pub use power_tail::power_tail;
 pub use proved_values::{ProvedValue, ProvedValues, SampledInequalities};
 pub use read::read_internal_model;

@@ -6,8 +6,8 @@ use super::document::Document;
 use super::input_gain::InputGain;
 use super::of_plant::OfPlant;
 pub use super::parts::{
-    Constant, Domain, InitialSet, Jacobian, JacobianEntry, KnownForcing, Lyapunov, PeriodicMatrix, RelativeDegree,
-    SIZES, StartSizes, TrigonometricVector,
+    Constant, Domain, InitialSet, Jacobian, JacobianEntry, KnownForcing, Lyapunov, OrbitCurve, PeriodicMatrix,
+    RelativeDegree, SIZES, StartSizes, TrigonometricVector,
 };
 use super::sampling::{PRECISION, SampledGain, Sampling};
 use super::weights::Weights;

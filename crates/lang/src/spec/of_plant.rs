@@ -1,20 +1,29 @@
 //! What was proved of a plant that is known by its formulas (derivation, 11): all that a certificate has to repeat.
 
 use super::parameters::Parameters;
-use super::parts::{Constant, Domain, Lyapunov, PeriodicMatrix, TrigonometricVector};
+use super::parts::{Constant, Domain, Lyapunov, OrbitCurve, PeriodicMatrix};
 use rug::Rational;
 
 /// `|x_0 - xb|` is at most `radius` in the norm of y (derivation, 11.2).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProvedOrbit {
     /// xb, in the plant's own coordinates.
-    pub approximation: TrigonometricVector,
+    pub approximation: OrbitCurve,
     /// eps.
     pub defect: Rational,
     /// rho.
     pub tube: Rational,
     /// r.
     pub radius: Rational,
+}
+
+/// `mean + sum_k (a_k cos(k w t) + b_k sin(k w t))`, w = 2 pi / period.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Wave {
+    /// The mean.
+    pub mean: Rational,
+    /// (a_k, b_k) for k = 1, 2, ...
+    pub harmonics: Vec<[Rational; 2]>,
 }
 
 /// `qb(t)`, and what is proved of it: `|q(t,x_0,0) - qb| <= rest`, and its derivative in t at most `rest_t`, for all t
@@ -25,10 +34,29 @@ pub struct ProvedForcing {
     pub mean: Rational,
     /// (a_k, b_k) for k = 1, 2, ...
     pub harmonics: Vec<[Rational; 2]>,
+    /// What is added to these times `p_i - p_i^0`, for each parameter of which an interval is known (derivation, 13.2).
+    pub sensitivities: Vec<Wave>,
     /// r_0.
     pub rest: Rational,
     /// r_1, per time.
     pub rest_t: Rational,
+}
+
+impl ProvedForcing {
+    /// `qb(t)` at these `p_i - p_i^0`.
+    #[must_use]
+    pub fn at(&self, deviations: &[Rational]) -> Wave {
+        let mut wave = Wave { mean: self.mean.clone(), harmonics: self.harmonics.clone() };
+        for (part, deviation) in self.sensitivities.iter().zip(deviations) {
+            wave.mean += Rational::from(&part.mean * deviation);
+            let missing = part.harmonics.len().saturating_sub(wave.harmonics.len());
+            wave.harmonics.extend((0..missing).map(|_| [Rational::new(), Rational::new()]));
+            for (own, more) in wave.harmonics.iter_mut().zip(&part.harmonics) {
+                own.iter_mut().zip(more).for_each(|(own, more)| *own += Rational::from(more * deviation));
+            }
+        }
+        wave
+    }
 }
 
 /// The plant behind the data of a specification.

@@ -1,21 +1,35 @@
 //! The named constants of a plant.
 
-use super::constant::any_constant;
+use super::constant::{any_constant, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::parts::Constant;
-use crate::expr::{DefinitionError, Definitions, occurs};
+use crate::expr::{DefinitionError, Definitions, MAX_INTERVALS, occurs};
+use rug::Rational;
 
 /// The most parameters that are read.
 pub const MAX_PARAMETERS: usize = 12;
 
-/// A named constant.
+/// A named constant, or a name for a number of which an interval is known.
 #[derive(Clone, Debug)]
 pub struct Parameter {
     /// Its name in formulas.
     pub name: String,
-    /// Its value.
+    /// Its value, or its nominal value.
     pub value: Constant,
+    /// Where it lies, with `low < high`.
+    pub interval: Option<Interval>,
+}
+
+/// `low <= nominal <= high`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Interval {
+    /// What is expected.
+    pub nominal: Rational,
+    /// The least value.
+    pub low: Rational,
+    /// The largest value.
+    pub high: Rational,
 }
 
 /// The named constants of a plant, in the order of the document.
@@ -31,6 +45,50 @@ impl Parameters {
     #[must_use]
     pub fn list(&self) -> &[Parameter] {
         &self.list
+    }
+
+    /// The names of those with intervals, and these, in the order of the document: parameter i of formulas is the i-th.
+    pub fn intervals(&self) -> impl Iterator<Item = (&str, &Interval)> {
+        self.list.iter().filter_map(|parameter| Some((parameter.name.as_str(), parameter.interval.as_ref()?)))
+    }
+
+    /// The nominal values of those.
+    #[must_use]
+    pub fn nominal(&self) -> Vec<Rational> {
+        self.intervals().map(|(_, interval)| interval.nominal.clone()).collect()
+    }
+
+    /// The same with these numbers in the places of the intervals.
+    #[must_use]
+    pub fn fixed(&self, values: &[Rational]) -> Parameters {
+        let mut values = values.iter();
+        let mut fixed = self.clone();
+        for parameter in fixed.list.iter_mut().filter(|parameter| parameter.interval.is_some()) {
+            if let Some(value) = values.next() {
+                *parameter = Parameter { value: Constant::rational(value), interval: None, ..parameter.clone() };
+            }
+        }
+        fixed
+    }
+
+    /// Members of the family that samples look at: the nominal one, and then all corners of the box.
+    #[must_use]
+    pub fn looked_at(&self) -> Vec<Vec<Rational>> {
+        let mut corners: Vec<Vec<Rational>> = vec![Vec::new()];
+        for (_, Interval { low, high, .. }) in self.intervals() {
+            corners = corners
+                .iter()
+                .flat_map(|corner| [low, high].map(|end| corner.iter().chain([end]).cloned().collect()))
+                .collect();
+        }
+        let nominal = self.nominal();
+        if nominal.is_empty() { vec![nominal] } else { std::iter::once(nominal).chain(corners).collect() }
+    }
+
+    /// `p_i - p_i^0` for the parameters with intervals.
+    #[must_use]
+    pub fn deviations(&self, values: &[Rational]) -> Vec<Rational> {
+        self.intervals().zip(values).map(|((_, interval), value)| Rational::from(value - &interval.nominal)).collect()
     }
 
     /// What their names stand for.
@@ -79,13 +137,22 @@ pub fn read_parameters(value: &Value<'_>, states: &[String], errors: &mut Errors
     let mut parameters = Parameters::default();
     let mut outcome = Ok(());
     for (name, value) in &members {
-        match read_one(name, value, states, &members, errors).and_then(|constant| {
-            let defined = parameters.definitions.define(name, constant.expr.clone());
-            defined.map(|()| constant).map_err(|error| refused(value, name, &error, errors))
+        match read_one(name, value, states, &members, errors).and_then(|(constant, interval)| {
+            let defined = match &interval {
+                None => parameters.definitions.define(name, constant.expr.clone()),
+                Some(_) => parameters.definitions.define_interval(name),
+            };
+            defined.map(|()| (constant, interval)).map_err(|error| refused(value, name, &error, errors))
         }) {
-            Ok(constant) => parameters.list.push(Parameter { name: (*name).to_owned(), value: constant }),
+            Ok((value, interval)) => parameters.list.push(Parameter { name: (*name).to_owned(), value, interval }),
             Err(reported) => outcome = Err(reported),
         }
+    }
+    let count = parameters.intervals().count();
+    if count > MAX_INTERVALS {
+        let message = format!("{count} parameters with intervals");
+        let error = value.error(ErrorKind::Range, message).expected(format!("expected at most {MAX_INTERVALS}"));
+        return Err(errors.report(error.help("state single numbers for those that matter least")));
     }
     outcome.map(|()| parameters)
 }
@@ -96,20 +163,64 @@ fn read_one(
     states: &[String],
     members: &[(&str, Value<'_>)],
     errors: &mut Errors,
-) -> Result<Constant, Reported> {
+) -> Result<(Constant, Option<Interval>), Reported> {
     if states.iter().any(|state| state == name) {
         let message = format!("the parameter `{name}` has the name of a state");
         let error = value.error_at_key(ErrorKind::UnknownName, message);
         return Err(errors.report(error.help("rename one of the two")));
     }
-    let refers = value.text().and_then(|text| members.iter().map(|member| member.0).find(|name| occurs(name, text)));
-    // A name of the language's own is refused for that below.
-    if let Some(other) = refers.filter(|other| Definitions::none().admits(other).is_ok()) {
-        let message = format!("the value of `{name}` refers to the parameter `{other}`");
-        let error = value.error(ErrorKind::Expression, message);
-        return Err(errors.report(error.help("write its number: values of parameters do not depend on each other")));
+    if matches!(value.type_name(), "an object") {
+        return read_interval(value, name, members, errors);
     }
-    any_constant(value, errors)
+    no_reference(value, name, members, errors)?;
+    any_constant(value, errors).map(|constant| (constant, None))
+}
+
+/// Reads an interval; one of a single point is a constant.
+fn read_interval(
+    value: &Value<'_>,
+    name: &str,
+    members: &[(&str, Value<'_>)],
+    errors: &mut Errors,
+) -> Result<(Constant, Option<Interval>), Reported> {
+    let mut object = value.object(errors)?;
+    let mut number = |field| {
+        let value = object.required(field, errors)?;
+        no_reference(&value, name, members, errors)?;
+        let constant = any_constant(&value, errors)?;
+        match constant.as_rational().cloned() {
+            Some(rational) => Ok((value, constant, rational)),
+            None => {
+                let message = format!("`{field}` is not known to be rational");
+                Err(errors.report(whole(&value, ErrorKind::Range, message).expected("expected a rational number")))
+            }
+        }
+    };
+    let (nominal, low, high) = (number("nominal"), number("low"), number("high"));
+    object.finish(errors);
+    let ((place, constant, nominal), (_, _, low), (_, _, high)) = (nominal?, low?, high?);
+    if low > nominal || nominal > high {
+        let message = format!("the nominal value of `{name}` is not between `low` and `high`");
+        let error = whole(&place, ErrorKind::Range, message).expected("expected low <= nominal <= high");
+        return Err(errors.report(error));
+    }
+    let interval = (low < high).then_some(Interval { nominal, low, high });
+    Ok((constant, interval))
+}
+
+/// That the text of a value has no name of a parameter in it.
+fn no_reference(
+    value: &Value<'_>,
+    name: &str,
+    members: &[(&str, Value<'_>)],
+    errors: &mut Errors,
+) -> Result<(), Reported> {
+    let refers = value.text().and_then(|text| members.iter().map(|member| member.0).find(|name| occurs(name, text)));
+    // A name of the language's own is refused for that.
+    let Some(other) = refers.filter(|other| Definitions::none().admits(other).is_ok()) else { return Ok(()) };
+    let message = format!("the value of `{name}` refers to the parameter `{other}`");
+    let error = value.error(ErrorKind::Expression, message);
+    Err(errors.report(error.help("write its number: values of parameters do not depend on each other")))
 }
 
 fn refused(value: &Value<'_>, name: &str, error: &DefinitionError, errors: &mut Errors) -> Reported {

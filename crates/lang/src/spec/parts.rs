@@ -119,6 +119,55 @@ pub struct TrigonometricVector {
     pub harmonics: Vec<[Vec<Rational>; 2]>,
 }
 
+/// `centre(t) + sum_i (p_i - p_i^0) sensitivity_i(t)`, for the parameters p of which intervals are known and their nominal values
+/// p^0: a curve for each member of a family of plants (derivation, 13.2).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OrbitCurve {
+    /// The curve of the nominal plant.
+    pub centre: TrigonometricVector,
+    /// One for each of these parameters.
+    pub sensitivities: Vec<TrigonometricVector>,
+}
+
+impl From<TrigonometricVector> for OrbitCurve {
+    fn from(centre: TrigonometricVector) -> OrbitCurve {
+        OrbitCurve { centre, sensitivities: Vec::new() }
+    }
+}
+
+impl OrbitCurve {
+    /// The centre, and then the sensitivities.
+    pub fn parts(&self) -> impl Iterator<Item = &TrigonometricVector> {
+        std::iter::once(&self.centre).chain(&self.sensitivities)
+    }
+
+    /// The curve at these `p_i - p_i^0`.
+    #[must_use]
+    pub fn at(&self, deviations: &[Rational]) -> TrigonometricVector {
+        let mut curve = self.centre.clone();
+        for (part, deviation) in self.sensitivities.iter().zip(deviations) {
+            let add = |own: &mut Vec<Rational>, more: &[Rational]| {
+                own.iter_mut().zip(more).for_each(|(own, more)| *own += Rational::from(more * deviation));
+            };
+            let zeros = || vec![Rational::new(); curve.mean.len()];
+            let missing = part.harmonics.len().saturating_sub(curve.harmonics.len());
+            let more: Vec<_> = (0..missing).map(|_| [zeros(), zeros()]).collect();
+            curve.harmonics.extend(more);
+            add(&mut curve.mean, &part.mean);
+            for (own, more) in curve.harmonics.iter_mut().zip(&part.harmonics) {
+                own.iter_mut().zip(more).for_each(|(own, more)| add(own, more));
+            }
+        }
+        curve
+    }
+
+    /// The most harmonics of a part.
+    #[must_use]
+    pub fn harmonics(&self) -> usize {
+        self.parts().map(|part| part.harmonics.len()).max().unwrap_or(0)
+    }
+}
+
 /// The box |x| <= X, |e| <= E on which the bounding functions hold; both positive.
 #[derive(Clone, Debug)]
 pub struct Domain {

@@ -258,6 +258,7 @@ pub(super) struct OnBox<'a> {
     pub(super) t: &'a Centred,
     pub(super) x: &'a [Centred],
     pub(super) e: &'a Centred,
+    pub(super) p: &'a [Centred],
 }
 
 impl Operations for OnBox<'_> {
@@ -278,6 +279,10 @@ impl Operations for OnBox<'_> {
             PlantVariable::State(index) => {
                 let none = || self.frame.constant(Enclosure::undefined(self.frame.precision));
                 self.x.get(index).cloned().unwrap_or_else(none)
+            }
+            PlantVariable::Parameter(index) => {
+                let none = || self.frame.constant(Enclosure::undefined(self.frame.precision));
+                self.p.get(index).cloned().unwrap_or_else(none)
             }
         }
     }

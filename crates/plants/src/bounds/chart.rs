@@ -1,6 +1,6 @@
 //! The coordinates in which a bound is decided: only those that its formulas depend on.
 //!
-//! Boxes lie in the cube of s = t/T in [0, 1], of y in [-1, 1]^m and of e/E in [-1, 1]; `x = xb(t) + (X + r) C y`. With C = L the
+//! Boxes lie in the cube of s = t/T in [0, 1], of y in [-1, 1]^m, of e/E in [-1, 1] and of each parameter of a family; `x = xb(t) + (X + r) C y`. With C = L the
 //! tube is exactly `|y| <= 1`, and boxes outside of this ball are left out. Where the formulas depend on some states A alone, C
 //! has as many columns, with `C C^T >= L_A L_A^T`: then `{L_A y : |y| <= 1}` lies in `{C y : |y| <= 1}`, as
 //! the support functions `|L_A^T g| <= |C^T g|` say. Where they depend on one state and not on t, that state moves through an
@@ -13,6 +13,8 @@ use super::side::Side;
 use super::time_cell::TimeCell;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::{MAX_INTERVALS, PlantVariable, VariableSet};
+use sigmastar_lang::spec::{Interval, TrigonometricVector};
 use sigmastar_matrix::is_positive_definite;
 
 /// How often a side is halved at most.
@@ -38,13 +40,33 @@ pub(super) struct Chart {
     /// Whether s is the first coordinate.
     pub(super) time: bool,
     states: States,
-    /// E, where e is the last coordinate.
+    /// E, where e is a coordinate: the one after those of the states.
     error: Option<Rational>,
+    /// The parameters that are the last coordinates: each with its index, the middle of its interval less its nominal value, that
+    /// value, and half of the width.
+    parameters: Vec<Axis>,
+    /// The number of parameters of the plant.
+    count: usize,
     period: Enclosure,
     /// The number of states of the plant.
     order: usize,
     /// X + r.
     radius: Rational,
+}
+
+/// A parameter as a coordinate.
+#[derive(Clone, Debug)]
+struct Axis {
+    index: usize,
+    nominal: Rational,
+    /// The middle of the interval less the nominal value.
+    offset: Rational,
+    half: Rational,
+}
+
+/// The parameters among some variables.
+pub(super) fn parameters_in(variables: &VariableSet) -> Vec<usize> {
+    (0..MAX_INTERVALS).filter(|index| variables.has(PlantVariable::Parameter(*index))).collect()
 }
 
 /// A box in the coordinates.
@@ -57,6 +79,8 @@ pub(super) struct Placed {
     pub(super) t: Centred,
     pub(super) x: Vec<Centred>,
     pub(super) e: Centred,
+    /// The parameters of which intervals are known.
+    pub(super) p: Vec<Centred>,
 }
 
 /// The unit ball in the coordinates of a box: which of them, and where the box lies in them.
@@ -83,12 +107,14 @@ pub(super) struct Active {
     pub(super) time: bool,
     pub(super) states: Vec<usize>,
     pub(super) error: bool,
+    /// Parameters of which intervals are known. Those that move the orbit matter as well where a state does.
+    pub(super) parameters: Vec<usize>,
 }
 
 impl Chart {
-    /// The coordinates for `G(X,E)`. `extent` gives for a state an interval that contains xb at all t.
+    /// The coordinates for `G(X,E)`. `extent` gives for a state an interval that contains xb at all t and p.
     pub(super) fn new(
-        region: &Region,
+        (region, intervals): (&Region, &[Interval]),
         period: Enclosure,
         active: &Active,
         [x, e]: [&Rational; 2],
@@ -97,7 +123,7 @@ impl Chart {
         let radius = Rational::from(x + region.radius());
         let order = region.states();
         let error = active.error.then(|| e.clone());
-        let steady = region.orbit().harmonics.is_empty();
+        let steady = region.orbit().harmonics() == 0;
         let states = match active.states[..] {
             [] => States::None,
             [index] if !active.time => {
@@ -114,8 +140,24 @@ impl Chart {
                 States::Tube { active: active.states.clone(), shape }
             }
         };
-        let moving = matches!(states, States::Tube { .. }) && !steady;
-        Chart { time: active.time || moving, states, error, period, order, radius }
+        let in_tube = matches!(states, States::Tube { .. });
+        let moving = in_tube && !steady;
+        let moves = |part: &TrigonometricVector| {
+            !part.harmonics.is_empty() || active.states.iter().any(|state| !part.mean[*state].is_zero())
+        };
+        let axis = |(index, interval): (usize, &Interval)| {
+            let moves = in_tube && region.orbit().sensitivities.get(index).is_some_and(moves);
+            let Interval { nominal, low, high } = interval;
+            (moves || active.parameters.contains(&index)).then(|| Axis {
+                index,
+                nominal: nominal.clone(),
+                offset: Rational::from(low + high) / 2u32 - nominal,
+                half: Rational::from(high - low) / 2u32,
+            })
+        };
+        let parameters = intervals.iter().enumerate().filter_map(axis).collect();
+        let count = intervals.len();
+        Chart { time: active.time || moving, states, error, parameters, count, period, order, radius }
     }
 
     /// Whether every point of the ball is one of the tube: that is so with C = L, not with fewer coordinates.
@@ -143,7 +185,7 @@ impl Chart {
             States::Interval { .. } => 1,
             States::Tube { .. } => self.ball_sides(),
         };
-        usize::from(self.time) + states + usize::from(self.error.is_some())
+        usize::from(self.time) + states + usize::from(self.error.is_some()) + self.parameters.len()
     }
 
     /// The unit ball on a box; `None` if the box certainly lies outside of it.
@@ -183,10 +225,20 @@ impl Chart {
         };
         let t = if self.time { coordinate(0, &self.period) } else { undefined() };
         let e = match &self.error {
-            Some(bound) => coordinate(sides - 1, &Enclosure::from_rational(bound, PRECISION)),
+            Some(bound) => coordinate(sides - 1 - self.parameters.len(), &Enclosure::from_rational(bound, PRECISION)),
             None => undefined(),
         };
         let first = usize::from(self.time);
+        // p_i - p_i^0 and p_i.
+        let mut deviations = vec![None; self.count];
+        let mut p = vec![undefined(); self.count];
+        for (place, axis) in self.parameters.iter().enumerate() {
+            let varied =
+                coordinate(sides - self.parameters.len() + place, &Enclosure::from_rational(&axis.half, PRECISION));
+            let deviation = frame.add(&frame.rational(&axis.offset), &varied);
+            p[axis.index] = frame.add(&frame.rational(&axis.nominal), &deviation);
+            deviations[axis.index] = Some(deviation);
+        }
         let mut x = vec![undefined(); self.order];
         match &self.states {
             States::None => {}
@@ -197,7 +249,17 @@ impl Chart {
             States::Tube { active, shape } => {
                 for (index, row) in active.iter().zip(shape) {
                     let start = match time {
-                        Some(time) => self.moving(&frame, &time.orbit[*index]),
+                        Some(time) => {
+                            let centre = self.moving(&frame, &time.orbit[*index]);
+                            let parts = time.sensitivities.iter().zip(&deviations);
+                            parts.fold(centre, |sum, (part, deviation)| match deviation {
+                                Some(deviation) => {
+                                    frame.add(&sum, &frame.mul(&self.moving(&frame, &part[*index]), deviation))
+                                }
+                                // It moves none of these states.
+                                None => sum,
+                            })
+                        }
                         None => undefined(),
                     };
                     let terms = row.iter().enumerate().filter(|(_, entry)| !entry.is_zero());
@@ -207,7 +269,7 @@ impl Chart {
                 }
             }
         }
-        Placed { frame, t, x, e }
+        Placed { frame, t, x, e, p }
     }
 
     /// What `|L^-1 (x - xb)|` is not below: X + r times the distance from the centre of the ball; 0 where states are in no

@@ -12,12 +12,13 @@ const TIME_SCALE: f64 = 16.0;
 /// Points in other directions than those of the axes, for three states and more.
 const SPREAD: u32 = 24;
 
-/// A point of the cube: t/T, y and e/E.
+/// A point of the cube: t/T, y and e/E, and the member of the family it is about.
 #[derive(Clone, Debug)]
 pub(super) struct Point {
     pub(super) time: f64,
     pub(super) y: Vec<f64>,
     pub(super) e: f64,
+    pub(super) member: usize,
 }
 
 /// A search along the coordinates with steps that are halved when none of them helps.

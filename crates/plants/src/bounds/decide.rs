@@ -126,7 +126,7 @@ impl Engine {
         effort: usize,
         value: &BoundOnBox<'_>,
     ) -> Decision {
-        let chart = Chart::new(&self.region, self.period(), active, [x, e], |index| self.extent(index));
+        let chart = self.chart(active, [x, e]);
         let mut boxes = OnBoxes::new(self, quantity, &chart);
         subdivide(&chart, effort, |cell, ball| {
             boxes.with(cell, ball, |values, frame| {
@@ -160,8 +160,8 @@ impl<'a> OnBoxes<'a> {
         // Formulas of t alone keep their values while its interval does; the slopes are per side, and sides stay.
         let changed = if *last == Some(side) { VariableSet::ALL_BUT_TIME } else { VariableSet::ALL };
         *last = Some(side);
-        let Placed { frame, t, x, e } = &placed;
-        let outputs = quantity.walk.evaluate_again(&mut OnBox { frame, t, x, e }, memory, changed);
+        let Placed { frame, t, x, e, p } = &placed;
+        let outputs = quantity.walk.evaluate_again(&mut OnBox { frame, t, x, e, p }, memory, changed);
         use_it(&Values { engine, chart, frame, quantity, outputs, time, error: e }, frame)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox};
+use super::chart::{Active, Chart};
 use super::extent::extent;
 use super::quantity::{Part, Quantity};
 use super::region::{Region, RegionError};
@@ -12,7 +13,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Formulas, Walk};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Bound, Constant, PeriodicMatrix};
+use sigmastar_lang::spec::{Bound, Constant, Interval, PeriodicMatrix, TrigonometricVector};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -26,6 +27,8 @@ const REMEMBERED: usize = 1 << 14;
 pub struct Engine {
     pub(super) region: Region,
     pub(super) period: Constant,
+    /// Where the parameters lie of which intervals are known.
+    pub(super) parameters: Vec<Interval>,
     quantities: [Option<Quantity>; Bound::ALL.len()],
     first_derivatives: [Quantity; Part::EACH.len()],
     pub(super) requirements: Vec<Requirement>,
@@ -55,6 +58,10 @@ impl Engine {
             std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten()).all(|rows| is_symmetric(rows, order))
         };
         let matrices = [matrix, existence];
+        let parameters: Vec<Interval> = plant.parameters.intervals().map(|(_, interval)| interval.clone()).collect();
+        if region.orbit().sensitivities.len() != parameters.len() {
+            return Err(RegionError::Shape);
+        }
         if region.states() != order || !matrices.iter().flatten().all(fits) {
             return Err(RegionError::Shape);
         }
@@ -84,6 +91,7 @@ impl Engine {
         Ok(Engine {
             region,
             period,
+            parameters,
             quantities,
             first_derivatives,
             requirements,
@@ -139,9 +147,24 @@ impl Engine {
         self.period.enclose(PRECISION)
     }
 
-    /// An interval that contains a component of xb at all t.
+    /// An interval that contains a component of xb at all t and p.
     pub(super) fn extent(&self, index: usize) -> [Rational; 2] {
-        self.extents[index].get_or_init(|| extent(self.region.orbit(), index)).clone()
+        let all = || {
+            let orbit = self.region.orbit();
+            let [low, high] = extent(&orbit.centre, index);
+            let parts = orbit.sensitivities.iter().zip(&self.parameters);
+            let reach = parts.fold(Rational::new(), |sum, (part, interval)| {
+                let [low, high] = extent(part, index);
+                sum + low.abs().max(high.abs()) * reach(interval)
+            });
+            [low - &reach, high + reach]
+        };
+        self.extents[index].get_or_init(all).clone()
+    }
+
+    /// The coordinates of a decision about what depends on these variables.
+    pub(super) fn chart(&self, active: &Active, at: [&Rational; 2]) -> Chart {
+        Chart::new((&self.region, &self.parameters), self.period(), active, at, |index| self.extent(index))
     }
 
     /// What depends on t alone on a part of the period.
@@ -162,14 +185,17 @@ impl Engine {
     fn new_cell(&self, side: Side) -> TimeCell {
         let orbit = self.region.orbit();
         let degrees = self.matrices.iter().flatten().map(|matrix| matrix.harmonics.len());
-        let waves = Waves::new(side, degrees.chain([orbit.harmonics.len()]).max().unwrap_or(0));
+        let waves = Waves::new(side, degrees.chain([orbit.harmonics()]).max().unwrap_or(0));
         let order = self.region.states();
-        let orbit: Vec<Centred> = (0..order)
-            .map(|i| {
-                let coefficients = orbit.harmonics.iter().map(move |[a, b]| [&a[i], &b[i]]);
-                waves.polynomial(&orbit.mean[i], coefficients, false)
-            })
-            .collect();
+        let along = |part: &TrigonometricVector| -> Vec<Centred> {
+            let component = |i: usize| {
+                let coefficients = part.harmonics.iter().map(move |[a, b]| [&a[i], &b[i]]);
+                waves.polynomial(&part.mean[i], coefficients, false)
+            };
+            (0..order).map(component).collect()
+        };
+        let sensitivities: Vec<Vec<Centred>> = orbit.sensitivities.iter().map(along).collect();
+        let orbit = along(&orbit.centre);
         let frame = Frame { halves: vec![Enclosure::from_rational(&side.half(), PRECISION)], precision: PRECISION };
         let period = self.period();
         let matrices = self.matrices.each_ref().map(|matrix| {
@@ -196,6 +222,18 @@ impl Engine {
                 frame.add(value, &frame.constant(deviation))
             })
             .collect();
+        // As unknown as v: all members at once.
+        let deviations: Vec<Enclosure> = self.parameters.iter().map(deviation).collect();
+        let x: Vec<Centred> = x
+            .into_iter()
+            .enumerate()
+            .map(|(i, value)| {
+                sensitivities.iter().zip(&deviations).fold(value, |sum, (part, deviation)| {
+                    frame.add(&sum, &frame.mul(&part[i], &frame.constant(deviation.clone())))
+                })
+            })
+            .collect();
+        let p: Vec<Centred> = self.parameters.iter().map(|interval| frame.constant(values(interval))).collect();
         let [low, middle, high] = side.unit();
         let t = Centred {
             centre: Enclosure::from_rational(&middle, PRECISION) * &period,
@@ -203,8 +241,8 @@ impl Engine {
             slopes: vec![Some(period)],
         };
         let e = frame.constant(Enclosure::zero(PRECISION));
-        let velocity = self.velocity.evaluate(&mut OnBox { frame: &frame, t: &t, x: &x, e: &e });
-        TimeCell { orbit, velocity, matrices }
+        let velocity = self.velocity.evaluate(&mut OnBox { frame: &frame, t: &t, x: &x, e: &e, p: &p });
+        TimeCell { orbit, sensitivities, velocity, matrices }
     }
 }
 
@@ -218,6 +256,23 @@ pub(super) fn moves(plant: &Plant) -> Option<[Rational; 2]> {
     let [low, high] = gain.factors(PRECISION)?;
     // What is enclosed has bounds.
     Some([&one - low.lower_rational()?, one - high.upper_rational()?])
+}
+
+/// The largest `|p - p^0|`.
+pub(super) fn reach(interval: &Interval) -> Rational {
+    let [below, above] = [&interval.nominal - &interval.low, &interval.high - &interval.nominal].map(Rational::from);
+    below.max(above)
+}
+
+/// p.
+fn values(interval: &Interval) -> Enclosure {
+    Enclosure::between(&interval.low, &interval.high, PRECISION)
+}
+
+/// `p - p^0`.
+fn deviation(interval: &Interval) -> Enclosure {
+    let [low, high] = [&interval.low, &interval.high].map(|end| Rational::from(end - &interval.nominal));
+    Enclosure::between(&low, &high, PRECISION)
 }
 
 /// Whether a matrix by rows is symmetric, and of this order.

@@ -1,7 +1,7 @@
 //! Where a bound is large: its values in the middles of boxes, the most promising box first. A feature that samples miss is
 //! found where an enclosure cannot leave it out. Doubles; they propose, and nothing rests on them.
 
-use super::chart::{Cell, Chart, MAX_LEVEL};
+use super::chart::{Cell, MAX_LEVEL};
 use super::decide::OnBoxes;
 use super::definite::Verdict;
 use super::engine::Engine;
@@ -32,7 +32,7 @@ impl Engine {
         let Some(quantity) = self.quantity(kind) else {
             return Explored { largest: known, above: sign * f64::INFINITY };
         };
-        let chart = Chart::new(&self.region, self.period(), &quantity.active, [x, e], |index| self.extent(index));
+        let chart = self.chart(&quantity.active, [x, e]);
         let mut boxes = OnBoxes::new(self, quantity, &chart);
         let mut largest = sign * known;
         let mut open: Vec<(f64, Cell)> = vec![(f64::INFINITY, vec![Side::WHOLE; chart.sides()])];

@@ -2,7 +2,7 @@
 
 use super::PRECISION;
 use super::centred::{Centred, Frame, negated};
-use super::chart::{Ball, Chart};
+use super::chart::Ball;
 use super::decide::{Decision, OnBoxes, Values, subdivide};
 use super::definite::{SymmetricValues, Verdict, definite};
 use super::engine::{Engine, is_symmetric};
@@ -78,7 +78,7 @@ impl Engine {
         matrix: impl Fn(&Values<'_>) -> Option<SymmetricValues>,
     ) -> Decision {
         let quantity = self.first_derivatives(part);
-        let chart = Chart::new(&self.region, self.period(), &quantity.active, at, |index| self.extent(index));
+        let chart = self.chart(&quantity.active, at);
         let mut boxes = OnBoxes::new(self, quantity, &chart);
         let examine = |values: &Values<'_>, frame: &Frame, ball: &Ball| match matrix(values) {
             Some(mut matrix) => {

@@ -1,6 +1,6 @@
 //! The formulas of each bound.
 
-use super::chart::Active;
+use super::chart::{Active, parameters_in};
 use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
 use sigmastar_lang::spec::Bound;
 
@@ -122,6 +122,7 @@ impl Quantity {
             time: variables.has(PlantVariable::Time) || carried || (moves && kind.is_rate()),
             states: (0..order).filter(|&index| variables.has(PlantVariable::State(index))).collect(),
             error: variables.has(PlantVariable::Error),
+            parameters: parameters_in(&variables),
         };
         let inverse =
             matches!(kind, Bound::Fx | Bound::Fe | Bound::Rate | Bound::RateExistence | Bound::Fxx | Bound::Fex);
@@ -146,6 +147,7 @@ impl Quantity {
             time: used.has(PlantVariable::Time) || moves,
             states: (0..order).filter(|&index| used.has(PlantVariable::State(index))).collect(),
             error: used.has(PlantVariable::Error),
+            parameters: parameters_in(&used),
         };
         let row = |row: usize| (0..columns.len()).map(|column| row * columns.len() + column).collect();
         let plain = (0..=order).map(row).collect();

@@ -1,16 +1,16 @@
 //! The tube on which bounds are asked for.
 
 use rug::Rational;
-use sigmastar_lang::spec::TrigonometricVector;
+use sigmastar_lang::spec::{OrbitCurve, TrigonometricVector};
 use sigmastar_matrix::inverse;
 use thiserror::Error;
 
-/// Coordinates and orbit: `G(X,E)` is `|L^-1 (x - xb(t))| <= X + r`, `|e| <= E` (derivation, 11.1).
+/// Coordinates and orbit: `G(X,E)` is `|L^-1 (x - xb(t;p))| <= X + r`, `|e| <= E` (derivation, 11.1), for every p of a family's box.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Region {
     matrix: Vec<Vec<Rational>>,
     inverse: Vec<Vec<Rational>>,
-    orbit: TrigonometricVector,
+    orbit: OrbitCurve,
     radius: Rational,
 }
 
@@ -35,12 +35,14 @@ impl Region {
     /// Sizes that do not fit, an L without inverse, a negative radius.
     pub fn new(
         matrix: Vec<Vec<Rational>>,
-        orbit: TrigonometricVector,
+        orbit: impl Into<OrbitCurve>,
         radius: Rational,
     ) -> Result<Region, RegionError> {
+        let orbit = orbit.into();
         let order = matrix.len();
         let fits = |vector: &Vec<Rational>| vector.len() == order;
-        if !matrix.iter().all(fits) || !fits(&orbit.mean) || !orbit.harmonics.iter().flatten().all(fits) {
+        let of_order = |part: &TrigonometricVector| fits(&part.mean) && part.harmonics.iter().flatten().all(fits);
+        if !matrix.iter().all(fits) || !orbit.parts().all(of_order) {
             return Err(RegionError::Shape);
         }
         if radius < 0 {
@@ -70,7 +72,7 @@ impl Region {
 
     /// xb.
     #[must_use]
-    pub fn orbit(&self) -> &TrigonometricVector {
+    pub fn orbit(&self) -> &OrbitCurve {
         &self.orbit
     }
 

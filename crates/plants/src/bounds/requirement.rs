@@ -1,6 +1,6 @@
 //! What a right side has to meet to be smooth.
 
-use super::chart::Active;
+use super::chart::{Active, parameters_in};
 use sigmastar_lang::expr::{Demand, Formulas, PlantExpr, PlantVariable, Walk};
 
 /// One demand on a right side, ready to be decided.
@@ -22,6 +22,7 @@ impl Requirement {
             time: variables.has(PlantVariable::Time),
             states: states.collect(),
             error: variables.has(PlantVariable::Error),
+            parameters: parameters_in(&variables),
         };
         let part = expr.text().get(demand.span.clone()).unwrap_or_default().to_owned();
         Requirement { index, part, demand, walk, active }

@@ -1,7 +1,7 @@
 //! Smoothness of the right sides on the region (derivation, 11.1).
 
 use super::centred::OnBox;
-use super::chart::{Chart, Placed};
+use super::chart::Placed;
 use super::decide::subdivide;
 use super::definite::{Verdict, nonnegative};
 use super::engine::Engine;
@@ -86,13 +86,13 @@ impl Engine {
 
     fn meets(&self, requirement: &Requirement, arguments: [&Rational; 2]) -> Truth {
         let Requirement { walk, active, demand, .. } = requirement;
-        let chart = Chart::new(&self.region, self.period(), active, arguments, |index| self.extent(index));
+        let chart = self.chart(active, arguments);
         let mut memory = Memory::default();
         let decision = subdivide(&chart, BOXES, |cell, ball| {
             let time = self.time_cell(if chart.time { cell[0] } else { Side::WHOLE });
             let placed = chart.place(cell, ball, Some(&time));
-            let Placed { frame, t, x, e } = &placed;
-            let outputs = walk.evaluate_again(&mut OnBox { frame, t, x, e }, &mut memory, VariableSet::ALL);
+            let Placed { frame, t, x, e, p } = &placed;
+            let outputs = walk.evaluate_again(&mut OnBox { frame, t, x, e, p }, &mut memory, VariableSet::ALL);
             let Some(value) = outputs.first() else { return Verdict::Stuck };
             let above = nonnegative(frame, value, ball, true);
             if demand.positive || above == Verdict::Holds {

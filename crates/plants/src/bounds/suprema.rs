@@ -8,7 +8,7 @@ use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise, roots};
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{Bound, OrbitCurve, PeriodicMatrix, TrigonometricVector};
 use std::sync::Arc;
 
 /// Points of a period.
@@ -28,13 +28,24 @@ pub struct FloatCurve {
     pub mean: Vec<f64>,
     /// (a_k, b_k) for k = 1, 2, ...
     pub harmonics: Vec<[Vec<f64>; 2]>,
+    /// What is added times `p_i - p_i^0`, for each parameter of which an interval is known.
+    pub sensitivities: Vec<FloatCurve>,
+}
+
+impl From<&OrbitCurve> for FloatCurve {
+    fn from(orbit: &OrbitCurve) -> FloatCurve {
+        FloatCurve {
+            sensitivities: orbit.sensitivities.iter().map(FloatCurve::from).collect(),
+            ..FloatCurve::from(&orbit.centre)
+        }
+    }
 }
 
 impl From<&TrigonometricVector> for FloatCurve {
     fn from(orbit: &TrigonometricVector) -> FloatCurve {
         let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect::<Vec<f64>>();
         let harmonics = orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
-        FloatCurve { mean: doubles(&orbit.mean), harmonics }
+        FloatCurve { mean: doubles(&orbit.mean), harmonics, sensitivities: Vec::new() }
     }
 }
 
@@ -71,6 +82,16 @@ struct Moment {
     velocity: Vec<f64>,
     /// What the program computes from t alone.
     kept: Vec<f64>,
+    /// Of which member of the family.
+    member: usize,
+}
+
+/// A member of a family.
+#[derive(Clone, Debug)]
+struct Member {
+    parameters: Vec<f64>,
+    /// What they differ from the nominal ones.
+    deviations: Vec<f64>,
 }
 
 /// The suprema of all bounds by sampling, for one plant, orbit and L.
@@ -84,6 +105,8 @@ pub struct FloatSuprema {
     matrices: [Option<FloatMatrix>; 2],
     program: Arc<Program>,
     moments: Arc<Vec<Moment>>,
+    /// The nominal member, and the corners of the box.
+    members: Arc<Vec<Member>>,
     /// Points of the unit ball.
     ball: Arc<Vec<Vec<f64>>>,
     /// Whether anything depends on e.
@@ -140,6 +163,12 @@ impl FloatSuprema {
         let steady = matrices.iter().flatten().all(|matrix| matrix.steady.is_some());
         let times = if by_states || by_error || !steady || variables.has(PlantVariable::Time) { TIMES } else { 1 };
         let velocity = Arc::new(Program::of_formulas(&formulas, f, n));
+        let doubles = |values: &[Rational]| values.iter().map(Rational::to_f64).collect();
+        let member = |values: &Vec<Rational>| Member {
+            parameters: doubles(values),
+            deviations: doubles(&plant.parameters.deviations(values)),
+        };
+        let members: Vec<Member> = plant.parameters.looked_at().iter().map(member).collect();
         let mut suprema = FloatSuprema {
             order: n,
             period: plant.period.to_f64(),
@@ -149,6 +178,7 @@ impl FloatSuprema {
             matrices,
             program,
             moments: Arc::default(),
+            members: Arc::new(members),
             ball: Arc::new(if by_states { ball_points(n) } else { vec![vec![0.0; n]] }),
             by_error,
             narrow: None,
@@ -157,8 +187,11 @@ impl FloatSuprema {
         };
         let mut evaluator = Evaluator::new(suprema.program.clone());
         let mut slow = Evaluator::new(suprema.velocity.clone());
-        let moment = |i: usize| suprema.moment((i as f64 + 0.5) / TIMES as f64, &mut evaluator, &mut slow);
-        suprema.moments = Arc::new((0..times).map(moment).collect());
+        let places = (0..suprema.members.len()).flat_map(|member| (0..times).map(move |i| (member, i)));
+        let moment = |(member, i): (usize, usize)| {
+            suprema.moment((i as f64 + 0.5) / TIMES as f64, member, &mut evaluator, &mut slow)
+        };
+        suprema.moments = Arc::new(places.map(moment).collect());
         suprema.narrow = if by_error { suprema.sought_narrow() } else { None };
         suprema
     }
@@ -171,7 +204,7 @@ impl FloatSuprema {
         let found = extreme_errors(self.moments.len(), |time, e| {
             let moment = &self.moments[time];
             if last != Some(time) {
-                evaluator.load_time_values(&moment.kept);
+                self.load(moment, &mut evaluator);
                 last = Some(time);
             }
             evaluator.evaluate(&moment.orbit, e, &mut outputs);
@@ -201,6 +234,7 @@ impl FloatSuprema {
             matrices: lyapunov.map(|matrix| matrix.map(FloatMatrix::new)),
             program: self.program.clone(),
             moments: self.moments.clone(),
+            members: self.members.clone(),
             ball: self.ball.clone(),
             by_error: self.by_error,
             narrow: self.narrow.clone(),
@@ -209,15 +243,23 @@ impl FloatSuprema {
         }
     }
 
-    fn moment(&self, time: f64, evaluator: &mut Evaluator, slow: &mut Evaluator) -> Moment {
-        let orbit = self.orbit.at(time);
+    fn moment(&self, time: f64, member: usize, evaluator: &mut Evaluator, slow: &mut Evaluator) -> Moment {
+        let Member { parameters, deviations } = &self.members[member];
+        let orbit = self.orbit.at(time, deviations);
         let mut velocity = vec![0.0; self.order];
+        slow.set_parameters(parameters);
         slow.set_time(time * self.period);
         slow.evaluate(&orbit, 0.0, &mut velocity);
         evaluator.set_time(time * self.period);
         let mut kept = Vec::new();
         evaluator.time_values(&mut kept);
-        Moment { time, orbit, velocity, kept }
+        Moment { time, orbit, velocity, kept, member }
+    }
+
+    /// Makes ready for evaluations at a moment.
+    fn load(&self, moment: &Moment, evaluator: &mut Evaluator) {
+        evaluator.set_parameters(&self.members[moment.member].parameters);
+        evaluator.load_time_values(&moment.kept);
     }
 
     /// The supremum of one bound, roughly; for a rate the infimum. `reach` is X + r.
@@ -295,7 +337,7 @@ impl FloatSuprema {
         for place @ [i, j, _] in self.places(e, places) {
             let moment = &self.moments[i];
             if last != Some(i) {
-                evaluator.load_time_values(&moment.kept);
+                self.load(moment, &mut evaluator);
                 matrices = self.matrices_at(moment.time);
                 last = Some(i);
             }
@@ -351,7 +393,7 @@ impl FloatSuprema {
         self.search(kind, reach, e, FINE, STARTS)
     }
 
-    /// The largest value at these points: t/T, y in the unit ball, e/E; of a rate the negative.
+    /// The largest value at these points of the nominal member: t/T, y in the unit ball, e/E; of a rate the negative.
     #[must_use]
     pub fn largest_at(&self, kind: Bound, at: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
         let mut pointwise = self.pointwise();
@@ -361,7 +403,7 @@ impl FloatSuprema {
         })
     }
 
-    /// The largest value of the first derivatives and P at these points.
+    /// The largest value of the first derivatives and P at these points of the nominal member.
     pub(super) fn largest_of_derivatives_at(
         &self,
         at: [f64; 2],
@@ -382,8 +424,8 @@ impl FloatSuprema {
         let mut slow = Evaluator::new(self.velocity.clone());
         let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
         let value = |(time, y, part): &(f64, Vec<f64>, f64)| {
-            let moment = self.moment(*time, &mut evaluator, &mut slow);
-            evaluator.load_time_values(&moment.kept);
+            let moment = self.moment(*time, 0, &mut evaluator, &mut slow);
+            self.load(&moment, &mut evaluator);
             self.place(&moment.orbit, y, reach, &mut x);
             evaluator.evaluate(&x, part * e, &mut outputs);
             value_of(&outputs, &moment, &self.matrices_at(*time))
@@ -420,12 +462,12 @@ impl FloatSuprema {
         let mut outputs = vec![0.0; self.program.outputs()];
         let mut x = vec![0.0; self.order];
         // Most steps leave the time as it is.
-        let mut moment = self.moment(0.0, &mut evaluator, &mut slow);
+        let mut moment = self.moment(0.0, 0, &mut evaluator, &mut slow);
         let mut value_at = |point: &Point| {
-            if point.time != moment.time {
-                moment = self.moment(point.time, &mut evaluator, &mut slow);
+            if point.time != moment.time || point.member != moment.member {
+                moment = self.moment(point.time, point.member, &mut evaluator, &mut slow);
             }
-            evaluator.load_time_values(&moment.kept);
+            self.load(&moment, &mut evaluator);
             self.place(&moment.orbit, &point.y, reach, &mut x);
             evaluator.evaluate(&x, point.e * e, &mut outputs);
             value_of(&outputs, &moment, &self.matrices_at(moment.time))
@@ -434,7 +476,8 @@ impl FloatSuprema {
         let mut largest = f64::NAN;
         for (value, place @ [i, j, _]) in &best {
             let share = if e > 0.0 { self.error(*place, e) / e } else { 0.0 };
-            let point = Point { time: self.moments[*i].time, y: self.ball[*j].clone(), e: share };
+            let Moment { time, member, .. } = self.moments[*i];
+            let point = Point { time, y: self.ball[*j].clone(), e: share, member };
             largest = largest.max(climb(point, *value, halvings, e != 0.0, &mut value_at));
         }
         [largest, least]
@@ -456,8 +499,11 @@ impl FloatSuprema {
 }
 
 impl FloatCurve {
-    fn at(&self, time: f64) -> Vec<f64> {
+    fn at(&self, time: f64, deviations: &[f64]) -> Vec<f64> {
         let mut x = self.mean.clone();
+        for (part, deviation) in self.sensitivities.iter().zip(deviations) {
+            x.iter_mut().zip(part.at(time, &[])).for_each(|(x, part)| *x += deviation * part);
+        }
         for ([a, b], k) in self.harmonics.iter().zip(1..) {
             let (sin, cos) = libm::sincos(std::f64::consts::TAU * time * f64::from(k));
             for ((x, a), b) in x.iter_mut().zip(a).zip(b) {

@@ -2,6 +2,7 @@
 
 mod directions;
 mod existence;
+mod families;
 mod inequality;
 mod input_gain;
 mod joint;

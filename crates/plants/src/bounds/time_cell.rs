@@ -79,9 +79,11 @@ impl Waves {
 /// The orbit, the velocity x_0' and P on one interval of t. The only side is s = t/T.
 #[derive(Clone, Debug)]
 pub(super) struct TimeCell {
-    /// xb.
+    /// The centre of xb.
     pub(super) orbit: Vec<Centred>,
-    /// f(t, xb + L v, 0) for all |v| <= r.
+    /// What is added to it times `p_i - p_i^0`, for each parameter.
+    pub(super) sensitivities: Vec<Vec<Centred>>,
+    /// f(t, xb + L v, 0) for all |v| <= r and all p.
     pub(super) velocity: Vec<Centred>,
     /// P and dP/dt, for the rate and the rate of existence.
     pub(super) matrices: [Option<[Vec<Vec<Centred>>; 2]>; 2],

@@ -1,9 +1,10 @@
-//! The defect `eps` of an approximate orbit (derivation, 11.2): an upper bound of `|L^-1 (f(t,xb,0) - xb')|` for all t.
+//! The defect `eps` of an approximate orbit (derivation, 11.2): an upper bound of `|L^-1 (f(t,xb,0) - xb')|` for all t (and members
+//! of a family).
 
 use super::curve::{Curve, PRECISION};
 use super::failure::OrbitNotProved;
 use super::linear::norm;
-use super::recurrences::combine;
+use super::recurrences::{combine, mul};
 use super::taylor::{Expansion, Taylor};
 use rayon::prelude::*;
 use sigmastar_exact::enclosure::Enclosure;
@@ -23,28 +24,70 @@ pub(super) fn first_exponent(harmonics: usize) -> u32 {
     (2 * harmonics).next_power_of_two().trailing_zeros().clamp(*CELLS.start(), *CELLS.end())
 }
 
-/// An upper bound of `|L^-1 (f(t,xb,0) - xb')|` over all cells; `walk` has the components of f, `inverse` is `L^-1`.
+/// An upper bound of `|L^-1 (f(t,xb,0;p) - xb')|` over all cells and members; `walk` has the components of f, `slopes` the rows of
+/// df/dx and then df/dp for each parameter, `inverse` is `L^-1`.
 ///
-/// Guarantee: if `Ok`, f is smooth near the curve, and the bound holds for every t of the period.
-pub(super) fn bound(curve: &Curve, walk: &Walk, inverse: &[Vec<Enclosure>]) -> Result<Enclosure, OrbitNotProved> {
+/// Guarantee: if `Ok`, f is smooth near the curves, and the bound holds for every t of the period and every p of the box. With
+/// `D(t,p)` the difference and `D_i = f_x xb_i + f_pi - xb_i'` its derivative in p_i, `D(t,p) - D(t,p^0)` is the sum of `p_i - p_i^0`
+/// times a mean of D_i over the segment from p^0 to p, which lies in the box.
+pub(super) fn bound(
+    curve: &Curve,
+    walk: &Walk,
+    slopes: &Walk,
+    inverse: &[Vec<Enclosure>],
+) -> Result<Enclosure, OrbitNotProved> {
     let cells = &curve.cells;
+    let parameters = &curve.members.parameters;
     let bounds: Vec<Enclosure> = (0..cells.count)
         .into_par_iter()
         .map(|cell| {
             let states = curve.states(cell, ORDER + 1);
-            let f = curve.along(walk, cell, &states, ORDER);
+            let f = curve.along(walk, cell, (&states, &parameters.nominal), ORDER);
             let difference = [0, 1].map(|which| -> Vec<Taylor> {
                 let own = f[which].iter().zip(&states[which]);
                 own.map(|(f, x)| combine(f, &slope(x, &curve.period), -1)).collect()
             });
+            let along = derivatives_in_parameters(curve, slopes, cell, &states);
             let components = inverse.iter().map(|row| {
-                let [middle, over] = difference.each_ref().map(|terms| weigh(row.iter().zip(terms)));
-                Expansion::new(&middle, &over, ORDER, PRECISION).bound(&cells.half)
+                let bound = |difference: &[Vec<Taylor>; 2]| {
+                    let [middle, over] = difference.each_ref().map(|terms| weigh(row.iter().zip(terms)));
+                    Expansion::new(&middle, &over, ORDER, PRECISION).bound(&cells.half)
+                };
+                let own = bound(&difference);
+                along.iter().zip(&parameters.reaches).fold(own, |sum, (part, reach)| sum + bound(part) * reach)
             });
             norm(components, PRECISION)
         })
         .collect();
     largest(&bounds, cells.count)
+}
+
+/// D_i for each parameter.
+fn derivatives_in_parameters(
+    curve: &Curve,
+    slopes: &Walk,
+    cell: usize,
+    states: &[Vec<Taylor>; 2],
+) -> Vec<[Vec<Taylor>; 2]> {
+    let sensitivities = curve.sensitivities(cell, ORDER + 1);
+    if sensitivities.is_empty() {
+        return Vec::new();
+    }
+    let n = states[0].len();
+    let members = curve.of_members(states, &sensitivities);
+    let values = curve.along(slopes, cell, (&members, &curve.members.parameters.values), ORDER);
+    let of_one = |(i, part): (usize, &[Vec<Taylor>; 2])| {
+        [0, 1].map(|which| -> Vec<Taylor> {
+            (0..n)
+                .map(|row| {
+                    let own = combine(&values[which][n * (n + i) + row], &slope(&part[which][row], &curve.period), -1);
+                    (0..n)
+                        .fold(own, |sum, j| combine(&sum, &mul(&values[which][n * row + j], &part[which][j], ORDER), 1))
+                })
+                .collect()
+        })
+    };
+    sensitivities.iter().enumerate().map(of_one).collect()
 }
 
 /// The largest of the bounds of all cells; the first cell that has none is told.

@@ -6,6 +6,7 @@ use super::field::Field;
 use super::floquet::{floquet_exponents, is_stable};
 use super::series::{FloatSeries, Turn};
 use nalgebra::DVector;
+use rug::Rational;
 use sigmastar_lang::plant::Plant;
 
 /// The numbers of harmonics, in turn.
@@ -45,22 +46,45 @@ pub struct FloatOrbit {
     pub defect: f64,
     /// The Floquet exponents along it, as in [`OrbitFailure::NotStable`].
     pub floquet: Vec<[f64; 2]>,
+    /// How the curve changes with each parameter of which an interval is known: by the quotient of differences between its ends.
+    pub sensitivities: Vec<FloatSeries>,
 }
 
-/// The periodic solution of a plant's zero dynamics, in doubles.
+/// The periodic solution of a plant's zero dynamics, in doubles; of a family that of the nominal plant, and its sensitivities.
 ///
 /// Guarantee: none; [`prove_orbit`](super::prove_orbit) proves one.
 ///
 /// # Errors
 /// [`OrbitFailure`]: none was found, or none that attracts its neighbours; nothing is proved by that.
 pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
+    let nominal = plant.parameters.nominal();
+    let mut found = find_one(&plant.member(&nominal))?;
+    for (i, (_, interval)) in plant.parameters.intervals().enumerate() {
+        let at = |end: &Rational| {
+            let mut values = nominal.clone();
+            values[i] = end.clone();
+            find_one(&plant.member(&values)).map(|orbit| orbit.series)
+        };
+        let (low, high) = (at(&interval.low)?, at(&interval.high)?);
+        found.sensitivities.push(high.slope_from(&low, Rational::from(&interval.high - &interval.low).to_f64()));
+    }
+    Ok(found)
+}
+
+/// The orbit of a single plant.
+fn find_one(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
     let n = plant.states();
     if n > MAX_STATES {
         return Err(OrbitFailure::TooLarge { states: n });
     }
     let mut field = Field::new(plant);
     if n == 0 {
-        return Ok(FloatOrbit { series: FloatSeries::zero(0), defect: 0.0, floquet: Vec::new() });
+        return Ok(FloatOrbit {
+            series: FloatSeries::zero(0),
+            defect: 0.0,
+            floquet: Vec::new(),
+            sensitivities: Vec::new(),
+        });
     }
     // Another start may lead to another orbit: the first that is stable is taken, and the first failure told.
     let own = |mean: &[f64]| field.own(&FloatSeries::constant(mean)).mean;
@@ -129,7 +153,7 @@ fn from(field: &mut Field, start: &FloatSeries) -> Result<FloatOrbit, OrbitFailu
     if !is_stable(&floquet, field.period) {
         return Err(OrbitFailure::NotStable { floquet });
     }
-    Ok(FloatOrbit { series, defect, floquet })
+    Ok(FloatOrbit { series, defect, floquet, sensitivities: Vec::new() })
 }
 
 /// The largest `|f(t,xb,0) - xb'|` between the points, relative to the size of the terms; NaN counts as infinite.

@@ -1,13 +1,14 @@
 //! The harmonics of q(t, x_0, 0) (derivation, 11.4): proposed in doubles, the rest proved.
 
+use super::cells::wave;
 use super::coordinates::Coordinates;
-use super::curve::{MAX_HARMONICS, PRECISION, wave};
+use super::curve::{MAX_HARMONICS, PRECISION};
 use super::defect::{CELLS, CLOSE, ORDER, first_exponent, largest};
 use super::failure::OrbitNotProved;
 use super::field::Field;
 use super::linear::norm;
 use super::prove::{Around, OrbitProof};
-use super::recurrences::combine;
+use super::recurrences::{combine, mul};
 use super::round::to_grain;
 use super::sampled::doubles;
 use super::series::FloatSeries;
@@ -18,7 +19,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::expr::{Enclosing, Formula, Formulas, PlantVariable, Walk};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{ProvedForcing, TrigonometricVector};
+use sigmastar_lang::spec::{OrbitCurve, ProvedForcing, TrigonometricVector, Wave};
 use std::f64::consts::TAU;
 
 /// The most harmonics of qb that are proposed, and the points of the transform.
@@ -37,8 +38,8 @@ const LEAST_SLOPE: f64 = 1e-2;
 /// The least rest that is looked for, as a share of the size: below it cells are not made smaller for it.
 const NEGLIGIBLE_REST: f64 = 1e-12;
 
-/// qb in doubles, rounded: the harmonics that matter, with short coefficients. `None` where q is not finite.
-fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<[Rational; 2]>)> {
+/// The harmonics of q along a curve.
+fn harmonics_of(plant: &Plant, orbit: &TrigonometricVector) -> FloatSeries {
     let mut field = Field::new(plant);
     let curve = field.own(&doubles(orbit));
     let sample = |j: usize| {
@@ -47,7 +48,16 @@ fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<
         vec![field.q()]
     };
     let samples: Vec<Vec<f64>> = (0..POINTS).map(sample).collect();
-    let series = FloatSeries::from_samples(&samples, PROPOSED_HARMONICS);
+    FloatSeries::from_samples(&samples, PROPOSED_HARMONICS)
+}
+
+/// qb in doubles, rounded: the harmonics that matter, with short coefficients, and how they change with the parameters of which
+/// intervals are known, by quotients of differences. `None` where q is not finite.
+fn propose(plant: &Plant, orbit: &OrbitCurve) -> Option<(Wave, Vec<Wave>)> {
+    let nominal = plant.parameters.nominal();
+    let of_member =
+        |values: &[Rational]| harmonics_of(&plant.member(values), &orbit.at(&plant.parameters.deviations(values)));
+    let series = of_member(&nominal);
     let pairs: Vec<[f64; 2]> = series.harmonics.iter().map(|[a, b]| [a[0], b[0]]).collect();
     let mean = series.mean[0];
     let amplitude = |[a, b]: [f64; 2]| libm::hypot(a, b);
@@ -78,9 +88,28 @@ fn propose(plant: &Plant, orbit: &TrigonometricVector) -> Option<(Rational, Vec<
         true => Some(Rational::new()),
         false => to_grain(value, unit(k).max(f64::MIN_POSITIVE)),
     };
-    let harmonics: Option<Vec<[Rational; 2]>> =
-        pairs[..count].iter().enumerate().map(|(at, [a, b])| Some([round(*a, at + 1)?, round(*b, at + 1)?])).collect();
-    Some((round(mean, 0)?, harmonics?))
+    let rounded = |mean: f64, pairs: &[[f64; 2]]| -> Option<Wave> {
+        let pairs = pairs.iter().enumerate().map(|(at, [a, b])| Some([round(*a, at + 1)?, round(*b, at + 1)?]));
+        Some(Wave { mean: round(mean, 0)?, harmonics: pairs.collect::<Option<_>>()? })
+    };
+    let sensitivities = plant.parameters.intervals().enumerate().map(|(i, (_, interval))| {
+        let at = |end: &Rational| {
+            let mut values = nominal.clone();
+            values[i] = end.clone();
+            of_member(&values)
+        };
+        let width = Rational::from(&interval.high - &interval.low).to_f64();
+        let change = at(&interval.high).slope_from(&at(&interval.low), 1.0);
+        let pairs: Vec<[f64; 2]> = change.harmonics.iter().map(|[a, b]| [a[0], b[0]]).collect();
+        // Rounded as what is added, and not as the quotient.
+        let wave = rounded(change.mean[0], &pairs[..count])?;
+        let width = Rational::from_f64(width)?;
+        let over = |value: &Rational| Rational::from(value / &width);
+        let harmonics = wave.harmonics.iter().map(|pair| pair.each_ref().map(over)).collect();
+        Some(Wave { mean: over(&wave.mean), harmonics })
+    });
+    let sensitivities = sensitivities.collect::<Option<_>>()?;
+    Some((rounded(mean, &pairs[..count])?, sensitivities))
 }
 
 /// The harmonics of q(t, x_0, 0) for a proved orbit, with the rest proved.
@@ -94,8 +123,8 @@ pub fn prove_forcing(
 ) -> Result<ProvedForcing, OrbitNotProved> {
     let around = Around::new(plant, &proved.orbit, coordinates)?;
     let none = OrbitNotProved::Shape("q(t,xb,0) is not finite in floating point");
-    let (mean, harmonics) = propose(plant, &proved.orbit).ok_or_else(|| none.clone())?;
-    let mut forcing = ProvedForcing { mean, harmonics, rest: Rational::new(), rest_t: Rational::new() };
+    let (Wave { mean, harmonics }, sensitivities) = propose(plant, &proved.orbit).ok_or_else(|| none.clone())?;
+    let mut forcing = ProvedForcing { mean, harmonics, sensitivities, rest: Rational::new(), rest_t: Rational::new() };
     let sizes = sampled_rests(plant, &proved.orbit, &forcing);
     let [rest, rest_t] = rests(&around, &forcing, proved, sizes.map(|size| CLOSE * size))?;
     let up = |bound: &Enclosure| round_f64(bound.upper_f64(), DIGITS, Direction::Up).ok_or_else(|| none.clone());
@@ -126,8 +155,18 @@ pub fn decide_forcing(
     Ok(())
 }
 
+/// The largest rests of all members that are looked at.
+fn sampled_rests(plant: &Plant, orbit: &OrbitCurve, forcing: &ProvedForcing) -> [f64; 2] {
+    let members = plant.parameters.looked_at();
+    members.iter().fold([0.0; 2], |largest, values| {
+        let deviations = plant.parameters.deviations(values);
+        let found = rests_of_member(&plant.member(values), &orbit.at(&deviations), &forcing.at(&deviations));
+        [0, 1].map(|i| f64::max(largest[i], found[i]))
+    })
+}
+
 /// The largest rests at sampled times, in doubles, but no less than what is negligible.
-fn sampled_rests(plant: &Plant, orbit: &TrigonometricVector, forcing: &ProvedForcing) -> [f64; 2] {
+fn rests_of_member(plant: &Plant, orbit: &TrigonometricVector, forcing: &Wave) -> [f64; 2] {
     let mut field = Field::new(plant);
     let curve = field.own(&doubles(orbit));
     let vector = |value: &Rational| vec![value.to_f64()];
@@ -160,11 +199,16 @@ fn rests(
     proved: &OrbitProof,
     enough: [f64; 2],
 ) -> Result<[Enclosure; 2], OrbitNotProved> {
-    if forcing.harmonics.len() > MAX_HARMONICS {
+    let of_forcing =
+        forcing.sensitivities.iter().map(|part| part.harmonics.len()).fold(forcing.harmonics.len(), usize::max);
+    if of_forcing > MAX_HARMONICS {
         return Err(OrbitNotProved::Shape("too many harmonics"));
     }
+    if forcing.sensitivities.len() != around.members.sensitivities.len() {
+        return Err(OrbitNotProved::Shape("the forcing has not one sensitivity for each parameter with an interval"));
+    }
     let formulas = Rows::new(around.plant);
-    let harmonics = around.harmonics().max(forcing.harmonics.len());
+    let harmonics = around.harmonics().max(of_forcing);
     let mut best: Result<[Enclosure; 2], OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
     for exponent in first_exponent(harmonics)..=*CELLS.end() {
         let (found, of_radius) = match rests_on(around, &formulas, forcing, proved, exponent) {
@@ -196,6 +240,8 @@ struct Rows {
     value: Walk,
     /// q_x and D_x.
     derivatives: Walk,
+    /// q_x, and then q_p for each parameter.
+    slopes: Walk,
     /// f and q, to see that both are smooth where the derivatives are taken.
     smooth: Walk,
 }
@@ -215,9 +261,13 @@ impl Rows {
             along = formulas.sum(along, term);
         }
         let d_x: Vec<Formula> = states().map(|state| slope(&mut formulas, along, state)).collect();
-        let rows: Vec<Formula> = q_x.into_iter().chain(d_x).collect();
+        let rows: Vec<Formula> = q_x.iter().copied().chain(d_x).collect();
+        let parameters = (0..plant.parameters.intervals().count()).map(PlantVariable::Parameter);
+        let slopes: Vec<Formula> =
+            q_x.into_iter().chain(parameters.map(|parameter| slope(&mut formulas, q, parameter))).collect();
         all.push(q);
-        Rows { value: formulas.walk(&[q]), derivatives: formulas.walk(&rows), smooth: formulas.walk(&all) }
+        let [value, derivatives] = [vec![q], rows].map(|outputs| formulas.walk(&outputs));
+        Rows { value, derivatives, slopes: formulas.walk(&slopes), smooth: formulas.walk(&all) }
     }
 }
 
@@ -230,8 +280,12 @@ fn rests_on(
     exponent: u32,
 ) -> Result<([Enclosure; 2], [Enclosure; 2]), OrbitNotProved> {
     let n = around.plant.states();
-    let qb = wave(&forcing.mean, forcing.harmonics.iter().map(|pair| [&pair[0], &pair[1]]));
-    let curve = around.curve(exponent, Some(&qb));
+    let of_wave =
+        |mean: &Rational, harmonics: &[[Rational; 2]]| wave(mean, harmonics.iter().map(|pair| [&pair[0], &pair[1]]));
+    let qb = of_wave(&forcing.mean, &forcing.harmonics);
+    let parts: Vec<_> = forcing.sensitivities.iter().map(|part| of_wave(&part.mean, &part.harmonics)).collect();
+    let curve = around.curve(exponent, std::iter::once(&qb).chain(&parts));
+    let parameters = &around.members.parameters;
     let cells = &curve.cells;
     let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
     let (radius, defect, zero) = (exact(&proved.radius), exact(&proved.defect), Enclosure::zero(PRECISION));
@@ -245,22 +299,48 @@ fn rests_on(
         .into_par_iter()
         .map(|cell| {
             let states = curve.states(cell, ORDER + 1);
-            let own = curve.along(&formulas.value, cell, &states, ORDER);
+            let own = curve.along(&formulas.value, cell, (&states, &parameters.nominal), ORDER);
             let known = cells.expand(&qb, cell, ORDER);
             let [middle, over] = [0, 1].map(|which| combine(&own[which][0], &known[which], -1));
             let expansion = Expansion::new(&middle, &over, ORDER, PRECISION);
-            let widened = states[1].iter().zip(&reach).map(|(series, reach)| &series[0] + reach.negate().hull(reach));
+            // By the mean value theorem in p, as the defect.
+            let sensitivities = curve.sensitivities(cell, ORDER + 1);
+            let members = curve.of_members(&states, &sensitivities);
+            let values = if parts.is_empty() {
+                [Vec::new(), Vec::new()]
+            } else {
+                curve.along(&formulas.slopes, cell, (&members, &parameters.values), ORDER)
+            };
+            let in_parameters: Vec<Expansion> = (0..parts.len())
+                .map(|i| {
+                    let known = cells.expand(&parts[i], cell, ORDER);
+                    let [middle, over] = [0, 1].map(|which| {
+                        let own = combine(&values[which][n + i], &known[which], -1);
+                        (0..n).fold(own, |sum, j| {
+                            combine(&sum, &mul(&values[which][j], &sensitivities[i][which][j], ORDER), 1)
+                        })
+                    });
+                    Expansion::new(&middle, &over, ORDER, PRECISION)
+                })
+                .collect();
+            let with_members = |own: Enclosure, bound: &dyn Fn(&Expansion) -> Enclosure| {
+                let parts = in_parameters.iter().zip(&parameters.reaches);
+                parts.fold(own, |sum, (part, reach)| sum + bound(part) * reach)
+            };
+            let widened = members[1].iter().zip(&reach).map(|(series, reach)| &series[0] + reach.negate().hull(reach));
             let tube: Vec<Enclosure> = widened.collect();
             let [_, time] = cells.time(cell, &curve.period);
             if !curve.in_box(&formulas.smooth, &time[0], &tube) {
                 return [(); 4].map(|()| Enclosure::undefined(PRECISION));
             }
-            let mut natural = Enclosing { t: &time[0], x: &tube, e: &zero, precision: PRECISION };
+            let mut natural =
+                Enclosing { t: &time[0], x: &tube, e: &zero, p: &parameters.values, precision: PRECISION };
             let rows = formulas.derivatives.evaluate(&mut natural);
             let [of_q, of_d] = [norm_of(&rows[..n]), norm_of(&rows[n..])];
             let [rest, rest_t] = [&radius * &of_q, &radius * of_d + &defect * of_q];
-            let value = expansion.bound(&cells.half) + &rest;
-            let slope = expansion.slope_bound(&cells.half) / &curve.period + &rest_t;
+            let value = with_members(expansion.bound(&cells.half), &|part| part.bound(&cells.half)) + &rest;
+            let slope = with_members(expansion.slope_bound(&cells.half), &|part| part.slope_bound(&cells.half));
+            let slope = slope / &curve.period + &rest_t;
             [value, slope, rest, rest_t]
         })
         .collect();

@@ -5,6 +5,7 @@
 //! - `field`, `series`, `collocation`, `floquet`, `find`: the orbit in doubles;
 //! - `round`, `shape`, `least_gain`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
 //! - `recurrences`, `taylor`, `cells`, `curve`: Taylor series of formulas along a curve, over enclosures;
+//! - `members`: the members of a family of plants along it;
 //! - `defect`, `rate`, `prove`: the orbit, proved;
 //! - `forcing`: the harmonics of q, proposed and proved.
 
@@ -21,6 +22,7 @@ mod floquet;
 mod forcing;
 mod least_gain;
 mod linear;
+mod members;
 mod modes;
 mod prove;
 mod rate;

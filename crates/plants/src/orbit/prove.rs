@@ -1,11 +1,12 @@
 //! The proof of the orbit (derivation, 11.2).
 
-use super::cells::Wave;
+use super::cells::{Wave, wave};
 use super::coordinates::Coordinates;
-use super::curve::{Curve, MAX_HARMONICS, PRECISION, wave, waves};
+use super::curve::{Curve, MAX_HARMONICS, PRECISION};
 use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent};
 use super::failure::OrbitNotProved;
 use super::linear::enclosed;
+use super::members::Members;
 use super::rate::Contraction;
 use super::sampled::Sampled;
 use crate::lyapunov::prove_bounds;
@@ -14,11 +15,14 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{OrbitCurve, PeriodicMatrix};
 use sigmastar_matrix::{Symmetric, inverse};
 
 /// Radii of the tube, relative to the size of the orbit in the coordinates y (or to 1, where it is 0), tried in turn.
 const TUBES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-2, 1e-10];
+
+/// Those of a family besides.
+const WIDE_TUBES: [f64; 3] = [0.05, 0.2, 0.5];
 
 /// What is given up of the sampled rate, tried in turn.
 const GIVEN_UP: [f64; 4] = [1e-3, 1e-2, 0.1, 0.5];
@@ -39,7 +43,7 @@ const LEAST_DEFECT: f64 = 1e-30;
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrbitProof {
     /// xb(t).
-    pub orbit: TrigonometricVector,
+    pub orbit: OrbitCurve,
     /// eps.
     pub defect: Rational,
     /// rho.
@@ -57,9 +61,11 @@ pub struct OrbitProof {
 /// A plant, a curve, and coordinates around it, prepared for the proofs.
 pub(super) struct Around<'a> {
     pub(super) plant: &'a Plant,
-    waves: Vec<Wave>,
+    pub(super) members: Members,
     f: Walk,
     f_and_jacobian: Walk,
+    /// The rows of df/dx, and then df/dp for each parameter.
+    slopes: Walk,
     pub(super) l: Vec<Vec<Enclosure>>,
     inverse: Vec<Vec<Enclosure>>,
     matrix: &'a PeriodicMatrix,
@@ -70,16 +76,20 @@ impl<'a> Around<'a> {
     /// Nothing is believed of the parts but their types.
     pub(super) fn new(
         plant: &'a Plant,
-        orbit: &TrigonometricVector,
+        orbit: &OrbitCurve,
         coordinates: &'a Coordinates,
     ) -> Result<Around<'a>, OrbitNotProved> {
         let n = plant.states();
-        let vectors = || std::iter::once(&orbit.mean).chain(orbit.harmonics.iter().flatten());
+        if orbit.sensitivities.len() != plant.parameters.intervals().count() {
+            return Err(OrbitNotProved::Shape("the orbit has not one sensitivity for each parameter with an interval"));
+        }
+        let vectors =
+            || orbit.parts().flat_map(|part| std::iter::once(&part.mean).chain(part.harmonics.iter().flatten()));
         if vectors().any(|vector| vector.len() != n) {
             return Err(OrbitNotProved::Shape("a vector of the orbit has another length"));
         }
         let matrix = &coordinates.p;
-        if orbit.harmonics.len().max(matrix.harmonics.len()) > MAX_HARMONICS {
+        if orbit.harmonics().max(matrix.harmonics.len()) > MAX_HARMONICS {
             return Err(OrbitNotProved::Shape("too many harmonics"));
         }
         let square = |rows: &Vec<Vec<Rational>>| rows.len() == n && rows.iter().all(|row| row.len() == n);
@@ -96,14 +106,20 @@ impl<'a> Around<'a> {
         let f: Vec<Formula> = plant.f.iter().map(|f| formulas.insert(f)).collect();
         let columns: Vec<Vec<Formula>> = (0..n).map(|j| formulas.derivatives(&f, PlantVariable::State(j))).collect();
         let jacobian = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
-        let all: Vec<Formula> = f.iter().copied().chain(jacobian).collect();
+        let jacobian: Vec<Formula> = jacobian.collect();
+        let all: Vec<Formula> = f.iter().chain(&jacobian).copied().collect();
+        let mut slopes = jacobian;
+        for i in 0..orbit.sensitivities.len() {
+            slopes.extend(formulas.derivatives(&f, PlantVariable::Parameter(i)));
+        }
         let entry =
             |i: usize, j: usize| wave(&matrix.mean[i][j], matrix.harmonics.iter().map(|[a, b]| [&a[i][j], &b[i][j]]));
         Ok(Around {
             plant,
-            waves: waves(orbit),
+            members: Members::new(plant, orbit),
             f: formulas.walk(&f),
             f_and_jacobian: formulas.walk(&all),
+            slopes: formulas.walk(&slopes),
             l: enclosed(&coordinates.l, PRECISION),
             inverse: enclosed(&inverted, PRECISION),
             matrix,
@@ -111,13 +127,13 @@ impl<'a> Around<'a> {
         })
     }
 
-    /// The curve over `2^exponent` cells, where another wave may be expanded as well.
-    pub(super) fn curve(&self, exponent: u32, other: Option<&Wave>) -> Curve {
-        Curve::new(&self.waves, other.into_iter(), &self.plant.period, exponent, ORDER + 1)
+    /// The curve over `2^exponent` cells, where other waves may be expanded as well.
+    pub(super) fn curve<'w>(&'w self, exponent: u32, others: impl Iterator<Item = &'w Wave>) -> Curve {
+        Curve::new(&self.members, others, &self.plant.period, exponent, ORDER + 1)
     }
 
     pub(super) fn harmonics(&self) -> usize {
-        self.waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0)
+        self.members.harmonics()
     }
 
     /// A bound of the defect, with more cells while it is above `enough`: that of the first number of cells that gives at most
@@ -125,7 +141,7 @@ impl<'a> Around<'a> {
     fn defect(&self, enough: f64) -> Result<Enclosure, OrbitNotProved> {
         let mut best: Result<Enclosure, OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
         for exponent in first_exponent(self.harmonics())..=*CELLS.end() {
-            let found = bound(&self.curve(exponent, None), &self.f, &self.inverse);
+            let found = bound(&self.curve(exponent, std::iter::empty()), &self.f, &self.slopes, &self.inverse);
             let done = found.as_ref().is_ok_and(|bound| bound.upper_f64() <= enough);
             best = match (best, found) {
                 (Ok(best), Ok(found)) => Ok(if found.upper() < best.upper() { found } else { best }),
@@ -142,7 +158,7 @@ impl<'a> Around<'a> {
     fn prove_rate(&self, alpha: &Rational, tube: &Rational) -> Result<(), OrbitNotProved> {
         let contraction = Contraction {
             period: &self.plant.period,
-            waves: &self.waves,
+            members: &self.members,
             walk: &self.f_and_jacobian,
             l: &self.l,
             inverse: &self.inverse,
@@ -201,11 +217,7 @@ impl<'a> Around<'a> {
 ///
 /// # Errors
 /// [`OrbitNotProved`]; nothing is claimed then.
-pub fn prove_orbit(
-    plant: &Plant,
-    orbit: &TrigonometricVector,
-    coordinates: &Coordinates,
-) -> Result<OrbitProof, OrbitNotProved> {
+pub fn prove_orbit(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates) -> Result<OrbitProof, OrbitNotProved> {
     let around = Around::new(plant, orbit, coordinates)?;
     if plant.states() == 0 {
         let one = || Rational::from(1);
@@ -234,7 +246,8 @@ pub fn prove_orbit(
             return Err(OrbitNotProved::Rate { alpha: sampled.rate, tube: 0.0, reason });
         };
         let Some(radius) = least_radius(&defect, &alpha, &p_low, &p_up) else { continue };
-        let tubes = TUBES.iter().filter_map(|share| round_f64(share * size, 1, Direction::Up));
+        let wide = WIDE_TUBES.iter().filter(|_| plant.is_family());
+        let tubes = TUBES.iter().chain(wide).filter_map(|share| round_f64(share * size, 1, Direction::Up));
         for tube in tubes.filter(|tube| *tube > radius) {
             match around.prove_rate(&alpha, &tube) {
                 Ok(()) => {

@@ -4,12 +4,14 @@
 //! On a cell of half-width h (in periods) and for one v, the matrix `Q = -(P' + P J + J^T P) - 2 alpha P` along `xb(t) + L v` is
 //! `A + d B + d^2 R` with d in [-h, h] (Taylor's formula, entry by entry). A + d B is positive definite if it is at both ends;
 //! the row sums of the bounds of h^2 |R_ij| are taken from the diagonal (2 |v_i v_j| <= v_i^2 + v_j^2). The series are computed
-//! for all v at once: v_i enters the constant term as an interval. Cells that are not proved are halved.
+//! for all v at once: v_i enters the constant term as an interval. Cells that are not proved are halved. The members of a family
+//! are taken in the same way, all at once.
 
 use super::cells::Wave;
 use super::curve::{Curve, PRECISION};
 use super::defect::{slope, weigh};
 use super::linear::norm;
+use super::members::Members;
 use super::recurrences::{combine, mul};
 use super::taylor::Taylor;
 use rayon::prelude::*;
@@ -31,7 +33,7 @@ const CELL_OVERHEAD: usize = 200;
 /// What the proof of a rate needs besides the rate and the tube.
 pub(super) struct Contraction<'a> {
     pub(super) period: &'a Constant,
-    pub(super) waves: &'a [Wave],
+    pub(super) members: &'a Members,
     /// f, and then its derivatives with respect to the states, row by row.
     pub(super) walk: &'a Walk,
     pub(super) l: &'a [Vec<Enclosure>],
@@ -67,7 +69,7 @@ impl Contraction<'_> {
         for exponent in CELLS {
             let Some(rest) = left.checked_sub(pending.len() * cell_cost) else { break };
             left = rest;
-            let curve = Curve::new(self.waves, self.p.entries().iter(), self.period, exponent, ORDER + 1);
+            let curve = Curve::new(self.members, self.p.entries().iter(), self.period, exponent, ORDER + 1);
             // Level by level, so that what is examined does not depend on the number of threads.
             let outcomes: Vec<Outcome> =
                 pending.par_iter().map(|cell| self.on_cell(&curve, *cell, alpha, &reach)).collect();
@@ -91,13 +93,14 @@ impl Contraction<'_> {
 
     fn on_cell(&self, curve: &Curve, cell: usize, alpha: &Enclosure, reach: &[Enclosure]) -> Outcome {
         let n = self.l.len();
-        let mut states = curve.states(cell, ORDER);
+        let own = curve.states(cell, ORDER);
+        let mut states = curve.of_members(&own, &curve.sensitivities(cell, ORDER));
         for series in &mut states {
             for (component, reach) in series.iter_mut().zip(reach) {
                 component[0] = &component[0] + reach.negate().hull(reach);
             }
         }
-        let mut values = curve.along(self.walk, cell, &states, ORDER);
+        let mut values = curve.along(self.walk, cell, (&states, &self.members.parameters.values), ORDER);
         if !values.iter().flatten().flatten().all(Enclosure::is_defined) {
             return Outcome::NotSmooth;
         }

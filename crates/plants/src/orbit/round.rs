@@ -5,7 +5,7 @@ use super::find::FloatOrbit;
 use super::series::FloatSeries;
 use rug::{Integer, Rational};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::TrigonometricVector;
+use sigmastar_lang::spec::{Interval, OrbitCurve, TrigonometricVector};
 use std::f64::consts::TAU;
 
 /// A defect that is small enough, relative to the size of the terms: no digit is spent on a smaller one.
@@ -42,7 +42,18 @@ pub(super) fn shorten(vector: &mut TrigonometricVector) {
 /// the defect, or of the defect that is small enough. Harmonics that do not matter at this accuracy are 0, and the last of them left out. `None` where
 /// a number is not finite.
 #[must_use]
-pub fn round_orbit(plant: &Plant, orbit: &FloatOrbit) -> Option<TrigonometricVector> {
+pub fn round_orbit(plant: &Plant, orbit: &FloatOrbit) -> Option<OrbitCurve> {
+    let centre = round_part(plant, orbit, &orbit.series, 1.0)?;
+    let reaches = plant.parameters.intervals().map(|(_, Interval { nominal, low, high })| {
+        Rational::from(high - nominal).max(Rational::from(nominal - low)).to_f64()
+    });
+    let parts = orbit.sensitivities.iter().zip(reaches);
+    let sensitivities = parts.map(|(part, reach)| round_part(plant, orbit, part, reach)).collect::<Option<_>>()?;
+    Some(OrbitCurve { centre, sensitivities })
+}
+
+/// A curve that is added to others `reach` times at most.
+fn round_part(plant: &Plant, orbit: &FloatOrbit, part: &FloatSeries, reach: f64) -> Option<TrigonometricVector> {
     let mut field = Field::new(plant);
     let (n, series) = (field.states(), &field.own(&orbit.series));
     let count = 4 * series.harmonics.len() + 16;
@@ -78,13 +89,13 @@ pub fn round_orbit(plant: &Plant, orbit: &FloatOrbit) -> Option<TrigonometricVec
         match value == 0.0 || largest == 0.0 || !unit.is_finite() {
             true => Some(Rational::new()),
             // A state that is 0 up to rounding has no size of its own.
-            false => to_grain(value * written[state], (unit * written[state]).max(f64::MIN_POSITIVE)),
+            false => to_grain(value * written[state], (unit / reach * written[state]).max(f64::MIN_POSITIVE)),
         }
     };
     let vector = |k: usize, values: &[f64]| -> Option<Vec<Rational>> {
         values.iter().enumerate().map(|(state, value)| round(state, k, *value)).collect()
     };
-    let FloatSeries { mean, harmonics } = series;
+    let FloatSeries { mean, harmonics } = &field.own(part);
     let harmonics: Option<Vec<[Vec<Rational>; 2]>> = harmonics
         .iter()
         .enumerate()

@@ -7,7 +7,7 @@ use super::shape::decay;
 use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{OrbitCurve, PeriodicMatrix, TrigonometricVector};
 
 /// Times for each harmonic, and besides.
 const PER_HARMONIC: usize = 8;
@@ -41,8 +41,26 @@ fn entries(matrix: &PeriodicMatrix) -> FloatSeries {
 }
 
 impl Sampled {
-    /// `None` where numbers are not finite, or P is not positive definite. The parts fit together.
-    pub(super) fn new(plant: &Plant, orbit: &TrigonometricVector, coordinates: &Coordinates) -> Option<Sampled> {
+    /// The sizes of all members that are looked at. `None` where numbers are not finite, or P is not positive definite. The parts fit
+    /// together.
+    pub(super) fn new(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates) -> Option<Sampled> {
+        let members = plant.parameters.looked_at();
+        let of_member = |values: &Vec<Rational>| {
+            let curve = orbit.at(&plant.parameters.deviations(values));
+            Sampled::of_one(&plant.member(values), &curve, coordinates)
+        };
+        members.iter().map(of_member).reduce(|one, other| {
+            let (one, other) = (one?, other?);
+            Some(Sampled {
+                defect: one.defect.max(other.defect),
+                size: one.size.max(other.size),
+                rate: one.rate.min(other.rate),
+                eigenvalues: one.eigenvalues,
+            })
+        })?
+    }
+
+    fn of_one(plant: &Plant, orbit: &TrigonometricVector, coordinates: &Coordinates) -> Option<Sampled> {
         let mut field = Field::new(plant);
         let n = field.states();
         let units = field.units().to_vec();

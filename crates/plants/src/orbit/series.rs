@@ -54,6 +54,23 @@ impl FloatSeries {
         FloatSeries { mean: mean.to_vec(), harmonics: Vec::new() }
     }
 
+    /// The difference from another series over a number.
+    pub(super) fn slope_from(&self, other: &FloatSeries, by: f64) -> FloatSeries {
+        let n = self.dimension();
+        let part = |own: Option<&Vec<f64>>, other: Option<&Vec<f64>>| -> Vec<f64> {
+            let entry =
+                |values: Option<&Vec<f64>>, i: usize| values.and_then(|values| values.get(i)).copied().unwrap_or(0.0);
+            (0..n).map(|i| (entry(own, i) - entry(other, i)) / by).collect()
+        };
+        let count = self.harmonics.len().max(other.harmonics.len());
+        let pair =
+            |series: &FloatSeries, k: usize, which: usize| series.harmonics.get(k).map(|pair| pair[which].clone());
+        let harmonics = (0..count)
+            .map(|k| [0, 1].map(|which| part(pair(self, k, which).as_ref(), pair(other, k, which).as_ref())))
+            .collect();
+        FloatSeries { mean: part(Some(&self.mean), Some(&other.mean)), harmonics }
+    }
+
     /// The number of components.
     #[must_use]
     pub fn dimension(&self) -> usize {

@@ -22,6 +22,8 @@ pub(super) struct TaylorAlgebra<'a> {
     pub(super) time: &'a Taylor,
     /// The states.
     pub(super) states: &'a [Taylor],
+    /// The parameters of which intervals are known.
+    pub(super) parameters: &'a [Enclosure],
     /// The highest power of d that is kept.
     pub(super) order: usize,
     /// Of constants, in bits.
@@ -45,6 +47,9 @@ impl Operations for TaylorAlgebra<'_> {
             PlantVariable::Error => vec![Enclosure::zero(self.precision)],
             PlantVariable::State(index) => {
                 self.states.get(index).cloned().unwrap_or_else(|| vec![Enclosure::undefined(self.precision)])
+            }
+            PlantVariable::Parameter(index) => {
+                vec![self.parameters.get(index).cloned().unwrap_or_else(|| Enclosure::undefined(self.precision))]
             }
         }
     }
@@ -172,7 +177,7 @@ mod tests {
         let time = vec![t.clone(), Enclosure::one(128)];
         // x = 2 + t^2.
         let x = vec![Enclosure::from_integer(2, 128) + t.sqr(), t * 2, Enclosure::one(128)];
-        let mut algebra = TaylorAlgebra { time: &time, states: &[x], order, precision: 128 };
+        let mut algebra = TaylorAlgebra { time: &time, states: &[x], parameters: &[], order, precision: 128 };
         let mut values = formulas.walk(&[formula]).evaluate(&mut algebra);
         values.remove(0)
     }

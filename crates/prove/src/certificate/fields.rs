@@ -25,6 +25,9 @@ pub(super) const INEQUALITY: &str = "matrix_inequality";
 pub(super) const SPLITTING: &str = "splitting";
 
 /// The field of the matrix inequality of existence.
+/// Of `orbit` and `forcing`: one part for each parameter of which an interval is known.
+pub(super) const SENSITIVITIES: &str = "sensitivities";
+
 pub(super) const EXISTENCE_INEQUALITY: &str = "existence_inequality";
 
 /// The field of the joint inequality of stability; that of existence has the name of the other one.

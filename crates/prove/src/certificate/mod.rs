@@ -21,4 +21,6 @@ pub use run::{certificate_of, read_for, read_numbers};
 pub use sampled::{sampled_certificate_json, sampled_statement};
 pub use stated::{StatedClaim, read_claim};
 pub use triple::{lyapunov_parts, matrix_json};
-pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, no_plant_json, statement};
+pub use write::{
+    FORMAT, VERSION, certificate_json, conditions_json, constants_json, members, no_plant_json, statement,
+};

@@ -1,6 +1,6 @@
 //! What a certificate of a plant adds to the witness (derivation, 11).
 
-use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SPLITTING};
+use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING};
 use super::triple::rows;
 use rug::Rational;
 use serde_json::Value;
@@ -8,6 +8,7 @@ use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{
     ExistenceInequality, JointInequality, JointStability, Level, MatrixInequality, Metric, OfPlant, ProvedForcing,
     ProvedOrbit, ProvedValues, SampledExistence, SampledInequalities, SampledInequality, Specification, Splitting,
+    TrigonometricVector,
 };
 
 fn exact(value: &Rational) -> Value {
@@ -102,20 +103,36 @@ fn inequality_json(MatrixInequality { x, e, rate, value, splitting, .. }: &Matri
 }
 
 fn orbit_json(orbit: &ProvedOrbit) -> Value {
-    let harmonic = |[cos, sin]: &[Vec<Rational>; 2]| object([("cos", vector(cos)), ("sin", vector(sin))]);
-    let harmonics: Vec<Value> = orbit.approximation.harmonics.iter().map(harmonic).collect();
-    let listed = (!harmonics.is_empty()).then(|| ("harmonics", Value::Array(harmonics)));
+    let part = |part: &TrigonometricVector| {
+        let harmonic = |[cos, sin]: &[Vec<Rational>; 2]| object([("cos", vector(cos)), ("sin", vector(sin))]);
+        with_harmonics(vector(&part.mean), part.harmonics.iter().map(harmonic).collect())
+    };
     let sizes = [("defect", &orbit.defect), ("tube", &orbit.tube), ("radius", &orbit.radius)];
     let sizes = sizes.map(|(name, value)| (name, exact(value)));
-    object([("mean", vector(&orbit.approximation.mean))].into_iter().chain(listed).chain(sizes))
+    let sensitivities = listed(SENSITIVITIES, orbit.approximation.sensitivities.iter().map(|one| object(part(one))));
+    object(part(&orbit.approximation.centre).into_iter().chain(sensitivities).chain(sizes))
 }
 
 fn forcing_json(forcing: &ProvedForcing) -> Value {
-    let harmonic = |[cos, sin]: &[Rational; 2]| object([("cos", exact(cos)), ("sin", exact(sin))]);
-    let harmonics: Vec<Value> = forcing.harmonics.iter().map(harmonic).collect();
-    let listed = (!harmonics.is_empty()).then(|| ("harmonics", Value::Array(harmonics)));
+    let part = |mean: &Rational, harmonics: &[[Rational; 2]]| {
+        let harmonic = |[cos, sin]: &[Rational; 2]| object([("cos", exact(cos)), ("sin", exact(sin))]);
+        with_harmonics(exact(mean), harmonics.iter().map(harmonic).collect())
+    };
+    let sensitivities =
+        listed(SENSITIVITIES, forcing.sensitivities.iter().map(|one| object(part(&one.mean, &one.harmonics))));
     let rests = [("rest", exact(&forcing.rest)), ("rest_t", exact(&forcing.rest_t))];
-    object([("mean", exact(&forcing.mean))].into_iter().chain(listed).chain(rests))
+    object(part(&forcing.mean, &forcing.harmonics).into_iter().chain(sensitivities).chain(rests))
+}
+
+/// `mean`, and `harmonics` where there are some.
+fn with_harmonics(mean: Value, harmonics: Vec<Value>) -> Vec<(&'static str, Value)> {
+    std::iter::once(("mean", mean)).chain(listed("harmonics", harmonics.into_iter())).collect()
+}
+
+/// A list that is left out where it is empty.
+fn listed(name: &'static str, values: impl Iterator<Item = Value>) -> Option<(&'static str, Value)> {
+    let values: Vec<Value> = values.collect();
+    (!values.is_empty()).then(|| (name, Value::Array(values)))
 }
 
 fn values_json(values: &ProvedValues) -> Value {

@@ -1,6 +1,6 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
-use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SPLITTING, rational};
+use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING, rational};
 use super::read::{read_rows, read_triple, vector};
 use super::read_joint::{read_joint, read_joint_stability};
 use super::triple::{EXISTENCE, STABILITY};
@@ -8,9 +8,9 @@ use crate::reduction::FreeNumbers;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, ProvedForcing,
-    ProvedOrbit, ProvedValue, ProvedValues, Reported, SampledExistence, SampledInequalities, SampledInequality,
-    SpecErrors, Splitting, TrigonometricVector, Value,
+    Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, OrbitCurve,
+    ProvedForcing, ProvedOrbit, ProvedValue, ProvedValues, Reported, SampledExistence, SampledInequalities,
+    SampledInequality, SpecErrors, Splitting, TrigonometricVector, Value, Wave,
 };
 use sigmastar_plants::lyapunov::ProvedTriple;
 use sigmastar_theory::derivation::sampled::SampledWitness;
@@ -184,6 +184,16 @@ fn read_splitting(value: &Value<'_>, errors: &mut Errors) -> Result<Splitting, R
 
 fn read_orbit(value: &Value<'_>, n: usize, errors: &mut Errors) -> Result<ProvedOrbit, Reported> {
     let mut fields = value.object(errors)?;
+    let centre = read_curve(&mut fields, n, errors);
+    let sensitivities = read_sensitivities(&mut fields, errors, |part, errors| read_curve(part, n, errors));
+    let [defect, tube, radius] = ["defect", "tube", "radius"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    let approximation = OrbitCurve { centre: centre?, sensitivities: sensitivities? };
+    Ok(ProvedOrbit { approximation, defect: defect?, tube: tube?, radius: radius? })
+}
+
+/// `mean` and `harmonics` of vectors.
+fn read_curve(fields: &mut Object<'_>, n: usize, errors: &mut Errors) -> Result<TrigonometricVector, Reported> {
     let mean = fields.required("mean", errors).and_then(|value| vector(&value, n, errors));
     let mut harmonics = Vec::new();
     if let Some(value) = fields.optional("harmonics") {
@@ -195,15 +205,40 @@ fn read_orbit(value: &Value<'_>, n: usize, errors: &mut Errors) -> Result<Proved
             harmonics.push([cos?, sin?]);
         }
     }
-    let [defect, tube, radius] = ["defect", "tube", "radius"].map(|name| rational(&mut fields, name, errors));
-    fields.finish(errors);
-    let approximation = TrigonometricVector { mean: mean?, harmonics };
-    Ok(ProvedOrbit { approximation, defect: defect?, tube: tube?, radius: radius? })
+    Ok(TrigonometricVector { mean: mean?, harmonics })
+}
+
+/// One part for each parameter of which an interval is known.
+fn read_sensitivities<T>(
+    fields: &mut Object<'_>,
+    errors: &mut Errors,
+    read: impl Fn(&mut Object<'_>, &mut Errors) -> Result<T, Reported>,
+) -> Result<Vec<T>, Reported> {
+    let mut parts = Vec::new();
+    if let Some(value) = fields.optional(SENSITIVITIES) {
+        for part in value.array(errors)? {
+            let mut part = part.object(errors)?;
+            let one = read(&mut part, errors);
+            part.finish(errors);
+            parts.push(one?);
+        }
+    }
+    Ok(parts)
 }
 
 fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedForcing, Reported> {
     let mut fields = value.object(errors)?;
-    let mean = rational(&mut fields, "mean", errors);
+    let wave = read_wave(&mut fields, errors);
+    let sensitivities = read_sensitivities(&mut fields, errors, read_wave);
+    let [rest, rest_t] = ["rest", "rest_t"].map(|name| rational(&mut fields, name, errors));
+    fields.finish(errors);
+    let Wave { mean, harmonics } = wave?;
+    Ok(ProvedForcing { mean, harmonics, sensitivities: sensitivities?, rest: rest?, rest_t: rest_t? })
+}
+
+/// `mean` and `harmonics` of numbers.
+fn read_wave(fields: &mut Object<'_>, errors: &mut Errors) -> Result<Wave, Reported> {
+    let mean = rational(fields, "mean", errors);
     let mut harmonics = Vec::new();
     if let Some(value) = fields.optional("harmonics") {
         for pair in value.array(errors)? {
@@ -213,9 +248,7 @@ fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedForcing,
             harmonics.push([cos?, sin?]);
         }
     }
-    let [rest, rest_t] = ["rest", "rest_t"].map(|name| rational(&mut fields, name, errors));
-    fields.finish(errors);
-    Ok(ProvedForcing { mean: mean?, harmonics, rest: rest?, rest_t: rest_t? })
+    Ok(Wave { mean: mean?, harmonics })
 }
 
 fn read_values(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedValues, Reported> {

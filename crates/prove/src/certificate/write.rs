@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::spec::model::LyapunovSource;
-use sigmastar_lang::spec::{Bound, Constant, InputGain, OfPlant, Specification};
+use sigmastar_lang::spec::{Bound, Constant, InputGain, Interval, OfPlant, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::control::Control;
@@ -74,6 +74,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let [x, e, zeta, z] = run.periodic_solution()?;
     let spec = run.spec;
     let mu = &spec.internal_model.mu;
+    let parameters = spec.plant().and_then(parameters_json).map(|all| ("parameters", all));
     let heading = [
         ("verdict", text(run.verdict.to_string())),
         ("derivation", text("sharp")),
@@ -94,7 +95,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("control", control_json(run.control()?)),
         ("statement", text(statement(run, sigma, set))),
     ];
-    let claim = object(heading.into_iter().chain(input_gain).chain(rest));
+    let claim = object(heading.into_iter().chain(input_gain).chain(parameters).chain(rest));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))
@@ -143,6 +144,19 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         fields.insert("constants".to_owned(), constants_json(&checkable(&run.constants)));
     }
     Some(certificate)
+}
+
+/// The intervals of the parameters, for all of which the claim is; none of a single plant.
+fn parameters_json(plant: &OfPlant) -> Option<Value> {
+    let intervals: Vec<(&str, Value)> = plant
+        .parameters
+        .intervals()
+        .map(|(name, Interval { nominal, low, high })| {
+            let ends = [("nominal", nominal), ("low", low), ("high", high)];
+            (name, object(ends.map(|(name, value)| (name, exact(value)))))
+        })
+        .collect();
+    (!intervals.is_empty()).then(|| object(intervals))
 }
 
 /// Why no plant with a state x satisfies the data: what a checker needs to decide it again.
@@ -270,11 +284,25 @@ fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String
             ),
         ),
     };
+    let which = match members(plant) {
+        None => "the plant of these formulas".to_owned(),
+        Some(members) => format!("every plant of these formulas with {members}"),
+    };
     format!(
-        "the plant of these formulas{domain} has a T-periodic solution of the closed loop to which every solution from \
+        "{which}{domain} has a T-periodic solution of the closed loop to which every solution from \
          {state}{}, {start}, converges exponentially{orbit}.",
         of_regulator(set)
     )
+}
+
+/// "a constant k in [0.18, 0.22] and a constant c in [0, 0.2]"; none of a single plant.
+#[must_use]
+pub fn members(plant: &OfPlant) -> Option<String> {
+    let one = |(name, Interval { low, high, .. }): (&str, &Interval)| {
+        format!("a constant {name} in [{}, {}]", write_exact(low), write_exact(high))
+    };
+    let all: Vec<String> = plant.parameters.intervals().map(one).collect();
+    (!all.is_empty()).then(|| all.join(" and "))
 }
 
 /// How e and the regulator may start.

@@ -10,7 +10,7 @@ use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    OfPlant, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification, TrigonometricVector,
+    OfPlant, OrbitCurve, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification,
 };
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
 use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, prove_forcing, prove_orbit};
@@ -44,11 +44,7 @@ pub(super) struct Along {
     pub(super) existence: Option<(PeriodicMatrix, SecondTriple)>,
 }
 
-pub(super) fn along(
-    plant: &Plant,
-    curve: &TrigonometricVector,
-    coordinates: &Coordinates,
-) -> Result<Along, PlantRefusal> {
+pub(super) fn along(plant: &Plant, curve: &OrbitCurve, coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
     let orbit = prove_orbit(plant, curve, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
     let forcing = prove_forcing(plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
     Ok(Along { coordinates: coordinates.clone(), orbit, forcing, existence: None })
@@ -103,7 +99,7 @@ impl Along {
 fn engine_around(
     plant: &Plant,
     Coordinates { l, p, .. }: &Coordinates,
-    (orbit, radius): (&TrigonometricVector, &Rational),
+    (orbit, radius): (&OrbitCurve, &Rational),
     existence: Option<PeriodicMatrix>,
 ) -> Result<Engine, PlantRefusal> {
     let region = Region::new(l.clone(), orbit.clone(), radius.clone());

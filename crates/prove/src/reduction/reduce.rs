@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
-use sigmastar_lang::spec::{OfPlant, PeriodicMatrix, ProvedValues, Specification, TrigonometricVector};
+use sigmastar_lang::spec::{OfPlant, OrbitCurve, PeriodicMatrix, ProvedValues, Specification};
 use sigmastar_plants::bounds::{Asked, Engine, Region};
 use sigmastar_plants::orbit::{
     self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
@@ -354,7 +354,7 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
 }
 
 /// That f and q are smooth on the curve itself, so that what is not is told at its operation before anything is proved with it.
-fn smooth_along(plant: &Plant, curve: &TrigonometricVector) -> Result<(), PlantRefusal> {
+fn smooth_along(plant: &Plant, curve: &OrbitCurve) -> Result<(), PlantRefusal> {
     let unit = (0..plant.states()).map(|i| (0..plant.states()).map(|j| Rational::from(u8::from(i == j))).collect());
     let region = Region::new(unit.collect(), curve.clone(), Rational::new());
     let engine = region.and_then(|region| Engine::new(plant, region, None, None));

@@ -49,6 +49,8 @@ pub enum PlantRefusal {
     Coordinates,
     /// Harmonics of q whose size leaves the exponents of the arithmetic.
     Forcing,
+    /// A claim about the regulator at samples of a plant with parameters of which only intervals are known.
+    FamilyAtSamples,
 }
 
 impl From<SmoothnessFailure> for PlantRefusal {
@@ -93,10 +95,23 @@ impl PlantRefusal {
                 vec![plant.errors_at("/states", &(0..0), ErrorKind::Range, message, Some(help.into()))]
             }
             PlantRefusal::NoOrbit(failure) => undecided("/f", failure.to_string(), failure.way_out()),
+            PlantRefusal::OrbitNotProved(failure) if plant.is_family() => undecided(
+                "/parameters",
+                format!("x_0(t) is not proved for every value of the parameters: {failure}"),
+                Some(
+                    "narrower intervals: one orbit that is affine in the parameters has to serve all of them, and the intervals are \
+                     not divided",
+                ),
+            ),
             PlantRefusal::OrbitNotProved(failure) => undecided(
                 "/f",
                 failure.to_string(),
                 Some("write the plant in units in which its numbers are of ordinary size"),
+            ),
+            PlantRefusal::FamilyAtSamples => undecided(
+                "/parameters",
+                "intervals of parameters are not available for the regulator at samples".to_owned(),
+                Some("state single numbers, or leave the sampling period out"),
             ),
             PlantRefusal::NoContraction => undecided(
                 "/f",

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{Bound, OrbitCurve, PeriodicMatrix};
 use sigmastar_plants::bounds::{Asked, FloatCurve, FloatSuprema, Focus, Places, TABLE};
 use sigmastar_plants::orbit::lower_triangular;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ const WORTH_A_TURN: f64 = 0.9;
 /// The suprema along one orbit, for any coordinates.
 pub(super) struct Sampling<'a> {
     pub(super) plant: &'a Plant,
-    pub(super) curve: &'a TrigonometricVector,
+    pub(super) curve: &'a OrbitCurve,
     /// The model, but for what depends on the coordinates.
     pub(super) model: &'a FloatModel,
     /// In the coordinates x themselves.
@@ -44,7 +44,7 @@ pub(super) struct Sampling<'a> {
 
 impl<'a> Sampling<'a> {
     /// The ordinary size of e is what q makes of it over a period, or the initial set.
-    pub(super) fn new(plant: &'a Plant, curve: &'a TrigonometricVector, model: &'a FloatModel) -> Sampling<'a> {
+    pub(super) fn new(plant: &'a Plant, curve: &'a OrbitCurve, model: &'a FloatModel) -> Sampling<'a> {
         let n = plant.states();
         let known = model.q_0.as_ref();
         let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());

@@ -8,7 +8,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Domain, InitialSet, KnownForcing, LyapunovSource, Specification};
-use sigmastar_lang::spec::{Bounds, OfPlant, ProvedForcing, ProvedValues};
+use sigmastar_lang::spec::{Bounds, OfPlant, Parameters, ProvedForcing, ProvedValues};
 
 /// Significant digits of the X_0 that covers a ball, and of a domain in the norm of y.
 const DIGITS: u32 = 10;
@@ -28,7 +28,7 @@ const PRECISION: u32 = 128;
 /// [`PlantRefusal::Coordinates`] where L is so ill-conditioned that a ball or a domain cannot be turned into its norm,
 /// [`PlantRefusal::Forcing`] where a harmonic of q has no finite enclosure.
 pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
-    let q_0 = known_forcing(&of_plant.forcing).ok_or(PlantRefusal::Forcing)?;
+    let q_0 = known_forcing(&of_plant.forcing, &of_plant.parameters).ok_or(PlantRefusal::Forcing)?;
     let domain = match &plant.domain {
         Some(domain) => Some(in_coordinates(domain, &of_plant.coordinates).ok_or(PlantRefusal::Coordinates)?),
         None => None,
@@ -53,17 +53,29 @@ pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> 
     })
 }
 
-/// C_0 = |m_0|, C_k = sqrt(a_k^2 + b_k^2)/2 rounded up, r_0 and r_1; `None` where a C_k leaves the range of exponents.
-fn known_forcing(forcing: &ProvedForcing) -> Option<KnownForcing> {
-    let mean = Some(Rational::from(forcing.mean.abs_ref()));
+/// C_0 = |m_0|, C_k = sqrt(a_k^2 + b_k^2)/2 rounded up, r_0 and r_1; of a family the largest of all corners, which bound those of
+/// every member: c_k is affine in the parameters, and a magnitude convex. `None` where a C_k leaves the range of exponents.
+fn known_forcing(forcing: &ProvedForcing, parameters: &Parameters) -> Option<KnownForcing> {
     let size = |[a, b]: &[Rational; 2]| {
         let squares = Rational::from(a * a) + Rational::from(b * b);
         let size = Enclosure::from_rational(&(squares / 4u32), PRECISION).sqrt();
         size.upper_rational().map(|upper| round_rational(&upper, LONG_DIGITS, Direction::Up))
     };
-    let harmonics = std::iter::once(mean).chain(forcing.harmonics.iter().map(size));
+    let mut largest: Vec<Rational> = Vec::new();
+    for member in parameters.looked_at() {
+        let wave = forcing.at(&parameters.deviations(&member));
+        let mean = Some(Rational::from(wave.mean.abs_ref()));
+        let sizes: Vec<Rational> =
+            std::iter::once(mean).chain(wave.harmonics.iter().map(size)).collect::<Option<_>>()?;
+        largest.resize(sizes.len().max(largest.len()), Rational::new());
+        for (largest, size) in largest.iter_mut().zip(sizes) {
+            if size > *largest {
+                *largest = size;
+            }
+        }
+    }
     Some(KnownForcing {
-        harmonics: harmonics.map(|size| size.map(|size| Constant::rational(&size))).collect::<Option<_>>()?,
+        harmonics: largest.iter().map(Constant::rational).collect(),
         rest_rms: Constant::rational(&forcing.rest),
         rest_t_rms: Some(Constant::rational(&forcing.rest_t)),
     })
@@ -110,10 +122,11 @@ mod tests {
         let forcing = |a: Rational| ProvedForcing {
             mean: Rational::from(-3),
             harmonics: vec![[Rational::from((3, 5)), Rational::from((-4, 5))], [a, Rational::new()]],
+            sensitivities: Vec::new(),
             rest: Rational::from((1, 8)),
             rest_t: Rational::from(2),
         };
-        let known = known_forcing(&forcing(Rational::from((1, 3)))).unwrap();
+        let known = known_forcing(&forcing(Rational::from((1, 3))), &Parameters::default()).unwrap();
         let sizes: Vec<&Rational> = known.harmonics.iter().map(|size| size.as_rational().unwrap()).collect();
         assert_eq!(sizes[..2], [&Rational::from(3), &Rational::from((1, 2))]);
         assert!(*sizes[2] > Rational::from((1, 6)) && *sizes[2] < Rational::from((1_000_001, 6_000_000)));
@@ -122,7 +135,7 @@ mod tests {
         // The square leaves the exponents: the harmonic has no bound, and the whole of q_0 none. To square it takes seconds.
         if std::env::var_os("SIGMASTAR_CASES").is_some_and(|cases| cases == "all") {
             let huge = Rational::from(rug::Integer::from(1) << 550_000_000);
-            assert!(known_forcing(&forcing(huge)).is_none());
+            assert!(known_forcing(&forcing(huge), &Parameters::default()).is_none());
         }
     }
 }

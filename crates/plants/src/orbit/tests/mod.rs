@@ -1,5 +1,6 @@
 //! Plants of the tests, and the parts together.
 
+mod families;
 mod precise;
 
 use super::*;
@@ -138,9 +139,9 @@ fn forged_orbits_are_refused() {
     let large = OrbitProof { tube: Rational::from(2), ..proof.clone() };
     assert!(matches!(refused(&large), OrbitNotProved::Rate { .. }));
     let mut forged = proof.clone();
-    forged.orbit.harmonics[0][1][0] += Rational::from((1, 1_000_000));
+    forged.orbit.centre.harmonics[0][1][0] += Rational::from((1, 1_000_000));
     assert!(matches!(refused(&forged), OrbitNotProved::Defect { .. }));
-    forged.orbit.harmonics[0][1][0] += Rational::from((1, 10));
+    forged.orbit.centre.harmonics[0][1][0] += Rational::from((1, 10));
     let failure = prove_orbit(&plant, &forged.orbit, &coordinates).unwrap_err();
     assert!(matches!(failure, OrbitNotProved::DefectTooLarge { .. }), "{failure:?}");
     for zero in [
@@ -184,7 +185,7 @@ fn plants_of_other_sizes_are_proved() {
         decide_forcing(&plant, &coordinates, &proof, &forcing).unwrap();
         println!(
             "{f:?}: K {} r {:.2e} rho {:.0e} alpha {:.4}; K {} r_0 {:.2e} r_1 {:.2e}",
-            proof.orbit.harmonics.len(),
+            proof.orbit.harmonics(),
             proof.radius.to_f64(),
             proof.tube.to_f64(),
             proof.alpha.to_f64(),
@@ -244,6 +245,6 @@ fn what_is_too_large_is_refused() {
     let plant = plant("1", &["x"], &["-x"], "x");
     let (coordinates, mut proof) = proved(&plant);
     let none = || vec![Rational::new()];
-    proof.orbit.harmonics = (0..=MAX_HARMONICS).map(|_| [none(), none()]).collect();
+    proof.orbit.centre.harmonics = (0..=MAX_HARMONICS).map(|_| [none(), none()]).collect();
     assert!(matches!(decide_orbit(&plant, &coordinates, &proof), Err(OrbitNotProved::Shape(_))));
 }

@@ -114,8 +114,8 @@ fn the_orbit_of_the_paper_lies_in_the_tube() {
     let mut largest = number(0.0);
     for (k, x) in path.iter().enumerate() {
         let v = [0, 1].map(|i| {
-            let mut value = Float::with_val(PRECISION, &proof.orbit.mean[i]);
-            for (index, [a, b]) in proof.orbit.harmonics.iter().enumerate() {
+            let mut value = Float::with_val(PRECISION, &proof.orbit.centre.mean[i]);
+            for (index, [a, b]) in proof.orbit.centre.harmonics.iter().enumerate() {
                 let part = Rational::from(((index + 1) * k % STEPS as usize, STEPS as usize));
                 let angle = Float::with_val(PRECISION, &turn * part);
                 value += Float::with_val(PRECISION, angle.clone().cos() * &a[i]);

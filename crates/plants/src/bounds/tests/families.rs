@@ -1,0 +1,64 @@
+//! Bounds of a family of plants: they hold of every member, and are no larger than the members ask for.
+
+use super::*;
+
+/// `x' = -k x + e + cos(2 pi t)/10 + c x^2`, `q = k x e + c e`, k in [1, 2] with the nominal value 3/2, c in [-1/4, 1/2] with 0.
+fn family() -> Plant {
+    let text = r#"{ "format": "sigmastar/plant", "version": 1, "name": "family", "period": "1", "states": ["x"],
+        "parameters": { "k": { "nominal": "3/2", "low": 1, "high": 2 }, "c": { "nominal": 0, "low": "-1/4", "high": "1/2" } },
+        "f": ["-k*x + e + cos(2*pi*t)/10 + c*x^2"], "q": "k*x*e + c*e", "internal_model": { "mu": "1", "base_frequency": "2*pi",
+        "matched": true, "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } } }"#;
+    Plant::from_json("family", text).unwrap()
+}
+
+fn engine(sensitivities: [&str; 2]) -> Case {
+    let plant = family();
+    let still = |mean: &str| TrigonometricVector { mean: vec![rational(mean)], harmonics: Vec::new() };
+    let orbit =
+        sigmastar_lang::spec::OrbitCurve { centre: still("0"), sensitivities: sensitivities.map(still).to_vec() };
+    let p = identity(1);
+    let samples = FloatSuprema::new(&plant, FloatCurve::from(&orbit), vec![vec![1.0]], [Some(&p), None]);
+    let region = Region::new(vec![vec![rational("1")]], orbit, rational("0")).unwrap();
+    Case { engine: Engine::new(&plant, region, Some(p), None).unwrap(), samples }
+}
+
+/// With the orbit at 0 and |x| <= 1/2, |e| <= 1: J = -k + 2 c x has the rate 1 - 1/2; q_e = k x + c lies in [-1.25, 1.5]; q_x = k e.
+#[test]
+fn bounds_are_those_of_the_worst_member() {
+    let case = engine(["0", "0"]);
+    let [x, e] = [rational("0.5"), rational("1")];
+    for (bound, worst) in
+        [(Bound::Rate, 0.5), (Bound::QeMax, 1.5), (Bound::Qe, 1.5), (Bound::Qx, 2.0), (Bound::Fx, 2.5)]
+    {
+        let proved = case.engine.prove_value(&case.samples, bound, &x, &e).unwrap();
+        let value = proved.value.to_f64();
+        let sound = if bound.is_rate() { value <= worst } else { value >= worst };
+        assert!(sound && (value - worst).abs() < 0.01 * worst, "{bound:?}: {value}");
+        let beyond = Rational::from_f64(if bound.is_rate() { worst * 1.01 } else { worst * 0.99 }).unwrap();
+        let entry = Entry { bound, x: x.clone(), e: e.clone(), value: beyond };
+        assert!(!case.engine.decide(&entry, 4000).truth.is_true(), "{bound:?}");
+    }
+}
+
+/// An orbit that moves with c takes q_e to k (x + c) + c.
+#[test]
+fn a_state_moves_with_the_orbit_of_its_member() {
+    let case = engine(["0", "1"]);
+    let [x, e] = [rational("0.5"), rational("1")];
+    let decide = |value: &str| {
+        case.engine
+            .decide(&Entry { bound: Bound::QeMax, x: x.clone(), e: e.clone(), value: rational(value) }, 4000)
+            .truth
+    };
+    // k (1/2 + 1/2) + 1/2 at k = 2, c = 1/2.
+    assert!(decide("2.51").is_true() && !decide("2.49").is_true());
+    let proved = case.engine.prove_value(&case.samples, Bound::QeMax, &x, &e).unwrap();
+    assert!((proved.value.to_f64() - 2.5).abs() < 0.03, "{}", proved.value.to_f64());
+}
+
+#[test]
+fn a_region_without_the_sensitivities_is_refused() {
+    let still = TrigonometricVector { mean: vec![rational("0")], harmonics: Vec::new() };
+    let region = Region::new(vec![vec![rational("1")]], still, rational("0")).unwrap();
+    assert!(matches!(Engine::new(&family(), region, Some(identity(1)), None), Err(RegionError::Shape)));
+}

@@ -1,0 +1,68 @@
+//! The members of a family of plants and the curve that follows them (derivation, 13.2), in enclosures. A single plant is a
+//! family of no parameters.
+
+use super::cells::{PRECISION, Wave, waves};
+
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::OrbitCurve;
+
+/// The parameters of which intervals are known, over all of these and at the nominal values.
+#[derive(Clone, Debug)]
+pub(super) struct ParameterBox {
+    /// p_i.
+    pub(super) values: Vec<Enclosure>,
+    /// p_i^0.
+    pub(super) nominal: Vec<Enclosure>,
+    /// `p_i - p_i^0`.
+    pub(super) deviations: Vec<Enclosure>,
+    /// The largest `|p_i - p_i^0|`.
+    pub(super) reaches: Vec<Enclosure>,
+}
+
+impl ParameterBox {
+    pub(super) fn new(plant: &Plant) -> ParameterBox {
+        let mut all =
+            ParameterBox { values: Vec::new(), nominal: Vec::new(), deviations: Vec::new(), reaches: Vec::new() };
+        for (_, interval) in plant.parameters.intervals() {
+            let [low, high] = [&interval.low, &interval.high].map(|end| Rational::from(end - &interval.nominal));
+            let deviation = Enclosure::between(&low, &high, PRECISION);
+            all.values.push(Enclosure::between(&interval.low, &interval.high, PRECISION));
+            all.nominal.push(Enclosure::from_rational(&interval.nominal, PRECISION));
+            all.reaches.push(deviation.abs().ceiling());
+            all.deviations.push(deviation);
+        }
+        all
+    }
+}
+
+/// The curve, and what moves it.
+#[derive(Clone, Debug)]
+pub(super) struct Members {
+    /// The centre, one wave for each state.
+    pub(super) waves: Vec<Wave>,
+    /// One list of waves for each parameter.
+    pub(super) sensitivities: Vec<Vec<Wave>>,
+    pub(super) parameters: ParameterBox,
+}
+
+impl Members {
+    pub(super) fn new(plant: &Plant, orbit: &OrbitCurve) -> Members {
+        Members {
+            waves: waves(&orbit.centre),
+            sensitivities: orbit.sensitivities.iter().map(waves).collect(),
+            parameters: ParameterBox::new(plant),
+        }
+    }
+
+    /// The centre and the sensitivities.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Wave> {
+        self.waves.iter().chain(self.sensitivities.iter().flatten())
+    }
+
+    /// The most harmonics.
+    pub(super) fn harmonics(&self) -> usize {
+        self.all().map(|wave| wave.harmonics.len()).max().unwrap_or(0)
+    }
+}

@@ -1,0 +1,110 @@
+//! Families of plants (derivation, 13.2): the orbit of every member lies in its tube, and what is too good is refused.
+
+use super::super::*;
+use super::paper;
+use rug::Rational;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Interval, ProvedForcing};
+
+const PAPER: &str = include_str!("../../../../../specs/plants/paper-example.json");
+
+/// The paper's example with two numbers in intervals.
+fn family(k: [&str; 2], c: [&str; 2]) -> Plant {
+    let [k, c] = [("1/5", k), ("1/10", c)]
+        .map(|(nominal, [low, high])| format!(r#"{{ "nominal": "{nominal}", "low": "{low}", "high": "{high}" }}"#));
+    let parameters = format!(r#""parameters": {{ "k": {k}, "c": {c} }}, "states""#);
+    let text = PAPER.replacen("x1/5", "k*x1", 1).replacen("x2^2/10", "c*x2^2", 1);
+    Plant::from_json("family", &text.replacen("\"states\"", &parameters, 1)).unwrap()
+}
+
+fn proved(plant: &Plant) -> (Coordinates, OrbitProof, ProvedForcing) {
+    let found = find_orbit(plant).unwrap();
+    let orbit = round_orbit(plant, &found).unwrap();
+    let mut last = None;
+    for coordinates in propose_coordinates(plant, &found, 0.0, 0.0).unwrap() {
+        match prove_orbit(plant, &orbit, &coordinates) {
+            Ok(proof) => {
+                let forcing = prove_forcing(plant, &coordinates, &proof).unwrap();
+                return (coordinates, proof, forcing);
+            }
+            Err(failure) => last = Some(failure),
+        }
+    }
+    panic!("{last:?}")
+}
+
+/// The curve at a point of the box is near the orbit that is found of that member alone.
+#[test]
+fn the_orbits_of_members_are_followed() {
+    let plant = family(["0.18", "0.22"], ["0", "0.2"]);
+    let (coordinates, proof, forcing) = proved(&plant);
+    // Second order in the width: two thousandths of what the parameters change at first order.
+    assert!(proof.defect < Rational::from((1, 10_000)), "{}", proof.defect.to_f64());
+    decide_orbit(&plant, &coordinates, &proof).unwrap();
+    decide_forcing(&plant, &coordinates, &proof, &forcing).unwrap();
+    let inside = [(19, 100), (3, 20)].map(Rational::from).to_vec();
+    for values in plant.parameters.looked_at().into_iter().chain([inside]) {
+        let own = find_orbit(&plant.member(&values)).unwrap().series;
+        let curve = sampled::doubles(&proof.orbit.at(&plant.parameters.deviations(&values)));
+        for s in [0.0, 0.2, 0.45, 0.7, 0.9] {
+            let (own, near) = (own.at(s).0, curve.at(s).0);
+            let difference: Vec<f64> = own.iter().zip(&near).map(|(a, b)| a - b).collect();
+            // |L^-1 d| by Cramer's rule.
+            let l = |i: usize, j: usize| coordinates.l[i][j].to_f64();
+            let determinant = l(0, 0) * l(1, 1) - l(0, 1) * l(1, 0);
+            let y = [
+                (l(1, 1) * difference[0] - l(0, 1) * difference[1]) / determinant,
+                (l(0, 0) * difference[1] - l(1, 0) * difference[0]) / determinant,
+            ];
+            let radius = proof.radius.to_f64();
+            assert!(y[0].hypot(y[1]) <= radius, "{values:?} {s}: {y:?} {radius}");
+        }
+    }
+}
+
+#[test]
+fn what_is_too_good_for_a_member_is_refused() {
+    let plant = family(["0.18", "0.22"], ["0", "0.2"]);
+    let (coordinates, proof, forcing) = proved(&plant);
+    let part = |value: &Rational| Rational::from(value / 100_u32);
+    for moved in [
+        OrbitProof { defect: part(&proof.defect), radius: part(&proof.radius), ..proof.clone() },
+        // Without the sensitivity of k.
+        OrbitProof {
+            orbit: sigmastar_lang::spec::OrbitCurve {
+                sensitivities: vec![proof.orbit.sensitivities[1].clone(); 2],
+                ..proof.orbit.clone()
+            },
+            ..proof.clone()
+        },
+        OrbitProof { orbit: proof.orbit.centre.clone().into(), ..proof.clone() },
+    ] {
+        assert!(decide_orbit(&plant, &coordinates, &moved).is_err());
+    }
+    for moved in [
+        ProvedForcing { rest: part(&forcing.rest), ..forcing.clone() },
+        ProvedForcing { sensitivities: vec![forcing.sensitivities[1].clone(); 2], ..forcing.clone() },
+        ProvedForcing { sensitivities: Vec::new(), ..forcing.clone() },
+    ] {
+        assert!(decide_forcing(&plant, &coordinates, &proof, &moved).is_err());
+    }
+    // A proof for a narrower box is none for a wider one.
+    let wider = family(["0.1", "0.3"], ["-0.3", "0.5"]);
+    assert!(decide_orbit(&wider, &coordinates, &proof).is_err());
+}
+
+#[test]
+fn a_family_of_one_point_is_the_plant() {
+    let plant = family(["1/5", "1/5"], ["1/10", "1/10"]);
+    assert!(!plant.is_family());
+    let [own, other] = [plant, paper()].map(|plant| round_orbit(&plant, &find_orbit(&plant).unwrap()).unwrap());
+    assert!(own.sensitivities.is_empty());
+    // k*x1 is rounded otherwise than x1/5.
+    let difference = Rational::from(&own.centre.mean[0] - &other.centre.mean[0]);
+    assert!(difference.abs() < Rational::from((1, 100_000_000)));
+    // A corner that is unstable is told.
+    let unstable = family(["-3", "1/2"], ["0", "0.2"]);
+    assert!(find_orbit(&unstable).is_err());
+    let intervals: Vec<Interval> = unstable.parameters.intervals().map(|(_, interval)| interval.clone()).collect();
+    assert_eq!(intervals[0].nominal, Rational::from((1, 5)));
+}
