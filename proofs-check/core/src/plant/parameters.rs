@@ -1,0 +1,58 @@
+//! Rule: the parameters of a plant of which intervals are given (docs/mathematics.md, section 13.2), rational numbers all.
+//!
+//! Guarantee: a claim names exactly these, with the numbers of the file. An interval of one point is that number, and none of them.
+
+use crate::constant::Constant;
+use crate::json::Field;
+use crate::range::{Range, both};
+use crate::verdict::{Outcome, bad};
+use rug::Rational;
+
+/// The name of the rule.
+pub const RULE: &str = "parameters";
+
+/// A constant that may be any number of an interval.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    pub name: String,
+    pub range: Range,
+    pub nominal: Rational,
+    /// `low - nominal <= 0` and `high - nominal >= 0`.
+    pub ends: [Rational; 2],
+}
+
+impl Parameter {
+    /// Reads the interval under this name.
+    pub fn read(name: &str, field: &Field<'_>) -> Outcome<Parameter> {
+        let range = Range::read(field, RULE, |fields, name| Constant::read(&fields.required(name)?))?;
+        let [nominal, low, high] = [&range.nominal, &range.low, &range.high].map(|end| end.rational());
+        match (nominal, low, high) {
+            (Some(nominal), Some(low), Some(high)) => {
+                let ends = [low - &nominal, high - &nominal];
+                Ok(Parameter { name: name.to_owned(), range, nominal, ends })
+            }
+            _ => bad(&field.pointer, "expected rational numbers"),
+        }
+    }
+
+    /// Whether it is one number.
+    pub fn is_constant(&self) -> bool {
+        self.ends.iter().all(Rational::is_zero)
+    }
+
+    /// Its interval, for a reader.
+    pub fn in_words(&self) -> String {
+        format!("{} in [{}, {}]", self.name, self.range.low.text, self.range.high.text)
+    }
+}
+
+/// That a claim names the parameters of the file, and none where the file has none.
+pub fn agree(asked: &[Parameter], claimed: Option<&Field<'_>>, claim: &str) -> Outcome<()> {
+    let asked = Some(asked).filter(|asked| !asked.is_empty());
+    let Some((asked, field)) = both(RULE, "parameters", asked, claimed, claim)? else { return Ok(()) };
+    let mut fields = field.fields()?;
+    for parameter in asked {
+        parameter.range.agrees(&fields.required(&parameter.name)?, RULE)?;
+    }
+    fields.finish()
+}
