@@ -4,9 +4,9 @@
 
 use super::formula::{Axis, Formulas, Id};
 use super::machine::{At, Curves, Machine};
-use super::members::{Members, Roots, total};
+use super::members::{Expanded, roots, total};
 use super::model::{Model, wave};
-use super::path::{Judged, Polynomial, bound, bound_of_derivative, everywhere};
+use super::path::{Judged, Path, Polynomial, bound, bound_of_derivative, everywhere};
 use super::read::Plant;
 use super::region::{Piece, Region};
 use super::time::around;
@@ -18,8 +18,8 @@ pub const RULE: &str = "forcing";
 
 /// The formulas of this rule.
 pub struct Rest {
-    /// q - qb.
-    q: Roots,
+    /// q - qb, and its derivatives in the parameters.
+    q: Vec<Vec<Id>>,
     /// q_x L.
     row: Vec<Id>,
     /// D_x L, with D = q_t + q_x f along solutions.
@@ -39,7 +39,7 @@ impl Rest {
         let d = formulas.add(along, moved);
         let rate = (0..states).map(|j| formulas.derivative(d, Axis::State(j))).collect();
         let apart = formulas.sub(q, approximation);
-        Rest { q: Roots::new(formulas, &[apart], plant.known.parameters.len()), row, rate }
+        Rest { q: roots(formulas, &[apart], plant.known.parameters.len()), row, rate }
     }
 
     /// Decides `|q - qb| + r sup|q_x L| <= r_0` and `|(q - qb)'| + r sup|D_x L| + eps sup|q_x L| <= r_1` for all t and all parameters;
@@ -55,7 +55,7 @@ impl Rest {
         let p = om.precision();
         let machine = Machine::new(&model.formulas, curves, om);
         let mut values = machine.values();
-        let members = Members::new(&machine, curves, om, &self.q);
+        let path = Path::new(&machine, curves, om, &self.q);
         let family = Region::of_family(plant, p);
         let program = machine.program(&[&self.row[..], &self.rate].concat());
         let number = |value: &rug::Rational| Interval::rational(value, p);
@@ -64,7 +64,7 @@ impl Rest {
         let (ball, zero) = (vec![around(&r); plant.states()], Interval::int(0, p));
         let origin = vec![zero.clone(); plant.states()];
         let judge = |piece: &Piece| {
-            let (expanded, half) = (members.expand(piece, &values), piece.cell.half_width());
+            let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.half_width());
             let polynomial = &expanded.at_middle[0];
             // For each place: the two sums that have to be small.
             let mut sums = |at: At, v: &[Interval], rest: &[Interval], [value, slope]: [Interval; 2]| {
@@ -74,7 +74,8 @@ impl Rest {
                 let (row, rate) = (norm(&self.row), norm(&self.rate));
                 [value + &r * &row, slope + &r * rate + &eps * row]
             };
-            let bounds: [&dyn Fn(&Polynomial) -> Interval; 2] = [&|g| bound(g, &half), &|g| bound_of_derivative(g, &half)];
+            let bounds: [&dyn Fn(&Polynomial) -> Interval; 2] =
+                [&|g| bound(g, &half), &|g| bound_of_derivative(g, &half)];
             let at_middle = bounds.map(|bound| bound(polynomial));
             let moves = bounds.map(|bound| expanded.moves(bound).concat());
             let [on_box, of_slope] = [0, 1].map(|i| &at_middle[i] + total(moves[i].iter(), p));

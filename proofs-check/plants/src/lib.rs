@@ -82,7 +82,7 @@ pub fn prove(
     lines.push("formulas: periodic in t, by their form".to_owned());
     let mut model = Model::new(plant, Frame::Moving);
     let rest = harmonics::Rest::new(plant, &mut model);
-    let defect = members::Roots::new(&mut model.formulas, &model.defect, plant.known.parameters.len());
+    let defect = members::roots(&mut model.formulas, &model.defect, plant.known.parameters.len());
     let mut asked = Vec::new();
     if plant.states() > 0 {
         orbit::radii(&plant.orbit, &plant.lyapunov[0])?;

@@ -5,9 +5,9 @@
 
 use super::formula::{Formulas, Id};
 use super::machine::Curves;
-use super::members::{Members, Roots, total};
+use super::members::{Expanded, total};
 use super::model::Model;
-use super::path::{Judged, bound, bound_of_norm, everywhere};
+use super::path::{Judged, Path, bound, bound_of_norm, everywhere};
 use super::question::Question;
 use super::read::{Orbit, Plant};
 use super::region::{Piece, Region};
@@ -68,10 +68,11 @@ pub fn shifted(formulas: &mut Formulas, p: &[Vec<Id>], end: &Rational, sign: i32
     (0..p.len()).map(|i| (0..=i).map(|j| entry(i, j, formulas)).collect()).collect()
 }
 
-/// `|L^-1 (f(t,xb,0) - xb')| <= eps` for all t and all parameters, `defect` the components of the left side; how many boxes that took.
+/// `|L^-1 (f(t,xb,0) - xb')| <= eps` for all t and all parameters, `defect` the components of the
+/// left side with their derivatives in the parameters; how many boxes that took.
 pub fn defect(
     plant: &Plant,
-    defect: &Roots,
+    defect: &[Vec<Id>],
     model: &Model,
     curves: &Curves,
     om: &Interval,
@@ -80,15 +81,16 @@ pub fn defect(
     let p = om.precision();
     let machine = super::machine::Machine::new(&model.formulas, curves, om);
     let values = machine.values();
-    let members = Members::new(&machine, curves, om, defect);
+    let path = Path::new(&machine, curves, om, defect);
     let family = Region::of_family(plant, p);
     let most = Interval::rational(&plant.orbit.defect, p);
     let judge = |piece: &Piece| {
-        let (expanded, half) = (members.expand(piece, &values), piece.cell.half_width());
+        let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.half_width());
         let norm = |parts: &[Interval]| parts.iter().fold(Interval::int(0, p), |sum, part| sum + part.sqr()).sqrt();
         let in_t = bound_of_norm(&expanded.at_middle, &half);
         let moves = expanded.moves(|slope| bound(slope, &half));
-        let together: Vec<Interval> = (0..plant.states()).map(|j| total(moves.iter().map(|parts| &parts[j]), p)).collect();
+        let together: Vec<Interval> =
+            (0..plant.states()).map(|j| total(moves.iter().map(|parts| &parts[j]), p)).collect();
         if (&in_t + norm(&together)).le(&most) == Some(true) {
             return Judged::Proved;
         }

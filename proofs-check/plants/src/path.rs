@@ -28,20 +28,19 @@ pub struct Path<'m, 'f> {
     orbit: Vec<Table>,
     om: Interval,
     count: usize,
-    order: Vec<Id>,
-    roots: Vec<Id>,
+    /// Nodes, after all that they are made from.
+    groups: Vec<(Vec<Id>, Vec<Id>)>,
 }
 
 impl<'m, 'f> Path<'m, 'f> {
-    /// For these nodes.
-    pub fn new(machine: &'m Machine<'f>, curves: &Curves, om: &Interval, roots: &[Id]) -> Path<'m, 'f> {
+    /// For groups of nodes.
+    pub fn new(machine: &'m Machine<'f>, curves: &Curves, om: &Interval, groups: &[Vec<Id>]) -> Path<'m, 'f> {
         // One order more for the velocity, one for the remainder.
         let last = ORDER + 3 + TERMS;
         Path {
             orbit: curves.orbit.iter().map(|wave| Table::new(wave, om, last)).collect(),
             count: curves.orbit.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0),
-            order: machine.formulas.below(roots),
-            roots: roots.to_vec(),
+            groups: groups.iter().map(|roots| (machine.formulas.below(roots), roots.clone())).collect(),
             om: om.clone(),
             machine,
         }
@@ -51,8 +50,8 @@ impl<'m, 'f> Path<'m, 'f> {
         self.machine.formulas
     }
 
-    /// The nodes on a cell, with these parameters less their nominal values.
-    pub fn expand(&self, cell: &Cell, parameters: &[Interval], values: &Values) -> Vec<Polynomial> {
+    /// The nodes of each group on a cell, each with its own parameters less their nominal values.
+    pub fn expand(&self, cell: &Cell, parameters: &[&[Interval]], values: &Values) -> Vec<Vec<Polynomial>> {
         let p = self.machine.precision;
         let (middle, half) = (point(&cell.middle), cell.half_width());
         let waves = waves(&self.om, &middle, self.count);
@@ -62,7 +61,7 @@ impl<'m, 'f> Path<'m, 'f> {
             .map(|table| (0..=ORDER + 2 + TERMS).map(|order| table.at(order, &waves, p)).collect())
             .collect();
         let none = || vec![Interval::undefined(p)];
-        let leaf = |leaf: Leaf, on_cell: bool, length: usize| match leaf {
+        let leaf = |leaf: Leaf, parameters: &[Interval], on_cell: bool, length: usize| match leaf {
             Leaf::Time if on_cell => vec![Interval::new(cell.lo.clone(), cell.hi.clone()), Interval::int(1, p)],
             Leaf::Time => vec![middle.clone(), Interval::int(1, p)],
             Leaf::State(_) | Leaf::Output => vec![Interval::int(0, p)],
@@ -84,15 +83,19 @@ impl<'m, 'f> Path<'m, 'f> {
             Leaf::Lyapunov { .. } | Leaf::Drift(_) => none(),
         };
         let number = |id: Id| self.machine.number(id, values);
-        let series = |on_cell: bool, length: usize| {
-            expand(self.formulas(), &self.order, number, |kind| leaf(kind, on_cell, length), length)
+        let group = |((order, roots), parameters): (&(Vec<Id>, Vec<Id>), &&[Interval])| {
+            let series = |on_cell: bool, length: usize| {
+                expand(self.formulas(), order, number, |kind| leaf(kind, parameters, on_cell, length), length)
+            };
+            let (thin, thick) = (series(false, ORDER + 1), series(true, ORDER + 2));
+            let last = |root: Id| thick[root].get(ORDER + 1).cloned();
+            let polynomial = |root: &Id| Polynomial {
+                coefficients: thin[*root].clone(),
+                remainder: last(*root).unwrap_or_else(|| undefined_or_zero(&thick[*root], p)),
+            };
+            roots.iter().map(polynomial).collect()
         };
-        let (thin, thick) = (series(false, ORDER + 1), series(true, ORDER + 2));
-        let polynomial = |root: &Id| Polynomial {
-            coefficients: thin[*root].clone(),
-            remainder: thick[*root].get(ORDER + 1).cloned().unwrap_or_else(|| undefined_or_zero(&thick[*root], p)),
-        };
-        self.roots.iter().map(polynomial).collect()
+        self.groups.iter().zip(parameters).map(group).collect()
     }
 }
 

@@ -188,7 +188,9 @@ impl Decision<'_, '_> {
         }
         let defined = on_box.iter().chain(slopes.iter().flat_map(|(_, rows)| rows)).flatten().all(Interval::is_defined);
         let judgement = match corner {
-            Some(corner) => Judgement::Halve(self.narrowings[corner].axis(self.machine, piece, whole, states, self.values)),
+            Some(corner) => {
+                Judgement::Halve(self.narrowings[corner].axis(self.machine, piece, whole, states, self.values))
+            }
             None if defined => self.by_mean_value(piece, &middle, &slopes),
             None => Judgement::Halve(None),
         };

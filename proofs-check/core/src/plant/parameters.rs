@@ -42,17 +42,30 @@ impl Parameter {
 
     /// Its interval, for a reader.
     pub fn in_words(&self) -> String {
-        format!("{} in [{}, {}]", self.name, self.range.low.text, self.range.high.text)
+        words(&self.name, [&self.range.low.text, &self.range.high.text])
     }
 }
 
-/// That a claim names the parameters of the file, and none where the file has none.
-pub fn agree(asked: &[Parameter], claimed: Option<&Field<'_>>, claim: &str) -> Outcome<()> {
+fn words(name: &str, [low, high]: [&str; 2]) -> String {
+    format!("a constant {name} in [{low}, {high}]")
+}
+
+/// That a claim names the parameters of the file, and none where the file has none; which they are in words, with the texts of the
+/// claim.
+pub fn agree(asked: &[Parameter], claimed: Option<&Field<'_>>, claim: &str) -> Outcome<Option<String>> {
     let asked = Some(asked).filter(|asked| !asked.is_empty());
-    let Some((asked, field)) = both(RULE, "parameters", asked, claimed, claim)? else { return Ok(()) };
-    let mut fields = field.fields()?;
+    let Some((asked, field)) = both(RULE, "parameters", asked, claimed, claim)? else { return Ok(None) };
+    let (mut fields, mut all) = (field.fields()?, Vec::new());
     for parameter in asked {
-        parameter.range.agrees(&fields.required(&parameter.name)?, RULE)?;
+        let stated = fields.required(&parameter.name)?;
+        parameter.range.agrees(&stated, RULE)?;
+        let mut ends = stated.fields()?;
+        let mut text = |name| {
+            let end = ends.required(name)?;
+            end.rational()?;
+            end.numeral()
+        };
+        all.push(words(&parameter.name, [text("low")?, text("high")?]));
     }
-    fields.finish()
+    fields.finish().map(|()| Some(all.join(" and ")))
 }

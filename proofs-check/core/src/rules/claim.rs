@@ -142,7 +142,7 @@ impl<'a> Claim<'a> {
         }
         input_gain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
         let of_family = spec.plant.as_ref().map_or(&[][..], |plant| &plant.parameters);
-        parameters::agree(of_family, self.parameters.as_ref(), &self.pointer)?;
+        let family = parameters::agree(of_family, self.parameters.as_ref(), &self.pointer)?;
         let kind = match spec.initial_set {
             AskedSet::Paper => "paper",
             AskedSet::AtRest(_) => "at-rest",
@@ -171,7 +171,7 @@ impl<'a> Claim<'a> {
             None => reads(RULE, &self.statement, &self.in_words(spec)),
             Some(plant) => {
                 self.check_ball(plant)?;
-                reads(RULE, &self.statement, &self.of_plant(spec, plant)?)
+                reads(RULE, &self.statement, &self.of_plant(spec, plant, family)?)
             }
         }
     }
@@ -186,7 +186,11 @@ impl<'a> Claim<'a> {
     }
 
     /// The claim about a plant in words.
-    fn of_plant(&self, spec: &Specification, plant: &OfPlant) -> Outcome<String> {
+    fn of_plant(&self, spec: &Specification, plant: &OfPlant, family: Option<String>) -> Outcome<String> {
+        let about = family.map_or_else(
+            || "the plant of these formulas".to_owned(),
+            |parameters| format!("every plant of these formulas with {parameters}"),
+        );
         let domain = plant.domain.as_ref().map_or_else(String::new, |[x, e]| {
             let of_x = if plant.states > 0 { format!("|x - x_0| <= {}, ", x.text) } else { String::new() };
             format!(" (a model that holds for {of_x}|e| <= {})", e.text)
@@ -205,7 +209,7 @@ impl<'a> Claim<'a> {
         };
         let (regulator, when) = self.regulator(spec);
         Ok(format!(
-            "{regulator}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
+            "{regulator}, {about}{domain} has a T-periodic solution of the closed loop to which \
              every solution from {states}{start}, at any {when}, converges exponentially{orbit}.",
         ))
     }
