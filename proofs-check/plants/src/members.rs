@@ -34,7 +34,10 @@ impl Expanded {
         parameters[0] = &middle[1..];
         let mut groups = path.expand(&piece.cell, &parameters, values).into_iter();
         let at_middle = groups.next().unwrap_or_default();
-        Expanded { at_middle, slopes: groups.zip(1..).map(|(slopes, side)| (piece.half_width(Some(side)), slopes)).collect() }
+        Expanded {
+            at_middle,
+            slopes: groups.zip(1..).map(|(slopes, side)| (piece.half_width(Some(side)), slopes)).collect(),
+        }
     }
 
     /// For each parameter how much each component moves with it, by a bound of its derivatives.

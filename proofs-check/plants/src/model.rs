@@ -22,6 +22,8 @@ pub struct Model {
     /// `L^-1 f`.
     pub f: Vec<Id>,
     pub q: Id,
+    /// `f - xb'`.
+    pub apart: Vec<Id>,
     /// `L^-1 (f - xb')`: at v = 0, e = 0 the defect of the orbit.
     pub defect: Vec<Id>,
     /// `J = L^-1 f_x L`, by rows.
@@ -79,7 +81,7 @@ impl Model {
         let row = slopes(&mut formulas, q);
         let matrices = plant.lyapunov.iter().enumerate();
         let lyapunov = matrices.map(|(which, w)| matrix(&mut formulas, which, w)).collect();
-        Model { formulas, f, q, defect, jacobian, row, lyapunov, demands }
+        Model { formulas, f, q, apart, defect, jacobian, row, lyapunov, demands }
     }
 
     /// The number of states.
