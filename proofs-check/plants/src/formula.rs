@@ -39,7 +39,7 @@ pub enum Leaf {
         entry: [usize; 2],
         order: usize,
     },
-    /// A parameter of which an interval is given, less its nominal value.
+    /// A parameter of which an interval is given.
     Parameter(usize),
     /// A component of `L^-1 (x_0' - xb')`: any number between two bounds, at each t.
     Drift(usize),

@@ -53,10 +53,7 @@ impl Model {
             let moved = linear(&mut formulas, row, &states);
             variables.push(if frame == Frame::Moving { formulas.add(orbit, moved) } else { states[i] });
         }
-        for (i, parameter) in plant.known.parameters.iter().enumerate() {
-            let (nominal, apart) = (formulas.number(&parameter.nominal), formulas.leaf(Leaf::Parameter(i)));
-            variables.push(formulas.add(nominal, apart));
-        }
+        variables.extend((0..plant.known.parameters.len()).map(|i| formulas.leaf(Leaf::Parameter(i))));
         let f: Vec<Id> = plant.f.iter().map(|formula| formulas.read(&formula.expr, &variables, &mut demands)).collect();
         let q = formulas.read(&plant.q.expr, &variables, &mut demands);
         let apart: Vec<Id> = (0..order)
@@ -103,7 +100,9 @@ pub fn wave(formulas: &mut Formulas, plant: &Plant, which: usize, order: usize) 
         let part = match member.checked_sub(1) {
             None => part,
             Some(parameter) => {
-                let apart = formulas.leaf(Leaf::Parameter(parameter));
+                let nominal = formulas.number(&plant.known.parameters[parameter].nominal);
+                let value = formulas.leaf(Leaf::Parameter(parameter));
+                let apart = formulas.sub(value, nominal);
                 formulas.product(apart, part)
             }
         };

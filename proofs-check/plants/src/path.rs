@@ -7,6 +7,7 @@ use super::taylor::{Series, expand};
 use super::time::{Table, point, waves};
 use proofs_core::effort;
 use proofs_core::interval::Interval;
+use std::collections::VecDeque;
 
 /// The order of the polynomials.
 pub const ORDER: usize = 12;
@@ -50,7 +51,7 @@ impl<'m, 'f> Path<'m, 'f> {
         self.machine.formulas
     }
 
-    /// The nodes of each group on a cell, each with its own parameters less their nominal values.
+    /// The nodes of each group on a cell, each with its own parameters.
     pub fn expand(&self, cell: &Cell, parameters: &[&[Interval]], values: &Values) -> Vec<Vec<Polynomial>> {
         let p = self.machine.precision;
         let (middle, half) = (point(&cell.middle), cell.half_width());
@@ -118,12 +119,13 @@ pub enum Judged {
 /// # Errors
 /// The time, and whether it is refuted.
 pub fn everywhere(whole: Piece, mut judge: impl FnMut(&Piece) -> Judged) -> Result<usize, (f64, bool)> {
-    let mut queue = vec![whole];
+    let mut queue = VecDeque::from([whole]);
     for _ in 0..FIRST_CELLS_LOG {
         queue = queue.iter().flat_map(|piece| piece.halves(None)).collect();
     }
+    // The largest first: along the edge of where it fails, halves of halves may all have their middles on one side of it.
     let mut count = 0;
-    while let Some(piece) = queue.pop() {
+    while let Some(piece) = queue.pop_front() {
         count += 1;
         let at = piece.cell.middle.to_f64();
         match judge(&piece) {

@@ -129,7 +129,7 @@ fn place(region: &Region, piece: &Piece) -> String {
     let (t, e) = (piece.cell.middle.to_f64(), piece.middle(states).to_f64());
     let of_family = match region.parameters.len() {
         0 => String::new(),
-        count => format!(", p - p^0 = ({})", listed(states + 1..states + 1 + count)),
+        count => format!(", p = ({})", listed(states + 1..states + 1 + count)),
     };
     if states == 0 && e == 0.0 {
         return format!("t = {t:.6}{of_family}");

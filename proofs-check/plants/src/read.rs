@@ -330,7 +330,10 @@ fn amplitudes(waves: &[Wave], intervals: &[Parameter]) -> Vec<spec::Size> {
     let at = |corner: usize, coefficient: &dyn Fn(&Wave) -> Option<Rational>| {
         let mut parts = waves.iter().map(|wave| coefficient(wave).unwrap_or_default());
         let nominal = parts.next().unwrap_or_default();
-        let moved = parts.zip(intervals).enumerate().map(|(i, (part, of))| part * &of.ends[corner >> i & 1]);
+        let moved = parts.zip(intervals).enumerate().map(|(i, (part, of))| {
+            let end = &of.ends[corner >> i & 1];
+            part * Rational::from(end - &of.nominal)
+        });
         moved.fold(nominal, |sum, part| sum + part)
     };
     let largest = |size: &dyn Fn(usize) -> Rational| (0..1 << intervals.len()).map(size).max().unwrap_or_default();

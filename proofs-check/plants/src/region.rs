@@ -16,7 +16,7 @@ use std::rc::Rc;
 /// How many cells of t there are before anything is halved for a reason.
 const FIRST_CELLS_LOG: u32 = 4;
 
-/// `v` or `x` in a set of `states` dimensions, `|e| <= output`, all t, and parameters less their nominal values between two ends.
+/// `v` or `x` in a set of `states` dimensions, `|e| <= output`, all t, and parameters between two ends.
 #[derive(Clone)]
 pub struct Region {
     pub states: usize,

@@ -17,7 +17,7 @@ pub struct Parameter {
     pub name: String,
     pub range: Range,
     pub nominal: Rational,
-    /// `low - nominal <= 0` and `high - nominal >= 0`.
+    /// low and high.
     pub ends: [Rational; 2],
 }
 
@@ -28,8 +28,7 @@ impl Parameter {
         let [nominal, low, high] = [&range.nominal, &range.low, &range.high].map(|end| end.rational());
         match (nominal, low, high) {
             (Some(nominal), Some(low), Some(high)) => {
-                let ends = [low - &nominal, high - &nominal];
-                Ok(Parameter { name: name.to_owned(), range, nominal, ends })
+                Ok(Parameter { name: name.to_owned(), range, nominal, ends: [low, high] })
             }
             _ => bad(&field.pointer, "expected rational numbers"),
         }
@@ -37,7 +36,7 @@ impl Parameter {
 
     /// Whether it is one number.
     pub fn is_constant(&self) -> bool {
-        self.ends.iter().all(Rational::is_zero)
+        self.ends.iter().all(|end| *end == self.nominal)
     }
 
     /// Its interval, for a reader.
@@ -65,6 +64,7 @@ pub fn agree(asked: &[Parameter], claimed: Option<&Field<'_>>, claim: &str) -> O
             end.rational()?;
             end.numeral()
         };
+        text("nominal")?;
         all.push(words(&parameter.name, [text("low")?, text("high")?]));
     }
     fields.finish().map(|()| Some(all.join(" and ")))
