@@ -97,6 +97,26 @@ fn a_bound_that_the_inside_breaks() {
     hump("0.99").refused(Invalid, "bounds of the plant", "/witness/bounds/0");
 }
 
+/// Where x and its velocity are for all parameters counts: `x_0 = m`, and `x_0' = -a v` for `|v| <= r`.
+#[test]
+fn the_orbits_of_all_members_are_looked_at() {
+    let with = |f: &str, p: Value, mean: &str| {
+        Parts::scalar(f, "sin(2*pi*t) + x^2/2")
+            .orbit(0.0, 0.0, "0", "0.05")
+            .forcing(0.0, 0.0, 1.0, "0.6", "2")
+            .with("/witness/lyapunov/alpha", json!("0.9"))
+            .with("/plant/parameters", p)
+            .with("/witness/orbit/sensitivities", json!([{ "mean": [mean] }]))
+            .with("/witness/forcing/sensitivities", json!([{ "mean": "0" }]))
+    };
+    let away = with("-x + e + m", json!({ "m": interval(["0", "-1", "1"]) }), "1");
+    away.clone().bounds(&[("q_x", "2", "3", "3.051")]).accepted();
+    away.bounds(&[("q_x", "2", "3", "3.049")]).refused(Invalid, "bounds of the plant", "/witness/bounds/0");
+    let fast = with("-a*x + e", json!({ "a": interval(["1", "1", "9"]) }), "0");
+    fast.clone().bounds(&[("q_tx", "2", "3", "0.451")]).accepted();
+    fast.bounds(&[("q_tx", "2", "3", "0.449")]).refused(Undecided, "bounds of the plant", "/witness/bounds/0");
+}
+
 /// (M) with `w_x = h = 1`: `2 sigma` is not below `(4 + 2a)/(4a - 1)`, which is 2.2308 at a = 0.9 and 2 at a = 1.
 #[test]
 fn an_inequality_at_every_member() {
