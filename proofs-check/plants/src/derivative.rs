@@ -146,7 +146,14 @@ mod tests {
         let machine = Machine::new(formulas, &curves, &Interval::pi(PRECISION));
         // The time is the middle of a cell.
         let (cell, mut values) = (machine.period(&(t * 2)), machine.values());
-        machine.run(&machine.program(&[id]), At::Middle, &cell, &[x.clone()], &[e.clone()], &mut values);
+        machine.run(
+            &machine.program(&[id]),
+            At::Middle,
+            &cell,
+            std::slice::from_ref(x),
+            std::slice::from_ref(e),
+            &mut values,
+        );
         machine.get(id, At::Middle, &cell, &values)
     }
 
