@@ -15,7 +15,7 @@ pub mod subject;
 
 pub use proofs_core::{
     bound, constant, data, effort, exact, expr, gain, input_gain, interval, jacobian, json, matrix, monotone, plant,
-    propose, rules, sha256, spec, verdict, weights,
+    propose, range, rules, sha256, spec, verdict, weights,
 };
 pub use proofs_figures as figures;
 pub use proofs_plants as plants;

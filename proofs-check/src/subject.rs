@@ -172,7 +172,9 @@ fn assumed_of_plant(plant: &OfPlant, spec: &Specification) -> Vec<String> {
         Some([x, e]) => format!(" for |x - x_0| <= {}, |e| <= {}", printable(&x.text), printable(&e.text)),
     };
     let (equations, input) = (if stateless { "e' = q(t,e)" } else { "x' = f(t,x,e), e' = q(t,x,e)" }, input(spec));
-    vec![format!("the machine is {equations} + {input} with exactly these formulas{where_}")]
+    let family: Vec<String> = plant.parameters.iter().map(|parameter| printable(&parameter.in_words())).collect();
+    let family = if family.is_empty() { String::new() } else { format!(", with {}", family.join(" and ")) };
+    vec![format!("the machine is {equations} + {input} with exactly these formulas{family}{where_}")]
 }
 
 /// A free text on one line: control characters are escaped, and what is long is cut.

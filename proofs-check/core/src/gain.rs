@@ -6,8 +6,9 @@
 //! `|i om + b sigma + i Y (i om + sigma)|^2 = b^2 sigma^2 + om^2 + 2 (1-b) sigma om Y + (sigma^2 + om^2) Y^2`, of which the least over Y is
 //! `(b sigma^2 + om^2)^2/(sigma^2 + om^2)`. So `|e_j| <= |q_j| sqrt(sigma^2 + om^2)/(b sigma^2 + om^2)`, and `e_0 = 0`.
 
-use crate::input_gain::InputGain;
+use crate::input_gain::factors;
 use crate::interval::Interval;
+use crate::range::Range;
 
 /// b_lo and b_hi, which are not both 1.
 #[derive(Clone, Debug)]
@@ -18,8 +19,8 @@ pub struct Gain {
 
 impl Gain {
     /// That of a file; none where b is 1.
-    pub fn new(given: Option<&InputGain>, precision: u32) -> Option<Gain> {
-        let [low, high] = given.filter(|given| !given.is_nominal())?.factors(precision);
+    pub fn new(given: Option<&Range>, precision: u32) -> Option<Gain> {
+        let [low, high] = factors(given.filter(|given| !given.is_nominal())?, precision);
         Some(Gain { low, high })
     }
 

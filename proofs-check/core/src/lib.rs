@@ -20,6 +20,7 @@ pub mod matrix;
 pub mod monotone;
 pub mod plant;
 pub mod propose;
+pub mod range;
 pub mod rules;
 pub mod sha256;
 pub mod spec;

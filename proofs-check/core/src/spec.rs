@@ -8,11 +8,12 @@ use crate::bound::{BOUND_NAMES, BOUNDS, REQUIRED};
 use crate::constant::{Constant, Number, PRECISIONS, RULE, expression, positive, positive_with};
 use crate::exact::Exact;
 use crate::expr::{ARGUMENTS, Expr, Named};
-use crate::input_gain::InputGain;
+use crate::input_gain;
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
 use crate::json::{Field, Fields, Json};
 use crate::plant::OfPlant;
+use crate::range::Range;
 use crate::verdict::{Outcome, bad, demand};
 use crate::weights::Weights;
 use rug::{Integer, Rational};
@@ -89,7 +90,7 @@ pub struct Specification {
     pub domain: Option<[Constant; 2]>,
     pub initial_set: AskedSet,
     /// The gain of the actuator signal, where it need not be 1.
-    pub input_gain: Option<InputGain>,
+    pub input_gain: Option<Range>,
     /// Where the specification is a plant's formulas: what is known of them.
     pub plant: Option<Box<OfPlant>>,
 }
@@ -183,7 +184,7 @@ impl Specification {
             InternalModel::read(&file.required("internal_model")?, &period, &[])?;
 
         let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
-        let input_gain = InputGain::read(&mut file)?;
+        let input_gain = input_gain::read(&mut file)?;
         file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
         file.finish()?;
         let domain = domain.transpose()?;

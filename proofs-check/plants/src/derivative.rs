@@ -117,7 +117,7 @@ impl Formulas {
 
     fn leaf_slope(&mut self, leaf: Leaf) -> Id {
         match leaf {
-            Leaf::Time | Leaf::State(_) | Leaf::Output => self.int(1),
+            Leaf::Time | Leaf::State(_) | Leaf::Output | Leaf::Parameter(_) => self.int(1),
             Leaf::Orbit { state, order } => self.leaf(Leaf::Orbit { state, order: order + 1 }),
             Leaf::Lyapunov { which, entry, order } => self.leaf(Leaf::Lyapunov { which, entry, order: order + 1 }),
             Leaf::Drift(_) => self.int(0),
@@ -146,7 +146,14 @@ mod tests {
         let machine = Machine::new(formulas, &curves, &Interval::pi(PRECISION));
         // The time is the middle of a cell.
         let (cell, mut values) = (machine.period(&(t * 2)), machine.values());
-        machine.run(&machine.program(&[id]), At::Middle, &cell, std::slice::from_ref(x), e, &mut values);
+        machine.run(
+            &machine.program(&[id]),
+            At::Middle,
+            &cell,
+            std::slice::from_ref(x),
+            std::slice::from_ref(e),
+            &mut values,
+        );
         machine.get(id, At::Middle, &cell, &values)
     }
 

@@ -7,6 +7,7 @@
 //! on a set is asked once more there ([`Formulas::corners`]).
 
 use super::linear::Linear;
+use super::read::MAX_STATES;
 use proofs_core::exact::Exact;
 use proofs_core::expr::{Expr, Op, exact_op};
 use proofs_core::interval::Interval;
@@ -27,7 +28,7 @@ pub enum Leaf {
     State(usize),
     /// e.
     Output,
-    /// A derivative of a component of xb(t).
+    /// A derivative of one of the waves of [`super::model::curves`].
     Orbit {
         state: usize,
         order: usize,
@@ -38,16 +39,19 @@ pub enum Leaf {
         entry: [usize; 2],
         order: usize,
     },
+    /// A parameter of which an interval is given.
+    Parameter(usize),
     /// A component of `L^-1 (x_0' - xb')`: any number between two bounds, at each t.
     Drift(usize),
 }
 
-/// An axis along which derivatives are taken: t along the moving frame, a component of v, or e.
+/// An axis along which derivatives are taken: t along the moving frame, a component of v, e, or a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
     Time,
     State(usize),
     Output,
+    Parameter(usize),
 }
 
 impl Axis {
@@ -57,6 +61,7 @@ impl Axis {
             Axis::Time => 1,
             Axis::Output => 2,
             Axis::State(j) => 4 << j,
+            Axis::Parameter(i) => (4 << MAX_STATES) << i,
         }
     }
 }
@@ -169,6 +174,7 @@ impl Formulas {
             Leaf::Time | Leaf::Orbit { .. } | Leaf::Lyapunov { .. } => Axis::Time.bit(),
             Leaf::State(j) => Axis::State(j).bit(),
             Leaf::Output => Axis::Output.bit(),
+            Leaf::Parameter(i) => Axis::Parameter(i).bit(),
             Leaf::Drift(_) => DRIFT,
         };
         let id = self.insert(Kind::Leaf(leaf), depends, None);
@@ -283,6 +289,13 @@ impl Formulas {
     /// A product.
     pub fn mul(&mut self, a: Id, b: Id) -> Id {
         self.apply(&Op::Mul, [a, b])
+    }
+
+    /// A product that counts as one leaf in sums: what is added up of several states finds it in each of them.
+    pub fn product(&mut self, a: Id, b: Id) -> Id {
+        let id = self.mul(a, b);
+        self.linear.entry(id).or_insert_with(|| Linear::leaf(id));
+        id
     }
 
     /// The sum of products, as in a row times a column.

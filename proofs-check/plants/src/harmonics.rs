@@ -2,11 +2,13 @@
 //!
 //! Guarantee: r_0 bounds the supremum of `q(t,x_0,0) - qb`, and r_1 that of its derivative.
 
-use super::formula::{Axis, Formulas, Id, Leaf};
-use super::machine::{At, Cell, Curves, Machine};
-use super::model::Model;
-use super::path::{Judged, Path, bound, bound_of_derivative, everywhere};
+use super::formula::{Axis, Formulas, Id};
+use super::machine::{At, Curves, Machine};
+use super::members::{Expanded, roots, total};
+use super::model::{Model, wave};
+use super::path::{Judged, Path, Polynomial, bound, bound_of_derivative, everywhere};
 use super::read::Plant;
+use super::region::{Piece, Region};
 use super::time::around;
 use proofs_core::interval::Interval;
 use proofs_core::verdict::{Outcome, demand};
@@ -16,8 +18,8 @@ pub const RULE: &str = "forcing";
 
 /// The formulas of this rule.
 pub struct Rest {
-    /// q - qb.
-    q: Id,
+    /// q - qb, and its derivatives in the parameters.
+    q: Vec<Vec<Id>>,
     /// q_x L.
     row: Vec<Id>,
     /// D_x L, with D = q_t + q_x f along solutions.
@@ -25,23 +27,29 @@ pub struct Rest {
 }
 
 impl Rest {
-    /// `D = q_t + q_x f(t,x,0)`, in the moving frame the derivative of q along it and `q_v L^-1 (f - xb')`.
-    pub fn new(model: &mut Model) -> Rest {
+    /// `D = q_t + q_x f(t,x,0)`, in the moving frame the derivative of q along it and `q_x (f - xb')`, `q_x = q_v L^-1`: in the plant's
+    /// own coordinates, where a product of L and its inverse does not widen what f_x is for all parameters.
+    pub fn new(plant: &Plant, model: &mut Model) -> Rest {
         let (states, q) = (model.states(), model.q);
-        let defect = model.defect.clone();
         let formulas: &mut Formulas = &mut model.formulas;
-        // qb is kept behind the components of xb.
-        let approximation = formulas.leaf(Leaf::Orbit { state: states, order: 0 });
+        let approximation = wave(formulas, plant, states, 0);
         let row: Vec<Id> = (0..states).map(|j| formulas.derivative(q, Axis::State(j))).collect();
         let along = formulas.derivative(q, Axis::Time);
-        let moved = formulas.dot(row.iter().copied().zip(defect));
-        let d = formulas.add(along, moved);
+        let mut d = along;
+        for (i, apart) in model.apart.iter().enumerate() {
+            let column: Vec<Id> =
+                plant.known.coordinates.inverse.iter().map(|line| formulas.number(&line[i])).collect();
+            let slope = formulas.dot(row.iter().copied().zip(column));
+            let moved = formulas.mul(slope, *apart);
+            d = formulas.add(d, moved);
+        }
         let rate = (0..states).map(|j| formulas.derivative(d, Axis::State(j))).collect();
-        Rest { q: formulas.sub(q, approximation), row, rate }
+        let apart = formulas.sub(q, approximation);
+        Rest { q: roots(formulas, &[apart], plant.known.parameters.len()), row, rate }
     }
 
-    /// Decides `|q - qb| + r sup|q_x L| <= r_0` and `|(q - qb)'| + r sup|D_x L| + eps sup|q_x L| <= r_1` for all t; how many cells
-    /// that took.
+    /// Decides `|q - qb| + r sup|q_x L| <= r_0` and `|(q - qb)'| + r sup|D_x L| + eps sup|q_x L| <= r_1` for all t and all parameters;
+    /// how many boxes that took.
     pub fn prove(
         &self,
         plant: &Plant,
@@ -53,36 +61,48 @@ impl Rest {
         let p = om.precision();
         let machine = Machine::new(&model.formulas, curves, om);
         let mut values = machine.values();
-        let path = Path::new(&machine, curves, om, &[self.q]);
+        let path = Path::new(&machine, curves, om, &self.q);
+        let family = Region::of_family(plant, p);
         let program = machine.program(&[&self.row[..], &self.rate].concat());
         let number = |value: &rug::Rational| Interval::rational(value, p);
-        let [r, eps, rest, rest_t] =
-            [&plant.orbit.radius, &plant.orbit.defect, &plant.forcing.rest, &plant.forcing.rest_t].map(number);
+        let [r, eps] = [&plant.orbit.radius, &plant.orbit.defect].map(number);
+        let most = [&plant.forcing.rest, &plant.forcing.rest_t].map(number);
         let (ball, zero) = (vec![around(&r); plant.states()], Interval::int(0, p));
         let origin = vec![zero.clone(); plant.states()];
-        let judge = |cell: &Cell| {
-            let polynomials = path.expand(cell, &values);
-            let [polynomial] = &polynomials[..] else { return Judged::Halve };
-            // For each place: the two sums that have to be small.
-            let mut sums = |at: At, v: &[Interval], [value, slope]: [Interval; 2]| {
-                machine.run(&program, at, cell, v, &zero, &mut values);
-                let norm = |row: &[Id]| {
-                    row.iter().fold(zero.clone(), |sum, id| sum + machine.get(*id, at, cell, &values).sqr()).sqrt()
-                };
+        let judge = |piece: &Piece| {
+            let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.half_width());
+            let polynomial = &expanded.at_middle[0];
+            let bounds: [&dyn Fn(&Polynomial) -> Interval; 2] =
+                [&|g| bound(g, &half), &|g| bound_of_derivative(g, &half)];
+            let moves = bounds.map(|bound| expanded.moves(bound).concat());
+            let sizes = bounds.map(|bound| bound(polynomial));
+            // What the distance from xb adds to both.
+            let mut beside = |at: At, v: &[Interval], rest: &[Interval]| {
+                machine.run(&program, at, &piece.cell, v, rest, &mut values);
+                let value_of = |id: &Id| machine.get(*id, at, &piece.cell, &values);
+                let norm = |row: &[Id]| row.iter().fold(zero.clone(), |sum, id| sum + value_of(id).sqr()).sqrt();
                 let (row, rate) = (norm(&self.row), norm(&self.rate));
-                [value + &r * &row, slope + &r * rate + &eps * row]
+                [&r * &row, &r * rate + &eps * row]
             };
-            let half = cell.half_width();
-            let on_cell = sums(At::Box, &ball, [bound(polynomial, &half), bound_of_derivative(polynomial, &half)]);
-            if on_cell[0].le(&rest) == Some(true) && on_cell[1].le(&rest_t) == Some(true) {
-                return Judged::Proved;
-            }
+            let (mut sides, middles) = (piece.intervals(), piece.middles());
+            let on_box = beside(At::Box, &ball, &sides);
+            let open = |i: &usize| (&sizes[*i] + total(moves[*i].iter(), p) + &on_box[*i]).le(&most[*i]) != Some(true);
+            let Some(open) = (0..2).find(open) else { return Judged::Proved };
             let at = |k: usize| polynomial.coefficients.get(k).unwrap_or(&zero).abs();
-            let in_middle = sums(At::Middle, &origin, [at(0), at(1)]);
-            let fails = rest.lt(&in_middle[0]) == Some(true) || rest_t.lt(&in_middle[1]) == Some(true);
-            if fails { Judged::Refuted } else { Judged::Halve }
+            let in_middle = beside(At::Middle, &origin, &middles);
+            if (0..2).any(|i| most[i].lt(&(at(i) + &in_middle[i])) == Some(true)) && family.has_middle(piece) {
+                return Judged::Refuted;
+            }
+            // What is gained with t, or a parameter, in its middle.
+            let mut gains = vec![&sizes[open] - at(open) + &on_box[open] - &beside(At::Middle, &ball, &sides)[open]];
+            for (i, moved) in moves[open].iter().enumerate() {
+                let side = std::mem::replace(&mut sides[1 + i], middles[1 + i].clone());
+                gains.push(moved + &on_box[open] - &beside(At::Box, &ball, &sides)[open]);
+                sides[1 + i] = side;
+            }
+            Judged::Halve(gains.iter().map(|gain| gain.hi().to_f64()).collect())
         };
-        everywhere(&machine.period(period), judge).or_else(|(t, refuted)| {
+        everywhere(family.whole(&machine, machine.period(period)), judge).or_else(|(t, refuted)| {
             let what =
                 format!("q(t,x_0,0) - qb is at most `rest`, and its derivative at most `rest_t`, near t = {t:.6}");
             demand(refuted.then_some(false), RULE, &plant.forcing.pointer, what).map(|()| 0)

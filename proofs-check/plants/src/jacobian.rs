@@ -92,7 +92,7 @@ impl Problem<'_> {
         let machine = Machine::new(formulas, &curves, &(Interval::pi(precision) * 2 / self.period));
         let (root, mut values) = (machine.period(self.period), machine.values());
         let zero = Interval::int(0, precision);
-        let region = Region { states: 0, shape: Shape::Ball(zero.clone()), output: zero };
+        let region = Region { states: 0, shape: Shape::Ball(zero.clone()), output: zero, parameters: Vec::new() };
         let place = "/specification/lyapunov/jacobian";
         smooth::prove(formulas, demands, place, &machine, &root, &region, &mut values)?;
         let (truth, near) = match question.decide(&machine, &root, &region, MAX_PIECES, &mut values) {

@@ -16,6 +16,7 @@ pub mod inequality;
 pub mod jacobian;
 mod linear;
 pub mod machine;
+mod members;
 pub mod model;
 mod narrowing;
 pub mod orbit;
@@ -80,7 +81,8 @@ pub fn prove(
     }
     lines.push("formulas: periodic in t, by their form".to_owned());
     let mut model = Model::new(plant, Frame::Moving);
-    let rest = harmonics::Rest::new(&mut model);
+    let rest = harmonics::Rest::new(plant, &mut model);
+    let defect = members::roots(&mut model.formulas, &model.defect, plant.known.parameters.len());
     let mut asked = Vec::new();
     if plant.states() > 0 {
         orbit::radii(&plant.orbit, &plant.lyapunov[0])?;
@@ -96,8 +98,7 @@ pub fn prove(
     if model.formulas.is_too_large() {
         return too_large("formulas", "/plant");
     }
-    let mut curves = model::curves(plant);
-    curves.orbit.push(plant.forcing.wave.clone());
+    let curves = model::curves(plant);
     let circle = |p: u32| {
         let period = spec.period.enclose(p);
         (Interval::pi(p) * 2 / &period, period)
@@ -113,7 +114,7 @@ pub fn prove(
     if plant.states() > 0 {
         let cells = at_rising_precision(|p| {
             let (om, period) = circle(p);
-            orbit::defect(plant, &model, &curves, &om, &period)
+            orbit::defect(plant, &defect, &model, &curves, &om, &period)
         })?;
         lines.push(format!("orbit: defect by {cells} cells of t, at order {}", path::ORDER));
     }
@@ -123,7 +124,7 @@ pub fn prove(
     })?;
     lines.push(format!("forcing: harmonics and rest by {cells} cells of t"));
     machine.drift = drift(plant, &model, &machine, &root, &mut values);
-    let mut in_states = still.prepared(&curves, &om, &period);
+    let mut in_states = still.prepared(plant, &curves, &om, &period);
     for (at, Asked { question, region, rule, pointer, what }) in asked.into_iter().enumerate() {
         let which = at.checked_sub(of_the_orbit);
         if let Some(count) = which.and_then(|which| in_states.proves(plant, which)) {
@@ -141,10 +142,9 @@ pub fn prove(
 
 /// The sizes of each P, and its rate in the tube.
 fn of_orbit(plant: &Plant, model: &mut Model) -> Outcome<Vec<Asked>> {
-    let zero = || Interval::int(0, PRECISION);
     let mut asked = Vec::new();
     for (which, what, question) in orbit::sizes(plant, model)? {
-        let region = Region { states: plant.states(), shape: Shape::Ball(zero()), output: zero() };
+        let region = Region { states: plant.states(), ..Region::of_family(plant, PRECISION) };
         let pointer = plant.lyapunov[which].pointer.clone();
         asked.push(Asked { question, region, rule: orbit::RULE, pointer, what: what.to_owned() });
     }
@@ -154,7 +154,7 @@ fn of_orbit(plant: &Plant, model: &mut Model) -> Outcome<Vec<Asked>> {
         let rows = bounds::rate(&mut model.formulas, &w.numbers[2], &p, &jacobian);
         asked.push(Asked {
             question: Question::new(&mut model.formulas, rows, plant.states()),
-            region: Region { states: plant.states(), shape: Shape::Ball(tube(plant)), output: zero() },
+            region: within(plant, tube(plant), Interval::int(0, PRECISION)),
             rule: orbit::RULE,
             pointer: format!("{}/alpha", w.pointer),
             what: "P' + P J + J'P <= -2 alpha P in the tube".to_owned(),
@@ -218,7 +218,13 @@ fn radius(plant: &Plant, x: &Float) -> Interval {
 
 /// G(X, E).
 fn region(plant: &Plant, x: &Float, e: &Float) -> Region {
-    Region { states: plant.states(), shape: Shape::Ball(radius(plant, x)), output: end(e) }
+    within(plant, radius(plant, x), end(e))
+}
+
+/// All (t, v, e, p) with `|v| <= radius`, `|e| <= output`.
+fn within(plant: &Plant, radius: Interval, output: Interval) -> Region {
+    let family = Region::of_family(plant, PRECISION);
+    Region { states: plant.states(), shape: Shape::Ball(radius), output, ..family }
 }
 
 /// On the largest region that anything is used on, and in the tube.
@@ -233,7 +239,7 @@ fn smoothness(
     let [x, e] = used;
     let whole = region(plant, x, e);
     let count = smooth::prove(&model.formulas, &model.demands, "/plant", machine, root, &whole, values)?;
-    let tube_region = Region { shape: Shape::Ball(tube(plant)), output: Interval::int(0, PRECISION), ..whole };
+    let tube_region = within(plant, tube(plant), Interval::int(0, PRECISION));
     if tube(plant).le(&radius(plant, x)) == Some(true) {
         return Ok(count);
     }
@@ -248,13 +254,14 @@ fn drift(plant: &Plant, model: &Model, machine: &Machine<'_>, root: &Rc<Cell>, v
     let entries: Vec<_> = model.jacobian.iter().flatten().copied().collect();
     let program = machine.program(&entries);
     let ball = vec![time::around(&r); plant.states()];
+    let rest = Region::of_family(plant, PRECISION).whole(machine, root.clone()).intervals();
     let mut cells = vec![root.clone()];
     for _ in 0..DRIFT_CELLS_LOG {
         cells = cells.iter().flat_map(|cell| cell.halves()).collect();
     }
     let mut largest = zero.clone();
     for cell in &cells {
-        machine.run(&program, machine::At::Box, cell, &ball, &zero, values);
+        machine.run(&program, machine::At::Box, cell, &ball, &rest, values);
         let value = |id: &formula::Id| machine.get(*id, machine::At::Box, cell, values);
         let square = entries.iter().fold(zero.clone(), |sum, id| sum + value(id).sqr());
         largest = largest.max(&square);

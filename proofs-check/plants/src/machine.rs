@@ -15,7 +15,7 @@ const TERMS: usize = 3;
 /// Cells of t are kept for all questions down to this depth.
 const KEPT_DEPTH: u32 = 9;
 
-/// The trigonometric polynomials of a witness: xb by its components, and the matrices P by their entries.
+/// The trigonometric polynomials of a witness: those of [`super::model::curves`], and the matrices P by their entries.
 #[derive(Clone, Debug)]
 pub struct Curves {
     pub orbit: Vec<Wave>,
@@ -145,8 +145,16 @@ impl<'f> Machine<'f> {
         Program { time, rest }
     }
 
-    /// Computes the nodes of a program on a box: a cell of t, v_j in `states`, and e.
-    pub fn run(&self, program: &Program, at: At, cell: &Cell, states: &[Interval], e: &Interval, values: &mut Values) {
+    /// Computes the nodes of a program on a box: a cell of t, v_j in `states`, and `rest`, e and the parameters.
+    pub fn run(
+        &self,
+        program: &Program,
+        at: At,
+        cell: &Cell,
+        states: &[Interval],
+        rest: &[Interval],
+        values: &mut Values,
+    ) {
         let mut on_cell = cell.values[at as usize].borrow_mut();
         for id in &program.time {
             let place = self.places[*id];
@@ -164,7 +172,8 @@ impl<'f> Machine<'f> {
         for id in &program.rest {
             let value = match &self.formulas.node(*id).kind {
                 Kind::Leaf(Leaf::State(j)) => states.get(*j).unwrap_or(&self.none).clone(),
-                Kind::Leaf(Leaf::Output) => e.clone(),
+                Kind::Leaf(Leaf::Output) => rest.first().unwrap_or(&self.none).clone(),
+                Kind::Leaf(Leaf::Parameter(i)) => rest.get(1 + i).unwrap_or(&self.none).clone(),
                 Kind::Leaf(Leaf::Drift(_)) => self.drift.clone(),
                 Kind::Leaf(_) => self.none.clone(),
                 Kind::Sign(a) => self.sign(self.find(*a, &on_cell, values)),
@@ -222,7 +231,7 @@ impl<'f> Machine<'f> {
             Leaf::Lyapunov { which, entry: [i, j], order } => {
                 (self.lyapunov.get(which).and_then(|rows| rows.get(i)?.get(j)), order)
             }
-            Leaf::State(_) | Leaf::Output | Leaf::Drift(_) => (None, 0),
+            Leaf::State(_) | Leaf::Output | Leaf::Parameter(_) | Leaf::Drift(_) => (None, 0),
         };
         let Some(table) = table else { return self.none.clone() };
         let waves = cell.waves.get_or_init(|| waves(&self.om, &point(&cell.middle), self.count));

@@ -22,6 +22,8 @@ pub struct Model {
     /// `L^-1 f`.
     pub f: Vec<Id>,
     pub q: Id,
+    /// `f - xb'`.
+    pub apart: Vec<Id>,
     /// `L^-1 (f - xb')`: at v = 0, e = 0 the defect of the orbit.
     pub defect: Vec<Id>,
     /// `J = L^-1 f_x L`, by rows.
@@ -47,15 +49,16 @@ impl Model {
         let states: Vec<Id> = (0..order).map(|j| formulas.leaf(Leaf::State(j))).collect();
         let mut variables = vec![formulas.leaf(Leaf::Time), formulas.leaf(Leaf::Output)];
         for (i, row) in plant.known.coordinates.matrix.iter().enumerate() {
-            let orbit = orbit(&mut formulas, plant, i, 0);
+            let orbit = wave(&mut formulas, plant, i, 0);
             let moved = linear(&mut formulas, row, &states);
             variables.push(if frame == Frame::Moving { formulas.add(orbit, moved) } else { states[i] });
         }
+        variables.extend((0..plant.known.parameters.len()).map(|i| formulas.leaf(Leaf::Parameter(i))));
         let f: Vec<Id> = plant.f.iter().map(|formula| formulas.read(&formula.expr, &variables, &mut demands)).collect();
         let q = formulas.read(&plant.q.expr, &variables, &mut demands);
         let apart: Vec<Id> = (0..order)
             .map(|i| {
-                let velocity = orbit(&mut formulas, plant, i, 1);
+                let velocity = wave(&mut formulas, plant, i, 1);
                 formulas.sub(f[i], velocity)
             })
             .collect();
@@ -75,7 +78,7 @@ impl Model {
         let row = slopes(&mut formulas, q);
         let matrices = plant.lyapunov.iter().enumerate();
         let lyapunov = matrices.map(|(which, w)| matrix(&mut formulas, which, w)).collect();
-        Model { formulas, f, q, defect, jacobian, row, lyapunov, demands }
+        Model { formulas, f, q, apart, defect, jacobian, row, lyapunov, demands }
     }
 
     /// The number of states.
@@ -84,20 +87,35 @@ impl Model {
     }
 }
 
-/// A derivative of a component of xb: a number where it does not move.
-fn orbit(formulas: &mut Formulas, plant: &Plant, state: usize, order: usize) -> Id {
-    match plant.orbit.waves.get(state).filter(|wave| wave.is_constant()) {
-        Some(wave) if order == 0 => formulas.number(&wave.mean),
-        Some(_) => formulas.int(0),
-        None => formulas.leaf(Leaf::Orbit { state, order }),
+/// A derivative in t of a component of xb(t;p), or after them of qb(t;p): the nominal one, and the parameters less their nominal
+/// values times those of the sensitivities. Numbers stand where nothing moves.
+pub fn wave(formulas: &mut Formulas, plant: &Plant, which: usize, order: usize) -> Id {
+    let mut sum = formulas.int(0);
+    for (member, waves) in plant.waves().enumerate() {
+        let part = match waves.get(which).filter(|wave| wave.is_constant()) {
+            Some(wave) if order == 0 => formulas.number(&wave.mean),
+            Some(_) => formulas.int(0),
+            None => formulas.leaf(Leaf::Orbit { state: member * waves.len() + which, order }),
+        };
+        let part = match member.checked_sub(1) {
+            None => part,
+            Some(parameter) => {
+                let nominal = formulas.number(&plant.known.parameters[parameter].nominal);
+                let value = formulas.leaf(Leaf::Parameter(parameter));
+                let apart = formulas.sub(value, nominal);
+                formulas.product(apart, part)
+            }
+        };
+        sum = formulas.add(sum, part);
     }
+    sum
 }
 
 /// P(t): numbers where it is constant.
 pub fn matrix(formulas: &mut Formulas, which: usize, w: &Witness) -> Vec<Vec<Id>> {
     let order = w.mean.len();
     let mut entry = |i: usize, j: usize| {
-        if wave(w, i, j).is_constant() {
+        if entry_of(w, i, j).is_constant() {
             return formulas.number(&w.mean[i][j]);
         }
         // P is symmetric: one leaf for both entries.
@@ -106,7 +124,7 @@ pub fn matrix(formulas: &mut Formulas, which: usize, w: &Witness) -> Vec<Vec<Id>
     (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect()
 }
 
-fn wave(w: &Witness, i: usize, j: usize) -> Wave {
+fn entry_of(w: &Witness, i: usize, j: usize) -> Wave {
     let harmonics = w.harmonics.iter().map(|[cos, sin]| [cos[i][j].clone(), sin[i][j].clone()]).collect();
     Wave { mean: w.mean[i][j].clone(), harmonics }
 }
@@ -114,10 +132,10 @@ fn wave(w: &Witness, i: usize, j: usize) -> Wave {
 /// The entries of P as trigonometric polynomials.
 pub fn polynomials(w: &Witness) -> Vec<Vec<Wave>> {
     let order = w.mean.len();
-    (0..order).map(|i| (0..order).map(|j| wave(w, i, j)).collect()).collect()
+    (0..order).map(|i| (0..order).map(|j| entry_of(w, i, j)).collect()).collect()
 }
 
-/// The trigonometric polynomials of a witness.
+/// The trigonometric polynomials of a witness: the components of xb and qb, then those of each sensitivity.
 pub fn curves(plant: &Plant) -> Curves {
-    Curves { orbit: plant.orbit.waves.clone(), lyapunov: plant.lyapunov.iter().map(polynomials).collect() }
+    Curves { orbit: plant.waves().flatten().collect(), lyapunov: plant.lyapunov.iter().map(polynomials).collect() }
 }

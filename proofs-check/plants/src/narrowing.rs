@@ -1,10 +1,9 @@
 //! Along which axis a box is halved where a node is not known well enough. A hint, of which nothing is believed.
 
-use super::formula::{Axis, Id};
+use super::formula::Id;
 use super::machine::{At, Machine, Program, Values};
-use super::region::{Piece, axis};
+use super::region::{Piece, axes};
 use super::time::point;
-use proofs_core::interval::Interval;
 
 /// A node with what has to be computed for it.
 pub struct Narrowing {
@@ -25,25 +24,25 @@ impl Narrowing {
         machine: &Machine<'_>,
         piece: &Piece,
         whole: &Piece,
+        states: usize,
         values: &mut Values,
     ) -> Option<Option<usize>> {
-        let (states, depends) = (piece.sides.len() - 1, machine.formulas.depends(self.id));
+        let depends = machine.formulas.depends(self.id);
         let mut width = |side: Option<usize>| {
             let at = if side.is_none() { At::Middle } else { At::Box };
-            let mut sides: Vec<Interval> = (0..=states).map(|i| piece.side(i)).collect();
+            let mut sides = piece.intervals();
             if let Some(side) = side {
                 sides[side] = point(&piece.middle(side));
             }
-            machine.run(&self.program, at, &piece.cell, &sides[..states], &sides[states], values);
+            let (v, rest) = sides.split_at(states);
+            machine.run(&self.program, at, &piece.cell, v, rest, values);
             let value = machine.get(self.id, at, &piece.cell, values);
             let width = value.hi().to_f64() - value.lo().to_f64();
             if width.is_nan() { f64::INFINITY } else { width }
         };
-        let time = (depends & Axis::Time.bit() != 0).then_some(None);
-        let sides = (0..=states).filter(|side| depends & axis(*side, states).bit() != 0).map(Some);
-        let open = time.into_iter().chain(sides).filter(|side| *piece.half_width(*side).hi() > 0);
+        let open = axes(depends, states).filter(|side| *piece.half_width(*side).hi() > 0);
         let all: Vec<(f64, Option<usize>)> = open.map(|side| (width(side), side)).collect();
         let narrowest = all.iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(width, _)| width.is_finite());
-        narrowest.map(|(_, side)| *side).or_else(|| piece.widest(whole, depends))
+        narrowest.map(|(_, side)| *side).or_else(|| piece.widest(whole, depends, states))
     }
 }

@@ -5,10 +5,12 @@
 
 use super::formula::{Formulas, Id};
 use super::machine::Curves;
+use super::members::{Expanded, total};
 use super::model::Model;
-use super::path::{Judged, Path, bound_of_norm, everywhere};
+use super::path::{Judged, Path, bound, bound_of_norm, everywhere};
 use super::question::Question;
 use super::read::{Orbit, Plant};
+use super::region::{Piece, Region};
 use proofs_core::interval::Interval;
 use proofs_core::jacobian::Witness;
 use proofs_core::plant::coordinates::semidefinite;
@@ -66,23 +68,40 @@ pub fn shifted(formulas: &mut Formulas, p: &[Vec<Id>], end: &Rational, sign: i32
     (0..p.len()).map(|i| (0..=i).map(|j| entry(i, j, formulas)).collect()).collect()
 }
 
-/// `|L^-1 (f(t,xb,0) - xb')| <= eps` for all t; how many cells that took.
-pub fn defect(plant: &Plant, model: &Model, curves: &Curves, om: &Interval, period: &Interval) -> Outcome<usize> {
+/// `|L^-1 (f(t,xb,0) - xb')| <= eps` for all t and all parameters, `defect` the components of the
+/// left side with their derivatives in the parameters; how many boxes that took.
+pub fn defect(
+    plant: &Plant,
+    defect: &[Vec<Id>],
+    model: &Model,
+    curves: &Curves,
+    om: &Interval,
+    period: &Interval,
+) -> Outcome<usize> {
     let p = om.precision();
     let machine = super::machine::Machine::new(&model.formulas, curves, om);
     let values = machine.values();
-    let path = Path::new(&machine, curves, om, &model.defect);
+    let path = Path::new(&machine, curves, om, defect);
+    let family = Region::of_family(plant, p);
     let most = Interval::rational(&plant.orbit.defect, p);
-    let judge = |cell: &super::machine::Cell| {
-        let polynomials = path.expand(cell, &values);
-        if bound_of_norm(&polynomials, &cell.half_width()).le(&most) == Some(true) {
+    let judge = |piece: &Piece| {
+        let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.half_width());
+        let norm = |parts: &[Interval]| parts.iter().fold(Interval::int(0, p), |sum, part| sum + part.sqr()).sqrt();
+        let in_t = bound_of_norm(&expanded.at_middle, &half);
+        let moves = expanded.moves(|slope| bound(slope, &half));
+        let together: Vec<Interval> =
+            (0..plant.states()).map(|j| total(moves.iter().map(|parts| &parts[j]), p)).collect();
+        if (&in_t + norm(&together)).le(&most) == Some(true) {
             return Judged::Proved;
         }
-        let zero = Interval::int(0, p);
-        let at_middle = polynomials.iter().fold(zero, |sum, part| sum + part.coefficients[0].sqr()).sqrt();
-        if most.lt(&at_middle) == Some(true) { Judged::Refuted } else { Judged::Halve }
+        let at_middle = norm(&expanded.at_middle.iter().map(|part| part.coefficients[0].clone()).collect::<Vec<_>>());
+        if most.lt(&at_middle) == Some(true) && family.has_middle(piece) {
+            return Judged::Refuted;
+        }
+        let shares = moves.iter().map(|parts| norm(parts));
+        Judged::Halve([in_t - at_middle].into_iter().chain(shares).map(|share| share.hi().to_f64()).collect())
     };
-    everywhere(&machine.period(period), judge).or_else(|(t, refuted)| {
+    everywhere(family.whole(&machine, machine.period(period)), judge).or_else(|(t, refuted)| {
         let pointer = format!("{}/defect", plant.orbit.pointer);
         let what = format!("|L^-1 (f(t,xb,0) - xb')| <= defect near t = {t:.6}");
         demand(refuted.then_some(false), RULE, &pointer, what).map(|()| 0)

@@ -2,11 +2,12 @@
 
 use super::formula::{Formulas, Id, Leaf};
 use super::machine::{Cell, Curves, Machine, Values};
+use super::region::Piece;
 use super::taylor::{Series, expand};
 use super::time::{Table, point, waves};
 use proofs_core::effort;
 use proofs_core::interval::Interval;
-use std::rc::Rc;
+use std::collections::VecDeque;
 
 /// The order of the polynomials.
 pub const ORDER: usize = 12;
@@ -28,20 +29,19 @@ pub struct Path<'m, 'f> {
     orbit: Vec<Table>,
     om: Interval,
     count: usize,
-    order: Vec<Id>,
-    roots: Vec<Id>,
+    /// Nodes, after all that they are made from.
+    groups: Vec<(Vec<Id>, Vec<Id>)>,
 }
 
 impl<'m, 'f> Path<'m, 'f> {
-    /// For these nodes.
-    pub fn new(machine: &'m Machine<'f>, curves: &Curves, om: &Interval, roots: &[Id]) -> Path<'m, 'f> {
+    /// For groups of nodes.
+    pub fn new(machine: &'m Machine<'f>, curves: &Curves, om: &Interval, groups: &[Vec<Id>]) -> Path<'m, 'f> {
         // One order more for the velocity, one for the remainder.
         let last = ORDER + 3 + TERMS;
         Path {
             orbit: curves.orbit.iter().map(|wave| Table::new(wave, om, last)).collect(),
             count: curves.orbit.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0),
-            order: machine.formulas.below(roots),
-            roots: roots.to_vec(),
+            groups: groups.iter().map(|roots| (machine.formulas.below(roots), roots.clone())).collect(),
             om: om.clone(),
             machine,
         }
@@ -51,8 +51,8 @@ impl<'m, 'f> Path<'m, 'f> {
         self.machine.formulas
     }
 
-    /// The nodes on a cell.
-    pub fn expand(&self, cell: &Cell, values: &Values) -> Vec<Polynomial> {
+    /// The nodes of each group on a cell, each with its own parameters.
+    pub fn expand(&self, cell: &Cell, parameters: &[&[Interval]], values: &Values) -> Vec<Vec<Polynomial>> {
         let p = self.machine.precision;
         let (middle, half) = (point(&cell.middle), cell.half_width());
         let waves = waves(&self.om, &middle, self.count);
@@ -62,10 +62,11 @@ impl<'m, 'f> Path<'m, 'f> {
             .map(|table| (0..=ORDER + 2 + TERMS).map(|order| table.at(order, &waves, p)).collect())
             .collect();
         let none = || vec![Interval::undefined(p)];
-        let leaf = |leaf: Leaf, on_cell: bool, length: usize| match leaf {
+        let leaf = |leaf: Leaf, parameters: &[Interval], on_cell: bool, length: usize| match leaf {
             Leaf::Time if on_cell => vec![Interval::new(cell.lo.clone(), cell.hi.clone()), Interval::int(1, p)],
             Leaf::Time => vec![middle.clone(), Interval::int(1, p)],
             Leaf::State(_) | Leaf::Output => vec![Interval::int(0, p)],
+            Leaf::Parameter(i) => parameters.get(i).map_or_else(none, |value| vec![value.clone()]),
             Leaf::Orbit { state, order } => {
                 let (Some(table), Some(all)) = (self.orbit.get(state), derivatives.get(state)) else { return none() };
                 let mut factorial = Interval::int(1, p);
@@ -83,15 +84,19 @@ impl<'m, 'f> Path<'m, 'f> {
             Leaf::Lyapunov { .. } | Leaf::Drift(_) => none(),
         };
         let number = |id: Id| self.machine.number(id, values);
-        let series = |on_cell: bool, length: usize| {
-            expand(self.formulas(), &self.order, number, |kind| leaf(kind, on_cell, length), length)
+        let group = |((order, roots), parameters): (&(Vec<Id>, Vec<Id>), &&[Interval])| {
+            let series = |on_cell: bool, length: usize| {
+                expand(self.formulas(), order, number, |kind| leaf(kind, parameters, on_cell, length), length)
+            };
+            let (thin, thick) = (series(false, ORDER + 1), series(true, ORDER + 2));
+            let last = |root: Id| thick[root].get(ORDER + 1).cloned();
+            let polynomial = |root: &Id| Polynomial {
+                coefficients: thin[*root].clone(),
+                remainder: last(*root).unwrap_or_else(|| undefined_or_zero(&thick[*root], p)),
+            };
+            roots.iter().map(polynomial).collect()
         };
-        let (thin, thick) = (series(false, ORDER + 1), series(true, ORDER + 2));
-        let polynomial = |root: &Id| Polynomial {
-            coefficients: thin[*root].clone(),
-            remainder: thick[*root].get(ORDER + 1).cloned().unwrap_or_else(|| undefined_or_zero(&thick[*root], p)),
-        };
-        self.roots.iter().map(polynomial).collect()
+        self.groups.iter().zip(parameters).map(group).collect()
     }
 }
 
@@ -101,31 +106,38 @@ fn undefined_or_zero(series: &Series, precision: u32) -> Interval {
     if known { Interval::int(0, precision) } else { Interval::undefined(precision) }
 }
 
-/// What is known of a cell.
+/// What is known of a box of t and the parameters.
 pub enum Judged {
     Proved,
     Refuted,
-    Halve,
+    /// How much t (the first) and each parameter add to what is bounded: a hint.
+    Halve(Vec<f64>),
 }
 
-/// Decides something on cells that cover a period; else where that fails, and whether it is refuted there.
+/// Decides something on boxes that cover `whole`, a period and all parameters; else where that fails, and whether it is refuted there.
 ///
 /// # Errors
 /// The time, and whether it is refuted.
-pub fn everywhere(root: &Rc<Cell>, mut judge: impl FnMut(&Cell) -> Judged) -> Result<usize, (f64, bool)> {
-    let mut queue = vec![root.clone()];
+pub fn everywhere(whole: Piece, mut judge: impl FnMut(&Piece) -> Judged) -> Result<usize, (f64, bool)> {
+    let mut queue = VecDeque::from([whole]);
     for _ in 0..FIRST_CELLS_LOG {
-        queue = queue.iter().flat_map(|cell| cell.halves()).collect();
+        queue = queue.iter().flat_map(|piece| piece.halves(None)).collect();
     }
+    // The largest first: along the edge of where it fails, halves of halves may all have their middles on one side of it.
     let mut count = 0;
-    while let Some(cell) = queue.pop() {
+    while let Some(piece) = queue.pop_front() {
         count += 1;
-        let at = cell.middle.to_f64();
-        match judge(&cell) {
+        let at = piece.cell.middle.to_f64();
+        match judge(&piece) {
             Judged::Proved => {}
             Judged::Refuted => return Err((at, true)),
-            Judged::Halve if count < MAX_CELLS && !effort::exhausted() => queue.extend(cell.halves()),
-            Judged::Halve => return Err((at, false)),
+            Judged::Halve(shares) if count < MAX_CELLS && !effort::exhausted() => {
+                // Side 0 is that of e, which t has here. What is not known counts most, t before the parameters.
+                let known = |share: f64| if share.is_nan() { f64::INFINITY } else { share };
+                let largest = shares.into_iter().map(known).enumerate().rev().max_by(|a, b| a.1.total_cmp(&b.1));
+                queue.extend(piece.halves(largest.map(|(side, _)| side).filter(|side| *side > 0)));
+            }
+            Judged::Halve(_) => return Err((at, false)),
         }
     }
     Ok(count)

@@ -13,7 +13,7 @@
 use super::formula::{Axis, Demand, Formulas, Id};
 use super::machine::{At, Cell, Machine, Program, Values};
 use super::narrowing::Narrowing;
-use super::region::{Piece, Region, axis};
+use super::region::{Piece, Region, axes, axis};
 use super::time::{around, point};
 use proofs_core::effort;
 use proofs_core::interval::Interval;
@@ -57,14 +57,12 @@ impl Question {
     /// Prepares the derivatives of a lower triangle.
     pub fn new(formulas: &mut Formulas, rows: Vec<Vec<Id>>, states: usize) -> Question {
         let depends = rows.iter().flatten().fold(0, |all, id| all | formulas.depends(*id));
-        let time = std::iter::once((None, Axis::Time));
-        let sides = (0..=states).map(|side| (Some(side), axis(side, states)));
-        let used: Vec<_> = time.chain(sides).filter(|(_, axis)| depends & axis.bit() != 0).collect();
-        let slope = |(side, axis): (Option<usize>, Axis)| {
+        let slope = |side: Option<usize>| {
+            let axis = axis(side, states);
             let rows = rows.iter().map(|row| row.iter().map(|id| formulas.derivative(*id, axis)).collect()).collect();
             (side, rows)
         };
-        let slopes = used.into_iter().map(slope).collect();
+        let slopes = axes(depends, states).map(slope).collect();
         let entries: Vec<Id> = rows.iter().flatten().copied().collect();
         Question { slopes, corners: formulas.corners(&entries), rows, depends }
     }
@@ -107,14 +105,14 @@ impl Question {
         while let Some(piece) = queue.pop() {
             count += 1;
             if count > most || effort::exhausted() {
-                return Answer::Open(place(&piece));
+                return Answer::Open(place(region, &piece));
             }
             match decision.judge(&piece, &whole, count > PROBED_AFTER) {
                 Judgement::Proved => {}
-                Judgement::Refuted => return Answer::Refuted(place(&piece)),
-                Judgement::Halve(side) => match side.or_else(|| piece.widest(&whole, self.depends)) {
+                Judgement::Refuted => return Answer::Refuted(place(region, &piece)),
+                Judgement::Halve(side) => match side.or_else(|| piece.widest(&whole, self.depends, region.states)) {
                     Some(side) if piece.share(side, &whole) > LEAST_SHARE => queue.extend(piece.halves(side)),
-                    _ => return Answer::Open(place(&piece)),
+                    _ => return Answer::Open(place(region, &piece)),
                 },
             }
         }
@@ -122,14 +120,21 @@ impl Question {
     }
 }
 
-fn place(piece: &Piece) -> String {
-    let states = piece.sides.len() - 1;
-    let v: Vec<String> = (0..states).map(|i| format!("{:.6}", piece.middle(i).to_f64())).collect();
+fn place(region: &Region, piece: &Piece) -> String {
+    let states = region.states;
+    let listed = |sides: std::ops::Range<usize>| {
+        let list: Vec<String> = sides.map(|i| format!("{:.6}", piece.middle(i).to_f64())).collect();
+        list.join(", ")
+    };
     let (t, e) = (piece.cell.middle.to_f64(), piece.middle(states).to_f64());
+    let of_family = match region.parameters.len() {
+        0 => String::new(),
+        count => format!(", p = ({})", listed(states + 1..states + 1 + count)),
+    };
     if states == 0 && e == 0.0 {
-        return format!("t = {t:.6}");
+        return format!("t = {t:.6}{of_family}");
     }
-    format!("t = {t:.6}, L^-1 (x - xb) = ({}), e = {e:.6}", v.join(", "))
+    format!("t = {t:.6}, L^-1 (x - xb) = ({}), e = {e:.6}{of_family}", listed(0..states))
 }
 
 enum Judgement {
@@ -163,8 +168,9 @@ impl Decision<'_, '_> {
             return Judgement::Proved;
         }
         let rows = &self.question.rows;
-        let sides: Vec<Interval> = (0..states).map(|i| piece.side(i)).collect();
-        self.machine.run(&self.programs[1], At::Box, &piece.cell, &sides, &piece.side(states), self.values);
+        let sides = piece.intervals();
+        let (v, rest) = sides.split_at(states);
+        self.machine.run(&self.programs[1], At::Box, &piece.cell, v, rest, self.values);
         let on_box = self.read(rows, At::Box, &piece.cell);
         if semidefinite(on_box.clone()) == Some(true) {
             return Judgement::Proved;
@@ -173,17 +179,18 @@ impl Decision<'_, '_> {
         let corner = self.question.corners.iter().position(|(id, what)| !what.holds(&value(*id)));
         let slopes: Vec<(Option<usize>, Matrix)> =
             self.question.slopes.iter().map(|(side, rows)| (*side, self.read(rows, At::Box, &piece.cell))).collect();
-        let middles: Vec<Float> = (0..=states).map(|i| piece.middle(i)).collect();
-        let points: Vec<Interval> = middles.iter().map(point).collect();
-        let (v, e) = points.split_at(states);
-        self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, &e[0], self.values);
+        let points = piece.middles();
+        let (v, rest) = points.split_at(states);
+        self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, rest, self.values);
         let middle = self.read(rows, At::Middle, &piece.cell);
         if semidefinite(middle.clone()) == Some(false) && self.region.has_middle(piece) {
             return Judgement::Refuted;
         }
         let defined = on_box.iter().chain(slopes.iter().flat_map(|(_, rows)| rows)).flatten().all(Interval::is_defined);
         let judgement = match corner {
-            Some(corner) => Judgement::Halve(self.narrowings[corner].axis(self.machine, piece, whole, self.values)),
+            Some(corner) => {
+                Judgement::Halve(self.narrowings[corner].axis(self.machine, piece, whole, states, self.values))
+            }
             None if defined => self.by_mean_value(piece, &middle, &slopes),
             None => Judgement::Halve(None),
         };
@@ -197,7 +204,7 @@ impl Decision<'_, '_> {
         let states = self.region.states;
         let Some(basis) = Basis::new(middle) else { return false };
         let last = middle.len() - 1;
-        let mut place: Vec<Float> = (0..=states).map(|side| piece.middle(side)).collect();
+        let mut place: Vec<Float> = (0..piece.sides.len()).map(|side| piece.middle(side)).collect();
         for (side, matrix) in slopes {
             let Some(side) = *side else { continue };
             let rate = middle_of(&basis.form(matrix, last, last));
@@ -206,10 +213,10 @@ impl Decision<'_, '_> {
                 place[side].clone_from(&piece.sides[side][end]);
             }
         }
-        self.region.inward(&mut place[..states]);
+        self.region.inward(&mut place);
         let points: Vec<Interval> = place.iter().map(point).collect();
-        let (v, e) = points.split_at(states);
-        self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, &e[0], self.values);
+        let (v, rest) = points.split_at(states);
+        self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, rest, self.values);
         let there = self.read(&self.question.rows, At::Middle, &piece.cell);
         self.region.has(&points) && semidefinite(there) == Some(false)
     }

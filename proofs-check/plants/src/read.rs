@@ -4,12 +4,13 @@
 use super::time::Wave;
 use proofs_core::constant::{Constant, expression_with, positive_with};
 use proofs_core::expr::{Expr, Named};
-use proofs_core::input_gain::InputGain;
+use proofs_core::input_gain;
 use proofs_core::jacobian;
-use proofs_core::json::{Field, Fields};
+use proofs_core::json::{Field, Fields, Json};
 use proofs_core::plant::OfPlant;
 use proofs_core::plant::coordinates::Coordinates;
 use proofs_core::plant::entries::Entries;
+use proofs_core::plant::parameters::Parameter;
 use proofs_core::spec::{self, AskedSet, Specification, header};
 use proofs_core::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -20,8 +21,9 @@ pub const MAX_STATES: usize = 6;
 const MAX_NAME: usize = 40;
 /// The most harmonics of the orbit and of the forcing.
 const MAX_HARMONICS: usize = 200;
-/// The most named constants of a plant.
+/// The most named constants of a plant, and how many of them may be intervals.
 const MAX_PARAMETERS: usize = 12;
+pub const MAX_INTERVALS: usize = 4;
 /// What a state may not be called.
 #[rustfmt::skip]
 const TAKEN: [&str; 14] = [
@@ -35,21 +37,23 @@ pub struct Formula {
     pub expr: Expr,
 }
 
-/// xb(t), with eps, rho and r (docs/mathematics.md, section 11.2).
+/// xb(t;p), with eps, rho and r (docs/mathematics.md, sections 11.2 and 13.2).
 #[derive(Clone, Debug)]
 pub struct Orbit {
     pub pointer: String,
-    pub waves: Vec<Wave>,
+    /// The components of xb_0, and those of each sensitivity.
+    pub waves: Vec<Vec<Wave>>,
     pub defect: Rational,
     pub tube: Rational,
     pub radius: Rational,
 }
 
-/// qb(t), with r_0 and r_1 (section 11.4).
+/// qb(t;p), with r_0 and r_1 (section 11.4).
 #[derive(Clone, Debug)]
 pub struct Forcing {
     pub pointer: String,
-    pub wave: Wave,
+    /// qb_0, and each sensitivity.
+    pub waves: Vec<Wave>,
     pub rest: Rational,
     pub rest_t: Rational,
 }
@@ -72,6 +76,12 @@ impl Plant {
     pub fn states(&self) -> usize {
         self.f.len()
     }
+
+    /// The components of xb_0 and then qb_0, and the same of each sensitivity.
+    pub fn waves(&self) -> impl Iterator<Item = Vec<Wave>> {
+        let with = |(x, q): (&Vec<Wave>, &Wave)| x.iter().chain([q]).cloned().collect();
+        self.orbit.waves.iter().zip(&self.forcing.waves).map(with)
+    }
 }
 
 /// Reads a plant, and takes its parts out of the witness.
@@ -81,12 +91,13 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     file.required("name")?.text()?;
     file.optional("description").map(|field| field.text().map(drop)).transpose()?;
     let names = states(&file.required("states")?)?;
-    let constants = match file.optional("parameters") {
+    let (constants, intervals) = match file.optional("parameters") {
         Some(field) => parameters(&field, &names)?,
-        None => Vec::new(),
+        None => Default::default(),
     };
     let period = positive_with(&mut file, "period", &constants)?;
-    let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).collect();
+    let of_family = intervals.iter().map(|parameter| parameter.name.as_str());
+    let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).chain(of_family).collect();
     let formula = |field: &Field<'_>| {
         let expr = expression_with(field, &variables, &constants);
         expr.map(|(expr, _)| Formula { pointer: field.pointer.clone(), expr })
@@ -109,13 +120,13 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         fields.finish().map(|()| ends)
     });
     let domain = domain.transpose()?;
-    let input_gain = InputGain::read(&mut file)?;
+    let input_gain = input_gain::read(&mut file)?;
     let model = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;
 
     let order = names.len();
     let coordinates = Coordinates::read_part(&witness.required("coordinates")?, order)?;
-    let orbit = orbit(&witness.required("orbit")?, order)?;
+    let orbit = orbit(&witness.required("orbit")?, order, intervals.len())?;
     let (first, [p_low, p_up, alpha]) = jacobian::Witness::read(&witness.required("lyapunov")?, order)?;
     let second = witness.optional("lyapunov_existence").map(|field| jacobian::Witness::read(&field, order));
     let existence = second.transpose()?;
@@ -124,14 +135,15 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         let [low, up, _] = &w.numbers;
         demand(Some(low <= up), jacobian::RULE, &w.pointer, "p_low <= p_up")?;
     }
-    let forcing = forcing(&witness.required("forcing")?)?;
+    let forcing = forcing(&witness.required("forcing")?, intervals.len())?;
     let entries = Entries::read(&witness.required("bounds")?, order > 0, lyapunov.len() > 1)?;
     let q_0 = spec::Forcing {
-        harmonics: amplitudes(&forcing.wave),
+        harmonics: amplitudes(&forcing.waves, &intervals),
         rest_rms: spec::Size::Number(forcing.rest.clone()),
         rest_t_rms: Some(spec::Size::Number(forcing.rest_t.clone())),
     };
-    let known = OfPlant { states: order, domain, ball, coordinates, entries, two_matrices: lyapunov.len() > 1 };
+    let two_matrices = lyapunov.len() > 1;
+    let known = OfPlant { states: order, domain, ball, coordinates, entries, parameters: intervals, two_matrices };
     let specification = Specification {
         period,
         p_low,
@@ -179,22 +191,33 @@ fn well_formed(name: &str, pointer: &str) -> Outcome<()> {
     bad(pointer, format!("expected a name of at most {MAX_NAME} letters, digits and `_`"))
 }
 
-/// Named constants: numbers or constant expressions without names of others. None has the name of a state, of t, e, u, pi or of a
-/// function.
-fn parameters(field: &Field<'_>, states: &[&str]) -> Outcome<Vec<Named>> {
-    let mut constants: Vec<Named> = Vec::new();
+/// Named constants: numbers or constant expressions without names of others, and those of which intervals are given. None has the
+/// name of a state, of t, e, u, pi or of a function.
+fn parameters(field: &Field<'_>, states: &[&str]) -> Outcome<(Vec<Named>, Vec<Parameter>)> {
+    let (mut constants, mut intervals) = (Vec::new(), Vec::new());
     for (name, field) in field.fields()?.rest() {
         well_formed(name, &field.pointer)?;
         if name == "u" || TAKEN.contains(&name) || states.contains(&name) {
             return bad(&field.pointer, "this name is taken");
         }
-        let constant = Constant::read(&field)?;
+        let constant = match field.json {
+            Json::Object(_) => {
+                let parameter = Parameter::read(name, &field)?;
+                if !parameter.is_constant() {
+                    intervals.push(parameter);
+                    continue;
+                }
+                parameter.range.nominal
+            }
+            _ => Constant::read(&field)?,
+        };
         constants.push(Named { name: name.to_owned(), text: constant.text.clone(), value: constant.expr().clone() });
     }
-    if constants.len() > MAX_PARAMETERS {
-        return bad(&field.pointer, format!("at most {MAX_PARAMETERS} parameters are taken"));
+    if constants.len() + intervals.len() > MAX_PARAMETERS || intervals.len() > MAX_INTERVALS {
+        let most = format!("at most {MAX_PARAMETERS} parameters are taken, and {MAX_INTERVALS} with intervals");
+        return bad(&field.pointer, most);
     }
-    Ok(constants)
+    Ok((constants, intervals))
 }
 
 /// Where simulations start: constants, of which nothing is used.
@@ -237,22 +260,50 @@ fn harmonics<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>
     elements.iter().map(pair).collect()
 }
 
-fn orbit(field: &Field<'_>, order: usize) -> Outcome<Orbit> {
+/// `mean` and `harmonics` of an object.
+fn curve<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) -> Outcome<(T, Vec<[T; 2]>)> {
+    Ok((read(&fields.required("mean")?)?, harmonics(fields, read)?))
+}
+
+/// The same, and after it that of each of the `sensitivities`, one for each interval.
+fn curves<T>(
+    fields: &mut Fields<'_>,
+    intervals: usize,
+    read: impl Fn(&Field<'_>) -> Outcome<T>,
+) -> Outcome<Vec<(T, Vec<[T; 2]>)>> {
+    let mut all = vec![curve(fields, &read)?];
+    if intervals == 0 {
+        return Ok(all);
+    }
+    let list = fields.required("sensitivities")?;
+    for field in list.elements()? {
+        let mut fields = field.fields()?;
+        all.push(curve(&mut fields, &read)?);
+        fields.finish()?;
+    }
+    if all.len() == 1 + intervals {
+        return Ok(all);
+    }
+    bad(&list.pointer, format!("expected {intervals} objects, one for each parameter of which an interval is given"))
+}
+
+fn orbit(field: &Field<'_>, order: usize, intervals: usize) -> Outcome<Orbit> {
     let mut fields = field.fields()?;
     let vector = |field: &Field<'_>| {
         let list = field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>()?;
         let right = list.len() == order;
         if right { Ok(list) } else { bad(&field.pointer, format!("expected {order} numbers, one for each state")) }
     };
-    let mean = vector(&fields.required("mean")?)?;
-    let harmonics = harmonics(&mut fields, vector)?;
-    let wave = |(i, mean): (usize, &Rational)| Wave {
-        mean: mean.clone(),
-        harmonics: harmonics.iter().map(|[cos, sin]| [cos[i].clone(), sin[i].clone()]).collect(),
-    };
+    let waves = curves(&mut fields, intervals, vector)?.into_iter().map(|(mean, harmonics)| {
+        let of = |(i, mean): (usize, &Rational)| Wave {
+            mean: mean.clone(),
+            harmonics: harmonics.iter().map(|[cos, sin]| [cos[i].clone(), sin[i].clone()]).collect(),
+        };
+        mean.iter().enumerate().map(of).collect()
+    });
     let orbit = Orbit {
         pointer: field.pointer.clone(),
-        waves: mean.iter().enumerate().map(wave).collect(),
+        waves: waves.collect(),
         defect: number(&mut fields, "defect", None)?,
         tube: number(&mut fields, "tube", Some(true))?,
         radius: number(&mut fields, "radius", None)?,
@@ -260,22 +311,38 @@ fn orbit(field: &Field<'_>, order: usize) -> Outcome<Orbit> {
     fields.finish().map(|()| orbit)
 }
 
-fn forcing(field: &Field<'_>) -> Outcome<Forcing> {
+fn forcing(field: &Field<'_>, intervals: usize) -> Outcome<Forcing> {
     let mut fields = field.fields()?;
-    let mean = fields.required("mean")?.rational()?;
-    let harmonics = harmonics(&mut fields, |field| field.rational())?;
+    let waves = curves(&mut fields, intervals, |field| field.rational())?;
     let forcing = Forcing {
         pointer: field.pointer.clone(),
-        wave: Wave { mean, harmonics },
+        waves: waves.into_iter().map(|(mean, harmonics)| Wave { mean, harmonics }).collect(),
         rest: number(&mut fields, "rest", None)?,
         rest_t: number(&mut fields, "rest_t", None)?,
     };
     fields.finish().map(|()| forcing)
 }
 
-/// `C_0 = |m_0|` and `C_k = sqrt(a_k^2 + b_k^2)/2`.
-fn amplitudes(wave: &Wave) -> Vec<spec::Size> {
-    let square = |[a, b]: &[Rational; 2]| (Rational::from(a.square_ref()) + Rational::from(b.square_ref())) / 4u32;
-    let mean = spec::Size::Number(wave.mean.clone().abs());
-    std::iter::once(mean).chain(wave.harmonics.iter().map(|pair| spec::Size::Root(square(pair)))).collect()
+/// `C_0 = |m_0|` and `C_k = sqrt(a_k^2 + b_k^2)/2`, the largest over all parameters: the coefficients are affine in them, so the
+/// magnitudes are convex, and largest at a corner (section 13.2).
+fn amplitudes(waves: &[Wave], intervals: &[Parameter]) -> Vec<spec::Size> {
+    // A coefficient of the wave of a corner.
+    let at = |corner: usize, coefficient: &dyn Fn(&Wave) -> Option<Rational>| {
+        let mut parts = waves.iter().map(|wave| coefficient(wave).unwrap_or_default());
+        let nominal = parts.next().unwrap_or_default();
+        let moved = parts.zip(intervals).enumerate().map(|(i, (part, of))| {
+            let end = &of.ends[corner >> i & 1];
+            part * Rational::from(end - &of.nominal)
+        });
+        moved.fold(nominal, |sum, part| sum + part)
+    };
+    let largest = |size: &dyn Fn(usize) -> Rational| (0..1 << intervals.len()).map(size).max().unwrap_or_default();
+    let square = |value: Rational| Rational::from(value.square_ref());
+    let mean = largest(&|corner| at(corner, &|wave| Some(wave.mean.clone())).abs());
+    let harmonic = |k: usize| {
+        let of = |corner: usize, i: usize| at(corner, &|wave| wave.harmonics.get(k).map(|pair| pair[i].clone()));
+        spec::Size::Root(largest(&|corner| square(of(corner, 0)) + square(of(corner, 1))) / 4u32)
+    };
+    let count = waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0);
+    std::iter::once(spec::Size::Number(mean)).chain((0..count).map(harmonic)).collect()
 }

@@ -7,19 +7,22 @@
 use super::around::Around;
 use super::formula::Axis;
 use super::machine::{Cell, Machine};
+use super::read::{MAX_INTERVALS, Plant};
 use proofs_core::interval::Interval;
+use rug::float::Round;
 use rug::{Float, Rational};
 use std::rc::Rc;
 
 /// How many cells of t there are before anything is halved for a reason.
 const FIRST_CELLS_LOG: u32 = 4;
 
-/// `v` or `x` in a set of `states` dimensions, `|e| <= output`, all t.
+/// `v` or `x` in a set of `states` dimensions, `|e| <= output`, all t, and parameters between two ends.
 #[derive(Clone)]
 pub struct Region {
     pub states: usize,
     pub shape: Shape,
     pub output: Interval,
+    pub parameters: Vec<[Rational; 2]>,
 }
 
 /// Where v or x lies.
@@ -35,11 +38,36 @@ pub enum Shape {
 #[derive(Clone)]
 pub struct Piece {
     pub cell: Rc<Cell>,
-    /// The ends of v_1, ..., v_n and of e.
+    /// The ends of v_1, ..., v_n, of e, and of the parameters.
     pub sides: Vec<[Float; 2]>,
 }
 
 impl Region {
+    /// All members of a family, without states and with e = 0.
+    pub fn of_family(plant: &Plant, precision: u32) -> Region {
+        let zero = Interval::int(0, precision);
+        let parameters = plant.known.parameters.iter().map(|parameter| parameter.ends.clone()).collect();
+        Region { states: 0, shape: Shape::Ball(zero.clone()), output: zero, parameters }
+    }
+
+    /// The box of everything, over one cell of t.
+    pub fn whole(&self, machine: &Machine<'_>, cell: Rc<Cell>) -> Piece {
+        let ends = |size: &Interval| {
+            let end = Float::with_val_round(machine.precision, size.hi(), Round::Up).0;
+            [Float::with_val(machine.precision, -&end), end]
+        };
+        let mut sides = match &self.shape {
+            Shape::Ball(radius) => vec![ends(radius); self.states],
+            Shape::Sides(sides, _) => sides.clone(),
+        };
+        sides.push(ends(&self.output));
+        sides.extend(self.parameters.iter().map(|[lo, hi]| {
+            let all = Interval::between(lo, hi, machine.precision);
+            [all.lo().clone(), all.hi().clone()]
+        }));
+        Piece { cell, sides }
+    }
+
     /// Boxes that cover it, cut along t if something depends on t.
     pub fn pieces(&self, machine: &Machine<'_>, root: &Rc<Cell>, depends: u16) -> Vec<Piece> {
         let mut cells = vec![root.clone()];
@@ -48,16 +76,7 @@ impl Region {
                 cells = cells.iter().flat_map(|cell| cell.halves()).collect();
             }
         }
-        let ends = |size: &Interval| {
-            let end = Float::with_val_round(machine.precision, size.hi(), rug::float::Round::Up).0;
-            [Float::with_val(machine.precision, -&end), end]
-        };
-        let mut sides = match &self.shape {
-            Shape::Ball(radius) => vec![ends(radius); self.states],
-            Shape::Sides(sides, _) => sides.clone(),
-        };
-        sides.push(ends(&self.output));
-        cells.into_iter().map(|cell| Piece { cell, sides: sides.clone() }).collect()
+        cells.into_iter().map(|cell| self.whole(machine, cell)).collect()
     }
 
     /// Whether a box has no point of the region.
@@ -88,8 +107,18 @@ impl Region {
         (distance.ceiling().le(&radius.sqr()) != Some(true)).then_some(radius)
     }
 
-    /// A place v moved towards the origin, to lie within the ball where it is outside. A hint.
+    /// A place of v, e and the parameters with v moved towards the origin, to lie within the ball where it is outside, and the
+    /// parameters between their ends. A hint.
     pub fn inward(&self, place: &mut [Float]) {
+        let (place, rest) = place.split_at_mut(self.states);
+        for (value, [lo, hi]) in rest.iter_mut().skip(1).zip(&self.parameters) {
+            let p = value.prec();
+            *value = match () {
+                () if *value < *lo => Float::with_val_round(p, lo, Round::Up).0,
+                () if *value > *hi => Float::with_val_round(p, hi, Round::Down).0,
+                () => continue,
+            };
+        }
         let Shape::Ball(radius) = &self.shape else { return };
         let p = radius.precision();
         let distance = place.iter().fold(Interval::int(0, p), |sum, v| sum + super::time::point(v).sqr()).sqrt();
@@ -102,11 +131,10 @@ impl Region {
 
     /// Whether the middle of a box certainly belongs to the region.
     pub fn has_middle(&self, piece: &Piece) -> bool {
-        let middle: Vec<Interval> = (0..=self.states).map(|i| super::time::point(&piece.middle(i))).collect();
-        self.has(&middle)
+        self.has(&piece.middles())
     }
 
-    /// Whether v_1, ..., v_n and e certainly belong to it.
+    /// Whether v_1, ..., v_n, e and the parameters certainly belong to it.
     pub fn has(&self, place: &[Interval]) -> bool {
         let lies_within = |value: &Interval, end: &Interval| value.hi() <= end.lo();
         let within = match &self.shape {
@@ -119,7 +147,9 @@ impl Region {
                 place.iter().zip(sides).all(|(v, [lo, hi])| v.lo() >= lo && v.hi() <= hi) && !around.excludes(place)
             }
         };
-        within && lies_within(&place[self.states].abs(), &self.output)
+        let between = |(value, [lo, hi]): (&Interval, &[Rational; 2])| value.lo() >= lo && value.hi() <= hi;
+        let rest = &place[self.states..];
+        within && lies_within(&rest[0].abs(), &self.output) && rest[1..].iter().zip(&self.parameters).all(between)
     }
 }
 
@@ -128,6 +158,16 @@ impl Piece {
     pub fn middle(&self, side: usize) -> Float {
         let [lo, hi] = &self.sides[side];
         Float::with_val(lo.prec(), lo + hi) / 2u32
+    }
+
+    /// The middles of all sides.
+    pub fn middles(&self) -> Vec<Interval> {
+        (0..self.sides.len()).map(|side| super::time::point(&self.middle(side))).collect()
+    }
+
+    /// All sides.
+    pub fn intervals(&self) -> Vec<Interval> {
+        (0..self.sides.len()).map(|side| self.side(side)).collect()
     }
 
     /// A side.
@@ -165,17 +205,25 @@ impl Piece {
 
     /// Along which of these axes a box is widest, in comparison with the widths at the beginning: t (`None`) or a side. A hint,
     /// of which nothing is believed.
-    pub fn widest(&self, whole: &Piece, depends: u16) -> Option<Option<usize>> {
-        let states = self.sides.len() - 1;
+    pub fn widest(&self, whole: &Piece, depends: u16, states: usize) -> Option<Option<usize>> {
         let share = |side: Option<usize>| self.share(side, whole);
-        let time = (depends & Axis::Time.bit() != 0).then_some(None);
-        let sides = (0..=states).filter(|side| depends & axis(*side, states).bit() != 0).map(Some);
-        let all = time.into_iter().chain(sides).map(|side| (share(side), side)).filter(|(share, _)| *share > 0.0);
+        let all = axes(depends, states).map(|side| (share(side), side)).filter(|(share, _)| *share > 0.0);
         all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, side)| side)
     }
 }
 
-/// The axis of a side.
-pub fn axis(side: usize, states: usize) -> Axis {
-    if side < states { Axis::State(side) } else { Axis::Output }
+/// The axes on which something depends that depends on these: t (`None`) and sides.
+pub fn axes(depends: u16, states: usize) -> impl Iterator<Item = Option<usize>> {
+    let sides = (0..=states + MAX_INTERVALS).map(Some);
+    std::iter::once(None).chain(sides).filter(move |side| depends & axis(*side, states).bit() != 0)
+}
+
+/// The axis of t (`None`) or of a side.
+pub fn axis(side: Option<usize>, states: usize) -> Axis {
+    match side {
+        None => Axis::Time,
+        Some(side) if side < states => Axis::State(side),
+        Some(side) if side == states => Axis::Output,
+        Some(side) => Axis::Parameter(side - states - 1),
+    }
 }

@@ -6,7 +6,6 @@ use super::machine::{At, Cell, Machine, Values};
 use super::narrowing::Narrowing;
 use super::region::Region;
 use proofs_core::effort;
-use proofs_core::interval::Interval;
 use proofs_core::verdict::{Outcome, demand};
 use std::rc::Rc;
 
@@ -50,12 +49,13 @@ pub fn prove(
             continue;
         }
         count += 1;
-        let sides: Vec<Interval> = (0..states).map(|i| piece.side(i)).collect();
-        machine.run(&program, At::Box, &piece.cell, &sides, &piece.side(states), values);
+        let sides = piece.intervals();
+        let (v, rest) = sides.split_at(states);
+        machine.run(&program, At::Box, &piece.cell, v, rest, values);
         let open = varying.iter().position(|(id, what)| !what.holds(&machine.get(*id, At::Box, &piece.cell, values)));
         let Some(open) = open else { continue };
         let (_, what) = varying[open];
-        let side = narrowings[open].axis(machine, &piece, &whole, values);
+        let side = narrowings[open].axis(machine, &piece, &whole, states, values);
         match side.filter(|_| count < MAX_PIECES && !effort::exhausted()) {
             Some(side) => queue.extend(piece.halves(side)),
             None => {

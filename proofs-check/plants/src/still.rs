@@ -8,12 +8,12 @@ use super::around::Around;
 use super::bounds;
 use super::inequalities;
 use super::machine::{At, Cell, Curves, Machine, Values};
-use super::model::{Frame, Model};
+use super::model::{self, Frame, Model};
 use super::question::{Answer, Question};
 use super::read::Plant;
 use super::region::{Region, Shape};
 use super::time::around;
-use super::{end, formula::Leaf, place, radius};
+use super::{PRECISION, end, place, radius};
 use proofs_core::interval::Interval;
 use proofs_core::plant::entries;
 use proofs_core::rules::derivation::Inequalities;
@@ -41,7 +41,7 @@ pub struct Prepared<'s> {
     machine: Machine<'s>,
     root: Rc<Cell>,
     values: Values,
-    /// What each component of xb is over a period.
+    /// What each component of xb is over a period, for all parameters.
     ranges: Vec<Interval>,
 }
 
@@ -49,7 +49,7 @@ impl Still {
     /// For all entries of a plant, and for the inequalities that there are, with mu and the period.
     pub fn new(plant: &Plant, inequalities: Inequalities<'_>, spec: &Specification) -> Outcome<Still> {
         let mut model = Model::new(plant, Frame::Still);
-        let orbit = (0..plant.states()).map(|state| model.formulas.leaf(Leaf::Orbit { state, order: 0 })).collect();
+        let orbit = (0..plant.states()).map(|state| model::wave(&mut model.formulas, plant, state, 0)).collect();
         let question = |entry: &entries::Entry| {
             let moves = entry.name.is_of_motion();
             (!moves).then(|| (bounds::question(&mut model, entry), entry.arguments.clone()))
@@ -62,17 +62,18 @@ impl Still {
     }
 
     /// With the orbit; `om` has the precision.
-    pub fn prepared(&self, curves: &Curves, om: &Interval, period: &Interval) -> Prepared<'_> {
+    pub fn prepared(&self, plant: &Plant, curves: &Curves, om: &Interval, period: &Interval) -> Prepared<'_> {
         let machine = Machine::new(&self.model.formulas, curves, om);
         let (root, mut values) = (machine.period(period), machine.values());
         let program = machine.program(&self.orbit);
+        let rest = Region::of_family(plant, machine.precision).whole(&machine, root.clone()).intervals();
         let mut cells = vec![root.clone()];
         for _ in 0..RANGE_CELLS_LOG {
             cells = cells.iter().flat_map(|cell| cell.halves()).collect();
         }
         let mut range = |id: usize| {
             let on = |cell: &Rc<Cell>| {
-                machine.run(&program, At::Box, cell, &[], &Interval::int(0, machine.precision), &mut values);
+                machine.run(&program, At::Box, cell, &[], &rest, &mut values);
                 machine.get(id, At::Box, cell, &values)
             };
             cells.iter().map(on).reduce(|all, next| all.hull(&next))
@@ -91,7 +92,7 @@ impl Prepared<'_> {
             return None;
         }
         let shape = Shape::Sides(self.sides(plant, x)?, self.around(plant, x, question)?);
-        let region = Region { states: plant.states(), shape, output: end(e) };
+        let region = Region { states: plant.states(), shape, output: end(e), ..Region::of_family(plant, PRECISION) };
         match question.decide(&self.machine, &self.root, &region, MAX_PIECES, &mut self.values) {
             Answer::Proved(count) => Some(count),
             Answer::Refuted(_) | Answer::Open(_) => None,

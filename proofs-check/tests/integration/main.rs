@@ -13,6 +13,7 @@ mod coq;
 mod coq_plants;
 mod coq_support;
 mod existence_inequality;
+mod families;
 mod forged;
 mod formulas;
 mod fuzz;

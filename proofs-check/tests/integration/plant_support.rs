@@ -21,7 +21,7 @@ pub fn stored(name: &str) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
-fn read(parts: &Value) -> Outcome<(Specification, Plant)> {
+pub fn read(parts: &Value) -> Outcome<(Specification, Plant)> {
     let parse = |part: &str| -> Json { parse(parts[part].to_string().as_bytes()).unwrap() };
     let (plant, witness) = (parse("plant"), parse("witness"));
     let mut fields = Field { json: &witness, pointer: "/witness".to_owned() }.fields()?;
@@ -57,7 +57,7 @@ struct AtSamples {
 }
 
 impl AtSamples {
-    fn read(parts: &Value) -> Outcome<AtSamples> {
+    pub fn read(parts: &Value) -> Outcome<AtSamples> {
         let value = |name: &str| decimal(parts[name].as_str().unwrap()).unwrap();
         let samples = u32::try_from(parts["samples"].as_u64().unwrap()).unwrap();
         let law = Terms { sigma: value("sigma"), samples, gain: value("gain"), weight_sum: value("weight_sum") };

@@ -4,12 +4,14 @@
 
 pub mod coordinates;
 pub mod entries;
+pub mod parameters;
 
 use crate::constant::{Constant, Number};
 use crate::interval::Interval;
 use crate::verdict::{Outcome, demand};
 use coordinates::Coordinates;
 use entries::Entries;
+use parameters::Parameter;
 use rug::{Float, Rational};
 
 /// The precision, in bits, at which an irrational domain is rounded down.
@@ -24,6 +26,8 @@ pub struct OfPlant {
     pub ball: Option<Constant>,
     pub coordinates: Coordinates,
     pub entries: Entries,
+    /// Those of which intervals are given, in the order of the file.
+    pub parameters: Vec<Parameter>,
     /// Whether existence has a P of its own.
     pub two_matrices: bool,
 }

@@ -6,11 +6,11 @@ use super::sampled::claim::{N_O, Regulator};
 use super::set::ClaimedSet;
 use crate::constant::Constant;
 use crate::data::Data;
-use crate::input_gain::InputGain;
+use crate::input_gain;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::plant::OfPlant;
-use crate::plant::coordinates;
+use crate::plant::{coordinates, parameters};
 use crate::spec::{AskedSet, Specification};
 use crate::verdict::{Outcome, bad, demand, invalid};
 use rug::Rational;
@@ -38,6 +38,8 @@ pub struct Claim<'a> {
     ball: Option<(Rational, Field<'a>)>,
     /// The input gain that it is about, if it names one.
     input_gain: Option<Field<'a>>,
+    /// The parameters of the plant that it is about, if it names some.
+    parameters: Option<Field<'a>>,
     /// Where it stands in the file.
     pointer: String,
     sigma_text: &'a str,
@@ -104,6 +106,7 @@ impl<'a> Claim<'a> {
             set: numbers,
             ball,
             input_gain: fields.optional("input_gain"),
+            parameters: fields.optional("parameters"),
             pointer: field.pointer.clone(),
             sigma_text,
             set_text,
@@ -137,7 +140,9 @@ impl<'a> Claim<'a> {
         if !same {
             return reads(RULE, &self.mu, &spec.mu.text);
         }
-        InputGain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
+        input_gain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
+        let of_family = spec.plant.as_ref().map_or(&[][..], |plant| &plant.parameters);
+        let family = parameters::agree(of_family, self.parameters.as_ref(), &self.pointer)?;
         let kind = match spec.initial_set {
             AskedSet::Paper => "paper",
             AskedSet::AtRest(_) => "at-rest",
@@ -166,7 +171,7 @@ impl<'a> Claim<'a> {
             None => reads(RULE, &self.statement, &self.in_words(spec)),
             Some(plant) => {
                 self.check_ball(plant)?;
-                reads(RULE, &self.statement, &self.of_plant(spec, plant)?)
+                reads(RULE, &self.statement, &self.of_plant(spec, plant, family)?)
             }
         }
     }
@@ -181,7 +186,11 @@ impl<'a> Claim<'a> {
     }
 
     /// The claim about a plant in words.
-    fn of_plant(&self, spec: &Specification, plant: &OfPlant) -> Outcome<String> {
+    fn of_plant(&self, spec: &Specification, plant: &OfPlant, family: Option<String>) -> Outcome<String> {
+        let about = family.map_or_else(
+            || "the plant of these formulas".to_owned(),
+            |parameters| format!("every plant of these formulas with {parameters}"),
+        );
         let domain = plant.domain.as_ref().map_or_else(String::new, |[x, e]| {
             let of_x = if plant.states > 0 { format!("|x - x_0| <= {}, ", x.text) } else { String::new() };
             format!(" (a model that holds for {of_x}|e| <= {})", e.text)
@@ -200,7 +209,7 @@ impl<'a> Claim<'a> {
         };
         let (regulator, when) = self.regulator(spec);
         Ok(format!(
-            "{regulator}, the plant of these formulas{domain} has a T-periodic solution of the closed loop to which \
+            "{regulator}, {about}{domain} has a T-periodic solution of the closed loop to which \
              every solution from {states}{start}, at any {when}, converges exponentially{orbit}.",
         ))
     }
@@ -211,7 +220,7 @@ impl<'a> Claim<'a> {
             return (regulator.in_words(spec), "sampling instant");
         }
         let reach = if spec.matched { "" } else { " (which need not match the period)" };
-        let gain = spec.input_gain.as_ref().map_or_else(String::new, InputGain::in_words);
+        let gain = spec.input_gain.as_ref().map_or_else(String::new, input_gain::in_words);
         let words = format!(
             "For every number of oscillators n_o >= 0 and every gain sigma >= {}{gain}, with period T = {}, mu = {} and base \
              frequency {}{reach}",

@@ -22,6 +22,7 @@ use super::set::{self, ClaimedSet};
 use crate::data::Data;
 use crate::input_gain;
 use crate::json::Fields;
+use crate::plant::parameters;
 use crate::verdict::{Outcome, Verdict, bad, demand, finding};
 use inequality::{Existence, Inequalities, Stability};
 use law::{Law, Terms};
@@ -73,6 +74,10 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     if d.spec.input_gain.is_some() {
         let message = "a claim about the regulator at samples is not available with `input_gain` yet";
         return Err(finding(Verdict::Undecided, input_gain::RULE, "/claim/regulator", message));
+    }
+    if d.spec.plant.as_ref().is_some_and(|plant| !plant.parameters.is_empty()) {
+        let message = "a claim about the regulator at samples is not available with intervals of `parameters`";
+        return Err(finding(Verdict::Undecided, parameters::RULE, "/claim/regulator", message));
     }
     let (free, law) = (&w.free, Law::new(d, &w.terms));
     let mut pointers = w.existence.iter().map(|part| &part.pointer).chain(w.stability.iter().map(|part| &part.pointer));
