@@ -44,6 +44,9 @@ pub fn reduce_sampled(
     sampling: &spec::Sampling,
     gain: Option<&Rational>,
 ) -> Result<ReducedSampled, PlantRefusal> {
+    if plant.is_family() {
+        return Err(PlantRefusal::FamilyAtSamples);
+    }
     with_candidates(plant, |candidates, sampled| {
         let starts = starts(candidates, sampled);
         let by_norms = || {
