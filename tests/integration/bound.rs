@@ -69,6 +69,31 @@ fn bounds_are_those_of_the_formulas() {
     assert!(rate <= 200.0 && rate > 198.0, "{rate}");
 }
 
+/// A specification has no parameters: names of the plant are written out, and of intervals the description tells.
+#[test]
+fn names_of_parameters_are_written_out() {
+    let folder = TempDir::new().unwrap();
+    let [plant, spec] = ["plant.json", "spec.json"].map(|name| folder.path().join(name));
+    let mut named = json(&std::fs::read("specs/plants/duffing.json").unwrap());
+    named["parameters"] =
+        serde_json::json!({ "T": "2", "w": "pi", "d": { "nominal": 2, "low": "1.9", "high": "2.1" } });
+    named["period"] = "T".into();
+    named["f"][1] = "-4*x - x^3/2 - d*v + e + cos(w*t)".into();
+    named["internal_model"]["base_frequency"] = "2*w/T".into();
+    named["internal_model"]["mu"] = "T/2".into();
+    std::fs::write(&plant, named.to_string()).unwrap();
+    let output = program().arg("bound").arg(&plant).args(["--quiet", "-o"]).arg(&spec).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let written = json(&std::fs::read(&spec).unwrap());
+    let model = &written["internal_model"];
+    assert_eq!(
+        (&written["period"], &model["base_frequency"], &model["mu"]),
+        (&"2".into(), &"2*(pi)/2".into(), &"2/2".into())
+    );
+    assert!(written["description"].as_str().unwrap().ends_with("for every plant with a constant d in [1.9, 2.1]."));
+    assert_eq!(gain(spec.to_str().unwrap()).1, r#""valid"; "agree""#);
+}
+
 #[test]
 fn calls_that_make_no_sense_are_refused() {
     for (call, code, words) in [

@@ -6,7 +6,7 @@ use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Readable, Table, clean};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::plant::Plant;
-use sigmastar_prove::certificate::matrix_json;
+use sigmastar_prove::certificate::{matrix_json, members};
 use sigmastar_prove::reduction::OrbitStudy;
 
 /// The report on the zero dynamics of a plant.
@@ -30,9 +30,11 @@ impl Readable for OrbitReport<'_> {
         let mut blocks = vec![
             title,
             Block::Verdict(format!(
-                "Proved: x' = f(t,x,0) has exactly one T-periodic solution x_0 with |L^-1 (x_0 - xb)| <= {} for all t; it has \
+                "Proved: {}x' = f(t,x,0) has exactly one T-periodic solution x_0 with |L^-1 (x_0 - xb)| <= {} for all t; it has \
                  |L^-1 (x_0 - xb)| <= {}; along it p_low I <= P <= p_up I and P' + P J + J'P <= -2 alpha P, J = L^-1 df/dx L, \
                  with p_low = {}, p_up = {}, alpha = {}.",
+                members(&self.plant.parameters)
+                    .map_or_else(String::new, |members| format!("of every plant with {members}, ")),
                 exact(&orbit.tube, Direction::Down),
                 up(&orbit.radius),
                 exact(&orbit.p_low, Direction::Down),

@@ -28,7 +28,11 @@ pub fn sentence(run: &Certification<'_>) -> String {
             words::input_gain(spec)
                 .map(|interval| format!(" and every constant input gain from {interval}"))
                 .into_iter()
-                .chain(spec.plant().and_then(members).map(|members| format!(" and every plant with {members}")))
+                .chain(
+                    spec.plant()
+                        .and_then(|plant| members(&plant.parameters))
+                        .map(|members| format!(" and every plant with {members}"))
+                )
                 .collect::<String>(),
             words::set(spec, set),
             clean(&spec.period.text),
@@ -140,7 +144,7 @@ fn assumed_of_the_plant(spec: &Specification, used: Option<[Enclosure; 2]>, furt
             spec.state_name()
                 .map_or_else(|| format!(", for |e| <= {e}"), |_| format!(", for |x - x_0| <= {x}, |e| <= {e}"))
         });
-        return match members(plant) {
+        return match members(&plant.parameters) {
             None => format!("that these formulas are the plant{domain}"),
             Some(members) => format!("that these formulas, with {members}, are the plant{domain}"),
         };

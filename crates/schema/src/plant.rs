@@ -44,7 +44,8 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
             "parameters",
             "Parameters",
             "Constants by their names, which may stand for them in f, q, period, initial, initial_set, domain, and in mu, \
-             base_frequency and sampling_period of internal_model; at most 12.",
+             base_frequency and sampling_period of internal_model; at most 12. Of at most 4 an interval may be given: these \
+             stand in f and q alone, and the claim is for every constant value in it.",
             Shape::Map(Box::new(Shape::OneOf(vec![number(), Shape::Object(interval)]))),
         ),
         may(

@@ -1,7 +1,7 @@
 //! What a claim about a sampled regulator says, and forgeries: one kind of certificate as the other, fields of the other kind.
 
-use crate::common::{PAPER, assert_refused, certificate, rehash};
-use crate::sampled_support::{answer, edited, made, refuses, words};
+use crate::common::{PAPER, assert_refused, certificate, edited, rehash};
+use crate::sampled_support::{answer, made, refuses, words};
 use proofs_check::check;
 use proofs_check::verdict::Verdict::{BadInput, Invalid};
 use serde_json::{Value, json};

@@ -1,7 +1,6 @@
 //! Claims about a plant by its formulas under a sampled regulator: all of section 11 is proved as for a continuous one.
 
-use crate::common::folder;
-use crate::sampled_support::edited;
+use crate::common::{edited, folder};
 use proofs_check::json::{Json, parse};
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided, Valid};
 use proofs_check::{Report, check, sha256};

@@ -3,7 +3,7 @@
 //! [`made`] is put together here from a shipped certificate in continuous time, with free numbers that were found by a search in
 //! floating point apart from both programs.
 
-use crate::common::{certificate, rehash};
+use crate::common::{certificate, edited, rehash};
 use proofs_check::verdict::Verdict;
 use proofs_check::{Report, check};
 use serde_json::{Value, json};
@@ -117,19 +117,6 @@ pub fn dead_beat() -> Value {
             ("k1", "59.2371712898"),
         ],
     )
-}
-
-/// Changes at places, which need not be there yet; `null` takes away.
-pub fn edited(mut made: Value, changes: &[(&str, Value)]) -> Value {
-    for (pointer, value) in changes {
-        let (parent, name) = pointer.rsplit_once('/').unwrap();
-        let parent = made.pointer_mut(parent).unwrap_or_else(|| panic!("{parent} exists"));
-        match value {
-            Value::Null => drop(parent.as_object_mut().unwrap().remove(name)),
-            _ => parent[name] = value.clone(),
-        }
-    }
-    made
 }
 
 /// The answer after the changes, with the digest and the words of the claim made right.

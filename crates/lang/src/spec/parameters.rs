@@ -32,6 +32,21 @@ pub struct Interval {
     pub high: Rational,
 }
 
+impl Interval {
+    /// The least and the largest `p - p^0`, of a value p and the nominal one.
+    #[must_use]
+    pub fn deviations(&self) -> [Rational; 2] {
+        [&self.low, &self.high].map(|end| Rational::from(end - &self.nominal))
+    }
+
+    /// The largest `|p - p^0|`.
+    #[must_use]
+    pub fn reach(&self) -> Rational {
+        let [below, above] = self.deviations();
+        above.max(-below)
+    }
+}
+
 /// The named constants of a plant, in the order of the document.
 #[derive(Clone, Debug, Default)]
 pub struct Parameters {

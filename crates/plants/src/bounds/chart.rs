@@ -1,7 +1,7 @@
 //! The coordinates in which a bound is decided: only those that its formulas depend on.
 //!
-//! Boxes lie in the cube of s = t/T in [0, 1], of y in [-1, 1]^m, of e/E in [-1, 1] and of each parameter of a family; `x = xb(t) + (X + r) C y`. With C = L the
-//! tube is exactly `|y| <= 1`, and boxes outside of this ball are left out. Where the formulas depend on some states A alone, C
+//! Boxes lie in the cube of s = t/T in [0, 1], of y in [-1, 1]^m, of e/E in [-1, 1] and of each parameter of a family, brought to
+//! [-1, 1] too; `x = xb(t;p) + (X + r) C y`. With C = L the tube is exactly `|y| <= 1`, and boxes outside of this ball are left out. Where the formulas depend on some states A alone, C
 //! has as many columns, with `C C^T >= L_A L_A^T`: then `{L_A y : |y| <= 1}` lies in `{C y : |y| <= 1}`, as
 //! the support functions `|L_A^T g| <= |C^T g|` say. Where they depend on one state and not on t, that state moves through an
 //! interval: the union of the projections of the tube at all t.
@@ -42,8 +42,7 @@ pub(super) struct Chart {
     states: States,
     /// E, where e is a coordinate: the one after those of the states.
     error: Option<Rational>,
-    /// The parameters that are the last coordinates: each with its index, the middle of its interval less its nominal value, that
-    /// value, and half of the width.
+    /// The parameters that are the last coordinates.
     parameters: Vec<Axis>,
     /// The number of parameters of the plant.
     count: usize,

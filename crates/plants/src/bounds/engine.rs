@@ -155,7 +155,7 @@ impl Engine {
             let parts = orbit.sensitivities.iter().zip(&self.parameters);
             let reach = parts.fold(Rational::new(), |sum, (part, interval)| {
                 let [low, high] = extent(part, index);
-                sum + low.abs().max(high.abs()) * reach(interval)
+                sum + low.abs().max(high.abs()) * interval.reach()
             });
             [low - &reach, high + reach]
         };
@@ -223,7 +223,9 @@ impl Engine {
             })
             .collect();
         // As unknown as v: all members at once.
-        let deviations: Vec<Enclosure> = self.parameters.iter().map(deviation).collect();
+        let between = |[low, high]: [&Rational; 2]| Enclosure::between(low, high, PRECISION);
+        let deviations: Vec<Enclosure> =
+            self.parameters.iter().map(|interval| between(interval.deviations().each_ref())).collect();
         let x: Vec<Centred> = x
             .into_iter()
             .enumerate()
@@ -233,7 +235,8 @@ impl Engine {
                 })
             })
             .collect();
-        let p: Vec<Centred> = self.parameters.iter().map(|interval| frame.constant(values(interval))).collect();
+        let p: Vec<Centred> =
+            self.parameters.iter().map(|interval| frame.constant(between([&interval.low, &interval.high]))).collect();
         let [low, middle, high] = side.unit();
         let t = Centred {
             centre: Enclosure::from_rational(&middle, PRECISION) * &period,
@@ -256,23 +259,6 @@ pub(super) fn moves(plant: &Plant) -> Option<[Rational; 2]> {
     let [low, high] = gain.factors(PRECISION)?;
     // What is enclosed has bounds.
     Some([&one - low.lower_rational()?, one - high.upper_rational()?])
-}
-
-/// The largest `|p - p^0|`.
-pub(super) fn reach(interval: &Interval) -> Rational {
-    let [below, above] = [&interval.nominal - &interval.low, &interval.high - &interval.nominal].map(Rational::from);
-    below.max(above)
-}
-
-/// p.
-fn values(interval: &Interval) -> Enclosure {
-    Enclosure::between(&interval.low, &interval.high, PRECISION)
-}
-
-/// `p - p^0`.
-fn deviation(interval: &Interval) -> Enclosure {
-    let [low, high] = [&interval.low, &interval.high].map(|end| Rational::from(end - &interval.nominal));
-    Enclosure::between(&low, &high, PRECISION)
 }
 
 /// Whether a matrix by rows is symmetric, and of this order.

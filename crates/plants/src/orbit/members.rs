@@ -2,8 +2,6 @@
 //! family of no parameters.
 
 use super::cells::{PRECISION, Wave, waves};
-
-use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::OrbitCurve;
@@ -26,12 +24,11 @@ impl ParameterBox {
         let mut all =
             ParameterBox { values: Vec::new(), nominal: Vec::new(), deviations: Vec::new(), reaches: Vec::new() };
         for (_, interval) in plant.parameters.intervals() {
-            let [low, high] = [&interval.low, &interval.high].map(|end| Rational::from(end - &interval.nominal));
-            let deviation = Enclosure::between(&low, &high, PRECISION);
+            let [low, high] = interval.deviations();
             all.values.push(Enclosure::between(&interval.low, &interval.high, PRECISION));
             all.nominal.push(Enclosure::from_rational(&interval.nominal, PRECISION));
-            all.reaches.push(deviation.abs().ceiling());
-            all.deviations.push(deviation);
+            all.reaches.push(Enclosure::from_rational(&interval.reach(), PRECISION));
+            all.deviations.push(Enclosure::between(&low, &high, PRECISION));
         }
         all
     }

@@ -5,7 +5,7 @@ use super::find::FloatOrbit;
 use super::series::FloatSeries;
 use rug::{Integer, Rational};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Interval, OrbitCurve, TrigonometricVector};
+use sigmastar_lang::spec::{OrbitCurve, TrigonometricVector};
 use std::f64::consts::TAU;
 
 /// A defect that is small enough, relative to the size of the terms: no digit is spent on a smaller one.
@@ -44,9 +44,7 @@ pub(super) fn shorten(vector: &mut TrigonometricVector) {
 #[must_use]
 pub fn round_orbit(plant: &Plant, orbit: &FloatOrbit) -> Option<OrbitCurve> {
     let centre = round_part(plant, orbit, &orbit.series, 1.0)?;
-    let reaches = plant.parameters.intervals().map(|(_, Interval { nominal, low, high })| {
-        Rational::from(high - nominal).max(Rational::from(nominal - low)).to_f64()
-    });
+    let reaches = plant.parameters.intervals().map(|(_, interval)| interval.reach().to_f64());
     let parts = orbit.sensitivities.iter().zip(reaches);
     let sensitivities = parts.map(|(part, reach)| round_part(plant, orbit, part, reach)).collect::<Option<_>>()?;
     Some(OrbitCurve { centre, sensitivities })

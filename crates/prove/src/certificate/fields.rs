@@ -24,10 +24,10 @@ pub(super) const INEQUALITY: &str = "matrix_inequality";
 /// And within it what its two halves are compared with.
 pub(super) const SPLITTING: &str = "splitting";
 
-/// The field of the matrix inequality of existence.
-/// Of `orbit` and `forcing`: one part for each parameter of which an interval is known.
+/// The field of `orbit` and of `forcing` with one part for each parameter of which an interval is known.
 pub(super) const SENSITIVITIES: &str = "sensitivities";
 
+/// The field of the matrix inequality of existence.
 pub(super) const EXISTENCE_INEQUALITY: &str = "existence_inequality";
 
 /// The field of the joint inequality of stability; that of existence has the name of the other one.

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::spec::model::LyapunovSource;
-use sigmastar_lang::spec::{Bound, Constant, InputGain, Interval, OfPlant, Specification};
+use sigmastar_lang::spec::{Bound, Constant, InputGain, Interval, OfPlant, Parameters, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::control::Control;
@@ -284,7 +284,7 @@ fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String
             ),
         ),
     };
-    let which = match members(plant) {
+    let which = match members(&plant.parameters) {
         None => "the plant of these formulas".to_owned(),
         Some(members) => format!("every plant of these formulas with {members}"),
     };
@@ -297,11 +297,11 @@ fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String
 
 /// "a constant k in [0.18, 0.22] and a constant c in [0, 0.2]"; none of a single plant.
 #[must_use]
-pub fn members(plant: &OfPlant) -> Option<String> {
+pub fn members(parameters: &Parameters) -> Option<String> {
     let one = |(name, Interval { low, high, .. }): (&str, &Interval)| {
         format!("a constant {name} in [{}, {}]", write_exact(low), write_exact(high))
     };
-    let all: Vec<String> = plant.parameters.intervals().map(one).collect();
+    let all: Vec<String> = parameters.intervals().map(one).collect();
     (!all.is_empty()).then(|| all.join(" and "))
 }
 

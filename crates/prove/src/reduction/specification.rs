@@ -116,6 +116,7 @@ fn matrix(rows: &[Vec<Rational>]) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sigmastar_lang::spec::Wave;
 
     #[test]
     fn harmonics_are_rounded_up_and_none_is_left_out() {
@@ -132,6 +133,19 @@ mod tests {
         assert!(*sizes[2] > Rational::from((1, 6)) && *sizes[2] < Rational::from((1_000_001, 6_000_000)));
         assert_eq!(known.rest_rms.as_rational(), Some(&Rational::from((1, 8))));
         assert_eq!(known.rest_t_rms.unwrap().as_rational(), Some(&Rational::from(2)));
+        // c_1(p) = (3 - 4 i)/10 + p (1 - i)/2 with p in [-1, 2]: the largest |c_1|^2 is 3.65, at p = 2, and of the mean -3 + p at -1.
+        let text = include_str!("../../../../specs/plants/linear.json").replacen(
+            "\"states\"",
+            r#""parameters": { "p": { "nominal": 0, "low": -1, "high": 2 } }, "states""#,
+            1,
+        );
+        let plant = Plant::from_json("family", &text).unwrap();
+        let part = Wave { mean: Rational::from(1), harmonics: vec![[Rational::from(1), Rational::from(-1)]] };
+        let moved = ProvedForcing { sensitivities: vec![part], ..forcing(Rational::new()) };
+        let known = known_forcing(&moved, &plant.parameters).unwrap();
+        let [mean, first] = [0, 1].map(|k| known.harmonics[k].as_rational().unwrap());
+        let (square, exact) = (Rational::from(first * first), Rational::from((365, 100)));
+        assert!(*mean == 4 && square >= exact && square < exact * Rational::from((1_000_001, 1_000_000)));
         // The square leaves the exponents: the harmonic has no bound, and the whole of q_0 none. To square it takes seconds.
         if std::env::var_os("SIGMASTAR_CASES").is_some_and(|cases| cases == "all") {
             let huge = Rational::from(rug::Integer::from(1) << 550_000_000);

@@ -8,6 +8,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, InitialSet, KnownForcing, SIZES};
 use sigmastar_lang::spec::{OfPlant, Specification};
 use sigmastar_plants::bounds::Majorant;
+use sigmastar_prove::certificate::members;
 use sigmastar_prove::reduction::{PlantRefusal, bounds_around};
 
 /// The domain, where none is asked for: what the certificate needs, times this.
@@ -94,24 +95,35 @@ fn write(
         ("rate", text(&rate)),
     ]);
     let ends = object([("X", exact(domain[0])), ("E", exact(domain[1]))]);
-    let copied = |field: &str| plant.document.get(field).cloned().unwrap_or_default();
     let all = [
         ("format", Value::from("sigmastar/bounding-spec")),
         ("version", Value::from(1)),
         ("name", Value::from(format!("{}, bounded", plant.name))),
         ("description", Value::from(description(of_plant))),
-        ("period", copied("period")),
+        ("period", stated(&spec.period)),
         ("lyapunov", lyapunov),
         ("bounds", object(fields.iter().map(|(name, majorant)| (*name, text(majorant))))),
     ];
     let forcing = spec.q_0.as_ref().map(|known| ("q_0", forcing(known)));
-    let rest = [
-        ("domain", ends),
-        ("internal_model", copied("internal_model")),
-        ("initial_set", initial_set(&spec.initial_set)),
-    ];
+    let rest =
+        [("domain", ends), ("internal_model", internal_model(plant)), ("initial_set", initial_set(&spec.initial_set))];
     let input_gain = plant.document.get("input_gain").map(|gain| ("input_gain", gain.clone()));
     object(all.into_iter().chain(forcing).chain(rest).chain(input_gain))
+}
+
+/// That of the plant, without names of its parameters.
+fn internal_model(plant: &Plant) -> Value {
+    let mut model = plant.document.get("internal_model").cloned().unwrap_or_default();
+    for constant in ["mu", "base_frequency", "sampling_period"] {
+        if let Some(text) = model.get_mut(constant)
+            && let Some(written) = text.as_str()
+            // What was read as a constant can be written so.
+            && let Ok(spelled_out) = plant.parameters.definitions().spelled_out(written)
+        {
+            *text = spelled_out.into();
+        }
+    }
+    model
 }
 
 fn description(of_plant: &OfPlant) -> String {
@@ -122,8 +134,9 @@ fn description(of_plant: &OfPlant) -> String {
     let rows: Vec<String> = of_plant.coordinates.iter().map(row).collect();
     format!(
         "Proved from the formulas of the plant, and rounded up. |x| here is |y|, x - x_0(t) = L y with the rows of L [{}] and the \
-         periodic solution x_0 of x' = f(t,x,0).",
-        rows.join(", ")
+         periodic solution x_0 of x' = f(t,x,0){}.",
+        rows.join(", "),
+        members(&of_plant.parameters).map_or_else(String::new, |members| format!(", for every plant with {members}"))
     )
 }
 

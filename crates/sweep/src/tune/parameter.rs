@@ -70,6 +70,12 @@ pub enum TuneError {
     /// More numbers than are tuned together.
     #[error("more than {MAX_PARAMETERS} numbers are to be tuned together")]
     TooMany,
+    /// A parameter of which an interval is given.
+    #[error("`{name}` is no single number: an interval of it is given")]
+    Interval {
+        /// The number.
+        name: String,
+    },
     /// A value that is no number between the ends that doubles reach.
     #[error("the value {written} of `{name}` is too large or too small to be tuned")]
     Magnitude {
@@ -100,6 +106,7 @@ impl TuneError {
             }
             TuneError::Twice { .. } => "leave one of the two out".to_owned(),
             TuneError::TooMany => "name those that matter most".to_owned(),
+            TuneError::Interval { name } => format!("state one value of `{name}` to tune it, or leave it out"),
             TuneError::Magnitude { .. } => "use units of time in which it is of ordinary size".to_owned(),
             TuneError::Sampled => "leave --minimise and --error-at out, or the sampling period".to_owned(),
             TuneError::NotMatched => "leave --error-at out".to_owned(),
@@ -170,6 +177,9 @@ fn parameter(
     let name = name.to_owned();
     // The reader has read a constant there.
     let value = document.at(pointer).unwrap_or_else(|| document.root());
+    if value.type_name() == "an object" {
+        return Err(TuneError::Interval { name });
+    }
     let written = value.text().or_else(|| value.numeral()).unwrap_or_default().to_owned();
     let constant = any_constant(&value, &mut Errors::new()).ok().map_or(f64::NAN, |constant| constant.to_f64());
     if !(1e-100..=1e100).contains(&constant) {
@@ -228,15 +238,16 @@ mod tests {
     fn parameters_of_a_plant_go_by_their_names() {
         let plant = include_str!("../../../../specs/plants/linear.json").replacen(
             "\"states\"",
-            "\"parameters\": { \"a\": \"3\", \"mu\": 2 }, \"states\"",
+            "\"parameters\": { \"a\": \"3\", \"mu\": 2, \"b\": { \"nominal\": 2, \"low\": 1, \"high\": 3 } }, \"states\"",
             1,
         );
+        assert!(told(&plant, "b=1..3").contains("an interval of it is given; state one value"));
         let all = read(&plant, "a=1..5, parameters.mu=1/2..3, mu").unwrap();
         let places: Vec<&str> = all.iter().map(|one| one.pointer.as_str()).collect();
         assert_eq!(places, ["/parameters/a", "/parameters/mu", "/internal_model/mu"]);
         assert_eq!(all[0].written, "3");
         assert!(told(&plant, "a").contains("`a=5..8`"));
-        assert!(told(&plant, "friction").contains("the free numbers are mu, n0, epsilon, a, parameters.mu"));
+        assert!(told(&plant, "friction").contains("the free numbers are mu, n0, epsilon, a, parameters.mu, b"));
     }
 
     #[test]

@@ -56,6 +56,18 @@ fn a_state_moves_with_the_orbit_of_its_member() {
     assert!((proved.value.to_f64() - 2.5).abs() < 0.03, "{}", proved.value.to_f64());
 }
 
+/// The velocity `-k x_0 + cos(2 pi t)/10 + c x_0^2` is that of the member, here x_0 = c: q_te = k x_0' gets down to -1.95 at k = 2, c = 1/2,
+/// and is within 0.2 with the nominal c = 0.
+#[test]
+fn an_orbit_moves_as_that_of_its_member() {
+    let case = engine(["0", "1"]);
+    let decide = |value: &str| {
+        let [x, e] = [rational("0.1"), rational("1")];
+        case.engine.decide(&Entry { bound: Bound::Qte, x, e, value: rational(value) }, 4000).truth
+    };
+    assert!(decide("2.4").is_true() && !decide("1.9").is_true());
+}
+
 #[test]
 fn a_region_without_the_sensitivities_is_refused() {
     let still = TrigonometricVector { mean: vec![rational("0")], harmonics: Vec::new() };
