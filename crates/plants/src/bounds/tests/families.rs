@@ -2,17 +2,19 @@
 
 use super::*;
 
-/// `x' = -k x + e + cos(2 pi t)/10 + c x^2`, `q = k x e + c e`, k in [1, 2] with the nominal value 3/2, c in [-1/4, 1/2] with 0.
-fn family() -> Plant {
+/// `x' = -k x + e + cos(2 pi t)/10 + c x^2` and this q, k in [1, 2] with the nominal value 3/2, c in [-1/4, 1/2] with 0.
+fn family(q: &str) -> Plant {
     let text = r#"{ "format": "sigmastar/plant", "version": 1, "name": "family", "period": "1", "states": ["x"],
         "parameters": { "k": { "nominal": "3/2", "low": 1, "high": 2 }, "c": { "nominal": 0, "low": "-1/4", "high": "1/2" } },
-        "f": ["-k*x + e + cos(2*pi*t)/10 + c*x^2"], "q": "k*x*e + c*e", "internal_model": { "mu": "1", "base_frequency": "2*pi",
+        "f": ["-k*x + e + cos(2*pi*t)/10 + c*x^2"], "q": "Q", "internal_model": { "mu": "1", "base_frequency": "2*pi",
         "matched": true, "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } } }"#;
-    Plant::from_json("family", text).unwrap()
+    Plant::from_json("family", &text.replacen('Q', q, 1)).unwrap()
 }
 
-fn engine(sensitivities: [&str; 2]) -> Case {
-    let plant = family();
+const Q: &str = "k*x*e + c*e";
+
+fn engine(q: &str, sensitivities: [&str; 2]) -> Case {
+    let plant = family(q);
     let still = |mean: &str| TrigonometricVector { mean: vec![rational(mean)], harmonics: Vec::new() };
     let orbit =
         sigmastar_lang::spec::OrbitCurve { centre: still("0"), sensitivities: sensitivities.map(still).to_vec() };
@@ -25,7 +27,7 @@ fn engine(sensitivities: [&str; 2]) -> Case {
 /// With the orbit at 0 and |x| <= 1/2, |e| <= 1: J = -k + 2 c x has the rate 1 - 1/2; q_e = k x + c lies in [-1.25, 1.5]; q_x = k e.
 #[test]
 fn bounds_are_those_of_the_worst_member() {
-    let case = engine(["0", "0"]);
+    let case = engine(Q, ["0", "0"]);
     let [x, e] = [rational("0.5"), rational("1")];
     for (bound, worst) in
         [(Bound::Rate, 0.5), (Bound::QeMax, 1.5), (Bound::Qe, 1.5), (Bound::Qx, 2.0), (Bound::Fx, 2.5)]
@@ -43,7 +45,7 @@ fn bounds_are_those_of_the_worst_member() {
 /// An orbit that moves with c takes q_e to k (x + c) + c.
 #[test]
 fn a_state_moves_with_the_orbit_of_its_member() {
-    let case = engine(["0", "1"]);
+    let case = engine(Q, ["0", "1"]);
     let [x, e] = [rational("0.5"), rational("1")];
     let decide = |value: &str| {
         case.engine
@@ -56,11 +58,23 @@ fn a_state_moves_with_the_orbit_of_its_member() {
     assert!((proved.value.to_f64() - 2.5).abs() < 0.03, "{}", proved.value.to_f64());
 }
 
+/// What the formula does not name moves the states that it names.
+#[test]
+fn a_parameter_counts_where_only_the_orbit_depends_on_it() {
+    let case = engine("x*e*cos(2*pi*t)", ["0", "1"]);
+    let decide = |value: &str| {
+        let [x, e] = [rational("0.5"), rational("1")];
+        case.engine.decide(&Entry { bound: Bound::Qe, x, e, value: rational(value) }, 4000).truth
+    };
+    // |x| reaches 1/2 + 1/2 at c = 1/2.
+    assert!(decide("1.01").is_true() && !decide("0.99").is_true());
+}
+
 /// The velocity `-k x_0 + cos(2 pi t)/10 + c x_0^2` is that of the member, here x_0 = c: q_te = k x_0' gets down to -1.95 at k = 2, c = 1/2,
 /// and is within 0.2 with the nominal c = 0.
 #[test]
 fn an_orbit_moves_as_that_of_its_member() {
-    let case = engine(["0", "1"]);
+    let case = engine(Q, ["0", "1"]);
     let decide = |value: &str| {
         let [x, e] = [rational("0.1"), rational("1")];
         case.engine.decide(&Entry { bound: Bound::Qte, x, e, value: rational(value) }, 4000).truth
@@ -72,5 +86,5 @@ fn an_orbit_moves_as_that_of_its_member() {
 fn a_region_without_the_sensitivities_is_refused() {
     let still = TrigonometricVector { mean: vec![rational("0")], harmonics: Vec::new() };
     let region = Region::new(vec![vec![rational("1")]], still, rational("0")).unwrap();
-    assert!(matches!(Engine::new(&family(), region, Some(identity(1)), None), Err(RegionError::Shape)));
+    assert!(matches!(Engine::new(&family(Q), region, Some(identity(1)), None), Err(RegionError::Shape)));
 }

@@ -93,6 +93,46 @@ fn what_is_too_good_for_a_member_is_refused() {
     assert!(decide_orbit(&wider, &coordinates, &proof).is_err());
 }
 
+/// A plant with one state and one parameter p.
+fn of_one(f: &str, q: &str, [nominal, low, high]: [&str; 3]) -> Plant {
+    let parameters = format!(r#"{{ "p": {{ "nominal": "{nominal}", "low": "{low}", "high": "{high}" }} }}"#);
+    let text = format!(
+        r#"{{ "format": "sigmastar/plant", "version": 1, "name": "one", "period": "1", "states": ["x"], "f": ["{f}"], "q": "{q}",
+        "parameters": {parameters}, "internal_model": {{ "mu": "1", "base_frequency": "2*pi", "matched": true,
+        "weights": {{ "family": "power", "n0": "2", "epsilon": "1/2" }} }}, "initial": {{ "x": ["2"], "e": "0" }} }}"#
+    );
+    Plant::from_json("one", &text).unwrap()
+}
+
+/// The rate is that of the slowest member, by its own formulas (1, where the nominal one has 3/2) and along its own orbit (at sqrt(p),
+/// 3.79 where the nominal one has 4).
+#[test]
+fn the_rate_is_that_of_the_slowest_member() {
+    for (f, interval, most, between) in [
+        ("-p*x + cos(2*pi*t)", ["3/2", "1", "2"], (1, 1), (6, 5)),
+        ("p - x^2", ["4", "3.6", "4.4"], (380, 100), (39, 10)),
+    ] {
+        let plant = of_one(f, "x", interval);
+        let (coordinates, proof, _) = proved(&plant);
+        assert!(proof.alpha <= Rational::from(most), "{f}: {}", proof.alpha.to_f64());
+        let forged = OrbitProof { alpha: Rational::from(between), ..proof };
+        let failure = decide_orbit(&plant, &coordinates, &forged).unwrap_err();
+        assert!(matches!(failure, OrbitNotProved::Rate { .. }), "{f}: {failure:?}");
+    }
+}
+
+/// What the distance from xb adds to the rest is that of the member in which q has the largest slope.
+#[test]
+fn the_rest_is_that_of_the_steepest_member() {
+    let plant = of_one("-x + cos(2*pi*t)", "p*x", ["1", "1", "2"]);
+    let (coordinates, proof, _) = proved(&plant);
+    let far = OrbitProof { radius: Rational::from((1, 100)), tube: Rational::from((1, 50)), ..proof };
+    let forcing = prove_forcing(&plant, &coordinates, &far).unwrap();
+    let share = coordinates.l[0][0].clone().abs() / 100u32;
+    let [least, most] = [(2, 1), (201, 100)].map(|factor| Rational::from(factor) * &share);
+    assert!(forcing.rest >= least && forcing.rest < most, "{}", forcing.rest.to_f64());
+}
+
 #[test]
 fn a_family_of_one_point_is_the_plant() {
     let plant = family(["1/5", "1/5"], ["1/10", "1/10"]);
