@@ -108,14 +108,14 @@ fn of_one(f: &str, q: &str, [nominal, low, high]: [&str; 3]) -> Plant {
 /// 3.9497 where the nominal one has 4).
 #[test]
 fn the_rate_is_that_of_the_slowest_member() {
-    for (f, interval, most, between) in [
-        ("-p*x + cos(2*pi*t)", ["3/2", "1", "2"], (1, 1), (6, 5)),
-        ("p - x^2", ["4", "3.9", "4.1"], (395, 100), (3955, 1000)),
+    for (f, interval, most, [between, tube]) in [
+        ("-p*x + cos(2*pi*t)", ["3/2", "1", "2"], (1, 1), [(6, 5), (1, 10)]),
+        ("p - x^2", ["4", "3.9", "4.1"], (395, 100), [(3955, 1000), (1, 1000)]),
     ] {
         let plant = of_one(f, "x", interval);
         let (coordinates, proof, _) = proved(&plant);
         assert!(proof.alpha <= Rational::from(most), "{f}: {}", proof.alpha.to_f64());
-        let forged = OrbitProof { alpha: Rational::from(between), ..proof };
+        let forged = OrbitProof { alpha: Rational::from(between), tube: Rational::from(tube), ..proof };
         let failure = decide_orbit(&plant, &coordinates, &forged).unwrap_err();
         assert!(matches!(failure, OrbitNotProved::Rate { .. }), "{f}: {failure:?}");
     }
