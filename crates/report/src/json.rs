@@ -75,6 +75,10 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         report["input_gain"] = json!({ "nominal": nominal.text, "low": low.text, "high": high.text });
         report["sigma_star_nominal_gain_estimate"] = json!(run.alternatives.nominal_gain.map(estimate));
     }
+    if !run.interval_costs.is_empty() {
+        let costs = run.interval_costs.iter().map(|(name, sigma)| (name.clone(), json!(sigma.map(estimate))));
+        report["sigma_star_without_interval_estimates"] = costs.collect::<serde_json::Map<_, _>>().into();
+    }
     report
 }
 

@@ -184,7 +184,7 @@ impl Specification {
             InternalModel::read(&file.required("internal_model")?, &period, &[])?;
 
         let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
-        let input_gain = input_gain::read(&mut file)?;
+        let input_gain = input_gain::read(&mut file, &[])?;
         file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
         file.finish()?;
         let domain = domain.transpose()?;

@@ -120,7 +120,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         fields.finish().map(|()| ends)
     });
     let domain = domain.transpose()?;
-    let input_gain = input_gain::read(&mut file)?;
+    let input_gain = input_gain::read(&mut file, &constants)?;
     let model = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;
 

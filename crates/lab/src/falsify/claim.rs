@@ -45,6 +45,8 @@ pub struct TriedClaim {
     drive: Option<(Excitation, Rational)>,
     /// The plant that the claim is about, where it is about one; it is tried in the place of drawn ones.
     pub own: Option<OwnPlant>,
+    /// Values of the parameters with intervals with which alone it is tried, where one was chosen.
+    pub(super) chosen: Vec<Option<Rational>>,
     /// The law at samples, where the claim is about it: then it is about exactly its gain.
     pub sampled: Option<SampledClaim>,
 }
@@ -103,6 +105,7 @@ impl TriedClaim {
             reach,
             drive,
             own,
+            chosen: Vec::new(),
             sampled,
         })
     }
@@ -157,6 +160,7 @@ impl TriedClaim {
             reach,
             drive,
             own,
+            chosen: Vec::new(),
             sampled,
         }
     }

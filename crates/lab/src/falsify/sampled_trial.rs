@@ -45,7 +45,16 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         }
     };
     start.shrink_to_fit();
-    let trial = Trial { number, plant, sigma: law.sigma.to_f64(), n_o, start, input_gain: None, phase: Some(phase) };
+    let trial = Trial {
+        number,
+        plant,
+        sigma: law.sigma.to_f64(),
+        n_o,
+        start,
+        input_gain: None,
+        parameters: Vec::new(),
+        phase: Some(phase),
+    };
     let mut sampled = match &claim.own {
         Some(own) => SampledLoop::new(&own.plant, regulator, discrete),
         None => match file(claim, &trial) {

@@ -62,9 +62,9 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
     let start = boundary(claim, plant.family.states(), &regulator, &mut random);
-    let input_gain = input_gain(claim, number, &mut random);
+    let input_gain = claim.member(number, &mut random).input_gain;
     let plant = TriedPlant::Drawn(Box::new(plant));
-    let trial = Trial { number, plant, sigma, n_o, start, input_gain, phase: None };
+    let trial = Trial { number, plant, sigma, n_o, start, input_gain, parameters: Vec::new(), phase: None };
     let file = match file(claim, &trial) {
         Ok(file) => file,
         Err(unfinished) => return unfinished,
@@ -73,30 +73,22 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     check(claim, trial, &closed_loop)
 }
 
-/// A trial of the plant that the claim is about.
+/// A trial of the plant that the claim is about, or of a member of its family.
 fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
     let sigma = claim.sigma * OwnPlant::gain(number);
     let regulator = regulator(claim, sigma, n_o);
     let n = own.plant.states();
     let mut start = boundary(claim, n, &regulator, &mut random);
+    let member = claim.member(number, &mut random);
+    let (parameters, input_gain) = (claim.named(&member), member.input_gain);
+    let claim = claim.about(&member);
+    let own = claim.own.as_ref().unwrap_or(own);
     let x = own.state(0.0, &start[..n]);
     start[..n].copy_from_slice(&x);
-    let input_gain = input_gain(claim, number, &mut random);
     let closed_loop = with_gain(ClosedLoop::new(&own.plant, regulator), input_gain);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
-    check(claim, Trial { number, plant, sigma, n_o, start, input_gain, phase: None }, &closed_loop)
-}
-
-/// The gain of the actuator in a trial of a claim for an interval: at its ends first, then inside.
-fn input_gain(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<f64> {
-    let gain = claim.spec.input_gain.as_ref()?;
-    let (low, high) = (gain.low.to_f64(), gain.high.to_f64());
-    Some(match number {
-        1 => low,
-        2 => high,
-        _ => low + (high - low) * random.uniform(),
-    })
+    check(&claim, Trial { number, plant, sigma, n_o, start, input_gain, parameters, phase: None }, &closed_loop)
 }
 
 fn with_gain(closed_loop: ClosedLoop, gain: Option<f64>) -> ClosedLoop {

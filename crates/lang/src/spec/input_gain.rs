@@ -1,10 +1,11 @@
 //! An actuator whose gain is known to an interval (derivation, 13.1): e' = q(t,x,e) + b u with a constant b.
 
-use super::constant::{positive_constant, whole};
+use super::constant::{positive_constant_in, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::parts::Constant;
 use super::quantity::Quantity;
+use crate::expr::Definitions;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, MAX_PRECISION, Truth};
 
@@ -71,16 +72,16 @@ impl InputGain {
     }
 }
 
-/// Reads `input_gain`: three positive constants, proved to be in order.
+/// Reads `input_gain`: three positive constants, proved to be in order; the names of a plant's constants may stand in them.
 ///
 /// # Errors
 /// Reports fields that are missing or unknown, numbers that are not positive, and an order that fails or is not decided.
-pub fn read_input_gain(value: &Value<'_>, errors: &mut Errors) -> Result<InputGain, Reported> {
+pub fn read_input_gain(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<InputGain, Reported> {
     let mut object = value.object(errors)?;
-    let nominal = object.required("nominal", errors).and_then(|value| positive_constant(&value, errors));
+    let nominal = object.required("nominal", errors).and_then(|value| positive_constant_in(&value, names, errors));
     let mut end = |name: &'static str, in_order: fn(&Constant, &Constant) -> Truth, relation: &str| {
         object.required(name, errors).and_then(|value| {
-            let end = positive_constant(&value, errors)?;
+            let end = positive_constant_in(&value, names, errors)?;
             match &nominal {
                 Ok(nominal) => ordered(&value, (name, relation), end, nominal, in_order, errors),
                 Err(_) => Ok(end),
