@@ -2,7 +2,7 @@
 
 pub(super) use super::cells::PRECISION;
 use super::cells::{Cells, Wave};
-use super::members::Members;
+use super::members::{Members, ParameterBox};
 use super::recurrences::combine;
 use super::taylor::{Taylor, TaylorAlgebra};
 use sigmastar_exact::enclosure::Enclosure;
@@ -57,10 +57,15 @@ impl Curve {
         self.members.sensitivities.iter().map(of_one).collect()
     }
 
-    /// The states of every member, from those of the nominal plant.
-    pub(super) fn of_members(&self, states: &[Vec<Taylor>; 2], sensitivities: &[[Vec<Taylor>; 2]]) -> [Vec<Taylor>; 2] {
+    /// The states of the members with these parameters, from those of the nominal plant.
+    pub(super) fn of_members(
+        &self,
+        states: &[Vec<Taylor>; 2],
+        sensitivities: &[[Vec<Taylor>; 2]],
+        parameters: &ParameterBox,
+    ) -> [Vec<Taylor>; 2] {
         let mut all = states.clone();
-        for (part, deviation) in sensitivities.iter().zip(&self.members.parameters.deviations) {
+        for (part, deviation) in sensitivities.iter().zip(&parameters.deviations) {
             for (own, part) in all.iter_mut().zip(part) {
                 for (own, part) in own.iter_mut().zip(part) {
                     *own = combine(own, &part.iter().map(|c| c * deviation).collect::<Taylor>(), 1);

@@ -74,7 +74,7 @@ fn derivatives_in_parameters(
         return Vec::new();
     }
     let n = states[0].len();
-    let members = curve.of_members(states, &sensitivities);
+    let members = curve.of_members(states, &sensitivities, &curve.members.parameters);
     let values = curve.along(slopes, cell, (&members, &curve.members.parameters.values), ORDER);
     let of_one = |(i, part): (usize, &[Vec<Taylor>; 2])| {
         [0, 1].map(|which| -> Vec<Taylor> {
