@@ -103,7 +103,7 @@ fn the_program_writes_and_refuses() {
 #[test]
 fn coq_accepts_what_is_true() {
     let Some(proofs) = proofs() else { return };
-    let some = ["paper-example-aligned.sharp", "no-x.sharp"];
+    let some = ["no-x.sharp"];
     for name in names("certificates").iter().filter(|name| every_case() || some.contains(&name.as_str())) {
         let made = certificate(name);
         assert_accepted(name, coqc(proofs, &name.replace(['.', '-'], "_"), &made));
@@ -111,10 +111,14 @@ fn coq_accepts_what_is_true() {
     assert_accepted("gain", coqc(proofs, "gain", &with_a_gain()));
 }
 
+/// Those that an ordinary run leaves out are alike.
 #[test]
 fn coq_refuses_what_is_not() {
     let Some(proofs) = proofs() else { return };
     let refused = |name: &str, edit: &dyn Fn(&mut Value), said: &str| {
+        if !every_case() && !["lowered", "altered", "transfer"].contains(&name) {
+            return;
+        }
         let mut made = certificate(PAPER);
         edit(&mut made);
         let answer = coqc(proofs, name, &made).expect_err(name);
@@ -125,6 +129,9 @@ fn coq_refuses_what_is_not() {
     refused("altered", &|made| made["specification"]["bounds"]["f_e"] = json!("X + 0.19"), "<= X_p cert");
     refused("size", &|made| made["claim"]["periodic_solution"]["x"] = json!("0.049417"), "x_per cert");
     refused("transfer", &|made| made["witness"]["transfer"]["K"] = json!(1), "<= k_1 cert");
+    if !every_case() {
+        return;
+    }
     let mut wider = with_a_gain();
     wider["specification"]["input_gain"]["high"] = json!("2.9");
     let answer = coqc(proofs, "gain_wider", &wider).expect_err("a wider interval");

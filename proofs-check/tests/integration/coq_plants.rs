@@ -95,7 +95,7 @@ fn the_numbers_of_the_matrices_are_written() {
 #[test]
 fn coq_accepts_plants() {
     let Some(proofs) = proofs() else { return };
-    let some = ["motor-axis.certificate", "joint.certificate", "converter"];
+    let some = ["motor-axis.certificate", "joint.certificate"];
     let stored = plants().map(|name| ("plants", name)).chain(names("gain").into_iter().map(|name| ("gain", name)));
     for (of, name) in stored.filter(|(_, name)| every_case() || some.contains(&name.as_str())) {
         let made: Value = serde_json::from_str(&text(of, &name)).unwrap();
@@ -103,10 +103,14 @@ fn coq_accepts_plants() {
     }
 }
 
+/// Those that an ordinary run leaves out are alike.
 #[test]
 fn coq_refuses_of_plants_what_is_not() {
     let Some(proofs) = proofs() else { return };
     let refused = |of: &str, name: &str, edit: &dyn Fn(&mut Value), said: &str| {
+        if !every_case() && !["rate", "reach", "joint_lowered", "joint_near_P_up"].contains(&name) {
+            return;
+        }
         let mut made = certificate(of);
         edit(&mut made);
         let answer = coqc(proofs, &format!("plant_{name}"), &made).expect_err(name);
@@ -131,7 +135,7 @@ fn coq_refuses_of_plants_what_is_not() {
     refused("motor-axis", "rate", &|made| alter(made, 2, "rate", "100"), "a_2 cert");
     refused("pendulum", "transfer", &|made| made["witness"]["transfer"]["K"] = json!(1), "<= k_1 cert");
     // Below the threshold of both; then each of the numbers of stability and one of existence.
-    refused("joint", "lowered", &|made| made["claim"]["sigma_star"] = json!("3.96"), "tau");
+    refused("joint", "joint_lowered", &|made| made["claim"]["sigma_star"] = json!("3.96"), "tau");
     let of_stability: [(&str, &str, &str); 6] = [
         ("near/P_up", "0.55", "D_x cert"),
         ("sigma", "4.1", "<= sigma cert"),
@@ -140,14 +144,14 @@ fn coq_refuses_of_plants_what_is_not() {
         ("far/x_low", "0.7", "D_x cert"),
         ("far/e_low", "0.9", "D_x cert"),
     ];
-    for (field, value, said) in of_stability.into_iter().take(if every_case() { 6 } else { 1 }) {
+    for (field, value, said) in of_stability {
         let name = format!("joint_{}", field.replace('/', "_"));
         let pointer = format!("/witness/joint_inequality/{field}");
         refused("joint", &name, &|made| *made.pointer_mut(&pointer).unwrap() = json!(value), said);
     }
     refused(
         "joint",
-        "c_y",
+        "joint_c_y",
         &|made| made["witness"]["existence_inequality"]["near"]["c_y"] = json!("0.9"),
         "not proved",
     );
