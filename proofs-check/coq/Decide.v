@@ -224,7 +224,7 @@ Ltac decide_one c :=
   | |- ?g =>
       first
       [ let R := eval red in c in
-        let b := eval cbv beta delta [in_domain complete covers domain_of_decline of_matrix threshold one_sided G_x G_e G_d least_by by_existence undamped signs_of C4_of
+        let b := eval cbv beta delta [in_domain complete gain_range covers domain_of_decline of_matrix threshold one_sided G_x G_e G_d least_by by_existence undamped signs_of C4_of
              level_of] in g in
         let b := opened c R b in
         let b := eval cbv beta iota zeta delta [min2 max2 r_t] in b in

@@ -77,8 +77,7 @@ Let sigma_pos : 0 < sigma c. Proof. apply (signs_b _ conditions). Qed.
 Let D_x_pos : 0 < D_x c. Proof. apply (signs_b _ conditions). Qed.
 Let D_e_pos : 0 < D_e c. Proof. apply (signs_b _ conditions). Qed.
 
-Let b_range : 0 < b_lo c /\ b_lo c <= 1 /\ 1 <= b_hi c.
-Proof. pose proof (signs_g _ conditions) as G. unfold b_lo, b_hi. destruct (gain c); lra. Qed.
+Let b_range : 0 < b_lo c /\ b_lo c <= 1 /\ 1 <= b_hi c. Proof. exact (signs_g _ conditions). Qed.
 
 (** ** By a square: C5 or (M) *)
 

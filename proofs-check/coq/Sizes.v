@@ -140,6 +140,7 @@ Definition tau : R := sqrt (period c ^ 2 / 12 - beta2_s + 1 / sigma c ^ 2) / sig
 
 Definition b_lo : R := match gain c with None => 1 | Some g => low g end.
 Definition b_hi : R := match gain c with None => 1 | Some g => high g end.
+Definition gain_range : Prop := 0 < b_lo /\ b_lo <= 1 /\ 1 <= b_hi.
 (** d, c_m, and nu at b_lo. *)
 Definition d_b : R :=
   match gain c with None => 1 | Some g => if half g then 1 else 1 / (2 * sqrt (low g * (1 - low g))) end.
@@ -311,7 +312,7 @@ Definition by_existence (i : inequality) : Prop :=
 Record existence_conditions : Prop := {
   complete_p : complete;
   signs_p : 0 < sigma c /\ 0 < X_p c /\ 0 < E_p c /\ 0 < r_x c /\ 0 < r_e c /\ 0 < r_d c;
-  gain_p : match gain c with None => True | Some g => 0 < low g /\ low g <= 1 /\ 1 <= high g /\ (half g = true -> 1 / 2 <= low g) end;
+  gain_p : gain_range /\ match gain c with None => True | Some g => half g = true -> 1 / 2 <= low g end;
   domain_p : in_domain c (X_p c) (E_p c);
   S1 : 0 < a_1;
   damping_p : match damped c with
@@ -465,7 +466,7 @@ Definition of_its_kind : Prop := match known c with by_metrics j => by_joint j |
 Record stability_conditions : Prop := {
   signs_b : 0 < mu c /\ 0 < sigma c /\ 0 < D_x c /\ 0 < D_e c;
   signs_0 : 0 <= X_0 c /\ 0 <= E_0 c /\ match Z_0 c with None => True | Some z => 0 <= z end;
-  signs_g : match gain c with None => True | Some g => 0 < low g /\ low g <= 1 /\ 1 <= high g end;
+  signs_g : gain_range;
   stability : of_its_kind
 }.
 
