@@ -73,7 +73,7 @@ pub fn prove(
     for formula in plant.f.iter().chain([&plant.q]) {
         let what = "t occurs only inside sin, cos and tan, as A t + B with A period/(2 pi) a whole number";
         demand(
-            periodic::is_periodic(&formula.expr, spec.period.exact.as_ref()),
+            periodic::is_periodic(&formula.expr, spec.period.nominal.exact.as_ref()),
             "periodicity",
             &formula.pointer,
             what,
@@ -82,7 +82,7 @@ pub fn prove(
     lines.push("formulas: periodic in t, by their form".to_owned());
     let mut model = Model::new(plant, Frame::Moving);
     let rest = harmonics::Rest::new(plant, &mut model);
-    let defect = members::roots(&mut model.formulas, &model.defect, plant.known.parameters.len());
+    let defect = members::roots(&mut model.formulas, &model.defect, plant.family.len());
     let mut asked = Vec::new();
     if plant.states() > 0 {
         orbit::radii(&plant.orbit, &plant.lyapunov[0])?;
@@ -100,7 +100,7 @@ pub fn prove(
     }
     let curves = model::curves(plant);
     let circle = |p: u32| {
-        let period = spec.period.enclose(p);
+        let period = spec.period.nominal.enclose(p);
         (Interval::pi(p) * 2 / &period, period)
     };
 

@@ -2,9 +2,9 @@
 
 use crate::common::{assert_refused, assert_valid, certificate, changed, drawn, every, with};
 use proofs_check::check;
-use proofs_check::constant::Constant;
-use proofs_check::jacobian::{Entry, Jacobian, Witness};
+use proofs_check::jacobian::{self, Witness};
 use proofs_check::json::{Field, parse};
+use proofs_check::period::Period;
 use proofs_check::plants::jacobian::prove;
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
 use serde_json::{Value, json};
@@ -13,25 +13,23 @@ const RULE: &str = "Lyapunov triple";
 const INTERVALS: &str = "paper-example-jacobian.sharp";
 const PERIODIC: &str = "periodic-jacobian.sharp";
 
-fn constant(value: &Value) -> Constant {
-    let json = parse(value.to_string().as_bytes()).unwrap();
-    Constant::read(&Field { json: &json, pointer: String::new() }).unwrap()
+/// The answer about a Jacobian of this period and a witness.
+fn verdict_of(period: &Value, jacobian: &Value, witness: &Value) -> Result<String, Verdict> {
+    let file = json!({ "period": period, "jacobian": jacobian, "witness": witness }).to_string();
+    let json = parse(file.as_bytes()).unwrap();
+    let proved = || {
+        let mut fields = Field { json: &json, pointer: String::new() }.fields()?;
+        let period = Period::read(&mut fields, &[])?;
+        let jacobian = jacobian::read(&fields.required("jacobian")?, &period)?;
+        let (witness, _) = Witness::read(&fields.required("witness")?, jacobian.len())?;
+        prove(&jacobian, &period, &witness)
+    };
+    proved().map_err(|finding| finding.verdict)
 }
 
-/// The answer about a Jacobian of period 1 and a witness.
+/// The same of the period 1.
 fn verdict(jacobian: &Value, witness: &Value) -> Result<String, Verdict> {
-    let entry = |value: &Value| match value {
-        Value::Array(ends) => Entry::Between([constant(&ends[0]), constant(&ends[1])]),
-        _ => {
-            Entry::Function(proofs_check::expr::Expr::parse(value.as_str().unwrap(), proofs_check::expr::TIME).unwrap())
-        }
-    };
-    let row = |row: &Value| row.as_array().unwrap().iter().map(entry).collect();
-    let jacobian: Jacobian = jacobian.as_array().unwrap().iter().map(row).collect();
-    let json = parse(witness.to_string().as_bytes()).unwrap();
-    let field = Field { json: &json, pointer: String::new() };
-    let (witness, _) = Witness::read(&field, jacobian.len()).map_err(|finding| finding.verdict)?;
-    prove(&jacobian, &constant(&json!("1")), &witness).map_err(|finding| finding.verdict)
+    verdict_of(&json!("1"), jacobian, witness)
 }
 
 fn scalar(p_low: &str, p_up: &str, alpha: &str) -> Value {
