@@ -76,9 +76,9 @@ impl Rest {
             // The polynomials are of s: the second is in t by the clock, which stands after e and the parameters.
             let clock =
                 |sides: &[Interval]| plant.clock().map_or_else(|| Interval::int(1, p), |i| sides[1 + i].clone());
-            let fastest = clock(&sides).ceiling();
+            let fastest = [Interval::int(1, p), clock(&sides).ceiling()];
             let bounds: [&dyn Fn(&Polynomial) -> Interval; 2] =
-                [&|g| bound(g, &half), &|g| &fastest * bound_of_derivative(g, &half)];
+                [&|g| bound(g, &half), &|g| &fastest[1] * bound_of_derivative(g, &half)];
             let moves = bounds.map(|bound| expanded.moves(bound).concat());
             let sizes = bounds.map(|bound| bound(polynomial));
             // What the distance from xb adds to both.
@@ -93,17 +93,25 @@ impl Rest {
             let open = |i: &usize| (&sizes[*i] + total(moves[*i].iter(), p) + &on_box[*i]).le(&most[*i]) != Some(true);
             let Some(open) = (0..2).find(open) else { return Judged::Proved };
             let in_middle = [Interval::int(1, p), clock(&middles)];
-            let at = |k: usize| polynomial.coefficients.get(k).unwrap_or(&zero).abs() * &in_middle[k];
+            let at =
+                |k: usize, clock: &[Interval; 2]| polynomial.coefficients.get(k).unwrap_or(&zero).abs() * &clock[k];
             let beside_middle = beside(At::Middle, &origin, &middles);
-            if (0..2).any(|i| most[i].lt(&(at(i) + &beside_middle[i])) == Some(true)) && family.has_middle(piece) {
+            if (0..2).any(|i| most[i].lt(&(at(i, &in_middle) + &beside_middle[i])) == Some(true))
+                && family.has_middle(piece)
+            {
                 return Judged::Refuted;
             }
             // What is gained with t, or a parameter, in its middle.
-            let mut gains = vec![&sizes[open] - at(open) + &on_box[open] - &beside(At::Middle, &ball, &sides)[open]];
+            let highest = on_box[open].ceiling();
+            let mut without = |at: At, sides: &[Interval]| &highest - beside(at, &ball, sides)[open].ceiling();
+            let mut gains = vec![&sizes[open] - at(open, &fastest) + without(At::Middle, &sides)];
             for (i, moved) in moves[open].iter().enumerate() {
                 let side = std::mem::replace(&mut sides[1 + i], middles[1 + i].clone());
-                gains.push(moved + &on_box[open] - &beside(At::Box, &ball, &sides)[open]);
+                gains.push(moved + without(At::Box, &sides));
                 sides[1 + i] = side;
+            }
+            if let Some(i) = plant.clock() {
+                gains[1 + i] = &gains[1 + i] + &sizes[open] * (1 - &in_middle[open] / &fastest[open]);
             }
             Judged::Halve(gains.iter().map(|gain| gain.hi().to_f64()).collect())
         };

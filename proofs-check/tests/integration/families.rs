@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 const ALL: [&str; 3] = ["family", "family-example", "family-joint"];
 
-fn interval([nominal, low, high]: [&str; 3]) -> Value {
+pub fn interval([nominal, low, high]: [&str; 3]) -> Value {
     json!({ "nominal": nominal, "low": low, "high": high })
 }
 

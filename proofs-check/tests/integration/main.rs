@@ -32,6 +32,8 @@ mod mean_squares;
 mod monotone;
 mod mutations;
 mod parameters;
+mod periods;
+mod periods_of_plants;
 mod plant_certificates;
 mod plant_corners;
 mod plant_mutations;
