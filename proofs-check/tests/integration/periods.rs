@@ -1,11 +1,12 @@
 //! A period that is known to an interval: claims about specifications and stored ones about plants, with each of their parts forged,
 //! and where it is not available.
 
-use super::common::{BOXES, assert_refused, assert_valid, certificate, edited, folder, judged, open};
+use super::common::{BOXES, assert_refused, assert_valid, certificate, edited, every, folder, judged, open};
 use super::coq_support::assert_refused_at;
 use super::families::interval;
 use super::input_gain::settle;
 use super::plant_certificates::stored;
+use super::plant_mutations::alter;
 use proofs_check::Report;
 use proofs_check::constant::Constant;
 use proofs_check::data::Data;
@@ -341,6 +342,12 @@ fn forged_certificates_of_plants() {
     refused(of_plant("motor-axis"), &[("/plant/q", json!(q))], BadInput, "format", "/plant/q");
     let half = of_plant("motor-axis")["plant"]["q"].as_str().unwrap().replace("2*phase", "phase/2");
     refused(of_plant("motor-axis"), &[("/plant/q", json!(half))], Invalid, "periodicity", "/plant/q");
+}
+
+#[test]
+fn leaves_of_certificates_of_plants() {
+    alter("periods/motor-axis", every(9));
+    alter("periods/converter", every(19));
 }
 
 /// The bounds of a claim about a plant grow with its longest period, and its harmonics with the shortest.
