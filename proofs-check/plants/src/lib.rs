@@ -7,6 +7,7 @@
 mod around;
 pub mod at_samples;
 pub mod bounds;
+pub mod cells;
 mod derivative;
 mod form;
 pub mod formula;
@@ -61,9 +62,26 @@ struct Asked {
     what: String,
 }
 
-/// Proves everything that section 11 demands of the formulas, and the inequalities of section 13.7 that a claim rests on;
+/// Proves everything that section 11 demands of the formulas, in every cell, and the inequalities of section 13.7 that a claim rests on;
 /// `arguments`: the largest X and E at which they are used.
 pub fn prove(
+    spec: &Specification,
+    cells: &[Plant],
+    arguments: [&Float; 2],
+    inequalities: Inequalities<'_>,
+    lines: &mut Vec<String>,
+) -> Outcome<()> {
+    for (number, cell) in (1..).zip(cells) {
+        if cells.len() > 1 {
+            lines.push(format!("cell {number} of {}", cells.len()));
+        }
+        prove_in(spec, cell, arguments, inequalities, lines)?;
+    }
+    Ok(())
+}
+
+/// The same in one cell.
+fn prove_in(
     spec: &Specification,
     plant: &Plant,
     arguments: [&Float; 2],

@@ -1,6 +1,7 @@
 //! A plant and the parts of a witness that are about its formulas, as a file has them (docs/formats.md, "Plant" and "A certificate
 //! of a plant"): read and checked in form. What is proved of them is in the other files of this folder.
 
+use super::cells::{self, Cell};
 use super::time::Wave;
 use proofs_core::constant::{Constant, positive_with};
 use proofs_core::expr::{Expr, Named};
@@ -60,7 +61,7 @@ pub struct Forcing {
     pub rest_t: Rational,
 }
 
-/// What is given of a plant.
+/// What is given of a plant, in a cell of its family.
 #[derive(Clone, Debug)]
 pub struct Plant {
     pub f: Vec<Formula>,
@@ -94,8 +95,8 @@ impl Plant {
     }
 }
 
-/// Reads a plant, and takes its parts out of the witness.
-pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specification, Plant)> {
+/// Reads a plant, and takes its parts out of the witness: in each of its cells, of which most families have one.
+pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specification, Vec<Plant>)> {
     let mut file = field.fields()?;
     header(&mut file, "sigmastar/plant")?;
     file.required("name")?.text()?;
@@ -139,7 +140,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     let family: Vec<Span> = intervals.iter().map(|parameter| parameter.span.clone()).chain(clock).collect();
     let order = names.len();
     let coordinates = Coordinates::read_part(&witness.required("coordinates")?, order)?;
-    let orbit = orbit(&witness.required("orbit")?, order, family.len())?;
+    let cells = cells::read(witness, order, family, intervals.len())?;
     let (first, [p_low, p_up, alpha]) = jacobian::Witness::read(&witness.required("lyapunov")?, order)?;
     let second = witness.optional("lyapunov_existence").map(|field| jacobian::Witness::read(&field, order));
     let existence = second.transpose()?;
@@ -148,13 +149,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         let [low, up, _] = &w.numbers;
         demand(Some(low <= up), jacobian::RULE, &w.pointer, "p_low <= p_up")?;
     }
-    let forcing = forcing(&witness.required("forcing")?, family.len())?;
     let entries = Entries::read(&witness.required("bounds")?, order > 0, lyapunov.len() > 1)?;
-    let q_0 = spec::Forcing {
-        harmonics: amplitudes(&forcing.waves, &family),
-        rest_rms: spec::Size::Number(forcing.rest.clone()),
-        rest_t_rms: Some(spec::Size::Number(forcing.rest_t.clone())),
-    };
     let two_matrices = lyapunov.len() > 1;
     let known = OfPlant { states: order, domain, ball, coordinates, entries, parameters: intervals, two_matrices };
     let specification = Specification {
@@ -171,13 +166,23 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         samples: model.samples,
         weights: model.weights,
         bounds: Default::default(),
-        q_0: Some(q_0),
+        q_0: Some(cells::largest(&cells)),
         domain: None,
         initial_set,
         input_gain,
         plant: Some(Box::new(known.clone())),
     };
-    Ok((specification, Plant { f, q, orbit, lyapunov, forcing, family, has_clock, known }))
+    let of_cell = |Cell { family, orbit, forcing }| Plant {
+        f: f.clone(),
+        q: q.clone(),
+        orbit,
+        lyapunov: lyapunov.clone(),
+        forcing,
+        family,
+        has_clock,
+        known: known.clone(),
+    };
+    Ok((specification, cells.into_iter().map(of_cell).collect()))
 }
 
 fn states<'a>(list: &Field<'a>) -> Outcome<Vec<&'a str>> {
@@ -301,7 +306,7 @@ fn curves<T>(
     bad(&list.pointer, format!("expected {members} objects, {what}"))
 }
 
-fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> {
+pub(super) fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> {
     let mut fields = field.fields()?;
     let vector = |field: &Field<'_>| {
         let list = field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>()?;
@@ -325,7 +330,7 @@ fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> {
     fields.finish().map(|()| orbit)
 }
 
-fn forcing(field: &Field<'_>, members: usize) -> Outcome<Forcing> {
+pub(super) fn forcing(field: &Field<'_>, members: usize) -> Outcome<Forcing> {
     let mut fields = field.fields()?;
     let waves = curves(&mut fields, members, |field| field.rational())?;
     let forcing = Forcing {
@@ -335,28 +340,4 @@ fn forcing(field: &Field<'_>, members: usize) -> Outcome<Forcing> {
         rest_t: number(&mut fields, "rest_t", None)?,
     };
     fields.finish().map(|()| forcing)
-}
-
-/// `C_0 = |m_0|` and `C_k = sqrt(a_k^2 + b_k^2)/2`, the largest over the family: the coefficients are affine in them, so the
-/// magnitudes are convex, and largest at a corner (section 13.2).
-fn amplitudes(waves: &[Wave], family: &[Span]) -> Vec<spec::Size> {
-    // A coefficient of the wave of a corner.
-    let at = |corner: usize, coefficient: &dyn Fn(&Wave) -> Option<Rational>| {
-        let mut parts = waves.iter().map(|wave| coefficient(wave).unwrap_or_default());
-        let nominal = parts.next().unwrap_or_default();
-        let moved = parts.zip(family).enumerate().map(|(i, (part, of))| {
-            let end = &of.ends[corner >> i & 1];
-            part * Rational::from(end - &of.nominal)
-        });
-        moved.fold(nominal, |sum, part| sum + part)
-    };
-    let largest = |size: &dyn Fn(usize) -> Rational| (0..1 << family.len()).map(size).max().unwrap_or_default();
-    let square = |value: Rational| Rational::from(value.square_ref());
-    let mean = largest(&|corner| at(corner, &|wave| Some(wave.mean.clone())).abs());
-    let harmonic = |k: usize| {
-        let of = |corner: usize, i: usize| at(corner, &|wave| wave.harmonics.get(k).map(|pair| pair[i].clone()));
-        spec::Size::Root(largest(&|corner| square(of(corner, 0)) + square(of(corner, 1))) / 4u32)
-    };
-    let count = waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0);
-    std::iter::once(spec::Size::Number(mean)).chain((0..count).map(harmonic)).collect()
 }

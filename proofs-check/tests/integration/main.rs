@@ -6,6 +6,7 @@ mod aligned;
 mod arguments;
 mod at_samples;
 mod at_samples_certificate;
+mod cells;
 mod claim;
 mod common;
 mod control;
