@@ -2,9 +2,12 @@
 
 use super::families::{A, G, family, interval};
 use super::periods_of_plants::{BOTH, at_rest};
+use super::plant_certificates::stored;
 use super::plant_support::{Parts, judged, read};
+use proofs_check::check;
+use proofs_check::json::{Field, parse};
 use proofs_check::spec::Size;
-use proofs_check::verdict::Verdict::{BadInput, Invalid};
+use proofs_check::verdict::Verdict::{BadInput, Invalid, Valid};
 use rug::Rational;
 use serde_json::{Value, json};
 
@@ -176,6 +179,72 @@ fn cells_that_are_none() {
         let both = by_cells(halves()).with(&at, family(A, G).0.pointer(&at).unwrap().clone());
         both.refused(BadInput, "format", &at);
     }
+}
+
+/// `whole + by part`, number by number, of two curves of one form; what one of them does not list is 0.
+fn moved(whole: &Value, part: &Value, by: &Rational) -> Value {
+    let number = |value: &Value| match value {
+        Value::Null => Rational::new(),
+        _ => Field { json: &parse(value.to_string().as_bytes()).unwrap(), pointer: String::new() }.rational().unwrap(),
+    };
+    let some = |value: &Value| if value.is_null() { part.clone() } else { value.clone() };
+    match some(whole) {
+        Value::Array(list) => {
+            let count = list.len().max(part.as_array().map_or(0, Vec::len));
+            let at = |of: &Value, i: usize| of.get(i).cloned().unwrap_or_default();
+            (0..count).map(|i| moved(&at(whole, i), &at(part, i), by)).collect()
+        }
+        Value::Object(map) => map.keys().map(|key| (key.clone(), moved(&whole[key], &part[key], by))).collect(),
+        _ => json!((number(whole) + number(part) * by).to_string()),
+    }
+}
+
+/// A certificate of a family, with the first of its two parameters, c in [0, 1/5] about 1/10, in these cells: the same orbits, about the
+/// middles of the cells.
+fn certificate(cells: &[[(i32, i32); 2]]) -> Value {
+    let mut made = stored("family-example");
+    let k = made["plant"]["parameters"]["k"].clone();
+    let witness = made["witness"].as_object_mut().unwrap();
+    let [orbit, forcing] = ["orbit", "forcing"].map(|part| witness.remove(part).unwrap());
+    let about = |whole: &Value, by: &Rational| {
+        let mut part = whole.clone();
+        for name in ["mean", "harmonics"] {
+            part[name] = moved(&whole[name], &whole["sensitivities"][0][name], by);
+        }
+        part
+    };
+    let cell = |ends: &[(i32, i32); 2]| {
+        let [low, high] = ends.map(Rational::from);
+        let by = Rational::from(&low + &high) / 2u32 - Rational::from((1, 10));
+        let of_c = json!({ "low": low.to_string(), "high": high.to_string() });
+        json!({
+            "parameters": [of_c, { "low": k["low"], "high": k["high"] }],
+            "orbit": about(&orbit, &by), "forcing": about(&forcing, &by),
+        })
+    };
+    witness.insert("cells".to_owned(), cells.iter().map(cell).collect());
+    made
+}
+
+#[test]
+fn a_certificate_by_cells() {
+    let verdict = |made: &Value| {
+        let report = check(made.to_string().as_bytes());
+        let pointer = report.finding.as_ref().map_or_else(String::new, |finding| finding.pointer.clone());
+        (report.verdict, pointer)
+    };
+    let whole = [(0, 1), (1, 5)];
+    let halves = [[(0, 1), (2, 25)], [(2, 25), (1, 5)]];
+    for cells in [&[whole][..], &halves, &[halves[1], whole]] {
+        assert_eq!(verdict(&certificate(cells)), (Valid, String::new()), "{cells:?}");
+    }
+    for cells in [&[halves[0]][..], &[halves[1]], &[halves[0], [(3, 25), (1, 5)]]] {
+        assert_eq!(verdict(&certificate(cells)), (Invalid, "/witness/cells".to_owned()), "{cells:?}");
+    }
+    // The orbits about the middle of all, in one of the halves.
+    let mut forged = certificate(&halves);
+    forged["witness"]["cells"][0]["orbit"] = certificate(&[whole])["witness"]["cells"][0]["orbit"].clone();
+    assert_eq!(verdict(&forged), (Invalid, "/witness/cells/0/orbit/defect".to_owned()));
 }
 
 /// The clock is not cut: each cell has all of it.
