@@ -74,6 +74,10 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
             "no theorem is written of a claim about the regulator at samples: certify without `sampling_period`";
         return unsupported("/claim/regulator", message);
     }
+    if spec.period.range().is_some() {
+        let pointer = format!("{}/period", embedded.pointer);
+        return unsupported(&pointer, "no theorem is written of a claim about every period of an interval");
+    }
     if spec.plant.as_ref().is_some_and(|plant| !plant.parameters.is_empty()) {
         let pointer = format!("{}/parameters", embedded.pointer);
         return unsupported(&pointer, "no theorem is written of a claim about every parameter of an interval");

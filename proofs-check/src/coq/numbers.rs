@@ -36,7 +36,7 @@ fn of_specification(parts: &Parts) -> Outcome<Fields> {
     let triple = [("p_low", &spec.p_low), ("p_up", &spec.p_up), ("alpha", &spec.alpha)];
     let second =
         spec.existence.as_ref().map_or([&spec.p_low, &spec.p_up, &spec.alpha], |(_, triple)| triple.each_ref());
-    let mut fields = vec![("period", constant(&spec.period, &at("period"))?)];
+    let mut fields = vec![("period", constant(&spec.period.nominal, &at("period"))?)];
     for (name, value) in triple {
         fields.push((name, constant(value, &at("lyapunov"))?));
     }

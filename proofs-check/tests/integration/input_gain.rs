@@ -18,18 +18,25 @@ fn words(gain: &Value) -> String {
     format!(" and every input gain in [{low}, {high}] (one constant; the regulator divides by the nominal {nominal})")
 }
 
-/// The digest made right, and the statement that of the gains of the claim.
-fn settle(made: &mut Value) {
+/// The digest made right, and the statement that of the gains of the claim and of the period of the file.
+pub fn settle(made: &mut Value) {
     let about = if made.get("plant").is_some() { "plant" } else { "specification" };
     let mut canonical = String::new();
     parse(made[about].to_string().as_bytes()).unwrap().canonical(&mut canonical);
     made[format!("{about}_sha256")] = sha256::hex_digest(canonical.as_bytes()).into();
     let statement = made["claim"]["statement"].as_str().unwrap();
     let Some((before, after)) = statement.split_once("gain sigma >= ") else { return };
-    let (_, after) = after.split_once(", with period").unwrap();
+    let (_, after) = after.split_once(", mu = ").unwrap();
+    let period = &made[about]["period"];
+    let period = match ["low", "high", "nominal"].map(|name| period[name].as_str()) {
+        [Some(low), Some(high), Some(nominal)] => {
+            format!("every period in [{low}, {high}] (one constant T; nominal {nominal})")
+        }
+        _ => format!("period T = {}", period.as_str().unwrap_or_default()),
+    };
     let gain = made[about].get("input_gain").map_or_else(String::new, words);
     let Some(sigma) = made["claim"]["sigma_star"].as_str() else { return };
-    made["claim"]["statement"] = format!("{before}gain sigma >= {sigma}{gain}, with period{after}").into();
+    made["claim"]["statement"] = format!("{before}gain sigma >= {sigma}{gain}, with {period}, mu = {after}").into();
 }
 
 /// The gain of the file and of the claim.
