@@ -17,7 +17,7 @@ pub const RULE: &str = "input gain";
 
 /// Takes `input_gain` out of a file, if it is there. Names of a plant's constants may stand in its numbers.
 pub fn read(file: &mut Fields<'_>, constants: &[Named]) -> Outcome<Option<Range>> {
-    let positive = |fields: &mut Fields<'_>, name: &str| positive_with(fields, name, constants);
+    let positive = |fields: &mut Fields<'_>, name: &str| positive_with(&fields.required(name)?, name, constants);
     file.optional("input_gain").map(|field| Range::read(&field, RULE, positive)).transpose()
 }
 
