@@ -39,6 +39,8 @@ pub struct Numbers<R> {
     pub n_bar: R,
     /// Om = 2 pi/T.
     pub fundamental: R,
+    /// The largest Om, where an interval of the period is known.
+    pub fastest: R,
     /// c and alpha of the P that serves for the existence of the periodic solution.
     pub existence: ExistenceTriple<R>,
     /// What is known of q(t,0,0), if anything.
@@ -125,6 +127,7 @@ impl Numbers<Enclosure> {
             n_bar_squared: self.n_bar_squared.midpoint_f64(),
             n_bar: self.n_bar.midpoint_f64(),
             fundamental: self.fundamental.midpoint_f64(),
+            fastest: self.fastest.midpoint_f64(),
             existence: ExistenceTriple { c: c.midpoint_f64(), alpha: alpha.midpoint_f64(), separate: *separate },
             q_0: self.q_0.as_ref().map(|known| KnownForcing {
                 harmonics: all(&known.harmonics),
@@ -203,6 +206,7 @@ impl<'s> Data<'s> {
         let nu = &mu / &base_frequency;
         let numbers = Numbers {
             fundamental: 2 * Enclosure::pi(precision) / &period,
+            fastest: 2 * Enclosure::pi(precision) / &period,
             existence,
             q_0: known,
             matched: model.matched,

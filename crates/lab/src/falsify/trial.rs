@@ -191,7 +191,7 @@ fn check_orbit(
         checks.at_most("sup|e| against psi_1/sigma", e, psi[0] / trial.sigma);
         checks.at_most("sup|x| against psi_x/sigma", x, psi[1] / trial.sigma);
     }
-    if let Some([by_rms, by_sup]) = claim.matched_bounds(trial.sigma, trial.n_o) {
+    if let Some([by_rms, by_sup]) = claim.error_bounds(trial.sigma, trial.n_o) {
         checks.at_most("rms(e) against its bound for this n_o", rms(&error), by_rms);
         checks.at_most("sup|e| against its bound for this n_o", e, by_sup);
     }
