@@ -6,12 +6,12 @@ use super::files::Input;
 use super::input;
 use super::output::{self, shown};
 use super::progress::Bar;
-use super::simulate_gain::{gain_remarks, ordinary};
+use super::simulate_gain::{gain_remarks, ordinary, plant_of};
 use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
 };
-use sigmastar_lang::plant::{Initial, Plant};
+use sigmastar_lang::plant::Initial;
 use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_discrete, read_regulator};
@@ -28,7 +28,7 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     let limit = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
     let phase = args.phase.as_deref().map(|text| input::nonnegative("--phase", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
-    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
+    let plant = plant_of(args)?;
     let (regulator, discrete) = match (&args.controller, &sigma, args.n_o) {
         (Some(_), ..) => from_file(args, &step)?,
         (None, Some(sigma), Some(n_o)) => {

@@ -75,6 +75,9 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         report["input_gain"] = json!({ "nominal": nominal.text, "low": low.text, "high": high.text });
         report["sigma_star_nominal_gain_estimate"] = json!(run.alternatives.nominal_gain.map(estimate));
     }
+    if let Some([low, high]) = run.spec.period.interval() {
+        report["period"] = json!({ "nominal": run.spec.period.nominal().text, "low": low.text, "high": high.text });
+    }
     report
 }
 

@@ -121,6 +121,10 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub input_gain: Option<String>,
 
+    /// The true period, an exact positive constant; the nominal one of the plant file's `period` without this flag
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub period: Option<String>,
+
     /// Samples per period in the CSV file and the time response
     #[arg(long, value_name = "S", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub samples: u32,

@@ -24,17 +24,20 @@ pub struct OwnPlant {
 }
 
 impl OwnPlant {
-    /// The plant of a certificate; `None` where its L is singular in floating point.
+    /// A member of what a certificate is about, with these values of the parameters with intervals; `None` where its L is singular in
+    /// floating point.
     #[must_use]
-    pub fn new(plant: Plant, proved: &OfPlant) -> Option<OwnPlant> {
+    pub fn new(plant: &Plant, proved: &OfPlant, values: &[Rational]) -> Option<OwnPlant> {
         let n = proved.states();
         let coordinates = DMatrix::from_fn(n, n, |i, j| proved.coordinates[i][j].to_f64());
         let inverse = if n == 0 { coordinates.clone() } else { coordinates.clone().try_inverse()? };
         let vector = |values: &[Rational]| DVector::from_iterator(n, values.iter().map(Rational::to_f64));
-        let TrigonometricVector { mean, harmonics } = &proved.orbit.approximation.centre;
+        let deviations = plant.parameters.deviations(values);
+        let TrigonometricVector { mean, harmonics } = proved.orbit.approximation.at(&deviations);
         let harmonics = harmonics.iter().map(|pair| pair.each_ref().map(|part| vector(part))).collect();
         let radius = proved.orbit.radius.to_f64();
-        Some(OwnPlant { plant, coordinates, inverse, mean: vector(mean), harmonics, radius })
+        let plant = plant.member(values);
+        Some(OwnPlant { plant, coordinates, inverse, mean: vector(&mean), harmonics, radius })
     }
 
     /// xb at t = s T.

@@ -160,6 +160,9 @@ fn worst_json(claim: &TriedClaim, worst: &Closest<'_>) -> Value {
     if let Some(gain) = trial.input_gain {
         worst["input_gain"] = json!(gain);
     }
+    if let Some(period) = &trial.period {
+        worst["period"] = json!(period.to_f64());
+    }
     worst["plant"] = plant;
     worst
 }
@@ -206,9 +209,11 @@ fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
     report
 }
 
-/// The gain of the actuator, of a claim for an interval of them.
+/// The gain of the actuator and the period, of a claim for an interval of them.
 fn gain_words(trial: &Trial) -> String {
-    trial.input_gain.map_or_else(String::new, |gain| format!(", input gain {gain:?}"))
+    let gain = trial.input_gain.map_or_else(String::new, |gain| format!(", input gain {gain:?}"));
+    let period = trial.period.as_ref().map_or_else(String::new, |period| format!(", period {:?}", period.to_f64()));
+    gain + &period
 }
 
 /// A trial of the law at samples with the time of its first sample, and with its input gain where there is one.
@@ -218,6 +223,9 @@ fn with_phase(mut finding: Value, trial: &Trial) -> Value {
     }
     if let Some(gain) = trial.input_gain {
         finding["input_gain"] = json!(gain);
+    }
+    if let Some(period) = &trial.period {
+        finding["period"] = json!(period.to_f64());
     }
     finding
 }

@@ -14,9 +14,11 @@ use crate::simulate::{
     steady_state, sup, trajectory,
 };
 use rayon::prelude::*;
+use rug::Rational;
 use sigmastar_document::progress::{Progress, Silent};
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_exact::number::Portable;
+use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::no_plant;
 use sigmastar_theory::data::Data;
 
@@ -49,13 +51,22 @@ pub fn falsify(claim: &TriedClaim, settings: TrialSettings, progress: &dyn Progr
 
 fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let mut random = Random::new(seed, number);
+    let period = period(claim, number, &mut random);
+    let of_member = period.as_ref().map(|period| claim.at_period(period));
+    let claim = of_member.as_ref().unwrap_or(claim);
     if let Some(sampled) = &claim.sampled {
         return sampled_trial::run(claim, sampled, random, number);
     }
     if let Some(own) = &claim.own {
-        return run_own(claim, own, random, number);
+        return run_own(claim, own, period, random, number);
     }
-    let Some(plant) = drawn_plant(claim, number, &mut random) else {
+    // Plants are drawn for the one period: what the data say holds for each.
+    let drawing = period.clone().map(|period| {
+        let mut drawing = claim.clone();
+        drawing.spec.period = period.into();
+        drawing
+    });
+    let Some(plant) = drawn_plant(drawing.as_ref().unwrap_or(claim), number, &mut random) else {
         return Finding::Unfinished(no_member(claim).to_owned());
     };
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
@@ -64,7 +75,7 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let start = boundary(claim, plant.family.states(), &regulator, &mut random);
     let input_gain = input_gain(claim, number, &mut random);
     let plant = TriedPlant::Drawn(Box::new(plant));
-    let trial = Trial { number, plant, sigma, n_o, start, input_gain, phase: None };
+    let trial = Trial { number, plant, sigma, n_o, start, input_gain, period, phase: None };
     let file = match file(claim, &trial) {
         Ok(file) => file,
         Err(unfinished) => return unfinished,
@@ -74,7 +85,7 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
 }
 
 /// A trial of the plant that the claim is about.
-fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
+fn run_own(claim: &TriedClaim, own: &OwnPlant, period: Option<Constant>, mut random: Random, number: u64) -> Finding {
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
     let sigma = claim.sigma * OwnPlant::gain(number);
     let regulator = regulator(claim, sigma, n_o);
@@ -85,7 +96,7 @@ fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) 
     let input_gain = input_gain(claim, number, &mut random);
     let closed_loop = with_gain(ClosedLoop::new(&own.plant, regulator), input_gain);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
-    check(claim, Trial { number, plant, sigma, n_o, start, input_gain, phase: None }, &closed_loop)
+    check(claim, Trial { number, plant, sigma, n_o, start, input_gain, period, phase: None }, &closed_loop)
 }
 
 /// The gain of the actuator in a trial of a claim for an interval: at its ends first, then inside.
@@ -97,6 +108,19 @@ fn input_gain(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<f6
         2 => high,
         _ => low + (high - low) * random.uniform(),
     })
+}
+
+/// The period in a trial of a claim for an interval of them: its ends first, then inside.
+fn period(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<Constant> {
+    let [shortest, longest] = claim.spec.period.interval()?;
+    match number {
+        1 => Some(shortest.clone()),
+        2 => Some(longest.clone()),
+        _ => {
+            let (low, high) = (shortest.to_f64(), longest.to_f64());
+            Rational::from_f64(low + (high - low) * random.uniform()).map(|period| Constant::rational(&period))
+        }
+    }
 }
 
 fn with_gain(closed_loop: ClosedLoop, gain: Option<f64>) -> ClosedLoop {

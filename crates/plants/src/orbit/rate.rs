@@ -110,7 +110,7 @@ impl Contraction<'_> {
         let p = self.p.map(|_, _, wave| curve.cells.expand(wave, cell, ORDER + 1));
         let [middle, over] = [0, 1].map(|which| {
             let p = p.map(|_, _, series| series[which].clone());
-            self.decay(&values[which], &p, alpha, &curve.period)
+            self.decay(&values[which], &p, alpha, &curve.elapsed)
         });
         let half = &curve.cells.half;
         let zero = Enclosure::zero(PRECISION);

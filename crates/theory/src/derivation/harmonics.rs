@@ -101,13 +101,13 @@ where
     (1..).zip(known.harmonics.iter().skip(1)).fold(zero.clone(), |sum, (k, c)| sum + term(k, c))
 }
 
-/// sqrt(sum_{k>=1} 2 (k Om C_k)^2).
+/// sqrt(sum_{k>=1} 2 (k Om C_k)^2), at the largest Om.
 fn rate_rms<R: Real>(problem: &impl Problem<R>, known: &KnownForcing<R>) -> R
 where
     for<'a> &'a R: Operand<R>,
 {
-    let fundamental = &problem.numbers().fundamental;
-    let squares = sum_of_harmonics(known, &problem.zero(), |k, c| (R::int(k) * (fundamental * c)).sqr());
+    let fastest = &problem.numbers().fastest;
+    let squares = sum_of_harmonics(known, &problem.zero(), |k, c| (R::int(k) * (fastest * c)).sqr());
     (R::int(2) * squares).sqrt()
 }
 
@@ -131,8 +131,8 @@ where
     for<'a> &'a R: Operand<R>,
 {
     let numbers = problem.numbers();
-    let Numbers { fundamental, base_frequency, nu, matched, .. } = numbers;
-    let ratio = fundamental / base_frequency;
+    let Numbers { fastest, base_frequency, nu, matched, .. } = numbers;
+    let ratio = fastest / base_frequency;
     let bound = |k: i64| {
         let general = k0 + k1 * (R::int(k) * &ratio).sqr();
         match known.weights.get(k as usize) {
