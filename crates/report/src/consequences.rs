@@ -1,5 +1,6 @@
 //! What a certified claim says about the regulated error, and the number of oscillators that a target needs.
 
+use super::words;
 use sigmastar_document::number::upper;
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_document::{Block, Table, clean};
@@ -21,16 +22,20 @@ pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<
          oscillators. They follow from the claim, are computed with enclosures, and have no independent check:",
     ));
     blocks.push(Block::Table(table));
-    blocks.extend(consequences.mistuned.as_ref().map(|mistuned| Block::says(mistuned_words(mistuned))));
+    blocks.extend(consequences.mistuned.as_ref().map(|mistuned| Block::says(mistuned_words(spec, mistuned))));
     blocks.push(Block::Drawing(figure(consequences)));
     blocks
 }
 
 /// What the oscillators are worth away from a matched base frequency.
-fn mistuned_words(MistunedSummary { largest, last_that_pays, enough }: &MistunedSummary) -> String {
+fn mistuned_words(spec: &Specification, mistuned: &MistunedSummary) -> String {
+    let MistunedSummary { largest, last_that_pays, enough } = mistuned;
+    let why = match words::period(spec) {
+        Some(interval) => format!("The period is one constant from {interval}"),
+        None => "The base frequency is not asserted to be 2 pi / period".to_owned(),
+    };
     let distance = format!(
-        "The base frequency is not asserted to be 2 pi / period: the harmonics are up to {} away from the oscillators, relative to \
-         their frequency, so that none vanishes.",
+        "{why}: the harmonics are up to {} away from the oscillators, relative to their frequency, so that none vanishes.",
         upper(largest)
     );
     let worth = match (*last_that_pays, *enough) {

@@ -127,7 +127,7 @@ mod tests {
         let plant = TriedPlant::Own(Box::new(plant));
         check(
             &claim,
-            Trial { number: 1, plant, sigma: 1.0, n_o: 0, start, input_gain: None, phase: None },
+            Trial { number: 1, plant, sigma: 1.0, n_o: 0, start, input_gain: None, period: None, phase: None },
             &closed_loop,
         )
     }
@@ -165,7 +165,16 @@ mod tests {
     fn a_run_comes_to_a_periodic_solution_or_does_not() {
         let plant = Plant::from_json("linear", include_str!("../../../../specs/plants/linear.json")).unwrap();
         let plant = TriedPlant::Own(Box::new(plant));
-        let trial = Trial { number: 1, plant, sigma: 1.0, n_o: 0, start: vec![0.0], input_gain: None, phase: None };
+        let trial = Trial {
+            number: 1,
+            plant,
+            sigma: 1.0,
+            n_o: 0,
+            start: vec![0.0],
+            input_gain: None,
+            period: None,
+            phase: None,
+        };
         assert!(comes_to(&trial, &[2.0], |_, y| Ok(vec![y[0] + 0.5 * (2.0 - y[0])])));
         assert!(!comes_to(&trial, &[2.0], |_, y| Ok(y.to_vec())));
         assert!(!comes_to(&trial, &[2.0], |_, _| Err(IntegrationFailure::Escaped { t: 0.0 })));

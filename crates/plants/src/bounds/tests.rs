@@ -1,5 +1,6 @@
 //! Decided bounds against samples, and the paper's plant.
 
+mod clocks;
 mod directions;
 mod existence;
 mod families;

@@ -70,7 +70,7 @@ pub struct ErrorBounds {
 /// frequency, where these harmonics vanish, the factor of [`Mistuning`] elsewhere, and s_k = 1 for the rest. So
 /// rms(e) <= min{ R_q max s_k/sg_k, R_1 max s_k/(k Om sg_k) },
 /// sup|e| <= min{ e_per, R_q sqrt(2 S_0), R_1 sqrt(2 S_1) } with S_0 = sum s_k^2/sg_k^2 and S_1 = sum s_k^2/(k Om sg_k)^2, by
-/// Cauchy-Schwarz. With known harmonics away from a match the sum of the same for them, for the rest and for the change of q. With an
+/// Cauchy-Schwarz. With known harmonics the sum of the same for them, for the rest and for the change of q, where that is smaller. With an
 /// input gain all of q is over b_m.
 ///
 /// Hypotheses: existence at sigma; `mistuning` is that of the data. Guarantee: both are upper bounds, nonincreasing in n_o up to
@@ -88,7 +88,7 @@ pub fn error_bounds(
     let gains = HarmonicGains::new(data, mistuning, sigma, n_o);
     let [rms, sup] = gains.of(&q(&excitation.q_rms), &q(&excitation.q_rate_rms));
     let (mut rms, mut sup) = (e_per.min(&rms), e_per.min(&sup));
-    if let (Some([rest, change]), Some(known), true) = (&excitation.split, &data.q_0, mistuning.is_some()) {
+    if let (Some([rest, change]), Some(known)) = (&excitation.split, &data.q_0) {
         let [of_rest, of_change] = [rest, change].map(|[size, rate]| gains.of(&q(size), &q(rate)));
         let sizes: Vec<Enclosure> =
             (1..).zip(known.harmonics.iter().skip(1)).map(|(k, c)| q(c) * gains.at(data, sigma, k)).collect();
