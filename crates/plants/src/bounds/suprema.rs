@@ -53,7 +53,7 @@ impl From<&TrigonometricVector> for FloatCurve {
 const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
 
 /// A place in the grid: of the time, of the point of the ball, and of the share of E, or of the errors of [`FloatSuprema::narrow`].
-pub type Place = [usize; 3];
+pub(super) type Place = [usize; 3];
 
 /// Which points of the grid are looked at.
 #[derive(Clone, Debug)]
