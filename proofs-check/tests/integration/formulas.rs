@@ -4,6 +4,7 @@ use crate::common::{PAPER, certificate};
 use proofs_check::data::Data;
 use proofs_check::interval::Interval;
 use proofs_check::json::{Field, parse};
+use proofs_check::rules::control::Answer;
 use proofs_check::rules::gains::{beta_s, bt, damped, kappas, tau};
 use proofs_check::rules::mean_squares::{self, Witness};
 use proofs_check::rules::paths::{Path, Paths};
@@ -220,6 +221,9 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     close("x_per", &solution.x, least(&[x_p, per_e * e_per, k2 * f_e * l[1]]));
     close("R_q", &solution.rates[0], follows.rates[0]);
     close("R_1", &solution.rates[1], follows.rates[1]);
+    // Section 13.5: the sum of |u_j| over rms(q').
+    let lam = 1.0 + 2.0 / (4.0 * b_m - 1.0 + (1.0 + 8.0 * b_m).sqrt());
+    close("u over rms(q')", &Answer::continuous(&d).by_rate, lam.sqrt() / b_m * t / 12.0_f64.sqrt());
     let nu = b_m * mu / w;
     let kappa = [k0 / (w * w), k1 / w.powi(4)];
     let mean = |[q, q_t]: [f64; 2]| (kappa[0] * q * q + kappa[1] * q_t * q_t) / (c_m * c_m);
