@@ -141,7 +141,7 @@ fn coq_refuses_of_plants_what_is_not() {
         ("sigma", "4.1", "<= sigma cert"),
         ("X", "38", "X_b cert"),
         ("near/k_p", "0.16", "C4_of"),
-        ("far/x_low", "0.7", "C4_of"),
+        ("far/x_low", "0.4", "C4_of"),
         ("far/e_low", "0.9", "C4_of"),
     ];
     for (field, value, said) in of_stability {
