@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn what_is_no_period_is_told() {
         for (text, told) in [
-            ("0", "not positive"),
+            ("0", "must be positive"),
             (r#"{ "nominal": 1, "low": 2, "high": 3 }"#, "low <= nominal fails"),
             (r#"{ "nominal": 1, "low": "1/2", "high": "pi/4" }"#, "high >= nominal fails"),
             (r#"{ "nominal": 1, "low": "1/2" }"#, "high"),

@@ -124,8 +124,9 @@ impl Contraction<'_> {
                 None => zero.clone(),
                 Some(_) => (0..n).fold(zero.clone(), |sum, j| sum + at(over.at(i, j), ORDER).abs()) * half.sqr(),
             };
+            // The least diagonal: wide enclosures, as those of a clock, are beyond the scale of their middle.
             let entry = |i: usize, j: usize| match i == j {
-                true => value.at(i, i) - taken(i).ceiling(),
+                true => (taken(i) - value.at(i, i)).ceiling().negate(),
                 false => value.at(i, j).clone(),
             };
             ScaledMatrix::from_enclosures(n, entry).is_some_and(|matrix| matrix.is_positive_definite().is_true())
