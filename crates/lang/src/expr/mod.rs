@@ -25,6 +25,7 @@ mod float;
 mod formulas;
 mod graph;
 mod growth;
+mod in_time;
 mod jet;
 mod lex;
 mod monomial;
