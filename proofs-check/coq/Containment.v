@@ -59,23 +59,23 @@ Proof.
   intros t H. destruct (Rlt_le_dec t l) as [C|C]; [apply Below; lra|]. replace t with l by lra. exact Il.
 Qed.
 
-(** Section 5. [lo_x] is w_x P_low. U is derivable, does not grow while the solution is in the box, dominates the errors, and starts
+(** Section 5. [lo_x] is w_x P_low, [lo_e] is 1, or those of a metric (13.7). U is derivable, does not grow while the solution is in the box, dominates the errors, and starts
     at most at L, which is below the level (C4): then the solution is in the box, and U <= L, for all of [t0, t1]. *)
-Theorem containment (U U' : R -> R) lo_x L t0 t1 :
-  0 < lo_x -> 0 < D_x -> 0 < D_e ->
-  (forall t, t0 <= t <= t1 -> lo_x * ex t ^ 2 <= U t /\ ee t ^ 2 <= U t) ->
+Theorem containment (U U' : R -> R) lo_x lo_e L t0 t1 :
+  0 < lo_x -> 0 < lo_e -> 0 < D_x -> 0 < D_e ->
+  (forall t, t0 <= t <= t1 -> lo_x * ex t ^ 2 <= U t /\ lo_e * ee t ^ 2 <= U t) ->
   (forall t, t0 <= t <= t1 -> is_derive U t (U' t)) ->
   (forall t, t0 <= t <= t1 -> in_box t -> U' t <= 0) ->
-  U t0 <= L -> L < Rmin (lo_x * D_x ^ 2) (D_e ^ 2) ->
+  U t0 <= L -> L < Rmin (lo_x * D_x ^ 2) (lo_e * D_e ^ 2) ->
   forall t, t0 <= t <= t1 -> in_box t /\ U t <= L.
 Proof.
-  intros Hlo HDx HDe Dom Der Dec U0 HL.
+  intros Hlo Hle HDx HDe Dom Der Dec U0 HL.
   assert (L1 : L < lo_x * D_x ^ 2) by (apply Rlt_le_trans with (1 := HL), Rmin_l).
-  assert (L2 : L < D_e ^ 2) by (apply Rlt_le_trans with (1 := HL), Rmin_r).
+  assert (L2 : L < lo_e * D_e ^ 2) by (apply Rlt_le_trans with (1 := HL), Rmin_r).
   assert (Small : forall t, t0 <= t <= t1 -> U t <= L -> in_box t).
   { intros t Ht Ut. destruct (Dom t Ht) as [P1 P2]. split; apply Rnot_le_lt; intros C.
     - assert (D_x ^ 2 <= ex t ^ 2) by (apply pow_incr; lra). nra.
-    - assert (D_e ^ 2 <= ee t ^ 2) by (apply pow_incr; lra). lra. }
+    - assert (D_e ^ 2 <= ee t ^ 2) by (apply pow_incr; lra). nra. }
   assert (Falls : forall t, t0 <= t <= t1 -> (forall s, t0 <= s < t -> in_box s) -> U t <= L).
   { intros t Ht In. destruct (Req_dec t t0) as [->|N]; [exact U0|].
     destruct (MVT_gen U t0 t U') as [c [Hc E]].

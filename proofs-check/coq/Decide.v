@@ -26,6 +26,8 @@ Ltac opened c R b :=
   let b := lazymatch b with context [matched c] => let v := eval cbv beta iota delta [matched] in (matched R) in put (matched c) v b | _ => b end in
   let b := lazymatch b with context [n c] => let v := eval cbv beta iota delta [n] in (n R) in put (n c) v b | _ => b end in
   let b := lazymatch b with context [Z_0 c] => let v := eval cbv beta iota delta [Z_0] in (Z_0 R) in put (Z_0 c) v b | _ => b end in
+  let b := lazymatch b with context [gain c] => let v := eval cbv beta iota delta [gain] in (gain R) in put (gain c) v b | _ => b end in
+  let b := lazymatch b with context [existence c] => let v := eval cbv beta iota delta [existence] in (existence R) in put (existence c) v b | _ => b end in
   let b := lazymatch b with context [refined c] => let v := eval cbv beta iota delta [refined] in (refined R) in put (refined c) v b | _ => b end in
   let b := lazymatch b with context [damped c] => let v := eval cbv beta iota delta [damped] in (damped R) in put (damped c) v b | _ => b end in
   let b := lazymatch b with context [domain c] => let v := eval cbv beta iota delta [domain] in (domain R) in put (domain c) v b | _ => b end in
@@ -58,31 +60,37 @@ Ltac opened c R b :=
   let b := lazymatch b with context [k_0 c] => let v := eval cbv beta iota delta [k_0] in (k_0 R) in put (k_0 c) v b | _ => b end in
   let b := lazymatch b with context [k_1 c] => let v := eval cbv beta iota delta [k_1] in (k_1 R) in put (k_1 c) v b | _ => b end in
   eval cbv beta iota delta
-    [kap kap_small fst snd b_f b_fxx b_fex b_q b_qt of_qx of_qe of_decline up_to_X up_to_E value X_m E_m X_per_m E_per_m delta_m tau_m] in b.
+    [kap kap_small fst snd b_f b_fxx b_fex b_q b_qt of_qx of_qe of_decline up_to_X up_to_E value X_m E_m X_per_m E_per_m delta_m tau_m
+     low high half k_p c_x c_e c_y weight cross P_up x_low e_low X_j E_j tau_j near_m near_x far_m far_x X_i E_i tau_i form_i] in b.
 
-(** Encloses [v], which is [b] by definition. *)
-Ltac note v b :=
+(** Encloses [v], which is [b] by definition, with [p] bits. *)
+Ltac note_with p v b :=
   let H := fresh "enclosed" in
-  interval_intro b with (i_prec 120) as H;
+  interval_intro b with (i_prec p) as H;
   match type of H with
   | ?lo <= _ <= ?hi => change (lo <= v <= hi) in H
   | _ => fail 1 "no enclosure of" v
   end.
 
+Ltac note v b := note_with constr:(120%positive) v b.
+
 (** Enclosures that are not needed any more make every later one slower. *)
 Ltac forget v := match goal with H : _ <= v <= _ |- _ => clear H end.
 Ltac keep_sizes c :=
   repeat match goal with
-  | H : _ <= ?v <= _ |- _ => lazymatch v with e_per c => fail | x_per c => fail | Z_per c => fail | _ => clear H end
+  | H : _ <= ?v <= _ |- _ => lazymatch v with e_per c => fail | x_per c => fail | Z_per c => fail | b_lo c => fail | b_hi c => fail | _ => clear H end
   end.
 
 (** What is computed of others, by its definition. *)
-Ltac note_computed c R v :=
+Ltac note_computed_with p c R v :=
   let b := eval red in v in
-  let b := eval cbv beta delta [beta2 sup_of rms_of z_mean capped one_sided] in b in
+  let b := eval cbv beta delta [beta2 sup_of rms_of z_mean capped one_sided least_by worst] in b in
   let b := opened c R b in
   let b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 explicit nth_error power Rpower C_k r_0 r_t] in b in
-  note v b.
+  note_with p v b.
+Ltac note_computed c R v := note_computed_with constr:(120%positive) c R v.
+(** What differences of nearly equal numbers make: with a gain of 1e-10 they take some 180 bits from what is left. *)
+Ltac note_difference c R v := note_computed_with constr:(320%positive) c R v.
 
 (** A sum over the harmonics [f]. *)
 Ltac note_harmonics c R v :=
@@ -128,15 +136,16 @@ Ltac note_weight_sum c R :=
 (** Enclosures of everything in 10.2 to 10.4. *)
 Ltac note_existence c :=
   let R := eval red in c in
-  note_computed c R constr:(Om c); note_computed c R constr:(sg c); note_computed c R constr:(beta2_s c);
-  note_computed c R constr:(bt c); note_computed c R constr:(tau c);
-  note_computed c R constr:(c_ex c);
+  note_difference c R constr:(Om c); note_computed c R constr:(sg c); note_difference c R constr:(beta2_s c);
+  note_difference c R constr:(bt c); note_difference c R constr:(tau c);
+  note_computed c R constr:(b_lo c); note_computed c R constr:(b_hi c); note_computed c R constr:(d_b c); note_computed c R constr:(c_m c);
+  note_computed c R constr:(nu_lo c); note_computed c R constr:(c_ex c);
   let k := eval cbv beta iota delta [known] in (known R) in
   match k with
   | by_functions ?o =>
       note_computed c R constr:(F_p c o); note_computed c R constr:(bent c o); note_computed c R constr:(Q_p c o);
       note_computed c R constr:(Qt_p c o); note_computed c R constr:(Qt_start c o); note_computed c R constr:(secant c o)
-  | by_formulas _ => idtac
+  | _ => idtac
   end;
   note_computed c R constr:(a_1 c); note_computed c R constr:(Fe_p c); note_computed c R constr:(Qe_p c);
   note_computed c R constr:(Qx_p c);
@@ -145,13 +154,21 @@ Ltac note_existence c :=
   | None => idtac
   | Some ?f =>
       note_harmonics c R constr:(sup_h c f); note_harmonics c R constr:(rms_h c f); note_harmonics c R constr:(rate_h c f);
-      note_computed c R constr:(rest_t c f); note_harmonics c R constr:(rms_0 f); note_harmonics c R constr:(z_harmonics c f)
+      note_computed c R constr:(rest_t c f); note_harmonics c R constr:(rms_0 f); note_harmonics c R constr:(rms_m f);
+      note_harmonics c R constr:(z_harmonics c f)
+  end;
+  let i := eval cbv beta iota delta [existence] in (existence R) in
+  match i with
+  | None => idtac
+  | Some ?i =>
+      note_computed c R constr:(Q_m c); note_computed c R constr:(rms_v c i); note_computed c R constr:(rms_by_x c i);
+      note_computed c R constr:(rms_by_e c i)
   end;
   note_computed c R constr:(Q_start c); note_computed c R constr:(Fx_p c); note_computed c R constr:(beta2 c (a_1 c));
   note_computed c R constr:(x_gain c); note_computed c R constr:(from_rms c);
   match k with
   | by_functions ?o => forget (F_p c o); forget (bent c o); forget (secant c o)
-  | by_formulas _ => idtac
+  | _ => idtac
   end;
   forget (c_ex c); forget (beta2_s c); forget (beta2 c (a_1 c));
   note_means c R constr:(last c); note_means c R constr:(means c);
@@ -160,7 +177,8 @@ Ltac note_existence c :=
   | None => idtac
   | Some ?k =>
       note_computed c R constr:(most_p c); note_computed c R constr:(slope c k); note_computed c R constr:(g_k c k);
-      note_computed c R constr:(R_t c k (means c)); note_computed c R constr:(R_t c k (last c))
+      note_computed c R constr:(R_t c k (means c)); note_computed c R constr:(R_t c k (last c));
+      note_computed c R constr:(slope_t c k (means c)); note_computed c R constr:(slope_t c k (last c))
   end;
   note_computed c R constr:(e_per c); note_computed c R constr:(x_per c);
   note_computed c R constr:(swing c); note_computed c R constr:(Z_per c).
@@ -170,11 +188,16 @@ Ltac note_stability c :=
   let R := eval red in c in
   keep_sizes c;
   note_computed c R constr:(X_b c); note_computed c R constr:(E_b c);
-  note_computed c R constr:(E_f c); note_computed c R constr:(E_q c); note_computed c R constr:(X_f c); note_computed c R constr:(X_q c);
-  note_computed c R constr:(k_x c); note_computed c R constr:(k_l c); note_computed c R constr:(most c); note_computed c R constr:(k_f c);
   let k := eval cbv beta iota delta [known] in (known R) in
-  match k with by_functions ?o => note_computed c R constr:(gam c o) | by_formulas _ => idtac end;
-  note_computed c R constr:(a_2 c); note_computed c R constr:(ht c); note_computed c R constr:(size c);
+  match k with
+  | by_metrics _ => idtac
+  | _ =>
+      note_computed c R constr:(E_f c); note_computed c R constr:(E_q c); note_computed c R constr:(X_f c); note_computed c R constr:(X_q c);
+      note_computed c R constr:(b_x c); note_computed c R constr:(k_x c); note_computed c R constr:(k_l c); note_computed c R constr:(most c);
+      note_computed c R constr:(k_f c);
+      match k with by_functions ?o => note_computed c R constr:(bend c o); note_computed c R constr:(gam c o) | _ => idtac end;
+      note_computed c R constr:(a_2 c); note_computed c R constr:(ht c); note_computed c R constr:(size c)
+  end;
   note_computed c R constr:(d_X c); note_computed c R constr:(d_E c);
   let z := eval cbv beta iota delta [Z_0] in (Z_0 R) in
   match z with None => idtac | _ => note_weight_sum c R end;
@@ -201,18 +224,27 @@ Ltac decide_one c :=
   | |- ?g =>
       first
       [ let R := eval red in c in
-        let b := eval cbv beta delta [in_domain complete covers domain_of_decline of_matrix G_x G_e G_d] in g in
+        let b := eval cbv beta delta [in_domain complete gain_range covers domain_of_decline of_matrix threshold one_sided G_x G_e G_d least_by by_existence undamped signs_of C4_of
+             level_of] in g in
         let b := opened c R b in
         let b := eval cbv beta iota zeta delta [min2 max2 r_t] in b in
         change b;
         repeat match goal with
           |- _ /\ _ => split | |- True => exact I | |- false = true -> _ => discriminate | |- true = true -> _ => intros _ end;
-        first [decide_difference | apply Rle_refl]
+        first [decide_difference | apply Rle_refl | lazymatch goal with |- ?leaf => fail 3 "this condition is not proved:" leaf "of" g end]
       | fail 1 "this condition is not proved:" g ]
   end.
 
 (** All conditions on existence, or on stability. *)
-Ltac decide_conditions c := constructor; decide_one c.
+Ltac decide_conditions c :=
+  constructor;
+  lazymatch goal with
+  | |- of_its_kind _ =>
+      let R := eval red in c in
+      let k := eval cbv beta iota delta [known] in (known R) in
+      match k with by_metrics ?j => change (by_joint c j) | _ => change (by_square c) end; constructor; decide_one c
+  | _ => decide_one c
+  end.
 
 (** ** The transfer bound *)
 
@@ -272,7 +304,8 @@ Ltac decide_weight_sum c :=
 (** (2.3) with the tail from K on. *)
 Ltac decide_matched c W K :=
   let R := eval red in c in
-  unfold transfer_bound;
+  unfold transfer_bound, nu_lo, b_lo;
+  let g := eval cbv beta iota delta [gain] in (gain R) in change (gain c) with g; cbv beta iota;
   let m := eval cbv beta iota delta [matched] in (matched R) in change (matched c) with m; cbv beta iota;
   split;
   [let b := eval cbv beta iota delta [w period] in (w R * period R = 2 * PI) in change b;

@@ -120,7 +120,7 @@ End Size.
 (** ** The difference of two solutions *)
 
 Section Difference.
-Variables (n : nat -> R) (N : nat) (w sigma mu : R).
+Variables (n : nat -> R) (N : nat) (w sigma mu b : R).
 Variables (e1 q1 z1 e2 q2 z2 : R -> R) (za1 zb1 za2 zb2 : nat -> R -> R).
 
 Let e t := e1 t - e2 t.
@@ -139,8 +139,8 @@ Qed.
 
 (** The loop is linear: the difference solves it for the difference of q. *)
 Lemma equations_difference t :
-  equations_at n N w sigma mu 1 e1 q1 z1 za1 zb1 t -> equations_at n N w sigma mu 1 e2 q2 z2 za2 zb2 t ->
-  equations_at n N w sigma mu 1 e q z0 za zb t.
+  equations_at n N w sigma mu b e1 q1 z1 za1 zb1 t -> equations_at n N w sigma mu b e2 q2 z2 za2 zb2 t ->
+  equations_at n N w sigma mu b e q z0 za zb t.
 Proof.
   intros [A1 A2 A3 A4] [B1 B2 B3 B4]. split.
   - unfold e. evar_last; [apply @is_derive_minus; [exact A1 | exact B1]|].

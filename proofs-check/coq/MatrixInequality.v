@@ -1,5 +1,5 @@
 (** Section 13.7, (M): U' = -F for the matrix inequality F, and a lower bound of F at finitely many points holds on their convex hull,
-    and between two sigma or two input gains; without an input gain, for every larger sigma too. *)
+    and between two sigma or two input gains; without an input gain, for every larger sigma too. (Jm): the two matrices and what is between. *)
 
 From Coq Require Import Reals Lra Lia.
 From Coquelicot Require Import Coquelicot.
@@ -176,10 +176,10 @@ Proof.
 Qed.
 
 (** F in terms of the differences x' and u = r x + d e, with the margin for J: what [PlantBounds.v] takes for granted of a plant. *)
-Theorem F_of_differences A Ad G de tau u v y :
-  F A Ad (shifted de G) tau 1 u v y
+Theorem F_of_differences A Ad G de tau b' u v y :
+  F A Ad (shifted de G) tau b' u v y
   = - w_x * (bilinear Ad u u + 2 * bilinear A u (fun i => apply (J G) u i + gv G i * v) + 2 * de * bilinear A u u)
-    - kp * (dot (rv G) u + dv G * v) * y + 2 * tau * v ^ 2 - 2 * v * y + kp * y ^ 2.
+    - kp * (dot (rv G) u + dv G * v + (1 - b') * tau * v) * y + 2 * tau * v ^ 2 - 2 * v * y + kp * y ^ 2.
 Proof.
   rewrite bilinear_plus. unfold F. rewrite bilinear_shifted. simpl gv; simpl rv; simpl dv.
   change (fun i => apply (J G) u i) with (apply (J G) u). ring.
@@ -216,6 +216,50 @@ Proof.
     assert (Es : s t = (y_m t - (dot (rv (D t)) (xt t) + dv (D t) * e t + (1 - b) * sigma * e t)) / (b * mu)).
     { unfold y_m. field. lra. }
     rewrite Es. unfold F. simpl. change (fun i => apply (J (D t)) (xt t) i) with (apply (J (D t)) (xt t)). field. lra.
+Qed.
+
+(** ** Joint metrics *)
+
+(** F and, of (13.5), G as quadratic forms in (x, e, y). *)
+Definition F_joint (A : nat -> nat -> R) (p : nat -> R) (w k : R) (G : slopes) (s : R) (u : nat -> R) (v y : R) : R :=
+  - 2 * bilinear A u (apply (J G) u) - 2 * (bilinear A u (gv G) - s * dot p u) * v - 2 * dot p (apply (J G) u) * v
+  - (2 * dot p u + k * dot (rv G) u) * y + (2 * s * w - 2 * dot p (gv G)) * v ^ 2 - (2 * w + k * dv G) * v * y + k * y ^ 2.
+Definition G_joint (A : nat -> nat -> R) (w k : R) (p : nat -> R) (w_1 tau : R) (G : slopes) (u : nat -> R) (v y : R) : R :=
+  - 2 * bilinear A u (apply (J G) u) - 2 * (bilinear A u (gv G) - tau * dot p u) * v - k * dot (rv G) u * y
+  + 2 * tau * (w_1 + w) * v ^ 2 - (2 * w + k * dv G) * v * y + k * y ^ 2.
+
+Lemma dot_plus a u v z : dot a (fun i => u i + v i * z) = dot a u + dot a v * z.
+Proof. unfold dot. rewrite sum_scal_r, <- sum_plus. apply sum_ext. intros; ring. Qed.
+
+Lemma bilinear_between l A B u z : bilinear (fun i j => l * A i j + (1 - l) * B i j) u z = l * bilinear A u z + (1 - l) * bilinear B u z.
+Proof.
+  unfold bilinear. rewrite <- !sum_scal, <- sum_plus. apply sum_ext. intros i _.
+  rewrite <- !sum_scal, <- sum_plus. apply sum_ext. intros j _. ring.
+Qed.
+
+(** Proposition 13.6. *)
+Theorem F_joint_between l tau A B p w_1 w_2 k_1 k_2 G u v y : l <> 0 ->
+  F_joint (fun i j => l * A i j + (1 - l) * B i j) (fun i => l * p i) (l * w_1 + (1 - l) * w_2) (l * k_1 + (1 - l) * k_2) G (tau / l) u v y
+  = l * F_joint A p w_1 k_1 G tau u v y + (1 - l) * G_joint B w_2 k_2 p w_1 tau G u v y + 2 * tau * w_2 * (1 - l) ^ 2 / l * v ^ 2.
+Proof.
+  intros Hl. unfold F_joint, G_joint. rewrite !bilinear_between.
+  assert (E : forall z, dot (fun i => l * p i) z = l * dot p z).
+  { intros z. unfold dot. rewrite <- sum_scal. apply sum_ext. intros; ring. }
+  rewrite !E. field. exact Hl.
+Qed.
+
+(** Both in terms of the differences x' and r x + d e: [near_form] and [far_form] of [PlantBounds.v]. *)
+Theorem joint_of_differences A B p w_1 w_2 k_1 k_2 G tau u v y :
+  let a := fun i => apply (J G) u i + gv G i * v in
+  F_joint A p w_1 k_1 G tau u v y
+  = - (2 * bilinear A u a + 2 * (y - tau * v) * dot p u + 2 * v * dot p a + 2 * w_1 * v * (y - tau * v))
+    + k_1 * y * (y - (dot (rv G) u + dv G * v)) /\
+  G_joint B w_2 k_2 p w_1 tau G u v y
+  = - (2 * bilinear B u a) + 2 * tau * v * dot p u + 2 * tau * (w_1 + w_2) * v ^ 2 - 2 * w_2 * v * y
+    + k_2 * y * (y - (dot (rv G) u + dv G * v)).
+Proof.
+  intros a. unfold a, F_joint, G_joint. rewrite !bilinear_plus, dot_plus. change (fun i => apply (J G) u i) with (apply (J G) u).
+  split; ring.
 Qed.
 
 End MatrixInequality.

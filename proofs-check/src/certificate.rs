@@ -46,8 +46,8 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         None => (file.required("specification")?, "specification"),
     };
     let mut witness = file.required("witness")?.fields()?;
-    let (spec, plant) = match about {
-        "plant" => proofs_plants::read::read(&embedded, &mut witness).map(|(spec, plant)| (spec, Some(plant)))?,
+    let (spec, cells) = match about {
+        "plant" => proofs_plants::read::read(&embedded, &mut witness).map(|(spec, cells)| (spec, Some(cells)))?,
         _ => (Specification::read(&embedded, &mut witness)?, None),
     };
     let mut canonical = String::new();
@@ -94,8 +94,8 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     };
     let shown = arguments.each_ref().map(Float::to_f64);
     // Last, because it may take the longest.
-    if let Some(plant) = &plant {
-        proofs_plants::prove(&spec, plant, arguments.each_ref(), derivation.inequalities(), lines)?;
+    if let Some(cells) = &cells {
+        proofs_plants::prove(&spec, cells, arguments.each_ref(), derivation.inequalities(), lines)?;
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
         for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {

@@ -4,6 +4,7 @@
 use proofs_core::bound::{BOUND_NAMES, Bound};
 use proofs_core::json::{Field, Json, join};
 use proofs_core::plant::OfPlant;
+use proofs_core::range::Range;
 use proofs_core::rules::claim::Claim;
 use proofs_core::rules::derivation::Derivation;
 use proofs_core::rules::sampled::claim::Regulator;
@@ -69,6 +70,7 @@ impl Subject {
                     Some(plant) => assumed_of_plant(plant, spec),
                     None => assumed(spec, arguments),
                 };
+                list.extend(spec.period.range().map(period));
                 match claim.sampled {
                     Some(_) => list.extend(Regulator::assumed()),
                     None => list.push(regulator(spec)),
@@ -143,6 +145,14 @@ fn rounded_up(value: f64) -> String {
         .map(in_digits)
         .find(bounds)
         .unwrap_or_else(|| format!("{value:e}"))
+}
+
+/// What is assumed of a period that is an interval.
+fn period(range: &Range) -> String {
+    let [low, high] = [&range.low, &range.high].map(|end| printable(&end.text));
+    format!(
+        "the period T is one constant in [{low}, {high}], and time enters the plant through the phase 2 pi t/T alone"
+    )
 }
 
 /// What reaches the plant.

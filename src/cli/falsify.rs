@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::files::Input;
 use super::output::Shortened;
 use super::progress::Bar;
-use super::{input, output};
+use super::{input, output, parameters};
 use sigmastar_lab::falsify::{
     Falsification, FalsificationReport, Finding, FrequencyError, TrialSettings, TriedClaim, counterexample_plant,
     falsify, flags, with_base_frequency,
@@ -22,7 +22,12 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     let output = args.replace.asked(args.output.as_deref(), input, "the counterexample")?;
     let others: Vec<_> =
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
-    let mut claims = vec![TriedClaim::from_document(&input::written(&args.certificate)?)?];
+    let claim = TriedClaim::from_document(&input::written(&args.certificate)?)?;
+    let claim = claim.with_parameters(&parameters::rational(&args.parameter)?).map_err(|error| {
+        let help = error.help();
+        Failure::call(error.to_string(), help)
+    })?;
+    let mut claims = vec![claim];
     if claims[0].sampled.is_some() && !others.is_empty() {
         let message = "the law at samples is certified for the base frequency 2 pi/period alone";
         return Err(Failure::call(message, "leave --base-frequency out"));

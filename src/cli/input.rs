@@ -5,7 +5,7 @@ use super::output::{reason, shown};
 use rug::Rational;
 use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{
-    Document, Errors, MAX_BYTES, Notation, Reported, Value, nonnegative_constant, positive_constant,
+    Document, Errors, MAX_BYTES, Notation, Reported, Value, any_constant, nonnegative_constant, positive_constant,
 };
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::fs::File;
@@ -87,6 +87,14 @@ pub fn positive(flag: &str, text: &str) -> Result<Constant, Failure> {
 /// What is wrong with the constant, in its place.
 pub fn nonnegative(flag: &str, text: &str) -> Result<Constant, Failure> {
     constant(flag, text, nonnegative_constant)
+}
+
+/// Reads the value of a flag: an exact constant.
+///
+/// # Errors
+/// What is wrong with the constant, in its place.
+pub fn real(flag: &str, text: &str) -> Result<Constant, Failure> {
+    constant(flag, text, any_constant)
 }
 
 fn constant(

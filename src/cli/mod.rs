@@ -18,6 +18,7 @@ mod lyapunov;
 mod merge;
 mod output;
 mod pages;
+mod parameters;
 mod progress;
 mod rate;
 mod reproduce;

@@ -5,8 +5,9 @@ use super::failure::Failure;
 use super::files::Input;
 use super::input;
 use super::output::{self, shown};
+use super::parameters;
 use super::progress::Bar;
-use super::simulate_gain::{gain_remarks, nominal, ordinary, plant_of};
+use super::simulate_gain::{at_period, gain_remarks, nominal, ordinary};
 use super::simulate_sampled;
 use sigmastar_lab::simulate::{
     ClosedLoop, FIGURE_FILES, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures,
@@ -30,7 +31,8 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
-    let plant = plant_of(args)?;
+    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
+    let member = at_period(args, parameters::member(&plant, &args.parameter, args.quiet)?)?;
     let regulator = match (&args.controller, &sigma, args.n_o) {
         (Some(path), ..) => read_regulator(&input::written(path)?)?,
         (None, Some(sigma), Some(n_o)) => {
@@ -40,7 +42,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         (None, None, _) => return Err(Failure::call("no regulator is given", "give --sigma or --controller")),
     };
     let power = power.map(|power| power.to_f64());
-    let period = plant.period.nominal().to_f64();
+    let period = member.period.nominal().to_f64();
     if !regulator.is_representable()
         || !power.is_none_or(|power| power > 0.0 && power.is_finite())
         || !period.is_normal()
@@ -64,6 +66,8 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         remarks(&plant, &regulator, &settings, args);
         gain_remarks(&plant, gain.as_ref(), &regulator);
     }
+    // The regulator is that of the file, the plant may be another member of its family.
+    let plant = member;
     let closed_loop = ClosedLoop::new(&plant, regulator);
     let closed_loop = match &gain {
         Some(gain) => closed_loop.with_input_gain(ordinary(gain)?),

@@ -7,13 +7,12 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Constant, InputGain};
 use sigmastar_regulator::Regulator;
 
-/// The plant of a call, with the period that is asked for.
+/// The plant of a call with the period that is asked for.
 ///
 /// # Errors
-/// What is wrong with the file or the period.
-pub fn plant_of(args: &SimulateArgs) -> Result<Plant, Failure> {
+/// What is wrong with the period.
+pub fn at_period(args: &SimulateArgs, plant: Plant) -> Result<Plant, Failure> {
     let period = args.period.as_deref().map(|text| input::positive("--period", text)).transpose()?;
-    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
     let Some(period) = period else { return Ok(plant) };
     let value = period.to_f64();
     let [low, high] = [plant.period.shortest(), plant.period.longest()];

@@ -5,13 +5,14 @@ use super::failure::Failure;
 use super::files::Input;
 use super::input;
 use super::output::{self, shown};
+use super::parameters;
 use super::progress::Bar;
-use super::simulate_gain::{gain_remarks, ordinary, plant_of};
+use super::simulate_gain::{at_period, gain_remarks, ordinary};
 use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
 };
-use sigmastar_lang::plant::Initial;
+use sigmastar_lang::plant::{Initial, Plant};
 use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_discrete, read_regulator};
@@ -28,7 +29,8 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     let limit = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
     let phase = args.phase.as_deref().map(|text| input::nonnegative("--phase", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
-    let plant = plant_of(args)?;
+    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
+    let member = at_period(args, parameters::member(&plant, &args.parameter, args.quiet)?)?;
     let (regulator, discrete) = match (&args.controller, &sigma, args.n_o) {
         (Some(_), ..) => from_file(args, &step)?,
         (None, Some(sigma), Some(n_o)) => {
@@ -49,6 +51,7 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     if !args.quiet {
         gain_remarks(&plant, gain.as_ref(), &regulator);
     }
+    let plant = member;
     let sampled = SampledLoop::new(&plant, regulator, discrete);
     let mut sampled = match &gain {
         Some(gain) => sampled.with_input_gain(ordinary(gain)?),

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::process::Output;
 use tempfile::TempDir;
 
 fn shipped(name: &str) -> Value {
@@ -30,6 +31,8 @@ fn example(named: bool) -> Value {
     plant["initial_set"] = json!({ "kind": "at-rest", "X0": put("k * m").trim(), "E0": put("c * 5").trim() });
     plant["domain"] = json!({ "x": "20", "e": put("m * 20").trim() });
     plant["internal_model"]["mu"] = put("m ").trim().into();
+    plant["input_gain"] =
+        json!({ "nominal": put("m * 2").trim(), "low": put("m * 1.9").trim(), "high": put("m * 2").trim() });
     if named {
         plant["parameters"] = parameters.map(|(name, value)| (name.to_owned(), json!(value))).into_iter().collect();
         plant["period"] = "T".into();
@@ -217,6 +220,11 @@ fn a_family_is_certified_and_decided_again() {
     let sigma: f64 = report["sigma_star"].as_str().and_then(|text| text.parse().ok()).expect("a gain");
     // By norms 9.15 were expected; (M) takes less.
     assert!(sigma > 6.1 && sigma < 8.0, "{sigma}");
+    // An interval that is closed leaves less to prove.
+    for name in ["k", "c"] {
+        let cost: f64 = report["sigma_star_without_interval_estimates"][name].as_str().unwrap().parse().unwrap();
+        assert!(cost > 6.0 && cost < sigma, "{name}: {cost}");
+    }
     let certificate = json(&std::fs::read(&file).unwrap());
     assert_eq!(certificate["claim"]["parameters"]["c"], json!({ "nominal": "0.1", "low": "0", "high": "0.2" }));
     let statement = certificate["claim"]["statement"].as_str().unwrap();
@@ -282,4 +290,112 @@ fn what_is_wrong_with_intervals_is_told() {
     refused(narrow, &["--sampling-period", "1/100"], "intervals of parameters are not available");
     // A corner whose zero dynamics are unstable.
     refused(family(["-3", "0.22"], ["0", "0.2"]), &[], "Floquet exponents");
+}
+
+fn falsified(certificate: &Path, more: &[&str]) -> Output {
+    program().arg("falsify").arg(certificate).args(["--quiet", "--format", "json"]).args(more).output().unwrap()
+}
+
+/// The corners come first, then members inside, each about its own orbit; a trial's file is one plant, which any simulation runs.
+#[test]
+fn members_of_a_family_are_tried() {
+    let folder = TempDir::new().unwrap();
+    let (file, _) = certified(&folder, &family(["0.14", "0.26"], ["0", "0.2"]));
+    let report = json(&falsified(&file, &["--trials", "12"]).stdout);
+    assert_eq!(report["refuted"], false);
+    let trials = report["trials"].as_array().unwrap();
+    assert!(trials.iter().all(|trial| trial["finding"] == "holds"), "{report:#}");
+    let corners = [["0.14", "0"], ["0.26", "0"], ["0.14", "0.2"], ["0.26", "0.2"]];
+    for (trial, [k, c]) in trials.iter().zip(corners) {
+        assert_eq!(trial["parameters"], json!({ "k": k, "c": c }));
+    }
+    let inside = |trial: &Value, name: &str, ends: [f64; 2]| {
+        let value: f64 = trial["parameters"][name].as_str().unwrap().parse().unwrap();
+        value > ends[0] && value < ends[1]
+    };
+    assert!(trials[4..].iter().all(|trial| inside(trial, "k", [0.14, 0.26]) && inside(trial, "c", [0.0, 0.2])));
+    // Far below the gain a member of the family breaks a bound.
+    let mut lower = json(&std::fs::read(&file).unwrap());
+    for place in [&["claim", "sigma_star"], &["witness", "sigma"]] {
+        if let Some(sigma) = lower[place[0]].get_mut(place[1]) {
+            *sigma = "1/10".into();
+        }
+    }
+    let forged = folder.path().join("forged.json");
+    std::fs::write(&forged, lower.to_string()).unwrap();
+    assert_eq!(json(&falsified(&forged, &["--trials", "12"]).stdout)["refuted"], true);
+
+    let member = folder.path().join("member.json");
+    let only = ["--trial", "2", "--parameter", "c=0.05", "--force", "-o"];
+    let report = json(&falsified(&file, &[&only[..], &[member.to_str().unwrap()]].concat()).stdout);
+    // c is chosen, so that the second corner is that of the largest k.
+    assert_eq!(report["trials"][0]["parameters"], json!({ "k": "0.26", "c": "0.05" }));
+    let plant = json(&std::fs::read(&member).unwrap());
+    assert_eq!(plant["parameters"], json!({ "k": "0.26", "c": "0.05" }));
+    assert!(!Plant::from_json("member", &plant.to_string()).unwrap().is_family());
+    let described = plant["description"].as_str().unwrap();
+    let flags = described.split_once(" with ").and_then(|(_, flags)| flags.strip_suffix('.')).unwrap();
+    let run = program().arg("simulate").arg(&member).args(flags.split(' ')).arg("--quiet").output().unwrap();
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+}
+
+/// The regulator stays that of the file, the plant is another.
+#[test]
+fn a_member_is_simulated() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("plant.json");
+    let simulated = |plant: &Value, more: &[&str]| {
+        std::fs::write(&file, plant.to_string()).unwrap();
+        let mut call = program();
+        call.arg("simulate").arg(&file).args(["--sigma", "8", "--n-o", "1", "--format", "json"]);
+        call.args(more).output().unwrap()
+    };
+    let mut plant = family(["0.18", "0.22"], ["0", "0.2"]);
+    let size = |output: &Output| json(&output.stdout)["steady_state"]["sup_e"].as_f64().unwrap();
+    let nominal = simulated(&plant, &["--quiet"]);
+    let other = simulated(&plant, &["--parameter", "c=0.2", "--parameter", "k=0.18"]);
+    assert!(String::from_utf8_lossy(&other.stderr).lines().all(|line| !line.contains("no claim")));
+    let outside = simulated(&plant, &["--parameter", "k=3/10"]);
+    assert!(String::from_utf8_lossy(&outside.stderr).contains("no claim about the plant file covers `k` = 3/10"));
+    plant["parameters"] = json!({ "k": "0.18", "c": "0.2" });
+    let written = simulated(&plant, &["--quiet"]);
+    assert_eq!(size(&other), size(&written));
+    assert!(size(&other) != size(&nominal));
+    // At samples too.
+    let sampled = |more: &[&str]| simulated(&plant, &[&["--quiet", "--sampled", "1/50"], more].concat()).stdout;
+    assert!(sampled(&["--parameter", "c=0"]) != sampled(&[]) && sampled(&["--parameter", "c=0.2"]) == sampled(&[]));
+}
+
+#[test]
+fn what_is_wrong_with_a_value_of_a_parameter_is_told() {
+    let folder = TempDir::new().unwrap();
+    let mut plant = family(["0.18", "0.22"], ["0", "0.2"]);
+    plant["parameters"]["damping"] = "1".into();
+    let (file, _) = certified(&folder, &plant);
+    let plant = folder.path().join("plant.json");
+    let said = |command: &str, values: &[&str]| {
+        let mut call = program();
+        let file = if command == "simulate" { &plant } else { &file };
+        call.arg(command).arg(file).arg("--quiet").args(values.iter().flat_map(|value| ["--parameter", value]));
+        if command == "simulate" {
+            call.args(["--sigma", "8", "--n-o", "0"]);
+        }
+        let output = call.output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{values:?}");
+        String::from_utf8_lossy(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    for (command, values, words) in [
+        ("simulate", &["k"][..], "--parameter k has no value"),
+        ("simulate", &["k=0.2", "k=0.2"], "gives `k` twice"),
+        ("simulate", &["k=1/0"], "no value that can be enclosed"),
+        ("simulate", &["dampin=2"], "did you mean `damping`?"),
+        ("simulate", &["zeta=2"], "its parameters are k, c, damping"),
+        ("falsify", &["k=0.3"], "the value of `k` is outside of [0.18, 0.22]"),
+        ("falsify", &["k=sqrt(2)/7"], "k is not known to be rational"),
+        // Known exactly: the claim is about this number alone.
+        ("falsify", &["damping=1"], "the claim is about no interval of a parameter `damping`"),
+        ("falsify", &["stiffness=1"], "the intervals are those of k, c"),
+    ] {
+        assert!(said(command, values).contains(words), "{values:?}: {}", said(command, values));
+    }
 }

@@ -169,8 +169,7 @@ fn a_plant_is_certified_for_every_period_of_the_interval() {
     assert!(sigma_star(&report) > sigma_star(&of_exact.1));
     assert_eq!(written["claim"]["period"], period);
     let statement = written["claim"]["statement"].as_str().unwrap();
-    let said =
-        "and every period in [0.998, 1.002] (one constant T, nominally 1), with mu = 1 and base frequency 2*pi (which";
+    let said = "with every period in [0.998, 1.002] (one constant T; nominal 1), mu = 1 and base frequency 2*pi (which";
     assert!(statement.contains(said), "{statement}");
     for part in ["orbit", "forcing"] {
         assert_eq!(written["witness"][part]["sensitivities"].as_array().unwrap().len(), 1, "{part}");

@@ -47,6 +47,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
             .map(|sigma| ("aligned start", sensitivity::aligned(sigma))),
     );
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
+    facts.extend(interval_costs(run).map(|said| ("intervals", said)));
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
     // It grows with the gain, of which the claim says "or any larger".
@@ -144,6 +145,14 @@ fn input_gain(run: &Certification<'_>) -> Option<String> {
     let known = run.alternatives.nominal_gain.filter(|_| run.given_gain.is_none());
     let known = known.map_or_else(String::new, |sigma| format!("; {}", sensitivity::nominal_gain(sigma)));
     Some(format!("any constant from {interval}; the regulator divides by {nominal}{known}"))
+}
+
+/// What the intervals of parameters cost.
+fn interval_costs(run: &Certification<'_>) -> Option<String> {
+    let found = run.interval_costs.iter().filter_map(|(name, sigma)| Some((name, (*sigma)?)));
+    let costs: Vec<String> =
+        found.map(|(name, sigma)| format!("{} with {name} known exactly", estimate(sigma))).collect();
+    (!costs.is_empty()).then(|| format!("sigma* would be about {} (estimates)", costs.join(", ")))
 }
 
 /// The bounds of the error for a few n_o.

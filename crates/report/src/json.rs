@@ -78,6 +78,10 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     if let Some([low, high]) = run.spec.period.interval() {
         report["period"] = json!({ "nominal": run.spec.period.nominal().text, "low": low.text, "high": high.text });
     }
+    if !run.interval_costs.is_empty() {
+        let costs = run.interval_costs.iter().map(|(name, sigma)| (name.clone(), json!(sigma.map(estimate))));
+        report["sigma_star_without_interval_estimates"] = costs.collect::<serde_json::Map<_, _>>().into();
+    }
     report
 }
 

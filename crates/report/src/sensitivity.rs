@@ -34,6 +34,16 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             .nominal_gain
             .map(|sigma| Block::says(format!("What the interval of the input gain costs: {}.", nominal_gain(sigma)))),
     );
+    if !run.interval_costs.is_empty() {
+        blocks.push(Block::says(
+            "What each interval costs: sigma* with it closed to its nominal value, sought the whole way again and not decided.",
+        ));
+        let mut table = Table::new(&["<exactly known", "sigma*"]);
+        for (name, sigma) in &run.interval_costs {
+            table.push([name.clone(), sigma.map_or_else(|| "none found".to_owned(), estimate)]);
+        }
+        blocks.push(Block::Table(table));
+    }
     blocks.extend(ingredients(run).map(Block::Bars));
     if !run.without_optional.is_empty() {
         blocks.push(Block::says("What the optional data bring: sigma* without each."));

@@ -96,15 +96,14 @@ impl<'a> Number<'a> {
     }
 }
 
-/// Reads a constant that has to be positive.
+/// Takes a constant that has to be positive out of an object.
 pub fn positive(fields: &mut Fields<'_>, name: &str) -> Outcome<Constant> {
-    positive_with(fields, name, &[])
+    positive_with(&fields.required(name)?, name, &[])
 }
 
-/// The same where names of a plant's constants may stand.
-pub fn positive_with(fields: &mut Fields<'_>, name: &str, constants: &[Named]) -> Outcome<Constant> {
-    let field = fields.required(name)?;
-    let constant = Constant::read_with(&field, constants)?;
+/// Reads one, in which names of a plant's constants may stand.
+pub fn positive_with(field: &Field<'_>, name: &str, constants: &[Named]) -> Outcome<Constant> {
+    let constant = Constant::read_with(field, constants)?;
     let truth = Number::rational(Rational::new()).lt(&constant.number());
     demand(truth, RULE, &field.pointer, format!("{name} > 0"))?;
     Ok(constant)

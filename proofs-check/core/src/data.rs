@@ -3,6 +3,7 @@
 use crate::bound::Bound;
 use crate::gain::Gain;
 use crate::interval::Interval;
+use crate::period::Ends;
 use crate::plant::entries::Name;
 use crate::spec::Specification;
 use rug::Rational;
@@ -11,7 +12,7 @@ use rug::Rational;
 pub struct Data<'s> {
     pub spec: &'s Specification,
     pub precision: u32,
-    pub period: Interval,
+    pub period: Ends,
     pub p_low: Interval,
     pub p_up: Interval,
     pub alpha: Interval,
@@ -45,7 +46,7 @@ impl<'s> Data<'s> {
         };
         let (gain, nu) = (Gain::new(spec.input_gain.as_ref(), precision), &mu / &w);
         Data {
-            period: number(&spec.period),
+            period: spec.period.ends(precision),
             alpha,
             c,
             existence,
@@ -76,11 +77,6 @@ impl<'s> Data<'s> {
     /// A fraction.
     pub fn ratio(&self, numerator: i64, denominator: i64) -> Interval {
         self.number(&Rational::from((numerator, denominator)))
-    }
-
-    /// Om = 2 pi/T.
-    pub fn frequency(&self) -> Interval {
-        Interval::pi(self.precision) * 2 / &self.period
     }
 
     /// A bound of e by q or by q', with a gain over b_m.

@@ -39,7 +39,7 @@ const FUNCTIONS: [(&str, Op); 11] = [
     ("atan", Op::Atan), ("tanh", Op::Tanh), ("abs", Op::Abs), ("min", Op::Min), ("max", Op::Max),
 ];
 
-/// The variables of a constant, of a bounding function, and of an entry of a Jacobian; the first is [`Op::X`], the second
+/// The variables of a constant, of a bounding function, and of a function of time; the first is [`Op::X`], the second
 /// [`Op::E`], and any other [`Op::State`].
 pub const NONE: &[&str] = &[];
 pub const ARGUMENTS: &[&str] = &["X", "E"];
@@ -346,6 +346,13 @@ impl Expr {
             }
             _ => Err(format!("an operator or the end was expected at byte {}", parser.at)),
         }
+    }
+
+    /// `2 pi t/T`, t the first variable, with T in an expression without variables.
+    pub fn phase(period: &Expr) -> Expr {
+        let two_pi = [Op::Number(Rational::from(2)), Op::Pi, Op::Mul];
+        let ops = two_pi.into_iter().chain(period.ops.iter().cloned()).chain([Op::Div, Op::X, Op::Mul]);
+        Expr { ops: ops.collect() }
     }
 
     /// The opposite of an expression.

@@ -5,7 +5,8 @@
 //!
 //! Guarantee: `0 < low <= nominal <= high`, so `0 < b_lo <= 1 <= b_hi`.
 
-use crate::constant::{Constant, positive};
+use crate::constant::{Constant, positive_with};
+use crate::expr::Named;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::range::{Range, both};
@@ -14,8 +15,9 @@ use crate::verdict::Outcome;
 /// The name of the rule.
 pub const RULE: &str = "input gain";
 
-/// Takes `input_gain` out of a file, if it is there.
-pub fn read(file: &mut Fields<'_>) -> Outcome<Option<Range>> {
+/// Takes `input_gain` out of a file, if it is there. Names of a plant's constants may stand in its numbers.
+pub fn read(file: &mut Fields<'_>, constants: &[Named]) -> Outcome<Option<Range>> {
+    let positive = |fields: &mut Fields<'_>, name: &str| positive_with(&fields.required(name)?, name, constants);
     file.optional("input_gain").map(|field| Range::read(&field, RULE, positive)).transpose()
 }
 

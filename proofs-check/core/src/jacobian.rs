@@ -1,9 +1,10 @@
 //! The Jacobian F(t) of a specification, and the P(t) with which a witness proves a Lyapunov triple for it: read and checked in
 //! form. What is proved with them is in the crate `proofs-plants`.
 
-use crate::constant::{Constant, expression};
-use crate::expr::{Expr, TIME};
+use crate::constant::Constant;
+use crate::expr::Expr;
 use crate::json::{Field, Json};
+use crate::period::Period;
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
@@ -30,14 +31,14 @@ pub type Jacobian = Vec<Vec<Entry>>;
 pub type Matrix = Vec<Vec<Rational>>;
 
 /// Reads the rows of F(t).
-pub fn read(field: &Field<'_>) -> Outcome<Jacobian> {
+pub fn read(field: &Field<'_>, period: &Period) -> Outcome<Jacobian> {
     let rows = field.elements()?;
     if rows.is_empty() || rows.len() > MAX_STATES {
         return bad(&field.pointer, format!("expected 1 to {MAX_STATES} rows"));
     }
     let entry = |field: &Field<'_>| {
         if !matches!(field.json, Json::Array(_)) {
-            return Ok(Entry::Function(expression(field, TIME)?));
+            return Ok(Entry::Function(period.expression(field, &[], &[])?));
         }
         let [lo, hi] = &field.elements()?[..] else { return bad(&field.pointer, "expected [lower end, upper end]") };
         let (lo, hi) = (Constant::read(lo)?, Constant::read(hi)?);

@@ -18,6 +18,7 @@ pub mod jacobian;
 pub mod json;
 pub mod matrix;
 pub mod monotone;
+pub mod period;
 pub mod plant;
 pub mod propose;
 pub mod range;

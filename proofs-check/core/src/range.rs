@@ -3,6 +3,15 @@
 use crate::constant::Constant;
 use crate::json::{Field, Fields};
 use crate::verdict::{Outcome, demand, invalid};
+use rug::Rational;
+
+/// `low <= nominal <= high`, as rational numbers.
+#[derive(Clone, Debug)]
+pub struct Span {
+    pub nominal: Rational,
+    /// low and high.
+    pub ends: [Rational; 2],
+}
 
 /// `low <= nominal <= high`.
 #[derive(Clone, Debug)]

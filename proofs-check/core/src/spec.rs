@@ -12,6 +12,7 @@ use crate::input_gain;
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
 use crate::json::{Field, Fields, Json};
+use crate::period::Period;
 use crate::plant::OfPlant;
 use crate::range::Range;
 use crate::verdict::{Outcome, bad, demand};
@@ -69,7 +70,7 @@ pub enum AskedSet {
 /// A specification that satisfies this rule.
 #[derive(Clone, Debug)]
 pub struct Specification {
-    pub period: Constant,
+    pub period: Period,
     pub p_low: Constant,
     pub p_up: Constant,
     pub alpha: Constant,
@@ -116,17 +117,15 @@ pub fn samples(period: &Constant, sampling: &Constant, pointer: &str) -> Outcome
 /// Reads `sampling_period`, if it is given.
 fn read_samples(
     fields: &mut Fields<'_>,
-    period: &Constant,
+    period: &Period,
     matched: bool,
     constants: &[Named],
 ) -> Outcome<Option<Integer>> {
-    if !fields.has("sampling_period") {
-        return Ok(None);
-    }
-    let pointer = format!("{}/sampling_period", fields.pointer);
-    let sampling = positive_with(fields, "sampling_period", constants)?;
-    demand(Some(matched), RULE, &pointer, "a sampling period needs `matched`")?;
-    samples(period, &sampling, &pointer).map(Some)
+    let Some(field) = fields.optional("sampling_period") else { return Ok(None) };
+    let sampling = positive_with(&field, "sampling_period", constants)?;
+    let period = period.demand_exact(&field.pointer, "a sampling period")?;
+    demand(Some(matched), RULE, &field.pointer, "a sampling period needs `matched`")?;
+    samples(period, &sampling, &field.pointer).map(Some)
 }
 
 fn nonnegative(field: Field<'_>, constants: &[Named]) -> Outcome<Constant> {
@@ -144,13 +143,13 @@ impl Specification {
         header(&mut file, "sigmastar/bounding-spec")?;
         file.required("name")?.text()?;
         file.optional("description").map(|field| field.text().map(drop)).transpose()?;
-        let period = positive(&mut file, "period")?;
+        let period = Period::read(&mut file, &[])?;
 
         let mut fields = file.required("lyapunov")?.fields()?;
         let (jacobian, [p_low, p_up, alpha]) = match fields.optional("jacobian") {
             None => (None, ["p_low", "p_up", "alpha"].map(|name| positive(&mut fields, name))),
             Some(field) => {
-                let jacobian = jacobian::read(&field)?;
+                let jacobian = jacobian::read(&field, &period)?;
                 let (witness, triple) = jacobian::Witness::read(&witness.required("lyapunov")?, jacobian.len())?;
                 (Some((jacobian, witness)), triple.map(Ok))
             }
@@ -184,7 +183,7 @@ impl Specification {
             InternalModel::read(&file.required("internal_model")?, &period, &[])?;
 
         let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
-        let input_gain = input_gain::read(&mut file)?;
+        let input_gain = input_gain::read(&mut file, &[])?;
         file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
         file.finish()?;
         let domain = domain.transpose()?;
@@ -214,9 +213,9 @@ impl Specification {
 impl InternalModel {
     /// Reads `internal_model`; `matched` only where base_frequency * period = 2 pi exactly. Names of a plant's constants may stand in
     /// mu, the base frequency and the sampling period.
-    pub fn read(field: &Field<'_>, period: &Constant, constants: &[Named]) -> Outcome<InternalModel> {
+    pub fn read(field: &Field<'_>, period: &Period, constants: &[Named]) -> Outcome<InternalModel> {
         let mut model = field.fields()?;
-        let mut read = |name| positive_with(&mut model, name, constants);
+        let mut read = |name| positive_with(&model.required(name)?, name, constants);
         let (mu, base_frequency) = (read("mu")?, read("base_frequency")?);
         let matched = match model.optional("matched") {
             None => false,
@@ -227,6 +226,8 @@ impl InternalModel {
         };
         let weights = Weights::read(&model.required("weights")?)?;
         if matched {
+            let pointer = format!("{}/matched", model.pointer);
+            let period = period.demand_exact(&pointer, "`matched`")?;
             let product = base_frequency.number().times(period.number());
             let two_pi = Exact::rational(&Rational::from(2)).and_then(|two| two.mul(&Exact::pi()));
             let equal = match (&product.exact, &two_pi) {
@@ -237,7 +238,7 @@ impl InternalModel {
                     (a.lt(&b) == Some(true) || b.lt(&a) == Some(true)).then_some(false)
                 }),
             };
-            demand(equal, RULE, &format!("{}/matched", model.pointer), "base_frequency * period = 2 pi")?;
+            demand(equal, RULE, &pointer, "base_frequency * period = 2 pi")?;
         }
         let samples = read_samples(&mut model, period, matched, constants)?;
         model.finish()?;

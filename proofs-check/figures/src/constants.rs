@@ -70,10 +70,10 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     let mut rows: Vec<Row<'a>> = Vec::new();
     let mut row = |name: &str, at, cells| rows.push((name.to_owned(), at, cells));
 
-    let root = ((&d.alpha * &d.period / 2).coth() / 2).sqrt();
+    let root = ((&d.alpha * d.period.only() / 2).coth() / 2).sqrt();
     let (label, lemma) = ("P:app:Kalpha1", "section 3, lemma K");
     row("K_alpha", DATA, [sound(&k, label), sound(&k, label), sound(&d.c, lemma)]);
-    let (slip, least) = (&k * &root * d.period.sqrt(), &d.c * &root);
+    let (slip, least) = (&k * &root * d.period.only().sqrt(), &d.c * &root);
     row("K_alpha2", DATA, [printed(&slip, &least, "P:app:Kalpha2"), sound(&(&k * &root), lemma), sound(&least, lemma)]);
     row("Nbar", DATA, [sound(&d.n_bar, "P:eq:sequence_nzk"), None, None]);
     let label = "P:eq:beta_definition";
@@ -89,7 +89,7 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     let (paper, paper_det) = derived(ex.contraction(d, &k, 2, &beta));
     let [c, alpha] = &d.existence;
     let gain = c / alpha;
-    let sg = (sigma.sqr() + d.frequency().sqr()).sqrt();
+    let sg = (sigma.sqr() + d.period.slowest().sqr()).sqrt();
     let at_box = |which| d.bound(which, &ex.x_p, &ex.e_p);
     let bent = at_box(Bound::Fex) * &ex.e_p + d.bound(Bound::Fxx, &ex.x_p, &d.int(0)) * &ex.x_p;
     let (sharp, sharp_det) =
@@ -137,7 +137,7 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     ];
     row("Z", COMMON, cells);
     let [r_printed, r_repaired] = [&ex.q + &d.n_bar * z_printed, &ex.q + &d.mu * &d.n_bar * z_repaired];
-    let psi = &d.period * &proved.solution.rates[1] / d.int(12).sqrt();
+    let psi = d.period.only() * &proved.solution.rates[1] / d.int(12).sqrt();
     let cells = [
         printed(&r_printed, &psi, "P:prop:periodic_solution, r_e"),
         sound(&r_repaired, "section 6, with mu"),
@@ -153,11 +153,15 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     ];
     row("r_x = psi_x", COMMON, cells);
     let [psi_2_paper, psi_2] =
-        [&ex.q, &proved.solution.rates[0]].map(|q| (&d.period / (Interval::pi(d.precision) * 2)).sqr() * q.sqr());
-    let psi_2 = psi_2 * &d.period;
+        [&ex.q, &proved.solution.rates[0]].map(|q| (d.period.only() / (Interval::pi(d.precision) * 2)).sqr() * q.sqr());
+    let psi_2 = psi_2 * d.period.only();
     let matched = |value: Interval| if d.spec.matched { sound(&value, "section 6, with T") } else { None };
     let label = "P:eq:theorem_2_bound_e2";
-    row("psi_2", COMMON, [printed(&psi_2_paper, &psi_2, label), matched(&psi_2_paper * &d.period), matched(psi_2)]);
+    row(
+        "psi_2",
+        COMMON,
+        [printed(&psi_2_paper, &psi_2, label), matched(&psi_2_paper * d.period.only()), matched(psi_2)],
+    );
 
     let limit = |i: usize| d.spec.domain.as_ref().and_then(|ends: &[Constant; 2]| ends[i].rational());
     let largest_x = |gain: Interval, source| {
@@ -273,14 +277,14 @@ fn of_a_plant([_, _, sharp]: [Cell<'_>; 3]) -> [Cell<'_>; 3] {
     [None, None, sharp.filter(bounded)]
 }
 
-/// Compares the stored table with the computed one; `note` receives each cell. With an input gain it has no rows: printed and repaired
-/// figures are about the gain 1.
+/// Compares the stored table with the computed one; `note` receives each cell. With an interval of the input gain or
+/// the period it has no rows: printed and repaired figures are about one number of each.
 pub fn check(d: &Data<'_>, table: &Field<'_>, input: &Input<'_>, note: &mut dyn FnMut(String, Outcome<()>)) {
     let mut stored = match table.fields() {
         Ok(stored) => stored,
         Err(finding) => return note(table.pointer.clone(), Err(finding)),
     };
-    if d.gain.is_some() {
+    if super::is_family(d) {
         return unknown(stored, note);
     }
     for (name, at, mut row) in common(d, input).into_iter().chain(own(d, input)) {

@@ -44,7 +44,7 @@ impl Existence {
 
     /// The paper's `Z^2 = (T/mu + kappa_0 + 54 kappa_1 b_qe^2) b_q^2 + 3 kappa_1 (b_qt^2 + b_qx^2 b_f^2)`.
     pub fn z_squared_paper(&self, d: &Data<'_>, kappa: &[Interval; 2]) -> Interval {
-        (&d.period / &d.mu + &kappa[0] + &kappa[1] * self.q_e.sqr() * 54) * self.q.sqr()
+        (d.period.only() / &d.mu + &kappa[0] + &kappa[1] * self.q_e.sqr() * 54) * self.q.sqr()
             + &kappa[1] * (self.q_t.sqr() + self.q_x.sqr() * self.f_box.sqr()) * 3
     }
 }

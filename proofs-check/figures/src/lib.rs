@@ -197,7 +197,7 @@ impl Attempt<'_> {
     fn multipliers(&mut self, w: &sharp::Witness, proved: &sharp::Sharp) {
         let Some(field) = &self.parts.multipliers else { return };
         if self.d.gain.is_some() {
-            return self.note(&field.pointer, with_gain(&field.pointer));
+            return self.note(&field.pointer, of_family(&field.pointer));
         }
         let outcome = lmi::Witness::read(field).and_then(|multipliers| {
             lmi::check(self.d, &proved.error_box, [&w.sigma, &w.free.w_x, &w.free.h], &multipliers)
@@ -208,8 +208,8 @@ impl Attempt<'_> {
     /// The repaired derivation, if it is given and proved.
     fn repaired(&mut self) -> Option<(repaired::Witness, repaired::Repaired)> {
         let field = self.parts.comparison.as_ref()?;
-        if self.d.gain.is_some() {
-            self.note(&field.pointer, with_gain(&field.pointer));
+        if is_family(self.d) {
+            self.note(&field.pointer, of_family(&field.pointer));
             return None;
         }
         let outcome = comparison(field, self.d).and_then(|w| repaired::prove(self.d, &w).map(|proved| (w, proved)));
@@ -229,9 +229,19 @@ impl Attempt<'_> {
     }
 }
 
-/// The second proof of C5 and the repaired derivation are about the gain 1.
-fn with_gain(pointer: &str) -> Outcome<()> {
-    Err(finding(Verdict::Invalid, compare::RULE, pointer, "it says nothing with `input_gain`"))
+/// Whether the input gain or the period is an interval: the printed and the repaired derivation are about one number of each.
+fn is_family(d: &Data<'_>) -> bool {
+    d.gain.is_some() || d.spec.period.range().is_some()
+}
+
+/// The second proof of C5 is about the gain 1 too, and has no period.
+fn of_family(pointer: &str) -> Outcome<()> {
+    Err(finding(
+        Verdict::Invalid,
+        compare::RULE,
+        pointer,
+        "it says nothing of an interval of the input gain or the period",
+    ))
 }
 
 fn missing(pointer: &str) -> Outcome<()> {

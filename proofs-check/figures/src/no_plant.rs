@@ -50,7 +50,7 @@ pub fn check(d: &Data<'_>, field: &Field<'_>) -> Outcome<()> {
 /// At most the norm of a column of F(t T), whatever the interval entries are.
 fn column_norm(d: &Data<'_>, t: &Rational, column: usize, field: &Field<'_>) -> Outcome<Interval> {
     let Some((jacobian, _)) = &d.spec.jacobian else { return bad(&field.pointer, "the specification has no Jacobian") };
-    let time = d.number(t) * &d.period;
+    let time = d.number(t) * d.spec.period.nominal.enclose(d.precision);
     let mut squares = d.int(0);
     for row in jacobian {
         let Some(entry) = row.get(column) else { return bad(&field.pointer, "the Jacobian has no such column") };

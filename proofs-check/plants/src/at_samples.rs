@@ -49,16 +49,17 @@ struct Step {
 }
 
 impl Step {
-    fn new(formulas: &mut Formulas, law: &Terms, spec: &Specification) -> Step {
+    fn new(formulas: &mut Formulas, law: &Terms, spec: &Specification) -> Outcome<Step> {
         // A constant asks for nothing on the region: it has a value, or nothing is proved with it.
-        let period = formulas.read(spec.period.expr(), &[], &mut Vec::new());
+        let period = spec.period.demand_exact("/plant/period", "a claim at samples")?;
+        let period = formulas.read(period.expr(), &[], &mut Vec::new());
         let share = formulas.number(&Rational::from((1, law.samples)));
         let h = formulas.mul(period, share);
         let [sigma, half] = [law.sigma.clone(), Rational::from(&law.gain * &law.weight_sum) / 2u32]
             .map(|value| formulas.number(&value));
         let loss = formulas.mul(half, h);
         let one = formulas.int(1);
-        Step { h, sigma, rest: formulas.sub(one, loss) }
+        Ok(Step { h, sigma, rest: formulas.sub(one, loss) })
     }
 }
 
@@ -150,7 +151,7 @@ pub fn questions<'i>(
     spec: &Specification,
 ) -> Outcome<Vec<Said<'i>>> {
     let Inequalities { law, stability, existence } = inequalities;
-    let step = Step::new(&mut model.formulas, law, spec);
+    let step = Step::new(&mut model.formulas, law, spec)?;
     let mut all = Vec::new();
     if let Some(part) = stability {
         let form = of_stability(model, part, law);

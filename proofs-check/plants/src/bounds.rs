@@ -31,6 +31,7 @@ pub fn rate(formulas: &mut Formulas, value: &Rational, p: &[Vec<Id>], jacobian: 
     let order = p.len();
     let entry = |i: usize, j: usize, formulas: &mut Formulas| {
         let slope = formulas.derivative(p[i][j], Axis::Time);
+        let slope = formulas.in_time(slope);
         let both = formulas.dot((0..order).flat_map(|k| [(p[i][k], jacobian[k][j]), (jacobian[k][i], p[k][j])]));
         let taken = formulas.mul(twice, p[i][j]);
         let sum = formulas.add(slope, both);
@@ -64,6 +65,7 @@ pub fn question(model: &mut Model, entry: &Entry) -> Question {
         // The derivative of q at a fixed y: q_t + q_x x_0', where the frame moves with xb, and x_0' = xb' + L drift.
         Name::Qtx | Name::Qte => {
             let along = formulas.derivative(q, Axis::Time);
+            let along = formulas.in_time(along);
             let drift: Vec<Id> = (0..states).map(|j| formulas.leaf(Leaf::Drift(j))).collect();
             let moved = formulas.dot(row.iter().copied().zip(drift));
             let rate = formulas.add(along, moved);

@@ -39,7 +39,7 @@ pub enum Leaf {
         entry: [usize; 2],
         order: usize,
     },
-    /// A parameter of which an interval is given.
+    /// A parameter of which an interval is given, or after them the clock.
     Parameter(usize),
     /// A component of `L^-1 (x_0' - xb')`: any number between two bounds, at each t.
     Drift(usize),
@@ -115,6 +115,8 @@ pub struct Formulas {
     nodes: Vec<Node>,
     places: HashMap<Kind, Id>,
     pub(super) derivatives: HashMap<(Id, Axis), Id>,
+    /// v, with a period that is an interval ([`Formulas::in_time`]).
+    pub clock: Option<Id>,
     /// Those that are sums of leaves times numbers.
     linear: HashMap<Id, Linear>,
     overflow: bool,
@@ -296,6 +298,12 @@ impl Formulas {
         let id = self.mul(a, b);
         self.linear.entry(id).or_insert_with(|| Linear::leaf(id));
         id
+    }
+
+    /// The derivative in t, from that along the axis of time: with a period that is an interval this axis is s, and d/dt is v d/ds
+    /// (docs/mathematics.md, section 13.3).
+    pub fn in_time(&mut self, slope: Id) -> Id {
+        self.clock.map_or(slope, |clock| self.product(clock, slope))
     }
 
     /// The sum of products, as in a row times a column.

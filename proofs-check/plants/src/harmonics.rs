@@ -35,7 +35,7 @@ impl Rest {
         let approximation = wave(formulas, plant, states, 0);
         let row: Vec<Id> = (0..states).map(|j| formulas.derivative(q, Axis::State(j))).collect();
         let along = formulas.derivative(q, Axis::Time);
-        let mut d = along;
+        let mut d = formulas.in_time(along);
         for (i, apart) in model.apart.iter().enumerate() {
             let column: Vec<Id> =
                 plant.known.coordinates.inverse.iter().map(|line| formulas.number(&line[i])).collect();
@@ -45,7 +45,7 @@ impl Rest {
         }
         let rate = (0..states).map(|j| formulas.derivative(d, Axis::State(j))).collect();
         let apart = formulas.sub(q, approximation);
-        Rest { q: roots(formulas, &[apart], plant.known.parameters.len()), row, rate }
+        Rest { q: roots(formulas, &[apart], plant.family.len()), row, rate }
     }
 
     /// Decides `|q - qb| + r sup|q_x L| <= r_0` and `|(q - qb)'| + r sup|D_x L| + eps sup|q_x L| <= r_1` for all t and all parameters;
@@ -72,8 +72,13 @@ impl Rest {
         let judge = |piece: &Piece| {
             let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.half_width());
             let polynomial = &expanded.at_middle[0];
+            let (mut sides, middles) = (piece.intervals(), piece.middles());
+            // The polynomials are of s: the second is in t by the clock, which stands after e and the parameters.
+            let clock =
+                |sides: &[Interval]| plant.clock().map_or_else(|| Interval::int(1, p), |i| sides[1 + i].clone());
+            let fastest = [Interval::int(1, p), clock(&sides).ceiling()];
             let bounds: [&dyn Fn(&Polynomial) -> Interval; 2] =
-                [&|g| bound(g, &half), &|g| bound_of_derivative(g, &half)];
+                [&|g| bound(g, &half), &|g| &fastest[1] * bound_of_derivative(g, &half)];
             let moves = bounds.map(|bound| expanded.moves(bound).concat());
             let sizes = bounds.map(|bound| bound(polynomial));
             // What the distance from xb adds to both.
@@ -84,21 +89,29 @@ impl Rest {
                 let (row, rate) = (norm(&self.row), norm(&self.rate));
                 [&r * &row, &r * rate + &eps * row]
             };
-            let (mut sides, middles) = (piece.intervals(), piece.middles());
             let on_box = beside(At::Box, &ball, &sides);
             let open = |i: &usize| (&sizes[*i] + total(moves[*i].iter(), p) + &on_box[*i]).le(&most[*i]) != Some(true);
             let Some(open) = (0..2).find(open) else { return Judged::Proved };
-            let at = |k: usize| polynomial.coefficients.get(k).unwrap_or(&zero).abs();
-            let in_middle = beside(At::Middle, &origin, &middles);
-            if (0..2).any(|i| most[i].lt(&(at(i) + &in_middle[i])) == Some(true)) && family.has_middle(piece) {
+            let in_middle = [Interval::int(1, p), clock(&middles)];
+            let at =
+                |k: usize, clock: &[Interval; 2]| polynomial.coefficients.get(k).unwrap_or(&zero).abs() * &clock[k];
+            let beside_middle = beside(At::Middle, &origin, &middles);
+            if (0..2).any(|i| most[i].lt(&(at(i, &in_middle) + &beside_middle[i])) == Some(true))
+                && family.has_middle(piece)
+            {
                 return Judged::Refuted;
             }
             // What is gained with t, or a parameter, in its middle.
-            let mut gains = vec![&sizes[open] - at(open) + &on_box[open] - &beside(At::Middle, &ball, &sides)[open]];
+            let highest = on_box[open].ceiling();
+            let mut without = |at: At, sides: &[Interval]| &highest - beside(at, &ball, sides)[open].ceiling();
+            let mut gains = vec![&sizes[open] - at(open, &fastest) + without(At::Middle, &sides)];
             for (i, moved) in moves[open].iter().enumerate() {
                 let side = std::mem::replace(&mut sides[1 + i], middles[1 + i].clone());
-                gains.push(moved + &on_box[open] - &beside(At::Box, &ball, &sides)[open]);
+                gains.push(moved + without(At::Box, &sides));
                 sides[1 + i] = side;
+            }
+            if let Some(i) = plant.clock() {
+                gains[1 + i] = &gains[1 + i] + &sizes[open] * (1 - &in_middle[open] / &fastest[open]);
             }
             Judged::Halve(gains.iter().map(|gain| gain.hi().to_f64()).collect())
         };

@@ -5,7 +5,8 @@
 //! first. The triple that the other rules use is the one proved here.
 //!
 //! Each inequality is a question ([`super::question`]) in t alone; the last one at each vertex of the interval entries, for it
-//! is affine in them, or, with many of them, in the ball around their middle.
+//! is affine in them, or, with many of them, in the ball around their middle. With a period that is an interval P' is v dP/ds, for every
+//! clock v (section 13.3).
 
 use super::bounds::rate;
 use super::formula::{Demand, Formulas, Id, Leaf};
@@ -16,9 +17,10 @@ use super::periodic::jacobian_is_periodic;
 use super::question::{Answer, MAX_PIECES, Question};
 use super::region::{Region, Shape};
 use super::{at_rising_precision, smooth, too_large};
-use proofs_core::constant::Constant;
 use proofs_core::interval::Interval;
 use proofs_core::jacobian::{Entry, Jacobian, RULE, Witness};
+use proofs_core::period::Period;
+use proofs_core::range::Span;
 use proofs_core::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
@@ -26,14 +28,17 @@ use rug::Rational;
 const MAX_VERTEX_ENTRIES: usize = 6;
 
 /// Proves the triple of a witness for a Jacobian; returns what was looked at, in words.
-pub fn prove(jacobian: &Jacobian, period: &Constant, w: &Witness) -> Outcome<String> {
+pub fn prove(jacobian: &Jacobian, period: &Period, w: &Witness) -> Outcome<String> {
     jacobian_is_periodic(jacobian, period)?;
-    at_rising_precision(|precision| attempt(jacobian, &period.enclose(precision), w))
+    let clock = period.clock("/specification/period")?;
+    at_rising_precision(|precision| attempt(jacobian, (&period.nominal.enclose(precision), clock.as_ref()), w))
 }
 
 /// An inequality on matrices of formulas in t, which holds at every t where it is proved.
 struct Problem<'a> {
+    /// The nominal one.
     period: &'a Interval,
+    clock: Option<&'a Span>,
     w: &'a Witness,
     boxes: usize,
 }
@@ -80,6 +85,7 @@ impl Problem<'_> {
     /// Proves a matrix positive semidefinite at every t; `refutes`: where it is not, the triple is not one.
     fn everywhere(&mut self, what: &str, refutes: bool, rows: impl Fn(&mut Parts) -> Vec<Vec<Id>>) -> Outcome<()> {
         let mut parts = Parts { formulas: Formulas::default(), demands: Vec::new(), p: Vec::new() };
+        parts.formulas.clock = self.clock.map(|_| parts.formulas.leaf(Leaf::Parameter(0)));
         parts.p = matrix(&mut parts.formulas, 0, self.w);
         let rows = rows(&mut parts);
         let question = Question::new(&mut parts.formulas, rows, 0);
@@ -92,7 +98,8 @@ impl Problem<'_> {
         let machine = Machine::new(formulas, &curves, &(Interval::pi(precision) * 2 / self.period));
         let (root, mut values) = (machine.period(self.period), machine.values());
         let zero = Interval::int(0, precision);
-        let region = Region { states: 0, shape: Shape::Ball(zero.clone()), output: zero, parameters: Vec::new() };
+        let parameters = self.clock.iter().map(|clock| clock.ends.clone()).collect();
+        let region = Region { states: 0, shape: Shape::Ball(zero.clone()), output: zero, parameters };
         let place = "/specification/lyapunov/jacobian";
         smooth::prove(formulas, demands, place, &machine, &root, &region, &mut values)?;
         let (truth, near) = match question.decide(&machine, &root, &region, MAX_PIECES, &mut values) {
@@ -107,7 +114,7 @@ impl Problem<'_> {
     }
 }
 
-fn attempt(jacobian: &Jacobian, period: &Interval, w: &Witness) -> Outcome<String> {
+fn attempt(jacobian: &Jacobian, (period, clock): (&Interval, Option<&Span>), w: &Witness) -> Outcome<String> {
     let precision = period.precision();
     let ends = |entry: &Entry| match entry {
         Entry::Function(_) => None,
@@ -115,7 +122,7 @@ fn attempt(jacobian: &Jacobian, period: &Interval, w: &Witness) -> Outcome<Strin
     };
     let intervals: Vec<[Interval; 2]> = jacobian.iter().flatten().filter_map(ends).collect();
     let [p_low, p_up, alpha] = &w.numbers;
-    let mut problem = Problem { period, w, boxes: 0 };
+    let mut problem = Problem { period, clock, w, boxes: 0 };
     problem.everywhere("P_low I <= P", true, |parts| shifted(&mut parts.formulas, &parts.p, p_low, 1))?;
     problem.everywhere("P <= P_up I", true, |parts| shifted(&mut parts.formulas, &parts.p, p_up, -1))?;
 

@@ -7,6 +7,7 @@
 mod around;
 pub mod at_samples;
 pub mod bounds;
+pub mod cells;
 mod derivative;
 mod form;
 pub mod formula;
@@ -61,9 +62,26 @@ struct Asked {
     what: String,
 }
 
-/// Proves everything that section 11 demands of the formulas, and the inequalities of section 13.7 that a claim rests on;
+/// Proves everything that section 11 demands of the formulas, in every cell, and the inequalities of section 13.7 that a claim rests on;
 /// `arguments`: the largest X and E at which they are used.
 pub fn prove(
+    spec: &Specification,
+    cells: &[Plant],
+    arguments: [&Float; 2],
+    inequalities: Inequalities<'_>,
+    lines: &mut Vec<String>,
+) -> Outcome<()> {
+    for (number, cell) in (1..).zip(cells) {
+        if cells.len() > 1 {
+            lines.push(format!("cell {number} of {}", cells.len()));
+        }
+        prove_in(spec, cell, arguments, inequalities, lines)?;
+    }
+    Ok(())
+}
+
+/// The same in one cell.
+fn prove_in(
     spec: &Specification,
     plant: &Plant,
     arguments: [&Float; 2],
@@ -73,7 +91,7 @@ pub fn prove(
     for formula in plant.f.iter().chain([&plant.q]) {
         let what = "t occurs only inside sin, cos and tan, as A t + B with A period/(2 pi) a whole number";
         demand(
-            periodic::is_periodic(&formula.expr, spec.period.exact.as_ref()),
+            periodic::is_periodic(&formula.expr, spec.period.nominal.exact.as_ref()),
             "periodicity",
             &formula.pointer,
             what,
@@ -82,7 +100,7 @@ pub fn prove(
     lines.push("formulas: periodic in t, by their form".to_owned());
     let mut model = Model::new(plant, Frame::Moving);
     let rest = harmonics::Rest::new(plant, &mut model);
-    let defect = members::roots(&mut model.formulas, &model.defect, plant.known.parameters.len());
+    let defect = members::roots(&mut model.formulas, &model.defect, plant.family.len());
     let mut asked = Vec::new();
     if plant.states() > 0 {
         orbit::radii(&plant.orbit, &plant.lyapunov[0])?;
@@ -100,7 +118,7 @@ pub fn prove(
     }
     let curves = model::curves(plant);
     let circle = |p: u32| {
-        let period = spec.period.enclose(p);
+        let period = spec.period.nominal.enclose(p);
         (Interval::pi(p) * 2 / &period, period)
     };
 

@@ -22,7 +22,7 @@ pub struct Model {
     /// `L^-1 f`.
     pub f: Vec<Id>,
     pub q: Id,
-    /// `f - xb'`.
+    /// `f - xb'`, like all that are derivatives in t.
     pub apart: Vec<Id>,
     /// `L^-1 (f - xb')`: at v = 0, e = 0 the defect of the orbit.
     pub defect: Vec<Id>,
@@ -42,6 +42,7 @@ impl Model {
         let order = plant.states();
         let mut formulas = Formulas::default();
         let mut demands = Vec::new();
+        formulas.clock = plant.clock().map(|clock| formulas.leaf(Leaf::Parameter(clock)));
         let linear = |formulas: &mut Formulas, row: &[rug::Rational], nodes: &[Id]| {
             let numbers: Vec<Id> = row.iter().map(|value| formulas.number(value)).collect();
             formulas.dot(numbers.into_iter().zip(nodes.iter().copied()))
@@ -58,7 +59,8 @@ impl Model {
         let q = formulas.read(&plant.q.expr, &variables, &mut demands);
         let apart: Vec<Id> = (0..order)
             .map(|i| {
-                let velocity = wave(&mut formulas, plant, i, 1);
+                let slope = wave(&mut formulas, plant, i, 1);
+                let velocity = formulas.in_time(slope);
                 formulas.sub(f[i], velocity)
             })
             .collect();
@@ -87,8 +89,8 @@ impl Model {
     }
 }
 
-/// A derivative in t of a component of xb(t;p), or after them of qb(t;p): the nominal one, and the parameters less their nominal
-/// values times those of the sensitivities. Numbers stand where nothing moves.
+/// A derivative along the axis of time of a component of xb(t;p), or after them of qb(t;p): the nominal one, and the parameters and the
+/// clock less their nominal values times those of the sensitivities. Numbers stand where nothing moves.
 pub fn wave(formulas: &mut Formulas, plant: &Plant, which: usize, order: usize) -> Id {
     let mut sum = formulas.int(0);
     for (member, waves) in plant.waves().enumerate() {
@@ -100,7 +102,7 @@ pub fn wave(formulas: &mut Formulas, plant: &Plant, which: usize, order: usize) 
         let part = match member.checked_sub(1) {
             None => part,
             Some(parameter) => {
-                let nominal = formulas.number(&plant.known.parameters[parameter].nominal);
+                let nominal = formulas.number(&plant.family[parameter].nominal);
                 let value = formulas.leaf(Leaf::Parameter(parameter));
                 let apart = formulas.sub(value, nominal);
                 formulas.product(apart, part)

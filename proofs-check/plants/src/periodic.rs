@@ -3,11 +3,11 @@
 //! t occurs only in arguments `A t + B` of sin, cos and tan, with B free of t and `A T/(2 pi)` a whole number; in a Jacobian
 //! also with `A T/pi` an odd one, where the changes of sign cancel.
 
-use proofs_core::constant::Constant;
 use proofs_core::exact::Exact;
 use proofs_core::expr::{Expr, Op, exact_op};
 use proofs_core::interval::Interval;
 use proofs_core::jacobian::{Entry, Jacobian, RULE};
+use proofs_core::period::Period;
 use proofs_core::verdict::{Outcome, demand};
 use rug::Rational;
 
@@ -107,13 +107,14 @@ pub fn is_periodic(expr: &Expr, period: Option<&Exact>) -> Option<bool> {
     }
 }
 
-/// Whether a function of t has the period: proved by its form, refuted by values at some times a period apart.
-fn function_is_periodic(expr: &Expr, period: &Constant) -> Option<bool> {
-    let rules = Rules { period: period.exact.as_ref(), signs: true };
+/// Whether a function of t has the period: proved by its form, refuted by values at some times a period apart. The period is the nominal
+/// one, and so is that of a function of the phase.
+fn function_is_periodic(expr: &Expr, period: &Period) -> Option<bool> {
+    let rules = Rules { period: period.nominal.exact.as_ref(), signs: true };
     if matches!(expr.fold(|op, a, b| rules.apply(op, a, b)), Some(Part::Free(_) | Part::Sign(false))) {
         return Some(true);
     }
-    let period = period.enclose(PRECISION);
+    let period = period.nominal.enclose(PRECISION);
     let at = |time: Interval| expr.enclose(&time, &Interval::undefined(PRECISION));
     let apart = |k: i64| {
         let (now, later) = (at(&period * k / 7), at(&period * (k + 7) / 7));
@@ -126,7 +127,7 @@ fn function_is_periodic(expr: &Expr, period: &Constant) -> Option<bool> {
 ///
 /// # Errors
 /// `invalid` where values refute it, else `undecided`.
-pub fn jacobian_is_periodic(jacobian: &Jacobian, period: &Constant) -> Outcome<()> {
+pub fn jacobian_is_periodic(jacobian: &Jacobian, period: &Period) -> Outcome<()> {
     for entry in jacobian.iter().flatten() {
         if let Entry::Function(expr) = entry {
             let what = "the Jacobian has the period of the specification";

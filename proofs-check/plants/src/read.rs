@@ -1,16 +1,19 @@
 //! A plant and the parts of a witness that are about its formulas, as a file has them (docs/formats.md, "Plant" and "A certificate
 //! of a plant"): read and checked in form. What is proved of them is in the other files of this folder.
 
+use super::cells::{self, Cell};
 use super::time::Wave;
-use proofs_core::constant::{Constant, expression_with, positive_with};
+use proofs_core::constant::{Constant, positive_with};
 use proofs_core::expr::{Expr, Named};
 use proofs_core::input_gain;
 use proofs_core::jacobian;
 use proofs_core::json::{Field, Fields, Json};
+use proofs_core::period::Period;
 use proofs_core::plant::OfPlant;
 use proofs_core::plant::coordinates::Coordinates;
 use proofs_core::plant::entries::Entries;
 use proofs_core::plant::parameters::Parameter;
+use proofs_core::range::Span;
 use proofs_core::spec::{self, AskedSet, Specification, header};
 use proofs_core::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -26,8 +29,8 @@ const MAX_PARAMETERS: usize = 12;
 pub const MAX_INTERVALS: usize = 4;
 /// What a state may not be called.
 #[rustfmt::skip]
-const TAKEN: [&str; 14] = [
-    "t", "e", "pi", "sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "min", "max",
+const TAKEN: [&str; 15] = [
+    "t", "phase", "e", "pi", "sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "min", "max",
 ];
 
 /// A formula with its place in the file.
@@ -58,7 +61,7 @@ pub struct Forcing {
     pub rest_t: Rational,
 }
 
-/// What is given of a plant.
+/// What is given of a plant, in a cell of its family.
 #[derive(Clone, Debug)]
 pub struct Plant {
     pub f: Vec<Formula>,
@@ -67,6 +70,9 @@ pub struct Plant {
     /// The P of stability and, if there is one, that of existence.
     pub lyapunov: Vec<jacobian::Witness>,
     pub forcing: Forcing,
+    /// The numbers of which intervals are given: the parameters, and after them the clock where the period is an interval.
+    pub family: Vec<Span>,
+    has_clock: bool,
     /// What a claim needs of it.
     pub known: OfPlant,
 }
@@ -77,6 +83,11 @@ impl Plant {
         self.f.len()
     }
 
+    /// The place of the clock in the family, with a period that is an interval.
+    pub fn clock(&self) -> Option<usize> {
+        if self.has_clock { self.family.len().checked_sub(1) } else { None }
+    }
+
     /// The components of xb_0 and then qb_0, and the same of each sensitivity.
     pub fn waves(&self) -> impl Iterator<Item = Vec<Wave>> {
         let with = |(x, q): (&Vec<Wave>, &Wave)| x.iter().chain([q]).cloned().collect();
@@ -84,8 +95,8 @@ impl Plant {
     }
 }
 
-/// Reads a plant, and takes its parts out of the witness.
-pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specification, Plant)> {
+/// Reads a plant, and takes its parts out of the witness: in each of its cells, of which most families have one.
+pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specification, Vec<Plant>)> {
     let mut file = field.fields()?;
     header(&mut file, "sigmastar/plant")?;
     file.required("name")?.text()?;
@@ -95,12 +106,13 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         Some(field) => parameters(&field, &names)?,
         None => Default::default(),
     };
-    let period = positive_with(&mut file, "period", &constants)?;
+    let period = Period::read(&mut file, &constants)?;
+    let clock = period.clock(&format!("{}/period", file.pointer))?;
     let of_family = intervals.iter().map(|parameter| parameter.name.as_str());
-    let variables: Vec<&str> = ["t", "e"].into_iter().chain(names.iter().copied()).chain(of_family).collect();
+    let variables: Vec<&str> = ["e"].into_iter().chain(names.iter().copied()).chain(of_family).collect();
     let formula = |field: &Field<'_>| {
-        let expr = expression_with(field, &variables, &constants);
-        expr.map(|(expr, _)| Formula { pointer: field.pointer.clone(), expr })
+        let expr = period.expression(field, &variables, &constants)?;
+        Ok(Formula { pointer: field.pointer.clone(), expr })
     };
     let list = file.required("f")?;
     let f: Vec<Formula> = list.elements()?.iter().map(formula).collect::<Outcome<_>>()?;
@@ -115,18 +127,20 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     };
     let domain = file.optional("domain").map(|field| {
         let mut fields = field.fields()?;
-        let mut end = |name| positive_with(&mut fields, name, &constants);
+        let mut end = |name| positive_with(&fields.required(name)?, name, &constants);
         let ends = [end("x")?, end("e")?];
         fields.finish().map(|()| ends)
     });
     let domain = domain.transpose()?;
-    let input_gain = input_gain::read(&mut file)?;
+    let input_gain = input_gain::read(&mut file, &constants)?;
     let model = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;
 
+    let has_clock = clock.is_some();
+    let family: Vec<Span> = intervals.iter().map(|parameter| parameter.span.clone()).chain(clock).collect();
     let order = names.len();
     let coordinates = Coordinates::read_part(&witness.required("coordinates")?, order)?;
-    let orbit = orbit(&witness.required("orbit")?, order, intervals.len())?;
+    let cells = cells::read(witness, order, family, intervals.len())?;
     let (first, [p_low, p_up, alpha]) = jacobian::Witness::read(&witness.required("lyapunov")?, order)?;
     let second = witness.optional("lyapunov_existence").map(|field| jacobian::Witness::read(&field, order));
     let existence = second.transpose()?;
@@ -135,13 +149,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         let [low, up, _] = &w.numbers;
         demand(Some(low <= up), jacobian::RULE, &w.pointer, "p_low <= p_up")?;
     }
-    let forcing = forcing(&witness.required("forcing")?, intervals.len())?;
     let entries = Entries::read(&witness.required("bounds")?, order > 0, lyapunov.len() > 1)?;
-    let q_0 = spec::Forcing {
-        harmonics: amplitudes(&forcing.waves, &intervals),
-        rest_rms: spec::Size::Number(forcing.rest.clone()),
-        rest_t_rms: Some(spec::Size::Number(forcing.rest_t.clone())),
-    };
     let two_matrices = lyapunov.len() > 1;
     let known = OfPlant { states: order, domain, ball, coordinates, entries, parameters: intervals, two_matrices };
     let specification = Specification {
@@ -158,13 +166,23 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         samples: model.samples,
         weights: model.weights,
         bounds: Default::default(),
-        q_0: Some(q_0),
+        q_0: Some(cells::largest(&cells)),
         domain: None,
         initial_set,
         input_gain,
         plant: Some(Box::new(known.clone())),
     };
-    Ok((specification, Plant { f, q, orbit, lyapunov, forcing, known }))
+    let of_cell = |Cell { family, orbit, forcing }| Plant {
+        f: f.clone(),
+        q: q.clone(),
+        orbit,
+        lyapunov: lyapunov.clone(),
+        forcing,
+        family,
+        has_clock,
+        known: known.clone(),
+    };
+    Ok((specification, cells.into_iter().map(of_cell).collect()))
 }
 
 fn states<'a>(list: &Field<'a>) -> Outcome<Vec<&'a str>> {
@@ -265,14 +283,14 @@ fn curve<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) ->
     Ok((read(&fields.required("mean")?)?, harmonics(fields, read)?))
 }
 
-/// The same, and after it that of each of the `sensitivities`, one for each interval.
+/// The same, and after it that of each of the `sensitivities`, one for each number of the family.
 fn curves<T>(
     fields: &mut Fields<'_>,
-    intervals: usize,
+    members: usize,
     read: impl Fn(&Field<'_>) -> Outcome<T>,
 ) -> Outcome<Vec<(T, Vec<[T; 2]>)>> {
     let mut all = vec![curve(fields, &read)?];
-    if intervals == 0 {
+    if members == 0 {
         return Ok(all);
     }
     let list = fields.required("sensitivities")?;
@@ -281,20 +299,21 @@ fn curves<T>(
         all.push(curve(&mut fields, &read)?);
         fields.finish()?;
     }
-    if all.len() == 1 + intervals {
+    if all.len() == 1 + members {
         return Ok(all);
     }
-    bad(&list.pointer, format!("expected {intervals} objects, one for each parameter of which an interval is given"))
+    let what = "one for each parameter of which an interval is given, and one for the period if it is an interval";
+    bad(&list.pointer, format!("expected {members} objects, {what}"))
 }
 
-fn orbit(field: &Field<'_>, order: usize, intervals: usize) -> Outcome<Orbit> {
+pub(super) fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> {
     let mut fields = field.fields()?;
     let vector = |field: &Field<'_>| {
         let list = field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>()?;
         let right = list.len() == order;
         if right { Ok(list) } else { bad(&field.pointer, format!("expected {order} numbers, one for each state")) }
     };
-    let waves = curves(&mut fields, intervals, vector)?.into_iter().map(|(mean, harmonics)| {
+    let waves = curves(&mut fields, members, vector)?.into_iter().map(|(mean, harmonics)| {
         let of = |(i, mean): (usize, &Rational)| Wave {
             mean: mean.clone(),
             harmonics: harmonics.iter().map(|[cos, sin]| [cos[i].clone(), sin[i].clone()]).collect(),
@@ -311,9 +330,9 @@ fn orbit(field: &Field<'_>, order: usize, intervals: usize) -> Outcome<Orbit> {
     fields.finish().map(|()| orbit)
 }
 
-fn forcing(field: &Field<'_>, intervals: usize) -> Outcome<Forcing> {
+pub(super) fn forcing(field: &Field<'_>, members: usize) -> Outcome<Forcing> {
     let mut fields = field.fields()?;
-    let waves = curves(&mut fields, intervals, |field| field.rational())?;
+    let waves = curves(&mut fields, members, |field| field.rational())?;
     let forcing = Forcing {
         pointer: field.pointer.clone(),
         waves: waves.into_iter().map(|(mean, harmonics)| Wave { mean, harmonics }).collect(),
@@ -321,28 +340,4 @@ fn forcing(field: &Field<'_>, intervals: usize) -> Outcome<Forcing> {
         rest_t: number(&mut fields, "rest_t", None)?,
     };
     fields.finish().map(|()| forcing)
-}
-
-/// `C_0 = |m_0|` and `C_k = sqrt(a_k^2 + b_k^2)/2`, the largest over all parameters: the coefficients are affine in them, so the
-/// magnitudes are convex, and largest at a corner (section 13.2).
-fn amplitudes(waves: &[Wave], intervals: &[Parameter]) -> Vec<spec::Size> {
-    // A coefficient of the wave of a corner.
-    let at = |corner: usize, coefficient: &dyn Fn(&Wave) -> Option<Rational>| {
-        let mut parts = waves.iter().map(|wave| coefficient(wave).unwrap_or_default());
-        let nominal = parts.next().unwrap_or_default();
-        let moved = parts.zip(intervals).enumerate().map(|(i, (part, of))| {
-            let end = &of.ends[corner >> i & 1];
-            part * Rational::from(end - &of.nominal)
-        });
-        moved.fold(nominal, |sum, part| sum + part)
-    };
-    let largest = |size: &dyn Fn(usize) -> Rational| (0..1 << intervals.len()).map(size).max().unwrap_or_default();
-    let square = |value: Rational| Rational::from(value.square_ref());
-    let mean = largest(&|corner| at(corner, &|wave| Some(wave.mean.clone())).abs());
-    let harmonic = |k: usize| {
-        let of = |corner: usize, i: usize| at(corner, &|wave| wave.harmonics.get(k).map(|pair| pair[i].clone()));
-        spec::Size::Root(largest(&|corner| square(of(corner, 0)) + square(of(corner, 1))) / 4u32)
-    };
-    let count = waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0);
-    std::iter::once(spec::Size::Number(mean)).chain((0..count).map(harmonic)).collect()
 }

@@ -38,7 +38,7 @@ pub enum Shape {
 #[derive(Clone)]
 pub struct Piece {
     pub cell: Rc<Cell>,
-    /// The ends of v_1, ..., v_n, of e, and of the parameters.
+    /// The ends of v_1, ..., v_n, of e, and of the parameters, with the clock the last of them.
     pub sides: Vec<[Float; 2]>,
 }
 
@@ -46,7 +46,7 @@ impl Region {
     /// All members of a family, without states and with e = 0.
     pub fn of_family(plant: &Plant, precision: u32) -> Region {
         let zero = Interval::int(0, precision);
-        let parameters = plant.known.parameters.iter().map(|parameter| parameter.ends.clone()).collect();
+        let parameters = plant.family.iter().map(|span| span.ends.clone()).collect();
         Region { states: 0, shape: Shape::Ball(zero.clone()), output: zero, parameters }
     }
 
@@ -214,7 +214,8 @@ impl Piece {
 
 /// The axes on which something depends that depends on these: t (`None`) and sides.
 pub fn axes(depends: u16, states: usize) -> impl Iterator<Item = Option<usize>> {
-    let sides = (0..=states + MAX_INTERVALS).map(Some);
+    // The clock is one more.
+    let sides = (0..=states + MAX_INTERVALS + 1).map(Some);
     std::iter::once(None).chain(sides).filter(move |side| depends & axis(*side, states).bit() != 0)
 }
 

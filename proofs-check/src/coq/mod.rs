@@ -74,9 +74,9 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
             "no theorem is written of a claim about the regulator at samples: certify without `sampling_period`";
         return unsupported("/claim/regulator", message);
     }
-    if spec.input_gain.is_some() {
-        let pointer = format!("{}/input_gain", embedded.pointer);
-        return unsupported(&pointer, "no theorem is written of a claim about every input gain of an interval");
+    if spec.period.range().is_some() {
+        let pointer = format!("{}/period", embedded.pointer);
+        return unsupported(&pointer, "no theorem is written of a claim about every period of an interval");
     }
     if spec.plant.as_ref().is_some_and(|plant| !plant.parameters.is_empty()) {
         let pointer = format!("{}/parameters", embedded.pointer);
@@ -85,15 +85,13 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
     let Witness::Sharp(witness) = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?.witness else {
         return unsupported("/witness", "no theorem is written of this kind of witness");
     };
-    if let Some(joint) = witness.stability.joint() {
-        return unsupported(&joint.pointer, "no theorem is written of joint metrics in the place of C4 and C5");
-    }
-    if let Some(inequality) = witness.stability.matrix().filter(|_| spec.plant.is_none()) {
-        return bad(&inequality.pointer, "a matrix inequality is about the formulas of a plant");
-    }
-    if witness.existence.inequality.is_some() {
-        let pointer = "/witness/existence_inequality";
-        return unsupported(pointer, "no theorem is written of (E), an inequality in the place of S1b to S2c");
+    let inequalities = [
+        witness.stability.matrix().map(|inequality| &inequality.pointer),
+        witness.stability.joint().map(|joint| &joint.pointer),
+        witness.existence.inequality.as_ref().map(|inequality| &inequality.pointer),
+    ];
+    if let Some(pointer) = inequalities.into_iter().flatten().next().filter(|_| spec.plant.is_none()) {
+        return bad(pointer, "a matrix inequality is about the formulas of a plant");
     }
     let mut periodic = claim.periodic.fields()?;
     let mut size = |name| periodic.required(name)?.rational();

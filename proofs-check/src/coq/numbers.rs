@@ -4,6 +4,10 @@ use super::terms::{Fields, constant, function, number, option, unsupported};
 use super::{Parts, plants};
 use proofs_core::bound::{BOUND_NAMES, Bound};
 use proofs_core::expr::Expr;
+use proofs_core::input_gain::factors;
+use proofs_core::interval::Interval;
+use proofs_core::range::Range;
+use proofs_core::rules::existence::{Existence, Form};
 use proofs_core::rules::paths::Path;
 use proofs_core::rules::transfer::Proof;
 use proofs_core::spec::{Forcing, Size, Specification};
@@ -14,6 +18,9 @@ use proofs_core::weights::Weights;
 /// powers are not.
 const TERMS: u32 = 128;
 const TERMS_OF_POWERS: u32 = 64;
+
+/// Of the choices that are made here; Coq decides them again.
+const PRECISION: u32 = 128;
 
 /// The fields, one a line.
 pub fn record(parts: &Parts) -> Outcome<String> {
@@ -29,13 +36,17 @@ fn of_specification(parts: &Parts) -> Outcome<Fields> {
     let triple = [("p_low", &spec.p_low), ("p_up", &spec.p_up), ("alpha", &spec.alpha)];
     let second =
         spec.existence.as_ref().map_or([&spec.p_low, &spec.p_up, &spec.alpha], |(_, triple)| triple.each_ref());
-    let mut fields = vec![("period", constant(&spec.period, &at("period"))?)];
+    let mut fields = vec![("period", constant(&spec.period.nominal, &at("period"))?)];
     for (name, value) in triple {
         fields.push((name, constant(value, &at("lyapunov"))?));
     }
     for (name, value) in ["p_low'", "p_up'", "alpha'"].into_iter().zip(second) {
         fields.push((name, constant(value, &at("lyapunov"))?));
     }
+    fields.push((
+        "gain",
+        option(spec.input_gain.as_ref().filter(|gain| !gain.is_nominal()).map(input_gain).transpose()?),
+    ));
     fields.push(("mu", constant(&spec.mu, &at("internal_model/mu"))?));
     fields.push(("w", constant(&spec.base_frequency, &at("internal_model/base_frequency"))?));
     let matched = matches!(parts.witness.transfer, Proof::Matched(_));
@@ -90,6 +101,28 @@ fn functions(spec: &Specification) -> Outcome<Fields> {
     Ok(fields)
 }
 
+/// b_lo and b_hi; what is used where 1/2 <= b_lo is then a condition.
+fn input_gain(gain: &Range) -> Outcome<String> {
+    let [nominal, low, high] =
+        [&gain.nominal, &gain.low, &gain.high].map(|value| constant(value, "/specification/input_gain"));
+    let (nominal, [b_lo, _]) = (nominal?, factors(gain, PRECISION));
+    let half = Interval::int(1, PRECISION).le(&(b_lo * 2)) == Some(true);
+    Ok(format!("{{| low := ({} / {nominal}); high := ({} / {nominal}); half := {half} |}}", low?, high?))
+}
+
+/// (E).
+fn inequality(given: &Existence) -> String {
+    let [x, e, threshold] = [&given.x, &given.e, &given.threshold].map(number);
+    let form = match &given.form {
+        Form::Block(one) => {
+            let [k_p, c_x, c_y] = [&one.k_p, &one.least[0], &one.least[2]].map(number);
+            format!("one {k_p} {c_x} {c_y}")
+        }
+        Form::Joint(two) => format!("two {} {}", plants::metric(&two.near), plants::metric(&two.far)),
+    };
+    format!("{{| X_i := {x}; E_i := {e}; tau_i := {threshold}; form_i := {form} |}}")
+}
+
 /// n_0, n_1, ... and a number that is at least their sum.
 fn weights(given: &Weights) -> Outcome<Fields> {
     let place = "/specification/internal_model/weights";
@@ -139,8 +172,15 @@ fn of_witness(parts: &Parts) -> Fields {
     let [r_x, r_e, r_d] = &witness.existence.r;
     let damped = (witness.existence.kap > 0).then(|| {
         let kap = &witness.existence.kap;
-        // Which form of g_k is used; where it is the smaller one, kap <= sigma is a condition.
-        format!("{{| kap := {}; kap_small := {} |}}", number(kap), kap <= &witness.sigma)
+        // Which form of g_k is used; where it is the smaller one, kap <= (2 - b_lo) sigma is a condition.
+        let least = parts
+            .spec
+            .input_gain
+            .as_ref()
+            .map_or_else(|| Interval::int(1, PRECISION), |gain| factors(gain, PRECISION)[0].clone());
+        let [kap_, sigma] = [kap, &witness.sigma].map(|value| Interval::rational(value, PRECISION));
+        let small = kap_.le(&((2 - least) * sigma)) == Some(true);
+        format!("{{| kap := {}; kap_small := {small} |}}", number(kap))
     });
     let refined = witness.existence.refined.as_ref().map(|means| means.each_ref().map(number).join(", "));
     let path = |path: Path| {
@@ -162,6 +202,7 @@ fn of_witness(parts: &Parts) -> Fields {
         ("r_e", number(r_e)),
         ("r_d", number(r_d)),
         ("damped", option(damped)),
+        ("existence", option(witness.existence.inequality.as_ref().map(inequality))),
         ("refined", option(refined)),
         ("D_x", number(&free.d_x)),
         ("D_e", number(&free.d_e)),

@@ -9,6 +9,8 @@ use super::terms::{Fields, constant, number, option, unsupported};
 use proofs_core::plant::OfPlant;
 use proofs_core::plant::entries::{Entry, Name};
 use proofs_core::rules::inequality::Inequality;
+use proofs_core::rules::joint::{Extent, Joint};
+use proofs_core::rules::metric::{Metric, Metrics};
 use proofs_core::rules::paths::Path;
 use proofs_core::verdict::Outcome;
 use rug::Rational;
@@ -78,7 +80,11 @@ impl Table<'_> {
 pub fn known(parts: &Parts, plant: &OfPlant) -> Outcome<Fields> {
     let table = Table { parts, plant };
     let mut fields = existence(&table)?;
-    fields.push(("known", stability(&table)?));
+    let known = match parts.witness.stability.joint() {
+        Some(joint) => format!("by_metrics {}", by_metrics(joint)),
+        None => stability(&table)?,
+    };
+    fields.push(("known", known));
     fields.extend([("b_q_rms", "None".to_owned()), ("b_qt_rms", "None".to_owned())]);
     Ok(fields)
 }
@@ -150,5 +156,30 @@ fn by_matrix(inequality: &Inequality, f: Path, q: Path) -> String {
     let [rate, sigma] = [&inequality.rate, &inequality.sigma].map(number);
     format!(
         "by_matrix {{| X_m := {reach_x}; E_m := {reach_e}; X_per_m := {x}; E_per_m := {e}; delta_m := {rate}; tau_m := {sigma} |}}"
+    )
+}
+
+/// k_p, c_x, c_e, c_y of a metric.
+pub fn metric(metric: &Metric) -> String {
+    let [c_x, c_e, c_y] = metric.least.each_ref().map(number);
+    format!("{{| k_p := {}; c_x := {c_x}; c_e := {c_e}; c_y := {c_y} |}}", number(&metric.k_p))
+}
+
+/// (Jm). Of P and p Coq has the extents alone.
+fn by_metrics(joint: &Joint) -> String {
+    let Metrics { near, far, cross } = &joint.metrics;
+    let square = cross.iter().fold(Rational::new(), |sum, entry| sum + Rational::from(entry.square_ref()));
+    let extent = |of: &Metric, extent: &Extent, cross: &str| {
+        let [weight, p_up, x_low, e_low] = [&of.w, &extent.p_up, &extent.x_low, &extent.e_low].map(number);
+        format!("{{| weight := {weight}; cross := {cross}; P_up := {p_up}; x_low := {x_low}; e_low := {e_low} |}}")
+    };
+    let [of_near, of_far] = &joint.extents;
+    let [x, e, threshold] = [&joint.x, &joint.e, &joint.threshold].map(number);
+    format!(
+        "{{| X_j := {x}; E_j := {e}; tau_j := {threshold};\n    near_m := {}; near_x := {};\n    far_m := {}; far_x := {} |}}",
+        metric(near),
+        extent(near, of_near, &format!("(sqrt {})", number(&square))),
+        metric(far),
+        extent(far, of_far, "0"),
     )
 }

@@ -8,7 +8,7 @@ use proofs_core::rules::transfer::Proof;
 const HEAD: &str = "\
 From Coq Require Import Reals ZArith Lra Lia.
 From Coquelicot Require Import Coquelicot.
-From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched PlantBounds Claim Decide.
+From SigmaStar Require Import Sums Weights WeightSum ExplicitWeights Transfer Matched PlantBounds Decline Claim Decide.
 Local Open Scope R_scope.
 ";
 
@@ -24,7 +24,7 @@ pub fn file(digest: &str, record: &str, parts: &Parts) -> String {
         Proof::ClosedForm | Proof::Boxes { .. } => None,
     };
     let hypothesis = if matched.is_some() { "" } else { "\n  transfer_bound cert ->" };
-    let names = if matched.is_some() { "Within Existence" } else { "Within Transfer Existence" };
+    let names = if matched.is_some() { "About Existence" } else { "About Transfer Existence" };
     let transfer = if matched.is_some() { "transfer" } else { "Transfer" };
     let lemma = matched.map_or_else(String::new, transfer_lemma);
     let [what, coordinates] = match parts.spec.plant {
@@ -43,7 +43,8 @@ Definition cert : numbers := {{|
 {record}
 |}}.
 
-(** S1 to S3, C4, C5 and C5b or C5m, and the sizes of the periodic solution that are stated. *)
+(** S1 to S3 with E1 to E4 of (E), C4, C5 and C5b, C5m of (M) or C4, C4f, C5x, C5e and C5s of (Jm), (B) with an input gain, and the sizes of
+    the periodic solution that are stated. *)
 Lemma conditions :
   existence_conditions cert /\\ stability_conditions cert /\\
   (x_per cert <= {x} /\\ e_per cert <= {e} /\\ Z_per cert <= {zeta}).
@@ -59,30 +60,28 @@ Proof. decide_weights cert. Qed.
 Lemma weight_sum : forall N, n cert O + sum1 N (n cert) <= n_bar2 cert.
 Proof. decide_weight_sum cert. Qed.
 {lemma}
-(** For every plant that is as [about] says, every N and every gain from sigma on: each solution p of the stated size attracts,
-    in that what starts in the set stays in the error box, U does not grow, xi, et and s are square integrable, and the errors of x
-    and e tend to 0. *)
+(** For every plant that is as [about] says, every N, every gain s from sigma on and every input gain b of the interval (1 without): each
+    solution p of the stated size attracts, in that what starts in the set stays in the error box, U does not grow, xt, et and s are square
+    integrable, and the errors of x and e tend to 0. *)
 Theorem certificate_attracts :
-  forall (X : NormedModule R_AbsRing) f q F P P', about (X := X) cert f q F P P' ->
-  forall s, sigma cert <= s -> exists rho, 0 < rho /\\
-  forall N p, (forall t, solves cert f q N s p t) -> sized cert N p -> attracts cert f q P N s p rho.
+  forall (X : NormedModule R_AbsRing) f q (m : forms X), about cert f q m ->
+  forall s b, sigma cert <= s -> b_lo cert <= b <= b_hi cert -> exists rho, 0 < rho /\\
+  forall N p, (forall t, solves cert f q N s b p t) -> sized cert N p -> attracts cert f q m N s b p rho.
 Proof.
-  intros X f q F P P' Within s Hs.
-  destruct (stays_and_falls cert f q F P P' (n_pos _ the_weights) Within (proj1 (proj2 conditions)) s Hs) as [rho [Hrho A]].
-  exists rho. split; [exact Hrho|]. intros N p Solves Sized. pose proof (A N p (weight_sum N) Solves Sized) as Falls. split; [exact Falls|].
-  apply (errors_tend cert f q F P P' (n_pos _ the_weights) Within (proj1 (proj2 conditions)) s rho N p Hrho (weight_sum N) Solves Sized
-           Falls).
+  intros X f q m About s b Hs Hb.
+  destruct (attracting cert f q m (n_pos _ the_weights) About (proj1 (proj2 conditions)) s b Hs Hb) as [rho [Hrho A]].
+  exists rho. split; [exact Hrho|]. intros N p. apply (A N p (weight_sum N)).
 Qed.
 
-(** The certificate. That the periodic solution exists, [existence_10_3], is a hypothesis: its conditions are proved here, section 10.3
-    is not. *)
+(** The certificate. That the periodic solution exists, [periodic_exists], is a hypothesis: its conditions are proved here, section 10.3,
+    or 13.7 with (E), is not. *)
 Theorem certificate_holds :
-  forall (X : NormedModule R_AbsRing) f q F P P', about (X := X) cert f q F P P' ->{hypothesis}
-  existence_10_3 cert f q -> certified cert f q P.
+  forall (X : NormedModule R_AbsRing) f q (m : forms X), about cert f q m ->{hypothesis}
+  periodic_exists cert f q -> certified cert f q m.
 Proof.
-  intros X f q F P P' {names}.
-  apply (claim cert f q F P P' (n_pos _ the_weights) Within (proj1 (proj2 conditions)) Existence
-           (proj1 conditions) the_weights {transfer} weight_sum).
+  intros X f q m {names}.
+  apply (claim cert f q m (n_pos _ the_weights) About (proj1 (proj2 conditions)) Existence (proj1 conditions) the_weights {transfer}
+           weight_sum).
 Qed.
 
 (** What both rest on. *)

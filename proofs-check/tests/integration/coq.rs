@@ -2,7 +2,8 @@
 //! installed, that Coq accepts what is true and refuses what is not.
 
 use crate::common::{PAPER, certificate, folder, names, text};
-use crate::coq_support::{assert_accepted, assert_refused_at, coqc, plants, proofs, written};
+use crate::coq_support::{assert_accepted, assert_refused_at, coqc, every_case, plants, proofs, written};
+use crate::input_gain::made as with_a_gain;
 use proofs_check::coq::theorem;
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
@@ -18,14 +19,14 @@ fn program(arguments: &[&str]) -> (i32, String, String) {
 #[test]
 fn a_theorem_is_written_of_every_stored_certificate_in_continuous_time() {
     let specifications = names("certificates").into_iter().map(|name| ("certificates", name));
-    for (of, name) in specifications.chain(plants().map(|name| ("plants", name))) {
+    let gains = names("gain").into_iter().map(|name| ("gain", name));
+    for (of, name) in specifications.chain(plants().map(|name| ("plants", name))).chain(gains) {
         let bytes = text(of, &name);
         let written = theorem(bytes.as_bytes()).unwrap_or_else(|finding| panic!("{name}: {finding:?}"));
         assert!(written.contains("Print Assumptions certificate."), "{name}");
     }
     assert_refused_at(&text("sampled", "no-x"), Verdict::Undecided, "/claim/regulator");
     assert_refused_at(&text("plants", "converter-samples.certificate"), Verdict::Undecided, "/claim/regulator");
-    assert_refused_at(&text("plants", "joint.certificate"), Verdict::Undecided, "/witness/joint_inequality");
     assert_refused_at("{}", Verdict::BadInput, "");
 }
 
@@ -102,18 +103,22 @@ fn the_program_writes_and_refuses() {
 #[test]
 fn coq_accepts_what_is_true() {
     let Some(proofs) = proofs() else { return };
-    let all = std::env::var("SIGMASTAR_CASES").is_ok_and(|cases| cases == "all");
-    let some = ["paper-example-aligned.sharp", "no-x.sharp"];
-    for name in names("certificates").iter().filter(|name| all || some.contains(&name.as_str())) {
+    let some = ["no-x.sharp"];
+    for name in names("certificates").iter().filter(|name| every_case() || some.contains(&name.as_str())) {
         let made = certificate(name);
         assert_accepted(name, coqc(proofs, &name.replace(['.', '-'], "_"), &made));
     }
+    assert_accepted("gain", coqc(proofs, "gain", &with_a_gain()));
 }
 
+/// Those that an ordinary run leaves out are alike.
 #[test]
 fn coq_refuses_what_is_not() {
     let Some(proofs) = proofs() else { return };
     let refused = |name: &str, edit: &dyn Fn(&mut Value), said: &str| {
+        if !every_case() && !["lowered", "altered", "transfer"].contains(&name) {
+            return;
+        }
         let mut made = certificate(PAPER);
         edit(&mut made);
         let answer = coqc(proofs, name, &made).expect_err(name);
@@ -124,4 +129,11 @@ fn coq_refuses_what_is_not() {
     refused("altered", &|made| made["specification"]["bounds"]["f_e"] = json!("X + 0.19"), "<= X_p cert");
     refused("size", &|made| made["claim"]["periodic_solution"]["x"] = json!("0.049417"), "x_per cert");
     refused("transfer", &|made| made["witness"]["transfer"]["K"] = json!(1), "<= k_1 cert");
+    if !every_case() {
+        return;
+    }
+    let mut wider = with_a_gain();
+    wider["specification"]["input_gain"]["high"] = json!("2.9");
+    let answer = coqc(proofs, "gain_wider", &wider).expect_err("a wider interval");
+    assert!(answer.contains("not proved") && answer.contains("level cert"), "{answer}");
 }

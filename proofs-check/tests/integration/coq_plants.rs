@@ -1,8 +1,8 @@
 //! `--coq` of the certificates of plants: which values of the table are written, and, where coqc is installed, that Coq accepts what is
 //! true and refuses what is not.
 
-use crate::common::text;
-use crate::coq_support::{assert_accepted, assert_refused_at, coqc, plants, proofs, written};
+use crate::common::{names, text};
+use crate::coq_support::{assert_accepted, assert_refused_at, coqc, every_case, plants, proofs, written};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -66,31 +66,51 @@ fn a_value_that_is_missing_is_named() {
     written(&made);
 }
 
+/// Of the matrices the numbers that conditions have are written: of p its length.
 #[test]
-fn an_inequality_of_existence_is_refused_by_name() {
-    let mut made = certificate("pendulum");
-    made["witness"]["existence_inequality"] = json!({
-        "X": "1", "E": "1", "P": [["1", "0"], ["0", "1"]], "k_p": "1", "c_x": "1", "c_y": "1", "sigma": "0.1"
-    });
-    assert_refused_at(&made.to_string(), Verdict::Undecided, "/witness/existence_inequality");
+fn the_numbers_of_the_matrices_are_written() {
+    let joint = written(&certificate("joint"));
+    for part in [
+        "  existence := Some ({| X_i := 12.325293; E_i := 1.220157; tau_i := 3.98; form_i := two {| k_p := 4.512; c_x := 0.05; ",
+        "  known := by_metrics {| X_j := 40.594799; E_j := 20.579692; tau_j := 3.98;\n",
+        "near_m := {| k_p := 0.13271; c_x := 0.0002; c_e := 0.01; c_y := 0.000195 |}; ",
+        "near_x := {| weight := 1.04709; cross := (sqrt 0.0233263994); P_up := 0.49749; x_low := 0.46584; e_low := 0.99999 |};",
+        "far_x := {| weight := 1; cross := 0; P_up := 0.83734; x_low := 0.81023; e_low := 0.99999 |} |};",
+    ] {
+        assert!(joint.contains(part), "{part}");
+    }
+    let block: Value = serde_json::from_str(&text("gain", "converter")).unwrap();
+    let form = "tau_i := 1730.6784; form_i := one 0.0011692696 1.56 0.0000225823 |});";
+    assert!(written(&block).contains(form) && written(&block).contains("gain := Some ({| low := (0.9 / 1); "));
+    // Only a plant has formulas that a matrix could be about.
+    let mut made = crate::common::certificate("linear.sharp");
+    for name in ["existence_inequality", "joint_inequality"] {
+        made["witness"][name] = certificate("joint")["witness"][name].clone();
+        assert_refused_at(&made.to_string(), Verdict::BadInput, &format!("/witness/{name}"));
+        made["witness"].as_object_mut().unwrap().remove(name);
+    }
 }
 
 /// The stored certificates that an ordinary run leaves out take some minutes.
 #[test]
 fn coq_accepts_plants() {
     let Some(proofs) = proofs() else { return };
-    let all = std::env::var("SIGMASTAR_CASES").is_ok_and(|cases| cases == "all");
-    let some = ["motor-axis.certificate", "splitting.certificate"];
-    for name in plants().filter(|name| all || some.contains(&name.as_str())) {
-        let made: Value = serde_json::from_str(&text("plants", &name)).unwrap();
-        assert_accepted(&name, coqc(proofs, &name.replace(['.', '-'], "_"), &made));
+    let some = ["motor-axis.certificate", "joint.certificate"];
+    let stored = plants().map(|name| ("plants", name)).chain(names("gain").into_iter().map(|name| ("gain", name)));
+    for (of, name) in stored.filter(|(_, name)| every_case() || some.contains(&name.as_str())) {
+        let made: Value = serde_json::from_str(&text(of, &name)).unwrap();
+        assert_accepted(&name, coqc(proofs, &format!("{of}_{}", name.replace(['.', '-'], "_")), &made));
     }
 }
 
+/// Those that an ordinary run leaves out are alike.
 #[test]
 fn coq_refuses_of_plants_what_is_not() {
     let Some(proofs) = proofs() else { return };
     let refused = |of: &str, name: &str, edit: &dyn Fn(&mut Value), said: &str| {
+        if !every_case() && !["rate", "reach", "joint_lowered", "joint_near_P_up"].contains(&name) {
+            return;
+        }
         let mut made = certificate(of);
         edit(&mut made);
         let answer = coqc(proofs, &format!("plant_{name}"), &made).expect_err(name);
@@ -114,4 +134,25 @@ fn coq_refuses_of_plants_what_is_not() {
     refused("paper-example-aligned", "existence", &|made| alter(made, 7, "f_e", "0.246"), "<= X_p cert");
     refused("motor-axis", "rate", &|made| alter(made, 2, "rate", "100"), "a_2 cert");
     refused("pendulum", "transfer", &|made| made["witness"]["transfer"]["K"] = json!(1), "<= k_1 cert");
+    // Below the threshold of both; then each of the numbers of stability and one of existence.
+    refused("joint", "joint_lowered", &|made| made["claim"]["sigma_star"] = json!("3.96"), "3.98 <= 3.96");
+    let of_stability: [(&str, &str, &str); 6] = [
+        ("near/P_up", "0.55", "C4_of"),
+        ("sigma", "4.1", "<= sigma cert"),
+        ("X", "38", "X_b cert"),
+        ("near/k_p", "0.16", "C4_of"),
+        ("far/x_low", "0.7", "C4_of"),
+        ("far/e_low", "0.9", "C4_of"),
+    ];
+    for (field, value, said) in of_stability {
+        let name = format!("joint_{}", field.replace('/', "_"));
+        let pointer = format!("/witness/joint_inequality/{field}");
+        refused("joint", &name, &|made| *made.pointer_mut(&pointer).unwrap() = json!(value), said);
+    }
+    refused(
+        "joint",
+        "joint_c_y",
+        &|made| made["witness"]["existence_inequality"]["near"]["c_y"] = json!("0.9"),
+        "not proved",
+    );
 }

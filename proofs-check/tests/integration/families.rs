@@ -12,12 +12,12 @@ use serde_json::{Value, json};
 
 const ALL: [&str; 3] = ["family", "family-example", "family-joint"];
 
-fn interval([nominal, low, high]: [&str; 3]) -> Value {
+pub fn interval([nominal, low, high]: [&str; 3]) -> Value {
     json!({ "nominal": nominal, "low": low, "high": high })
 }
 
 /// `x' = -a x + e + cos(2 pi t)`, `q = g sin(2 pi t) + x`, and what xb, qb are at a = g = 1, and along a and g.
-fn family(a: [&str; 3], g: [&str; 3]) -> Parts {
+pub fn family(a: [&str; 3], g: [&str; 3]) -> Parts {
     let om = 2.0 * std::f64::consts::PI;
     let square = 1.0 + om * om;
     let (cos, sin) = (1.0 / square, om / square);
@@ -45,8 +45,8 @@ fn family(a: [&str; 3], g: [&str; 3]) -> Parts {
         ])
 }
 
-const A: [&str; 3] = ["1", "0.9", "1.1"];
-const G: [&str; 3] = ["1", "0.5", "1.5"];
+pub const A: [&str; 3] = ["1", "0.9", "1.1"];
+pub const G: [&str; 3] = ["1", "0.5", "1.5"];
 
 #[test]
 fn a_family_is_proved_whole() {

@@ -4,6 +4,7 @@ use crate::common::{PAPER, certificate};
 use proofs_check::data::Data;
 use proofs_check::interval::Interval;
 use proofs_check::json::{Field, parse};
+use proofs_check::rules::control::Answer;
 use proofs_check::rules::gains::{beta_s, bt, damped, kappas, tau};
 use proofs_check::rules::mean_squares::{self, Witness};
 use proofs_check::rules::paths::{Path, Paths};
@@ -41,7 +42,21 @@ struct Given {
     matched: bool,
     /// b_lo and b_hi of `input_gain`.
     gain: Option<[f64; 2]>,
+    /// The ends of the period, which else is 2.
+    period: Option<[f64; 2]>,
 }
+
+/// Of the optional data nothing.
+const NOTHING: Given = Given {
+    f_x: false,
+    most: false,
+    bends: false,
+    rms: false,
+    q_0: [false; 2],
+    matched: true,
+    gain: None,
+    period: None,
+};
 
 const C: [f64; 4] = [3.0, 0.5, 0.25, 0.125];
 const REST: [f64; 2] = [0.0625, 0.5];
@@ -49,7 +64,10 @@ const REST: [f64; 2] = [0.0625, 0.5];
 /// T = 2, w = pi or 3, mu = 1/2, n_0 = 2, n_l = l^-1.5, P_low = 1, P_up = 4, alpha = 1/2, and linear bounding functions.
 fn plant(given: Given) -> Specification {
     let mut document = certificate(PAPER)["specification"].clone();
-    document["period"] = json!("2");
+    document["period"] = match given.period {
+        Some([low, high]) => json!({ "nominal": "2", "low": low, "high": high }),
+        None => json!("2"),
+    };
     document["internal_model"]["mu"] = json!("1/2");
     document["internal_model"]["base_frequency"] = json!(if given.matched { "pi" } else { "3" });
     document["internal_model"]["matched"] = json!(given.matched);
@@ -86,19 +104,20 @@ fn plant(given: Given) -> Specification {
     specification(&document)
 }
 
-/// Compares what [`mean_squares::evaluate`] says with the formulas of sections 10.1 to 10.4.
-fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last: Option<[Rational; 3]>) {
+/// Compares what [`mean_squares::evaluate`] says with the formulas of sections 10.1 to 10.4; whether the form of `q_0` gives Z.
+fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last: Option<[Rational; 3]>) -> bool {
     let spec = plant(given);
     let d = Data::new(&spec, 128);
-    let (k0, k1) = (11.0, 7.0);
-    let pair = [d.int(11), d.int(7)];
+    let (k0, k1) = (40.0, 30.0);
+    let pair = [d.int(40), d.int(30)];
     let w = Witness { r: r.clone(), kap: kap.clone(), refined: last.clone(), inequality: None };
     let kappa = kappas(&d, &pair[0], &pair[1]);
     let solution =
         mean_squares::evaluate(&d, &w, &sigma, [&d.ratio(1, 4), &d.ratio(3, 8)], [&pair[0], &pair[1]], &kappa);
 
-    let (t, mu, w, om) =
-        (2.0_f64, 0.5_f64, if given.matched { std::f64::consts::PI } else { 3.0 }, std::f64::consts::PI);
+    // Om of the longest period, and of the shortest (section 13.3).
+    let [fast, om] = given.period.unwrap_or([2.0; 2]).map(|end| 2.0 * std::f64::consts::PI / end);
+    let (t, mu, w) = (given.period.map_or(2.0, |[_, high]| high), 0.5_f64, if given.matched { om } else { 3.0 });
     let (s, kap, x_p, e_p, c) = (sigma.to_f64(), kap.to_f64(), 0.25_f64, 0.375_f64, 2.0_f64);
     let least = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
     let coth = |z: f64| 1.0 / z.tanh();
@@ -110,7 +129,7 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     let m = if given.most { least(&[x_p / 10.0 + e_p / 10.0 - 0.4, q_e]) } else { q_e };
     let sum = |term: &dyn Fn(f64, f64) -> f64| (1..4).map(|k| 2.0 * term(k as f64, C[k])).sum::<f64>();
     let gain = |k: f64| s * s + (k * om).powi(2);
-    let slope = sum(&|k, c| (k * om * c).powi(2)).sqrt();
+    let slope = sum(&|k, c| (k * fast * c).powi(2)).sqrt();
     let rest = [REST[0], if given.q_0[1] { REST[1] } else { rms_t(0.0, 0.0) + slope }];
     let q_0 = if given.q_0[0] {
         least(&[rms(0.0, 0.0), (C[0] * C[0] + sum(&|_, c| c * c)).sqrt() + rest[0]])
@@ -202,19 +221,24 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     close("x_per", &solution.x, least(&[x_p, per_e * e_per, k2 * f_e * l[1]]));
     close("R_q", &solution.rates[0], follows.rates[0]);
     close("R_1", &solution.rates[1], follows.rates[1]);
+    // Section 13.5: the sum of |u_j| over rms(q').
+    let lam = 1.0 + 2.0 / (4.0 * b_m - 1.0 + (1.0 + 8.0 * b_m).sqrt());
+    close("u over rms(q')", &Answer::continuous(&d).by_rate, lam.sqrt() / b_m * t / 12.0_f64.sqrt());
     let nu = b_m * mu / w;
     let kappa = [k0 / (w * w), k1 / w.powi(4)];
     let mean = |[q, q_t]: [f64; 2]| (kappa[0] * q * q + kappa[1] * q_t * q_t) / (c_m * c_m);
     let swing = t / (2.0 * mu) * follows.rates[0].powi(2) / swung;
-    let mut z_squared = swing + mean(follows.rates);
+    let plain = swing + mean(follows.rates);
+    let mut z_squared = plain;
     if given.q_0[0] {
         let pole = |k: f64| if given.matched { 2.0 / (nu * nu * k.powf(-1.5)) } else { f64::INFINITY };
-        let transfer = |k: f64| least(&[k0 + k1 * (k * om / w).powi(2), pole(k)]);
+        let transfer = |k: f64| least(&[k0 + k1 * (k * fast / w).powi(2), pole(k)]);
         let harmonics = C[0] * C[0] / (nu * nu * 2.0) + sum(&|k, c| transfer(k) * c * c);
         let z = harmonics.sqrt() / w / c_m + mean(rest).sqrt() + mean(follows.apart).sqrt();
         z_squared = least(&[z_squared, swing + z * z]);
     }
     close("Z^2", &solution.z_squared, z_squared);
+    z_squared < plain
 }
 
 #[test]
@@ -226,20 +250,25 @@ fn existence() {
         [number(20, 1), number(1, 3), number(1, 7)],
         [number(1, 100), number(30, 1), number(200, 1)],
     ];
+    let mut seen = [[0; 2]; 2];
     for bits in 0..128_u32 {
         let bit = |index: u32| bits >> index & 1 == 1;
         let q_0 = [bit(4), bit(5)];
         // Without a gain, and with one that has each of the cases of its numbers.
         let gain = [None, Some([0.375, 1.5]), None, Some([0.875, 4.0])][(bits.count_ones() % 4) as usize];
-        let given = Given { f_x: bit(0), most: bit(1), bends: bit(2), rms: bit(3), q_0, matched: bit(6), gain };
+        // An interval of the period where it need not match, for every other of these.
+        let period = (!bit(6) && bits.count_ones() / 2 % 2 == 1).then_some([1.5, 2.75]);
+        let given = Given { f_x: bit(0), most: bit(1), bends: bit(2), rms: bit(3), q_0, matched: bit(6), gain, period };
         for (sigma, kap) in [((3, 1), (0, 1)), ((40, 1), (0, 1)), ((2, 1), (1, 2)), ((2, 1), (5, 1)), ((9, 1), (9, 1))]
         {
             for (index, r) in means.iter().enumerate() {
                 let last = (index % 2 == 1).then(|| means[index - 1].clone());
-                compare(given, number(sigma.0, sigma.1), number(kap.0, kap.1), r.clone(), last);
+                let forced = compare(given, number(sigma.0, sigma.1), number(kap.0, kap.1), r.clone(), last);
+                seen[usize::from(period.is_some())][usize::from(forced)] += 1;
             }
         }
     }
+    assert!(seen.iter().flatten().all(|count| *count > 10), "{seen:?}");
 }
 
 #[test]
@@ -249,8 +278,7 @@ fn stability() {
     for (paths, most, rate) in pairs.flat_map(|paths| {
         [(false, false), (true, false), (false, true), (true, true)].map(|(most, rate)| (paths, most, rate))
     }) {
-        let none = Given { f_x: false, most, bends: false, rms: false, q_0: [false; 2], matched: true, gain: None };
-        let mut spec = plant(none);
+        let mut spec = plant(Given { most, ..NOTHING });
         if !rate {
             spec.rate = None;
         }
@@ -294,8 +322,7 @@ fn stability() {
 /// bt and tau against their series, of which the rest after J terms lies between two integrals.
 #[test]
 fn periodic_facts() {
-    let spec =
-        plant(Given { f_x: false, most: false, bends: false, rms: false, q_0: [false; 2], matched: true, gain: None });
+    let spec = plant(NOTHING);
     let d = Data::new(&spec, 128);
     let (t, om) = (2.0_f64, std::f64::consts::PI);
     for (n, m) in [(1, 1000), (1, 10), (1, 1), (7, 2), (50, 1), (1000, 1)] {
@@ -350,7 +377,7 @@ fn exact_regulation() {
     let cases = [(false, [false; 2]), (true, [false; 2]), (true, [true, false]), (true, [true; 2])];
     let variants = [(false, None), (true, None), (false, Some([0.75, 1.5])), (true, Some([0.75, 1.5]))];
     for ((rms, q_0), (aligned, gain)) in cases.into_iter().flat_map(|case| variants.map(|variant| (case, variant))) {
-        let spec = plant(Given { f_x: false, most: true, bends: false, rms, q_0, matched: true, gain });
+        let spec = plant(Given { most: true, rms, q_0, gain, ..NOTHING });
         let d = Data::new(&spec, 128);
         let one = || Rational::from(1);
         let w = regulation::Witness {

@@ -2,7 +2,7 @@
 //! The one of a specification is made here, from one that leaves room, with a larger gain.
 
 use super::common::{PAPER, assert_refused, assert_valid, certificate, edited, judged, open, text};
-use super::coq_support::assert_refused_at;
+use super::coq_support::written;
 use super::matrix_inequality::{stored, times};
 use super::sampled_support;
 use proofs_check::json::parse;
@@ -18,18 +18,25 @@ fn words(gain: &Value) -> String {
     format!(" and every input gain in [{low}, {high}] (one constant; the regulator divides by the nominal {nominal})")
 }
 
-/// The digest made right, and the statement that of the gains of the claim.
-fn settle(made: &mut Value) {
+/// The digest made right, and the statement that of the gains of the claim and of the period of the file.
+pub fn settle(made: &mut Value) {
     let about = if made.get("plant").is_some() { "plant" } else { "specification" };
     let mut canonical = String::new();
     parse(made[about].to_string().as_bytes()).unwrap().canonical(&mut canonical);
     made[format!("{about}_sha256")] = sha256::hex_digest(canonical.as_bytes()).into();
     let statement = made["claim"]["statement"].as_str().unwrap();
     let Some((before, after)) = statement.split_once("gain sigma >= ") else { return };
-    let (_, after) = after.split_once(", with period").unwrap();
+    let (_, after) = after.split_once(", mu = ").unwrap();
+    let period = &made[about]["period"];
+    let period = match ["low", "high", "nominal"].map(|name| period[name].as_str()) {
+        [Some(low), Some(high), Some(nominal)] => {
+            format!("every period in [{low}, {high}] (one constant T; nominal {nominal})")
+        }
+        _ => format!("period T = {}", period.as_str().unwrap_or_default()),
+    };
     let gain = made[about].get("input_gain").map_or_else(String::new, words);
     let Some(sigma) = made["claim"]["sigma_star"].as_str() else { return };
-    made["claim"]["statement"] = format!("{before}gain sigma >= {sigma}{gain}, with period{after}").into();
+    made["claim"]["statement"] = format!("{before}gain sigma >= {sigma}{gain}, with {period}, mu = {after}").into();
 }
 
 /// The gain of the file and of the claim.
@@ -41,7 +48,7 @@ fn set_gain(made: &mut Value, [nominal, low, high]: [&str; 3]) {
 }
 
 /// b in [0.8, 1.25].
-fn made() -> Value {
+pub fn made() -> Value {
     let mut made: Value = serde_json::from_str(&text("roomy", "paper-example-rms-at-rest")).unwrap();
     ["constants", "comparison", "conditions"].iter().for_each(|part| drop(made.as_object_mut().unwrap().remove(*part)));
     let values = [("k0", "30.842515"), ("k1", "92.527543"), ("D_x", "0.85"), ("w_x", "4.2"), ("D_e", "1.75")];
@@ -215,7 +222,18 @@ fn where_it_is_not_available() {
         settle(&mut sampled);
         assert_refused(&judged(&sampled), Undecided, RULE, "/claim/regulator");
     }
-    assert_refused_at(&made().to_string(), Undecided, "/specification/input_gain");
+}
+
+/// In a theorem b_lo and b_hi are what the file says of the actuator; where there is nothing to say, there is none.
+#[test]
+fn the_gain_of_a_theorem() {
+    let gain = "  gain := Some ({| low := (1.6 / 2); high := (2.5 / 2); half := true |});\n";
+    assert!(written(&made()).contains(gain));
+    let mut wide = made();
+    set_gain(&mut wide, ["2", "0.9", "2.5"]);
+    assert!(written(&wide).contains("low := (0.9 / 2); high := (2.5 / 2); half := false |}"));
+    set_gain(&mut wide, ["2", "2", "2"]);
+    assert!(written(&wide).contains("  gain := None;\n"));
 }
 
 /// No table of figures is determined, no other derivation, and no second proof of C5.

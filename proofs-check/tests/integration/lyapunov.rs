@@ -1,10 +1,11 @@
 //! Rule: the Lyapunov triple of a specification with a Jacobian.
 
+use super::families::interval;
 use crate::common::{assert_refused, assert_valid, certificate, changed, drawn, every, with};
 use proofs_check::check;
-use proofs_check::constant::Constant;
-use proofs_check::jacobian::{Entry, Jacobian, Witness};
+use proofs_check::jacobian::{self, Witness};
 use proofs_check::json::{Field, parse};
+use proofs_check::period::Period;
 use proofs_check::plants::jacobian::prove;
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
 use serde_json::{Value, json};
@@ -13,25 +14,23 @@ const RULE: &str = "Lyapunov triple";
 const INTERVALS: &str = "paper-example-jacobian.sharp";
 const PERIODIC: &str = "periodic-jacobian.sharp";
 
-fn constant(value: &Value) -> Constant {
-    let json = parse(value.to_string().as_bytes()).unwrap();
-    Constant::read(&Field { json: &json, pointer: String::new() }).unwrap()
+/// The answer about a Jacobian of this period and a witness.
+fn verdict_of(period: &Value, jacobian: &Value, witness: &Value) -> Result<String, Verdict> {
+    let file = json!({ "period": period, "jacobian": jacobian, "witness": witness }).to_string();
+    let json = parse(file.as_bytes()).unwrap();
+    let proved = || {
+        let mut fields = Field { json: &json, pointer: String::new() }.fields()?;
+        let period = Period::read(&mut fields, &[])?;
+        let jacobian = jacobian::read(&fields.required("jacobian")?, &period)?;
+        let (witness, _) = Witness::read(&fields.required("witness")?, jacobian.len())?;
+        prove(&jacobian, &period, &witness)
+    };
+    proved().map_err(|finding| finding.verdict)
 }
 
-/// The answer about a Jacobian of period 1 and a witness.
+/// The same of the period 1.
 fn verdict(jacobian: &Value, witness: &Value) -> Result<String, Verdict> {
-    let entry = |value: &Value| match value {
-        Value::Array(ends) => Entry::Between([constant(&ends[0]), constant(&ends[1])]),
-        _ => {
-            Entry::Function(proofs_check::expr::Expr::parse(value.as_str().unwrap(), proofs_check::expr::TIME).unwrap())
-        }
-    };
-    let row = |row: &Value| row.as_array().unwrap().iter().map(entry).collect();
-    let jacobian: Jacobian = jacobian.as_array().unwrap().iter().map(row).collect();
-    let json = parse(witness.to_string().as_bytes()).unwrap();
-    let field = Field { json: &json, pointer: String::new() };
-    let (witness, _) = Witness::read(&field, jacobian.len()).map_err(|finding| finding.verdict)?;
-    prove(&jacobian, &constant(&json!("1")), &witness).map_err(|finding| finding.verdict)
+    verdict_of(&json!("1"), jacobian, witness)
 }
 
 fn scalar(p_low: &str, p_up: &str, alpha: &str) -> Value {
@@ -243,8 +242,9 @@ fn fields() {
 }
 
 /// A random Jacobian of order 2 with P(t), each entry `mean + cos cos(2 pi t) + sin sin(2 pi t)`; of F one entry is between two
-/// numbers.
+/// numbers. In every other case the period is an interval, and `v = T_nom/T` lies between the two of `clocks`.
 struct Drawn {
+    clocks: [f64; 2],
     f: [[[f64; 3]; 2]; 2],
     between: [f64; 2],
     p: [[f64; 3]; 3],
@@ -257,7 +257,8 @@ impl Drawn {
         let f = [[entry(-2.0, 0.5), entry(0.0, 1.0)], [entry(0.0, 1.0), entry(-1.5, 0.5)]];
         let p = [entry(1.0, 0.2), entry(0.0, 0.2), entry(1.2, 0.2)];
         let low = next() - 0.5;
-        Drawn { f, between: [low, low + next()], p }
+        let clocks = if case % 2 == 1 { [0.75, 1.6] } else { [1.0; 2] };
+        Drawn { clocks, f, between: [low, low + next()], p }
     }
 
     fn at([mean, cos, sin]: &[f64; 3], t: f64) -> [f64; 2] {
@@ -265,19 +266,19 @@ impl Drawn {
         [mean + cos * c + sin * s, std::f64::consts::TAU * (sin * c - cos * s)]
     }
 
-    /// The least and the largest eigenvalue of P, and the least alpha, over times and both ends.
+    /// The least and the largest eigenvalue of P, and the least alpha, over times and all ends.
     fn sampled(&self) -> [f64; 3] {
         let mut found = [f64::INFINITY, 0.0, f64::INFINITY];
         for t in (0..4000).map(|k| f64::from(k) / 4000.0) {
             let [[a, da], [b, db], [d, dd]] = self.p.each_ref().map(|entry| Drawn::at(entry, t));
             let (middle, radius) = ((a + d) / 2.0, ((a - d) / 2.0).hypot(b));
             found = [found[0].min(middle - radius), found[1].max(middle + radius), found[2]];
-            for end in self.between {
+            for (end, v) in self.between.into_iter().flat_map(|end| self.clocks.map(|v| (end, v))) {
                 let f = |i: usize, j: usize| if (i, j) == (0, 1) { end } else { Drawn::at(&self.f[i][j], t)[0] };
                 let [g, h, k] = [
-                    -(da + 2.0 * (a * f(0, 0) + b * f(1, 0))),
-                    -(db + a * f(0, 1) + b * f(1, 1) + f(0, 0) * b + f(1, 0) * d),
-                    -(dd + 2.0 * (b * f(0, 1) + d * f(1, 1))),
+                    -(v * da + 2.0 * (a * f(0, 0) + b * f(1, 0))),
+                    -(v * db + a * f(0, 1) + b * f(1, 1) + f(0, 0) * b + f(1, 0) * d),
+                    -(v * dd + 2.0 * (b * f(0, 1) + d * f(1, 1))),
                 ];
                 // det(G - 2 alpha P) = 0, the lesser root.
                 let [x, y, z] = [a * d - b * b, g * d + k * a - 2.0 * h * b, g * k - h * h];
@@ -288,7 +289,7 @@ impl Drawn {
     }
 
     fn verdict(&self, [p_low, p_up, alpha]: [f64; 3]) -> Result<String, Verdict> {
-        let text = |[mean, cos, sin]: &[f64; 3]| format!("({mean}) + ({cos})*cos(2*pi*t) + ({sin})*sin(2*pi*t)");
+        let text = |[mean, cos, sin]: &[f64; 3]| format!("({mean}) + ({cos})*cos(phase) + ({sin})*sin(phase)");
         let f = json!([
             [text(&self.f[0][0]), [self.between[0].to_string(), self.between[1].to_string()]],
             [text(&self.f[1][0]), text(&self.f[1][1])]
@@ -299,7 +300,44 @@ impl Drawn {
         };
         let harmonics = json!([{ "cos": rows(1), "sin": rows(2) }]);
         let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|number| number.to_string());
-        verdict(&f, &json!({ "P": rows(0), "harmonics": harmonics, "p_low": p_low, "p_up": p_up, "alpha": alpha }))
+        let witness = json!({ "P": rows(0), "harmonics": harmonics, "p_low": p_low, "p_up": p_up, "alpha": alpha });
+        let [slow, fast] = self.clocks.map(|v| format!("1/{v}"));
+        verdict_of(&interval(["1", &fast, &slow]), &f, &witness)
+    }
+}
+
+/// `P = 1 + cos(phase)/10`, `F = -1 + k sin(phase)`: P' is v dP/ds, and what it adds is largest at one end of v or at the other.
+#[test]
+fn a_period_that_is_an_interval() {
+    let om = std::f64::consts::TAU;
+    // The least over the phase of `1 - k sin + v (om/20) sin/(1 + cos/10)`.
+    let rate = |k: f64, v: f64| {
+        let at = |phase: f64| 1.0 - k * phase.sin() + v * om / 20.0 * phase.sin() / (1.0 + phase.cos() / 10.0);
+        (0..100_000).map(|i| at(f64::from(i) * om / 100_000.0)).fold(f64::INFINITY, f64::min)
+    };
+    let both = interval(["1", "0.8", "1.25"]);
+    let witness = |alpha: f64| {
+        json!({ "P": [["1"]], "harmonics": [{ "cos": [["0.1"]], "sin": [["0"]] }], "p_low": "0.89", "p_up": "1.11",
+            "alpha": format!("{alpha:.9}") })
+    };
+    for (k, v) in [(0.0, 1.25), (0.5, 0.8)] {
+        let f = json!([[format!("-1 + {k}*sin(phase)")]]);
+        for (period, most) in [(&both, rate(k, v)), (&json!("1"), rate(k, 1.0))] {
+            assert!(verdict_of(period, &f, &witness(most - 1e-6)).is_ok(), "{k}");
+            assert_eq!(verdict_of(period, &f, &witness(most + 1e-6)).err(), Some(Invalid), "{k}");
+        }
+    }
+    // Of the time itself nothing is known, nor of what has another period in the phase.
+    for (period, entry, expected) in [
+        (&both, "-1 + sin(2*pi*t)/10", Some(BadInput)),
+        (&both, "-1 + 0*t", Some(BadInput)),
+        (&both, "-1 + sin(phase/2)/10", Some(Invalid)),
+        (&both, "-1 + sin(phase/2)^2/10", None),
+        (&json!("1"), "-1 + sin(phase - 4*pi*t)/10", None),
+        (&json!("1"), "-1 + sin(phase - pi*t)/10", Some(Invalid)),
+    ] {
+        let plain = scalar("1", "1", "0.8");
+        assert_eq!(verdict_of(period, &json!([[entry]]), &plain).err(), expected, "{entry}");
     }
 }
 

@@ -21,7 +21,7 @@ pub fn stored(name: &str) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
-pub fn read(parts: &Value) -> Outcome<(Specification, Plant)> {
+pub fn read(parts: &Value) -> Outcome<(Specification, Vec<Plant>)> {
     let parse = |part: &str| -> Json { parse(parts[part].to_string().as_bytes()).unwrap() };
     let (plant, witness) = (parse("plant"), parse("witness"));
     let mut fields = Field { json: &witness, pointer: "/witness".to_owned() }.fields()?;

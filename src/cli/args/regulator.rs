@@ -125,6 +125,11 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub period: Option<String>,
 
+    /// Another value of a parameter of the plant file than the nominal one, an exact constant; several times for several. The
+    /// regulator stays that of the file
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub parameter: Vec<String>,
+
     /// Samples per period in the CSV file and the time response
     #[arg(long, value_name = "S", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub samples: u32,
@@ -224,6 +229,11 @@ pub struct FalsifyArgs {
     /// try those certificates
     #[arg(long, value_name = "LIST", value_delimiter = ',', allow_hyphen_values = true)]
     pub base_frequency: Vec<String>,
+
+    /// Try this value of a parameter with an interval alone, an exact number; several times for several. Without it the corners of the
+    /// intervals come first
+    #[arg(long, value_name = "NAME=VALUE", conflicts_with = "base_frequency", allow_hyphen_values = true)]
+    pub parameter: Vec<String>,
 
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]

@@ -74,7 +74,7 @@ fn three_positive_constants_in_order() {
     let plant = Plant::from_json("plant", &plant.to_string()).unwrap();
     let document = Document::parse_as("toml", toml, Notation::Toml).unwrap();
     let value = document.at("/input_gain").unwrap();
-    let read = read_input_gain(&value, &mut Errors::new());
+    let read = read_input_gain(&value, sigmastar_lang::expr::Definitions::none(), &mut Errors::new());
     assert!(read.is_ok_and(|read| read.is(plant.input_gain.as_ref().unwrap())));
 }
 

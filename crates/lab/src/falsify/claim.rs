@@ -6,7 +6,6 @@ use super::joint::JointFunction;
 use super::sampled_claim::SampledClaim;
 use rug::Rational;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
-use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Constant, Document, SpecErrors, Specification, StartSizes};
 use sigmastar_prove::certificate::{StatedClaim, read_claim};
 use sigmastar_prove::certify::GivenWitness;
@@ -47,8 +46,8 @@ pub struct TriedClaim {
     drive: Option<(Excitation, Rational)>,
     /// The plant that the claim is about, where it is about one; it is tried in the place of drawn ones.
     pub own: Option<OwnPlant>,
-    /// The plants of which `own` is one, where there are others.
-    family: Option<Box<Plant>>,
+    /// Values of the parameters with intervals with which alone it is tried, where one was chosen.
+    pub(super) chosen: Vec<Option<Rational>>,
     /// The law at samples, where the claim is about it: then it is about exactly its gain.
     pub sampled: Option<SampledClaim>,
 }
@@ -60,8 +59,7 @@ impl TriedClaim {
     /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<TriedClaim, SpecErrors> {
         let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], control, plant } = read_claim(document)?;
-        let own = plant.as_ref().zip(spec.plant());
-        let own = own.and_then(|(plant, proved)| OwnPlant::new(plant, proved, &plant.parameters.nominal()));
+        let own = plant.zip(spec.plant()).and_then(|(plant, proved)| OwnPlant::new(plant, proved));
         let data = Data::new(&spec, DEFAULT_PRECISION);
         let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
         let quadratic = |w_x: &Rational, h: &Rational| Some([w_x.to_f64() * p_low, w_x.to_f64() * p_up, h.to_f64()]);
@@ -108,19 +106,9 @@ impl TriedClaim {
             reach,
             drive,
             own,
-            family: plant.filter(Plant::is_family).map(Box::new),
+            chosen: Vec::new(),
             sampled,
         })
-    }
-
-    /// The claim, of a plant about its member with this period.
-    pub(super) fn at_period(&self, period: &Constant) -> TriedClaim {
-        let member = self.family.as_ref().zip(self.spec.plant()).and_then(|(plant, proved)| {
-            let mut values = plant.parameters.nominal();
-            values[plant.parameters.clock()?] = plant.period.clock_at(period)?;
-            OwnPlant::new(plant, proved, &values)
-        });
-        TriedClaim { own: member.or_else(|| self.own.clone()), ..self.clone() }
     }
 
     /// The weight of |zeta|_N^2 in what falls in a trial, as a share of h: with an input gain b the true gain over the nominal one, and at
@@ -154,7 +142,7 @@ impl TriedClaim {
     #[cfg(test)]
     pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> TriedClaim {
         let reach = reach.map(|end| Rational::from_f64(end).unwrap());
-        let (drive, own, family) = (None, None, None);
+        let (drive, own) = (None, None);
         let initial = StartSizes { x0: 0.0, e0: 0.0, z0: Some(0.0) };
         let (periodic, error_box) = ([0.0; 3], [0.0; 2]);
         let (periodic_z, control, lyapunov, joint, psi, sampled) = (0.0, None, None, None, None, None);
@@ -172,7 +160,7 @@ impl TriedClaim {
             reach,
             drive,
             own,
-            family,
+            chosen: Vec::new(),
             sampled,
         }
     }

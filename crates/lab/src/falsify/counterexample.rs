@@ -48,6 +48,15 @@ pub fn counterexample_plant(
         "initial": { "x": x, "e": e, "z": z },
         "internal_model": claim.spec.document["internal_model"],
     });
+    if let TriedPlant::Own(plant) = &trial.plant
+        && !plant.parameters.list().is_empty()
+    {
+        for member in ["f", "q"] {
+            file[member] = plant.document[member].clone();
+        }
+        let values = plant.parameters.list().iter().map(|one| (one.name.clone(), one.value.text.clone().into()));
+        file["parameters"] = values.collect::<serde_json::Map<_, _>>().into();
+    }
     if let Some(gain) = claim.spec.document.get("input_gain") {
         file["input_gain"] = gain.clone();
     }

@@ -68,6 +68,8 @@ pub struct Trial {
     pub input_gain: Option<f64>,
     /// The period, of a claim for an interval of them.
     pub period: Option<Constant>,
+    /// The parameters of which the claim has intervals, with their exact values.
+    pub parameters: Vec<(String, String)>,
     /// With the law at samples the time of the first sample, where the trial starts: the phase of the sampling grid.
     pub phase: Option<f64>,
 }

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{OfPlant, TrigonometricVector};
+use sigmastar_lang::spec::{OfPlant, OrbitCurve, TrigonometricVector};
 use std::f64::consts::TAU;
 
 /// How far above sigma* a trial is.
@@ -17,6 +17,7 @@ pub struct OwnPlant {
     pub plant: Plant,
     coordinates: DMatrix<f64>,
     inverse: DMatrix<f64>,
+    curve: OrbitCurve,
     mean: DVector<f64>,
     harmonics: Vec<[DVector<f64>; 2]>,
     /// How far x_0 may be from the approximation, in the norm of y.
@@ -24,20 +25,22 @@ pub struct OwnPlant {
 }
 
 impl OwnPlant {
-    /// A member of what a certificate is about, with these values of the parameters with intervals; `None` where its L is singular in
-    /// floating point.
+    /// The plant of a certificate; `None` where its L is singular in floating point.
     #[must_use]
-    pub fn new(plant: &Plant, proved: &OfPlant, values: &[Rational]) -> Option<OwnPlant> {
+    pub fn new(plant: Plant, proved: &OfPlant) -> Option<OwnPlant> {
         let n = proved.states();
         let coordinates = DMatrix::from_fn(n, n, |i, j| proved.coordinates[i][j].to_f64());
         let inverse = if n == 0 { coordinates.clone() } else { coordinates.clone().try_inverse()? };
-        let vector = |values: &[Rational]| DVector::from_iterator(n, values.iter().map(Rational::to_f64));
-        let deviations = plant.parameters.deviations(values);
-        let TrigonometricVector { mean, harmonics } = proved.orbit.approximation.at(&deviations);
-        let harmonics = harmonics.iter().map(|pair| pair.each_ref().map(|part| vector(part))).collect();
+        let curve = proved.orbit.approximation.clone();
+        let (mean, harmonics) = doubles(&curve.centre);
         let radius = proved.orbit.radius.to_f64();
-        let plant = plant.member(values);
-        Some(OwnPlant { plant, coordinates, inverse, mean: vector(&mean), harmonics, radius })
+        Some(OwnPlant { plant, coordinates, inverse, curve, mean, harmonics, radius })
+    }
+
+    /// The member of its family with these values of the parameters with intervals.
+    pub(super) fn member(&self, values: &[Rational]) -> OwnPlant {
+        let (mean, harmonics) = doubles(&self.curve.at(&self.plant.parameters.deviations(values)));
+        OwnPlant { plant: self.plant.member(values), mean, harmonics, ..self.clone() }
     }
 
     /// xb at t = s T.
@@ -83,4 +86,10 @@ impl OwnPlant {
             _ => 10f64.portable_pow(0.75),
         }
     }
+}
+
+/// The mean and the harmonics of a curve in doubles.
+fn doubles(TrigonometricVector { mean, harmonics }: &TrigonometricVector) -> (DVector<f64>, Vec<[DVector<f64>; 2]>) {
+    let vector = |values: &Vec<Rational>| DVector::from_iterator(values.len(), values.iter().map(Rational::to_f64));
+    (vector(mean), harmonics.iter().map(|pair| pair.each_ref().map(vector)).collect())
 }

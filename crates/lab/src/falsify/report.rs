@@ -75,7 +75,7 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
             "Trial {}, n_o = {}{}: {} is about {found}, and the claim allows about {bound}.",
             trial.number,
             trial.n_o,
-            gain_words(trial),
+            member_words(trial),
             violation.quantity
         )));
     }
@@ -139,7 +139,7 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
             trial.number,
             trial.sigma,
             trial.n_o,
-            gain_words(trial),
+            member_words(trial),
             trial.phase.map_or_else(String::new, |phase| format!(", first sample at t = {phase:?}")),
             trial.number
         )),
@@ -151,20 +151,11 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
 /// The worst plant as JSON, with the plant file.
 fn worst_json(claim: &TriedClaim, worst: &Closest<'_>) -> Value {
     let Closest { quantity, share, trial, .. } = worst;
-    let Trial { number, sigma, n_o, phase, .. } = trial;
+    let Trial { number, sigma, n_o, .. } = trial;
     let plant = counterexample_plant(claim, trial, None).map_or(Value::Null, |document| document.root().to_json());
     let mut worst = json!({ "trial": number, "quantity": quantity, "share": share, "sigma": sigma, "n_o": n_o });
-    if let Some(phase) = phase {
-        worst["phase"] = json!(phase);
-    }
-    if let Some(gain) = trial.input_gain {
-        worst["input_gain"] = json!(gain);
-    }
-    if let Some(period) = &trial.period {
-        worst["period"] = json!(period.to_f64());
-    }
     worst["plant"] = plant;
-    worst
+    with_member(worst, trial)
 }
 
 fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
@@ -175,14 +166,14 @@ fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
             Finding::Holds { trial, shares } => {
                 let shares: Vec<Value> =
                     shares.iter().map(|(quantity, share)| json!({ "quantity": quantity, "share": share })).collect();
-                with_phase(json!({ "finding": "holds", "n_o": trial.n_o, "shares": shares }), trial)
+                with_member(json!({ "finding": "holds", "n_o": trial.n_o, "shares": shares }), trial)
             }
             Finding::Violated(trial, violation) => {
                 let finding = json!({
                     "finding": "violated", "n_o": trial.n_o, "quantity": violation.quantity,
                     "found": violation.found, "bound": violation.bound,
                 });
-                with_phase(finding, trial)
+                with_member(finding, trial)
             }
             Finding::Unfinished(why) => json!({ "finding": "unfinished", "reason": why }),
         })
@@ -209,15 +200,16 @@ fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
     report
 }
 
-/// The gain of the actuator and the period, of a claim for an interval of them.
-fn gain_words(trial: &Trial) -> String {
-    let gain = trial.input_gain.map_or_else(String::new, |gain| format!(", input gain {gain:?}"));
-    let period = trial.period.as_ref().map_or_else(String::new, |period| format!(", period {:?}", period.to_f64()));
-    gain + &period
+/// The gain of the actuator, the period and the parameters, of a claim for intervals of them.
+fn member_words(trial: &Trial) -> String {
+    let gain = trial.input_gain.map(|gain| format!(", input gain {gain:?}"));
+    let period = trial.period.as_ref().map(|period| format!(", period {:?}", period.to_f64()));
+    let parameters = trial.parameters.iter().map(|(name, value)| format!(", {name} = {value}"));
+    gain.into_iter().chain(period).chain(parameters).collect()
 }
 
-/// A trial of the law at samples with the time of its first sample, and with its input gain where there is one.
-fn with_phase(mut finding: Value, trial: &Trial) -> Value {
+/// A trial of the law at samples with the time of its first sample, and with its input gain and parameters where there are any.
+fn with_member(mut finding: Value, trial: &Trial) -> Value {
     if let Some(phase) = trial.phase {
         finding["phase"] = json!(phase);
     }
@@ -226,6 +218,10 @@ fn with_phase(mut finding: Value, trial: &Trial) -> Value {
     }
     if let Some(period) = &trial.period {
         finding["period"] = json!(period.to_f64());
+    }
+    if !trial.parameters.is_empty() {
+        let values = trial.parameters.iter().map(|(name, value)| (name.clone(), json!(value)));
+        finding["parameters"] = values.collect::<serde_json::Map<_, _>>().into();
     }
     finding
 }

@@ -127,7 +127,17 @@ mod tests {
         let plant = TriedPlant::Own(Box::new(plant));
         check(
             &claim,
-            Trial { number: 1, plant, sigma: 1.0, n_o: 0, start, input_gain: None, period: None, phase: None },
+            Trial {
+                number: 1,
+                plant,
+                sigma: 1.0,
+                n_o: 0,
+                start,
+                input_gain: None,
+                period: None,
+                parameters: Vec::new(),
+                phase: None,
+            },
             &closed_loop,
         )
     }
@@ -173,6 +183,7 @@ mod tests {
             start: vec![0.0],
             input_gain: None,
             period: None,
+            parameters: Vec::new(),
             phase: None,
         };
         assert!(comes_to(&trial, &[2.0], |_, y| Ok(vec![y[0] + 0.5 * (2.0 - y[0])])));

@@ -53,6 +53,7 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         start,
         input_gain: None,
         period: None,
+        parameters: Vec::new(),
         phase: Some(phase),
     };
     let mut sampled = match &claim.own {

@@ -14,11 +14,9 @@ use crate::simulate::{
     steady_state, sup, trajectory,
 };
 use rayon::prelude::*;
-use rug::Rational;
 use sigmastar_document::progress::{Progress, Silent};
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_exact::number::Portable;
-use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::no_plant;
 use sigmastar_theory::data::Data;
 
@@ -51,15 +49,13 @@ pub fn falsify(claim: &TriedClaim, settings: TrialSettings, progress: &dyn Progr
 
 fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let mut random = Random::new(seed, number);
-    let period = period(claim, number, &mut random);
-    let of_member = period.as_ref().map(|period| claim.at_period(period));
-    let claim = of_member.as_ref().unwrap_or(claim);
     if let Some(sampled) = &claim.sampled {
         return sampled_trial::run(claim, sampled, random, number);
     }
     if let Some(own) = &claim.own {
-        return run_own(claim, own, period, random, number);
+        return run_own(claim, own, random, number);
     }
+    let period = claim.period(number, &mut random);
     // Plants are drawn for the one period: what the data say holds for each.
     let drawing = period.clone().map(|period| {
         let mut drawing = claim.clone();
@@ -73,9 +69,9 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let sigma = claim.sigma * ABOVE;
     let regulator = regulator(claim, sigma, n_o);
     let start = boundary(claim, plant.family.states(), &regulator, &mut random);
-    let input_gain = input_gain(claim, number, &mut random);
+    let input_gain = claim.member(number, &mut random).input_gain;
     let plant = TriedPlant::Drawn(Box::new(plant));
-    let trial = Trial { number, plant, sigma, n_o, start, input_gain, period, phase: None };
+    let trial = Trial { number, plant, sigma, n_o, start, input_gain, period, parameters: Vec::new(), phase: None };
     let file = match file(claim, &trial) {
         Ok(file) => file,
         Err(unfinished) => return unfinished,
@@ -84,43 +80,23 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     check(claim, trial, &closed_loop)
 }
 
-/// A trial of the plant that the claim is about.
-fn run_own(claim: &TriedClaim, own: &OwnPlant, period: Option<Constant>, mut random: Random, number: u64) -> Finding {
+/// A trial of the plant that the claim is about, or of a member of its family.
+fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
     let sigma = claim.sigma * OwnPlant::gain(number);
     let regulator = regulator(claim, sigma, n_o);
     let n = own.plant.states();
     let mut start = boundary(claim, n, &regulator, &mut random);
+    let member = claim.member(number, &mut random);
+    let (parameters, input_gain) = (claim.named(&member), member.input_gain);
+    let claim = claim.about(&member);
+    let own = claim.own.as_ref().unwrap_or(own);
+    let period = claim.spec.period.interval().map(|_| own.plant.period.nominal().clone());
     let x = own.state(0.0, &start[..n]);
     start[..n].copy_from_slice(&x);
-    let input_gain = input_gain(claim, number, &mut random);
     let closed_loop = with_gain(ClosedLoop::new(&own.plant, regulator), input_gain);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
-    check(claim, Trial { number, plant, sigma, n_o, start, input_gain, period, phase: None }, &closed_loop)
-}
-
-/// The gain of the actuator in a trial of a claim for an interval: at its ends first, then inside.
-fn input_gain(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<f64> {
-    let gain = claim.spec.input_gain.as_ref()?;
-    let (low, high) = (gain.low.to_f64(), gain.high.to_f64());
-    Some(match number {
-        1 => low,
-        2 => high,
-        _ => low + (high - low) * random.uniform(),
-    })
-}
-
-/// The period in a trial of a claim for an interval of them: its ends first, then inside.
-fn period(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<Constant> {
-    let [shortest, longest] = claim.spec.period.interval()?;
-    match number {
-        1 => Some(shortest.clone()),
-        2 => Some(longest.clone()),
-        _ => {
-            let (low, high) = (shortest.to_f64(), longest.to_f64());
-            Rational::from_f64(low + (high - low) * random.uniform()).map(|period| Constant::rational(&period))
-        }
-    }
+    check(&claim, Trial { number, plant, sigma, n_o, start, input_gain, period, parameters, phase: None }, &closed_loop)
 }
 
 fn with_gain(closed_loop: ClosedLoop, gain: Option<f64>) -> ClosedLoop {

@@ -132,6 +132,19 @@ impl Plant {
         }
     }
 
+    /// The plant of the same file with other values of some parameters, as exact constants by their names.
+    ///
+    /// # Errors
+    /// Those of [`Plant::from_value`], as where a value makes a number of the file negative that has to be positive.
+    pub fn with_parameters(&self, values: &[(String, Constant)]) -> Result<Plant, SpecErrors> {
+        let mut document = self.document.clone();
+        for (name, value) in values {
+            document["parameters"][name] = value.text.clone().into();
+        }
+        let document = Document::parse("the plant with these parameters", &document.to_string())?;
+        Plant::from_value(&document.root())
+    }
+
     /// The nominal values of the parameters with intervals, in doubles.
     #[must_use]
     pub fn nominal(&self) -> Vec<f64> {

@@ -13,7 +13,8 @@ use std::path::Path;
 pub const FORMAT: &str = "sigmastar/plant";
 
 /// The members in which a parameter may be used.
-const WITH_PARAMETERS: [&str; 7] = ["period", "f", "q", "initial", "initial_set", "domain", "internal_model"];
+const WITH_PARAMETERS: [&str; 8] =
+    ["period", "f", "q", "initial", "initial_set", "domain", "internal_model", "input_gain"];
 
 /// The versions of it that are read.
 pub const VERSIONS: [u64; 1] = [1];
@@ -68,7 +69,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let internal_model = object
         .required("internal_model", errors)
         .and_then(|value| read_internal_model(&value, period.as_ref().ok(), constants, errors));
-    let input_gain = object.optional("input_gain").map(|value| read_input_gain(&value, errors)).transpose();
+    let input_gain = object.optional("input_gain").map(|value| read_input_gain(&value, constants, errors)).transpose();
     object.finish(errors);
     // Without the names of the states the right sides have no meaning to check.
     let names = names?.with_parameters(constants.clone());

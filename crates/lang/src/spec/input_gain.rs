@@ -72,13 +72,13 @@ impl InputGain {
     }
 }
 
-/// Reads `input_gain`: three positive constants, proved to be in order.
+/// Reads `input_gain`: three positive constants, proved to be in order; the names of a plant's constants may stand in them.
 ///
 /// # Errors
 /// Reports fields that are missing or unknown, numbers that are not positive, and an order that fails or is not decided.
-pub fn read_input_gain(value: &Value<'_>, errors: &mut Errors) -> Result<InputGain, Reported> {
+pub fn read_input_gain(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<InputGain, Reported> {
     let help = "the true gain lies in [low, high], and the regulator divides by `nominal`";
-    let [nominal, low, high] = read_ordered(value, Definitions::none(), help, errors)?;
+    let [nominal, low, high] = read_ordered(value, names, help, errors)?;
     Ok(InputGain { nominal, low, high })
 }
 

@@ -96,7 +96,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
         .required("internal_model", errors)
         .and_then(|value| read_internal_model(&value, period.as_ref().ok(), Definitions::none(), errors));
     let initial_set = object.required("initial_set", errors).and_then(|value| initial_set::read(&value, errors));
-    let input_gain = object.optional("input_gain").map(|value| read_input_gain(&value, errors)).transpose();
+    let input_gain =
+        object.optional("input_gain").map(|value| read_input_gain(&value, Definitions::none(), errors)).transpose();
     let relative_degree =
         object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
     object.finish(errors);

@@ -33,9 +33,8 @@ impl Curve {
     ) -> Curve {
         let harmonics = members.all().chain(others).map(|wave| wave.harmonics.len()).max().unwrap_or(0);
         let period = period.enclose(PRECISION);
-        let ParameterBox { values, clock, .. } = &members.parameters;
         Curve {
-            elapsed: clock.map_or_else(|| period.clone(), |clock| &period / &values[clock]),
+            elapsed: members.parameters.elapsed(&period),
             period,
             cells: Cells::new(exponent, PRECISION, harmonics, order),
             members: members.clone(),
@@ -62,10 +61,15 @@ impl Curve {
         self.members.sensitivities.iter().map(of_one).collect()
     }
 
-    /// The states of every member, from those of the nominal plant.
-    pub(super) fn of_members(&self, states: &[Vec<Taylor>; 2], sensitivities: &[[Vec<Taylor>; 2]]) -> [Vec<Taylor>; 2] {
+    /// The states of the members with these parameters, from those of the nominal plant.
+    pub(super) fn of_members(
+        &self,
+        states: &[Vec<Taylor>; 2],
+        sensitivities: &[[Vec<Taylor>; 2]],
+        parameters: &ParameterBox,
+    ) -> [Vec<Taylor>; 2] {
         let mut all = states.clone();
-        for (part, deviation) in sensitivities.iter().zip(&self.members.parameters.deviations) {
+        for (part, deviation) in sensitivities.iter().zip(&parameters.deviations) {
             for (own, part) in all.iter_mut().zip(part) {
                 for (own, part) in own.iter_mut().zip(part) {
                     *own = combine(own, &part.iter().map(|c| c * deviation).collect::<Taylor>(), 1);

@@ -75,7 +75,7 @@ fn derivatives_in_parameters(
         return Vec::new();
     }
     let n = states[0].len();
-    let members = curve.of_members(states, &sensitivities);
+    let members = curve.of_members(states, &sensitivities, &curve.members.parameters);
     let values = curve.along(slopes, cell, (&members, &curve.members.parameters.values), ORDER);
     let of_one = |(i, part): (usize, &[Vec<Taylor>; 2])| {
         let is_clock = curve.members.parameters.clock == Some(i);

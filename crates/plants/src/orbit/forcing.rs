@@ -305,7 +305,7 @@ fn rests_on(
             let expansion = Expansion::new(&middle, &over, ORDER, PRECISION);
             // By the mean value theorem in p, as the defect.
             let sensitivities = curve.sensitivities(cell, ORDER + 1);
-            let members = curve.of_members(&states, &sensitivities);
+            let members = curve.of_members(&states, &sensitivities, parameters);
             let values = if parts.is_empty() {
                 [Vec::new(), Vec::new()]
             } else {

@@ -2,6 +2,7 @@
 //! family of no parameters.
 
 use super::cells::{PRECISION, Wave, waves};
+use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::OrbitCurve;
@@ -33,6 +34,31 @@ impl ParameterBox {
             all.deviations.push(Enclosure::between(&low, &high, PRECISION));
         }
         all
+    }
+}
+
+impl ParameterBox {
+    /// T of all members, from what it is nominally.
+    pub(super) fn elapsed(&self, period: &Enclosure) -> Enclosure {
+        self.clock.map_or_else(|| period.clone(), |clock| period / &self.values[clock])
+    }
+
+    /// Two boxes that cover this one, halves along the parameter of which most is left; none where there is nothing to halve.
+    pub(super) fn halves(&self) -> Option<[ParameterBox; 2]> {
+        let left = |i: &usize| {
+            let (deviation, reach) = (&self.deviations[*i], self.reaches[*i].upper_f64());
+            (deviation.upper_f64() - deviation.lower_f64()) / reach
+        };
+        let at = (0..self.deviations.len()).max_by(|i, j| left(i).total_cmp(&left(j)))?;
+        let [low, high] = [self.deviations[at].lower_rational()?, self.deviations[at].upper_rational()?];
+        let middle = Rational::from(&low + &high) / 2;
+        Some([(&low, &middle), (&middle, &high)].map(|(from, to)| {
+            let mut half = self.clone();
+            half.deviations[at] = Enclosure::between(from, to, PRECISION);
+            // From the deviation, so that both are of the same members.
+            half.values[at] = &half.nominal[at] + &half.deviations[at];
+            half
+        }))
     }
 }
 

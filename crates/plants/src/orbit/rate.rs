@@ -5,13 +5,13 @@
 //! `A + d B + d^2 R` with d in [-h, h] (Taylor's formula, entry by entry). A + d B is positive definite if it is at both ends;
 //! the row sums of the bounds of h^2 |R_ij| are taken from the diagonal (2 |v_i v_j| <= v_i^2 + v_j^2). The series are computed
 //! for all v at once: v_i enters the constant term as an interval. Cells that are not proved are halved. The members of a family
-//! are taken in the same way, all at once.
+//! are taken in the same way, all at once, or half of them at a time where that does not do.
 
 use super::cells::Wave;
 use super::curve::{Curve, PRECISION};
 use super::defect::{slope, weigh};
 use super::linear::norm;
-use super::members::Members;
+use super::members::{Members, ParameterBox};
 use super::recurrences::{combine, mul};
 use super::taylor::Taylor;
 use rayon::prelude::*;
@@ -29,6 +29,9 @@ const CELLS: std::ops::RangeInclusive<u32> = 4..=11;
 /// What a proof may cost: the cells that are examined, times the cube of the order and what a cell costs besides.
 const MAX_COST: usize = 2_000_000;
 const CELL_OVERHEAD: usize = 200;
+
+/// How often the parameters of a family are halved on a cell, at most.
+const HALVINGS: usize = 6;
 
 /// What the proof of a rate needs besides the rate and the tube.
 pub(super) struct Contraction<'a> {
@@ -72,7 +75,7 @@ impl Contraction<'_> {
             let curve = Curve::new(self.members, self.p.entries().iter(), self.period, exponent, ORDER + 1);
             // Level by level, so that what is examined does not depend on the number of threads.
             let outcomes: Vec<Outcome> =
-                pending.par_iter().map(|cell| self.on_cell(&curve, *cell, alpha, &reach)).collect();
+                pending.par_iter().map(|cell| self.on_cell(&curve, *cell, alpha, &reach, None)).collect();
             let place = |at: usize| (pending[at] as f64 + 0.5) / curve.cells.count as f64;
             if let Some(at) = outcomes.iter().position(|outcome| matches!(outcome, Outcome::Fails)) {
                 return Err(format!("P' + P J + J^T P <= -2 alpha P is not proved at t/T = {}", place(at)));
@@ -91,26 +94,59 @@ impl Contraction<'_> {
         Err("P' + P J + J^T P <= -2 alpha P is not proved on cells of the period as small as are tried".to_owned())
     }
 
-    fn on_cell(&self, curve: &Curve, cell: usize, alpha: &Enclosure, reach: &[Enclosure]) -> Outcome {
+    /// On a cell, and for the members with these parameters, all in the place of none.
+    fn on_cell(
+        &self,
+        curve: &Curve,
+        cell: usize,
+        alpha: &Enclosure,
+        reach: &[Enclosure],
+        some: Option<(&ParameterBox, usize)>,
+    ) -> Outcome {
+        let (parameters, halvings) = some.unwrap_or((&self.members.parameters, HALVINGS));
+        let together = self.at_once(curve, cell, alpha, reach, parameters);
+        let Some(halves) = parameters.halves().filter(|_| halvings > 0 && matches!(together, Outcome::Fails)) else {
+            return together;
+        };
+        let mut outcome = Outcome::Proved;
+        for half in &halves {
+            match self.on_cell(curve, cell, alpha, reach, Some((half, halvings - 1))) {
+                Outcome::Proved => {}
+                Outcome::Open => outcome = Outcome::Open,
+                other => return other,
+            }
+        }
+        outcome
+    }
+
+    fn at_once(
+        &self,
+        curve: &Curve,
+        cell: usize,
+        alpha: &Enclosure,
+        reach: &[Enclosure],
+        parameters: &ParameterBox,
+    ) -> Outcome {
         let n = self.l.len();
         let own = curve.states(cell, ORDER);
-        let mut states = curve.of_members(&own, &curve.sensitivities(cell, ORDER));
+        let mut states = curve.of_members(&own, &curve.sensitivities(cell, ORDER), parameters);
         for series in &mut states {
             for (component, reach) in series.iter_mut().zip(reach) {
                 component[0] = &component[0] + reach.negate().hull(reach);
             }
         }
-        let mut values = curve.along(self.walk, cell, (&states, &self.members.parameters.values), ORDER);
+        let mut values = curve.along(self.walk, cell, (&states, &parameters.values), ORDER);
         if !values.iter().flatten().flatten().all(Enclosure::is_defined) {
             return Outcome::NotSmooth;
         }
         for series in &mut values {
             series.drain(..n);
         }
+        let elapsed = parameters.elapsed(&curve.period);
         let p = self.p.map(|_, _, wave| curve.cells.expand(wave, cell, ORDER + 1));
         let [middle, over] = [0, 1].map(|which| {
             let p = p.map(|_, _, series| series[which].clone());
-            self.decay(&values[which], &p, alpha, &curve.elapsed)
+            self.decay(&values[which], &p, alpha, &elapsed)
         });
         let half = &curve.cells.half;
         let zero = Enclosure::zero(PRECISION);

@@ -5,8 +5,11 @@ use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
 use crate::certify::GivenWitness;
 use rug::Rational;
+use sigmastar_lang::expr::Definitions;
 use sigmastar_lang::spec::model::PeriodicMatrix;
-use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, read_input_gain};
+use sigmastar_lang::spec::{
+    Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, read_input_gain, read_parameters,
+};
 use sigmastar_plants::lyapunov::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sharp::SharpWitness;
@@ -34,8 +37,7 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
         let _ = file.optional(unused);
     }
     let subject = ["plant", "specification"].into_iter().find_map(|name| root.member(name));
-    let input_gain = subject.and_then(|subject| subject.member("input_gain"));
-    let claim = file.required("claim", errors).and_then(|value| claim_part(&value, input_gain, errors));
+    let claim = file.required("claim", errors).and_then(|value| claim_part(&value, subject.as_ref(), errors));
     let witness = file.required("witness", errors);
     file.finish(errors);
     let ((sigma, set), witness) = (claim?, witness?);
@@ -111,7 +113,7 @@ pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> R
 /// What the claim contributes to the witness: sigma*, and the initial set. Its input gain is that of the embedded document.
 fn claim_part(
     value: &Value<'_>,
-    embedded: Option<Value<'_>>,
+    subject: Option<&Value<'_>>,
     errors: &mut Errors,
 ) -> Result<(Rational, ClaimedSet), Reported> {
     let mut claim = value.object(errors)?;
@@ -130,9 +132,16 @@ fn claim_part(
             Err(errors.report(value.error(ErrorKind::UnknownName, message).expected("expected `sharp`")))
         }
     });
-    let input_gain = match (claim.optional("input_gain"), embedded) {
+    let input_gain = match (claim.optional("input_gain"), subject.and_then(|subject| subject.member("input_gain"))) {
         (None, None) => Ok(()),
-        (stated, embedded) => same_input_gain(stated, embedded, value, errors),
+        (stated, embedded) => {
+            let parameters = subject.and_then(|subject| subject.member("parameters"));
+            let parameters = parameters.map(|value| read_parameters(&value, &[], errors)).transpose();
+            parameters.and_then(|parameters| {
+                let names = parameters.unwrap_or_default();
+                same_input_gain(stated, embedded, (value, names.definitions()), errors)
+            })
+        }
     };
     let sigma = rational(&mut claim, "sigma_star", errors);
     let set = read_set(&mut claim, errors);
@@ -142,16 +151,16 @@ fn claim_part(
     Ok((sigma?, set?))
 }
 
-/// That the input gain of a claim is the one of the document that it embeds.
+/// That the input gain of a claim is the one of the document that it embeds, where the names of constants may stand.
 fn same_input_gain(
     stated: Option<Value<'_>>,
     embedded: Option<Value<'_>>,
-    claim: &Value<'_>,
+    (claim, names): (&Value<'_>, &Definitions),
     errors: &mut Errors,
 ) -> Result<(), Reported> {
     let place = stated.clone().unwrap_or_else(|| claim.clone());
-    let [stated, embedded] =
-        [stated, embedded].map(|value| value.map(|value| read_input_gain(&value, errors)).transpose());
+    let [stated, embedded] = [(stated, Definitions::none()), (embedded, names)]
+        .map(|(value, names)| value.map(|value| read_input_gain(&value, names, errors)).transpose());
     let same = match (stated?, embedded?) {
         (Some(stated), Some(embedded)) => stated.is(&embedded),
         _ => false,

@@ -231,13 +231,13 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
     });
     let nominal = &spec.period.nominal().text;
     let period = match spec.period.interval() {
-        None => format!(", with period T = {nominal}, mu"),
+        None => format!("period T = {nominal}"),
         Some([low, high]) => {
-            format!(" and every period in [{}, {}] (one constant T, nominally {nominal}), with mu", low.text, high.text)
+            format!("every period in [{}, {}] (one constant T; nominal {nominal})", low.text, high.text)
         }
     };
     format!(
-        "For every number of oscillators n_o >= 0 and every gain sigma >= {}{input_gain}{period} = {} and base frequency \
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}{input_gain}, with {period}, mu = {} and base frequency \
          {}{reach}, {}",
         write_exact(sigma),
         model.mu.text,

@@ -95,6 +95,9 @@ pub struct Certification<'s> {
     pub sensitivities: Vec<(Datum, f64)>,
     /// sigma* in other ways.
     pub alternatives: Alternatives,
+    /// For each parameter with an interval sigma* with it closed to the nominal value (an estimate), and none where nothing is found
+    /// then; empty unless the run was to compare.
+    pub interval_costs: Vec<(String, Option<f64>)>,
     /// Bounding functions that were neither proved nor refuted.
     pub unproved_bounds: Vec<BoundingProblem>,
     /// Every constant in the three derivations.

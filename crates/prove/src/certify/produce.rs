@@ -207,6 +207,7 @@ fn assemble<'s>(
         no_plant,
         sensitivities,
         alternatives,
+        interval_costs: Vec::new(),
         without_optional,
         unproved_bounds: unproved,
         constants: constants.rows,

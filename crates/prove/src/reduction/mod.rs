@@ -10,6 +10,7 @@ mod coordinates;
 mod energy;
 mod entries;
 mod grid;
+mod interval_costs;
 mod joint;
 mod proofs;
 mod proved_at_samples;

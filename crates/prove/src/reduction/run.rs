@@ -1,5 +1,6 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
+use super::interval_costs::interval_costs;
 use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
@@ -9,6 +10,7 @@ use crate::certify::{
 use crate::search::SampledProposal;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Sampling, SpecErrors, Specification};
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -26,6 +28,8 @@ pub struct Prepared {
     spec: Specification,
     start: Start,
     gain: Option<Rational>,
+    /// The plant, where it is a family whose least gain is sought.
+    family: Option<Box<Plant>>,
 }
 
 /// What a run found out. What it claims is about the regulator at samples where the subject asks for that.
@@ -58,14 +62,18 @@ impl Prepared {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn new(subject: Subject, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
+        let family = match &subject {
+            Subject::Plant(plant) if plant.is_family() && gain.is_none() => Some(plant.clone()),
+            _ => None,
+        };
         match subject.sampling().cloned() {
             None => {
                 let (spec, start) = subject.proved_with_alternatives(gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Continuous(start), gain })
+                Ok(Prepared { spec, start: Start::Continuous(start), gain, family })
             }
             Some(sampling) => {
                 let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain })
+                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain, family })
             }
         }
     }
@@ -76,7 +84,7 @@ impl Prepared {
     /// What is not proved, at its place, and a witness of the other regulator or of other samples; not empty.
     pub fn again(subject: &Subject, witness: Witness) -> Result<Prepared, Vec<SpecErrors>> {
         let spec = witness.proved(subject)?;
-        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None })
+        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None, family: None })
     }
 
     /// Searches, rounds and decides. Hypothesis: the options fit ([`Options::misfit`]).
@@ -101,6 +109,9 @@ impl Prepared {
                         run.alternatives.aligned = run.alternatives.aligned.or(*aligned);
                         let nominal_gain = run.alternatives.nominal_gain.or(*nominal_gain);
                         run.alternatives.nominal_gain = nominal_gain.filter(|nominal| *nominal < sigma);
+                    }
+                    if let Some(plant) = self.family.as_ref().filter(|_| options.compare && run.claim().is_some()) {
+                        run.interval_costs = interval_costs(plant);
                     }
                     Run::Continuous(Box::new(run))
                 })

@@ -4,9 +4,8 @@
 
 use crate::constant::Constant;
 use crate::json::Field;
-use crate::range::{Range, both};
+use crate::range::{Range, Span, both};
 use crate::verdict::{Outcome, bad};
-use rug::Rational;
 
 /// The name of the rule.
 pub const RULE: &str = "parameters";
@@ -16,9 +15,7 @@ pub const RULE: &str = "parameters";
 pub struct Parameter {
     pub name: String,
     pub range: Range,
-    pub nominal: Rational,
-    /// low and high.
-    pub ends: [Rational; 2],
+    pub span: Span,
 }
 
 impl Parameter {
@@ -28,7 +25,7 @@ impl Parameter {
         let [nominal, low, high] = [&range.nominal, &range.low, &range.high].map(|end| end.rational());
         match (nominal, low, high) {
             (Some(nominal), Some(low), Some(high)) => {
-                Ok(Parameter { name: name.to_owned(), range, nominal, ends: [low, high] })
+                Ok(Parameter { name: name.to_owned(), range, span: Span { nominal, ends: [low, high] } })
             }
             _ => bad(&field.pointer, "expected rational numbers"),
         }
@@ -36,7 +33,7 @@ impl Parameter {
 
     /// Whether it is one number.
     pub fn is_constant(&self) -> bool {
-        self.ends.iter().all(|end| *end == self.nominal)
+        self.range.is_nominal()
     }
 
     /// Its interval, for a reader.

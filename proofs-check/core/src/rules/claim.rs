@@ -9,6 +9,7 @@ use crate::data::Data;
 use crate::input_gain;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
+use crate::period;
 use crate::plant::OfPlant;
 use crate::plant::{coordinates, parameters};
 use crate::spec::{AskedSet, Specification};
@@ -38,6 +39,8 @@ pub struct Claim<'a> {
     ball: Option<(Rational, Field<'a>)>,
     /// The input gain that it is about, if it names one.
     input_gain: Option<Field<'a>>,
+    /// The period that it is about, if it names one.
+    period: Option<Field<'a>>,
     /// The parameters of the plant that it is about, if it names some.
     parameters: Option<Field<'a>>,
     /// Where it stands in the file.
@@ -106,6 +109,7 @@ impl<'a> Claim<'a> {
             set: numbers,
             ball,
             input_gain: fields.optional("input_gain"),
+            period: fields.optional("period"),
             parameters: fields.optional("parameters"),
             pointer: field.pointer.clone(),
             sigma_text,
@@ -141,6 +145,7 @@ impl<'a> Claim<'a> {
             return reads(RULE, &self.mu, &spec.mu.text);
         }
         input_gain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
+        period::agrees(&spec.period, self.period.as_ref(), &self.pointer)?;
         let of_family = spec.plant.as_ref().map_or(&[][..], |plant| &plant.parameters);
         let family = parameters::agree(of_family, self.parameters.as_ref(), &self.pointer)?;
         let kind = match spec.initial_set {
@@ -222,9 +227,12 @@ impl<'a> Claim<'a> {
         let reach = if spec.matched { "" } else { " (which need not match the period)" };
         let gain = spec.input_gain.as_ref().map_or_else(String::new, input_gain::in_words);
         let words = format!(
-            "For every number of oscillators n_o >= 0 and every gain sigma >= {}{gain}, with period T = {}, mu = {} and base \
+            "For every number of oscillators n_o >= 0 and every gain sigma >= {}{gain}, with {}, mu = {} and base \
              frequency {}{reach}",
-            self.sigma_text, spec.period.text, spec.mu.text, spec.base_frequency.text,
+            self.sigma_text,
+            period::in_words(&spec.period),
+            spec.mu.text,
+            spec.base_frequency.text,
         );
         (words, "initial time")
     }

@@ -24,12 +24,12 @@ impl Answer {
     /// `sqrt(1 + 2/(4 b - 1 + sqrt(1 + 8 b)))/b`, which falls in b.
     pub fn continuous(d: &Data<'_>) -> Answer {
         let Some(gain) = &d.gain else {
-            return Answer { mean: d.int(1), factor: 2 / d.int(3).sqrt(), by_rate: &d.period / 3 };
+            return Answer { mean: d.int(1), factor: 2 / d.int(3).sqrt(), by_rate: d.period.longest() / 3 };
         };
         let b = &gain.low;
         let more = 2 / (b * 4 - 1 + (b * 8 + 1).sqrt());
         let factor = (more + 1).sqrt() / b;
-        Answer { mean: b.recip(), by_rate: &factor * &d.period / d.int(12).sqrt(), factor }
+        Answer { mean: b.recip(), by_rate: &factor * d.period.longest() / d.int(12).sqrt(), factor }
     }
 
     /// The least of what the harmonics of q say, with its root mean squares and with `q_0`, and of what the sizes of e and zeta do:

@@ -30,7 +30,7 @@ pub fn forcing(d: &Data<'_>, given: &Forcing) -> (Vec<Interval>, [Interval; 2]) 
 
 /// `sqrt(sum_{k>=1} 2 (k Om C_k)^2)`.
 fn derivative(d: &Data<'_>, harmonics: &[Interval]) -> Interval {
-    twice_sum(d, harmonics, |k, c| (c * d.frequency() * k).sqr()).sqrt()
+    twice_sum(d, harmonics, |k, c| (c * d.period.fastest() * k).sqr()).sqrt()
 }
 
 /// `2 sum_{k>=1} term(k, C_k)`.
@@ -42,7 +42,7 @@ impl Forced {
     /// At sigma.
     pub fn new(d: &Data<'_>, sigma: &Interval, given: &Forcing) -> Forced {
         let (harmonics, rest) = forcing(d, given);
-        let gain = |k: i64| sigma.sqr() + (d.frequency() * k).sqr();
+        let gain = |k: i64| sigma.sqr() + (d.period.slowest() * k).sqr();
         Forced {
             sup_e: d.of_error(twice_sum(d, &harmonics, |k, c| c / gain(k).sqrt())),
             rms_e: d.of_error(twice_sum(d, &harmonics, |k, c| c.sqr() / gain(k)).sqrt()),

@@ -12,24 +12,25 @@ pub fn kappas(d: &Data<'_>, k0: &Interval, k1: &Interval) -> [Interval; 2] {
 
 /// `K_alpha = c (e^{alpha T} - 1 + c) e^{-alpha T}`.
 pub fn k_alpha(d: &Data<'_>) -> Interval {
-    &d.c * (1 + (&d.c - 1) * (-(&d.alpha * &d.period)).exp())
+    &d.c * (1 + (&d.c - 1) * (-(&d.alpha * d.period.only())).exp())
 }
 
 /// `beta_s(s) = sqrt((T/(2 s)) coth(s T/2))`: of a decay rate s > 0, from the root mean square of a T-periodic input to the
 /// supremum. So `K2(a) = c beta_s(a)`.
 pub fn beta_s(d: &Data<'_>, s: &Interval) -> Interval {
-    (&d.period * (s * &d.period / 2).coth() / (s * 2)).sqrt()
+    let period = d.period.longest();
+    (period * (s * period / 2).coth() / (s * 2)).sqrt()
 }
 
 /// `tau(sigma) = (1/sigma) sqrt(T^2/12 - (T/(2 sigma)) coth(sigma T/2) + 1/sigma^2)`, at most T^2/sqrt(720): sup|e| over rms(q').
 pub fn tau(d: &Data<'_>, sigma: &Interval) -> Interval {
     let value = |y: &Interval| (twelfth(y) - zero_mean(y)) / y.sqr();
-    scaled(d, sigma, 720, value) * d.period.sqr()
+    scaled(d, sigma, 720, value) * d.period.longest().sqr()
 }
 
 /// `bt(sigma) = sqrt(beta_s^2 - 1/sigma^2)`, at most T/sqrt(12): sup|e| over rms(q).
 pub fn bt(d: &Data<'_>, sigma: &Interval) -> Interval {
-    scaled(d, sigma, 12, zero_mean) * &d.period
+    scaled(d, sigma, 12, zero_mean) * d.period.longest()
 }
 
 fn twelfth(y: &Interval) -> Interval {
@@ -44,7 +45,7 @@ fn zero_mean(y: &Interval) -> Interval {
 /// The root of a decreasing function of y = sigma T that is at most 1/most. It is taken at the two ends of y, with as many more
 /// bits as the closed form may cancel.
 fn scaled(d: &Data<'_>, sigma: &Interval, most: i64, square: impl Fn(&Interval) -> Interval) -> Interval {
-    let y = sigma * &d.period;
+    let y = sigma * d.period.longest();
     let (Some(lo), Some(hi)) = (y.lower(), y.upper()) else { return Interval::undefined(d.precision) };
     let range = d.int(0).hull(&d.int(most).sqrt().recip());
     let at = |y: &Rational| {

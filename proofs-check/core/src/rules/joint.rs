@@ -31,16 +31,16 @@ pub struct Joint {
     pub e: Rational,
     pub threshold: Rational,
     pub metrics: Metrics,
-    extents: [Extent; 2],
+    pub extents: [Extent; 2],
 }
 
 /// `P <= p_up I`, `Pi >= diag(x_low I, 0)` and `Pi >= diag(0, e_low)`. Without states the first two say nothing, so that p_up has to be
 /// above 0 by itself.
 #[derive(Clone, Debug)]
-struct Extent {
-    p_up: Rational,
-    x_low: Rational,
-    e_low: Rational,
+pub struct Extent {
+    pub p_up: Rational,
+    pub x_low: Rational,
+    pub e_low: Rational,
 }
 
 impl Extent {

@@ -92,7 +92,7 @@ pub struct Bounds<'a> {
     /// bt and tau, with a gain over b_m.
     bt: Interval,
     tau: Interval,
-    /// Om, and sg = sqrt(sigma^2 + Om^2), with a gain times b_m.
+    /// Om and sg = sqrt(sigma^2 + Om^2), with a gain times b_m: what they divide is largest with the longest period.
     om: Interval,
     sg: Interval,
     /// bt and sg themselves: they serve y, whatever the gain is.
@@ -122,7 +122,7 @@ impl<'a> Bounds<'a> {
         let forced = d.spec.q_0.as_ref().map(|given| Forced::new(d, sigma, given));
         let start = d.bound(Bound::QRms, &zero, &zero);
         let bends = d.given(Bound::Qtx, x_p, e_p).zip(d.given(Bound::Qte, x_p, e_p));
-        let om = d.frequency();
+        let om = d.period.slowest();
         let of_y = [bt(d, sigma), (sigma.sqr() + om.sqr()).sqrt()];
         let sg = d.gain.as_ref().map_or_else(|| of_y[1].clone(), |gain| &of_y[1] * gain.of_error());
         Bounds {
@@ -219,7 +219,7 @@ impl<'a> Bounds<'a> {
         // Of the response to an input with these root mean squares of itself and of its derivative.
         let sup = |q: &Interval, q_t: &Interval| (&self.bt * q).least(&(&self.tau * q_t));
         let rms = |q: &Interval, q_t: &Interval| (q / &self.sg).least(&(q_t / (&self.om * &self.sg)));
-        let mut sup_e = sup(&r_q, &r_1).least(&(&self.d.period * r_e * r_d).sqrt());
+        let mut sup_e = sup(&r_q, &r_1).least(&(self.d.period.longest() * r_e * r_d).sqrt());
         let mut rms_e = rms(&r_q, &r_1);
         if let Some(f) = &self.forced {
             sup_e = sup_e.least(&(&f.sup_e + sup(&f.rest[0], &f.rest[1]) + sup(&d_0, &d_1)));
@@ -243,7 +243,7 @@ impl<'a> Bounds<'a> {
         if let Some(damping) = damping {
             let [rms_e, rms_e_t] = self.damped(r, damping);
             return vec![
-                at_most("S2", "sqrt(T r_e r_d) <= E_p", (&self.d.period * r_e * r_d).sqrt(), &self.e_p),
+                at_most("S2", "sqrt(T r_e r_d) <= E_p", (self.d.period.longest() * r_e * r_d).sqrt(), &self.e_p),
                 at_most("S2b", "g_k Rt <= r_e", rms_e, r_e),
                 at_most("S2c", "Rt + kap r_e <= r_d", rms_e_t, r_d),
             ];
@@ -295,14 +295,14 @@ impl<'a> Bounds<'a> {
         let d = self.d;
         let of_answer = d.gain.as_ref().map_or_else(|| d.int(1), Gain::of_answer);
         let mean = |[q, q_t]: &[Interval; 2]| (&kappa[0] * q.sqr() + &kappa[1] * q_t.sqr()) / of_answer.sqr();
-        let swing = &d.period * follows.rates[0].sqr() / (&d.mu * 2);
+        let swing = d.period.longest() * follows.rates[0].sqr() / (&d.mu * 2);
         let swing = d.gain.as_ref().map_or_else(|| swing.clone(), |gain| &swing / gain.of_swing());
         let plain = &swing + mean(&follows.rates);
         let Some(forced) = &self.forced else { return plain };
         // Bounds of sup_N T_N(k Om/w).
         let inverse = d.nu.sqr().recip();
         let transfer = |k: i64| {
-            let bound = pair[0] + pair[1] * (&self.om * k / &d.w).sqr();
+            let bound = pair[0] + pair[1] * (d.period.fastest() * k / &d.w).sqr();
             let pole = || &inverse * 2 / d.spec.weights.weight(k.unsigned_abs(), d.precision);
             if d.spec.matched { bound.min(&pole()) } else { bound }
         };

@@ -56,7 +56,8 @@ impl Witness {
 fn steady_state(d: &Data<'_>) -> Interval {
     let zero = d.int(0);
     let at = |which| d.bound(which, &zero, &zero);
-    let root = |q: &Interval, q_t: &Interval| (q.sqr() / &d.n_0 + (q_t / d.frequency()).sqr() * 2 / &d.n_1).sqrt();
+    let time = d.period.only() / (Interval::pi(d.precision) * 2);
+    let root = |q: &Interval, q_t: &Interval| (q.sqr() / &d.n_0 + (q_t * &time).sqr() * 2 / &d.n_1).sqrt();
     let generic = root(&at(Bound::QRms), &at(Bound::QtRms));
     let mu = d.gain.as_ref().map_or_else(|| d.mu.clone(), |gain| &gain.low * &d.mu);
     let Some(given) = &d.spec.q_0 else { return generic / mu };

@@ -3,6 +3,7 @@
 use super::law::RULE;
 use crate::constant::Constant;
 use crate::json::Fields;
+use crate::period;
 use crate::spec::{Specification, samples};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -46,7 +47,8 @@ impl<'a> Regulator<'a> {
 
     /// `T = samples * sampling_period` exactly, and the specification, where it has a sampling period, has this one.
     pub fn check(&self, spec: &Specification) -> Outcome<()> {
-        let exactly = samples(&spec.period, &self.sampling, &self.pointer)?;
+        let period = spec.period.demand_exact(&self.pointer, "a claim at samples")?;
+        let exactly = samples(period, &self.sampling, &self.pointer)?;
         demand(Some(exactly == self.samples), RULE, &self.pointer, "period = samples * sampling_period")?;
         let asked = spec.samples.as_ref().is_none_or(|asked| *asked == self.samples);
         demand(Some(asked), RULE, &self.pointer, "it is the sampling period of the specification")
@@ -57,9 +59,12 @@ impl<'a> Regulator<'a> {
         let (samples, [sigma, gain]) = (self.samples, self.texts);
         format!(
             "For the digital regulator with the gain sigma = {sigma}, the sampling period h = {} ({samples} samples a period) and \
-             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid, with period T \
-             = {}, mu = {} and base frequency {}",
-            self.sampling.text, spec.period.text, spec.mu.text, spec.base_frequency.text,
+             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid, with {}, \
+             mu = {} and base frequency {}",
+            self.sampling.text,
+            period::in_words(&spec.period),
+            spec.mu.text,
+            spec.base_frequency.text,
         )
     }
 

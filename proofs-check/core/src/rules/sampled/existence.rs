@@ -43,11 +43,12 @@ pub fn evaluate(
     let gains = Gains::new(law);
     let pi = Interval::pi(d.precision);
     // Between samples e is a linear interpolation and G, which vanishes at both ends: sup|G| and rms(G).
-    let between = &law.h / (&pi * 2) * (&law.h * &d.period).sqrt() * &r_1;
+    let period = &d.period.only();
+    let between = &law.h / (&pi * 2) * (&law.h * period).sqrt() * &r_1;
     let between_rms = (&law.h / &pi).sqr() * &r_1;
     let at_samples = (&gains.sup * &r_q).least(&(&gains.sup_t * &r_1));
     // sum e_k = 0, so e has a zero.
-    let mut sup_e = (at_samples + between).least(&(&d.period * r_e * r_d).sqrt());
+    let mut sup_e = (at_samples + between).least(&(period * r_e * r_d).sqrt());
     let mut rms_e = (&gains.rms * &r_q).least(&(&gains.rms_t * &r_1)) + between_rms;
     let steepest = &law.growth * 2 / (2 - &law.share) * &r_q;
     let mut rms_e_t = steepest.least(&((gains.rms.sqr() + (&law.h / &pi).sqr()).sqrt() * &r_1));
@@ -55,7 +56,7 @@ pub fn evaluate(
     let conditions = if let Some(inequality) = inequality {
         let answer = inequality.answer(law, &bounds.oscillation());
         // sup|G| <= (sqrt(h)/2)|G'|_2, and e' is the slope of the interpolation and G', which are orthogonal.
-        sup_e = sup_e.least(&(&gains.sup_y * &answer.rms_y + (&law.h * &d.period).sqrt() / 2 * &r_q));
+        sup_e = sup_e.least(&(&gains.sup_y * &answer.rms_y + (&law.h * period).sqrt() / 2 * &r_q));
         rms_e = rms_e.least(&answer.rms_e);
         rms_e_t = rms_e_t.least(&((&answer.rms_y * 2 / (2 - &law.share)).sqr() + r_q.sqr()).sqrt());
         let (sup_x, rms_x) = (bounds.sup_x_in_box(r_e), (&bounds.x_gain * r_e).least(&answer.rms_x));
@@ -76,7 +77,7 @@ pub fn evaluate(
     };
     let e = e_p.min(&sup_e);
     let w_squared = d.w.sqr();
-    let mean = (&d.period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();
+    let mean = (period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();
     let z = &law.growth * mean.sqrt();
     let by_parts = control::by_parts(d, [&law.sigma, &law.gain], [&e, &z]);
     let steady = law.answer().steady(&bounds.along(&r), &by_parts);

@@ -55,9 +55,9 @@ impl<'a> Law<'a> {
     /// Encloses the numbers; N_s is the one that is claimed, so h is T/N_s exactly.
     pub fn new(d: &'a Data<'a>, terms: &Terms) -> Law<'a> {
         let [sigma, gain, weight_sum] = [&terms.sigma, &terms.gain, &terms.weight_sum].map(|value| d.number(value));
-        let h = &d.period / i64::from(terms.samples);
+        let h = d.period.only() / i64::from(terms.samples);
         // Where T is rational h sigma may be exactly 1.
-        let share = match d.spec.period.rational() {
+        let share = match d.spec.period.exact().and_then(|period| period.rational()) {
             Some(period) => d.number(&(period * &terms.sigma / terms.samples)),
             None => &h * &sigma,
         };
@@ -85,7 +85,7 @@ impl<'a> Law<'a> {
         let g = &self.growth * 2 / (2 - &self.share);
         let below = 3 - &g;
         let factor = if below.is_nonnegative() { 2 / (4 - &g).sqrt() } else { (g - 1).max(&self.d.int(2)) };
-        let by_rate = &factor * ((self.d.period.sqr() - self.h.sqr()) / 12).sqrt();
+        let by_rate = &factor * ((self.d.period.only().sqr() - self.h.sqr()) / 12).sqrt();
         Answer { mean: self.d.int(1), factor, by_rate }
     }
 
