@@ -13,8 +13,8 @@ use std::ops::Deref;
 /// the weights are pure numbers.
 #[derive(Clone, Debug)]
 pub struct Numbers<R> {
-    /// The period T; where an interval of it is known the longest one, T_hi, for every bound in which it stands but those that name another
-    /// grows with T (derivation, 13.3).
+    /// The period T; where an interval of it is known the longest one, T_hi, for every bound in which it stands
+    /// grows with T (derivation, 13.3; K_alpha does not, and `repaired` is not evaluated then).
     pub period: R,
     /// P_low.
     pub p_low: R,
@@ -42,8 +42,6 @@ pub struct Numbers<R> {
     pub fundamental: R,
     /// The largest Om: what multiplies sizes of harmonics, or stands inside a transfer bound.
     pub fastest: R,
-    /// The shortest period T_lo, for what falls as T grows.
-    pub shortest_period: R,
     /// c and alpha of the P that serves for the existence of the periodic solution.
     pub existence: ExistenceTriple<R>,
     /// What is known of q(t,0,0), if anything.
@@ -131,7 +129,6 @@ impl Numbers<Enclosure> {
             n_bar: self.n_bar.midpoint_f64(),
             fundamental: self.fundamental.midpoint_f64(),
             fastest: self.fastest.midpoint_f64(),
-            shortest_period: self.shortest_period.midpoint_f64(),
             existence: ExistenceTriple { c: c.midpoint_f64(), alpha: alpha.midpoint_f64(), separate: *separate },
             q_0: self.q_0.as_ref().map(|known| KnownForcing {
                 harmonics: all(&known.harmonics),
@@ -198,8 +195,7 @@ impl<'s> Data<'s> {
             ExistenceTriple::new(spec.lyapunov.existence_triple(), separate, precision)
         };
         // The one place that says which end of the period a formula takes.
-        let [shortest_period, period] =
-            [spec.period.shortest(), spec.period.longest()].map(|end| end.enclose(precision));
+        let [shortest, period] = [spec.period.shortest(), spec.period.longest()].map(|end| end.enclose(precision));
         let alpha = number(|triple| &triple.alpha);
         let known = spec.q_0.as_ref().map(|known| KnownForcing {
             harmonics: known.harmonics.iter().map(|bound| bound.enclose(precision)).collect(),
@@ -212,8 +208,7 @@ impl<'s> Data<'s> {
         let nu = &mu / &base_frequency;
         let numbers = Numbers {
             fundamental: 2 * Enclosure::pi(precision) / &period,
-            fastest: 2 * Enclosure::pi(precision) / &shortest_period,
-            shortest_period,
+            fastest: 2 * Enclosure::pi(precision) / shortest,
             existence,
             q_0: known,
             matched: model.matched,

@@ -27,7 +27,7 @@ pub struct RepairedProposal {
 }
 
 fn k_of(model: &FloatModel) -> f64 {
-    k_alpha(&model.c, &model.alpha, &model.shortest_period)
+    k_alpha(&model.c, &model.alpha, &model.period)
 }
 
 /// All quantities for given X, E and eta with h dZ^2 = eta dE^2.

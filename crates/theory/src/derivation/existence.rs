@@ -117,9 +117,9 @@ where
     /// positive.
     #[must_use]
     pub fn repaired(problem: &impl Problem<R>, bounds: &PeriodicBounds<R>) -> LeastSigma<R> {
-        let Numbers { period, shortest_period, c, alpha, .. } = problem.numbers();
+        let Numbers { period, c, alpha, .. } = problem.numbers();
         let by_size = reached(&bounds.state.e_p, &bounds.q(problem), |level| gains::beta_inverse(level, period));
-        let k = gains::k_alpha(c, alpha, shortest_period);
+        let k = gains::k_alpha(c, alpha, period);
         let [free, demand] = contraction_level(&bounds.contraction(problem, &k, 2, &R::int(1)));
         let by_contraction = reached(&free, &demand, |level| gains::beta_inverse(level, period));
         LeastSigma { by_size, by_contraction }

@@ -69,7 +69,7 @@ impl RepairedEvaluation {
         let number = |value: &Rational| data.rational(value);
         let (sigma, x, e) = (number(&witness.sigma), number(&witness.x), number(&witness.e));
         let (level, h) = (number(&witness.level), number(&witness.h));
-        let k = gains::k_alpha(&data.c, &data.alpha, &data.shortest_period);
+        let k = gains::k_alpha(&data.c, &data.alpha, &data.period);
         let beta = gains::beta(&sigma, &data.period);
         let bounds = PeriodicBounds::new(data, x.clone(), e.clone());
         let [kappa_0, kappa_1] = data.kappas(&number(&witness.k0), &number(&witness.k1));

@@ -33,7 +33,7 @@ impl<'a> Common<'a> {
         let sharp = data.kappas(&data.rational(&witness.k0), &data.rational(&witness.k1));
         let transfer = printed_transfer(data);
         Common {
-            k_alpha: gains::k_alpha(&data.c, &data.alpha, &data.shortest_period),
+            k_alpha: gains::k_alpha(&data.c, &data.alpha, &data.period),
             z_printed: bounds.z_squared_printed(data, &transfer.kappa_0, &transfer.kappa_1).sqrt(),
             z_repaired: bounds.z_squared_printed(data, &closed[0], &closed[1]).sqrt(),
             own,
@@ -48,7 +48,7 @@ impl<'a> Common<'a> {
 
 pub(super) fn gain_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let (k, c) = (&common.k_alpha, &data.c);
-    let second = |k: &Enclosure| gains::k_alpha_2(k, &data.alpha, &data.shortest_period);
+    let second = |k: &Enclosure| gains::k_alpha_2(k, &data.alpha, &data.period);
     let beta = gains::beta(&common.sigma, &data.period);
     vec![
         row(
