@@ -107,3 +107,26 @@ fn a_matrix_that_varies_moves_with_the_clock() {
     assert_eq!(decide(["1", "1.2"], (69, 100)), Ok(()));
     assert!(decide(["1", "1.2"], (71, 100)).is_err());
 }
+
+/// What is left of q = sin(phase) with no harmonic taken out: 1, and its derivative by the time of every clock, 2 pi v up to v = 1.1.
+#[test]
+fn the_rest_moves_with_the_clock() {
+    let text = r#"{ "format": "sigmastar/plant", "version": 1, "name": "rest", "period": { "nominal": "1", "low": "10/11", "high": "1.2" },
+        "states": ["x"], "f": ["-x + e"], "q": "sin(phase)", "internal_model": { "mu": "1", "base_frequency": "2*pi",
+        "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } } }"#;
+    let plant = Plant::from_json("rest", text).unwrap();
+    let (coordinates, proof, _) = proved(&plant);
+    let decide = |rest_t: (u32, u32)| {
+        let none = sigmastar_lang::spec::Wave { mean: Rational::new(), harmonics: Vec::new() };
+        let forcing = ProvedForcing {
+            mean: Rational::new(),
+            harmonics: Vec::new(),
+            sensitivities: vec![none],
+            rest: Rational::from((101, 100)),
+            rest_t: Rational::from(rest_t),
+        };
+        decide_forcing(&plant, &coordinates, &proof, &forcing)
+    };
+    assert_eq!(decide((693, 100)), Ok(()));
+    assert!(decide((690, 100)).is_err());
+}
