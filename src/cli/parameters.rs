@@ -4,8 +4,9 @@ use super::failure::Failure;
 use super::input;
 use super::output;
 use rug::Rational;
+use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Constant, nearest};
+use sigmastar_lang::spec::{Constant, Interval, nearest};
 
 const FLAG: &str = "--parameter";
 
@@ -58,15 +59,21 @@ pub fn member(plant: &Plant, texts: &[String], quiet: bool) -> Result<Plant, Fai
             };
             return Err(Failure::call(format!("the plant file has no parameter `{name}`"), help));
         };
-        let covered = match (&parameter.interval, value.as_rational()) {
-            (Some(interval), Some(value)) => *value >= interval.low && *value <= interval.high,
-            (None, Some(value)) => parameter.value.as_rational() == Some(value),
-            _ => false,
+        let covered = match &parameter.interval {
+            Some(Interval { low, high, .. }) => {
+                let value = value.enclose(DEFAULT_PRECISION);
+                let [low, high] = [low, high].map(|end| Enclosure::from_rational(end, DEFAULT_PRECISION));
+                low.le(&value).is_true() && value.le(&high).is_true()
+            }
+            None => {
+                let exact = value.exact.as_ref().zip(parameter.value.exact.as_ref());
+                value.text == parameter.value.text || exact.is_some_and(|(one, other)| one.equals(other).is_true())
+            }
         };
         if !covered && !quiet {
             let text = &value.text;
             output::remark(&format!(
-                "no claim about the plant file covers `{name}` = {text}, outside of what it states"
+                "`{name}` = {text} is not known to be what the plant file states: no claim about it covers this"
             ));
         }
     }

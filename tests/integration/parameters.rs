@@ -262,6 +262,8 @@ fn what_is_wrong_with_intervals_is_told() {
     };
     let mut in_a_constant = with(json!({ "nominal": 1, "low": 0, "high": 2 }));
     in_a_constant["domain"] = json!({ "x": "k", "e": 1 });
+    let mut in_a_gain = with(json!({ "nominal": 1, "low": 0, "high": 2 }));
+    in_a_gain["input_gain"] = json!({ "nominal": "1", "low": "k", "high": "2" });
     let mut many = with(json!(1));
     for name in ["k1", "k2", "k3", "k4"] {
         many["parameters"][name] = json!({ "nominal": 1, "low": 0, "high": 2 });
@@ -272,6 +274,7 @@ fn what_is_wrong_with_intervals_is_told() {
         (with(json!({ "nominal": "sqrt(2)", "low": 0, "high": 2 })), Range, "/parameters/k/nominal"),
         (with(json!({ "nominal": "c", "low": 0, "high": 2 })), Expression, "/parameters/k/nominal"),
         (in_a_constant, Expression, "/domain/x"),
+        (in_a_gain, Expression, "/input_gain/low"),
         (many, Range, "/parameters"),
     ] {
         let errors = Plant::from_json("plant", &plant.to_string()).map(|_| ()).unwrap_err();
@@ -356,7 +359,20 @@ fn a_member_is_simulated() {
     let other = simulated(&plant, &["--parameter", "c=0.2", "--parameter", "k=0.18"]);
     assert!(String::from_utf8_lossy(&other.stderr).lines().all(|line| !line.contains("no claim")));
     let outside = simulated(&plant, &["--parameter", "k=3/10"]);
-    assert!(String::from_utf8_lossy(&outside.stderr).contains("no claim about the plant file covers `k` = 3/10"));
+    assert!(
+        String::from_utf8_lossy(&outside.stderr).contains("`k` = 3/10 is not known to be what the plant file states")
+    );
+    // Inside, though no rational number; and a constant that is written otherwise.
+    for (parameter, value, covered) in [
+        (json!({ "nominal": "0.2", "low": "0.18", "high": "0.22" }), "k=sqrt(2)/7", true),
+        (json!("1/5"), "k=0.2", true),
+        (json!("1/5"), "k=0.21", false),
+    ] {
+        plant["parameters"]["k"] = parameter;
+        let run = simulated(&plant, &["--parameter", value]);
+        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert_eq!(!said.contains("no claim"), covered, "{value}: {said}");
+    }
     plant["parameters"] = json!({ "k": "0.18", "c": "0.2" });
     let written = simulated(&plant, &["--quiet"]);
     assert_eq!(size(&other), size(&written));

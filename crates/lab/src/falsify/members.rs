@@ -50,7 +50,7 @@ impl ParameterError {
     pub fn help(&self) -> String {
         match self {
             ParameterError::Unknown { known, .. } if known.is_empty() => {
-                "leave --parameter out: every number of this plant is known exactly".to_owned()
+                "leave --parameter out: this claim has no parameters in intervals".to_owned()
             }
             ParameterError::Unknown { name, known } => match nearest(name, known.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),

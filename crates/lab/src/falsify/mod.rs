@@ -3,7 +3,8 @@
 //! That a plant lies within the families is proved; the simulation is floating point and decides nothing: a trial that
 //! finds nothing proves nothing, and what it finds is a plant and an initial condition that anyone can simulate again.
 //! A claim about the law at samples is tried with exactly its gain and sampling time, at different phases of the sampling grid.
-//! Of a family of plants the corners are tried first, then members inside. The number of oscillators varies. The base frequency and the period are part of the claim and stay; other base
+//! Of a family of plants the corners are tried first, then members inside. The number of oscillators varies. The base frequency and the
+//! period are part of the claim and stay; other base
 //! frequencies are claims of their own, which [`with_base_frequency`] makes.
 
 mod checks;

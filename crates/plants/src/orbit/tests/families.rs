@@ -121,6 +121,32 @@ fn the_rate_is_that_of_the_slowest_member() {
     }
 }
 
+/// A rate that intervals of the parameter lose all at once, in coordinates in which large numbers cancel, and its halves do not; in each
+/// of the halves it is that of the member which is slowest.
+#[test]
+fn the_rate_is_proved_with_halves_of_the_parameters() {
+    let text = r#"{ "format": "sigmastar/plant", "version": 1, "name": "two", "period": "1", "states": ["x", "y"],
+        "f": ["-p*x", "-p*y"], "q": "x", "parameters": { "p": { "nominal": "5/2", "low": "2", "high": "3" } },
+        "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
+        "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } } }"#;
+    let plant = Plant::from_json("two", text).unwrap();
+    let (coordinates, proof, _) = proved(&plant);
+    // J is -p I in all coordinates; entry by entry, with p an interval, what cancels here does not.
+    let l = [[1, 0], [20, 1]].map(|row| row.map(Rational::from).to_vec()).to_vec();
+    let skewed = Coordinates { l, ..coordinates };
+    let radius = proof.tube.clone() / 2u32;
+    let with = |alpha: (i32, i32)| OrbitProof { alpha: Rational::from(alpha), radius: radius.clone(), ..proof.clone() };
+    decide_orbit(&plant, &skewed, &with((3, 2))).unwrap();
+    // The slowest members are at the other end here.
+    let mirrored = Plant::from_json("two", &text.replace("-p*x", "(p - 5)*x").replace("-p*y", "(p - 5)*y")).unwrap();
+    decide_orbit(&mirrored, &skewed, &with((3, 2))).unwrap();
+    // Beyond the slowest member, and not beyond the nominal one.
+    for plant in [&plant, &mirrored] {
+        let failure = decide_orbit(plant, &skewed, &with((21, 10))).unwrap_err();
+        assert!(matches!(failure, OrbitNotProved::Rate { .. }), "{failure:?}");
+    }
+}
+
 /// What the distance from xb adds to the rest is that of the member in which q has the largest slope.
 #[test]
 fn the_rest_is_that_of_the_steepest_member() {
