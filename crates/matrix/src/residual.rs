@@ -82,8 +82,9 @@ impl ScaledMatrix {
     /// `None` as for [`ScaledMatrix::from_doubles`].
     #[must_use]
     pub fn from_enclosures(order: usize, entry: impl Fn(usize, usize) -> Enclosure + Sync) -> Option<ScaledMatrix> {
+        // Of the upper ends, so that the whole of each enclosure is in range.
         let exponents: Option<Vec<i32>> =
-            (0..order.min(MAX_ORDER + 1)).map(|i| half_exponent(entry(i, i).midpoint_f64())).collect();
+            (0..order.min(MAX_ORDER + 1)).map(|i| half_exponent(entry(i, i).upper_f64())).collect();
         let exponents = exponents?;
         Self::assemble(order, &vec![0; order], |i, j| {
             let entry = entry(i, j);
@@ -379,6 +380,22 @@ mod tests {
         assert_eq!(truth((6, 10)), None);
         let undefined = ScaledMatrix::from_enclosures(1, |_, _| Enclosure::undefined(64));
         assert!(undefined.is_none());
+    }
+
+    /// A diagonal around a power of 4, where the scale changes, is decided as any other.
+    #[test]
+    fn an_enclosure_around_a_power_of_4_is_decided() {
+        let definite = |beside: (i32, i32)| {
+            let between =
+                |low: (i32, i32), high: (i32, i32)| Enclosure::between(&Rational::from(low), &Rational::from(high), 64);
+            let entry = |i: usize, j: usize| match (i, j) {
+                (0, 0) => between((606, 10_000), (632, 10_000)),
+                (1, 1) => between((2, 1), (2, 1)),
+                _ => between(beside, beside),
+            };
+            ScaledMatrix::from_enclosures(2, entry).is_some_and(|matrix| matrix.is_positive_definite().is_true())
+        };
+        assert!(definite((1, 15)) && !definite((7, 20)));
     }
 
     #[test]
