@@ -3,7 +3,7 @@
 //! Guarantee: every point of the box of the parameters lies in a cell. L, P and all bounds are common to the cells, so what is proved of
 //! the formulas is proved in each; `C_k`, `r_0` and `r_1` are the largest of all. The clock is not cut.
 
-use super::read::{self, Forcing, Orbit};
+use super::parts::{Forcing, Orbit, forcing, orbit};
 use super::time::Wave;
 use proofs_core::json::{Field, Fields};
 use proofs_core::range::Span;
@@ -55,8 +55,8 @@ pub fn read(witness: &mut Fields<'_>, order: usize, family: Vec<Span>, parameter
 }
 
 fn cell(fields: &mut Fields<'_>, order: usize, family: Vec<Span>) -> Outcome<Cell> {
-    let orbit = read::orbit(&fields.required("orbit")?, order, family.len())?;
-    let forcing = read::forcing(&fields.required("forcing")?, family.len())?;
+    let orbit = orbit(&fields.required("orbit")?, order, family.len())?;
+    let forcing = forcing(&fields.required("forcing")?, family.len())?;
     Ok(Cell { family, orbit, forcing })
 }
 

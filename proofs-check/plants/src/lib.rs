@@ -21,6 +21,7 @@ mod members;
 pub mod model;
 mod narrowing;
 pub mod orbit;
+pub mod parts;
 pub mod path;
 pub mod periodic;
 pub mod question;

@@ -2,6 +2,7 @@
 //! of a plant"): read and checked in form. What is proved of them is in the other files of this folder.
 
 use super::cells::{self, Cell};
+use super::parts::{Forcing, Orbit};
 use super::time::Wave;
 use proofs_core::constant::{Constant, positive_with};
 use proofs_core::expr::{Expr, Named};
@@ -16,14 +17,11 @@ use proofs_core::plant::parameters::Parameter;
 use proofs_core::range::Span;
 use proofs_core::spec::{self, AskedSet, Specification, header};
 use proofs_core::verdict::{Outcome, bad, demand};
-use rug::Rational;
 
 /// The most states that are taken.
 pub const MAX_STATES: usize = 6;
 /// The most characters of the name of a state.
 const MAX_NAME: usize = 40;
-/// The most harmonics of the orbit and of the forcing.
-const MAX_HARMONICS: usize = 200;
 /// The most named constants of a plant, and how many of them may be intervals.
 const MAX_PARAMETERS: usize = 12;
 pub const MAX_INTERVALS: usize = 4;
@@ -38,27 +36,6 @@ const TAKEN: [&str; 15] = [
 pub struct Formula {
     pub pointer: String,
     pub expr: Expr,
-}
-
-/// xb(t;p), with eps, rho and r (docs/mathematics.md, sections 11.2 and 13.2).
-#[derive(Clone, Debug)]
-pub struct Orbit {
-    pub pointer: String,
-    /// The components of xb_0, and those of each sensitivity.
-    pub waves: Vec<Vec<Wave>>,
-    pub defect: Rational,
-    pub tube: Rational,
-    pub radius: Rational,
-}
-
-/// qb(t;p), with r_0 and r_1 (section 11.4).
-#[derive(Clone, Debug)]
-pub struct Forcing {
-    pub pointer: String,
-    /// qb_0, and each sensitivity.
-    pub waves: Vec<Wave>,
-    pub rest: Rational,
-    pub rest_t: Rational,
 }
 
 /// What is given of a plant, in a cell of its family.
@@ -250,94 +227,4 @@ fn initial(field: &Field<'_>, order: usize, constants: &[Named]) -> Outcome<()> 
     list.iter().chain(z.iter().flatten()).try_for_each(|field| Constant::read_with(field, constants).map(drop))?;
     Constant::read_with(&fields.required("e")?, constants)?;
     fields.finish()
-}
-
-fn number(fields: &mut Fields<'_>, name: &str, least: Option<bool>) -> Outcome<Rational> {
-    let field = fields.required(name)?;
-    let value = field.rational()?;
-    let (truth, what) = match least {
-        Some(true) => (value > 0, "> 0"),
-        _ => (value >= 0, ">= 0"),
-    };
-    demand(Some(truth), "signs", &field.pointer, format!("{name} {what}"))?;
-    Ok(value)
-}
-
-/// A list of harmonics: what `cos` and `sin` are read as.
-fn harmonics<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) -> Outcome<Vec<[T; 2]>> {
-    let Some(list) = fields.optional("harmonics") else { return Ok(Vec::new()) };
-    let elements = list.elements()?;
-    if elements.len() > MAX_HARMONICS {
-        return bad(&list.pointer, format!("expected at most {MAX_HARMONICS} harmonics"));
-    }
-    let pair = |element: &Field<'_>| {
-        let mut pair = element.fields()?;
-        let both = [read(&pair.required("cos")?)?, read(&pair.required("sin")?)?];
-        pair.finish().map(|()| both)
-    };
-    elements.iter().map(pair).collect()
-}
-
-/// `mean` and `harmonics` of an object.
-fn curve<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) -> Outcome<(T, Vec<[T; 2]>)> {
-    Ok((read(&fields.required("mean")?)?, harmonics(fields, read)?))
-}
-
-/// The same, and after it that of each of the `sensitivities`, one for each number of the family.
-fn curves<T>(
-    fields: &mut Fields<'_>,
-    members: usize,
-    read: impl Fn(&Field<'_>) -> Outcome<T>,
-) -> Outcome<Vec<(T, Vec<[T; 2]>)>> {
-    let mut all = vec![curve(fields, &read)?];
-    if members == 0 {
-        return Ok(all);
-    }
-    let list = fields.required("sensitivities")?;
-    for field in list.elements()? {
-        let mut fields = field.fields()?;
-        all.push(curve(&mut fields, &read)?);
-        fields.finish()?;
-    }
-    if all.len() == 1 + members {
-        return Ok(all);
-    }
-    let what = "one for each parameter of which an interval is given, and one for the period if it is an interval";
-    bad(&list.pointer, format!("expected {members} objects, {what}"))
-}
-
-pub(super) fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> {
-    let mut fields = field.fields()?;
-    let vector = |field: &Field<'_>| {
-        let list = field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>()?;
-        let right = list.len() == order;
-        if right { Ok(list) } else { bad(&field.pointer, format!("expected {order} numbers, one for each state")) }
-    };
-    let waves = curves(&mut fields, members, vector)?.into_iter().map(|(mean, harmonics)| {
-        let of = |(i, mean): (usize, &Rational)| Wave {
-            mean: mean.clone(),
-            harmonics: harmonics.iter().map(|[cos, sin]| [cos[i].clone(), sin[i].clone()]).collect(),
-        };
-        mean.iter().enumerate().map(of).collect()
-    });
-    let orbit = Orbit {
-        pointer: field.pointer.clone(),
-        waves: waves.collect(),
-        defect: number(&mut fields, "defect", None)?,
-        tube: number(&mut fields, "tube", Some(true))?,
-        radius: number(&mut fields, "radius", None)?,
-    };
-    fields.finish().map(|()| orbit)
-}
-
-pub(super) fn forcing(field: &Field<'_>, members: usize) -> Outcome<Forcing> {
-    let mut fields = field.fields()?;
-    let waves = curves(&mut fields, members, |field| field.rational())?;
-    let forcing = Forcing {
-        pointer: field.pointer.clone(),
-        waves: waves.into_iter().map(|(mean, harmonics)| Wave { mean, harmonics }).collect(),
-        rest: number(&mut fields, "rest", None)?,
-        rest_t: number(&mut fields, "rest_t", None)?,
-    };
-    fields.finish().map(|()| forcing)
 }
