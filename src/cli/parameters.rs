@@ -60,11 +60,14 @@ pub fn member(plant: &Plant, texts: &[String], quiet: bool) -> Result<Plant, Fai
             return Err(Failure::call(format!("the plant file has no parameter `{name}`"), help));
         };
         let covered = match &parameter.interval {
-            Some(Interval { low, high, .. }) => {
-                let value = value.enclose(DEFAULT_PRECISION);
-                let [low, high] = [low, high].map(|end| Enclosure::from_rational(end, DEFAULT_PRECISION));
-                low.le(&value).is_true() && value.le(&high).is_true()
-            }
+            Some(Interval { low, high, .. }) => match value.as_rational() {
+                Some(value) => value >= low && value <= high,
+                None => {
+                    let value = value.enclose(DEFAULT_PRECISION);
+                    let [low, high] = [low, high].map(|end| Enclosure::from_rational(end, DEFAULT_PRECISION));
+                    low.le(&value).is_true() && value.le(&high).is_true()
+                }
+            },
             None => {
                 let exact = value.exact.as_ref().zip(parameter.value.exact.as_ref());
                 value.text == parameter.value.text || exact.is_some_and(|(one, other)| one.equals(other).is_true())
