@@ -303,7 +303,11 @@ fn falsified(certificate: &Path, more: &[&str]) -> Output {
 #[test]
 fn members_of_a_family_are_tried() {
     let folder = TempDir::new().unwrap();
-    let (file, _) = certified(&folder, &family(["0.14", "0.26"], ["0", "0.2"]));
+    let mut plant = family(["0.14", "0.26"], ["0", "0.2"]);
+    // A constant that stands in the internal model, too.
+    plant["parameters"]["T"] = "1".into();
+    plant["internal_model"]["base_frequency"] = "2*pi/T".into();
+    let (file, _) = certified(&folder, &plant);
     let report = json(&falsified(&file, &["--trials", "12"]).stdout);
     assert_eq!(report["refuted"], false);
     let trials = report["trials"].as_array().unwrap();
@@ -334,7 +338,7 @@ fn members_of_a_family_are_tried() {
     // c is chosen, so that the second corner is that of the largest k.
     assert_eq!(report["trials"][0]["parameters"], json!({ "k": "0.26", "c": "0.05" }));
     let plant = json(&std::fs::read(&member).unwrap());
-    assert_eq!(plant["parameters"], json!({ "k": "0.26", "c": "0.05" }));
+    assert_eq!(plant["parameters"], json!({ "k": "0.26", "c": "0.05", "T": "1" }));
     assert!(!Plant::from_json("member", &plant.to_string()).unwrap().is_family());
     let described = plant["description"].as_str().unwrap();
     let flags = described.split_once(" with ").and_then(|(_, flags)| flags.strip_suffix('.')).unwrap();
