@@ -14,7 +14,7 @@ Ltac put old new b :=
 
 (** [b] with the fields of the record [R], which is what [c] stands for. *)
 Ltac opened c R b :=
-  let b := lazymatch b with context [known c] => let v := eval cbv beta iota delta [known] in (known R) in put (known c) v b | _ => b end in
+  let b := lazymatch b with context [known c] => let v := eval cbv beta iota delta [known min2 max2] in (known R) in put (known c) v b | _ => b end in
   let b := lazymatch b with context [rate c] => let v := eval cbv beta iota delta [rate] in (rate R) in put (rate c) v b | _ => b end in
   let b := lazymatch b with context [b_q_rms c] => let v := eval cbv beta iota delta [b_q_rms] in (b_q_rms R) in put (b_q_rms c) v b | _ => b end in
   let b := lazymatch b with context [b_qt_rms c] => let v := eval cbv beta iota delta [b_qt_rms] in (b_qt_rms R) in put (b_qt_rms c) v b | _ => b end in
@@ -140,7 +140,7 @@ Ltac note_existence c :=
   note_difference c R constr:(bt c); note_difference c R constr:(tau c);
   note_computed c R constr:(b_lo c); note_computed c R constr:(b_hi c); note_computed c R constr:(d_b c); note_computed c R constr:(c_m c);
   note_computed c R constr:(nu_lo c); note_computed c R constr:(c_ex c);
-  let k := eval cbv beta iota delta [known] in (known R) in
+  let k := eval cbv beta iota delta [known min2 max2] in (known R) in
   match k with
   | by_functions ?o =>
       note_computed c R constr:(F_p c o); note_computed c R constr:(bent c o); note_computed c R constr:(Q_p c o);
@@ -188,7 +188,7 @@ Ltac note_stability c :=
   let R := eval red in c in
   keep_sizes c;
   note_computed c R constr:(X_b c); note_computed c R constr:(E_b c);
-  let k := eval cbv beta iota delta [known] in (known R) in
+  let k := eval cbv beta iota delta [known min2 max2] in (known R) in
   match k with
   | by_metrics _ => idtac
   | _ =>
@@ -241,7 +241,7 @@ Ltac decide_conditions c :=
   lazymatch goal with
   | |- of_its_kind _ =>
       let R := eval red in c in
-      let k := eval cbv beta iota delta [known] in (known R) in
+      let k := eval cbv beta iota delta [known min2 max2] in (known R) in
       match k with by_metrics ?j => change (by_joint c j) | _ => change (by_square c) end; constructor; decide_one c
   | _ => decide_one c
   end.

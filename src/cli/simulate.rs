@@ -7,7 +7,7 @@ use super::input;
 use super::output::{self, shown};
 use super::parameters;
 use super::progress::Bar;
-use super::simulate_gain::{gain_remarks, nominal, ordinary};
+use super::simulate_gain::{at_period, gain_remarks, nominal, ordinary};
 use super::simulate_sampled;
 use sigmastar_lab::simulate::{
     ClosedLoop, FIGURE_FILES, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures,
@@ -32,7 +32,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
     let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
-    let member = parameters::member(&plant, &args.parameter, args.quiet)?;
+    let member = at_period(args, parameters::member(&plant, &args.parameter, args.quiet)?)?;
     let regulator = match (&args.controller, &sigma, args.n_o) {
         (Some(path), ..) => read_regulator(&input::written(path)?)?,
         (None, Some(sigma), Some(n_o)) => {
@@ -42,7 +42,7 @@ fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
         (None, None, _) => return Err(Failure::call("no regulator is given", "give --sigma or --controller")),
     };
     let power = power.map(|power| power.to_f64());
-    let period = member.period.to_f64();
+    let period = member.period.nominal().to_f64();
     if !regulator.is_representable()
         || !power.is_none_or(|power| power > 0.0 && power.is_finite())
         || !period.is_normal()

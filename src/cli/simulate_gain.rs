@@ -1,10 +1,32 @@
-//! The gain of the actuator in `sigmastar simulate`.
+//! The gain of the actuator and the period in `sigmastar simulate`.
 
+use super::args::SimulateArgs;
 use super::failure::Failure;
-use super::output;
+use super::{input, output};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Constant, InputGain};
 use sigmastar_regulator::Regulator;
+
+/// The plant of a call with the period that is asked for.
+///
+/// # Errors
+/// What is wrong with the period.
+pub fn at_period(args: &SimulateArgs, plant: Plant) -> Result<Plant, Failure> {
+    let period = args.period.as_deref().map(|text| input::positive("--period", text)).transpose()?;
+    let Some(period) = period else { return Ok(plant) };
+    let value = period.to_f64();
+    let [low, high] = [plant.period.shortest(), plant.period.longest()];
+    if !args.quiet && (value < low.to_f64() || value > high.to_f64()) {
+        output::remark(&match plant.period.interval() {
+            None => format!("the plant file states the period {}: no claim covers {}", low.text, period.text),
+            Some(_) => format!(
+                "the period {} is outside of `period`, from {} to {}: no claim covers it",
+                period.text, low.text, high.text
+            ),
+        });
+    }
+    Ok(plant.at_period(&period))
+}
 
 /// The nominal gain of the actuator of a plant, where it states one.
 pub fn nominal(plant: &Plant) -> Option<f64> {

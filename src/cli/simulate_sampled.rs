@@ -7,7 +7,7 @@ use super::input;
 use super::output::{self, shown};
 use super::parameters;
 use super::progress::Bar;
-use super::simulate_gain::{gain_remarks, ordinary};
+use super::simulate_gain::{at_period, gain_remarks, ordinary};
 use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
@@ -30,7 +30,7 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     let phase = args.phase.as_deref().map(|text| input::nonnegative("--phase", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
     let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
-    let member = parameters::member(&plant, &args.parameter, args.quiet)?;
+    let member = at_period(args, parameters::member(&plant, &args.parameter, args.quiet)?)?;
     let (regulator, discrete) = match (&args.controller, &sigma, args.n_o) {
         (Some(_), ..) => from_file(args, &step)?,
         (None, Some(sigma), Some(n_o)) => {

@@ -3,6 +3,7 @@
 use crate::support::count;
 use proptest::prelude::*;
 use sigmastar_lang::expr::{Expr, Variables};
+use sigmastar_lang::spec::Period;
 use sigmastar_lang::spec::model::{Constant, Jacobian, JacobianEntry};
 use sigmastar_plants::lyapunov::{Candidates, LyapunovFailure, candidates, floquet_exponents};
 
@@ -12,14 +13,14 @@ fn constant(text: &str) -> Constant {
 }
 
 /// The rows as text; an entry with a comma is an interval.
-fn jacobian(rows: &[Vec<String>]) -> (Jacobian, Constant) {
+fn jacobian(rows: &[Vec<String>]) -> (Jacobian, Period) {
     let entry = |text: &String| match text.split_once(',') {
         Some((low, up)) => JacobianEntry::Interval(Box::new([constant(low), constant(up)])),
         None => JacobianEntry::Function(Expr::parse(text, Variables::Time).expect("an expression in t")),
     };
     let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect();
     let period = constant("1");
-    (Jacobian { rows, period: period.exact.clone() }, period)
+    (Jacobian { rows, period: period.exact.clone() }, period.into())
 }
 
 fn find(rows: &[Vec<String>]) -> Result<Candidates, LyapunovFailure> {

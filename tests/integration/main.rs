@@ -42,6 +42,7 @@ mod notations;
 mod obstacles;
 mod parameters;
 mod periodic_bounds;
+mod periods;
 mod plain;
 mod plants;
 mod plants_linear;

@@ -309,19 +309,19 @@ fn error_bounds_are_above_the_direct_sums_and_close() {
             let modulus = a.hypot(sigma);
             let (sup, rms) =
                 ((qr * (2.0 * size).sqrt()).min(q1 * (2.0 * rate).sqrt()), (qr / modulus).min(q1 / (a * modulus)));
-            let found = error_bounds(&data, bounds, &exact, &huge, n_o);
+            let found = error_bounds(&data, bounds, None, &exact, &huge, n_o);
             for (bound, direct) in [(found.sup.upper_f64(), sup), (found.rms.upper_f64(), rms)] {
                 assert!(bound >= direct * (1.0 - 1e-10) && bound <= direct * 1.5, "{sigma} {n_o}: {bound} {direct}");
             }
             // Each sum by itself: the other bound made useless.
             let mut only_size = bounds.clone();
             only_size.q_rate_rms = huge.clone();
-            let by_size = error_bounds(&data, &only_size, &exact, &huge, n_o).sup.upper_f64();
+            let by_size = error_bounds(&data, &only_size, None, &exact, &huge, n_o).sup.upper_f64();
             let direct = qr * (2.0 * size).sqrt();
             assert!(by_size >= direct * (1.0 - 1e-9) && by_size <= direct * 1.01, "{sigma} {n_o}: {by_size} {direct}");
             // A smaller bound of the periodic error is kept.
             let tiny = Enclosure::from_rational(&q(1, 1 << 40), 128);
-            let kept = error_bounds(&data, bounds, &exact, &tiny, n_o);
+            let kept = error_bounds(&data, bounds, None, &exact, &tiny, n_o);
             assert!(kept.sup == tiny && kept.rms == tiny);
         }
         let all = Psi::new(&data, bounds);
@@ -329,7 +329,7 @@ fn error_bounds_are_above_the_direct_sums_and_close() {
         assert!((all.psi_2.midpoint_f64() / (qr / omega).powi(2) - 1.0).abs() < 1e-12);
         // Beyond every i64 the bounds are still positive and small.
         for n_o in [i64::MAX as u64, u64::MAX] {
-            let found = error_bounds(&data, bounds, &exact, &huge, n_o);
+            let found = error_bounds(&data, bounds, None, &exact, &huge, n_o);
             assert!(found.sup.is_positive().is_true() && found.rms.is_positive().is_true(), "{n_o}");
             assert!(found.rms.upper_f64() < 1e-15);
         }

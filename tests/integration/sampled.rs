@@ -372,7 +372,7 @@ fn the_table_lists_pairs_that_certify() {
         assert_eq!(row["outcome"], object!("certified"));
         let spec = Specification::from_json("plain", AT_REST_TEXT).unwrap();
         let step = sampled(row["sampling_period"].as_str().unwrap()).internal_model.sampling.unwrap();
-        let sampling = Sampling::new(&spec.period, step.step).unwrap();
+        let sampling = Sampling::new(spec.period.nominal(), step.step).unwrap();
         let gain = parse_decimal(row["sigma"].as_str().unwrap()).unwrap();
         let run = certify_sampled(&spec, &sampling, Some(&gain), None, Ladder::default()).unwrap();
         assert_eq!(run.verdict, Verdict::Certified, "{row}");

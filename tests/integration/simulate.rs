@@ -431,11 +431,10 @@ fn other_base_frequencies_are_certified_and_tried() {
     assert_eq!(code, 0, "{report}");
     let others = report["other_base_frequencies"].as_array().unwrap();
     assert_eq!(others.len(), 2);
-    // Only at 2 pi/T are there bounds that fall with n_o.
-    for (other, matched) in others.iter().zip([false, true]) {
+    for other in others {
         let shares = other["trials"][0]["shares"].as_array().unwrap();
-        let by_n_o = shares.iter().any(|share| share["quantity"] == "rms(e) against its bound for this n_o");
-        assert_eq!(by_n_o, matched, "{other}");
+        let by_n_o = shares.iter().find(|share| share["quantity"] == "rms(e) against its bound for this n_o");
+        assert!(by_n_o.is_some_and(|share| share["share"].as_f64().unwrap() < 1.0), "{other}");
     }
     assert!(others[0]["sigma_star"].as_f64().unwrap() > others[1]["sigma_star"].as_f64().unwrap());
     for (frequencies, message) in [("0", "must be positive"), ("2*pi,", "is empty"), ("pi+", "more is needed")] {

@@ -32,7 +32,7 @@ const SET: &str = "\"initial_set\": { \"kind\": \"paper\" }";
 #[test]
 fn the_example_means_what_it_says() {
     let specification = Specification::from_json("x", EXAMPLE_TEXT).expect("valid");
-    assert_eq!(specification.period.as_rational(), Some(&Rational::from(1)));
+    assert_eq!(specification.period.nominal().as_rational(), Some(&Rational::from(1)));
     assert_eq!(specification.lyapunov.triple().unwrap().p_up.as_rational(), Some(&Rational::from((15512, 10000))));
     assert_eq!(specification.bounds.get(Bound::Q).unwrap().text(), "4.822 + X + atan(E*(X + 0.189))");
     assert_eq!(specification.bounds.named().count(), 8);

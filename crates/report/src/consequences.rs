@@ -1,34 +1,56 @@
 //! What a certified claim says about the regulated error, and the number of oscillators that a target needs.
 
+use super::words;
 use sigmastar_document::number::upper;
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_document::{Block, Table, clean};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi};
-use sigmastar_theory::derivation::targets::{Consequences, Target, TargetOutcome};
+use sigmastar_theory::derivation::mistuned::MAX_TUNED;
+use sigmastar_theory::derivation::targets::{Consequences, MistunedSummary, Target, TargetOutcome};
 
 /// The section of the report.
 pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<Block> {
     let mut blocks = vec![Block::heading("The regulated error"), Block::List(psi_items(spec, consequences))];
-    if consequences.matched {
-        let mut table = Table::new(&["n_o", "rms(e) at most", "sup|e| at most"]);
-        for (n_o, bounds) in &consequences.by_n_o {
-            table.push([n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)]);
-        }
-        blocks.push(Block::says(
-            "Bounds of the error along the periodic solution, at sigma* and for every larger sigma, by the number of \
-             oscillators. They follow from the claim, are computed with enclosures, and have no independent check:",
-        ));
-        blocks.push(Block::Table(table));
-        blocks.push(Block::Drawing(figure(consequences)));
-    } else {
-        blocks.push(Block::says(
-            "The base frequency is not asserted to be 2 pi / period (`\"matched\": true`), so nothing is certified \
-             about how the error decreases with the number of oscillators.",
-        ));
+    let mut table = Table::new(&["n_o", "rms(e) at most", "sup|e| at most"]);
+    for (n_o, bounds) in &consequences.by_n_o {
+        table.push([n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)]);
     }
+    blocks.push(Block::says(
+        "Bounds of the error along the periodic solution, at sigma* and for every larger sigma, by the number of \
+         oscillators. They follow from the claim, are computed with enclosures, and have no independent check:",
+    ));
+    blocks.push(Block::Table(table));
+    blocks.extend(consequences.mistuned.as_ref().map(|mistuned| Block::says(mistuned_words(spec, mistuned))));
+    blocks.push(Block::Drawing(figure(consequences)));
     blocks
+}
+
+/// What the oscillators are worth away from a matched base frequency.
+fn mistuned_words(spec: &Specification, mistuned: &MistunedSummary) -> String {
+    let MistunedSummary { largest, last_that_pays, enough } = mistuned;
+    let why = match words::period(spec) {
+        Some(interval) => format!("The period is one constant from {interval}"),
+        None => "The base frequency is not asserted to be 2 pi / period".to_owned(),
+    };
+    let distance = format!(
+        "{why}: the harmonics are up to {} away from the oscillators, relative to their frequency, so that none vanishes.",
+        upper(largest)
+    );
+    let worth = match (*last_that_pays, *enough) {
+        (0, _) => "With this no oscillator lowers a bound: the table is the same for every n_o.".to_owned(),
+        (last, enough) => {
+            let last_words = match last == MAX_TUNED as u64 {
+                true => format!(
+                    "Of the first {last} oscillators each lowers the bound of its harmonic, and more are not counted"
+                ),
+                false => format!("An oscillator pays up to k = {last}: from n_o = {last} on no bound falls any more"),
+            };
+            format!("{last_words}; from n_o = {enough} on that of sup|e| falls by 1 % or less.")
+        }
+    };
+    format!("{distance} {worth}")
 }
 
 /// The answers to the targets, if there are any.
@@ -62,7 +84,7 @@ fn psi_items(spec: &Specification, consequences: &Consequences) -> Vec<String> {
         spec.state_name()
             .map(|state| format!("sup|{state}| <= psi_x/sigma with psi_x = {}, for every n_o and mu", upper(psi_x))),
     );
-    if consequences.matched {
+    if consequences.mistuned.is_none() {
         items.push(format!("the integral of e^2 over a period <= psi_2/(n_o + 1)^2 with psi_2 = {}", upper(psi_2)));
     }
     items
@@ -77,9 +99,5 @@ fn answer(target: &Target, outcome: TargetOutcome) -> String {
         TargetOutcome::NotReached => {
             format!("Target {wanted}: not certified with any number of oscillators up to {MAX_OSCILLATORS}")
         }
-        TargetOutcome::NotMatched => format!(
-            "Target {wanted}: no number of oscillators certifies it, because the base frequency is not asserted to be \
-             2 pi / period"
-        ),
     }
 }

@@ -75,6 +75,9 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         report["input_gain"] = json!({ "nominal": nominal.text, "low": low.text, "high": high.text });
         report["sigma_star_nominal_gain_estimate"] = json!(run.alternatives.nominal_gain.map(estimate));
     }
+    if let Some([low, high]) = run.spec.period.interval() {
+        report["period"] = json!({ "nominal": run.spec.period.nominal().text, "low": low.text, "high": high.text });
+    }
     if !run.interval_costs.is_empty() {
         let costs = run.interval_costs.iter().map(|(name, sigma)| (name.clone(), json!(sigma.map(estimate))));
         report["sigma_star_without_interval_estimates"] = costs.collect::<serde_json::Map<_, _>>().into();
@@ -157,17 +160,21 @@ fn consequences_json(consequences: &Consequences) -> Value {
             let (answer, n_o) = match outcome {
                 TargetOutcome::Reached(n_o) => ("reached", Some(n_o)),
                 TargetOutcome::NotReached => ("not reached", None),
-                TargetOutcome::NotMatched => ("not matched", None),
             };
             json!({ "norm": norm, "target": target.value.text, "answer": answer, "n_o": n_o })
         })
         .collect();
     let psi = &consequences.psi;
     // psi_2 speaks about matched base frequencies only.
-    let psi_2 = if consequences.by_n_o.is_empty() { Value::Null } else { json!(full(&psi.psi_2)) };
+    let psi_2 = if consequences.mistuned.is_some() { Value::Null } else { json!(full(&psi.psi_2)) };
+    let mistuned = consequences.mistuned.as_ref().map(|mistuned| {
+        json!({
+            "largest": full(&mistuned.largest), "last_that_pays": mistuned.last_that_pays, "enough": mistuned.enough,
+        })
+    });
     json!({
         "psi_1": full(&psi.psi_1), "psi_x": full(&psi.psi_x), "psi_2": psi_2,
-        "error_bounds": rows, "targets": targets,
+        "error_bounds": rows, "mistuned": mistuned, "targets": targets,
     })
 }
 

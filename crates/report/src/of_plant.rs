@@ -4,7 +4,7 @@ use super::words;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::exact;
-use sigmastar_document::{Block, Table};
+use sigmastar_document::{Block, Table, clean};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
@@ -28,6 +28,15 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             }
         });
         blocks.push(Block::facts([("parameters", written.collect::<Vec<_>>().join(", "))]));
+    }
+    if let Some([low, high]) = spec.period.interval() {
+        let nominal = &spec.period.nominal().text;
+        let written = format!("T in [{}, {}] (nominal {nominal})", low.text, high.text);
+        blocks.push(Block::facts([("period", clean(&written))]));
+        blocks.push(Block::says(
+            "Everything below is proved for every constant period in this interval, of which the clock v = T_nominal/T is one more \
+             parameter: xb follows it too, and all of this is about the phase 2 pi t/T.",
+        ));
     }
     if parameters.iter().any(|parameter| parameter.interval.is_some()) {
         blocks.push(Block::says(

@@ -11,7 +11,7 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
     if let Some(sigma) = run.sigma_star().filter(|_| run.given_gain.is_none())
-        && sigma.to_f64() * run.spec.period.to_f64() > LARGE
+        && sigma.to_f64() * run.spec.period.longest().to_f64() > LARGE
     {
         let cause = far_above_its_samples(run.spec.bounds.proved_values().entries()).unwrap_or_else(|| {
             let of_plant = run.spec.plant().is_some();

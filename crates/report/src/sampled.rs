@@ -155,7 +155,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
         clean(&spec.internal_model.mu.text),
         clean(&spec.internal_model.base_frequency.text),
         words::set(spec, &witness.set),
-        clean(&spec.period.text),
+        clean(&spec.period.nominal().text),
     )
 }
 

@@ -20,8 +20,8 @@ pub fn sentence(run: &Certification<'_>) -> String {
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
             "Certified: with sigma = {} (or any larger), mu = {} and base frequency {}, for every number of oscillators \
-             n_o >= 0{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic solution, \
-             T = {}.",
+             n_o >= 0{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
+             solution{}.",
             exact(sigma, Direction::Up),
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
@@ -33,9 +33,13 @@ pub fn sentence(run: &Certification<'_>) -> String {
                         .and_then(|plant| members(&plant.parameters))
                         .map(|members| format!(" and every plant with {members}"))
                 )
+                .chain(words::period(spec).map(|interval| format!(" and every constant period T from {interval}")))
                 .collect::<String>(),
             words::set(spec, set),
-            clean(&spec.period.text),
+            match spec.period.interval() {
+                None => format!(", T = {}", clean(&spec.period.nominal().text)),
+                Some(_) => String::new(),
+            },
         ),
         _ => obstacles::sentence(run),
     }
@@ -134,7 +138,9 @@ pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, furthe
     let of_the_actuator = words::input_gain(spec).map_or_else(String::new, |interval| {
         format!(", and that the gain of the actuator is one constant from {interval}")
     });
-    assumed_of_the_plant(spec, used, further) + &of_the_actuator
+    let of_the_period = words::period(spec)
+        .map_or_else(String::new, |interval| format!(", and that the period is one constant from {interval}"));
+    assumed_of_the_plant(spec, used, further) + &of_the_actuator + &of_the_period
 }
 
 fn assumed_of_the_plant(spec: &Specification, used: Option<[Enclosure; 2]>, further: Option<[Enclosure; 2]>) -> String {

@@ -20,6 +20,11 @@ pub(super) fn input_gain(spec: &Specification) -> Option<String> {
     spec.input_gain.as_ref().map(|InputGain { low, high, .. }| format!("{} to {}", clean(&low.text), clean(&high.text)))
 }
 
+/// "1/50.2 to 1/49.8": the interval of the period, where only that is known.
+pub(super) fn period(spec: &Specification) -> Option<String> {
+    spec.period.interval().map(|[low, high]| format!("{} to {}", clean(&low.text), clean(&high.text)))
+}
+
 /// The arguments up to which bounding functions are used: `X = 1, E = 2`.
 pub(super) fn arguments(spec: &Specification, [x, e]: [String; 2]) -> String {
     let of_state = spec.state_name().map_or_else(String::new, |_| format!("X = {x}, "));

@@ -102,6 +102,13 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         let text =
             "Every constant gain of the actuator from `low` to `high` is covered; there where the document has one.";
         fields.push(may("input_gain", "Input gain", text, Shape::Object(gain)));
+        let period = vec![
+            exact("nominal", "Nominal period", "What the oscillators are about."),
+            exact("low", "Shortest period", "The shortest period that is covered."),
+            exact("high", "Longest period", "The longest period that is covered."),
+        ];
+        let text = "Every constant period from `low` to `high` is covered; there where the document has an interval.";
+        fields.push(may("period", "Period", text, Shape::Object(period)));
     }
     let set = |kinds: &[&'static str], sizes: Vec<Field>| {
         let kind = must("kind", "Kind", "What was asked for.", Shape::Word(kinds.to_vec()));

@@ -55,6 +55,22 @@ pub(super) fn internal_model() -> Field {
     must("internal_model", "Internal model", "The oscillators of the regulator.", Shape::Object(fields))
 }
 
+/// `period`.
+pub(super) fn period() -> Field {
+    let fields = vec![
+        must("nominal", "Nominal period", "What the oscillators, exports and figures are about.", POSITIVE),
+        must("low", "Shortest period", "The true period is at least this, at most the nominal one.", POSITIVE),
+        must("high", "Longest period", "The true period is at most this, at least the nominal one.", POSITIVE),
+    ];
+    must(
+        "period",
+        "Period T",
+        "The period of f and q in t, in units of time; or an interval of one constant, with time in formulas as `phase`, which is \
+         2 pi t/T, and without `matched`.",
+        Shape::OneOf(vec![POSITIVE, Shape::Object(fields)]),
+    )
+}
+
 /// `input_gain`.
 pub(super) fn input_gain() -> Field {
     let fields = vec![

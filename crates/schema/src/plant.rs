@@ -1,11 +1,11 @@
 //! The fields of a plant.
 
-use super::parts::{POSITIVE, header, initial_set, input_gain, internal_model};
+use super::parts::{POSITIVE, header, initial_set, input_gain, internal_model, period};
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use sigmastar_lang::plant::{FORMAT, VERSIONS};
 
 /// What formulas are in.
-const VARIABLES: &str = "t, the states, e and the parameters";
+const VARIABLES: &str = "t, phase, the states, e and the parameters";
 
 /// All fields; those of a file of its own, or of a copy in another one.
 pub(super) fn fields(whole: bool) -> Vec<Field> {
@@ -26,7 +26,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
     ];
     let mut fields = header(FORMAT, &VERSIONS, whole);
     fields.extend([
-        must("period", "Period T", "The period of f and q in t, in units of time.", POSITIVE),
+        period(),
         must(
             "states",
             "States",

@@ -1,6 +1,6 @@
 //! The fields of a bounding specification.
 
-use super::parts::{NONNEGATIVE, POSITIVE, header, initial_set, input_gain, internal_model};
+use super::parts::{NONNEGATIVE, POSITIVE, header, initial_set, input_gain, internal_model, period};
 use super::shape::{Field, Shape, Sign, list, may, must};
 use sigmastar_lang::spec::{Bound, FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, MAX_STATES, VERSIONS};
 
@@ -28,7 +28,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         list(Shape::Constant(Sign::Any), MAX_RELATIVE_DEGREE_COEFFICIENTS),
     );
     fields.extend([
-        must("period", "Period T", "The period of f and q in t, in units of time.", POSITIVE),
+        period(),
         must("lyapunov", "Lyapunov data", "How the zero dynamics x' = f(t,x,0) contract near 0.", lyapunov()),
         must("bounds", "Bounding functions", "Bounds of f, q and their derivatives.", Shape::Object(bounds("bounds"))),
         may("q_0", "Known disturbance", "What is known of q(t,0,0).", Shape::Object(harmonics)),
@@ -52,7 +52,7 @@ fn lyapunov() -> Shape {
     triple.extend(bounds("lyapunov"));
     let end = || Shape::Constant(Sign::Any);
     let interval = Shape::List(Box::new(end()), 2, Some(2));
-    let entry = Shape::OneOf(vec![Shape::Expression("t"), interval]);
+    let entry = Shape::OneOf(vec![Shape::Expression("t and phase"), interval]);
     let jacobian = must(
         "jacobian",
         "Jacobian",

@@ -13,7 +13,8 @@ use std::ops::Deref;
 /// the weights are pure numbers.
 #[derive(Clone, Debug)]
 pub struct Numbers<R> {
-    /// The period T.
+    /// The period T; where an interval of it is known the longest one, T_hi, for every bound in which it stands
+    /// grows with T (derivation, 13.3; K_alpha does not, and `repaired` is not evaluated then).
     pub period: R,
     /// P_low.
     pub p_low: R,
@@ -37,8 +38,10 @@ pub struct Numbers<R> {
     pub n_bar_squared: R,
     /// Nbar.
     pub n_bar: R,
-    /// Om = 2 pi/T.
+    /// Om = 2 pi/T at the longest period: the least one.
     pub fundamental: R,
+    /// The largest Om: what multiplies sizes of harmonics, or stands inside a transfer bound.
+    pub fastest: R,
     /// c and alpha of the P that serves for the existence of the periodic solution.
     pub existence: ExistenceTriple<R>,
     /// What is known of q(t,0,0), if anything.
@@ -125,6 +128,7 @@ impl Numbers<Enclosure> {
             n_bar_squared: self.n_bar_squared.midpoint_f64(),
             n_bar: self.n_bar.midpoint_f64(),
             fundamental: self.fundamental.midpoint_f64(),
+            fastest: self.fastest.midpoint_f64(),
             existence: ExistenceTriple { c: c.midpoint_f64(), alpha: alpha.midpoint_f64(), separate: *separate },
             q_0: self.q_0.as_ref().map(|known| KnownForcing {
                 harmonics: all(&known.harmonics),
@@ -190,7 +194,8 @@ impl<'s> Data<'s> {
             let separate = spec.lyapunov.has_second_triple();
             ExistenceTriple::new(spec.lyapunov.existence_triple(), separate, precision)
         };
-        let period = spec.period.enclose(precision);
+        // The one place that says which end of the period a formula takes.
+        let [shortest, period] = [spec.period.shortest(), spec.period.longest()].map(|end| end.enclose(precision));
         let alpha = number(|triple| &triple.alpha);
         let known = spec.q_0.as_ref().map(|known| KnownForcing {
             harmonics: known.harmonics.iter().map(|bound| bound.enclose(precision)).collect(),
@@ -203,6 +208,7 @@ impl<'s> Data<'s> {
         let nu = &mu / &base_frequency;
         let numbers = Numbers {
             fundamental: 2 * Enclosure::pi(precision) / &period,
+            fastest: 2 * Enclosure::pi(precision) / shortest,
             existence,
             q_0: known,
             matched: model.matched,

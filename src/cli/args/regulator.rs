@@ -121,6 +121,10 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub input_gain: Option<String>,
 
+    /// The true period, an exact positive constant; the nominal one of the plant file's `period` without this flag
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub period: Option<String>,
+
     /// Another value of a parameter of the plant file than the nominal one, an exact constant; several times for several. The
     /// regulator stays that of the file
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]

@@ -1,5 +1,5 @@
-//! The periodic answers of the regulator to random q at gains of the interval, harmonic by harmonic in doubles, against the bounds of the
-//! library: none is ever exceeded, and some are nearly reached.
+//! The periodic answers of the regulator to random q at gains and periods of intervals, harmonic by harmonic in doubles, against the bounds
+//! of the library: none is ever exceeded, and some are nearly reached.
 
 use crate::support::cases;
 use nalgebra::Complex;
@@ -20,7 +20,7 @@ type C = Complex<f64>;
 const FORCED: usize = 5;
 const INSTANTS: usize = 400;
 
-/// A regulator on e' = q(t) + b u, T = 1.
+/// A regulator on e' = q(t) + b u.
 struct Loop {
     mu: f64,
     /// w over 2 pi: never so that a harmonic of q is one of the oscillators.
@@ -29,6 +29,8 @@ struct Loop {
     sigma: f64,
     /// b_lo and b_hi.
     ends: [f64; 2],
+    /// T_lo and T_hi; T is 1 nominally.
+    periods: [f64; 2],
     /// c_0, c_1, ..., of q.
     q: Vec<C>,
 }
@@ -50,12 +52,17 @@ impl Loop {
             oscillators: [0, 1, 3, 8][random.random_range(0..4_usize)],
             sigma: 10f64.powf(random.random_range(-1.5..2.5)),
             ends: [random.random_range(0.08..1.0), random.random_range(1.0..3.0)],
+            periods: if random.random_bool(0.5) {
+                [1.0; 2]
+            } else {
+                [0.8..1.0, 1.0..1.25].map(|end| random.random_range(end))
+            },
         }
     }
 
-    /// e and the components of zeta at the harmonic k >= 1, at the gain b.
-    fn answer(&self, k: usize, b: f64) -> (C, Vec<C>) {
-        let s = C::new(0.0, TAU * k as f64);
+    /// e and the components of zeta at the harmonic k >= 1, at the gain b and the period T.
+    fn answer(&self, k: usize, [b, period]: [f64; 2]) -> (C, Vec<C>) {
+        let s = C::new(0.0, TAU * k as f64 / period);
         let frequency = |l: usize| TAU * self.ratio * l as f64;
         let blocks = (1..=self.oscillators).map(|l| weight(l) * s / (s * s + frequency(l).powi(2)));
         let through = blocks.fold(C::from(weight(0)) / s, |sum, block| sum + block);
@@ -69,9 +76,9 @@ impl Loop {
         (e, zeta)
     }
 
-    /// rms(e), rms(e'), sup|e| and sup|zeta|_N at the gain b.
-    fn sizes(&self, b: f64) -> [f64; 4] {
-        let answers: Vec<(C, Vec<C>)> = (1..=FORCED).map(|k| self.answer(k, b)).collect();
+    /// rms(e), rms(e'), sup|e| and sup|zeta|_N at the gain b and the period T.
+    fn sizes(&self, [b, period]: [f64; 2]) -> [f64; 4] {
+        let answers: Vec<(C, Vec<C>)> = (1..=FORCED).map(|k| self.answer(k, [b, period])).collect();
         let rms = |value: &dyn Fn(usize, C) -> f64| {
             (2.0 * answers.iter().zip(1..).map(|((e, _), k)| value(k, *e).powi(2)).sum::<f64>()).sqrt()
         };
@@ -87,14 +94,15 @@ impl Loop {
             });
             (sup, largest) = (sup.max(e.abs()), largest.max(zeta.sum::<f64>().sqrt()));
         }
-        [rms(&|_, e| e.norm()), rms(&|k, e| TAU * k as f64 * e.norm()), sup, largest]
+        [rms(&|_, e| e.norm()), rms(&|k, e| TAU * k as f64 / period * e.norm()), sup, largest]
     }
 
     fn specification(&self) -> Specification {
         let [low, high] = self.ends.map(|end| end.to_string());
         let sizes: Vec<String> = self.q.iter().map(|c| (c.norm() * (1.0 + 1e-12)).to_string()).collect();
         let text = json!({
-            "format": "sigmastar/bounding-spec", "version": 1, "name": "a loop", "period": "1",
+            "format": "sigmastar/bounding-spec", "version": 1, "name": "a loop",
+            "period": { "nominal": "1", "low": self.periods[0].to_string(), "high": self.periods[1].to_string() },
             "lyapunov": { "p_low": "1", "p_up": "1", "alpha": "1" },
             "bounds": { "f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "1", "q_x": "0", "q_t": "1" },
             "q_0": { "harmonics": sizes, "rest_rms": "0" },
@@ -118,7 +126,7 @@ impl Loop {
             let of = |k: usize| (if k == 0 { 1.0 } else { 2.0 }) * (factor(k) * self.q[k].norm()).powi(2);
             ((0..=FORCED).map(of).sum::<f64>().sqrt()) * (1.0 + 1e-12)
         };
-        let (q_rms, q_rate_rms) = (exact(square(&|_| 1.0)), exact(square(&|k| TAU * k as f64)));
+        let (q_rms, q_rate_rms) = (exact(square(&|_| 1.0)), exact(square(&|k| TAU * k as f64 / self.periods[0])));
         let (k0, k1) = closed_form_pair(&data);
         [exact(1e100), data.zero()].map(|change| {
             let change = [change.clone(), change];
@@ -139,12 +147,16 @@ fn answers_are_within_their_bounds_at_every_gain() {
         let of = Loop::random(random);
         let [low, high] = of.ends;
         let bounds = of.bounds();
-        for b in [low, high, random.random_range(low..high), 1.0] {
-            let sizes = of.sizes(b);
+        let [shortest, longest] = of.periods;
+        let periods = [shortest, longest, 1.0];
+        for (b, period) in
+            [low, high, random.random_range(low..high), 1.0].into_iter().flat_map(|b| periods.map(|t| (b, t)))
+        {
+            let sizes = of.sizes([b, period]);
             for (i, size) in sizes.into_iter().enumerate() {
                 for bounds in &bounds {
                     let share = size / bounds[i];
-                    assert!(share <= 1.0 + 1e-9, "seed {seed}, b = {b}: {i} is {share} of its bound");
+                    assert!(share <= 1.0 + 1e-9, "seed {seed}, b = {b}, T = {period}: {i} is {share} of its bound");
                     largest[i] = largest[i].max(share);
                 }
             }

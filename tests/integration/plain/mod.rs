@@ -110,7 +110,7 @@ impl<'s> Spec<'s> {
             (constant(&spec.lyapunov.triple().unwrap().p_low), constant(&spec.lyapunov.triple().unwrap().p_up));
         Spec {
             spec,
-            t: constant(&spec.period),
+            t: constant(spec.period.nominal()),
             c: (&p_up / &p_low).sqrt(),
             p_low,
             p_up,

@@ -12,6 +12,7 @@ use sigmastar_prove::certify::GivenWitness;
 use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds};
+use sigmastar_theory::derivation::mistuned::Mistuning;
 use sigmastar_theory::derivation::sharp::SharpEvaluation;
 
 /// The claim of a certificate in double precision.
@@ -119,16 +120,15 @@ impl TriedClaim {
         gain / uncertain.nominal.to_f64() * falls
     }
 
-    /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*, for a matched base frequency.
+    /// The bounds of rms(e) and sup|e| with n_o oscillators at a gain of at least sigma*.
     #[must_use]
-    pub fn matched_bounds(&self, sigma: f64, n_o: u32) -> Option<[f64; 2]> {
-        if !self.spec.internal_model.matched {
-            return None;
-        }
+    pub fn error_bounds(&self, sigma: f64, n_o: u32) -> Option<[f64; 2]> {
         let data = Data::new(&self.spec, DEFAULT_PRECISION);
         let (excitation, e_p) = self.drive.as_ref()?;
         let sigma = data.rational(&Rational::from_f64(sigma)?);
-        let ErrorBounds { rms, sup } = error_bounds(&data, excitation, &sigma, &data.rational(e_p), u64::from(n_o));
+        let (mistuning, e_p) = (Mistuning::new(&data), data.rational(e_p));
+        let ErrorBounds { rms, sup } =
+            error_bounds(&data, excitation, mistuning.as_ref(), &sigma, &e_p, u64::from(n_o));
         Some([rms.upper_f64(), sup.upper_f64()])
     }
 

@@ -11,7 +11,10 @@ use sigmastar_lang::spec::{Document, SpecErrors};
 #[must_use]
 pub fn flags(claim: &TriedClaim, trial: &Trial) -> String {
     let gain = trial.input_gain.map_or_else(String::new, |gain| format!(" --input-gain {gain:?}"));
-    let plain = format!("--sigma {:?} --n-o {}{gain}", trial.sigma, trial.n_o);
+    // A drawn plant has it in its file.
+    let period = trial.period.as_ref().filter(|_| matches!(trial.plant, TriedPlant::Own(_)));
+    let period = period.map_or_else(String::new, |period| format!(" --period \"{}\"", period.text));
+    let plain = format!("--sigma {:?} --n-o {}{gain}{period}", trial.sigma, trial.n_o);
     match claim.sampled.as_ref().zip(trial.phase) {
         None => plain,
         Some((sampled, phase)) => format!("{plain} --sampled \"{}\" --phase {phase:?}", sampled.step.text),
@@ -40,7 +43,7 @@ pub fn counterexample_plant(
         "format": plant::FORMAT, "version": 1,
         "name": format!("Trial {} for {}", trial.number, clean(&claim.spec.name)),
         "description": description,
-        "period": claim.spec.period.text,
+        "period": trial.period.as_ref().unwrap_or(claim.spec.period.nominal()).text,
         "states": names, "f": f, "q": q,
         "initial": { "x": x, "e": e, "z": z },
         "internal_model": claim.spec.document["internal_model"],

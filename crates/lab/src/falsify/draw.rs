@@ -22,7 +22,8 @@ use sigmastar_theory::data::{Bound, Data};
 pub fn draw(claim: &TriedClaim, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
     let limits = Limits::new(claim);
     let [reach_x, reach_e] = limits.reach;
-    let clock = Clock { period: &claim.spec.period.text, multiple: [1, 1, 2, 3][random.whole(0, 3) as usize] };
+    let clock =
+        Clock { period: &claim.spec.period.nominal().text, multiple: [1, 1, 2, 3][random.whole(0, 3) as usize] };
     let largest = limits.slope(Bound::F).min(limits.at_zero(Bound::Fx));
     // Only data that speak of no state at all are those of a plant without one.
     let drawn = match has_states(&Data::new(&claim.spec, DEFAULT_PRECISION), &claim.reach) {

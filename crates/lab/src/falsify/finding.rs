@@ -2,6 +2,7 @@
 
 use super::family::DrawnPlant;
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Constant;
 
 /// Which trials, from which seed.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +66,8 @@ pub struct Trial {
     pub start: Vec<f64>,
     /// The gain of the actuator, of a claim for an interval of them.
     pub input_gain: Option<f64>,
+    /// The period, of a claim for an interval of them.
+    pub period: Option<Constant>,
     /// The parameters of which the claim has intervals, with their exact values.
     pub parameters: Vec<(String, String)>,
     /// With the law at samples the time of the first sample, where the trial starts: the phase of the sampling grid.

@@ -24,7 +24,7 @@ pub(super) fn harmonics(
     random: &mut Random,
 ) -> Vec<Harmonic> {
     if let Some(known) = &claim.spec.q_0 {
-        return listed(known, claim.spec.period.to_f64(), multiple, share, random);
+        return listed(known, claim.spec.period.nominal().to_f64(), multiple, share, random);
     }
     let mut harmonics = Vec::new();
     if random.chance(0.3) {
@@ -94,7 +94,7 @@ fn mean_square(order: u32) -> f64 {
 /// and where q_0 is given those of the harmonics and of the rest.
 pub(super) fn fill(family: &mut Family, claim: &TriedClaim) {
     let limits = Limits::new(claim);
-    let period = claim.spec.period.to_f64();
+    let period = claim.spec.period.nominal().to_f64();
     let speed = |harmonic: &Harmonic| f64::from(harmonic.factor.order) * TAU / period;
     let amplitude = |harmonic: &Harmonic| harmonic.amplitude.value();
     let sum = |weight: &dyn Fn(&Harmonic) -> f64| family.harmonics.iter().map(weight).sum::<f64>();
@@ -130,7 +130,7 @@ pub(super) fn fill(family: &mut Family, claim: &TriedClaim) {
 pub(super) fn is_within(family: &Family, claim: &TriedClaim) -> bool {
     let Some(known) = &claim.spec.q_0 else { return true };
     let enclose = |constant: &Constant| constant.enclose(DEFAULT_PRECISION);
-    let fundamental = Enclosure::pi(DEFAULT_PRECISION) * 2 / enclose(&claim.spec.period);
+    let fundamental = Enclosure::pi(DEFAULT_PRECISION) * 2 / enclose(claim.spec.period.nominal());
     let mut rest = [(); 2].map(|()| Enclosure::zero(DEFAULT_PRECISION));
     for Harmonic { amplitude, factor } in &family.harmonics {
         let Some(amplitude) = amplitude.exact() else { return false };

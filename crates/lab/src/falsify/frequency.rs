@@ -3,7 +3,7 @@
 use super::claim::TriedClaim;
 use rug::Rational;
 use sigmastar_lang::expr::Monomial;
-use sigmastar_lang::spec::{Constant, Document, SpecErrors, Specification};
+use sigmastar_lang::spec::{Constant, Document, Period, SpecErrors, Specification};
 use sigmastar_prove::certificate::certificate_json;
 use sigmastar_prove::certify::{Options, certify};
 use thiserror::Error;
@@ -46,8 +46,9 @@ pub fn with_base_frequency(claim: &TriedClaim, frequency: &Constant) -> Result<T
 }
 
 /// Whether w T = 2 pi, exactly.
-fn is_matched(frequency: &Constant, period: &Constant) -> bool {
-    let product = frequency.exact.as_ref().zip(period.exact.as_ref()).and_then(|(w, period)| w.mul(period));
+fn is_matched(frequency: &Constant, period: &Period) -> bool {
+    let exact = period.nominal().exact.as_ref().filter(|_| period.interval().is_none());
+    let product = frequency.exact.as_ref().zip(exact).and_then(|(w, period)| w.mul(period));
     let turn = Monomial::pi().mul(&Monomial::rational(Rational::from(2)));
     product.zip(turn).is_some_and(|(product, turn)| product.equals(&turn).is_true())
 }

@@ -62,7 +62,7 @@ pub(super) fn draw(claim: &TriedClaim, clock: Clock<'_>, largest: f64, random: &
 fn family(claim: &TriedClaim, rows: &[Vec<String>]) -> Option<Family> {
     let entry = |text: &String| Expr::parse(text, Variables::Time).ok().map(JacobianEntry::Function);
     let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect::<Option<Vec<Vec<_>>>>()?;
-    let jacobian = Jacobian { rows, period: claim.spec.period.exact.clone() };
+    let jacobian = Jacobian { rows, period: claim.spec.period.nominal().exact.clone() };
     Family::new(&jacobian, &claim.spec.period, DEFAULT_PRECISION)
 }
 
@@ -89,7 +89,7 @@ fn of_triple(
     let turn = rotation(n, random);
     let slack: Vec<f64> = (0..n).map(|i| if i == 0 { 0.0 } else { alpha * random.uniform() }).collect();
     let skew: Vec<f64> = (0..n * n).map(|_| 2.0 * random.uniform() - 1.0).collect();
-    let factor = if claim.spec.period.exact.is_some() { clock.factor(random) } else { Factor::ONE };
+    let factor = if claim.spec.period.nominal().exact.is_some() { clock.factor(random) } else { Factor::ONE };
     let p = &turn * DMatrix::from_fn(n, n, |i, j| if i == j { axes[i] } else { 0.0 }) * turn.transpose();
     let mut size = 3.0 * largest * random.share();
     for _ in 0..60 {
@@ -251,7 +251,7 @@ mod tests {
         let entry = |text: &&str| JacobianEntry::Function(Expr::parse(text, Variables::Time).unwrap());
         let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect();
         let spec = Specification::from_json("linear", include_str!("../../../../specs/linear.json")).unwrap();
-        let jacobian = Jacobian { rows, period: spec.period.exact.clone() };
+        let jacobian = Jacobian { rows, period: spec.period.nominal().exact.clone() };
         Family::new(&jacobian, &spec.period, DEFAULT_PRECISION).unwrap()
     }
 

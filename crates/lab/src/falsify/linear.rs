@@ -33,7 +33,7 @@ const ROUNDED: f64 = 1.0 - 1e-7;
 pub fn linear_member(claim: &TriedClaim, end: SectorEnd, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
     let limits = Limits::new(claim);
     let [reach_x, reach_e] = limits.reach;
-    let clock = Clock { period: &claim.spec.period.text, multiple: 1 };
+    let clock = Clock { period: &claim.spec.period.nominal().text, multiple: 1 };
     let (jacobian, jacobian_norm) = match &claim.spec.lyapunov {
         _ if limits.at(Bound::F, reach_x, 0.0) <= 0.0 => (Vec::new(), "0".to_owned()),
         LyapunovSource::Given(triple) => {

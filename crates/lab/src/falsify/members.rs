@@ -5,7 +5,7 @@ use super::claim::TriedClaim;
 use super::random::Random;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
-use sigmastar_lang::spec::nearest;
+use sigmastar_lang::spec::{Constant, nearest};
 use std::borrow::Cow;
 use thiserror::Error;
 
@@ -70,8 +70,9 @@ impl TriedClaim {
         let parameters = self.own.as_ref().map(|own| own.plant.parameters.clone()).unwrap_or_default();
         self.chosen.resize(parameters.intervals().count(), None);
         for (name, value) in given {
-            let Some((at, (_, interval))) = parameters.intervals().enumerate().find(|(_, (own, _))| own == name) else {
-                let known = parameters.intervals().map(|(name, _)| name.to_owned()).collect();
+            let Some((at, (_, interval))) = parameters.named_intervals().enumerate().find(|(_, (own, _))| own == name)
+            else {
+                let known = parameters.named_intervals().map(|(name, _)| name.to_owned()).collect();
                 return Err(ParameterError::Unknown { name: name.clone(), known });
             };
             if *value < interval.low || *value > interval.high {
@@ -87,10 +88,12 @@ impl TriedClaim {
     pub(super) fn member(&self, number: u64, random: &mut Random) -> Member {
         let gain = self.spec.input_gain.as_ref().map(|gain| [gain.low.to_f64(), gain.high.to_f64()]);
         let parameters = self.own.as_ref().map(|own| &own.plant.parameters);
-        let intervals: Vec<_> =
-            parameters.into_iter().flat_map(|all| all.intervals().map(|(_, interval)| interval)).collect();
+        let intervals: Vec<_> = parameters.into_iter().flat_map(|all| all.intervals()).collect();
         let chosen = |at: usize| self.chosen.get(at).and_then(Option::as_ref);
-        let free = (0..intervals.len()).filter(|at| chosen(*at).is_none()).count() + usize::from(gain.is_some());
+        // The clock of a plant is among its intervals; plants that are drawn have a period of their own.
+        let drawn = usize::from(self.own.is_none() && self.spec.period.interval().is_some());
+        let free =
+            (0..intervals.len()).filter(|at| chosen(*at).is_none()).count() + usize::from(gain.is_some()) + drawn;
         let mut bits = number.saturating_sub(1);
         let is_corner = free < 63 && bits < 1 << free;
         let mut next_bit = || {
@@ -116,6 +119,19 @@ impl TriedClaim {
         Member { values: values.collect(), input_gain }
     }
 
+    /// The period of a trial of drawn plants, of a claim for an interval of them: the ends with both of the input gain first, then inside.
+    pub(super) fn period(&self, number: u64, random: &mut Random) -> Option<Constant> {
+        let [shortest, longest] = self.spec.period.interval()?;
+        match number.saturating_sub(1) >> u32::from(self.spec.input_gain.is_some()) {
+            0 => Some(shortest.clone()),
+            1 => Some(longest.clone()),
+            _ => {
+                let (low, high) = (shortest.to_f64(), longest.to_f64());
+                Rational::from_f64(low + (high - low) * random.uniform()).map(|period| Constant::rational(&period))
+            }
+        }
+    }
+
     /// The claim about this member of the family alone.
     pub(super) fn about(&self, member: &Member) -> Cow<'_, TriedClaim> {
         if member.values.is_empty() {
@@ -129,7 +145,7 @@ impl TriedClaim {
     /// The values of a member under the names of its parameters, exactly.
     pub(super) fn named(&self, member: &Member) -> Vec<(String, String)> {
         let Some(own) = &self.own else { return Vec::new() };
-        let names = own.plant.parameters.intervals().map(|(name, _)| name.to_owned());
+        let names = own.plant.parameters.named_intervals().map(|(name, _)| name.to_owned());
         names.zip(member.values.iter().map(write_exact)).collect()
     }
 }

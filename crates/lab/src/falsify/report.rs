@@ -200,11 +200,12 @@ fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
     report
 }
 
-/// The gain of the actuator and the parameters, of a claim for intervals of them.
+/// The gain of the actuator, the period and the parameters, of a claim for intervals of them.
 fn member_words(trial: &Trial) -> String {
     let gain = trial.input_gain.map(|gain| format!(", input gain {gain:?}"));
+    let period = trial.period.as_ref().map(|period| format!(", period {:?}", period.to_f64()));
     let parameters = trial.parameters.iter().map(|(name, value)| format!(", {name} = {value}"));
-    gain.into_iter().chain(parameters).collect()
+    gain.into_iter().chain(period).chain(parameters).collect()
 }
 
 /// A trial of the law at samples with the time of its first sample, and with its input gain and parameters where there are any.
@@ -214,6 +215,9 @@ fn with_member(mut finding: Value, trial: &Trial) -> Value {
     }
     if let Some(gain) = trial.input_gain {
         finding["input_gain"] = json!(gain);
+    }
+    if let Some(period) = &trial.period {
+        finding["period"] = json!(period.to_f64());
     }
     if !trial.parameters.is_empty() {
         let values = trial.parameters.iter().map(|(name, value)| (name.clone(), json!(value)));

@@ -134,6 +134,7 @@ mod tests {
                 n_o: 0,
                 start,
                 input_gain: None,
+                period: None,
                 parameters: Vec::new(),
                 phase: None,
             },
@@ -181,6 +182,7 @@ mod tests {
             n_o: 0,
             start: vec![0.0],
             input_gain: None,
+            period: None,
             parameters: Vec::new(),
             phase: None,
         };

@@ -27,12 +27,12 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         return Finding::Unfinished("a number of the law at samples is beyond double precision".to_owned());
     };
     // On the grid itself, then anywhere: a claim is about every phase.
-    let phase = if number == 1 { 0.0 } else { random.uniform() * claim.spec.period.to_f64() };
+    let phase = if number == 1 { 0.0 } else { random.uniform() * claim.spec.period.nominal().to_f64() };
     let (plant, mut start) = match &claim.own {
         Some(own) => {
             let n = own.plant.states();
             let mut start = boundary(claim, n, &regulator, &mut random);
-            let x = own.state(phase / claim.spec.period.to_f64(), &start[..n]);
+            let x = own.state(phase / claim.spec.period.nominal().to_f64(), &start[..n]);
             start[..n].copy_from_slice(&x);
             (TriedPlant::Own(Box::new(own.plant.clone())), start)
         }
@@ -52,6 +52,7 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         n_o,
         start,
         input_gain: None,
+        period: None,
         parameters: Vec::new(),
         phase: Some(phase),
     };

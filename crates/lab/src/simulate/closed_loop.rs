@@ -59,7 +59,7 @@ impl ClosedLoop {
     pub fn new(plant: &Plant, regulator: Regulator) -> ClosedLoop {
         ClosedLoop {
             regulator,
-            period: plant.period.to_f64(),
+            period: plant.period.nominal().to_f64(),
             states: plant.states(),
             values: Arc::new(plant.program()),
             derivatives: Arc::new(plant.program_with_derivatives()),

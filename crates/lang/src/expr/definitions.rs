@@ -3,11 +3,15 @@
 use super::Expr;
 use super::lex::{TokenKind, tokens};
 use super::names::{Scope, is_taken};
+use super::phase::PHASE;
 use super::syntax::{Argument, Node};
 use super::{ExprError, Variables, parse::parse};
 
 /// The most names of variables that stand for a number in an interval.
 pub const MAX_INTERVALS: usize = 4;
+
+/// The most parameters of formulas that stand for a number in an interval: those, and the clock.
+pub const MAX_VARIED: usize = MAX_INTERVALS + 1;
 
 /// The longest name of a state or a parameter, in bytes.
 pub(super) const MAX_NAME: usize = 40;
@@ -20,9 +24,9 @@ pub(super) fn is_name(name: &str) -> bool {
     starts && continues && name.len() <= MAX_NAME
 }
 
-/// Whether t, e, pi or a function has the name.
+/// Whether t, phase, e, pi or a function has the name.
 pub(super) fn is_reserved(name: &str) -> bool {
-    name == "t" || name == "e" || is_taken(name)
+    name == "t" || name == "e" || name == PHASE || is_taken(name)
 }
 
 /// Names of constants, each with its constant.

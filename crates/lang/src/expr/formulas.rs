@@ -116,6 +116,11 @@ impl Formulas {
         self.term(Term::Number(index))
     }
 
+    /// A variable.
+    pub fn variable(&mut self, variable: PlantVariable) -> Formula {
+        self.term(Term::Variable(variable))
+    }
+
     fn integer(&mut self, value: i32) -> Formula {
         self.number(Rational::from(value))
     }
@@ -410,7 +415,7 @@ impl Algebra<PlantVariable> for Insertion<'_> {
     }
 
     fn variable(&mut self, variable: PlantVariable) -> Formula {
-        self.formulas.term(Term::Variable(variable))
+        self.formulas.variable(variable)
     }
 
     fn unary(&mut self, operation: Unary, a: Formula) -> Formula {

@@ -1,7 +1,7 @@
 //! Names that have a meaning, and which of them a writer may have meant.
 
 use super::Variables;
-use super::syntax::{Argument, Binary, Node, Unary};
+use super::syntax::{Argument, Binary, Node, NodeKind, Unary};
 
 /// The functions of one argument.
 pub(super) const UNARY: [(&str, Unary); 9] = [
@@ -41,7 +41,7 @@ const MAX_EDITS: usize = 2;
 /// What can stand where an operand is needed, in a bounding function and in a constant.
 pub(super) const OPERAND: &str = "a number, X, E, pi, a function or an opening parenthesis";
 const CONSTANT_OPERAND: &str = "a number, pi, a function or an opening parenthesis";
-const TIME_OPERAND: &str = "a number, t, pi, a function or an opening parenthesis";
+pub(super) const TIME_OPERAND: &str = "a number, t, pi, a function or an opening parenthesis";
 
 /// Which names are variables, and how messages speak of them.
 pub(super) trait Scope {
@@ -55,6 +55,11 @@ pub(super) trait Scope {
     /// The constant that a name stands for.
     fn definition(&self, name: &str) -> Option<&[Node]> {
         let _ = name;
+        None
+    }
+
+    /// What `phase` stands for, where it stands for something.
+    fn phase(&self) -> Option<Vec<NodeKind<Self::Variable>>> {
         None
     }
 

@@ -14,6 +14,7 @@ use super::exact::Constants;
 use super::lex::{Token, TokenKind, tokens};
 use super::monomial::Monomial;
 use super::names::{FOLDED, Scope, UNARY, is_taken, suggest};
+use super::phase::PHASE;
 use super::syntax::{Binary, Node, NodeKind, Unary, carried, step};
 use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT};
 use sigmastar_exact::number::parse_decimal;
@@ -214,6 +215,9 @@ impl<S: Scope> Parser<'_, S> {
         if let Some(nodes) = self.scope.definition(name) {
             return nodes.iter().filter_map(carried).try_for_each(|kind| self.push(kind, span.clone()));
         }
+        if let Some(nodes) = self.scope.phase().filter(|_| name == PHASE) {
+            return nodes.into_iter().try_for_each(|kind| self.push(kind, span.clone()));
+        }
         let unary = UNARY.iter().find(|f| f.0 == name).map(|f| f.1);
         let folded = FOLDED.iter().find(|f| f.0 == name).map(|f| f.1);
         if unary.is_none() && folded.is_none() {
@@ -320,7 +324,7 @@ impl<S: Scope> Parser<'_, S> {
             Some(_) => return product(right),
             None => {}
         }
-        if self.scope.definition(right).is_some() {
+        if self.scope.definition(right).is_some() || (right == PHASE && self.scope.phase().is_some()) {
             return product(right);
         }
         let spelled_out = self.scope.spelled_out(right);

@@ -4,7 +4,8 @@ use super::ExprError;
 use super::definitions::{Definitions, is_name, is_reserved};
 use super::names::Scope;
 use super::parse::parse;
-use super::syntax::{Node, NodeKind};
+use super::phase::{INSTEAD_OF_TIME, PHASE, Phase};
+use super::syntax::{Binary, Node, NodeKind};
 use rug::Rational;
 use std::fmt;
 use std::sync::Arc;
@@ -34,6 +35,7 @@ pub enum PlantVariable {
 pub struct PlantNames {
     states: Vec<String>,
     parameters: Definitions,
+    phase: Option<Phase>,
 }
 
 /// Why a list of state names was refused.
@@ -83,7 +85,7 @@ impl PlantNames {
     ///
     /// # Errors
     /// [`NameError`]: a name is a letter or underscore followed by letters, digits and underscores (ASCII, at most 40
-    /// bytes); not `t`, `e`, `pi` or a function; and no two are the same.
+    /// bytes); not `t`, `phase`, `e`, `pi` or a function; and no two are the same.
     pub fn new(states: Vec<String>) -> Result<PlantNames, NameError> {
         if states.len() > MAX_STATES {
             return Err(NameError::TooMany { found: states.len() });
@@ -99,13 +101,24 @@ impl PlantNames {
                 return Err(NameError::Duplicate { index });
             }
         }
-        Ok(PlantNames { states, parameters: Definitions::default() })
+        Ok(PlantNames { states, parameters: Definitions::default(), phase: None })
     }
 
     /// The same states beside these constants. A name of both is that of the state.
     #[must_use]
     pub fn with_parameters(self, parameters: Definitions) -> PlantNames {
         PlantNames { parameters, ..self }
+    }
+
+    /// The same with `phase`, and without `t` where the period is not known exactly.
+    #[must_use]
+    pub fn with_phase(self, phase: Phase) -> PlantNames {
+        PlantNames { phase: Some(phase), ..self }
+    }
+
+    /// Whether t itself may stand in formulas.
+    fn knows_time(&self) -> bool {
+        self.phase.as_ref().is_none_or(|phase| phase.exact)
     }
 
     /// The names of the states.
@@ -120,7 +133,7 @@ impl Scope for PlantNames {
 
     fn variable(&self, name: &str) -> Option<Result<PlantVariable, Option<String>>> {
         match name {
-            "t" => Some(Ok(PlantVariable::Time)),
+            "t" => self.knows_time().then_some(Ok(PlantVariable::Time)),
             "e" => Some(Ok(PlantVariable::Error)),
             _ => {
                 let state = self.states.iter().position(|state| state == name).map(PlantVariable::State);
@@ -133,16 +146,30 @@ impl Scope for PlantNames {
         self.parameters.nodes(name)
     }
 
+    fn phase(&self) -> Option<Vec<NodeKind<PlantVariable>>> {
+        self.phase.as_ref().map(|phase| phase.nodes(PlantVariable::Time))
+    }
+
     fn operand(&self) -> &'static str {
         if self.parameters.names().next().is_some() { OPERAND_WITH_PARAMETERS } else { OPERAND }
     }
 
     fn instead_of(&self, name: &str) -> Option<&'static str> {
-        (name == "u").then_some("leave u out: it is added to q, e' = q + u")
+        match name {
+            "u" => Some("leave u out: it is added to q, e' = q + u"),
+            "t" => Some(INSTEAD_OF_TIME),
+            _ => None,
+        }
     }
 
     fn names(&self) -> impl Iterator<Item = &str> {
-        ["t", "e"].into_iter().chain(self.states.iter().map(String::as_str)).chain(self.parameters.names())
+        let times = [self.knows_time().then_some("t"), self.phase.as_ref().map(|_| PHASE)];
+        times
+            .into_iter()
+            .flatten()
+            .chain(["e"])
+            .chain(self.states.iter().map(String::as_str))
+            .chain(self.parameters.names())
     }
 }
 
@@ -177,6 +204,18 @@ impl PlantExpr {
             _ => node.clone(),
         };
         PlantExpr { text: self.text.clone(), nodes: self.nodes.iter().map(fixed).collect() }
+    }
+
+    /// The expression at `clock` times the time, where that is the nominal time of a plant that runs `clock` times as fast.
+    #[must_use]
+    pub fn at_clock(&self, clock: &Rational) -> PlantExpr {
+        let timed = |node: &Node<PlantVariable>| {
+            let moved = matches!(node.kind, NodeKind::Variable(PlantVariable::Time));
+            let factor = [NodeKind::Number(clock.clone()), NodeKind::Binary(Binary::Mul)];
+            let factor = factor.map(|kind| Node { kind, span: node.span.clone() });
+            std::iter::once(node.clone()).chain(factor.into_iter().filter(move |_| moved))
+        };
+        PlantExpr { text: self.text.clone(), nodes: self.nodes.iter().flat_map(timed).collect() }
     }
 
     /// The source text, exactly as it was parsed.

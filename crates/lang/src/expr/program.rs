@@ -4,7 +4,7 @@ use super::float::{binary, unary};
 use super::formulas::{Formula, Formulas};
 use super::graph::{Graph, Id, Term, operands, reachable, step};
 use super::syntax::{Binary, Unary};
-use super::{MAX_INTERVALS, PlantExpr, PlantVariable};
+use super::{MAX_VARIED, PlantExpr, PlantVariable};
 use std::sync::Arc;
 
 /// An operation; the frequent ones stand by themselves, so that the loop over them makes no calls.
@@ -125,12 +125,12 @@ impl Program {
                     PlantVariable::Time => 0,
                     PlantVariable::State(index) => 1 + index,
                     PlantVariable::Error => 1 + states,
-                    PlantVariable::Parameter(index) => 2 + states + (*index).min(MAX_INTERVALS - 1),
+                    PlantVariable::Parameter(index) => 2 + states + (*index).min(MAX_VARIED - 1),
                 };
                 slot[id] = (time + offset) as u32;
             }
         }
-        slots.resize(time + states + 2 + MAX_INTERVALS, 0.0);
+        slots.resize(time + states + 2 + MAX_VARIED, 0.0);
         let [time_code, code] = [true, false].map(|wanted| {
             let mut code = Vec::new();
             for id in (0..terms.len()).filter(|&id| needed[id] && timely[id] == wanted) {
@@ -161,7 +161,7 @@ impl Program {
     #[must_use]
     pub fn with_parameters(mut self, values: &[f64]) -> Program {
         let first = self.time + self.states + 2;
-        self.slots[first..first + MAX_INTERVALS].iter_mut().zip(values).for_each(|(slot, value)| *slot = *value);
+        self.slots[first..first + MAX_VARIED].iter_mut().zip(values).for_each(|(slot, value)| *slot = *value);
         self
     }
 
@@ -207,14 +207,14 @@ impl Evaluator {
     /// Sets the parameters of which intervals are known.
     pub fn set_parameters(&mut self, values: &[f64]) {
         let first = self.program.time + self.program.states + 2;
-        self.slots[first..first + MAX_INTERVALS].iter_mut().zip(values).for_each(|(slot, value)| *slot = *value);
+        self.slots[first..first + MAX_VARIED].iter_mut().zip(values).for_each(|(slot, value)| *slot = *value);
     }
 
     /// Sets the time and computes what depends on it alone.
     pub fn set_time(&mut self, t: f64) {
         let program = &self.program;
         self.slots[program.time] = t;
-        let first = program.time + program.states + 2 + MAX_INTERVALS;
+        let first = program.time + program.states + 2 + MAX_VARIED;
         run(&program.time_code, first, &mut self.slots);
     }
 
@@ -240,7 +240,7 @@ impl Evaluator {
         let first = program.time + 1;
         self.slots[first..first + program.states].copy_from_slice(states);
         self.slots[first + program.states] = e;
-        let results = first + program.states + 1 + MAX_INTERVALS + program.time_code.len();
+        let results = first + program.states + 1 + MAX_VARIED + program.time_code.len();
         run(&program.code, results, &mut self.slots);
         for (output, &slot) in outputs.iter_mut().zip(&program.outputs) {
             *output = self.slots[slot as usize];

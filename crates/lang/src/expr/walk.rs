@@ -16,7 +16,7 @@ impl VariableSet {
     /// The states, e and the parameters.
     pub const ALL_BUT_TIME: VariableSet = VariableSet(u128::MAX - 1);
 
-    /// One variable. There are at most [`super::MAX_STATES`] states and [`super::MAX_INTERVALS`] parameters, which 118 and 8 places
+    /// One variable. There are at most [`super::MAX_STATES`] states and [`super::MAX_VARIED`] parameters, which 118 and 8 places
     /// hold; more would share the last one.
     #[must_use]
     pub fn of(variable: PlantVariable) -> VariableSet {

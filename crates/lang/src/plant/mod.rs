@@ -6,9 +6,9 @@ mod read;
 pub use periodicity::PeriodicityFailure;
 pub use read::{FORMAT, VERSIONS};
 
-use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, Program};
+use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, PlantVariable, Program};
 use crate::spec::{
-    Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, SpecErrors,
+    Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, Period, SpecErrors,
 };
 use rug::Rational;
 use std::ops::Range;
@@ -21,7 +21,7 @@ pub struct Plant {
     /// Free text, for reports.
     pub description: Option<String>,
     /// The period T of f and q in t. It was checked at a few hundred points that f and q have it.
-    pub period: Constant,
+    pub period: Period,
     /// The names of the states.
     pub names: PlantNames,
     /// Its named constants.
@@ -95,19 +95,39 @@ impl Plant {
         self.source.errors_at(&format!("{}{field}", self.pointer), part, kind, message, help)
     }
 
-    /// Whether there are parameters of which only an interval is known: then it is a family of plants.
+    /// Whether there are parameters of which only an interval is known, the clock among them: then it is a family of plants.
     #[must_use]
     pub fn is_family(&self) -> bool {
         self.parameters.intervals().next().is_some()
     }
 
     /// The member of the family with these values of the parameters with intervals. Its document is that of the family.
+    ///
+    /// With a clock v its time is its own, of which that of the formulas is v times: it has the period T_nom/v.
     #[must_use]
     pub fn member(&self, values: &[Rational]) -> Plant {
-        Plant {
+        let fixed = Plant {
             f: self.f.iter().map(|f| f.at(values)).collect(),
             q: self.q.at(values),
             parameters: self.parameters.fixed(values),
+            ..self.clone()
+        };
+        let clock = self.parameters.clock().and_then(|clock| values.get(clock));
+        let period = clock.and_then(|clock| self.period.nominal().over(clock));
+        period.map_or(fixed.clone(), |period| fixed.at_period(&period))
+    }
+
+    /// The plant with another period, known exactly: what depends on the phase is the same at every phase. Its document is that of this
+    /// one.
+    #[must_use]
+    pub fn at_period(&self, period: &Constant) -> Plant {
+        let clock = self.period.clock_at(period).filter(|clock| *clock != 1);
+        let moved = |expr: &PlantExpr| clock.as_ref().map_or_else(|| expr.clone(), |clock| expr.at_clock(clock));
+        Plant {
+            f: self.f.iter().map(moved).collect(),
+            q: moved(&self.q),
+            period: Period::from(period.clone()),
+            parameters: self.parameters.clone().with_clock(None),
             ..self.clone()
         }
     }
@@ -129,6 +149,15 @@ impl Plant {
     #[must_use]
     pub fn nominal(&self) -> Vec<f64> {
         self.parameters.nominal().iter().map(Rational::to_f64).collect()
+    }
+
+    /// The derivatives of formulas with respect to the time of the plant, at fixed x and e: with a clock the time of formulas runs v times
+    /// as fast.
+    pub fn derivatives_in_time(&self, formulas: &mut Formulas, of: &[Formula]) -> Vec<Formula> {
+        let plain = formulas.derivatives(of, PlantVariable::Time);
+        let Some(clock) = self.parameters.clock() else { return plain };
+        let clock = formulas.variable(PlantVariable::Parameter(clock));
+        plain.into_iter().map(|slope| formulas.product(clock, slope)).collect()
     }
 
     /// f and then q.

@@ -33,7 +33,7 @@ impl fmt::Display for Counterexample {
 /// Compares the right sides at t and t + T at points that are spread evenly (an additive recurrence) over a period and
 /// the box |x_i|, |e| <= 1.
 pub(super) fn counterexample(plant: &Plant) -> Option<Counterexample> {
-    let period = plant.period.to_f64();
+    let period = plant.period.nominal().to_f64();
     let program = Arc::new(plant.program());
     let mut evaluator = Evaluator::new(program.clone());
     let (mut now, mut later) = (vec![0.0; program.outputs()], vec![0.0; program.outputs()]);
@@ -78,7 +78,7 @@ impl Plant {
     /// The first part that has not the form which is asked for there; it says nothing against the period.
     pub fn prove_periodic(&self) -> Result<(), PeriodicityFailure> {
         for (index, expr) in self.right_sides().into_iter().enumerate() {
-            expr.prove_periodic(self.period.exact.as_ref()).map_err(|NotPeriodic { span, reason }| {
+            expr.prove_periodic(self.period.nominal().exact.as_ref()).map_err(|NotPeriodic { span, reason }| {
                 let part = expr.text().get(span.clone()).unwrap_or_default().to_owned();
                 PeriodicityFailure { index, span, part, reason }
             })?;
@@ -98,7 +98,7 @@ mod tests {
             let file = format!("{}/../../specs/plants/{name}.json", env!("CARGO_MANIFEST_DIR"));
             let mut plant = Plant::load(Path::new(&file)).unwrap();
             assert_eq!(plant.prove_periodic(), Ok(()));
-            plant.period = crate::spec::Constant::rational(&rug::Rational::from((2, 3)));
+            plant.period = crate::spec::Constant::rational(&rug::Rational::from((2, 3))).into();
             let failure = plant.prove_periodic().unwrap_err();
             assert_eq!(failure.reason, PeriodicityReason::Frequency, "{failure}");
         }

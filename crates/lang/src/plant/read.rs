@@ -1,10 +1,11 @@
 //! From a document to a plant.
 
 use super::{Initial, InitialRegulator, Plant, periodicity};
-use crate::expr::{Definitions, PlantExpr, PlantNames};
+use crate::expr::{Definitions, Expr, Phase, PlantExpr, PlantNames};
 use crate::spec::{
-    Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Reported, SpecErrors, Value,
-    any_constant_in, positive_constant_in, read_input_gain, read_internal_model, read_parameters, read_with_ball,
+    Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Period, Reported, SpecErrors, Value,
+    any_constant_in, positive_constant_in, read_input_gain, read_internal_model, read_parameters, read_period,
+    read_with_ball,
 };
 use std::path::Path;
 
@@ -59,7 +60,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     // Without the parameters no number has a meaning to check.
     let parameters: Parameters = parameters?.unwrap_or_default();
     let constants = parameters.definitions();
-    let period = object.required("period", errors).and_then(|value| positive_constant_in(&value, constants, errors));
+    let period = object.required("period", errors).and_then(|value| read_period(&value, constants, errors));
     let f = object.required("f", errors);
     let q = object.required("q", errors);
     let initial = object.optional("initial");
@@ -72,6 +73,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     object.finish(errors);
     // Without the names of the states the right sides have no meaning to check.
     let names = names?.with_parameters(constants.clone());
+    // Where the period is wrong that alone is told.
+    let names = names.with_phase(period.as_ref().map_or_else(|_| Phase::new(&Expr::zero(), true), Period::phase));
     let f = f.and_then(|value| {
         let elements = of_length(&value, names.states().len(), "right sides", errors)?;
         let read: Vec<Result<_, Reported>> = elements.iter().map(|value| expression(value, &names, errors)).collect();
@@ -90,11 +93,12 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     schema?;
     let (document, sha256) = value.embedded();
     let members = WITH_PARAMETERS.map(|name| document.get(name));
-    let parameters = parameters.used_in(&members.into_iter().flatten().collect::<Vec<_>>());
+    let period = period?;
+    let parameters = parameters.used_in(&members.into_iter().flatten().collect::<Vec<_>>()).with_clock(period.clock());
     let plant = Plant {
         name: name?,
         description: description?,
-        period: period?,
+        period,
         names,
         parameters,
         f,

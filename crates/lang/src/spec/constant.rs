@@ -4,7 +4,7 @@ use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::parts::Constant;
 use super::quantity::{Quantity, decide};
-use crate::expr::{Definitions, Expr, Variables};
+use crate::expr::{Definitions, Expr, ExprError, Variables};
 use sigmastar_exact::enclosure::{MAX_PRECISION, Truth};
 
 /// Reads a constant: a JSON number, taken as the decimal that is written, or a string with a constant expression.
@@ -94,10 +94,23 @@ pub(super) fn expression(
     expected: &str,
     errors: &mut Errors,
 ) -> Result<Expr, Reported> {
+    read_expression(value, expected, |text| Expr::parse(text, variables), errors)
+}
+
+/// Reads an expression in another way.
+///
+/// # Errors
+/// Those of [`expression`].
+pub(super) fn read_expression(
+    value: &Value<'_>,
+    expected: &str,
+    parse: impl Fn(&str) -> Result<Expr, ExprError>,
+    errors: &mut Errors,
+) -> Result<Expr, Reported> {
     let Some(text) = value.numeral().or_else(|| value.text()) else {
         return Err(value.wrong_type(expected, errors));
     };
-    Expr::parse(text, variables).map_err(|error| errors.report(value.expression_error(&error)))
+    parse(text).map_err(|error| errors.report(value.expression_error(&error)))
 }
 
 /// An error that points at the whole text of a constant, without the quotes.

@@ -77,13 +77,28 @@ impl InputGain {
 /// # Errors
 /// Reports fields that are missing or unknown, numbers that are not positive, and an order that fails or is not decided.
 pub fn read_input_gain(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<InputGain, Reported> {
+    let help = "the true gain lies in [low, high], and the regulator divides by `nominal`";
+    let [nominal, low, high] = read_ordered(value, names, help, errors)?;
+    Ok(InputGain { nominal, low, high })
+}
+
+/// Reads `nominal`, `low` and `high`, positive constants in which the names may stand, proved to be in order.
+///
+/// # Errors
+/// Those of [`read_input_gain`]; of an order that fails `help` says what it means.
+pub(super) fn read_ordered(
+    value: &Value<'_>,
+    names: &Definitions,
+    help: &str,
+    errors: &mut Errors,
+) -> Result<[Constant; 3], Reported> {
     let mut object = value.object(errors)?;
     let nominal = object.required("nominal", errors).and_then(|value| positive_constant_in(&value, names, errors));
     let mut end = |name: &'static str, in_order: fn(&Constant, &Constant) -> Truth, relation: &str| {
         object.required(name, errors).and_then(|value| {
             let end = positive_constant_in(&value, names, errors)?;
             match &nominal {
-                Ok(nominal) => ordered(&value, (name, relation), end, nominal, in_order, errors),
+                Ok(nominal) => ordered(&value, (name, relation, help), end, nominal, in_order, errors),
                 Err(_) => Ok(end),
             }
         })
@@ -91,13 +106,13 @@ pub fn read_input_gain(value: &Value<'_>, names: &Definitions, errors: &mut Erro
     let low = end("low", |low, nominal| Quantity::constant(low).le(&Quantity::constant(nominal)), "<=");
     let high = end("high", |high, nominal| Quantity::constant(nominal).le(&Quantity::constant(high)), ">=");
     object.finish(errors);
-    Ok(InputGain { nominal: nominal?, low: low?, high: high? })
+    Ok([nominal?, low?, high?])
 }
 
-/// The end of the interval, if it is on its side of the nominal gain.
+/// The end of the interval, if it is on its side of the nominal value.
 fn ordered(
     value: &Value<'_>,
-    (name, relation): (&str, &str),
+    (name, relation, help): (&str, &str, &str),
     end: Constant,
     nominal: &Constant,
     in_order: fn(&Constant, &Constant) -> Truth,
@@ -117,5 +132,5 @@ fn ordered(
     let side = if relation == "<=" { "at most" } else { "at least" };
     let error =
         whole(value, kind, message).expected(format!("expected {side} {}", Quantity::constant(nominal).shown()));
-    Err(errors.report(error.help("the true gain lies in [low, high], and the regulator divides by `nominal`")))
+    Err(errors.report(error.help(help)))
 }

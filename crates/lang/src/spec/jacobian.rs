@@ -1,12 +1,12 @@
 //! The Jacobian of the zero dynamics, in place of the Lyapunov triple.
 
-use super::constant::{any_constant, expression, whole};
+use super::constant::{any_constant, expression, read_expression, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::parts::{Constant, Jacobian, JacobianEntry};
+use super::parts::{Jacobian, JacobianEntry};
+use super::period::Period;
 use super::quantity::Quantity;
-use crate::expr::Monomial;
-use crate::expr::Variables;
+use crate::expr::{Expr, Monomial, Variables};
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Truth};
 
@@ -18,7 +18,7 @@ pub const MAX_STATES: usize = 12;
 /// # Errors
 /// Reports another shape, entries that cannot be read, an interval with lo > hi, and an entry in t that is not proved to be a
 /// trigonometric polynomial of the period.
-pub(super) fn read(value: &Value<'_>, period: Option<&Constant>, errors: &mut Errors) -> Result<Jacobian, Reported> {
+pub(super) fn read(value: &Value<'_>, period: Option<&Period>, errors: &mut Errors) -> Result<Jacobian, Reported> {
     let lists = value.array(errors)?;
     let order = lists.len();
     if order == 0 || order > MAX_STATES {
@@ -40,15 +40,20 @@ pub(super) fn read(value: &Value<'_>, period: Option<&Constant>, errors: &mut Er
         rows.push(row.into_iter().collect::<Result<Vec<_>, _>>());
     }
     let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
-    Ok(Jacobian { rows, period: period.and_then(|period| period.exact.clone()) })
+    Ok(Jacobian { rows, period: period.and_then(|period| period.nominal().exact.clone()) })
 }
 
-fn read_entry(value: &Value<'_>, period: Option<&Constant>, errors: &mut Errors) -> Result<JacobianEntry, Reported> {
+fn read_entry(value: &Value<'_>, period: Option<&Period>, errors: &mut Errors) -> Result<JacobianEntry, Reported> {
     if value.type_name() == "an array" {
         return read_interval(value, errors);
     }
-    let expr = expression(value, Variables::Time, "a number, an interval or a string with an expression in t", errors)?;
-    let exact = period.and_then(|period| period.exact.as_ref());
+    let expected = "a number, an interval or a string with an expression in t";
+    let expr = match period {
+        // Another error is told already.
+        None => expression(value, Variables::Time, expected, errors)?,
+        Some(period) => read_expression(value, expected, |text| Expr::parse_in_time(text, &period.phase()), errors)?,
+    };
+    let exact = period.and_then(|period| period.nominal().exact.as_ref());
     let unit = Monomial::rational(Rational::from(1));
     match expr.trigonometric(exact.unwrap_or(&unit), DEFAULT_PRECISION) {
         // Without an exact period only constants are known to have it.

@@ -9,6 +9,7 @@ pub use super::parts::{
     Constant, Domain, InitialSet, Jacobian, JacobianEntry, KnownForcing, Lyapunov, OrbitCurve, PeriodicMatrix,
     RelativeDegree, SIZES, StartSizes, TrigonometricVector,
 };
+use super::period::Period;
 use super::sampling::{PRECISION, SampledGain, Sampling};
 use super::weights::Weights;
 use crate::expr::Expr;
@@ -26,7 +27,7 @@ pub struct Specification {
     /// Free text, for reports.
     pub description: Option<String>,
     /// The period T > 0 of f and q, in units of time.
-    pub period: Constant,
+    pub period: Period,
     /// The Lyapunov data of the zero dynamics, or where they come from.
     pub lyapunov: LyapunovSource,
     /// The bounding functions.

@@ -53,31 +53,50 @@ pub struct Parameters {
     list: Vec<Parameter>,
     definitions: Definitions,
     unused: Vec<String>,
+    /// The clock of a plant whose period is known to an interval: one more of which an interval is known, after the others.
+    clock: Option<Interval>,
 }
 
 impl Parameters {
+    /// The same beside a clock.
+    #[must_use]
+    pub fn with_clock(self, clock: Option<Interval>) -> Parameters {
+        Parameters { clock, ..self }
+    }
+
+    /// The parameter of formulas that is the clock, which is 1 nominally.
+    #[must_use]
+    pub fn clock(&self) -> Option<usize> {
+        self.clock.as_ref().map(|_| self.named_intervals().count())
+    }
+
     /// The constants.
     #[must_use]
     pub fn list(&self) -> &[Parameter] {
         &self.list
     }
 
-    /// The names of those with intervals, and these, in the order of the document: parameter i of formulas is the i-th.
-    pub fn intervals(&self) -> impl Iterator<Item = (&str, &Interval)> {
+    /// Those of which an interval is known, and the clock, where there is one: parameter i of formulas is the i-th.
+    pub fn intervals(&self) -> impl Iterator<Item = &Interval> {
+        self.named_intervals().map(|(_, interval)| interval).chain(&self.clock)
+    }
+
+    /// The names of those with intervals, and these, in the order of the document.
+    pub fn named_intervals(&self) -> impl Iterator<Item = (&str, &Interval)> {
         self.list.iter().filter_map(|parameter| Some((parameter.name.as_str(), parameter.interval.as_ref()?)))
     }
 
     /// The nominal values of those.
     #[must_use]
     pub fn nominal(&self) -> Vec<Rational> {
-        self.intervals().map(|(_, interval)| interval.nominal.clone()).collect()
+        self.intervals().map(|interval| interval.nominal.clone()).collect()
     }
 
-    /// The same with these numbers in the places of the intervals.
+    /// The same with these numbers in the places of the intervals, and without a clock.
     #[must_use]
     pub fn fixed(&self, values: &[Rational]) -> Parameters {
         let mut values = values.iter();
-        let mut fixed = self.clone();
+        let mut fixed = Parameters { clock: None, ..self.clone() };
         for parameter in fixed.list.iter_mut().filter(|parameter| parameter.interval.is_some()) {
             if let Some(value) = values.next() {
                 *parameter = Parameter { value: Constant::rational(value), interval: None, ..parameter.clone() };
@@ -90,7 +109,7 @@ impl Parameters {
     #[must_use]
     pub fn looked_at(&self) -> Vec<Vec<Rational>> {
         let mut corners: Vec<Vec<Rational>> = vec![Vec::new()];
-        for (_, Interval { low, high, .. }) in self.intervals() {
+        for Interval { low, high, .. } in self.intervals() {
             corners = corners
                 .iter()
                 .flat_map(|corner| [low, high].map(|end| corner.iter().chain([end]).cloned().collect()))
@@ -103,7 +122,7 @@ impl Parameters {
     /// `p_i - p_i^0` for the parameters with intervals.
     #[must_use]
     pub fn deviations(&self, values: &[Rational]) -> Vec<Rational> {
-        self.intervals().zip(values).map(|((_, interval), value)| Rational::from(value - &interval.nominal)).collect()
+        self.intervals().zip(values).map(|(interval, value)| Rational::from(value - &interval.nominal)).collect()
     }
 
     /// What their names stand for.
@@ -163,7 +182,7 @@ pub fn read_parameters(value: &Value<'_>, states: &[String], errors: &mut Errors
             Err(reported) => outcome = Err(reported),
         }
     }
-    let count = parameters.intervals().count();
+    let count = parameters.named_intervals().count();
     if count > MAX_INTERVALS {
         let message = format!("{count} parameters with intervals");
         let error = value.error(ErrorKind::Range, message).expected(format!("expected at most {MAX_INTERVALS}"));

@@ -38,9 +38,19 @@ impl Constant {
     /// This constant over a positive whole number; `None` where that cannot be written.
     #[must_use]
     pub fn divided_by(&self, divisor: u32) -> Option<Constant> {
-        if let Some(exact) = self.as_rational() {
-            return (divisor > 0).then(|| Constant::rational(&Rational::from(exact / divisor)));
+        self.over(&Rational::from(divisor))
+    }
+
+    /// This constant over a positive rational number; `None` where that cannot be written.
+    #[must_use]
+    pub fn over(&self, divisor: &Rational) -> Option<Constant> {
+        if *divisor <= 0 {
+            return None;
         }
+        if let Some(exact) = self.as_rational() {
+            return Some(Constant::rational(&Rational::from(exact / divisor)));
+        }
+        let divisor = if divisor.is_integer() { divisor.to_string() } else { format!("({divisor})") };
         let text = format!("({})/{divisor}", self.text);
         let expr = Expr::parse(&text, Variables::None).ok()?;
         let exact = expr.exact();

@@ -10,6 +10,7 @@ use super::input_gain::read_input_gain;
 use super::model::{InternalModel, LyapunovSource, Specification};
 use super::object::Object;
 use super::parts::{Constant, Domain, KnownForcing, Lyapunov, RelativeDegree};
+use super::period::{Period, needs_exact_period, read_period};
 use super::quantity::Quantity;
 use super::{sampling, weights_read};
 use crate::expr::{Definitions, Expr, Monomial, Variables};
@@ -85,7 +86,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let schema = object.schema_reference(errors);
     let name = object.required("name", errors).and_then(|value| value.string(errors).map(str::to_owned));
     let description = object.optional("description").map(|value| value.string(errors).map(str::to_owned)).transpose();
-    let period = object.required("period", errors).and_then(|value| positive_constant(&value, errors));
+    let period = object.required("period", errors).and_then(|value| read_period(&value, Definitions::none(), errors));
     let lyapunov =
         object.required("lyapunov", errors).and_then(|value| read_lyapunov(&value, period.as_ref().ok(), errors));
     let bounds = object.required("bounds", errors).and_then(|value| read_bounds(&value, errors));
@@ -125,7 +126,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
 /// The triple or the Jacobian, and the contraction rate that may stand next to a triple.
 fn read_lyapunov(
     value: &Value<'_>,
-    period: Option<&Constant>,
+    period: Option<&Period>,
     errors: &mut Errors,
 ) -> Result<(LyapunovSource, Option<Expr>), Reported> {
     let mut object = value.object(errors)?;
@@ -213,7 +214,7 @@ fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reporte
 /// Reports fields that are missing or unknown and numbers that are out of range.
 pub fn read_internal_model(
     value: &Value<'_>,
-    period: Option<&Constant>,
+    period: Option<&Period>,
     names: &Definitions,
     errors: &mut Errors,
 ) -> Result<InternalModel, Reported> {
@@ -229,10 +230,22 @@ pub fn read_internal_model(
     let step = object.optional("sampling_period");
     object.finish(errors);
     if let (Ok(true), Some(period), Ok(value), Ok(frequency)) = (matched, period, &frequency_value, &base_frequency) {
-        prove_matched(period, frequency, value, errors)?;
+        let help = "set `matched` to false: the claim then has what the mistuned oscillators still do";
+        needs_exact_period(period, value, "`matched` asserts base_frequency = 2 pi / period", help, errors)?;
+        prove_matched(period.nominal(), frequency, value, errors)?;
     }
     let sampling = match (step, period) {
-        (Some(step), Some(period)) => Some(sampling::read(&step, period, matched, names, errors)?),
+        (Some(step), Some(period)) => {
+            let help = "leave `sampling_period` out, or state a period that is known exactly";
+            needs_exact_period(
+                period,
+                &step,
+                "the regulator at samples has a whole number of them in a period",
+                help,
+                errors,
+            )?;
+            Some(sampling::read(&step, period.nominal(), matched, names, errors)?)
+        }
         _ => None,
     };
     Ok(InternalModel { mu: mu?, base_frequency: base_frequency?, matched: matched?, weights: weights?, sampling })

@@ -107,13 +107,13 @@ pub(super) fn e11(data: Option<&Data<'_>>) -> Erratum {
         Evidence::rigorous("and with the factor T", energy, Relation::LessOrEqual, 10 * printed),
     ];
     let for_data = data.map(|data| {
-        let (bearing, summary) = match against_one(&data.spec.period) {
+        let (bearing, summary) = match against_one(data.spec.period.nominal()) {
             Some(Ordering::Equal) => (Bearing::Harmless, "T = 1: the missing factor is 1"),
             Some(Ordering::Greater) => (Bearing::Bites, "the printed psi_2 is too small by the factor T"),
             Some(Ordering::Less) => (Bearing::Costs, "T < 1: the printed psi_2 is larger than it need be by 1/T"),
             None => (Bearing::Depends, "T is too close to 1 to tell"),
         };
-        ForData::new(bearing, summary).figure("T", &data.spec.period)
+        ForData::new(bearing, summary).figure("T", data.spec.period.nominal())
     });
     Erratum {
         id: "E11",
@@ -144,7 +144,7 @@ pub(super) fn e12(data: Option<&Data<'_>>) -> Erratum {
     ];
     let for_data = data.map(|data| {
         let k_alpha = gains::k_alpha(&data.c, &data.alpha, &data.period);
-        let (bearing, summary) = match against_one(&data.spec.period) {
+        let (bearing, summary) = match against_one(data.spec.period.nominal()) {
             Some(Ordering::Equal) => (Bearing::Harmless, "T = 1: the extra factor is 1"),
             Some(Ordering::Less) => (
                 Bearing::Bites,
@@ -154,7 +154,7 @@ pub(super) fn e12(data: Option<&Data<'_>>) -> Erratum {
             None => (Bearing::Depends, "T is too close to 1 to tell"),
         };
         ForData::new(bearing, summary)
-            .figure("T", &data.spec.period)
+            .figure("T", data.spec.period.nominal())
             .figure("printed K_{alpha,2}", gains::k_alpha_2_printed(&k_alpha, &data.alpha, &data.period))
             .figure("without the factor T", gains::k_alpha_2(&k_alpha, &data.alpha, &data.period))
     });

@@ -13,7 +13,7 @@ use super::side::Side;
 use super::time_cell::TimeCell;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::expr::{MAX_INTERVALS, PlantVariable, VariableSet};
+use sigmastar_lang::expr::{MAX_VARIED, PlantVariable, VariableSet};
 use sigmastar_lang::spec::{Interval, TrigonometricVector};
 use sigmastar_matrix::is_positive_definite;
 
@@ -65,7 +65,7 @@ struct Axis {
 
 /// The parameters among some variables.
 pub(super) fn parameters_in(variables: &VariableSet) -> Vec<usize> {
-    (0..MAX_INTERVALS).filter(|index| variables.has(PlantVariable::Parameter(*index))).collect()
+    (0..MAX_VARIED).filter(|index| variables.has(PlantVariable::Parameter(*index))).collect()
 }
 
 /// A box in the coordinates.

@@ -26,7 +26,10 @@ const REMEMBERED: usize = 1 << 14;
 #[derive(Debug)]
 pub struct Engine {
     pub(super) region: Region,
+    /// T; with a clock its nominal value, and time is the nominal one.
     pub(super) period: Constant,
+    /// The parameter that is the clock.
+    clock: Option<usize>,
     /// Where the parameters lie of which intervals are known.
     pub(super) parameters: Vec<Interval>,
     quantities: [Option<Quantity>; Bound::ALL.len()],
@@ -58,7 +61,7 @@ impl Engine {
             std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten()).all(|rows| is_symmetric(rows, order))
         };
         let matrices = [matrix, existence];
-        let parameters: Vec<Interval> = plant.parameters.intervals().map(|(_, interval)| interval.clone()).collect();
+        let parameters: Vec<Interval> = plant.parameters.intervals().cloned().collect();
         if region.orbit().sensitivities.len() != parameters.len() {
             return Err(RegionError::Shape);
         }
@@ -77,7 +80,7 @@ impl Engine {
         let quantity = |kind: Bound, formulas: &mut Formulas| {
             let moves = matrices[usize::from(kind == Bound::RateExistence)].as_ref();
             let moves = moves.is_some_and(|matrix| !matrix.harmonics.is_empty());
-            Quantity::new(formulas, f, q[0], kind, moves)
+            Quantity::new(plant, formulas, f, q[0], kind, moves)
         };
         let quantities = Bound::ALL.map(|kind| quantity(kind, &mut formulas));
         let is_moving = matrices[0].as_ref().is_some_and(|matrix| !matrix.harmonics.is_empty());
@@ -85,12 +88,13 @@ impl Engine {
             Part::EACH.map(|part| Quantity::first_derivatives(&mut formulas, &sides, part, is_moving));
         let velocity = formulas.walk(f);
         let extents = (0..order).map(|_| OnceLock::new()).collect();
-        let period = plant.period.clone();
+        let (period, clock) = (plant.period.nominal().clone(), plant.parameters.clock());
         let cells = Mutex::new(HashMap::new());
         let moves = moves(plant);
         Ok(Engine {
             region,
             period,
+            clock,
             parameters,
             quantities,
             first_derivatives,
@@ -198,14 +202,18 @@ impl Engine {
         let orbit = along(&orbit.centre);
         let frame = Frame { halves: vec![Enclosure::from_rational(&side.half(), PRECISION)], precision: PRECISION };
         let period = self.period();
+        // As unknown as v: all members at once.
+        let between = |[low, high]: [&Rational; 2]| Enclosure::between(low, high, PRECISION);
+        let clock = self.clock.map(|clock| &self.parameters[clock]);
+        let frequency = clock.map_or_else(|| period.recip(), |clock| between([&clock.low, &clock.high]) / &period);
         let matrices = self.matrices.each_ref().map(|matrix| {
             matrix.as_ref().map(|matrix| {
                 [false, true].map(|derivative| {
                     let entry = |i: usize, j: usize| {
                         let coefficients = matrix.harmonics.iter().map(move |[a, b]| [&a[i][j], &b[i][j]]);
                         let value = waves.polynomial(&matrix.mean[i][j], coefficients, derivative);
-                        // d/dt is d/ds over T.
-                        if derivative { frame.scale(&value, &period.recip()) } else { value }
+                        // d/dt is d/ds over T, and that is T_nom over the clock.
+                        if derivative { frame.scale(&value, &frequency) } else { value }
                     };
                     (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect()
                 })
@@ -222,8 +230,6 @@ impl Engine {
                 frame.add(value, &frame.constant(deviation))
             })
             .collect();
-        // As unknown as v: all members at once.
-        let between = |[low, high]: [&Rational; 2]| Enclosure::between(low, high, PRECISION);
         let deviations: Vec<Enclosure> =
             self.parameters.iter().map(|interval| between(interval.deviations().each_ref())).collect();
         let x: Vec<Centred> = x

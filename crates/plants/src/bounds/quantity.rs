@@ -2,6 +2,7 @@
 
 use super::chart::{Active, parameters_in};
 use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
+use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Bound;
 
 /// The matrix `A (plain + sum_l along_l x_0'_l) B` of which a bound speaks; A is the inverse of L or 1, B is L or 1.
@@ -51,6 +52,7 @@ impl Quantity {
     /// The formulas of a bound, from those of f and q; `None` where it is not computed of a plant. `moves` says whether P depends
     /// on t.
     pub(super) fn new(
+        plant: &Plant,
         formulas: &mut Formulas,
         f: &[Formula],
         q: Formula,
@@ -58,6 +60,7 @@ impl Quantity {
         moves: bool,
     ) -> Option<Quantity> {
         let order = f.len();
+        let in_time = |formulas: &mut Formulas, of: &[Formula]| plant.derivatives_in_time(formulas, of);
         let states: Vec<PlantVariable> = (0..order).map(PlantVariable::State).collect();
         let columns = |formulas: &mut Formulas, of: &[Formula]| -> Vec<Vec<Formula>> {
             let columns: Vec<Vec<Formula>> = states.iter().map(|x| formulas.derivatives(of, *x)).collect();
@@ -74,7 +77,7 @@ impl Quantity {
             Bound::Q => (vec![vec![q]], Vec::new()),
             Bound::Qt => {
                 let gradient = columns(formulas, &[q]).concat();
-                (vec![formulas.derivatives(&[q], PlantVariable::Time)], vec![vec![gradient]])
+                (vec![in_time(formulas, &[q])], vec![vec![gradient]])
             }
             Bound::Fxx => {
                 let jacobian = columns(formulas, f).concat();
@@ -88,13 +91,13 @@ impl Quantity {
             Bound::Qe | Bound::QeMax => (vec![formulas.derivatives(&[q], PlantVariable::Error)], Vec::new()),
             Bound::Qtx => {
                 let gradient = columns(formulas, &[q]).concat();
-                let plain = formulas.derivatives(&gradient, PlantVariable::Time);
+                let plain = in_time(formulas, &gradient);
                 let along = columns(formulas, &gradient);
                 (vec![plain], vec![along])
             }
             Bound::Qte => {
                 let slope = formulas.derivatives(&[q], PlantVariable::Error);
-                let plain = formulas.derivatives(&slope, PlantVariable::Time);
+                let plain = in_time(formulas, &slope);
                 let along = columns(formulas, &slope);
                 (vec![plain], vec![along])
             }

@@ -89,6 +89,8 @@ struct Moment {
 /// A member of a family.
 #[derive(Clone, Debug)]
 struct Member {
+    /// How much faster than nominally its time runs.
+    clock: f64,
     parameters: Vec<f64>,
     /// What they differ from the nominal ones.
     deviations: Vec<f64>,
@@ -150,8 +152,8 @@ impl FloatSuprema {
         let q_x: Vec<_> = rows(&mut formulas, q);
         let q_e = formulas.derivatives(q, PlantVariable::Error);
         outputs.extend(q_x.iter().chain(&q_e));
-        outputs.extend(formulas.derivatives(&q_x, PlantVariable::Time));
-        outputs.extend(formulas.derivatives(&q_e, PlantVariable::Time));
+        outputs.extend(plant.derivatives_in_time(&mut formulas, &q_x));
+        outputs.extend(plant.derivatives_in_time(&mut formulas, &q_e));
         outputs.extend(rows(&mut formulas, &q_x));
         outputs.extend(rows(&mut formulas, &q_e));
         let program = Arc::new(Program::of_formulas(&formulas, &outputs, n));
@@ -165,13 +167,14 @@ impl FloatSuprema {
         let velocity = Arc::new(Program::of_formulas(&formulas, f, n));
         let doubles = |values: &[Rational]| values.iter().map(Rational::to_f64).collect();
         let member = |values: &Vec<Rational>| Member {
+            clock: plant.parameters.clock().map_or(1.0, |clock| values[clock].to_f64()),
             parameters: doubles(values),
             deviations: doubles(&plant.parameters.deviations(values)),
         };
         let members: Vec<Member> = plant.parameters.looked_at().iter().map(member).collect();
         let mut suprema = FloatSuprema {
             order: n,
-            period: plant.period.to_f64(),
+            period: plant.period.nominal().to_f64(),
             orbit,
             inverse: inverse(&matrix),
             matrix,
@@ -244,7 +247,7 @@ impl FloatSuprema {
     }
 
     fn moment(&self, time: f64, member: usize, evaluator: &mut Evaluator, slow: &mut Evaluator) -> Moment {
-        let Member { parameters, deviations } = &self.members[member];
+        let Member { parameters, deviations, .. } = &self.members[member];
         let orbit = self.orbit.at(time, deviations);
         let mut velocity = vec![0.0; self.order];
         slow.set_parameters(parameters);
@@ -338,7 +341,7 @@ impl FloatSuprema {
             let moment = &self.moments[i];
             if last != Some(i) {
                 self.load(moment, &mut evaluator);
-                matrices = self.matrices_at(moment.time);
+                matrices = self.matrices_at(&moment);
                 last = Some(i);
             }
             self.place(&moment.orbit, &self.ball[j], reach, &mut x);
@@ -428,7 +431,7 @@ impl FloatSuprema {
             self.load(&moment, &mut evaluator);
             self.place(&moment.orbit, y, reach, &mut x);
             evaluator.evaluate(&x, part * e, &mut outputs);
-            value_of(&outputs, &moment, &self.matrices_at(*time))
+            value_of(&outputs, &moment, &self.matrices_at(&moment))
         };
         points.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -470,7 +473,7 @@ impl FloatSuprema {
             self.load(&moment, &mut evaluator);
             self.place(&moment.orbit, &point.y, reach, &mut x);
             evaluator.evaluate(&x, point.e * e, &mut outputs);
-            value_of(&outputs, &moment, &self.matrices_at(moment.time))
+            value_of(&outputs, &moment, &self.matrices_at(&moment))
         };
         // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
         let mut largest = f64::NAN;
@@ -490,10 +493,11 @@ impl FloatSuprema {
         }
     }
 
-    fn matrices_at(&self, time: f64) -> [MatrixAt; 2] {
+    fn matrices_at(&self, moment: &Moment) -> [MatrixAt; 2] {
+        let period = self.period / self.members[moment.member].clock;
         self.matrices.each_ref().map(|matrix| match matrix {
             None => MatrixAt::Missing,
-            Some(matrix) => matrix.steady.clone().unwrap_or_else(|| MatrixAt::Moving(matrix.at(time, self.period))),
+            Some(matrix) => matrix.steady.clone().unwrap_or_else(|| MatrixAt::Moving(matrix.at(moment.time, period))),
         })
     }
 }

@@ -1,5 +1,6 @@
 //! Decided bounds against samples, and the paper's plant.
 
+mod clocks;
 mod directions;
 mod existence;
 mod families;
@@ -36,7 +37,7 @@ fn orbit_of(plant: &Plant, degree: usize) -> TrigonometricVector {
     let (n, steps) = (plant.states(), 512);
     let program = Arc::new(plant.program());
     let mut evaluator = Evaluator::new(program.clone());
-    let h = plant.period.to_f64() / steps as f64;
+    let h = plant.period.nominal().to_f64() / steps as f64;
     let mut slope = |t: f64, x: &[f64]| {
         let mut out = vec![0.0; program.outputs()];
         evaluator.set_time(t);

@@ -8,7 +8,8 @@ use faer::Mat;
 use rug::Rational;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
-use sigmastar_lang::spec::model::{Constant, Jacobian, PeriodicMatrix};
+use sigmastar_lang::spec::Period;
+use sigmastar_lang::spec::model::{Jacobian, PeriodicMatrix};
 use thiserror::Error;
 
 /// What was found for a Jacobian, in floating point; [`Candidates::prove`] turns a candidate into a proved triple.
@@ -147,7 +148,7 @@ const ROOM: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-2];
 ///
 /// # Errors
 /// Nothing was found; nothing is claimed about there being nothing.
-pub fn candidates(jacobian: &Jacobian, period: &Constant) -> Result<Candidates, LyapunovFailure> {
+pub fn candidates(jacobian: &Jacobian, period: &Period) -> Result<Candidates, LyapunovFailure> {
     candidates_of(Family::new(jacobian, period, DEFAULT_PRECISION).ok_or(LyapunovFailure::NotFinite)?)
 }
 
@@ -192,7 +193,7 @@ pub fn candidates_of(family: Family) -> Result<Candidates, LyapunovFailure> {
 
 /// The Floquet exponents of the middle of a Jacobian as in [`Candidates::floquet`]; `None` if they cannot be computed.
 #[must_use]
-pub fn floquet_exponents(jacobian: &Jacobian, period: &Constant) -> Option<Vec<[f64; 2]>> {
+pub fn floquet_exponents(jacobian: &Jacobian, period: &Period) -> Option<Vec<[f64; 2]>> {
     FloatFamily::new(&Family::new(jacobian, period, DEFAULT_PRECISION)?).floquet_exponents()
 }
 

@@ -4,6 +4,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::Monomial;
 use sigmastar_lang::expr::TrigonometricPolynomial;
+use sigmastar_lang::spec::Period;
 use sigmastar_lang::spec::model::{Constant, Jacobian, JacobianEntry};
 
 /// Up to this many interval entries every vertex is looked at (2^6 of them); beyond, a ball that contains the box.
@@ -12,7 +13,7 @@ const MAX_VERTEX_ENTRIES: usize = 6;
 /// All F(t) = centre(t) + D with D as in [`Deviation`], in 1/time, w = 2 pi / period.
 #[derive(Clone, Debug)]
 pub struct Family {
-    /// w.
+    /// w; of a period that is known to an interval all that it may be.
     pub frequency: Enclosure,
     /// The rows of the centre, as polynomials in the angle w t.
     pub centre: Vec<Vec<TrigonometricPolynomial>>,
@@ -33,7 +34,7 @@ impl Family {
     /// The family of a Jacobian at a precision. `None` if the reader's promise is broken: an entry that is no trigonometric
     /// polynomial of the period.
     #[must_use]
-    pub fn new(jacobian: &Jacobian, period: &Constant, precision: u32) -> Option<Family> {
+    pub fn new(jacobian: &Jacobian, period: &Period, precision: u32) -> Option<Family> {
         let unit = Monomial::rational(Rational::from(1));
         let exact = jacobian.period.as_ref().unwrap_or(&unit);
         let (mut centre, mut radii) = (Vec::new(), Vec::new());
@@ -64,7 +65,9 @@ impl Family {
             let squares = radii.iter().fold(Enclosure::zero(precision), |sum, (_, _, radius)| sum + radius.sqr());
             Deviation::Ball(squares.sqrt().ceiling())
         };
-        Some(Family { frequency: Enclosure::pi(precision) * 2 / period.enclose(precision), centre, deviation })
+        let frequency = |end: &Constant| Enclosure::pi(precision) * 2 / end.enclose(precision);
+        let frequency = frequency(period.longest()).hull(&frequency(period.shortest()));
+        Some(Family { frequency, centre, deviation })
     }
 
     /// n.

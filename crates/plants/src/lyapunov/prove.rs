@@ -307,7 +307,7 @@ mod tests {
         };
         let rows = rows.iter().map(|row| row.iter().map(entry).collect()).collect();
         let period = constant("1");
-        Family::new(&Jacobian { rows, period: period.exact.clone() }, &period, 128).unwrap()
+        Family::new(&Jacobian { rows, period: period.exact.clone() }, &period.into(), 128).unwrap()
     }
 
     fn rows(entries: &[&[(i32, i32)]]) -> Vec<Vec<Rational>> {

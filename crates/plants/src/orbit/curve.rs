@@ -16,8 +16,10 @@ pub const MAX_HARMONICS: usize = 1_000;
 pub(super) struct Curve {
     pub(super) cells: Cells,
     pub(super) members: Members,
-    /// T.
+    /// T; with a clock its nominal value, and time is the nominal one.
     pub(super) period: Enclosure,
+    /// T of every member.
+    pub(super) elapsed: Enclosure,
 }
 
 impl Curve {
@@ -30,10 +32,12 @@ impl Curve {
         order: usize,
     ) -> Curve {
         let harmonics = members.all().chain(others).map(|wave| wave.harmonics.len()).max().unwrap_or(0);
+        let period = period.enclose(PRECISION);
         Curve {
+            elapsed: members.parameters.elapsed(&period),
+            period,
             cells: Cells::new(exponent, PRECISION, harmonics, order),
             members: members.clone(),
-            period: period.enclose(PRECISION),
         }
     }
 

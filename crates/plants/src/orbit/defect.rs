@@ -29,7 +29,8 @@ pub(super) fn first_exponent(harmonics: usize) -> u32 {
 ///
 /// Guarantee: if `Ok`, f is smooth near the curves, and the bound holds for every t of the period and every p of the box. With
 /// `D(t,p)` the difference and `D_i = f_x xb_i + f_pi - xb_i'` its derivative in p_i, `D(t,p) - D(t,p^0)` is the sum of `p_i - p_i^0`
-/// times a mean of D_i over the segment from p^0 to p, which lies in the box.
+/// times a mean of D_i over the segment from p^0 to p, which lies in the box. With a clock v, d/dt is v/T_nom times d/ds, and D_v has
+/// `-(d/ds xb)/T_nom` besides (13.3).
 pub(super) fn bound(
     curve: &Curve,
     walk: &Walk,
@@ -77,10 +78,16 @@ fn derivatives_in_parameters(
     let members = curve.of_members(states, &sensitivities, &curve.members.parameters);
     let values = curve.along(slopes, cell, (&members, &curve.members.parameters.values), ORDER);
     let of_one = |(i, part): (usize, &[Vec<Taylor>; 2])| {
+        let is_clock = curve.members.parameters.clock == Some(i);
         [0, 1].map(|which| -> Vec<Taylor> {
             (0..n)
                 .map(|row| {
-                    let own = combine(&values[which][n * (n + i) + row], &slope(&part[which][row], &curve.period), -1);
+                    let moved = slope(&part[which][row], &curve.elapsed);
+                    let moved = match is_clock {
+                        true => combine(&moved, &slope(&members[which][row], &curve.period), 1),
+                        false => moved,
+                    };
+                    let own = combine(&values[which][n * (n + i) + row], &moved, -1);
                     (0..n)
                         .fold(own, |sum, j| combine(&sum, &mul(&values[which][n * row + j], &part[which][j], ORDER), 1))
                 })

@@ -34,7 +34,7 @@ impl Field {
         let states = plant.states();
         let (units, state) = (vec![1.0; states], vec![0.0; states]);
         let evaluator = Evaluator::new(program);
-        let mut field = Field { evaluator, states, outputs, units, state, period: plant.period.to_f64() };
+        let mut field = Field { evaluator, states, outputs, units, state, period: plant.period.nominal().to_f64() };
         let zero = vec![0.0; states];
         let elsewhere = ELSEWHERE.iter().map(|size| vec![*size; states]);
         for at in [zero, plant.initial.x.clone()].into_iter().chain(elsewhere) {

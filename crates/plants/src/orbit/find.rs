@@ -59,7 +59,7 @@ pub struct FloatOrbit {
 pub fn find_orbit(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
     let nominal = plant.parameters.nominal();
     let mut found = find_one(&plant.member(&nominal))?;
-    for (i, (_, interval)) in plant.parameters.intervals().enumerate() {
+    for (i, interval) in plant.parameters.intervals().enumerate() {
         let at = |end: &Rational| {
             let mut values = nominal.clone();
             values[i] = end.clone();

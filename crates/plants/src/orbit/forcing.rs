@@ -92,7 +92,7 @@ fn propose(plant: &Plant, orbit: &OrbitCurve) -> Option<(Wave, Vec<Wave>)> {
         let pairs = pairs.iter().enumerate().map(|(at, [a, b])| Some([round(*a, at + 1)?, round(*b, at + 1)?]));
         Some(Wave { mean: round(mean, 0)?, harmonics: pairs.collect::<Option<_>>()? })
     };
-    let sensitivities = plant.parameters.intervals().enumerate().map(|(i, (_, interval))| {
+    let sensitivities = plant.parameters.intervals().enumerate().map(|(i, interval)| {
         let at = |end: &Rational| {
             let mut values = nominal.clone();
             values[i] = end.clone();
@@ -255,7 +255,7 @@ impl Rows {
         let slope = |formulas: &mut Formulas, of: Formula, variable| formulas.derivatives(&[of], variable)[0];
         let q_x: Vec<Formula> = states().map(|state| slope(&mut formulas, q, state)).collect();
         // D = q_t + q_x f.
-        let mut along = slope(&mut formulas, q, PlantVariable::Time);
+        let mut along = plant.derivatives_in_time(&mut formulas, &[q])[0];
         for (q_x, f) in q_x.iter().zip(&all) {
             let term = formulas.product(*q_x, *f);
             along = formulas.sum(along, term);
@@ -340,7 +340,7 @@ fn rests_on(
             let [rest, rest_t] = [&radius * &of_q, &radius * of_d + &defect * of_q];
             let value = with_members(expansion.bound(&cells.half), &|part| part.bound(&cells.half)) + &rest;
             let slope = with_members(expansion.slope_bound(&cells.half), &|part| part.slope_bound(&cells.half));
-            let slope = slope / &curve.period + &rest_t;
+            let slope = slope / &curve.elapsed + &rest_t;
             [value, slope, rest, rest_t]
         })
         .collect();

@@ -18,13 +18,15 @@ pub(super) struct ParameterBox {
     pub(super) deviations: Vec<Enclosure>,
     /// The largest `|p_i - p_i^0|`.
     pub(super) reaches: Vec<Enclosure>,
+    /// Which of them is the clock.
+    pub(super) clock: Option<usize>,
 }
 
 impl ParameterBox {
     pub(super) fn new(plant: &Plant) -> ParameterBox {
-        let mut all =
-            ParameterBox { values: Vec::new(), nominal: Vec::new(), deviations: Vec::new(), reaches: Vec::new() };
-        for (_, interval) in plant.parameters.intervals() {
+        let [values, nominal, deviations, reaches] = [const { Vec::new() }; 4];
+        let mut all = ParameterBox { values, nominal, deviations, reaches, clock: plant.parameters.clock() };
+        for interval in plant.parameters.intervals() {
             let [low, high] = interval.deviations();
             all.values.push(Enclosure::between(&interval.low, &interval.high, PRECISION));
             all.nominal.push(Enclosure::from_rational(&interval.nominal, PRECISION));
@@ -36,6 +38,11 @@ impl ParameterBox {
 }
 
 impl ParameterBox {
+    /// T of all members, from what it is nominally.
+    pub(super) fn elapsed(&self, period: &Enclosure) -> Enclosure {
+        self.clock.map_or_else(|| period.clone(), |clock| period / &self.values[clock])
+    }
+
     /// Two boxes that cover this one, halves along the parameter of which most is left; none where there is nothing to halve.
     pub(super) fn halves(&self) -> Option<[ParameterBox; 2]> {
         let left = |i: &usize| {

@@ -129,7 +129,7 @@ impl<'a> Around<'a> {
 
     /// The curve over `2^exponent` cells, where other waves may be expanded as well.
     pub(super) fn curve<'w>(&'w self, exponent: u32, others: impl Iterator<Item = &'w Wave>) -> Curve {
-        Curve::new(&self.members, others, &self.plant.period, exponent, ORDER + 1)
+        Curve::new(&self.members, others, self.plant.period.nominal(), exponent, ORDER + 1)
     }
 
     pub(super) fn harmonics(&self) -> usize {
@@ -157,7 +157,7 @@ impl<'a> Around<'a> {
 
     fn prove_rate(&self, alpha: &Rational, tube: &Rational) -> Result<(), OrbitNotProved> {
         let contraction = Contraction {
-            period: &self.plant.period,
+            period: self.plant.period.nominal(),
             members: &self.members,
             walk: &self.f_and_jacobian,
             l: &self.l,

@@ -142,10 +142,11 @@ impl Contraction<'_> {
         for series in &mut values {
             series.drain(..n);
         }
+        let elapsed = parameters.elapsed(&curve.period);
         let p = self.p.map(|_, _, wave| curve.cells.expand(wave, cell, ORDER + 1));
         let [middle, over] = [0, 1].map(|which| {
             let p = p.map(|_, _, series| series[which].clone());
-            self.decay(&values[which], &p, alpha, &curve.period)
+            self.decay(&values[which], &p, alpha, &elapsed)
         });
         let half = &curve.cells.half;
         let zero = Enclosure::zero(PRECISION);
@@ -159,8 +160,9 @@ impl Contraction<'_> {
                 None => zero.clone(),
                 Some(_) => (0..n).fold(zero.clone(), |sum, j| sum + at(over.at(i, j), ORDER).abs()) * half.sqr(),
             };
+            // The least diagonal: wide enclosures, as those of a clock, are beyond the scale of their middle.
             let entry = |i: usize, j: usize| match i == j {
-                true => value.at(i, i) - taken(i).ceiling(),
+                true => (taken(i) - value.at(i, i)).ceiling().negate(),
                 false => value.at(i, j).clone(),
             };
             ScaledMatrix::from_enclosures(n, entry).is_some_and(|matrix| matrix.is_positive_definite().is_true())

@@ -44,7 +44,7 @@ pub(super) fn shorten(vector: &mut TrigonometricVector) {
 #[must_use]
 pub fn round_orbit(plant: &Plant, orbit: &FloatOrbit) -> Option<OrbitCurve> {
     let centre = round_part(plant, orbit, &orbit.series, 1.0)?;
-    let reaches = plant.parameters.intervals().map(|(_, interval)| interval.reach().to_f64());
+    let reaches = plant.parameters.intervals().map(|interval| interval.reach().to_f64());
     let parts = orbit.sensitivities.iter().zip(reaches);
     let sensitivities = parts.map(|(part, reach)| round_part(plant, orbit, part, reach)).collect::<Option<_>>()?;
     Some(OrbitCurve { centre, sensitivities })

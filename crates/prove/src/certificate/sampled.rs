@@ -76,7 +76,7 @@ pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> Stri
         write_exact(&witness.sigma),
         witness.sampling.text(),
         write_exact(&witness.law.gain),
-        spec.period.text,
+        spec.period.nominal().text,
         model.mu.text,
         model.base_frequency.text,
         conclusion(spec, &witness.set, "at any sampling instant"),

@@ -86,6 +86,10 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         let ends = [("nominal", nominal), ("low", low), ("high", high)];
         ("input_gain", object(ends.map(|(name, value)| (name, text(constant(value))))))
     });
+    let period = spec.period.interval().map(|[low, high]| {
+        let ends = [("nominal", spec.period.nominal()), ("low", low), ("high", high)];
+        ("period", object(ends.map(|(name, value)| (name, text(constant(value))))))
+    });
     let rest = [
         ("initial_set", set_json(spec, set)),
         (
@@ -95,7 +99,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("control", control_json(run.control()?)),
         ("statement", text(statement(run, sigma, set))),
     ];
-    let claim = object(heading.into_iter().chain(input_gain).chain(parameters).chain(rest));
+    let claim = object(heading.into_iter().chain(input_gain).chain(period).chain(parameters).chain(rest));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))
@@ -150,7 +154,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
 fn parameters_json(plant: &OfPlant) -> Option<Value> {
     let intervals: Vec<(&str, Value)> = plant
         .parameters
-        .intervals()
+        .named_intervals()
         .map(|(name, Interval { nominal, low, high })| {
             let ends = [("nominal", nominal), ("low", low), ("high", high)];
             (name, object(ends.map(|(name, value)| (name, exact(value)))))
@@ -225,11 +229,17 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
             low.text, high.text, nominal.text
         )
     });
+    let nominal = &spec.period.nominal().text;
+    let period = match spec.period.interval() {
+        None => format!("period T = {nominal}"),
+        Some([low, high]) => {
+            format!("every period in [{}, {}] (one constant T; nominal {nominal})", low.text, high.text)
+        }
+    };
     format!(
-        "For every number of oscillators n_o >= 0 and every gain sigma >= {}{input_gain}, with period T = {}, mu = {} and base \
-         frequency {}{reach}, {}",
+        "For every number of oscillators n_o >= 0 and every gain sigma >= {}{input_gain}, with {period}, mu = {} and base frequency \
+         {}{reach}, {}",
         write_exact(sigma),
-        spec.period.text,
         model.mu.text,
         model.base_frequency.text,
         conclusion(spec, set, "at any initial time"),
@@ -301,7 +311,7 @@ pub fn members(parameters: &Parameters) -> Option<String> {
     let one = |(name, Interval { low, high, .. }): (&str, &Interval)| {
         format!("a constant {name} in [{}, {}]", write_exact(low), write_exact(high))
     };
-    let all: Vec<String> = parameters.intervals().map(one).collect();
+    let all: Vec<String> = parameters.named_intervals().map(one).collect();
     (!all.is_empty()).then(|| all.join(" and "))
 }
 

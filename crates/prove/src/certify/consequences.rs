@@ -6,6 +6,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_theory::data::{Bound, Data, Problem};
 use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, error_bounds};
 use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::derivation::mistuned::Mistuning;
 use sigmastar_theory::derivation::targets::{Consequences, Target};
 
 impl Certification<'_> {
@@ -20,16 +21,17 @@ impl Certification<'_> {
         Some(Consequences::new(&data, self.excitation()?, &data.rational(claim.sigma), e_per, targets))
     }
 
-    /// Certified bounds of the periodic error with so many oscillators; `None` without a certified claim, or where the base
-    /// frequency is not matched.
+    /// Certified bounds of the periodic error with so many oscillators; `None` without a certified claim.
     ///
     /// Guarantee: as for [`Certification::consequences`].
     #[must_use]
     pub fn error_with(&self, n_o: u64) -> Option<ErrorBounds> {
-        let claim = self.claim().filter(|_| self.spec.internal_model.matched)?;
+        let claim = self.claim()?;
         let data = Data::new(self.spec, claim.precision);
         let [_, e_per, _] = claim.periodic;
-        Some(error_bounds(&data, self.excitation()?, &data.rational(claim.sigma), e_per, n_o))
+        let mistuning = Mistuning::new(&data);
+        let (excitation, sigma) = (self.excitation()?, data.rational(claim.sigma));
+        Some(error_bounds(&data, excitation, mistuning.as_ref(), &sigma, e_per, n_o))
     }
 
     fn excitation(&self) -> Option<&Excitation> {

@@ -94,10 +94,11 @@ fn rough(value: &Enclosure) -> bool {
     !width.le(&(value.abs().ceiling() * unit)).is_true()
 }
 
-/// The table, at the witness of the claim; nothing where that is not proved, and with an input gain, of which the formulas that are
-/// compared know nothing.
+/// The table, at the witness of the claim; nothing where that is not proved, and with an input gain or an interval of the period, of which
+/// the formulas that are compared know nothing.
 fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
-    let Some(sharp) = columns.sharp.proved().filter(|_| data.input_gain.is_none()) else { return Vec::new() };
+    let known = data.input_gain.is_none() && data.spec.period.interval().is_none();
+    let Some(sharp) = columns.sharp.proved().filter(|_| known) else { return Vec::new() };
     let rows = table(&TableInput {
         data,
         sharp: (&sharp.witness, &sharp.evaluation),

@@ -74,8 +74,9 @@ fn certify_wanted<'s>(
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
     let paper_model = model(&data, TransferKind::ClosedForm);
-    // From a plant's formulas only the data of the claim are computed; the other derivations know of no input gain.
-    let others = spec.plant().is_none() && data.input_gain.is_none();
+    // From a plant's formulas only the data of the claim are computed; the other derivations know of no input gain, and
+    // of no interval of the period: their K_alpha falls as T grows.
+    let others = spec.plant().is_none() && data.input_gain.is_none() && spec.period.interval().is_none();
     let repaired = (options.compare && others).then(|| match search_repaired(&paper_model) {
         Err(obstacle) => Outcome::NotFound(obstacle),
         Ok(proposal) => round_repaired(&data, &paper_model, &proposal, options.ladder).into(),

@@ -6,7 +6,7 @@ use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
-    Constant, Document, ErrorKind, InputGain, InternalModel, Sampling, SpecErrors, Specification, Value,
+    Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors, Specification, Value,
 };
 
 /// Where the search for a gain may start, and what it saw beside.
@@ -94,7 +94,7 @@ impl Subject {
 
     /// The period.
     #[must_use]
-    pub fn period(&self) -> &Constant {
+    pub fn period(&self) -> &Period {
         match self {
             Subject::Specification(spec) => &spec.period,
             Subject::Plant(plant) => &plant.period,

@@ -89,7 +89,7 @@ fn same_samples(subject: &Subject, stated: &Sampling, asked: Option<&Sampling>) 
         let message = format!("another sampling period is asked for than {step}, which the certificate is about");
         return Err(told(subject, "/internal_model/sampling_period", message, SEARCH));
     }
-    match Sampling::new(subject.period(), stated.step.clone()) {
+    match Sampling::new(subject.period().nominal(), stated.step.clone()) {
         Some(real) if real.samples == stated.samples && subject.is_matched() => Ok(()),
         Some(_) | None => {
             let message = format!(

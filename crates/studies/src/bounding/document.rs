@@ -94,13 +94,20 @@ fn write(
         ("alpha", stated(&triple.alpha)),
         ("rate", text(&rate)),
     ]);
+    let nominal = spec.period.nominal();
+    let period = match spec.period.interval() {
+        None => stated(nominal),
+        Some([low, high]) => {
+            object([("nominal", nominal), ("low", low), ("high", high)].map(|(name, end)| (name, stated(end))))
+        }
+    };
     let ends = object([("X", exact(domain[0])), ("E", exact(domain[1]))]);
     let all = [
         ("format", Value::from("sigmastar/bounding-spec")),
         ("version", Value::from(1)),
         ("name", Value::from(format!("{}, bounded", plant.name))),
         ("description", Value::from(description(of_plant))),
-        ("period", stated(&spec.period)),
+        ("period", period),
         ("lyapunov", lyapunov),
         ("bounds", object(fields.iter().map(|(name, majorant)| (*name, text(majorant))))),
     ];

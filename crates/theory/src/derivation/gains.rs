@@ -4,7 +4,7 @@ use sigmastar_exact::real::{Operand, Real};
 
 /// `K_alpha = c (e^{alpha T} - 1 + c) e^{-alpha T}` (P:app:Kalpha1), a pure number.
 ///
-/// Hypotheses: c >= 1, alpha, T > 0. Guarantee: a T-periodic solution of chi' = F chi + g has
+/// Hypotheses: c >= 1, alpha, T > 0. Alone of these gains it falls as T grows. Guarantee: a T-periodic solution of chi' = F chi + g has
 /// sup|chi| <= (K_alpha/alpha) sup|g| when (P_low, P_up, alpha) holds for F. Sound; never less than c, which
 /// serves as well (derivation, lemma K: differentiate sqrt(chi' P chi)).
 #[must_use]

@@ -101,13 +101,13 @@ where
     (1..).zip(known.harmonics.iter().skip(1)).fold(zero.clone(), |sum, (k, c)| sum + term(k, c))
 }
 
-/// sqrt(sum_{k>=1} 2 (k Om C_k)^2).
+/// sqrt(sum_{k>=1} 2 (k Om C_k)^2), at the largest Om.
 fn rate_rms<R: Real>(problem: &impl Problem<R>, known: &KnownForcing<R>) -> R
 where
     for<'a> &'a R: Operand<R>,
 {
-    let fundamental = &problem.numbers().fundamental;
-    let squares = sum_of_harmonics(known, &problem.zero(), |k, c| (R::int(k) * (fundamental * c)).sqr());
+    let fastest = &problem.numbers().fastest;
+    let squares = sum_of_harmonics(known, &problem.zero(), |k, c| (R::int(k) * (fastest * c)).sqr());
     (R::int(2) * squares).sqrt()
 }
 
@@ -131,8 +131,8 @@ where
     for<'a> &'a R: Operand<R>,
 {
     let numbers = problem.numbers();
-    let Numbers { fundamental, base_frequency, nu, matched, .. } = numbers;
-    let ratio = fundamental / base_frequency;
+    let Numbers { fastest, base_frequency, nu, matched, .. } = numbers;
+    let ratio = fastest / base_frequency;
     let bound = |k: i64| {
         let general = k0 + k1 * (R::int(k) * &ratio).sqr();
         match known.weights.get(k as usize) {
@@ -153,4 +153,38 @@ where
     let weight = |k: i64| known.weights.get(k as usize).cloned().unwrap_or_else(R::unknown);
     let squares = sum_of_harmonics(known, &problem.zero(), |k, c| c.sqr() / weight(k));
     (mean(known).sqr() / weight(0) + R::int(4) * squares).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::Data;
+    use crate::transfer::weights_only::weights_only;
+    use sigmastar_lang::spec::Specification;
+    use std::f64::consts::TAU;
+
+    /// Of a period from 4/5 to 5/4: rates and transfer bounds at the largest frequency, everything else at the least.
+    #[test]
+    fn each_formula_takes_its_end_of_the_period() {
+        let mut document = weights_only("2", "1/2", "3", "2*pi").document;
+        document["q_0"] = serde_json::json!({ "harmonics": ["1", "1/2", "1/4"], "rest_rms": "0" });
+        document["period"] = serde_json::json!({ "nominal": "1", "low": "4/5", "high": "5/4" });
+        let spec = Specification::from_json("test", &document.to_string()).unwrap();
+        let data = Data::new(&spec, 128);
+        let close = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-12, "{value} {expected}");
+        close(data.period.midpoint_f64(), 1.25);
+        close(data.fundamental.midpoint_f64(), TAU * 0.8);
+        close(data.fastest.midpoint_f64(), TAU * 1.25);
+        let known = data.q_0.as_ref().unwrap();
+        let squares = |weight: &dyn Fn(f64) -> f64| 2.0 * (0.25 * weight(1.0) + weight(2.0) / 16.0);
+        let rate = AtOrigin::new(&data).known.unwrap().rate_rms;
+        close(rate.midpoint_f64(), squares(&|k| (k * TAU * 1.25).powi(2)).sqrt());
+        let sigma = data.rational(&rug::Rational::from(7));
+        let response = Response::new(&data, known, &sigma);
+        close(response.rms.midpoint_f64(), squares(&|k| 1.0 / (49.0 + (k * TAU * 0.8).powi(2))).sqrt());
+        let [k0, k1] = [2, 3].map(|value| data.rational(&rug::Rational::from(value)));
+        let nu = 3.0 / TAU;
+        let expected = (1.0 / (nu * nu * 2.0) + squares(&|k| 2.0 + 3.0 * (k * 1.25).powi(2))).sqrt() / TAU;
+        close(steady_state_norm(&data, known, [&k0, &k1]).midpoint_f64(), expected);
+    }
 }

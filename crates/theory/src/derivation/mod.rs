@@ -18,6 +18,7 @@ pub mod joint;
 pub mod lyapunov_matrix;
 pub mod matrix_inequality;
 pub mod mean_squares;
+pub mod mistuned;
 pub mod paths;
 pub mod printed;
 pub mod relative_degree;

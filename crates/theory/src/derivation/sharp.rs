@@ -195,6 +195,10 @@ impl SharpEvaluation {
             q_rms: periodic.forcing.q_rms.clone(),
             q_rate_rms: periodic.forcing.q_rate_rms.clone(),
             x_gain: bounds.x_gain.clone(),
+            split: origin
+                .known
+                .as_ref()
+                .map(|known| [[known.rest_rms.clone(), known.rest_t_rms.clone()], periodic.forcing.change.clone()]),
         };
         SharpEvaluation {
             sigma,

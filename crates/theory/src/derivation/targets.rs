@@ -1,7 +1,9 @@
 //! The certified error for several numbers of oscillators, and the number of oscillators that a target needs.
 
 use super::consequences::{ErrorBounds, Excitation, Psi, error_bounds, smallest_n_o};
+use super::mistuned::Mistuning;
 use crate::data::Data;
+use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Constant;
 
@@ -44,8 +46,17 @@ pub enum TargetOutcome {
     Reached(u64),
     /// It does not up to [`MAX_OSCILLATORS`](super::consequences::MAX_OSCILLATORS).
     NotReached,
-    /// The base frequency is not asserted to be 2 pi / period, so no bound decreases with n_o.
-    NotMatched,
+}
+
+/// What oscillators are worth whose frequencies are not exactly those of the harmonics (derivation, 13.3).
+#[derive(Clone, Debug)]
+pub struct MistunedSummary {
+    /// dm, an upper bound of `|Om/w - 1|`.
+    pub largest: Enclosure,
+    /// With more oscillators than these no bound falls.
+    pub last_that_pays: u64,
+    /// The smallest n_o from which on the bound of sup|e| falls by 1 % or less.
+    pub enough: u64,
 }
 
 /// Certified bounds of the periodic error.
@@ -53,12 +64,12 @@ pub enum TargetOutcome {
 pub struct Consequences {
     /// psi_1, psi_x, psi_2.
     pub psi: Psi,
-    /// Bounds for several n_o; empty unless the base frequency is matched.
+    /// Bounds for several n_o.
     pub by_n_o: Vec<(u64, ErrorBounds)>,
     /// The answers to the targets.
     pub targets: Vec<(Target, TargetOutcome)>,
-    /// Whether the base frequency is matched: only then is psi_2 a bound, and only then do bounds decrease with n_o.
-    pub matched: bool,
+    /// What is said of oscillators away from a matched base frequency; only at one is psi_2 a bound.
+    pub mistuned: Option<MistunedSummary>,
 }
 
 impl Consequences {
@@ -74,13 +85,10 @@ impl Consequences {
         e_per: &Enclosure,
         targets: &[Target],
     ) -> Consequences {
-        let matched = data.spec.internal_model.matched;
-        let at = |n_o| error_bounds(data, excitation, sigma, e_per, n_o);
-        let by_n_o = if matched { N_O.map(|n_o| (n_o, at(n_o))).to_vec() } else { Vec::new() };
+        let mistuning = Mistuning::new(data);
+        let at = |n_o| error_bounds(data, excitation, mistuning.as_ref(), sigma, e_per, n_o);
+        let by_n_o = N_O.map(|n_o| (n_o, at(n_o))).to_vec();
         let answer = |target: &Target| {
-            if !matched {
-                return TargetOutcome::NotMatched;
-            }
             let value = target.value.enclose(data.precision);
             let reached = match target.kind {
                 TargetKind::Sup => smallest_n_o(&value, |n_o| at(n_o).sup),
@@ -89,6 +97,12 @@ impl Consequences {
             reached.map_or(TargetOutcome::NotReached, TargetOutcome::Reached)
         };
         let targets = targets.iter().map(|target| (target.clone(), answer(target))).collect();
-        Consequences { psi: Psi::new(data, excitation), by_n_o, targets, matched }
+        let mistuned = mistuning.as_ref().map(|mistuning| {
+            let last_that_pays = mistuning.last_that_pays();
+            let nearly = at(last_that_pays).sup * data.rational(&Rational::from((101, 100)));
+            let enough = smallest_n_o(&nearly, |n_o| at(n_o).sup).unwrap_or(last_that_pays).min(last_that_pays);
+            MistunedSummary { largest: mistuning.largest.clone(), last_that_pays, enough }
+        });
+        Consequences { psi: Psi::new(data, excitation), by_n_o, targets, mistuned }
     }
 }

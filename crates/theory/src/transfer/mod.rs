@@ -23,7 +23,7 @@ mod printed;
 mod study;
 mod uniformity;
 #[cfg(test)]
-mod weights_only;
+pub(crate) mod weights_only;
 
 pub use boxes::{BoxProof, MAX_BOXES, MAX_N0};
 pub use closed_form::closed_form_pair;

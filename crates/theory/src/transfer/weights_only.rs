@@ -3,7 +3,7 @@
 use sigmastar_lang::spec::Specification;
 
 /// A power family of weights with these numbers; the plant is as simple as it can be.
-pub(super) fn weights_only(n0: &str, epsilon: &str, mu: &str, frequency: &str) -> Specification {
+pub(crate) fn weights_only(n0: &str, epsilon: &str, mu: &str, frequency: &str) -> Specification {
     let text = format!(
         r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
         "lyapunov": {{"p_low": "1", "p_up": "1", "alpha": "1"}},

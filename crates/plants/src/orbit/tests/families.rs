@@ -17,7 +17,7 @@ fn family(k: [&str; 2], c: [&str; 2]) -> Plant {
     Plant::from_json("family", &text.replacen("\"states\"", &parameters, 1)).unwrap()
 }
 
-fn proved(plant: &Plant) -> (Coordinates, OrbitProof, ProvedForcing) {
+pub(super) fn proved(plant: &Plant) -> (Coordinates, OrbitProof, ProvedForcing) {
     let found = find_orbit(plant).unwrap();
     let orbit = round_orbit(plant, &found).unwrap();
     let mut last = None;
@@ -43,7 +43,17 @@ fn the_orbits_of_members_are_followed() {
     decide_orbit(&plant, &coordinates, &proof).unwrap();
     decide_forcing(&plant, &coordinates, &proof, &forcing).unwrap();
     let inside = [(19, 100), (3, 20)].map(Rational::from).to_vec();
-    for values in plant.parameters.looked_at().into_iter().chain([inside]) {
+    is_followed(&plant, &coordinates, &proof, [inside]);
+}
+
+/// The curve at the corners of the box and at these points lies within the radius of the orbit that is found of the member.
+pub(super) fn is_followed(
+    plant: &Plant,
+    coordinates: &Coordinates,
+    proof: &OrbitProof,
+    inside: impl IntoIterator<Item = Vec<Rational>>,
+) {
+    for values in plant.parameters.looked_at().into_iter().chain(inside) {
         let own = find_orbit(&plant.member(&values)).unwrap().series;
         let curve = sampled::doubles(&proof.orbit.at(&plant.parameters.deviations(&values)));
         for s in [0.0, 0.2, 0.45, 0.7, 0.9] {
@@ -171,6 +181,6 @@ fn a_family_of_one_point_is_the_plant() {
     // A corner that is unstable is told.
     let unstable = family(["-3", "1/2"], ["0", "0.2"]);
     assert!(find_orbit(&unstable).is_err());
-    let intervals: Vec<Interval> = unstable.parameters.intervals().map(|(_, interval)| interval.clone()).collect();
+    let intervals: Vec<Interval> = unstable.parameters.intervals().cloned().collect();
     assert_eq!(intervals[0].nominal, Rational::from((1, 5)));
 }

@@ -1,5 +1,6 @@
 //! Plants of the tests, and the parts together.
 
+mod clocks;
 mod families;
 mod precise;
 
