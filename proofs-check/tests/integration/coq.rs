@@ -109,6 +109,17 @@ fn coq_accepts_what_is_true() {
         assert_accepted(name, coqc(proofs, &name.replace(['.', '-'], "_"), &made));
     }
     assert_accepted("gain", coqc(proofs, "gain", &with_a_gain()));
+    // Functions of every kind, also where a condition takes them by their names.
+    let mut made = certificate("linear.sharp");
+    for (bound, function) in [
+        ("f_xx", "min(X, 0)"),
+        ("f_ex", "max(0, tanh(-E))"),
+        ("q_t_rms", "tanh(20)*20 + max(0, E)"),
+        ("q_e_max", "min(1/4, tanh(1))"),
+    ] {
+        made["specification"]["bounds"][bound] = json!(function);
+    }
+    assert_accepted("functions", coqc(proofs, "functions", &made));
 }
 
 /// Those that an ordinary run leaves out are alike.
