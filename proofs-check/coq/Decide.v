@@ -224,6 +224,15 @@ Ltac decide_size :=
       | fail 1 "this size is not proved:" v bound ]
   end.
 
+(** That a size is not negative: where there is no x it is 0, and an enclosure of the smaller of two numbers is not that sharp. *)
+Ltac decide_nonneg c :=
+  lazymatch goal with
+  | |- 0 <= ?v =>
+      let R := eval red in c in
+      let b := eval red in v in
+      let b := opened c R b in change (0 <= b); solve [repeat apply min2_nonneg; decide_difference]
+  end.
+
 (** One condition; where it is not proved, Coq shows it. *)
 Ltac decide_one c :=
   lazymatch goal with
@@ -236,8 +245,8 @@ Ltac decide_one c :=
         let b := eval cbv beta iota zeta delta [min2 max2 tanh_exp r_t] in b in
         change b;
         repeat match goal with
-          |- _ /\ _ => split | |- True => exact I | |- false = true -> _ => discriminate | |- true = true -> _ => intros _ end;
-        first [decide_difference | apply Rle_refl | lazymatch goal with |- ?leaf => fail 3 "this condition is not proved:" leaf "of" g end]
+          |- _ /\ _ => split | |- True => exact I end;
+        first [decide_difference | apply Rle_refl | decide_nonneg c | lazymatch goal with |- ?leaf => fail 3 "this condition is not proved:" leaf "of" g end]
       | fail 1 "this condition is not proved:" g ]
   end.
 
