@@ -225,11 +225,11 @@ impl<'a> Claim<'a> {
             return (regulator.in_words(spec), "sampling instant");
         }
         let reach = if spec.matched { "" } else { " (which need not match the period)" };
-        let gain = spec.input_gain.as_ref().map_or_else(String::new, input_gain::in_words);
         let words = format!(
-            "For every number of oscillators n_o >= 0 and every gain sigma >= {}{gain}, with {}, mu = {} and base \
+            "For every number of oscillators n_o >= 0 and every gain sigma >= {}{}, with {}, mu = {} and base \
              frequency {}{reach}",
             self.sigma_text,
+            input_gain::in_words(spec.input_gain.as_ref()),
             period::in_words(&spec.period),
             spec.mu.text,
             spec.base_frequency.text,

@@ -1,7 +1,7 @@
 //! What the sampled loop makes of a periodic input, uniformly in n_o (docs/mathematics.md, sections 12.1 and 12.2, S3).
 //!
 //! The harmonic j of e is `S_j h/(e^{i om h} - a)` times that of the mean input, `|e^{i om h} - a|^2 = (h sigma)^2 + a (h om_j)^2`, and
-//! `|S_j| <= Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|}`; S_0 = 0.
+//! `|S_j| <= Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|}`; S_0 = 0. With a gain (section 13.1) [`Law::of_error`] stands for it.
 
 use super::law::Law;
 use crate::interval::Interval;
@@ -11,7 +11,7 @@ const MAX_SHARPENED: u32 = 8192;
 
 /// The gains from the mean input over a step, or from its differences over h.
 pub struct Gains {
-    /// `bt_S^2 = sum_{j=1}^{N_s-1} Sb_j^2/(sigma^2 + a om_j^2)`: sup|e_k| over rms(q).
+    /// `bt_S^2 = sum_{j=1}^{N_s-1} Sb_j^2/(sigma^2 + a om_j^2)`: sup|e_k| over rms(q). Each term is `|e_j|^2` over `|q_j|^2`.
     pub sup: Interval,
     /// `bt_h^2 = sum_{j=1}^{N_s-1} 1/(sigma^2 + a om_j^2)`: sup|e_k| over the rms of y, whose sum is 0.
     pub sup_y: Interval,
@@ -21,31 +21,43 @@ pub struct Gains {
     pub rms: Interval,
     /// 1/(om_1 sg_S): rms(e_k) over rms(q').
     pub rms_t: Interval,
+    /// `2 (1 + theta)/(2 - h sigma)`: rms of (e_{k+1} - e_k)/h over rms(q), with the largest `|y_j|` over `|q_j|` for 1 + theta.
+    pub slope: Interval,
 }
 
 impl Gains {
     /// Sums over the harmonics; j and N_s - j are equal.
     pub fn new(law: &Law<'_>) -> Gains {
         let d = law.d;
-        let [mut sup, mut sup_y, mut sup_t] = [0; 3].map(|zero| d.int(zero));
+        let [mut sup, mut sup_y, mut sup_t, mut rms, mut rms_t, mut of_y] = [0; 6].map(|zero| d.int(zero));
         let sigma_squared = law.sigma.sqr();
         let largest = law.growth.sqr();
         let sharpened = law.samples <= MAX_SHARPENED;
         for j in 1..=law.samples / 2 {
             let sine = law.sine(j);
             let frequency = law.frequency_squared(&sine);
-            // At j = N_s/2 the cosine is 0.
-            let share = if sharpened { largest.least(&(1 - sine.sqr()).recip()) } else { largest.clone() };
-            let of_y = (&sigma_squared + &law.a * &frequency).recip();
-            let gain = share * &of_y;
+            let size = &sigma_squared + &law.a * &frequency;
+            let gain = match &d.gain {
+                Some(gain) => law.of_error(gain, &frequency, &size),
+                // At j = N_s/2 the cosine is 0.
+                None if sharpened => largest.least(&(1 - sine.sqr()).recip()) / &size,
+                None => &largest / &size,
+            };
+            let gain_t = &gain / frequency;
+            (rms, rms_t, of_y) = (rms.max(&gain), rms_t.max(&gain_t), of_y.max(&(&gain * &size)));
             let times = if 2 * j == law.samples { 1 } else { 2 };
-            sup_t = sup_t + &gain / frequency * times;
+            sup_t = sup_t + gain_t * times;
             sup = sup + gain * times;
-            sup_y = sup_y + of_y * times;
+            sup_y = sup_y + size.recip() * times;
         }
-        let rms = slowest(law, sharpened).recip();
-        let om_1 = law.frequency_squared(&law.sine(1)).sqrt();
-        Gains { sup: sup.sqrt(), sup_y: sup_y.sqrt(), sup_t: sup_t.sqrt(), rms_t: &rms / om_1, rms }
+        if d.gain.is_none() {
+            rms = slowest(law, sharpened).sqr().recip();
+            rms_t = &rms / law.frequency_squared(&law.sine(1));
+            of_y = largest;
+        }
+        let slope = of_y.sqrt() * 2 / (2 - &law.share);
+        let [sup, sup_y, sup_t, rms, rms_t] = [sup, sup_y, sup_t, rms, rms_t].map(|square| square.sqrt());
+        Gains { sup, sup_y, sup_t, rms, rms_t, slope }
     }
 }
 

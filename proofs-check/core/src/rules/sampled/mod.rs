@@ -14,16 +14,14 @@ pub mod law;
 pub mod stability;
 pub mod transfer;
 
-use super::common::Sizes;
-use super::common::{Evaluated, Free};
+use super::common::{Evaluated, Free, Sizes};
+use super::control;
 use super::existence::covers;
 use super::inequality::{RULE, demand_plant, reaches};
 use super::set::{self, ClaimedSet};
 use crate::data::Data;
-use crate::input_gain;
 use crate::json::Fields;
-use crate::plant::parameters;
-use crate::verdict::{Outcome, Verdict, bad, demand, finding};
+use crate::verdict::{Outcome, bad, demand};
 use inequality::{Existence, Inequalities, Stability};
 use law::{Law, Terms};
 
@@ -71,14 +69,6 @@ impl Witness {
 /// Evaluates all conditions; S0, the transfer proof and the signs are decided here.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     w.signs()?;
-    if d.spec.input_gain.is_some() {
-        let message = "a claim about the regulator at samples is not available with `input_gain` yet";
-        return Err(finding(Verdict::Undecided, input_gain::RULE, "/claim/regulator", message));
-    }
-    if d.spec.plant.as_ref().is_some_and(|plant| !plant.parameters.is_empty()) {
-        let message = "a claim about the regulator at samples is not available with intervals of `parameters`";
-        return Err(finding(Verdict::Undecided, parameters::RULE, "/claim/regulator", message));
-    }
     let (free, law) = (&w.free, Law::new(d, &w.terms));
     let mut pointers = w.existence.iter().map(|part| &part.pointer).chain(w.stability.iter().map(|part| &part.pointer));
     pointers.try_for_each(|pointer| demand_plant(d, pointer))?;
@@ -93,7 +83,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, vec![transfer], existence);
     let (level, transient) = free.level(d, &reach, [&law.sigma, &law.gain]);
     evaluated.conditions.push(level);
-    evaluated.control = [solution.steady, transient];
+    evaluated.control = control::put_out(d, [solution.steady, transient]);
     if let Some(part) = &w.stability {
         evaluated.conditions.extend(reaches(d, &error_box, [&part.x, &part.e], RULE));
     } else {

@@ -12,7 +12,7 @@ use crate::verdict::Condition;
 
 type Form = [[Interval; 3]; 3];
 
-/// The weights of U.
+/// The weights of U. With a gain that of zeta is `b eta` (section 13.1), so that `eta/K` stands beside y for every b.
 pub struct Weights<'a> {
     pub w_x: &'a Interval,
     /// The weight of zeta.
@@ -56,7 +56,10 @@ fn form(law: &Law<'_>, error_box: &ErrorBox, weights: &Weights<'_>, room: &Inter
     let scaled = weights.eta / &law.gain;
     let mean = &scaled * (1 - &ts / 2);
     let rest = 1 - &ts;
-    let damping = (&rest + &mean * &error_box.most).abs().max(&(&rest - &mean * &error_box.k_e).abs());
+    // y has (1-b) sigma e_k in it.
+    let [up, down] =
+        d.gain.as_ref().map_or_else(|| [0; 2].map(|zero| d.int(zero)), |gain| gain.shifts(&(&scaled * &law.sigma)));
+    let damping = (&rest + &mean * &error_box.most + up).abs().max(&(&rest - &mean * &error_box.k_e + down).abs());
 
     let xx = weights.w_x * &error_box.rate * 2 - &coupling * &c_x * 2;
     let xe = -(&coupling * c_e);
