@@ -74,9 +74,9 @@ impl Float {
         self.gain * self.h * NBAR_SQUARED / 2.0
     }
 
-    /// b_lo K (1 + theta).
+    /// b_lo K (1 + theta), with its own theta.
     fn least_mu(&self) -> f64 {
-        self.ends[0] * self.gain * self.growth
+        self.ends[0] * self.gain / (1.0 - self.ends[0] * self.loss())
     }
 
     /// b from its least to its largest.
@@ -99,7 +99,7 @@ impl Float {
     /// The least |D_j| times the distance of a point (1-b) sigma from its line.
     fn room(&self, j: u32) -> f64 {
         let [size, real] = self.size(j);
-        let at = |b: f64| size * size * (1.0 - b * self.loss()) - (1.0 - b) * self.sigma * real;
+        let at = |b: f64| size * size / self.growth - (1.0 - b) * self.sigma * real;
         at(self.ends[0]).min(at(self.ends[1]))
     }
 
@@ -271,7 +271,7 @@ fn responses_of_the_loop_with_a_gain() {
         let more = 1.0 + apart * float.sigma * float.most(|j| float.error(j));
         let scale = float.growth.powi(2) / float.w().powi(2);
         for j in 1..=float.samples / 2 {
-            let (bound, loss) = (float.error(j), float.loss());
+            let bound = float.error(j);
             let beyond = (0..=(float.samples - 1) / 2).filter(|n_o| *n_o < j);
             for (b, n_o) in float.gains().flat_map(|b| beyond.clone().map(move |n_o| (b, n_o))) {
                 let error = error_of(&float, b, j, through(&float, b, n_o, j));
@@ -283,10 +283,10 @@ fn responses_of_the_loop_with_a_gain() {
                 let zeta = scale * transfer_of(&float, b, n_o, j) * input * input;
                 assert!(zeta <= scale * demanded(&float, j) * more * more * (1.0 + 1e-9), "{float:?}");
             }
-            // With all weights and the worst of their cotangents: i D_j moves the difference along its line.
+            // With the largest theta and the worst cotangents: i D_j moves the difference along its line.
             let worst = |b: f64| {
                 let off = (b - 1.0) * float.sigma * float.imaginary(j) / float.size(j)[0].powi(2);
-                error_of(&float, b, j, [1.0 - b * loss, off])
+                error_of(&float, b, j, [1.0 / float.growth, off])
             };
             let largest = float.ends.map(worst).into_iter().fold(0.0, f64::max);
             assert!((largest / bound - 1.0).abs() < 1e-9, "j = {j}: {largest} {bound}, {float:?}");

@@ -5,7 +5,8 @@
 //! input has `|y_j| <= (1 + theta)|q_j|` in every harmonic, and none at j = 0; the loop without input is stable.
 //!
 //! With an input gain (section 13.1) `y_k = qb_k + (1-b) sigma e_k + b K v_k`: the loop of gain 1 with b K for K, and the means of
-//! `q + (1-b) sigma e_k` for those of q. theta is that of `b_hi K`, the largest, and mu that of `b_lo K` with it.
+//! `q + (1-b) sigma e_k` for those of q. theta is that of `b_hi K`, the largest, and mu, which is not above
+//! b K (1 + theta) for any b, that of `b_lo K`.
 
 use crate::data::Data;
 use crate::gain::Gain;
@@ -46,13 +47,13 @@ pub struct Law<'a> {
     pub a: Interval,
     /// K.
     pub gain: Interval,
-    /// K h Nb2/2 at the nominal gain.
+    /// K (1 + theta) with theta of K.
     nominal: Interval,
     /// b_hi K h Nb2/2 = theta/(1 + theta).
     pub loss: Interval,
     /// 1 + theta = 1/(1 - b_hi K h Nb2/2).
     pub growth: Interval,
-    /// mu = b_lo K (1 + theta), which need not be exactly that of the specification without a gain.
+    /// mu = b_lo K (1 + theta) with theta of b_lo K, which need not be exactly that of the specification without a gain.
     pub mu: Interval,
     weight_sum: Interval,
 }
@@ -67,16 +68,17 @@ impl<'a> Law<'a> {
             Some(period) => d.number(&(period * &terms.sigma / terms.samples)),
             None => &h * &sigma,
         };
-        let nominal = &gain * &h * &weight_sum / 2;
-        let of = |end: fn(&Gain) -> &Interval, value: &Interval| {
-            d.gain.as_ref().map_or_else(|| value.clone(), |gain| end(gain) * value)
+        let loss = |gain: &Interval| gain * &h * &weight_sum / 2;
+        let growth = |loss: &Interval| {
+            let rest = 1 - loss;
+            if rest.is_positive() { rest.recip() } else { Interval::undefined(d.precision) }
         };
-        let loss = of(|gain| &gain.high, &nominal);
-        let rest = 1 - &loss;
-        let growth = if rest.is_positive() { rest.recip() } else { Interval::undefined(d.precision) };
+        let mu = |gain: &Interval| gain * growth(&loss(gain));
+        let (nominal, loss) = (mu(&gain), loss(&d.by_gain(|ends| &ends.high, &gain)));
         Law {
             a: (1 - &share).max(&d.int(0)),
-            mu: of(|gain| &gain.low, &(&gain * &growth)),
+            mu: mu(&d.by_gain(|ends| &ends.low, &gain)),
+            growth: growth(&loss),
             samples: terms.samples,
             d,
             sigma,
@@ -85,7 +87,6 @@ impl<'a> Law<'a> {
             gain,
             nominal,
             loss,
-            growth,
             weight_sum,
         }
     }
@@ -107,7 +108,7 @@ impl<'a> Law<'a> {
     /// `sigma - (h/2) om_j^2`.
     pub fn of_error(&self, gain: &Gain, frequency_squared: &Interval, size_squared: &Interval) -> Interval {
         let real = &self.sigma - &self.h / 2 * frequency_squared;
-        gain.at_samples(size_squared, &(&self.sigma * real), &self.nominal)
+        gain.at_samples(size_squared, &(&self.sigma * real), &self.growth)
     }
 
     /// S0, all of it decided here: what follows is not even defined without it.
@@ -118,7 +119,7 @@ impl<'a> Law<'a> {
             let message = format!("more than {MAX_SAMPLES} samples in a period are not looked at");
             return Err(finding(Verdict::Undecided, RULE, pointer, message));
         }
-        let apart = (&self.gain / (1 - &self.nominal) - &d.mu).abs();
+        let apart = (&self.nominal - &d.mu).abs();
         let largest = if d.gain.is_some() { "b_hi K" } else { "K" };
         let conditions = vec![
             Condition::at_most("S0", "h sigma <= 1", self.share.clone(), d.int(1)),

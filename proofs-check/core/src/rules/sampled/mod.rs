@@ -81,7 +81,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     let covers = w.existence.iter().flat_map(|part| covers(d, [&free.x_p, &free.e_p], [&part.x, &part.e]));
     let existence = of_law.into_iter().chain(covers).chain(solution.conditions);
     let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, vec![transfer], existence);
-    let (level, transient) = free.level(d, &reach, [&law.sigma, &law.gain]);
+    let (level, transient) = free.level(d, &reach, [&law.sigma, &law.gain], true);
     evaluated.conditions.push(level);
     evaluated.control = control::put_out(d, [solution.steady, transient]);
     if let Some(part) = &w.stability {
