@@ -202,10 +202,15 @@ fn gains_of_the_loop() {
             close("tau", &gains.sup_t, sum(&|j| (float.error(j) / float.frequency(j)).powi(2)), &float);
             close("bt_h", &gains.sup_y, sum(&|j| float.size(j)[0].powi(-2)), &float);
             let (rms, slope) = (gains.rms.lo().to_f64(), 2.0 / (2.0 - float.h * float.sigma));
+            let by_y = float.most(|j| float.error(j) * float.size(j)[0]);
+            let by_y = if float.ends == [1.0; 2] { float.growth } else { by_y };
+            close("slope_by_y", &gains.slope_by_y, slope * by_y, &float);
             if float.ends != [1.0; 2] {
                 close("rms", &gains.rms, float.most(|j| float.error(j)), &float);
                 close("rms_t", &gains.rms_t, float.most(|j| float.error(j) / float.frequency(j)), &float);
-                close("slope", &gains.slope, slope * float.most(|j| float.error(j) * float.size(j)[0]), &float);
+                let steepest = float.most(|j| float.error(j) * float.frequency(j));
+                close("slope", &gains.slope, steepest, &float);
+                assert!(steepest >= 1.0, "{float:?}");
                 return;
             }
             let worst = float.most(|j| float.error(j));
@@ -405,8 +410,9 @@ fn parts_of_existence() {
             let r_q = (4.822 + x_p + (e_p * f_e).atan()).min(4.822 + d_0);
             let r_1 = 24.18 + 2.106 * e_p + q_x * (f_x * 0.125 + f_e * 0.25) + q_e * 2.0;
             let gains = Gains::new(law);
-            let [sup, sup_t, rms, rms_t, slope] =
-                [&gains.sup, &gains.sup_t, &gains.rms, &gains.rms_t, &gains.slope].map(|gain| gain.hi().to_f64());
+            let [sup, sup_t, rms, rms_t, slope, by_y] =
+                [&gains.sup, &gains.sup_t, &gains.rms, &gains.rms_t, &gains.slope, &gains.slope_by_y]
+                    .map(|gain| gain.hi().to_f64());
             let side = |id: &str| {
                 let condition = found.conditions.iter().find(|condition| condition.id == id).unwrap();
                 condition.lhs.clone()
@@ -427,11 +433,11 @@ fn parts_of_existence() {
             close("Z", &found.z, z, &float);
             let by_parts = float.sigma * sup_e.min(e_p) + float.gain * NBAR_SQUARED.sqrt() * z;
             let factor = if low < high {
-                (1.0 + slope) / low
-            } else if slope <= 3.0 {
-                2.0 / (4.0 - slope).sqrt()
+                (1.0 + by_y) / low
+            } else if by_y <= 3.0 {
+                2.0 / (4.0 - by_y).sqrt()
             } else {
-                slope - 1.0
+                by_y - 1.0
             };
             let by_rate = factor * ((t * t - h * h) / 12.0).sqrt() * r_1;
             close("steady", &found.steady, (r_q / low + by_rate).min(by_parts), &float);

@@ -81,6 +81,6 @@ pub fn evaluate(
     let more = d.gain.as_ref().map_or_else(|| d.int(0), |gain| gain.apart() * &law.sigma * &gains.rms);
     let z = &law.growth * mean.sqrt() * (1 + more);
     let by_parts = control::by_parts(d, [&law.sigma, &law.gain], [&e, &z]);
-    let steady = law.answer(&gains.slope).steady(&bounds.along(&r), &by_parts);
+    let steady = law.answer(&gains.slope_by_y).steady(&bounds.along(&r), &by_parts);
     Solution { x: bounds.sup_x(&e, r_e), z, steady, e, conditions }
 }

@@ -21,15 +21,18 @@ pub struct Gains {
     pub rms: Interval,
     /// 1/(om_1 sg_S): rms(e_k) over rms(q').
     pub rms_t: Interval,
-    /// `2 (1 + theta)/(2 - h sigma)`: rms of (e_{k+1} - e_k)/h over rms(q), with the largest `|y_j|` over `|q_j|` for 1 + theta.
+    /// `2 (1 + theta)/(2 - h sigma)`: rms of (e_{k+1} - e_k)/h over rms(q). With a gain the largest `om_j |e_j|` over `|q_j|`, which is not
+    /// below 1: at b = 1 it is at least om_j/|D_j| for j = floor(N_s/2), whose `om_j^2 >= 3/h^2 >= sigma/h`.
     pub slope: Interval,
+    /// `2/(2 - h sigma)` times the largest `|y_j|` over `|q_j|`, which is at most 1 + theta without a gain.
+    pub slope_by_y: Interval,
 }
 
 impl Gains {
     /// Sums over the harmonics; j and N_s - j are equal.
     pub fn new(law: &Law<'_>) -> Gains {
         let d = law.d;
-        let [mut sup, mut sup_y, mut sup_t, mut rms, mut rms_t, mut of_y] = [0; 6].map(|zero| d.int(zero));
+        let [mut sup, mut sup_y, mut sup_t, mut rms, mut rms_t, mut slope, mut of_y] = [0; 7].map(|zero| d.int(zero));
         let sigma_squared = law.sigma.sqr();
         let largest = law.growth.sqr();
         let sharpened = law.samples <= MAX_SHARPENED;
@@ -43,8 +46,10 @@ impl Gains {
                 None if sharpened => largest.least(&(1 - sine.sqr()).recip()) / &size,
                 None => &largest / &size,
             };
+            (rms, of_y) = (rms.max(&gain), of_y.max(&(&gain * &size)));
+            slope = slope.max(&(&gain * &frequency));
             let gain_t = &gain / frequency;
-            (rms, rms_t, of_y) = (rms.max(&gain), rms_t.max(&gain_t), of_y.max(&(&gain * &size)));
+            rms_t = rms_t.max(&gain_t);
             let times = if 2 * j == law.samples { 1 } else { 2 };
             sup_t = sup_t + gain_t * times;
             sup = sup + gain * times;
@@ -55,9 +60,11 @@ impl Gains {
             rms_t = &rms / law.frequency_squared(&law.sine(1));
             of_y = largest;
         }
-        let slope = of_y.sqrt() * 2 / (2 - &law.share);
-        let [sup, sup_y, sup_t, rms, rms_t] = [sup, sup_y, sup_t, rms, rms_t].map(|square| square.sqrt());
-        Gains { sup, sup_y, sup_t, rms, rms_t, slope }
+        let [sup, sup_y, sup_t, rms, rms_t, slope, of_y] =
+            [sup, sup_y, sup_t, rms, rms_t, slope, of_y].map(|square| square.sqrt());
+        let slope_by_y = of_y * 2 / (2 - &law.share);
+        let slope = if d.gain.is_some() { slope } else { slope_by_y.clone() };
+        Gains { sup, sup_y, sup_t, rms, rms_t, slope, slope_by_y }
     }
 }
 
