@@ -49,20 +49,6 @@ impl Gain {
         self.low.sqr() * &self.low
     }
 
-    /// At samples (section 13.1) the square of `|e_j|` over that of the mean input: `|D_j|^2` over the square of the least over b of
-    /// `|D_j|^2/(1 + theta) - (1-b) sigma Re D_j`, which is linear in b, and not above `|D_j|` times the distance of `(1-b) sigma` from the line
-    /// `D_j (1 - beta + i Y)` where `1 - beta >= 1/(1 + theta)`; nothing is known where it is not above 0.
-    pub fn at_samples(&self, size_squared: &Interval, sigma_real: &Interval, growth: &Interval) -> Interval {
-        let [up, down] = self.shifts(sigma_real);
-        let least = size_squared / growth - up.max(&down);
-        if least.is_positive() { size_squared / least.sqr() } else { Interval::undefined(least.precision()) }
-    }
-
-    /// `max |1-b|`.
-    pub fn apart(&self) -> Interval {
-        (1 - &self.low).max(&(&self.high - 1))
-    }
-
     /// `(1-b) moved` at b_lo and at b_hi.
     pub fn shifts(&self, moved: &Interval) -> [Interval; 2] {
         [(1 - &self.low) * moved, (1 - &self.high) * moved]

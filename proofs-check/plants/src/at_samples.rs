@@ -18,19 +18,6 @@ use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, bad};
 use rug::Rational;
 
-/// What is taken from the diagonal, and what is asked for besides.
-#[derive(Default)]
-struct Taken {
-    x: Rational,
-    /// Of e(s).
-    e: Rational,
-    y: Rational,
-    /// Of e_k.
-    e_k: Rational,
-    /// gamma, where `q_0` stands beside q.
-    forcing: Option<Rational>,
-}
-
 /// The numbers of F_{h,s}.
 struct Form<'i> {
     p: Vec<Vec<Id>>,
@@ -38,7 +25,10 @@ struct Form<'i> {
     rate: Rational,
     k_p: Id,
     lambda: &'i Rational,
-    taken: Taken,
+    /// What is taken from the squares of x, e(s), y and e_k.
+    taken: [Rational; 4],
+    /// gamma, where `q_0` stands beside q.
+    forcing: Option<&'i Rational>,
 }
 
 /// Numbers of the law: h, sigma, and 1/(1 + theta) = 1 - K h weight_sum/2, with a gain of b_hi K.
@@ -72,9 +62,8 @@ impl Form<'_> {
         let Step { h, sigma, rest } = *step;
         let [zero, one, two] = [0, 1, 2].map(|value| formulas.int(value));
         let pi = formulas.apply(&Op::Pi, [zero; 2]);
-        let [lambda, taken_x, taken_e, taken_y, taken_e_k] =
-            [self.lambda, &self.taken.x, &self.taken.e, &self.taken.y, &self.taken.e_k]
-                .map(|value| formulas.number(value));
+        let lambda = formulas.number(self.lambda);
+        let [taken_x, taken_e, taken_y, taken_e_k] = self.taken.each_ref().map(|value| formulas.number(value));
         let s = if at_end { h } else { zero };
         let share = formulas.mul(h, sigma);
         let kept = formulas.mul(s, sigma);
@@ -130,7 +119,7 @@ impl Form<'_> {
         of_e_k.push(own);
         rows.push(of_e_k);
 
-        if let Some(gamma) = &self.taken.forcing {
+        if let Some(gamma) = self.forcing {
             let mut of_forcing = vec![zero; order + 1];
             let gamma = formulas.number(gamma);
             of_forcing.extend([minus_half, reach, zero, gamma]);
@@ -179,7 +168,8 @@ fn of_stability<'i>(model: &mut Model, part: &'i Stability, law: &Terms) -> Form
         rate: part.rate.clone(),
         k_p: model.formulas.apply(&Op::Div, [twice, gain]),
         lambda: &part.lambda,
-        taken: Taken { y: part.c_y.clone(), e_k: part.c_e.clone(), ..Taken::default() },
+        taken: [Rational::new(), Rational::new(), part.c_y.clone(), part.c_e.clone()],
+        forcing: None,
     }
 }
 
@@ -194,12 +184,7 @@ fn of_existence<'i>(model: &mut Model, part: &'i Existence) -> Outcome<Form<'i>>
         rate: Rational::new(),
         k_p: model.formulas.number(&part.k_p),
         lambda: &part.lambda,
-        taken: Taken {
-            x: part.c_x.clone(),
-            e: part.c_e.clone(),
-            y: part.c_y.clone(),
-            forcing: Some(part.gamma.clone()),
-            ..Taken::default()
-        },
+        taken: [part.c_x.clone(), part.c_e.clone(), part.c_y.clone(), Rational::new()],
+        forcing: Some(&part.gamma),
     })
 }

@@ -8,7 +8,7 @@ use proofs_check::rules::paths::{Path, Paths};
 use proofs_check::rules::sampled::existence;
 use proofs_check::rules::sampled::gains::Gains;
 use proofs_check::rules::sampled::law::{Law, Terms};
-use proofs_check::rules::sampled::stability::{self, Weights};
+use proofs_check::rules::sampled::stability;
 use proofs_check::rules::sampled::transfer;
 use proofs_check::rules::stability::ErrorBox;
 use proofs_check::spec::Specification;
@@ -459,7 +459,7 @@ fn parts_of_stability() {
             let [x_p, e_p, far_x, far_e] = [x_per, e_per, d_x, d_e].map(number);
             let error_box = ErrorBox::new(law.d, Paths { f, q }, [&x_p, &e_p], [&far_x, &far_e]);
             let (w, zeta) = (number(w_x), number(eta));
-            let found = stability::conditions(law, &error_box, &Weights { w_x: &w, eta: &zeta });
+            let found = stability::conditions(law, &error_box, [&w, &zeta]);
             let c = 1.5512_f64.sqrt();
             let rate = 0.58 - c * (0.2237 * x_per + e_f + 0.2237 * d_x / 2.0);
             let (k_x, k_l, m, k_f) =

@@ -77,9 +77,9 @@ pub fn evaluate(
     let e = e_p.min(&sup_e);
     let w_squared = d.w.sqr();
     let mean = (period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();
-    // With a gain q and (1-b) sigma e_k are the input of zeta.
-    let more = d.gain.as_ref().map_or_else(|| d.int(0), |gain| gain.apart() * &law.sigma * &gains.rms);
-    let z = &law.growth * mean.sqrt() * (1 + more);
+    // The input of zeta is what y is without b K v_k, so (1-b) sigma e_k is in it.
+    let [up, down] = law.shifts(&(&law.sigma * &gains.rms));
+    let z = &law.growth * mean.sqrt() * (1 + up.max(&-down));
     let by_parts = control::by_parts(d, [&law.sigma, &law.gain], [&e, &z]);
     let steady = law.answer(&gains.slope_by_y).steady(&bounds.along(&r), &by_parts);
     Solution { x: bounds.sup_x(&e, r_e), z, steady, e, conditions }

@@ -29,42 +29,49 @@ pub struct Gains {
 }
 
 impl Gains {
-    /// Sums over the harmonics; j and N_s - j are equal.
+    /// Over the harmonics; j and N_s - j are equal.
     pub fn new(law: &Law<'_>) -> Gains {
         let d = law.d;
-        let [mut sup, mut sup_y, mut sup_t, mut rms, mut rms_t, mut slope, mut of_y] = [0; 7].map(|zero| d.int(zero));
-        let sigma_squared = law.sigma.sqr();
-        let largest = law.growth.sqr();
-        let sharpened = law.samples <= MAX_SHARPENED;
-        for j in 1..=law.samples / 2 {
+        let (largest, sharpened) = (law.growth.sqr(), law.samples <= MAX_SHARPENED);
+        // The squares of |e_j| over |q_j|, of om_j, and of |D_j| = |e^{i om h} - a|/h.
+        let harmonic = |j| {
             let sine = law.sine(j);
             let frequency = law.frequency_squared(&sine);
-            let size = &sigma_squared + &law.a * &frequency;
-            let gain = match &d.gain {
-                Some(gain) => law.of_error(gain, &frequency, &size),
+            let size = law.sigma.sqr() + &law.a * &frequency;
+            let error = if d.gain.is_some() {
+                law.of_error(&frequency, &size)
+            } else if sharpened {
                 // At j = N_s/2 the cosine is 0.
-                None if sharpened => largest.least(&(1 - sine.sqr()).recip()) / &size,
-                None => &largest / &size,
+                largest.least(&(1 - sine.sqr()).recip()) / &size
+            } else {
+                &largest / &size
             };
-            (rms, of_y) = (rms.max(&gain), of_y.max(&(&gain * &size)));
-            slope = slope.max(&(&gain * &frequency));
-            let gain_t = &gain / frequency;
-            rms_t = rms_t.max(&gain_t);
-            let times = if 2 * j == law.samples { 1 } else { 2 };
-            sup_t = sup_t + gain_t * times;
-            sup = sup + gain * times;
-            sup_y = sup_y + size.recip() * times;
+            [error, frequency, size]
+        };
+        let all: Vec<_> = (1..=law.samples / 2).map(harmonic).collect();
+        type Of = fn(&[Interval; 3]) -> Interval;
+        let times = |j: u32| if 2 * j == law.samples { 1 } else { 2 };
+        let sum = |of: Of| all.iter().zip(1..).fold(d.int(0), |sum, (at, j)| sum + of(at) * times(j)).sqrt();
+        let most = |of: Of| all.iter().fold(d.int(0), |most, at| most.max(&of(at))).sqrt();
+        let by_y = |y: &Interval| y * 2 / (2 - &law.share);
+        let [rms, rms_t, slope, slope_by_y] = if d.gain.is_some() {
+            let of_y = most(|[error, _, size]| error * size);
+            let slope = most(|[error, frequency, _]| error * frequency);
+            [most(|[error, ..]| error.clone()), most(|[error, frequency, _]| error / frequency), slope, by_y(&of_y)]
+        } else {
+            let (rms, slope) = (slowest(law, sharpened).recip(), by_y(&law.growth));
+            let rms_t = &rms / law.frequency_squared(&law.sine(1)).sqrt();
+            [rms, rms_t, slope.clone(), slope]
+        };
+        Gains {
+            sup: sum(|[error, ..]| error.clone()),
+            sup_y: sum(|[.., size]| size.recip()),
+            sup_t: sum(|[error, frequency, _]| error / frequency),
+            rms,
+            rms_t,
+            slope,
+            slope_by_y,
         }
-        if d.gain.is_none() {
-            rms = slowest(law, sharpened).sqr().recip();
-            rms_t = &rms / law.frequency_squared(&law.sine(1));
-            of_y = largest;
-        }
-        let [sup, sup_y, sup_t, rms, rms_t, slope, of_y] =
-            [sup, sup_y, sup_t, rms, rms_t, slope, of_y].map(|square| square.sqrt());
-        let slope_by_y = of_y * 2 / (2 - &law.share);
-        let slope = if d.gain.is_some() { slope } else { slope_by_y.clone() };
-        Gains { sup, sup_y, sup_t, rms, rms_t, slope, slope_by_y }
     }
 }
 

@@ -9,7 +9,6 @@
 //! b K (1 + theta) for any b, that of `b_lo K`.
 
 use crate::data::Data;
-use crate::gain::Gain;
 use crate::interval::Interval;
 use crate::rules::control::Answer;
 use crate::verdict::{Condition, Outcome, Verdict, demand, finding};
@@ -104,11 +103,20 @@ impl<'a> Law<'a> {
         Answer { mean, factor, by_rate }
     }
 
-    /// The square of `|e_j|` over that of `|q_j|` with a gain, from `om_j^2` and `|D_j|^2`: `D_j = (e^{i om h} - a)/h` has the real part
-    /// `sigma - (h/2) om_j^2`.
-    pub fn of_error(&self, gain: &Gain, frequency_squared: &Interval, size_squared: &Interval) -> Interval {
+    /// The square of `|e_j|` over that of `|q_j|` with a gain, from `om_j^2` and `|D_j|^2`, where `D_j = (e^{i om h} - a)/h` has the real part
+    /// `sigma - (h/2) om_j^2`: `|D_j|^2` over the square of the least over b of `|D_j|^2/(1 + theta) - (1-b) sigma Re D_j`. That is linear in b,
+    /// and not above `|D_j|` times the distance of `(1-b) sigma` from the line `D_j (1 - beta + i Y)`, `1 - beta >= 1/(1 + theta)`, for
+    /// `q_j = (D_j (1 - beta + i Y) - (1-b) sigma) e_j`. Nothing is known where it is not above 0.
+    pub fn of_error(&self, frequency_squared: &Interval, size_squared: &Interval) -> Interval {
         let real = &self.sigma - &self.h / 2 * frequency_squared;
-        gain.at_samples(size_squared, &(&self.sigma * real), &self.growth)
+        let [up, down] = self.shifts(&(&self.sigma * real));
+        let least = size_squared / &self.growth - up.max(&down);
+        if least.is_positive() { size_squared / least.sqr() } else { Interval::undefined(self.d.precision) }
+    }
+
+    /// `(1-b) moved` at b_lo, and at b_hi: 0 without a gain.
+    pub fn shifts(&self, moved: &Interval) -> [Interval; 2] {
+        self.d.gain.as_ref().map_or_else(|| [0; 2].map(|zero| self.d.int(zero)), |gain| gain.shifts(moved))
     }
 
     /// S0, all of it decided here: what follows is not even defined without it.

@@ -88,8 +88,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
         evaluated.conditions.extend(reaches(d, &error_box, [&part.x, &part.e], RULE));
     } else {
         evaluated.conditions.extend(error_box.one_sided.iter().cloned());
-        let weights = stability::Weights { w_x: &w_x, eta: &eta };
-        evaluated.conditions.extend(stability::conditions(&law, &error_box, &weights));
+        evaluated.conditions.extend(stability::conditions(&law, &error_box, [&w_x, &eta]));
     }
     Ok(evaluated)
 }
