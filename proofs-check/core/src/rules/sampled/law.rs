@@ -5,8 +5,8 @@
 //! input has `|y_j| <= (1 + theta)|q_j|` in every harmonic, and none at j = 0; the loop without input is stable.
 //!
 //! With an input gain (section 13.1) `y_k = qb_k + (1-b) sigma e_k + b K v_k`: the loop of gain 1 with b K for K, and the means of
-//! `q + (1-b) sigma e_k` for those of q. theta is that of `b_hi K`, the largest, and mu, which is not above
-//! b K (1 + theta) for any b, that of `b_lo K`.
+//! `q + (1-b) sigma e_k` for those of q. theta is that of `b_hi K`, the largest, and mu that of `b_lo K`, so `mu <= b K (1 + theta)` for
+//! every b, and a step raises `|zeta|_N^2` by `h (1 + theta_b) q^2/(2 b K)`, which is at most `h (1 + theta)^2 q^2/(2 mu)`.
 
 use crate::data::Data;
 use crate::interval::Interval;
@@ -46,13 +46,13 @@ pub struct Law<'a> {
     pub a: Interval,
     /// K.
     pub gain: Interval,
-    /// K (1 + theta) with theta of K.
+    /// K (1 + theta) with theta of K, which need not be exactly the mu of the specification.
     nominal: Interval,
     /// b_hi K h Nb2/2 = theta/(1 + theta).
     pub loss: Interval,
     /// 1 + theta = 1/(1 - b_hi K h Nb2/2).
     pub growth: Interval,
-    /// mu = b_lo K (1 + theta) with theta of b_lo K, which need not be exactly that of the specification without a gain.
+    /// mu = b_lo K (1 + theta) with theta of b_lo K.
     pub mu: Interval,
     weight_sum: Interval,
 }

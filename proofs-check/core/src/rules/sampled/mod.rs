@@ -2,9 +2,9 @@
 //!
 //! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for this sigma and h, every
 //! n_o < N_s/2 and every phase of the sampling grid there is a T-periodic solution with |x| <= x_per, |e| <= e_per at all times and
-//! |zeta_k|_N <= Z at the samples, and every solution that is in the claimed set at a sample converges to it exponentially. It is
-//! about exact arithmetic, without delay, quantisation or saturation. A matrix inequality, proved of the plant's formulas, may stand in
-//! the place of C5h, and another one beside S1 and S2.
+//! |zeta_k|_N <= Z at the samples, and every solution that is in the claimed set at a sample converges to it exponentially. With an
+//! input gain, or for a family, that is so of each. It is about exact arithmetic, without delay, quantisation or saturation. A matrix
+//! inequality, proved of the plant's formulas, may stand in the place of C5h, and another one beside S1 and S2.
 
 pub mod claim;
 pub mod existence;
