@@ -10,18 +10,18 @@ use serde_json::{Value, json};
 
 const EXISTENCE_PLACE: &str = "/witness/existence_inequality";
 
-fn stored(folder: &str, name: &str) -> Value {
-    serde_json::from_str(&text(folder, name)).unwrap()
+fn stored(name: &str) -> Value {
+    serde_json::from_str(&text("sampled", name)).unwrap()
 }
 
 /// A specification, with b in [0.8, 1.25].
 fn made() -> Value {
-    stored("sampled", "gain")
+    stored("gain")
 }
 
 /// A plant with two parameters in intervals, and b in [0.95, 1.05]; both inequalities.
 fn family() -> Value {
-    stored("gain", "family-samples")
+    stored("gain-inequalities")
 }
 
 fn answer(made: Value, changes: &[(&str, Value)]) -> Report {
@@ -82,11 +82,11 @@ fn what_is_claimed() {
 #[test]
 fn a_gain_that_is_its_nominal_one() {
     for name in ["paper-example", "plant-motor-axis"] {
-        assert_valid(&with_gain(stored("sampled", name), ["1.5", "3/2", "1.5"]));
+        assert_valid(&with_gain(stored(name), ["1.5", "3/2", "1.5"]));
     }
     for (factor, verdict) in [(0.5 + 1e-9, Valid), (0.5 - 1e-9, Invalid)] {
         for (name, bound) in [("steady", 13.340_741_624), ("transient", 129.312_492_593)] {
-            let mut one = stored("sampled", "paper-example");
+            let mut one = stored("paper-example");
             one["claim"]["control"] = json!({ "steady": "1000", "transient": "1000" });
             one["claim"]["control"][name] = format!("{:.12}", bound * factor).into();
             assert_eq!(with_gain(one, ["2", "2", "2"]).verdict, verdict, "{name} by {factor}");
@@ -189,7 +189,7 @@ fn a_family_that_is_wider_than_its_proof() {
         assert_ne!(report.verdict, Valid, "{name} in {range:?}: {}", report.text(false));
     }
     assert_eq!(with_parameter(family(), "R", ["595", "610"]).verdict, Valid);
-    let small = || stored("sampled", "gain-family");
+    let small = || stored("gain-family");
     for (name, range) in [("a", ["0.79", "1.25"]), ("a", ["0.8", "1.27"]), ("g", ["0.5", "1.51"])] {
         assert_ne!(with_parameter(small(), name, range).verdict, Valid, "{name} in {range:?}");
     }
