@@ -72,7 +72,10 @@ impl Subject {
                 };
                 list.extend(spec.period.range().map(period));
                 match claim.sampled {
-                    Some(_) => list.extend(Regulator::assumed()),
+                    Some(_) => {
+                        list.extend(Regulator::assumed());
+                        list.extend(spec.input_gain.as_ref().map(|gain| format!("the regulator{}", output(gain))));
+                    }
                     None => list.push(regulator(spec)),
                 }
                 list
@@ -160,13 +163,16 @@ fn input(spec: &Specification) -> &'static str {
     if spec.input_gain.is_some() { "g v, v what the regulator puts out and g its gain," } else { "u" }
 }
 
+/// What is put out where that is not u, and what becomes of it.
+fn output(gain: &Range) -> String {
+    let [low, high, nominal] = [&gain.low, &gain.high, &gain.nominal].map(|constant| printable(&constant.text));
+    format!(" puts out v = u/{nominal}; g is one constant in [{low}, {high}]")
+}
+
 /// What it takes for granted of a continuous regulator.
 fn regulator(spec: &Specification) -> String {
     let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
-    let output = spec.input_gain.as_ref().map_or_else(String::new, |gain| {
-        let [low, high, nominal] = [&gain.low, &gain.high, &gain.nominal].map(|constant| printable(&constant.text));
-        format!(", and puts out v = u/{nominal}; g is one constant in [{low}, {high}]")
-    });
+    let output = spec.input_gain.as_ref().map_or_else(String::new, |gain| format!(", and{}", output(gain)));
     format!(
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}{output}: no \
          sampling, delay, saturation or noise"

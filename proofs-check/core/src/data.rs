@@ -79,6 +79,11 @@ impl<'s> Data<'s> {
         self.number(&Rational::from((numerator, denominator)))
     }
 
+    /// A number times an end of b, where there is a gain.
+    pub fn by_gain(&self, end: fn(&Gain) -> &Interval, value: &Interval) -> Interval {
+        self.gain.as_ref().map_or_else(|| value.clone(), |gain| end(gain) * value)
+    }
+
     /// A bound of e by q or by q', with a gain over b_m.
     pub fn of_error(&self, bound: Interval) -> Interval {
         self.gain.as_ref().map_or_else(|| bound.clone(), |gain| &bound / gain.of_error())

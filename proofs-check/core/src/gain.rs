@@ -49,8 +49,8 @@ impl Gain {
         self.low.sqr() * &self.low
     }
 
-    /// `(1-b) moved` at both ends of b.
-    fn shifts(&self, moved: &Interval) -> [Interval; 2] {
+    /// `(1-b) moved` at b_lo and at b_hi.
+    pub fn shifts(&self, moved: &Interval) -> [Interval; 2] {
         [(1 - &self.low) * moved, (1 - &self.high) * moved]
     }
 

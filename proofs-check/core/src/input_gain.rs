@@ -36,8 +36,9 @@ pub fn agrees(asked: Option<&Range>, claimed: Option<&Field<'_>>, claim: &str) -
     both(RULE, "input_gain", asked, claimed, claim)?.map_or(Ok(()), |(asked, field)| asked.agrees(field, RULE))
 }
 
-/// What a claim is about besides.
-pub fn in_words(Range { nominal, low, high }: &Range) -> String {
+/// What a claim is about besides, where there is a gain.
+pub fn in_words(gain: Option<&Range>) -> String {
+    let Some(Range { nominal, low, high }) = gain else { return String::new() };
     format!(
         " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
         low.text, high.text, nominal.text

@@ -78,6 +78,6 @@ pub fn both<'c, A>(
 }
 
 /// Whether two constants are the same by their texts or by their exact forms.
-fn is_same(a: &Constant, b: &Constant) -> bool {
+pub fn is_same(a: &Constant, b: &Constant) -> bool {
     a.text == b.text || a.exact.as_ref().zip(b.exact.as_ref()).is_some_and(|(a, b)| a.equals(b))
 }

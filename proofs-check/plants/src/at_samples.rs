@@ -7,7 +7,7 @@
 
 use super::form::{numbers, of_states};
 use super::formula::{Axis, Formulas, Id};
-use super::inequality::Said;
+use super::inequality::{End, Said, constant, ends, factors};
 use super::model::Model;
 use super::question::Question;
 use proofs_core::expr::Op;
@@ -18,19 +18,6 @@ use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, bad};
 use rug::Rational;
 
-/// What is taken from the diagonal, and what is asked for besides.
-#[derive(Default)]
-struct Taken {
-    x: Rational,
-    /// Of e(s).
-    e: Rational,
-    y: Rational,
-    /// Of e_k.
-    e_k: Rational,
-    /// gamma, where `q_0` stands beside q.
-    forcing: Option<Rational>,
-}
-
 /// The numbers of F_{h,s}.
 struct Form<'i> {
     p: Vec<Vec<Id>>,
@@ -38,10 +25,13 @@ struct Form<'i> {
     rate: Rational,
     k_p: Id,
     lambda: &'i Rational,
-    taken: Taken,
+    /// What is taken from the squares of x, e(s), y and e_k.
+    taken: [Rational; 4],
+    /// gamma, where `q_0` stands beside q.
+    forcing: Option<&'i Rational>,
 }
 
-/// Numbers of the law: h, sigma, and 1/(1 + theta) = 1 - K h weight_sum/2.
+/// Numbers of the law: h, sigma, and 1/(1 + theta) = 1 - K h weight_sum/2, with a gain of b_hi K.
 struct Step {
     h: Id,
     sigma: Id,
@@ -50,30 +40,30 @@ struct Step {
 
 impl Step {
     fn new(formulas: &mut Formulas, law: &Terms, spec: &Specification) -> Outcome<Step> {
-        // A constant asks for nothing on the region: it has a value, or nothing is proved with it.
-        let period = spec.period.demand_exact("/plant/period", "a claim at samples")?;
-        let period = formulas.read(period.expr(), &[], &mut Vec::new());
+        let period = constant(formulas, spec.period.demand_exact("/plant/period", "a claim at samples")?);
         let share = formulas.number(&Rational::from((1, law.samples)));
         let h = formulas.mul(period, share);
         let [sigma, half] = [law.sigma.clone(), Rational::from(&law.gain * &law.weight_sum) / 2u32]
             .map(|value| formulas.number(&value));
-        let loss = formulas.mul(half, h);
+        let mut loss = formulas.mul(half, h);
+        if let Some([_, high]) = factors(formulas, spec) {
+            loss = formulas.mul(loss, high);
+        }
         let one = formulas.int(1);
         Ok(Step { h, sigma, rest: formulas.sub(one, loss) })
     }
 }
 
 impl Form<'_> {
-    /// The rows of F_{h,s} for s = h, or for s = 0.
-    fn rows(&self, model: &mut Model, step: &Step, at_end: bool) -> Vec<Vec<Id>> {
+    /// The rows of F_{h,s} for s = h, or for s = 0. With a gain `-k_p (1-b) sigma e_k y` is in it, for y has `(1-b) sigma e_k` in it.
+    fn rows(&self, model: &mut Model, step: &Step, gain: &End, at_end: bool) -> Vec<Vec<Id>> {
         let (mut rows, mut of_e) = of_states(model, &self.p, &self.weight, &self.rate);
         let (q, row, order, formulas) = (model.q, model.row.clone(), rows.len(), &mut model.formulas);
         let Step { h, sigma, rest } = *step;
         let [zero, one, two] = [0, 1, 2].map(|value| formulas.int(value));
         let pi = formulas.apply(&Op::Pi, [zero; 2]);
-        let [lambda, taken_x, taken_e, taken_y, taken_e_k] =
-            [self.lambda, &self.taken.x, &self.taken.e, &self.taken.y, &self.taken.e_k]
-                .map(|value| formulas.number(value));
+        let lambda = formulas.number(self.lambda);
+        let [taken_x, taken_e, taken_y, taken_e_k] = self.taken.each_ref().map(|value| formulas.number(value));
         let s = if at_end { h } else { zero };
         let share = formulas.mul(h, sigma);
         let kept = formulas.mul(s, sigma);
@@ -88,7 +78,9 @@ impl Form<'_> {
         // sigma (2 - h sigma) + lambda (1 - s sigma)^2.
         let crossed = formulas.mul(of_kept, s);
         let crossed = formulas.add(crossed, share);
-        let beside = [formulas.sub(zero, of_kept), formulas.sub(crossed, one)];
+        let crossed = formulas.sub(crossed, one);
+        let pulled = gain.shift.map_or(zero, |shift| formulas.mul(minus_half, shift));
+        let beside = [formulas.sub(zero, of_kept), formulas.add(crossed, pulled)];
         let open = formulas.sub(two, share);
         let own = formulas.dot([(sigma, open), (of_kept, kept)]);
         let own = formulas.sub(own, taken_e_k);
@@ -127,7 +119,7 @@ impl Form<'_> {
         of_e_k.push(own);
         rows.push(of_e_k);
 
-        if let Some(gamma) = &self.taken.forcing {
+        if let Some(gamma) = self.forcing {
             let mut of_forcing = vec![zero; order + 1];
             let gamma = formulas.number(gamma);
             of_forcing.extend([minus_half, reach, zero, gamma]);
@@ -135,16 +127,9 @@ impl Form<'_> {
         }
         rows
     }
-
-    fn questions(&self, model: &mut Model, step: &Step) -> [Question; 2] {
-        [false, true].map(|at_end| {
-            let (rows, order) = (self.rows(model, step, at_end), model.states());
-            Question::new(&mut model.formulas, rows, order)
-        })
-    }
 }
 
-/// The questions of those that there are.
+/// The questions of those that there are, with a gain at both of its ends.
 pub fn questions<'i>(
     model: &mut Model,
     inequalities: Inequalities<'i>,
@@ -152,21 +137,23 @@ pub fn questions<'i>(
 ) -> Outcome<Vec<Said<'i>>> {
     let Inequalities { law, stability, existence } = inequalities;
     let step = Step::new(&mut model.formulas, law, spec)?;
+    let gains = ends(&mut model.formulas, spec, &law.sigma);
     let mut all = Vec::new();
+    let mut ask = |model: &mut Model, form: Form<'_>, rule, pointer: &'i str, at, least| {
+        for (gain, at_end) in gains.iter().flat_map(|gain| [(gain, false), (gain, true)]) {
+            let (rows, order) = (form.rows(model, &step, gain, at_end), model.states());
+            let question = Question::new(&mut model.formulas, rows, order);
+            let what = format!("F_h,{} >= {least}{}", if at_end { "h" } else { "0" }, gain.at);
+            all.push(Said { rule, pointer, what, at, question });
+        }
+    };
     if let Some(part) = stability {
         let form = of_stability(model, part, law);
-        let what = ["F_h,0 >= diag(2 w_x rate P, c_e, c_y, 0, 0)", "F_h,h >= diag(2 w_x rate P, c_e, c_y, 0, 0)"];
-        let asked = what.into_iter().zip(form.questions(model, &step));
-        let at = [&part.x, &part.e];
-        let (rule, pointer) = (inequality::RULE, part.pointer.as_str());
-        all.extend(asked.map(|(what, question)| Said { rule, pointer, what: what.to_owned(), at, question }));
+        ask(model, form, inequality::RULE, &part.pointer, [&part.x, &part.e], "diag(2 w_x rate P, c_e, c_y, 0, 0)");
     }
     if let Some(part) = existence {
         let form = of_existence(model, part)?;
-        let what = ["F_h,0 >= c_x, c_e, c_y, less gamma q_0^2", "F_h,h >= c_x, c_e, c_y, less gamma q_0^2"];
-        let (rule, pointer, at) = (existence::RULE, part.pointer.as_str(), [&part.x, &part.e]);
-        let asked = what.into_iter().zip(form.questions(model, &step));
-        all.extend(asked.map(|(what, question)| Said { rule, pointer, what: what.to_owned(), at, question }));
+        ask(model, form, existence::RULE, &part.pointer, [&part.x, &part.e], "c_x, c_e, c_y, less gamma q_0^2");
     }
     Ok(all)
 }
@@ -181,7 +168,8 @@ fn of_stability<'i>(model: &mut Model, part: &'i Stability, law: &Terms) -> Form
         rate: part.rate.clone(),
         k_p: model.formulas.apply(&Op::Div, [twice, gain]),
         lambda: &part.lambda,
-        taken: Taken { y: part.c_y.clone(), e_k: part.c_e.clone(), ..Taken::default() },
+        taken: [Rational::new(), Rational::new(), part.c_y.clone(), part.c_e.clone()],
+        forcing: None,
     }
 }
 
@@ -196,12 +184,7 @@ fn of_existence<'i>(model: &mut Model, part: &'i Existence) -> Outcome<Form<'i>>
         rate: Rational::new(),
         k_p: model.formulas.number(&part.k_p),
         lambda: &part.lambda,
-        taken: Taken {
-            x: part.c_x.clone(),
-            e: part.c_e.clone(),
-            y: part.c_y.clone(),
-            forcing: Some(part.gamma.clone()),
-            ..Taken::default()
-        },
+        taken: [part.c_x.clone(), part.c_e.clone(), part.c_y.clone(), Rational::new()],
+        forcing: Some(&part.gamma),
     })
 }

@@ -26,37 +26,42 @@ pub struct Said<'i> {
 }
 
 /// A constant of a file as a formula. It asks for nothing on the region: it has a value, or nothing is proved with it.
-fn constant(formulas: &mut Formulas, constant: &Constant) -> Id {
+pub fn constant(formulas: &mut Formulas, constant: &Constant) -> Id {
     formulas.read(constant.expr(), &[], &mut Vec::new())
 }
 
 /// An end of b, and `(1-b) sigma` there.
-struct End {
-    at: &'static str,
-    shift: Option<Id>,
+pub struct End {
+    pub at: &'static str,
+    pub shift: Option<Id>,
+}
+
+/// b_lo and b_hi, where they are not both 1.
+pub fn factors(formulas: &mut Formulas, spec: &Specification) -> Option<[Id; 2]> {
+    let gain = spec.input_gain.as_ref().filter(|gain| !gain.is_nominal())?;
+    let nominal = constant(formulas, &gain.nominal);
+    Some(gain.ends().map(|(_, end)| {
+        let end = constant(formulas, end);
+        formulas.apply(&Op::Div, [end, nominal])
+    }))
 }
 
 /// Both ends of the input gain, in which F is affine, or that there is none.
-fn ends(model: &mut Model, spec: &Specification, sigma: &Rational) -> Vec<End> {
-    let Some(gain) = spec.input_gain.as_ref().filter(|gain| !gain.is_nominal()) else {
-        return vec![End { at: "", shift: None }];
+pub fn ends(formulas: &mut Formulas, spec: &Specification, sigma: &Rational) -> Vec<End> {
+    let Some(factors) = factors(formulas, spec) else { return vec![End { at: "", shift: None }] };
+    let (one, sigma) = (formulas.int(1), formulas.number(sigma));
+    let end = |(at, b)| {
+        let apart = formulas.sub(one, b);
+        End { at, shift: Some(formulas.mul(apart, sigma)) }
     };
-    let formulas = &mut model.formulas;
-    let (nominal, sigma) = (constant(formulas, &gain.nominal), formulas.number(sigma));
-    let mut end = |at, end| {
-        let end = constant(formulas, end);
-        let apart = formulas.sub(nominal, end);
-        let share = formulas.apply(&Op::Div, [apart, nominal]);
-        End { at, shift: Some(formulas.mul(share, sigma)) }
-    };
-    vec![end(", at b_lo", &gain.low), end(", at b_hi", &gain.high)]
+    [", at b_lo", ", at b_hi"].into_iter().zip(factors).map(end).collect()
 }
 
 /// With the P of stability, w_x, h, the threshold of sigma, and y/mu, which divides by nothing. Without a splitting the question is
 /// `F >= 0`; with one, S in the place of its first rows, there are two: that F without the last row is not below S, and that S with
 /// the last row is not below 0. What has the last row is asked at both ends of an input gain.
 pub fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, spec: &Specification) -> Outcome<Vec<Said<'i>>> {
-    let ends = ends(model, spec, &inequality.sigma);
+    let ends = ends(&mut model.formulas, spec, &inequality.sigma);
     let mut all: Vec<Said<'i>> = Vec::new();
     for end in ends {
         // S is asked for once: b has no part in it.
@@ -136,7 +141,7 @@ pub fn of_existence<'i>(model: &mut Model, inequality: &'i Existence, spec: &Spe
     let asked = Asked { rule: existence::RULE, pointer, at: [x, e], sigma: threshold };
     match form {
         existence::Form::Block(metric) => {
-            let ends = ends(model, spec, threshold);
+            let ends = ends(&mut model.formulas, spec, threshold);
             ends.iter().map(|end| asked.of_block(model, metric, end)).collect()
         }
         existence::Form::Joint(metrics) => asked.of_metrics(model, metrics).map(Vec::from),

@@ -13,10 +13,12 @@ const EXISTENCE_PLACE: &str = "/witness/existence_inequality";
 /// The law: sigma, K, the sum of weights, and the samples of a period.
 const LAW: ([f64; 3], u32) = ([6.0, 0.9, 4.6], 40);
 
-/// Numbers of a form: those of the law, p and p', w_x, and k_p, lambda, and what is taken: c_x, c_e of e_k, c_e of e(s), c_y, gamma.
+/// Numbers of a form: those of the law, the ends of b, p and p', w_x, and k_p, lambda, and what is taken: c_x, c_e of e_k, c_e of e(s),
+/// c_y, gamma.
 #[derive(Clone, Copy)]
 struct Numbers {
     law: [f64; 3],
+    ends: [f64; 2],
     samples: u32,
     period: f64,
     p: [f64; 2],
@@ -37,12 +39,12 @@ impl Numbers {
         largest(3.0, |c_y| self.with_c_y(c_y).hold(derivatives))
     }
 
-    /// The form at (x, e_k, y, G, w, q_0), with the derivatives (J, g, r, d) and s = h or s = 0.
-    fn form(&self, [j, g, r, d]: [f64; 4], at_end: bool, [x, e_k, y, slack, w, q_0]: [f64; 6]) -> f64 {
+    /// The form at (x, e_k, y, G, w, q_0), with the derivatives (J, g, r, d), the gain b, and s = h or s = 0.
+    fn form(&self, [j, g, r, d]: [f64; 4], b: f64, at_end: bool, [x, e_k, y, slack, w, q_0]: [f64; 6]) -> f64 {
         let ([sigma, gain, sum], [p, p_rate]) = (self.law, self.p);
         let h = self.period / f64::from(self.samples);
         let s = if at_end { h } else { 0.0 };
-        let theta = 1.0 / (1.0 - gain * h * sum / 2.0) - 1.0;
+        let theta = 1.0 / (1.0 - self.ends[1] * gain * h * sum / 2.0) - 1.0;
         let [k_p, lambda] = [self.k_p, self.lambda];
         let e = (1.0 - s * sigma) * e_k + s * y + slack;
         let q = r * x + d * e + q_0;
@@ -51,7 +53,7 @@ impl Numbers {
             - 2.0 * (1.0 - h * sigma) * e_k * y
             - h * y * y
             + k_p * (1.0 - theta / (1.0 + theta)) * y * y
-            - k_p * y * q
+            - k_p * y * (q + (1.0 - b) * sigma * e_k)
             + lambda * slack * slack
             + 2.0 * lambda * (h / PI) * w * q
             + lambda * w * w
@@ -66,9 +68,10 @@ impl Numbers {
     fn hold(&self, derivatives: &[[f64; 4]]) -> bool {
         let order = if self.taken[4] == 0.0 { 5 } else { 6 };
         let unit = |i: usize, k: usize| std::array::from_fn(|l| f64::from(u8::from(l == i) + u8::from(l == k)));
+        let [low, high] = self.ends;
         derivatives.iter().all(|at| {
-            [false, true].into_iter().all(|end| {
-                let value = |i: usize, k: usize| self.form(*at, end, unit(i, k));
+            [(low, false), (low, true), (high, false), (high, true)].into_iter().all(|(b, end)| {
+                let value = |i: usize, k: usize| self.form(*at, b, end, unit(i, k));
                 let own = |i: usize| value(i, i) / 4.0;
                 let mut rows: Vec<Vec<f64>> = (0..order)
                     .map(|i| {
@@ -110,6 +113,7 @@ fn stability() -> Numbers {
     let (eta, lambda) = (0.4, 30.0);
     Numbers {
         law: [sigma, gain, sum],
+        ends: [1.0; 2],
         samples,
         period: 1.0,
         p: [1.0, 0.0],
@@ -148,6 +152,11 @@ fn existence_parts(numbers: &Numbers, [x, e]: [&str; 2]) -> Value {
 
 fn with(plant: &Parts, asked: Value) -> Parts {
     plant.clone().with("/at_samples", asked)
+}
+
+/// The nominal gain divides.
+fn with_gain(plant: Parts, [low, high]: [f64; 2]) -> Parts {
+    plant.with("/plant/input_gain", json!({ "nominal": "2", "low": text(2.0 * low), "high": text(2.0 * high) }))
 }
 
 /// Accepted a little below the largest c_y that the forms allow, refused a little above it.
@@ -201,6 +210,7 @@ fn existence() -> Numbers {
     let ([sigma, gain, sum], samples) = LAW;
     Numbers {
         law: [sigma, gain, sum],
+        ends: [1.0; 2],
         samples,
         period: 1.0,
         p: [0.3, 0.0],
@@ -243,6 +253,27 @@ fn existence_of_a_linear_plant() {
     let mut negative = existence().with_c_y(0.01);
     negative.p[0] = -0.3;
     with(&linear(), existence_parts(&negative, ["1", "1"])).refused(Verdict::Invalid, EXISTENCE, EXISTENCE_PLACE);
+}
+
+/// At both ends of b, with theta of b_hi: which of them decides, by the slope of q.
+#[test]
+fn with_an_input_gain() {
+    let mut seen = [0; 2];
+    for (d, ends) in [(-0.25, [0.75, 1.125]), (-0.25, [0.9, 1.25]), (-4.0, [0.8, 1.5])] {
+        let plant = with_gain(at_rest("-2*x + 3*e/10", &format!("x/2 + {d}*e")), ends);
+        let slopes = [[-2.0, 0.3, 0.5, d]];
+        let with_ends = |numbers: Numbers, ends| Numbers { ends, ..numbers };
+        let limit = decided(&plant, with_ends(stability(), ends), ["1", "1"], &slopes);
+        decided_of_existence(&plant, with_ends(existence(), ends), ["1", "1"], &slopes);
+        // One end alone, and theta of the nominal gain, allow more.
+        let nominal = with_ends(stability(), [1.0; 2]).limit(&slopes);
+        let alone = ends.map(|end| with_ends(stability(), [end.min(1.0), end.max(1.0)]).limit(&slopes));
+        assert!(limit < nominal.max(alone[0]).max(alone[1]) * (1.0 - 1e-4), "{limit} {nominal} {alone:?}");
+        seen[usize::from(alone[1] < alone[0])] += 1;
+    }
+    assert!(seen.iter().all(|count| *count > 0), "{seen:?}");
+    // One number, whatever it is: no gain.
+    decided(&with_gain(linear(), [1.0; 2]), stability(), ["1", "1"], &[LINEAR]);
 }
 
 /// What stands in the square of e_k alone may be 0 or less: then nothing is proved.

@@ -328,21 +328,10 @@ fn the_order_of_the_plant_is_that_of_the_sensitivities() {
 }
 
 #[test]
-fn theorems_and_claims_at_samples_are_not_available() {
+fn theorems_are_not_available() {
     for name in ALL {
         assert_refused_at(&stored(name).to_string(), Undecided, "/plant/parameters");
     }
-    let parameters = json!({ "k": interval(A) });
-    let samples = changed(
-        "converter-samples",
-        &[
-            ("/plant/parameters", parameters.clone()),
-            ("/claim/parameters", parameters),
-            ("/witness/orbit/sensitivities", json!([{ "mean": ["0", "0"] }])),
-            ("/witness/forcing/sensitivities", json!([{ "mean": "0" }])),
-        ],
-    );
-    assert_refused(&samples, Undecided, "parameters", "/claim/regulator");
 }
 
 #[test]

@@ -44,6 +44,7 @@ mod plant_support;
 mod sampled_certificates;
 mod sampled_claims;
 mod sampled_formulas;
+mod sampled_gain;
 mod sampled_plants;
 mod sampled_rules;
 mod sampled_support;

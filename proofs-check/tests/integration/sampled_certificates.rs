@@ -114,7 +114,9 @@ fn harmless(pointer: &str, kind: &str, flawless: bool) -> Option<&'static str> {
     match pointer {
         "/precision_bits" => Some("where the checker starts; it proves the claim at whatever precision it takes"),
         "/tool/name" | "/tool/version" => Some("free text"),
-        "/claim/mu" | "/claim/sampling_period" if kind.starts_with("appended") => {
+        _ if kind.starts_with("appended")
+            && (["/claim/mu", "/claim/sampling_period"].contains(&pointer) || below("/claim/input_gain/")) =>
+        {
             Some("white space after an expression")
         }
         _ if (below("/specification/") || below("/plant/")) && kind.ends_with("re-hashed") => {
@@ -131,11 +133,13 @@ fn harmless(pointer: &str, kind: &str, flawless: bool) -> Option<&'static str> {
         {
             Some("another proof of what the formulas say")
         }
-        "/claim/periodic_solution/z" if kind == "deleted" => Some("nothing is said of z"),
+        "/claim/periodic_solution/z" | "/claim/control" if kind == "deleted" => Some("nothing is said of z, or of u"),
         _ if flawless => None,
         "/conditions" => Some("figures: no claim rests on them"),
         _ if below("/witness/") => Some("figures: another witness, with which every condition is proved"),
-        _ if below("/claim/periodic_solution/") && (kind.starts_with("up") || kind.starts_with("one")) => {
+        _ if (below("/claim/periodic_solution/") || below("/claim/control/"))
+            && (kind.starts_with("up") || kind.starts_with("one")) =>
+        {
             Some("figures: a bound larger than it need be")
         }
         _ if kind.ends_with(", said")

@@ -8,7 +8,7 @@ use proofs_check::rules::paths::{Path, Paths};
 use proofs_check::rules::sampled::existence;
 use proofs_check::rules::sampled::gains::Gains;
 use proofs_check::rules::sampled::law::{Law, Terms};
-use proofs_check::rules::sampled::stability::{self, Weights};
+use proofs_check::rules::sampled::stability;
 use proofs_check::rules::sampled::transfer;
 use proofs_check::rules::stability::ErrorBox;
 use proofs_check::spec::Specification;
@@ -21,11 +21,14 @@ use std::f64::consts::PI;
 const NBAR_SQUARED: f64 = 4.612_375_348_685_488;
 
 /// The paper's example with another T and mu, and q steep enough for its parts to be seen.
-fn specification(period: &str, mu: f64) -> Specification {
+fn specification(period: &str, mu: f64, [low, high]: [f64; 2]) -> Specification {
     let mut document = certificate("paper-example.means")["specification"].clone();
     document["period"] = json!(period);
     document["internal_model"]["mu"] = json!(format!("{mu}"));
     document["internal_model"]["base_frequency"] = json!(format!("2*pi/({period})"));
+    if low < high {
+        document["input_gain"] = json!({ "nominal": "2", "low": 2.0 * low, "high": 2.0 * high });
+    }
     document["bounds"]["q_e"] = json!("0.5 + 2*X + 3*E");
     document["bounds"]["q_x"] = json!("0.3 + 0.5*X + 0.7*E");
     document["bounds"]["q_e_max"] = json!("0.1 + X + E");
@@ -47,8 +50,11 @@ struct Float {
     samples: u32,
     h: f64,
     gain: f64,
+    /// With b_hi K.
     growth: f64,
     a: f64,
+    /// Of b.
+    ends: [f64; 2],
 }
 
 impl Float {
@@ -56,7 +62,59 @@ impl Float {
         let h = period / f64::from(samples);
         let growth = 1.0 + h * mu * NBAR_SQUARED / 2.0;
         let sigma = share / h;
-        Float { period, mu, sigma, samples, h, gain: mu / growth, growth, a: 1.0 - h * sigma }
+        Float { period, mu, sigma, samples, h, gain: mu / growth, growth, a: 1.0 - h * sigma, ends: [1.0; 2] }
+    }
+
+    fn with_gain(self, ends: [f64; 2]) -> Float {
+        Float { growth: 1.0 / (1.0 - ends[1] * self.loss()), ends, ..self }
+    }
+
+    /// K h Nb2/2.
+    fn loss(&self) -> f64 {
+        self.gain * self.h * NBAR_SQUARED / 2.0
+    }
+
+    /// b_lo K (1 + theta), with its own theta.
+    fn least_mu(&self) -> f64 {
+        self.ends[0] * self.gain / (1.0 - self.ends[0] * self.loss())
+    }
+
+    /// b from its least to its largest.
+    fn gains(&self) -> impl Iterator<Item = f64> {
+        let [low, high] = self.ends;
+        (0..=8).map(move |i| low + f64::from(i) / 8.0 * (high - low))
+    }
+
+    /// |D_j|, and its real part.
+    fn size(&self, j: u32) -> [f64; 2] {
+        let squared = self.frequency(j).powi(2);
+        [(self.sigma.powi(2) + self.a * squared).sqrt(), self.sigma - self.h / 2.0 * squared]
+    }
+
+    /// That of D_j = (e^{i phi} - a)/h.
+    fn imaginary(&self, j: u32) -> f64 {
+        (2.0 * f64::from(j) * self.angle()).sin() / self.h
+    }
+
+    /// The least |D_j| times the distance of a point (1-b) sigma from its line.
+    fn room(&self, j: u32) -> f64 {
+        let [size, real] = self.size(j);
+        let at = |b: f64| size * size / self.growth - (1.0 - b) * self.sigma * real;
+        at(self.ends[0]).min(at(self.ends[1]))
+    }
+
+    /// The bound of |e_j| over |q_j|.
+    fn error(&self, j: u32) -> f64 {
+        let [size, _] = self.size(j);
+        if self.ends == [1.0; 2] {
+            return self.growth.min(1.0 / (f64::from(j) * self.angle()).cos().abs()) / size;
+        }
+        size / self.room(j)
+    }
+
+    /// The largest of a number of each harmonic.
+    fn most(&self, of: impl Fn(u32) -> f64) -> f64 {
+        (1..self.samples).map(of).fold(0.0, f64::max)
     }
 
     fn terms(&self) -> Terms {
@@ -95,11 +153,18 @@ fn laws() -> Vec<Float> {
             laws.extend([0.03, 0.4, 0.96875].map(|share| Float::new(period, mu, samples, share)));
         }
     }
+    let uncertain = laws.iter().flat_map(|law| GAINS.map(|ends| law.with_gain(ends)));
+    let known = |law: &Float| law.growth > 0.0 && (1..law.samples).all(|j| law.room(j) > 1e-3);
+    let uncertain: Vec<Float> = uncertain.filter(known).collect();
+    assert!(uncertain.len() > 3 * laws.len() && laws.len() == 63);
+    laws.extend(uncertain);
     laws
 }
 
+const GAINS: [[f64; 2]; 5] = [[0.75, 1.25], [0.875, 1.125], [0.5, 1.0], [1.0, 1.5], [0.25, 4.0]];
+
 fn with_law(float: &Float, check: impl FnOnce(&Law<'_>)) {
-    let spec = specification(&format!("{}", float.period), float.mu);
+    let spec = specification(&format!("{}", float.period), float.mu, float.ends);
     let data = Data::new(&spec, 192);
     let law = Law::new(&data, &float.terms());
     law.conditions("").unwrap_or_else(|finding| panic!("{float:?}: {finding:?}"));
@@ -118,7 +183,7 @@ fn numbers_of_the_law() {
     for float in laws() {
         with_law(&float, |law| {
             close("growth", &law.growth, float.growth, &float);
-            close("mu", &law.mu, float.mu, &float);
+            close("mu", &law.mu, float.least_mu(), &float);
             close("loss", &law.loss, 1.0 - 1.0 / float.growth, &float);
             close("a", &law.a, float.a, &float);
             close("om", &law.frequency_squared(&law.sine(1)), float.frequency(1).powi(2), &float);
@@ -132,15 +197,29 @@ fn gains_of_the_loop() {
     for float in laws() {
         with_law(&float, |law| {
             let gains = Gains::new(law);
-            let sharp = |j: u32| float.growth.min(1.0 / (f64::from(j) * float.angle()).cos().abs());
-            let speed = |j: u32| (float.sigma.powi(2) + float.a * float.frequency(j).powi(2)).sqrt();
             let sum = |term: &dyn Fn(u32) -> f64| (1..float.samples).map(term).sum::<f64>().sqrt();
-            close("bt", &gains.sup, sum(&|j| (sharp(j) / speed(j)).powi(2)), &float);
-            close("tau", &gains.sup_t, sum(&|j| (sharp(j) / speed(j) / float.frequency(j)).powi(2)), &float);
-            let worst = (1..float.samples).map(|j| sharp(j) / speed(j)).fold(0.0, f64::max);
-            let rms = gains.rms.lo().to_f64();
-            assert!(rms >= worst * (1.0 - 1e-12) && rms <= float.growth / speed(1) * (1.0 + 1e-12), "{float:?}");
+            close("bt", &gains.sup, sum(&|j| float.error(j).powi(2)), &float);
+            close("tau", &gains.sup_t, sum(&|j| (float.error(j) / float.frequency(j)).powi(2)), &float);
+            close("bt_h", &gains.sup_y, sum(&|j| float.size(j)[0].powi(-2)), &float);
+            let (rms, slope) = (gains.rms.lo().to_f64(), 2.0 / (2.0 - float.h * float.sigma));
+            let by_y = float.most(|j| float.error(j) * float.size(j)[0]);
+            let by_y = if float.ends == [1.0; 2] { float.growth } else { by_y };
+            close("slope_by_y", &gains.slope_by_y, slope * by_y, &float);
+            if float.ends != [1.0; 2] {
+                close("rms", &gains.rms, float.most(|j| float.error(j)), &float);
+                close("rms_t", &gains.rms_t, float.most(|j| float.error(j) / float.frequency(j)), &float);
+                let steepest = float.most(|j| float.error(j) * float.frequency(j));
+                close("slope", &gains.slope, steepest, &float);
+                assert!(steepest >= 1.0, "{float:?}");
+                return;
+            }
+            let worst = float.most(|j| float.error(j));
+            assert!(
+                rms >= worst * (1.0 - 1e-12) && rms <= float.growth / float.size(1)[0] * (1.0 + 1e-12),
+                "{float:?}"
+            );
             close("rms_t", &gains.rms_t, rms / float.frequency(1), &float);
+            close("slope", &gains.slope, slope * float.growth, &float);
             // 12.1: the closed forms, which S3 does not exceed.
             let (n, a, sigma) = (f64::from(float.samples), float.a, float.sigma);
             let power = a.powf(n);
@@ -161,25 +240,68 @@ fn gains_of_the_loop() {
     });
 }
 
-/// `T_d(j) w^2/(1+theta)^2` of the sampled internal model with n_o oscillators, from its formula in z.
-fn transfer_of(float: &Float, n_o: u32, j: u32) -> f64 {
+/// `T_d(j) w^2/(1+theta)^2` of the sampled internal model with n_o oscillators at the gain b, from its formula in z.
+fn transfer_of(float: &Float, b: f64, n_o: u32, j: u32) -> f64 {
     let angle = |l: i64| (i64::from(j) - l) as f64 * float.angle();
     let scale = float.w().powi(2) / float.growth.powi(2);
     if j <= n_o {
-        return scale / (float.gain.powi(2) * share(i64::from(j)));
+        return scale / ((b * float.gain).powi(2) * share(i64::from(j)));
     }
+    let squares: f64 = (-i64::from(n_o)..=i64::from(n_o)).map(|l| share(l) / angle(l).sin().powi(2)).sum();
+    scale * float.h.powi(2) / 4.0 * squares / through(float, b, n_o, j).iter().map(|part| part * part).sum::<f64>()
+}
+
+/// `1 + b K h G` at a harmonic beyond n_o: its two parts.
+fn through(float: &Float, b: f64, n_o: u32, j: u32) -> [f64; 2] {
     let range = -i64::from(n_o)..=i64::from(n_o);
-    let b: f64 = range.clone().map(share).sum();
-    let squares: f64 = range.clone().map(|l| share(l) / angle(l).sin().powi(2)).sum();
-    let cotangents: f64 = range.map(|l| share(l) / angle(l).tan()).sum();
-    let half = float.gain * float.h / 2.0;
-    let denominator = (1.0 - half * b).powi(2) + (half * cotangents).powi(2);
-    scale * float.h.powi(2) / 4.0 * squares / denominator
+    let half = b * float.gain * float.h / 2.0;
+    let cotangents: f64 = range.clone().map(|l| share(l) / ((i64::from(j) - l) as f64 * float.angle()).tan()).sum();
+    [1.0 - half * range.map(share).sum::<f64>(), -half * cotangents]
+}
+
+/// |e_j| over |q_j| at the gain b: `D_j e = y`, `y (kept + i off) = q + (1-b) sigma e`.
+fn error_of(float: &Float, b: f64, j: u32, [kept, off]: [f64; 2]) -> f64 {
+    let [size, real] = float.size(j);
+    let imaginary = float.imaginary(j);
+    assert!((real.hypot(imaginary) / size - 1.0).abs() < 1e-9);
+    let [re, im] = [real * kept - imaginary * off - (1.0 - b) * float.sigma, real * off + imaginary * kept];
+    1.0 / re.hypot(im)
+}
+
+/// What a gain makes of a harmonic, for every b and every n_o, and no less than that: e, and what zeta is driven by.
+#[test]
+fn responses_of_the_loop_with_a_gain() {
+    for float in laws().into_iter().filter(|float| float.ends != [1.0; 2]) {
+        let apart = (1.0 - float.ends[0]).max(float.ends[1] - 1.0);
+        let more = 1.0 + apart * float.sigma * float.most(|j| float.error(j));
+        let scale = float.growth.powi(2) / float.w().powi(2);
+        for j in 1..=float.samples / 2 {
+            let bound = float.error(j);
+            let beyond = (0..=(float.samples - 1) / 2).filter(|n_o| *n_o < j);
+            for (b, n_o) in float.gains().flat_map(|b| beyond.clone().map(move |n_o| (b, n_o))) {
+                let error = error_of(&float, b, j, through(&float, b, n_o, j));
+                assert!(error <= bound * (1.0 + 1e-9), "b = {b}, n_o = {n_o}, j = {j}: {error} > {bound}, {float:?}");
+                // |zeta_j|^2 over |q_j|^2: its input is y (1 + b K h G).
+                let input =
+                    error * float.size(j)[0] * through(&float, b, n_o, j)[0].hypot(through(&float, b, n_o, j)[1]);
+                assert!(input <= more * (1.0 + 1e-9), "{float:?}");
+                let zeta = scale * transfer_of(&float, b, n_o, j) * input * input;
+                assert!(zeta <= scale * demanded(&float, j) * more * more * (1.0 + 1e-9), "{float:?}");
+            }
+            // With the largest theta and the worst cotangents: i D_j moves the difference along its line.
+            let worst = |b: f64| {
+                let off = (b - 1.0) * float.sigma * float.imaginary(j) / float.size(j)[0].powi(2);
+                error_of(&float, b, j, [1.0 / float.growth, off])
+            };
+            let largest = float.ends.map(worst).into_iter().fold(0.0, f64::max);
+            assert!((largest / bound - 1.0).abs() < 1e-9, "j = {j}: {largest} {bound}, {float:?}");
+        }
+    }
 }
 
 /// `max{2/(nu^2 n_j), s_j}`.
 fn demanded(float: &Float, j: u32) -> f64 {
-    let pole = 2.0 / (float.mu / float.w()).powi(2) / weight(i64::from(j));
+    let pole = 2.0 / (float.least_mu() / float.w()).powi(2) / weight(i64::from(j));
     let j = i64::from(j);
     let angle = |l: i64| (j - l) as f64 * float.angle();
     (1 - j..j).map(|l| share(l) * (float.angle() / angle(l).sin()).powi(2)).sum::<f64>().max(pole)
@@ -192,11 +314,12 @@ fn the_pair_bounds_the_transfer_of_every_loop() {
         let speed = |j: u32| (float.frequency(j) / float.w()).powi(2);
         for n_o in 0..=(float.samples - 1) / 2 {
             for j in 1..=last {
-                let (truth, bound) = (transfer_of(&float, n_o, j), demanded(&float, j));
+                let bound = demanded(&float, j);
+                let truth = float.gains().map(|b| transfer_of(&float, b, n_o, j)).fold(0.0, f64::max);
                 assert!(truth <= bound * (1.0 + 1e-9), "n_o = {n_o}, j = {j}: {truth} > {bound}, {float:?}");
             }
         }
-        let least = 1.0 / ((float.mu / float.w()).powi(2) * 2.0);
+        let least = 1.0 / ((float.least_mu() / float.w()).powi(2) * 2.0);
         for factor in [1.000_001, 1.7, 30.0] {
             let k0 = least * factor;
             let k1 = (1..=last).map(|j| (demanded(&float, j) - k0) / speed(j)).fold(0.0, f64::max);
@@ -287,7 +410,9 @@ fn parts_of_existence() {
             let r_q = (4.822 + x_p + (e_p * f_e).atan()).min(4.822 + d_0);
             let r_1 = 24.18 + 2.106 * e_p + q_x * (f_x * 0.125 + f_e * 0.25) + q_e * 2.0;
             let gains = Gains::new(law);
-            let [sup, sup_t, rms] = [&gains.sup, &gains.sup_t, &gains.rms].map(|gain| gain.hi().to_f64());
+            let [sup, sup_t, rms, rms_t, slope, by_y] =
+                [&gains.sup, &gains.sup_t, &gains.rms, &gains.rms_t, &gains.slope, &gains.slope_by_y]
+                    .map(|gain| gain.hi().to_f64());
             let side = |id: &str| {
                 let condition = found.conditions.iter().find(|condition| condition.id == id).unwrap();
                 condition.lhs.clone()
@@ -295,16 +420,27 @@ fn parts_of_existence() {
             let at_samples = (sup * r_q).min(sup_t * r_1) + h / (2.0 * PI) * (h * t).sqrt() * r_1;
             let sup_e = at_samples.min((t * 0.25 * 2.0).sqrt());
             close("S2", &side("S2"), sup_e, &float);
-            close("S2b", &side("S2b"), rms * r_q.min(r_1 / float.frequency(1)) + (h / PI).powi(2) * r_1, &float);
-            let steepest = 2.0 * float.growth / (2.0 - h * float.sigma) * r_q;
-            close("S2c", &side("S2c"), steepest.min((rms.powi(2) + (h / PI).powi(2)).sqrt() * r_1), &float);
+            close("S2b", &side("S2b"), (rms * r_q).min(rms_t * r_1) + (h / PI).powi(2) * r_1, &float);
+            close("S2c", &side("S2c"), (slope * r_q).min((rms.powi(2) + (h / PI).powi(2)).sqrt() * r_1), &float);
             close("S1c", &side("S1c"), c / rate * f_e * 0.25, &float);
             close("e_per", &found.e, sup_e.min(e_p), &float);
             let k2 = c * (t / (rate * t / 2.0).tanh() / (2.0 * rate)).sqrt();
             close("x_per", &found.x, x_p.min(c / rate * f_e * sup_e.min(e_p)).min(k2 * f_e * 0.25), &float);
-            let mean = (t / (2.0 * float.mu) + 20.0 / float.w().powi(2)) * r_q.powi(2);
+            let mean = (t / (2.0 * float.least_mu()) + 20.0 / float.w().powi(2)) * r_q.powi(2);
             let z = float.growth * (mean + 60.0 / float.w().powi(4) * r_1.powi(2)).sqrt();
+            let [low, high] = float.ends;
+            let z = z * (1.0 + (1.0 - low).max(high - 1.0) * float.sigma * rms);
             close("Z", &found.z, z, &float);
+            let by_parts = float.sigma * sup_e.min(e_p) + float.gain * NBAR_SQUARED.sqrt() * z;
+            let factor = if low < high {
+                (1.0 + by_y) / low
+            } else if by_y <= 3.0 {
+                2.0 / (4.0 - by_y).sqrt()
+            } else {
+                by_y - 1.0
+            };
+            let by_rate = factor * ((t * t - h * h) / 12.0).sqrt() * r_1;
+            close("steady", &found.steady, (r_q / low + by_rate).min(by_parts), &float);
         });
     }
 }
@@ -323,7 +459,7 @@ fn parts_of_stability() {
             let [x_p, e_p, far_x, far_e] = [x_per, e_per, d_x, d_e].map(number);
             let error_box = ErrorBox::new(law.d, Paths { f, q }, [&x_p, &e_p], [&far_x, &far_e]);
             let (w, zeta) = (number(w_x), number(eta));
-            let found = stability::conditions(law, &error_box, &Weights { w_x: &w, eta: &zeta });
+            let found = stability::conditions(law, &error_box, [&w, &zeta]);
             let c = 1.5512_f64.sqrt();
             let rate = 0.58 - c * (0.2237 * x_per + e_f + 0.2237 * d_x / 2.0);
             let (k_x, k_l, m, k_f) =
@@ -339,8 +475,8 @@ fn parts_of_stability() {
                     (t * k_x / (PI * room), (1.0 - ts + ts * ts / 3.0).sqrt() + drift, t / (3.0_f64.sqrt() * room));
                 let g = t * k_e / 12.0_f64.sqrt() / room;
                 let p_y = t * t * k_e * k_e / (6.0 * room);
-                let d_t =
-                    (1.0 - ts + s * (1.0 - ts / 2.0) * m).abs().max((1.0 - ts - s * (1.0 - ts / 2.0) * k_l).abs());
+                let side = |b: f64, slope: f64| 1.0 - ts + s * ((1.0 - ts / 2.0) * slope + (1.0 - b) * float.sigma);
+                let d_t = float.gains().flat_map(|b| [m, -k_l].map(|slope| side(b, slope).abs())).fold(0.0, f64::max);
                 let xx = 2.0 * w_x * rate - 2.0 * coupling * c_x;
                 let xe = -coupling * c_e;
                 let xy = -coupling * c_y - s * k_x * (1.0 + g);

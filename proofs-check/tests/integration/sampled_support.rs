@@ -4,6 +4,7 @@
 //! floating point apart from both programs.
 
 use crate::common::{certificate, edited, rehash};
+use crate::input_gain;
 use proofs_check::verdict::Verdict;
 use proofs_check::{Report, check};
 use serde_json::{Value, json};
@@ -22,13 +23,14 @@ pub fn words(certificate: &Value) -> String {
     let given = |value: Option<&Value>, words: &'static str| value.map_or("", |_| words);
     format!(
         "For the digital regulator with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and K = {}, for \
-         every number of oscillators n_o < {samples}/2 and every phase of the sampling grid, with period T = {}, mu = {} and base \
+         every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}, with period T = {}, mu = {} and base \
          frequency {}, every plant within the bounding functions{where_} and with the Lyapunov triple p_low = {}, p_up = {}, alpha \
          = {} (given, not proved){}{} has a T-periodic solution of the closed loop to which every solution from |x| <= {}, |e| <= \
          {}, sqrt(z'Nz) <= {}, at any sampling instant, converges exponentially.",
         text(&claim["sigma"]),
         text(&claim["sampling_period"]),
         text(&claim["gain"]),
+        spec.get("input_gain").map_or_else(String::new, input_gain::words),
         text(&spec["period"]),
         text(&model["mu"]),
         text(&model["base_frequency"]),

@@ -12,6 +12,7 @@ use crate::json::{Field, Fields};
 use crate::period;
 use crate::plant::OfPlant;
 use crate::plant::{coordinates, parameters};
+use crate::range::is_same;
 use crate::spec::{AskedSet, Specification};
 use crate::verdict::{Outcome, bad, demand, invalid};
 use rug::Rational;
@@ -138,10 +139,7 @@ impl<'a> Claim<'a> {
                 regulator.check(spec)?;
             }
         }
-        let mu = Constant::read(&self.mu)?;
-        let same =
-            mu.text == spec.mu.text || mu.exact.as_ref().zip(spec.mu.exact.as_ref()).is_some_and(|(a, b)| a.equals(b));
-        if !same {
+        if !is_same(&Constant::read(&self.mu)?, &spec.mu) {
             return reads(RULE, &self.mu, &spec.mu.text);
         }
         input_gain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
@@ -225,11 +223,11 @@ impl<'a> Claim<'a> {
             return (regulator.in_words(spec), "sampling instant");
         }
         let reach = if spec.matched { "" } else { " (which need not match the period)" };
-        let gain = spec.input_gain.as_ref().map_or_else(String::new, input_gain::in_words);
         let words = format!(
-            "For every number of oscillators n_o >= 0 and every gain sigma >= {}{gain}, with {}, mu = {} and base \
+            "For every number of oscillators n_o >= 0 and every gain sigma >= {}{}, with {}, mu = {} and base \
              frequency {}{reach}",
             self.sigma_text,
+            input_gain::in_words(spec.input_gain.as_ref()),
             period::in_words(&spec.period),
             spec.mu.text,
             spec.base_frequency.text,

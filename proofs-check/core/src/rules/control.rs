@@ -23,12 +23,9 @@ impl Answer {
     /// `2/sqrt(3)`; with `sum 1/om_j^2 = T^2/12` over both signs `T/3`. With a gain b u_j is `(i om e_j - q_j)/b` and u_0 `-q_0/b`, and the factor
     /// `sqrt(1 + 2/(4 b - 1 + sqrt(1 + 8 b)))/b`, which falls in b.
     pub fn continuous(d: &Data<'_>) -> Answer {
-        let Some(gain) = &d.gain else {
-            return Answer { mean: d.int(1), factor: 2 / d.int(3).sqrt(), by_rate: d.period.longest() / 3 };
-        };
-        let b = &gain.low;
-        let more = 2 / (b * 4 - 1 + (b * 8 + 1).sqrt());
-        let factor = (more + 1).sqrt() / b;
+        let b = d.by_gain(|gain| &gain.low, &d.int(1));
+        let more = 2 / (&b * 4 - 1 + (&b * 8 + 1).sqrt());
+        let factor = (more + 1).sqrt() / &b;
         Answer { mean: b.recip(), by_rate: &factor * d.period.longest() / d.int(12).sqrt(), factor }
     }
 

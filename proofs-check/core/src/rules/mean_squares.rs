@@ -124,7 +124,7 @@ impl<'a> Bounds<'a> {
         let bends = d.given(Bound::Qtx, x_p, e_p).zip(d.given(Bound::Qte, x_p, e_p));
         let om = d.period.slowest();
         let of_y = [bt(d, sigma), (sigma.sqr() + om.sqr()).sqrt()];
-        let sg = d.gain.as_ref().map_or_else(|| of_y[1].clone(), |gain| &of_y[1] * gain.of_error());
+        let sg = d.by_gain(Gain::of_error, &of_y[1]);
         Bounds {
             f_x: d.given(Bound::Fx, x_p, &zero).map_or(secant.clone(), |f_x| f_x.least(&secant)),
             f_e: at(Bound::Fe),

@@ -85,7 +85,8 @@ pub fn evaluate(
     let zero = d.int(0);
     let error_box = ErrorBox::new(d, w.paths, [&zero, &zero], [&d_x, &d_e]);
     let reach = distances(d, set, [&zero, &zero, &steady_state(d)]);
-    let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &h]);
+    let largest = d.by_gain(|gain| &gain.high, &h);
+    let [start, exit] = level(d, &reach, [&d_x, &d_e, &w_x, &largest]);
     let domain = set::domain(d, &d_x, &d_e);
     let mut conditions = domain.clone();
     conditions.push(Condition::less("C4", "level condition around the origin", start, exit));

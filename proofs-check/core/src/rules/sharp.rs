@@ -147,7 +147,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
             (levels.to_vec(), transient)
         }
         None => {
-            let (level, transient) = free.level(d, &reach, [&sigma, &d.mu]);
+            let (level, transient) = free.level(d, &reach, [&sigma, &d.mu], false);
             (vec![level], transient)
         }
     };

@@ -100,9 +100,8 @@ pub fn distances(d: &Data<'_>, set: &ClaimedSet, [x_per, e_per, z]: [&Interval; 
 }
 
 /// The two sides of C4: `w_x P_up dX^2 + dE^2 + h dZ^2` and `min{w_x P_low D_x^2, D_e^2}`. At the gain b the weight of `|zeta|_N^2` is
-/// b h: with a gain b_hi h stands for h.
+/// b h: with a gain C4 is that of b_hi h.
 pub fn level(d: &Data<'_>, [x, e, z]: &[Interval; 3], [d_x, d_e, w_x, h]: [&Interval; 4]) -> [Interval; 2] {
-    let h = d.gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.high * h);
     let start = w_x * &d.p_up * x.sqr() + e.sqr() + h * z.sqr();
     [start, (w_x * &d.p_low * d_x.sqr()).min(&d_e.sqr())]
 }

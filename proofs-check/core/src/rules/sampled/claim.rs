@@ -2,6 +2,7 @@
 
 use super::law::RULE;
 use crate::constant::Constant;
+use crate::input_gain;
 use crate::json::Fields;
 use crate::period;
 use crate::spec::{Specification, samples};
@@ -59,9 +60,10 @@ impl<'a> Regulator<'a> {
         let (samples, [sigma, gain]) = (self.samples, self.texts);
         format!(
             "For the digital regulator with the gain sigma = {sigma}, the sampling period h = {} ({samples} samples a period) and \
-             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid, with {}, \
+             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}, with {}, \
              mu = {} and base frequency {}",
             self.sampling.text,
+            input_gain::in_words(spec.input_gain.as_ref()),
             period::in_words(&spec.period),
             spec.mu.text,
             spec.base_frequency.text,

@@ -50,8 +50,7 @@ pub fn evaluate(
     // sum e_k = 0, so e has a zero.
     let mut sup_e = (at_samples + between).least(&(period * r_e * r_d).sqrt());
     let mut rms_e = (&gains.rms * &r_q).least(&(&gains.rms_t * &r_1)) + between_rms;
-    let steepest = &law.growth * 2 / (2 - &law.share) * &r_q;
-    let mut rms_e_t = steepest.least(&((gains.rms.sqr() + (&law.h / &pi).sqr()).sqrt() * &r_1));
+    let mut rms_e_t = (&gains.slope * &r_q).least(&((gains.rms.sqr() + (&law.h / &pi).sqr()).sqrt() * &r_1));
 
     let conditions = if let Some(inequality) = inequality {
         let answer = inequality.answer(law, &bounds.oscillation());
@@ -78,8 +77,10 @@ pub fn evaluate(
     let e = e_p.min(&sup_e);
     let w_squared = d.w.sqr();
     let mean = (period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();
-    let z = &law.growth * mean.sqrt();
+    // The input of zeta is what y is without b K v_k, so (1-b) sigma e_k is in it.
+    let [up, down] = law.shifts(&(&law.sigma * &gains.rms));
+    let z = &law.growth * mean.sqrt() * (1 + up.max(&-down));
     let by_parts = control::by_parts(d, [&law.sigma, &law.gain], [&e, &z]);
-    let steady = law.answer().steady(&bounds.along(&r), &by_parts);
+    let steady = law.answer(&gains.slope_by_y).steady(&bounds.along(&r), &by_parts);
     Solution { x: bounds.sup_x(&e, r_e), z, steady, e, conditions }
 }

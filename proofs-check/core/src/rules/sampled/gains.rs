@@ -1,7 +1,7 @@
 //! What the sampled loop makes of a periodic input, uniformly in n_o (docs/mathematics.md, sections 12.1 and 12.2, S3).
 //!
 //! The harmonic j of e is `S_j h/(e^{i om h} - a)` times that of the mean input, `|e^{i om h} - a|^2 = (h sigma)^2 + a (h om_j)^2`, and
-//! `|S_j| <= Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|}`; S_0 = 0.
+//! `|S_j| <= Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|}`; S_0 = 0. With a gain (section 13.1) [`Law::of_error`] stands for it.
 
 use super::law::Law;
 use crate::interval::Interval;
@@ -11,7 +11,7 @@ const MAX_SHARPENED: u32 = 8192;
 
 /// The gains from the mean input over a step, or from its differences over h.
 pub struct Gains {
-    /// `bt_S^2 = sum_{j=1}^{N_s-1} Sb_j^2/(sigma^2 + a om_j^2)`: sup|e_k| over rms(q).
+    /// `bt_S^2 = sum_{j=1}^{N_s-1} Sb_j^2/(sigma^2 + a om_j^2)`: sup|e_k| over rms(q). Each term is `|e_j|^2` over `|q_j|^2`.
     pub sup: Interval,
     /// `bt_h^2 = sum_{j=1}^{N_s-1} 1/(sigma^2 + a om_j^2)`: sup|e_k| over the rms of y, whose sum is 0.
     pub sup_y: Interval,
@@ -21,31 +21,57 @@ pub struct Gains {
     pub rms: Interval,
     /// 1/(om_1 sg_S): rms(e_k) over rms(q').
     pub rms_t: Interval,
+    /// `2 (1 + theta)/(2 - h sigma)`: rms of (e_{k+1} - e_k)/h over rms(q). With a gain the largest `om_j |e_j|` over `|q_j|`, which is not
+    /// below 1: at b = 1 it is at least om_j/|D_j| for j = floor(N_s/2), whose `om_j^2 >= 3/h^2 >= sigma/h`.
+    pub slope: Interval,
+    /// `2/(2 - h sigma)` times the largest `|y_j|` over `|q_j|`, which is at most 1 + theta without a gain.
+    pub slope_by_y: Interval,
 }
 
 impl Gains {
-    /// Sums over the harmonics; j and N_s - j are equal.
+    /// Over the harmonics; j and N_s - j are equal.
     pub fn new(law: &Law<'_>) -> Gains {
         let d = law.d;
-        let [mut sup, mut sup_y, mut sup_t] = [0; 3].map(|zero| d.int(zero));
-        let sigma_squared = law.sigma.sqr();
-        let largest = law.growth.sqr();
-        let sharpened = law.samples <= MAX_SHARPENED;
-        for j in 1..=law.samples / 2 {
+        let (largest, sharpened) = (law.growth.sqr(), law.samples <= MAX_SHARPENED);
+        // The squares of |e_j| over |q_j|, of om_j, and of |D_j| = |e^{i om h} - a|/h.
+        let harmonic = |j| {
             let sine = law.sine(j);
             let frequency = law.frequency_squared(&sine);
-            // At j = N_s/2 the cosine is 0.
-            let share = if sharpened { largest.least(&(1 - sine.sqr()).recip()) } else { largest.clone() };
-            let of_y = (&sigma_squared + &law.a * &frequency).recip();
-            let gain = share * &of_y;
-            let times = if 2 * j == law.samples { 1 } else { 2 };
-            sup_t = sup_t + &gain / frequency * times;
-            sup = sup + gain * times;
-            sup_y = sup_y + of_y * times;
+            let size = law.sigma.sqr() + &law.a * &frequency;
+            let error = if d.gain.is_some() {
+                law.of_error(&frequency, &size)
+            } else if sharpened {
+                // At j = N_s/2 the cosine is 0.
+                largest.least(&(1 - sine.sqr()).recip()) / &size
+            } else {
+                &largest / &size
+            };
+            [error, frequency, size]
+        };
+        let all: Vec<_> = (1..=law.samples / 2).map(harmonic).collect();
+        type Of = fn(&[Interval; 3]) -> Interval;
+        let times = |j: u32| if 2 * j == law.samples { 1 } else { 2 };
+        let sum = |of: Of| all.iter().zip(1..).fold(d.int(0), |sum, (at, j)| sum + of(at) * times(j)).sqrt();
+        let most = |of: Of| all.iter().fold(d.int(0), |most, at| most.max(&of(at))).sqrt();
+        let by_y = |y: &Interval| y * 2 / (2 - &law.share);
+        let [rms, rms_t, slope, slope_by_y] = if d.gain.is_some() {
+            let of_y = most(|[error, _, size]| error * size);
+            let slope = most(|[error, frequency, _]| error * frequency);
+            [most(|[error, ..]| error.clone()), most(|[error, frequency, _]| error / frequency), slope, by_y(&of_y)]
+        } else {
+            let (rms, slope) = (slowest(law, sharpened).recip(), by_y(&law.growth));
+            let rms_t = &rms / law.frequency_squared(&law.sine(1)).sqrt();
+            [rms, rms_t, slope.clone(), slope]
+        };
+        Gains {
+            sup: sum(|[error, ..]| error.clone()),
+            sup_y: sum(|[.., size]| size.recip()),
+            sup_t: sum(|[error, frequency, _]| error / frequency),
+            rms,
+            rms_t,
+            slope,
+            slope_by_y,
         }
-        let rms = slowest(law, sharpened).recip();
-        let om_1 = law.frequency_squared(&law.sine(1)).sqrt();
-        Gains { sup: sup.sqrt(), sup_y: sup_y.sqrt(), sup_t: sup_t.sqrt(), rms_t: &rms / om_1, rms }
     }
 }
 

@@ -3,6 +3,10 @@
 //! `u_k = -sigma e_k + K v_k`, `v_k = M'N R (z_k - M e_k)`, `z_{k+1} = R (z_k - M e_k) + (1 - h sigma) M e_k`, `R = e^{Phi h}`, with
 //! `h = T/N_s` and 2 n_o < N_s. Guarantee, where the conditions hold: for every such n_o the response y of `q_k + K v_k` to a periodic
 //! input has `|y_j| <= (1 + theta)|q_j|` in every harmonic, and none at j = 0; the loop without input is stable.
+//!
+//! With an input gain (section 13.1) `y_k = qb_k + (1-b) sigma e_k + b K v_k`: the loop of gain 1 with b K for K, and the means of
+//! `q + (1-b) sigma e_k` for those of q. theta is that of `b_hi K`, the largest, and mu that of `b_lo K`, so `mu <= b K (1 + theta)` for
+//! every b, and a step raises `|zeta|_N^2` by `h (1 + theta_b) q^2/(2 b K)`, which is at most `h (1 + theta)^2 q^2/(2 mu)`.
 
 use crate::data::Data;
 use crate::interval::Interval;
@@ -42,11 +46,13 @@ pub struct Law<'a> {
     pub a: Interval,
     /// K.
     pub gain: Interval,
-    /// K h Nb2/2 = theta/(1 + theta).
+    /// K (1 + theta) with theta of K, which need not be exactly the mu of the specification.
+    nominal: Interval,
+    /// b_hi K h Nb2/2 = theta/(1 + theta).
     pub loss: Interval,
-    /// 1 + theta = 1/(1 - K h Nb2/2).
+    /// 1 + theta = 1/(1 - b_hi K h Nb2/2).
     pub growth: Interval,
-    /// mu = K (1 + theta), which need not be exactly that of the specification.
+    /// mu = b_lo K (1 + theta) with theta of b_lo K.
     pub mu: Interval,
     weight_sum: Interval,
 }
@@ -61,32 +67,56 @@ impl<'a> Law<'a> {
             Some(period) => d.number(&(period * &terms.sigma / terms.samples)),
             None => &h * &sigma,
         };
-        let loss = &gain * &h * &weight_sum / 2;
-        let rest = 1 - &loss;
-        let growth = if rest.is_positive() { rest.recip() } else { Interval::undefined(d.precision) };
+        let loss = |gain: &Interval| gain * &h * &weight_sum / 2;
+        let growth = |loss: &Interval| {
+            let rest = 1 - loss;
+            if rest.is_positive() { rest.recip() } else { Interval::undefined(d.precision) }
+        };
+        let mu = |gain: &Interval| gain * growth(&loss(gain));
+        let (nominal, loss) = (mu(&gain), loss(&d.by_gain(|ends| &ends.high, &gain)));
         Law {
             a: (1 - &share).max(&d.int(0)),
-            mu: &gain * &growth,
+            mu: mu(&d.by_gain(|ends| &ends.low, &gain)),
+            growth: growth(&loss),
             samples: terms.samples,
             d,
             sigma,
             h,
             share,
             gain,
+            nominal,
             loss,
-            growth,
             weight_sum,
         }
     }
 
     /// How the control answers the means of q: with g = 2 (1 + theta)/(2 - h sigma) the factor is `2/sqrt(4 - g)` for g <= 3 and `g - 1` for
-    /// g >= 3, which is 2 at 3 and rises with g; `sum 1/om_j^2 = (T^2 - h^2)/12` over the samples.
-    pub fn answer(&self) -> Answer {
-        let g = &self.growth * 2 / (2 - &self.share);
-        let below = 3 - &g;
-        let factor = if below.is_nonnegative() { 2 / (4 - &g).sqrt() } else { (g - 1).max(&self.d.int(2)) };
+    /// g >= 3, which is 2 at 3 and rises with g; `sum 1/om_j^2 = (T^2 - h^2)/12` over the samples. With a gain b u_k is
+    /// `(e_{k+1} - e_k)/h - qb_k` and u_0 `-q_0/b`: the factor is `(1 + g)/b`, with the g that bounds the differences of e by q.
+    pub fn answer(&self, g: &Interval) -> Answer {
+        let (mean, factor) = match &self.d.gain {
+            Some(gain) => (gain.low.recip(), (g + 1) / &gain.low),
+            None if (3 - g).is_nonnegative() => (self.d.int(1), 2 / (4 - g).sqrt()),
+            None => (self.d.int(1), (g - 1).max(&self.d.int(2))),
+        };
         let by_rate = &factor * ((self.d.period.only().sqr() - self.h.sqr()) / 12).sqrt();
-        Answer { mean: self.d.int(1), factor, by_rate }
+        Answer { mean, factor, by_rate }
+    }
+
+    /// The square of `|e_j|` over that of `|q_j|` with a gain, from `om_j^2` and `|D_j|^2`, where `D_j = (e^{i om h} - a)/h` has the real part
+    /// `sigma - (h/2) om_j^2`: `|D_j|^2` over the square of the least over b of `|D_j|^2/(1 + theta) - (1-b) sigma Re D_j`. That is linear in b,
+    /// and not above `|D_j|` times the distance of `(1-b) sigma` from the line `D_j (1 - beta + i Y)`, `1 - beta >= 1/(1 + theta)`, for
+    /// `q_j = (D_j (1 - beta + i Y) - (1-b) sigma) e_j`. Nothing is known where it is not above 0.
+    pub fn of_error(&self, frequency_squared: &Interval, size_squared: &Interval) -> Interval {
+        let real = &self.sigma - &self.h / 2 * frequency_squared;
+        let [up, down] = self.shifts(&(&self.sigma * real));
+        let least = size_squared / &self.growth - up.max(&down);
+        if least.is_positive() { size_squared / least.sqr() } else { Interval::undefined(self.d.precision) }
+    }
+
+    /// `(1-b) moved` at b_lo, and at b_hi: 0 without a gain.
+    pub fn shifts(&self, moved: &Interval) -> [Interval; 2] {
+        self.d.gain.as_ref().map_or_else(|| [0; 2].map(|zero| self.d.int(zero)), |gain| gain.shifts(moved))
     }
 
     /// S0, all of it decided here: what follows is not even defined without it.
@@ -97,11 +127,12 @@ impl<'a> Law<'a> {
             let message = format!("more than {MAX_SAMPLES} samples in a period are not looked at");
             return Err(finding(Verdict::Undecided, RULE, pointer, message));
         }
-        let apart = (&self.mu - &d.mu).abs();
+        let apart = (&self.nominal - &d.mu).abs();
+        let largest = if d.gain.is_some() { "b_hi K" } else { "K" };
         let conditions = vec![
             Condition::at_most("S0", "h sigma <= 1", self.share.clone(), d.int(1)),
             Condition::at_most("S0b", "Nbar^2 <= weight_sum", d.n_bar.sqr(), self.weight_sum.clone()),
-            Condition::less("S0c", "K h weight_sum < 2", &self.loss * 2, d.int(2)),
+            Condition::less("S0c", format!("{largest} h weight_sum < 2"), &self.loss * 2, d.int(2)),
             Condition::at_most("S0d", "|K (1 + theta) - mu| <= mu/10^6", apart, &d.mu / MU_PARTS),
         ];
         conditions.iter().try_for_each(|condition| condition.demand(RULE, pointer))?;

@@ -2,9 +2,9 @@
 //!
 //! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for this sigma and h, every
 //! n_o < N_s/2 and every phase of the sampling grid there is a T-periodic solution with |x| <= x_per, |e| <= e_per at all times and
-//! |zeta_k|_N <= Z at the samples, and every solution that is in the claimed set at a sample converges to it exponentially. It is
-//! about exact arithmetic, without delay, quantisation or saturation. A matrix inequality, proved of the plant's formulas, may stand in
-//! the place of C5h, and another one beside S1 and S2.
+//! |zeta_k|_N <= Z at the samples, and every solution that is in the claimed set at a sample converges to it exponentially. With an
+//! input gain, or for a family, that is so of each. It is about exact arithmetic, without delay, quantisation or saturation. A matrix
+//! inequality, proved of the plant's formulas, may stand in the place of C5h, and another one beside S1 and S2.
 
 pub mod claim;
 pub mod existence;
@@ -14,16 +14,14 @@ pub mod law;
 pub mod stability;
 pub mod transfer;
 
-use super::common::Sizes;
-use super::common::{Evaluated, Free};
+use super::common::{Evaluated, Free, Sizes};
+use super::control;
 use super::existence::covers;
 use super::inequality::{RULE, demand_plant, reaches};
 use super::set::{self, ClaimedSet};
 use crate::data::Data;
-use crate::input_gain;
 use crate::json::Fields;
-use crate::plant::parameters;
-use crate::verdict::{Outcome, Verdict, bad, demand, finding};
+use crate::verdict::{Outcome, bad, demand};
 use inequality::{Existence, Inequalities, Stability};
 use law::{Law, Terms};
 
@@ -71,14 +69,6 @@ impl Witness {
 /// Evaluates all conditions; S0, the transfer proof and the signs are decided here.
 pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     w.signs()?;
-    if d.spec.input_gain.is_some() {
-        let message = "a claim about the regulator at samples is not available with `input_gain` yet";
-        return Err(finding(Verdict::Undecided, input_gain::RULE, "/claim/regulator", message));
-    }
-    if d.spec.plant.as_ref().is_some_and(|plant| !plant.parameters.is_empty()) {
-        let message = "a claim about the regulator at samples is not available with intervals of `parameters`";
-        return Err(finding(Verdict::Undecided, parameters::RULE, "/claim/regulator", message));
-    }
     let (free, law) = (&w.free, Law::new(d, &w.terms));
     let mut pointers = w.existence.iter().map(|part| &part.pointer).chain(w.stability.iter().map(|part| &part.pointer));
     pointers.try_for_each(|pointer| demand_plant(d, pointer))?;
@@ -91,15 +81,14 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     let covers = w.existence.iter().flat_map(|part| covers(d, [&free.x_p, &free.e_p], [&part.x, &part.e]));
     let existence = of_law.into_iter().chain(covers).chain(solution.conditions);
     let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, vec![transfer], existence);
-    let (level, transient) = free.level(d, &reach, [&law.sigma, &law.gain]);
+    let (level, transient) = free.level(d, &reach, [&law.sigma, &law.gain], true);
     evaluated.conditions.push(level);
-    evaluated.control = [solution.steady, transient];
+    evaluated.control = control::put_out(d, [solution.steady, transient]);
     if let Some(part) = &w.stability {
         evaluated.conditions.extend(reaches(d, &error_box, [&part.x, &part.e], RULE));
     } else {
         evaluated.conditions.extend(error_box.one_sided.iter().cloned());
-        let weights = stability::Weights { w_x: &w_x, eta: &eta };
-        evaluated.conditions.extend(stability::conditions(&law, &error_box, &weights));
+        evaluated.conditions.extend(stability::conditions(&law, &error_box, [&w_x, &eta]));
     }
     Ok(evaluated)
 }

@@ -12,25 +12,19 @@ use crate::verdict::Condition;
 
 type Form = [[Interval; 3]; 3];
 
-/// The weights of U.
-pub struct Weights<'a> {
-    pub w_x: &'a Interval,
-    /// The weight of zeta.
-    pub eta: &'a Interval,
-}
-
 /// k_e = max{k_l, m} bounds |dq/de| in the error box.
 fn steepness(error_box: &ErrorBox) -> Interval {
     error_box.k_e.max(&error_box.most)
 }
 
-/// C5h: `kp = 1 - h k_e/pi > 0`, and the leading minors of Q_0 and Q_h.
-pub fn conditions(law: &Law<'_>, error_box: &ErrorBox, weights: &Weights<'_>) -> Vec<Condition> {
+/// C5h: `kp = 1 - h k_e/pi > 0`, and the leading minors of Q_0 and Q_h. With a gain the weight of zeta is `b eta` (section 13.1), so that
+/// `eta/K` stands beside y for every b.
+pub fn conditions(law: &Law<'_>, error_box: &ErrorBox, [w_x, eta]: [&Interval; 2]) -> Vec<Condition> {
     let zero = law.d.int(0);
     let room = 1 - &law.h * steepness(error_box) / Interval::pi(law.d.precision);
     let mut conditions = vec![Condition::less("C5h", "0 < 1 - h k_e/pi", zero.clone(), room.clone())];
     for (name, at_end) in [("Q_0", false), ("Q_h", true)] {
-        let minors = minors(&form(law, error_box, weights, &room, at_end));
+        let minors = minors(&form(law, error_box, [w_x, eta], &room, at_end));
         let positive = |(i, minor): (usize, Interval)| {
             Condition::less("C5h", format!("0 < minor {} of {name}", i + 1), zero.clone(), minor)
         };
@@ -40,7 +34,7 @@ pub fn conditions(law: &Law<'_>, error_box: &ErrorBox, weights: &Weights<'_>) ->
 }
 
 /// The symmetric matrix of Q_t in (X, E, Y) at t = 0 or t = h.
-fn form(law: &Law<'_>, error_box: &ErrorBox, weights: &Weights<'_>, room: &Interval, at_end: bool) -> Form {
+fn form(law: &Law<'_>, error_box: &ErrorBox, [w_x, eta]: [&Interval; 2], room: &Interval, at_end: bool) -> Form {
     let d = law.d;
     let [t, ts, loss] =
         if at_end { [&law.h, &law.share, &law.loss].map(Interval::clone) } else { [0; 3].map(|zero| d.int(zero)) };
@@ -52,13 +46,15 @@ fn form(law: &Law<'_>, error_box: &ErrorBox, weights: &Weights<'_>, room: &Inter
     let c_y = &reach / d.int(3).sqrt();
     let g = &reach * &k_e / d.int(12).sqrt();
     let bend = &t * &reach * k_e.sqr() / 6;
-    let coupling = weights.w_x * d.p_up.sqrt() * &error_box.k_f;
-    let scaled = weights.eta / &law.gain;
+    let coupling = w_x * d.p_up.sqrt() * &error_box.k_f;
+    let scaled = eta / &law.gain;
     let mean = &scaled * (1 - &ts / 2);
     let rest = 1 - &ts;
-    let damping = (&rest + &mean * &error_box.most).abs().max(&(&rest - &mean * &error_box.k_e).abs());
+    // y has (1-b) sigma e_k in it.
+    let [up, down] = law.shifts(&(&scaled * &law.sigma));
+    let damping = (&rest + &mean * &error_box.most + up).abs().max(&(&rest - &mean * &error_box.k_e + down).abs());
 
-    let xx = weights.w_x * &error_box.rate * 2 - &coupling * &c_x * 2;
+    let xx = w_x * &error_box.rate * 2 - &coupling * &c_x * 2;
     let xe = -(&coupling * c_e);
     let xy = -(&coupling * c_y + &scaled * k_x * (1 + &g));
     let ee = &law.sigma * (2 - ts);
