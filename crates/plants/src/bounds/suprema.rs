@@ -350,6 +350,12 @@ impl FloatSuprema {
         }
     }
 
+    /// The 1 - b at both ends of an input gain; none where it is 1.
+    #[must_use]
+    pub fn moves(&self) -> Option<[f64; 2]> {
+        self.moves
+    }
+
     /// Whether the derivatives depend on the states or on the error.
     #[must_use]
     pub fn varies(&self) -> bool {

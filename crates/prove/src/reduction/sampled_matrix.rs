@@ -222,7 +222,7 @@ impl<'a> MatrixAtSamples<'a> {
 
     fn numbers(&self, sigma: f64) -> LoopNumbers<f64> {
         let SampledLaw { step, gain, weight_sum, pi, .. } = &self.law;
-        LoopNumbers::new(sigma, *step, [*gain, *weight_sum], pi)
+        LoopNumbers::new(sigma, *step, [*gain, *weight_sum], pi, self.suprema.moves())
     }
 
     /// The model at one gain.

@@ -5,6 +5,7 @@ use crate::data::Problem;
 use crate::derivation::energy::EnergyBounds;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{Forcing, Gains, Response};
+use crate::input_gain::InputGain;
 use sigmastar_exact::real::{Operand, Real};
 
 /// With more samples than these 1 + theta, which is then nearly 1, stands for every Sb_j.
@@ -23,6 +24,8 @@ pub struct SampledGains<R> {
     pub rms_by_rate: R,
     /// 2 (1 + theta)/(2 - h sigma): rms(e') over rms(q).
     pub rate: R,
+    /// 1 + theta: the mean square of the y_k over rms(q).
+    pub means: R,
     /// sqrt(1/sg_S^2 + (h/pi)^2): rms(e') over rms(q').
     pub rate_by_rate: R,
     /// (h/(2 pi)) sqrt(h T): what e is off its straight lines between samples, over rms(q').
@@ -37,7 +40,10 @@ pub struct SampledGains<R> {
     pub between_by_size: R,
     /// What a matrix inequality says of the periodic solution, where there is one (derivation, 13.7, (E) at samples); of y at samples.
     energy: Option<EnergyBounds<R>>,
-    /// mu and 1 + theta of the law.
+    /// How far the worst harmonic is from being without one, of an input gain: the least `1/(1+theta) - (1-b) sigma Re D_j/|D_j|^2`, to be
+    /// positive.
+    pub room: Option<R>,
+    /// mu of the law, and what multiplies Z: 1 + theta, with an input gain times `1 + dl max sigma |e_j|/|qb_j|`.
     mu: R,
     enlarged: R,
 }
@@ -49,7 +55,8 @@ where
     /// Evaluates the gains. Hypotheses: K h Nb2 < 2, h sigma <= 1.
     ///
     /// With Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|} the harmonics of y are at most Sb_j times those of the means of q, and 0
-    /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike.
+    /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike. With an input gain it is [`Worst`] that
+    /// bounds each of them.
     #[must_use]
     pub fn new(law: &SampledLaw<R>, sigma: &R, period: &R) -> SampledGains<R> {
         let one = R::int(1);
@@ -57,40 +64,57 @@ where
         let decay = &one - &product;
         let share = |sine: &R| sigma.sqr() + &decay * law.frequency_squared(sine);
         let largest = law.enlarged.sqr();
+        let mut worst = law.input_gain.as_ref().map(Worst::new);
         let nothing = &largest * R::int(0);
         let (mut sup, mut sup_by_rate, mut sup_of_means) = (nothing.clone(), nothing.clone(), nothing);
         for (j, sine) in (1_u32..).zip(law.sines.iter()) {
             let cosine = &one - sine;
-            let gain = if law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
+            let size = share(sine);
+            let gain = if let Some(worst) = &mut worst {
+                worst.take(law, sigma, [sine, &size])
+            } else if law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
                 largest.min(&(&one / cosine))
             } else {
                 largest.clone()
             };
             let times = if 2 * j == law.samples { one.clone() } else { R::int(2) };
-            let own = times / share(sine);
+            let own = times / size;
             let term = gain * &own;
             sup_of_means = sup_of_means + own;
             sup_by_rate = sup_by_rate + &term / law.frequency_squared(sine);
             sup = sup + term;
         }
         let first = law.first_frequency_squared();
-        let rms = &one / slowest(law, sigma, &decay);
+        let rate_of_means = R::int(2) / (R::int(2) - product);
+        let (rms, rate, means, enlarged) = match &worst {
+            None => {
+                let rms = &one / slowest(law, sigma, &decay);
+                (rms, &rate_of_means * &law.enlarged, law.enlarged.clone(), law.enlarged.clone())
+            }
+            Some(Worst { gain, error, rate, means, .. }) => {
+                let [rms, rate, means] = [error, rate, means].map(R::sqrt);
+                let enlarged = &law.enlarged * (&one + gain.largest_shift() * sigma * &rms);
+                (rms, rate, means, enlarged)
+            }
+        };
         let in_between = &law.step / &law.pi;
         SampledGains {
             sup: sup.sqrt(),
             sup_of_means: sup_of_means.sqrt(),
-            rate_of_means: R::int(2) / (R::int(2) - &product),
+            rate_of_means,
             between_by_size: (&law.step * period).sqrt() / R::int(2),
             energy: None,
             sup_by_rate: sup_by_rate.sqrt(),
             rms_by_rate: &rms / first.sqrt(),
-            rate: R::int(2) * &law.enlarged / (R::int(2) - product),
+            rate,
+            means,
             rate_by_rate: (rms.sqr() + in_between.sqr()).sqrt(),
             rms,
             between: &in_between / R::int(2) * (&law.step * period).sqrt(),
             between_rms: in_between.sqr(),
+            room: worst.map(|worst| worst.room),
             mu: law.mu.clone(),
-            enlarged: law.enlarged.clone(),
+            enlarged,
         }
     }
 
@@ -105,6 +129,53 @@ where
     #[must_use]
     pub fn has_energy(&self) -> bool {
         self.energy.is_some()
+    }
+}
+
+/// The worst harmonics with an input gain (derivation, 13.1): with `D_j = (e^{i om h} - a)/h`
+///
+/// `|e_j| <= F_j |qb_j|`, `F_j = |D_j| / min_b ( |D_j|^2/(1+theta) - (1-b) sigma Re D_j )`, y_j = D_j e_j,
+///
+/// over b in {b_lo, b_hi}, with theta that of b_hi. For `e_j = qb_j/(D_j (1 + b K h G) - (1-b) sigma)`, where `1 + b K h G = 1 - be + i eta` with a
+/// real eta and `1 - be >= 1/(1+theta)`: that is on a line, the distance of which from 0 is the minimum over `|D_j|`.
+struct Worst<'g, R> {
+    gain: &'g InputGain<R>,
+    /// The largest F_j^2.
+    error: R,
+    /// The largest om_j^2 F_j^2, which is at least 1: at the largest j it is that at b = 1, and om_j^2 >= 3/h^2 there.
+    rate: R,
+    /// The largest |D_j|^2 F_j^2.
+    means: R,
+    /// The least `1/(1+theta) - (1-b) sigma Re D_j/|D_j|^2`.
+    room: R,
+}
+
+impl<'g, R: Real> Worst<'g, R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    fn new(gain: &'g InputGain<R>) -> Worst<'g, R> {
+        let none = || R::int(0);
+        Worst { gain, error: none(), rate: none(), means: none(), room: R::int(1) }
+    }
+
+    /// Takes a harmonic into account, by its sine and |D_j|^2: |y_j|^2 is at most so many times |qb_j|^2; unknown where a
+    /// denominator may vanish.
+    fn take(&mut self, law: &SampledLaw<R>, sigma: &R, [sine, size]: [&R; 2]) -> R {
+        let one = R::int(1);
+        let squared = law.frequency_squared(sine);
+        // sigma Re D_j = sigma (sigma - h om_j^2/2), over |D_j|^2.
+        let along = sigma * (sigma - &law.step * &squared / R::int(2)) / size;
+        let InputGain { low, high } = self.gain;
+        let moved = (&along * (&one - low)).max(&(along * (&one - high)));
+        let room = &one - law.lost() - moved;
+        let of_y = if room.is_certainly_positive() { &one / room.sqr() } else { R::unknown() };
+        let own = &of_y / size;
+        self.room = self.room.min(&room);
+        self.rate = self.rate.max(&(squared * &own));
+        self.error = self.error.max(&own);
+        self.means = self.means.max(&of_y);
+        of_y
     }
 }
 

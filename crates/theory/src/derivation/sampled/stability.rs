@@ -3,6 +3,7 @@
 use super::law::SampledLaw;
 use crate::data::{Numbers, Problem};
 use crate::derivation::stability::ErrorBox;
+use crate::input_gain::InputGain;
 use sigmastar_exact::real::{Operand, Real};
 
 /// `xx X^2 + ee E^2 + yy Y^2 - xe XE - xy XY - ey EY`; the last three are nonnegative.
@@ -111,13 +112,16 @@ where
             let c_x = &motion * k_x / (&law.pi * &within);
             let c_e = (&one - &ts + ts.sqr() / R::int(3)).sqrt() + &within_t / &law.pi;
             let c_y = (motion.sqr() / R::int(3)).sqrt() / &within;
-            // |1 - ts + (eta/K)(1 - ts/2) delta| at the ends of the sector.
-            let mean = &weight * (&one - &ts / &two);
-            let at = |slope: R| {
-                let value = &one - &ts + &mean * slope;
+            // |1 - ts + (eta/K) ((1 - ts/2) delta + (1-b) sigma)| at the ends of the sector: delta and 1 - b grow together.
+            let mean = &one - &ts / &two;
+            let at = |slope: R, b: Option<&R>| {
+                let slope = &mean * slope;
+                let moved = b.map_or_else(|| slope.clone(), |b| &slope + (&one - b) * sigma);
+                let value = &one - &ts + &weight * moved;
                 value.max(&-value.clone())
             };
-            let worst = at(sector.above.clone()).max(&at(-sector.below.clone()));
+            let (low, high) = law.input_gain.as_ref().map(|InputGain { low, high }| (low, high)).unzip();
+            let worst = at(sector.above.clone(), low).max(&at(-sector.below.clone(), high));
             Form {
                 xx: &two * w_x * rate - &coupling * c_x,
                 xe: &coupling * c_e,
