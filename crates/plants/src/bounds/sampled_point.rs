@@ -120,8 +120,7 @@ impl SampledWeights {
             let parts = point.with(|i, k| if i == k { self.w_x } else { 0.0 }, 0.0);
             let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
             let k_p = 2.0 * self.eta / self.of.gain;
-            let numbers =
-                FormNumbers { of: &self.of, end, moved: *moved, weight: 1.0, k_p, lambda, less, gamma: None };
+            let numbers = FormNumbers { of: &self.of, end, moved: *moved, weight: 1.0, k_p, lambda, less, gamma: None };
             let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
             let own = last.pop().unwrap_or(f64::NAN);
             match Root::new(&before) {

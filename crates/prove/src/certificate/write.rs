@@ -94,7 +94,8 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("control", control_json(run.control()?)),
         ("statement", text(statement(run, sigma, set))),
     ];
-    let claim = object(heading.into_iter().chain(input_gain_json(spec)).chain(period).chain(parameters_json(spec)).chain(rest));
+    let claim =
+        object(heading.into_iter().chain(input_gain_json(spec)).chain(period).chain(parameters_json(spec)).chain(rest));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))

@@ -6,8 +6,7 @@ use sigmastar_lang::spec::{ErrorKind, SpecErrors, Specification};
 use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
 
 /// What helps where `input_gain` is not honoured.
-pub const WITHOUT_INPUT_GAIN: &str =
-    "leave `input_gain` out where the gain is known; `sigmastar certify` takes it";
+pub const WITHOUT_INPUT_GAIN: &str = "leave `input_gain` out where the gain is known; `sigmastar certify` takes it";
 
 /// That something does not know what to do with `input_gain`.
 #[must_use]

@@ -16,10 +16,7 @@ pub(super) fn interval_costs(plant: &Plant, gain: impl Fn(&Plant) -> Option<f64>
     });
     let nominal = || ("period".to_owned(), Some(plant.at_period(plant.period.nominal())));
     let closed: Vec<_> = known.chain(plant.period.interval().map(|_| nominal())).collect();
-    closed
-        .into_par_iter()
-        .map(|(name, closed)| (name, closed.and_then(|closed| gain(&closed))))
-        .collect()
+    closed.into_par_iter().map(|(name, closed)| (name, closed.and_then(|closed| gain(&closed)))).collect()
 }
 
 /// The same for the regulator at samples, and first what it would be with the nominal `input_gain`; a specification has no other interval.

@@ -118,14 +118,13 @@ impl Prepared {
                     Run::Continuous(Box::new(run))
                 })
             }
-            Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder).map(
-                |mut run| {
+            Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
+                .map(|mut run| {
                     if options.compare && gain.is_none() && run.claim().is_some() {
                         run.interval_costs = costs_at_samples((spec, self.plant.as_deref()), sampling, options.ladder);
                     }
                     Run::Sampled(Box::new(run))
-                },
-            ),
+                }),
             Start::Given(FreeNumbers::Continuous(witness)) => {
                 recheck(spec, witness, options).map(|run| Run::Continuous(Box::new(run)))
             }

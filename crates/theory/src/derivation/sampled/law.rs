@@ -133,3 +133,34 @@ where
         self.sines.first().map_or_else(R::unknown, |sine| self.frequency_squared(sine))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::derivation::sampled::examples::{example, law};
+    use serde_json::json;
+
+    /// theta of the largest gain, mu of the smallest one, and the mu that is asked for as without an interval.
+    #[test]
+    fn an_input_gain_moves_theta_and_mu() {
+        let of = |gain: Option<[&str; 3]>| {
+            let spec = example(50, "3", |file| {
+                if let Some([nominal, low, high]) = gain {
+                    file["input_gain"] = json!({ "nominal": nominal, "low": low, "high": high });
+                }
+            });
+            law(&Data::new(&spec, 128)).to_f64()
+        };
+        let plain = of(None);
+        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-14;
+        assert!(close(plain.load(), plain.gain * 0.02 * plain.weight_sum) && close(plain.mu, plain.nominal_mu));
+        let known = of(Some(["2", "2", "2"]));
+        assert!(close(known.mu, plain.mu) && close(known.enlarged, plain.enlarged) && known.input_gain.is_none());
+        // b from 1/2 to 3/2.
+        let wide = of(Some(["2", "1", "3"]));
+        assert!(close(wide.gain, plain.gain) && close(wide.nominal_mu, plain.nominal_mu));
+        assert!(close(wide.load(), 1.5 * plain.load()) && close(wide.lost(), 0.75 * plain.load()));
+        assert!(close(wide.enlarged, 1.0 / (1.0 - 0.75 * plain.load())));
+        assert!(close(wide.mu, 0.5 * plain.gain / (1.0 - 0.25 * plain.load())));
+    }
+}
