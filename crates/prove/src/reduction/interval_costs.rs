@@ -2,6 +2,7 @@
 
 use super::sampled::reduce_sampled;
 use crate::certify::{Ladder, certify_sampled};
+use crate::search::SampledProposal;
 use rayon::prelude::*;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Sampling, Specification};
@@ -20,12 +21,14 @@ pub(super) fn interval_costs(plant: &Plant, gain: impl Fn(&Plant) -> Option<f64>
 }
 
 /// The same for the regulator at samples, and first what it would be with the nominal `input_gain`; a specification has no other interval.
+/// Never above `sigma`, the gain of all of them, which serves each.
 pub(super) fn costs_at_samples(
     (spec, plant): (&Specification, Option<&Plant>),
-    sampling: &Sampling,
+    (sampling, sigma): (&Sampling, f64),
     ladder: Ladder,
 ) -> Vec<(String, Option<f64>)> {
-    let of_plant = |plant: &Plant| reduce_sampled(plant, sampling, None).ok().map(|found| found.proposal.sigma);
+    let at_most = |proposal: SampledProposal| proposal.sigma.min(sigma);
+    let of_plant = |plant: &Plant| reduce_sampled(plant, sampling, None).ok().map(|found| at_most(found.proposal));
     let uncertain = spec.input_gain.as_ref().filter(|gain| !gain.is_nominal());
     let of_gain = uncertain.map(|_| {
         let sigma = match plant {
@@ -33,7 +36,7 @@ pub(super) fn costs_at_samples(
             None => {
                 let known = Specification { input_gain: None, ..spec.clone() };
                 let found = certify_sampled(&known, sampling, None, None, ladder).ok().and_then(|run| run.found);
-                found.map(|(proposal, _)| proposal.sigma)
+                found.map(|(proposal, _)| at_most(proposal))
             }
         };
         ("input_gain".to_owned(), sigma)

@@ -120,8 +120,10 @@ impl Prepared {
             }
             Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
                 .map(|mut run| {
-                    if options.compare && gain.is_none() && run.claim().is_some() {
-                        run.interval_costs = costs_at_samples((spec, self.plant.as_deref()), sampling, options.ladder);
+                    let claimed = run.claim().map(|proof| proof.witness.sigma.to_f64());
+                    if let Some(sigma) = claimed.filter(|_| options.compare && gain.is_none()) {
+                        let subject = (spec, self.plant.as_deref());
+                        run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder);
                     }
                     Run::Sampled(Box::new(run))
                 }),
