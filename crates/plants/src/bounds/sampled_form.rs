@@ -164,8 +164,9 @@ pub(super) struct Parts<V> {
 ///
 /// With e(s) = (1 - s sigma) e_k + s y + G the form is that of the block of x, -2 x'P g e(s) + sigma (2 - h sigma) e_k^2
 /// - 2 (1 - h sigma) e_k y - h y^2 + k_p y^2/(1 + theta) - k_p y (r x + d e(s) + q0) + lambda G^2
-/// + 2 lambda (h/pi) w (r x + d e(s) + q0) + lambda w^2 + gamma q0^2, less what it must exceed; with an input gain less
-/// k_p (1-b) sigma e_k y, for y = q + (1-b) sigma e_k + b K v in the mean (13.1).
+/// + 2 lambda (h/pi) w (r x + d e(s) + q0) + lambda w^2 + gamma q0^2, less what it must exceed.
+///
+/// With an input gain less `k_p (1-b) sigma e_k y`, for y = q + (1-b) sigma e_k + b K v in the mean (13.1).
 pub(super) fn form<A: Arithmetic>(
     a: &A,
     numbers: FormNumbers<'_, A::Number>,
