@@ -22,7 +22,6 @@ pub fn run(args: &SamplingArgs) -> u8 {
 fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
     let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec, args.replace)).transpose()?;
     let subject = Subject::read(&input::document(&args.spec)?)?;
-    subject.without_input_gain("`sampling`").map_err(Failure::Documents)?;
     let (name, sha256, period) =
         (subject.name().to_owned(), subject.sha256().to_owned(), subject.period().nominal().clone());
     if !subject.is_matched() {

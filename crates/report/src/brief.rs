@@ -47,7 +47,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
             .map(|sigma| ("aligned start", sensitivity::aligned(sigma))),
     );
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
-    facts.extend(interval_costs(run).map(|said| ("intervals", said)));
+    facts.extend(interval_costs(&run.interval_costs, "sigma*").map(|said| ("intervals", said)));
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
     // It grows with the gain, of which the claim says "or any larger".
@@ -79,6 +79,8 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
+    facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
+    facts.extend(interval_costs(&run.interval_costs, "the gain").map(|said| ("intervals", said)));
     let of_the_computer = "no delay, rounding, quantisation or saturation";
     facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
@@ -140,19 +142,24 @@ fn set_by(run: &Certification<'_>) -> Option<String> {
 
 /// The interval of the input gain, and what it costs.
 fn input_gain(run: &Certification<'_>) -> Option<String> {
-    let interval = words::input_gain(run.spec)?;
-    let nominal = run.spec.input_gain.as_ref().map_or_else(String::new, |gain| clean(&gain.nominal.text));
+    let said = uncertain_gain(run.spec)?;
     let known = run.alternatives.nominal_gain.filter(|_| run.given_gain.is_none());
     let known = known.map_or_else(String::new, |sigma| format!("; {}", sensitivity::nominal_gain(sigma)));
-    Some(format!("any constant from {interval}; the regulator divides by {nominal}{known}"))
+    Some(format!("{said}{known}"))
+}
+
+/// The interval of the input gain.
+fn uncertain_gain(spec: &Specification) -> Option<String> {
+    let (interval, gain) = (words::input_gain(spec)?, spec.input_gain.as_ref()?);
+    Some(format!("any constant from {interval}; the regulator divides by {}", clean(&gain.nominal.text)))
 }
 
 /// What the intervals of parameters cost.
-fn interval_costs(run: &Certification<'_>) -> Option<String> {
-    let found = run.interval_costs.iter().filter_map(|(name, sigma)| Some((name, (*sigma)?)));
+fn interval_costs(all: &[(String, Option<f64>)], gain: &str) -> Option<String> {
+    let found = all.iter().filter_map(|(name, sigma)| Some((name, (*sigma)?)));
     let costs: Vec<String> =
         found.map(|(name, sigma)| format!("{} with {name} known exactly", estimate(sigma))).collect();
-    (!costs.is_empty()).then(|| format!("sigma* would be about {} (estimates)", costs.join(", ")))
+    (!costs.is_empty()).then(|| format!("{gain} would be about {} (estimates)", costs.join(", ")))
 }
 
 /// The bounds of the error for a few n_o.

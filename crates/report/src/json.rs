@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, full};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::InputGain;
+use sigmastar_lang::spec::{InputGain, Specification};
 use sigmastar_prove::certificate::{conditions_json, constants_json, no_plant_json, set_fields};
 use sigmastar_prove::certify::{Certification, Outcome, Verdict};
 use sigmastar_prove::search::{Binding, OptionalDatum};
@@ -71,18 +71,28 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     ] {
         report[name] = value;
     }
-    if let Some(InputGain { nominal, low, high }) = &run.spec.input_gain {
-        report["input_gain"] = json!({ "nominal": nominal.text, "low": low.text, "high": high.text });
+    if let Some(gain) = input_gain(run.spec) {
+        report["input_gain"] = gain;
         report["sigma_star_nominal_gain_estimate"] = json!(run.alternatives.nominal_gain.map(estimate));
     }
     if let Some([low, high]) = run.spec.period.interval() {
         report["period"] = json!({ "nominal": run.spec.period.nominal().text, "low": low.text, "high": high.text });
     }
     if !run.interval_costs.is_empty() {
-        let costs = run.interval_costs.iter().map(|(name, sigma)| (name.clone(), json!(sigma.map(estimate))));
-        report["sigma_star_without_interval_estimates"] = costs.collect::<serde_json::Map<_, _>>().into();
+        report["sigma_star_without_interval_estimates"] = interval_costs(&run.interval_costs);
     }
     report
+}
+
+/// The interval of the input gain, where there is one.
+pub(super) fn input_gain(spec: &Specification) -> Option<Value> {
+    let InputGain { nominal, low, high } = spec.input_gain.as_ref()?;
+    Some(json!({ "nominal": nominal.text, "low": low.text, "high": high.text }))
+}
+
+/// The gain with each interval closed to its nominal value.
+pub(super) fn interval_costs(all: &[(String, Option<f64>)]) -> Value {
+    all.iter().map(|(name, sigma)| (name.clone(), json!(sigma.map(estimate)))).collect::<serde_json::Map<_, _>>().into()
 }
 
 /// The conditions as in a certificate, with the truth of each.

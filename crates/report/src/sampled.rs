@@ -1,7 +1,7 @@
 //! The report on a certification of the regulator at samples.
 
 use super::failures::{FORMAT, VERSION, errors_json};
-use super::json::{conditions_with_truth, control};
+use super::json::{conditions_with_truth, control, input_gain, interval_costs};
 use super::obstacles::{describe, first_of, rest_of};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
@@ -122,7 +122,10 @@ impl<'r> SampledReport<'r> {
     fn basis(&self) -> Vec<String> {
         let run = self.run;
         let mut items = vec![
-            "Derivation: sharp, for the regulator at samples (section 12 of the mathematics).".to_owned(),
+            format!(
+                "Derivation: sharp, for the regulator at samples (section 12 of the mathematics{}).",
+                if run.spec.input_gain.is_some() { ", 13.1 for the input gain" } else { "" }
+            ),
             "The gain is a value for this sampling period, not a threshold: neither a larger gain nor a shorter sampling period \
              follows from it."
                 .to_owned(),
@@ -147,13 +150,14 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     let samples = witness.sampling.samples;
     format!(
         "Certified: the regulator at samples h = {} apart ({samples} in a period) with sigma = {} and K = {}, mu = {} and base \
-         frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples: every solution that \
+         frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples{}: every solution that \
          starts, at a sampling instant, from {} converges exponentially to a T-periodic solution, T = {}.",
         clean(&witness.sampling.text()),
         write_exact(&witness.sigma),
         sigmastar_document::number::compact(&proof.evaluation.law.gain),
         clean(&spec.internal_model.mu.text),
         clean(&spec.internal_model.base_frequency.text),
+        words::of_all(spec),
         words::set(spec, &witness.set),
         clean(&spec.period.nominal().text),
     )
@@ -186,7 +190,13 @@ fn sets(run: &SampledCertification<'_>) -> Vec<Block> {
             ("samples in a period", witness.sampling.samples.to_string()),
             ("h sigma", upper(&evaluation.product)),
             ("K, of u = -sigma e + K v", sigmastar_document::number::compact(&law.gain)),
-            ("theta = h mu Nbar^2/2", upper(&theta(law))),
+            (
+                match law.input_gain {
+                    None => "theta = h mu Nbar^2/2",
+                    Some(_) => "theta at the largest input gain",
+                },
+                upper(&theta(law)),
+            ),
         ]),
         Block::Table(sizes.table),
     ];
@@ -258,9 +268,15 @@ impl Readable for SampledReport<'_> {
             let [x, e, zeta, z] = periodic.each_ref().map(full);
             report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             report["control"] = control(run.control());
+            if !run.interval_costs.is_empty() {
+                report["sigma_without_interval_estimates"] = interval_costs(&run.interval_costs);
+            }
             report["error_box"] = json!({ "D_x": write_exact(&witness.d_x), "D_e": write_exact(&witness.d_e) });
         } else {
             report["advice"] = json!(self.advice());
+        }
+        if let Some(gain) = input_gain(run.spec) {
+            report["input_gain"] = gain;
         }
         if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(full)) {
             report["largest_arguments"] = json!({ "X": x, "E": e });

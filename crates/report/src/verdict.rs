@@ -25,16 +25,7 @@ pub fn sentence(run: &Certification<'_>) -> String {
             exact(sigma, Direction::Up),
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
-            words::input_gain(spec)
-                .map(|interval| format!(" and every constant input gain from {interval}"))
-                .into_iter()
-                .chain(
-                    spec.plant()
-                        .and_then(|plant| members(&plant.parameters))
-                        .map(|members| format!(" and every plant with {members}"))
-                )
-                .chain(words::period(spec).map(|interval| format!(" and every constant period T from {interval}")))
-                .collect::<String>(),
+            words::of_all(spec),
             words::set(spec, set),
             match spec.period.interval() {
                 None => format!(", T = {}", clean(&spec.period.nominal().text)),

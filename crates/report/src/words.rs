@@ -5,6 +5,7 @@ use sigmastar_document::clean;
 use sigmastar_document::number::exact;
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::{InputGain, Specification, StartSizes};
+use sigmastar_prove::certificate::members;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
 /// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`, or `z = M e`.
@@ -18,6 +19,16 @@ pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
 /// "0.8 to 1.25": the interval of the input gain, where the document has one.
 pub(super) fn input_gain(spec: &Specification) -> Option<String> {
     spec.input_gain.as_ref().map(|InputGain { low, high, .. }| format!("{} to {}", clean(&low.text), clean(&high.text)))
+}
+
+/// " and every constant input gain from 0.8 to 1.25 and every plant with ...": all that a claim is about beside every number of
+/// oscillators.
+pub(super) fn of_all(spec: &Specification) -> String {
+    let gains = input_gain(spec).map(|interval| format!(" and every constant input gain from {interval}"));
+    let plants = spec.plant().and_then(|plant| members(&plant.parameters));
+    let plants = plants.map(|members| format!(" and every plant with {members}"));
+    let periods = period(spec).map(|interval| format!(" and every constant period T from {interval}"));
+    [gains, plants, periods].into_iter().flatten().collect()
 }
 
 /// "1/50.2 to 1/49.8": the interval of the period, where only that is known.

@@ -93,15 +93,16 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
             must("sigma_star", "sigma*", "Every gain from this one on is certified, in 1/time.", rational()),
             word("n_o", "n_o", "For which numbers of oscillators.", "every n_o >= 0"),
         ]);
-        let exact = |name, title: &str, text: &str| must(name, title, text, Shape::Constant(Sign::Positive));
-        let gain = vec![
-            exact("nominal", "Nominal gain", "What the regulator divides its control by."),
-            exact("low", "Smallest gain", "The smallest gain that is covered."),
-            exact("high", "Largest gain", "The largest gain that is covered."),
-        ];
-        let text =
-            "Every constant gain of the actuator from `low` to `high` is covered; there where the document has one.";
-        fields.push(may("input_gain", "Input gain", text, Shape::Object(gain)));
+    }
+    let exact = |name, title: &str, text: &str| must(name, title, text, Shape::Constant(Sign::Positive));
+    let gain = vec![
+        exact("nominal", "Nominal gain", "What the regulator divides its control by."),
+        exact("low", "Smallest gain", "The smallest gain that is covered."),
+        exact("high", "Largest gain", "The largest gain that is covered."),
+    ];
+    let text = "Every constant gain of the actuator from `low` to `high` is covered; there where the document has one.";
+    fields.push(may("input_gain", "Input gain", text, Shape::Object(gain)));
+    if !sampled {
         let period = vec![
             exact("nominal", "Nominal period", "What the oscillators are about."),
             exact("low", "Shortest period", "The shortest period that is covered."),
@@ -132,7 +133,7 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         may("control", "Control", "Bounds of |u| at the gain of the claim.", Shape::Object(control.into())),
         must("statement", "Statement", "The claim in words.", Shape::Text),
     ]);
-    if of_plant && !sampled {
+    if of_plant {
         let ends = ["nominal", "low", "high"];
         let interval = ends.map(|name| must(name, name, "A value of the parameter.", rational()));
         let text = "The intervals of the parameters: the claim is for every constant value in them.";

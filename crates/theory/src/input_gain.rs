@@ -65,6 +65,13 @@ where
         self.low.sqr() * &self.low
     }
 
+    /// The largest |1 - b|: q_b = q + (1-b) sigma e is so far from q, in units of sigma |e|.
+    #[must_use]
+    pub fn largest_shift(&self) -> R {
+        let one = R::int(1);
+        (&one - &self.low).max(&(&self.high - one))
+    }
+
     /// The sector of dq/de + (1-b) sigma over both ends, from that of dq/de, with which C5 is what it is without a gain: from
     /// `-(k_l + (b_hi - 1) sigma)` up to `m + (1 - b_lo) sigma`.
     ///

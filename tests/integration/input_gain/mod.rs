@@ -2,6 +2,7 @@
 //! regulator, a simulation and a falsification make of it.
 
 mod actuator;
+mod at_samples;
 mod loops;
 
 use crate::support::{ROOT, cases, json, options, program, specification_text, utf8};
@@ -239,17 +240,11 @@ fn written_wider(folder: &Path, name: &str) -> String {
 fn what_is_not_built_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let file = written(folder.path(), "no-x", &gain("1", "0.9", "1.1"));
-    for call in [
-        vec!["certify", &file, "--sampling-period", "1/100"],
-        vec!["sampling", &file],
-        vec!["rate", &file, "--n-o", "1"],
-    ] {
-        let errors = utf8(program().args(&call).assert().code(2).get_output().stderr.clone());
-        assert!(
-            errors.contains("error[not-available]") && errors.contains("is not available with `input_gain`"),
-            "{errors}"
-        );
-    }
+    let errors = utf8(program().args(["rate", &file, "--n-o", "1"]).assert().code(2).get_output().stderr.clone());
+    assert!(
+        errors.contains("error[not-available]") && errors.contains("is not available with `input_gain`"),
+        "{errors}"
+    );
     // Of a gain that is known rates are those of the loop without one.
     let known = written(folder.path(), "no-x", &gain("2", "2", "2"));
     program().args(["rate", &known, "--n-o", "1"]).assert().code(0);

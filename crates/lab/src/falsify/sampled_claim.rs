@@ -1,6 +1,6 @@
 //! What a claim about the law at samples is about.
 
-use sigmastar_lang::spec::{Constant, InternalModel, SampledGain};
+use sigmastar_lang::spec::{Constant, SampledGain, Specification};
 use sigmastar_regulator::{Design, Discrete, Regulator};
 use sigmastar_theory::derivation::sampled::SampledWitness;
 
@@ -29,8 +29,8 @@ impl SampledClaim {
 
     /// The regulator with n_o oscillators and its law; `None` where a number is beyond double precision.
     #[must_use]
-    pub fn regulator(&self, model: &InternalModel, n_o: u32) -> Option<(Regulator, Discrete)> {
-        let design = Design::new(model, &self.sigma, n_o);
+    pub fn regulator(&self, spec: &Specification, n_o: u32) -> Option<(Regulator, Discrete)> {
+        let design = Design::new(&spec.internal_model, &self.sigma, n_o).for_actuator(spec.input_gain.as_ref());
         let (regulator, discrete) = (design.regulator(), design.discretise_with(&self.step, &self.law)?);
         (regulator.is_representable() && discrete.is_representable()).then_some((regulator, discrete))
     }

@@ -23,11 +23,14 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
     let tried = law.tried_n_o();
     // From the first trial on, so that the ends are tried whatever the number of trials is.
     let n_o = tried.get((number.saturating_sub(1) % tried.len().max(1) as u64) as usize).copied().unwrap_or(0);
-    let Some((regulator, discrete)) = law.regulator(&claim.spec.internal_model, n_o) else {
+    let Some((regulator, discrete)) = law.regulator(&claim.spec, n_o) else {
         return Finding::Unfinished("a number of the law at samples is beyond double precision".to_owned());
     };
     // On the grid itself, then anywhere: a claim is about every phase.
     let phase = if number == 1 { 0.0 } else { random.uniform() * claim.spec.period.nominal().to_f64() };
+    let member = claim.member(number, &mut random);
+    let (parameters, input_gain) = (claim.named(&member), member.input_gain);
+    let claim = &*claim.about(&member);
     let (plant, mut start) = match &claim.own {
         Some(own) => {
             let n = own.plant.states();
@@ -51,9 +54,9 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         sigma: law.sigma.to_f64(),
         n_o,
         start,
-        input_gain: None,
+        input_gain,
         period: None,
-        parameters: Vec::new(),
+        parameters,
         phase: Some(phase),
     };
     let mut sampled = match &claim.own {
@@ -64,6 +67,9 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         },
     };
     sampled.phase = phase;
+    if let Some(gain) = input_gain {
+        sampled = sampled.with_input_gain(gain);
+    }
     if sampled.samples() != Some(law.samples as usize) {
         // A certificate that was tampered with: its samples are not those of its period.
         return Finding::Unfinished(format!("{} samples of the claimed length are not a period", law.samples));
@@ -197,6 +203,8 @@ fn check_approach(
     let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) else { return Ok(()) };
     let (mut away, mut level, mut control) = ([0.0_f64; 2], [0.0_f64; 2], 0.0_f64);
     let [low, up, eta] = claim.lyapunov.unwrap_or_default();
+    // At the gain b the weight of zeta is b eta.
+    let eta = eta * claim.share_of_h(trial);
     for index in 0..PERIODS {
         let intervals = period(sampled, &mut run, Tolerance::ORDINARY)?;
         for (sample, (interval, of_orbit)) in intervals.iter().zip(orbit).enumerate() {

@@ -65,38 +65,53 @@ pub struct LoopNumbers<R> {
     pub step: R,
     /// K.
     pub gain: R,
-    /// 1/(1 + theta) = 1 - K h Nb2/2.
+    /// 1/(1 + theta) = 1 - K h Nb2/2, with an input gain b_hi K for K.
     pub kept: R,
     /// h/pi.
     pub across: R,
+    /// (1-b) sigma at both ends of an input gain; 0 alone without one.
+    pub moved: Vec<R>,
 }
 
 impl<R: Real> LoopNumbers<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    /// Of sigma, h, K, Nb2 and pi.
+    /// Of sigma, h, K, Nb2 and pi, and the 1 - b at both ends of an input gain.
     #[must_use]
-    pub fn new(sigma: R, step: R, [gain, weight_sum]: [R; 2], pi: &R) -> LoopNumbers<R> {
-        let kept = R::int(1) - &gain * &step * weight_sum / R::int(2);
-        LoopNumbers { across: &step / pi, sigma, step, gain, kept }
+    pub fn new(sigma: R, step: R, [gain, weight_sum]: [R; 2], pi: &R, moves: Option<[R; 2]>) -> LoopNumbers<R> {
+        let largest = moves.as_ref().map_or_else(|| gain.clone(), |[_, least]| &gain * (R::int(1) - least));
+        let kept = R::int(1) - largest * &step * weight_sum / R::int(2);
+        let moved = moves.map_or_else(|| vec![R::int(0)], |moves| moves.map(|share| share * &sigma).into());
+        LoopNumbers { across: &step / pi, sigma, step, gain, kept, moved }
+    }
+
+    /// Both ends of a sample, with both ends of an input gain: F is affine in where it is in the sample and in b.
+    pub(super) fn ends(&self) -> impl Iterator<Item = (End, &R)> {
+        End::BOTH.into_iter().flat_map(|end| self.moved.iter().map(move |moved| (end, moved)))
     }
 }
 
 impl LoopNumbers<Enclosure> {
-    /// Enclosed; T is the period.
-    pub(super) fn enclosed(about: &SampledLoop, period: &Enclosure) -> LoopNumbers<Enclosure> {
+    /// Enclosed; T is the period, and `moves` the 1 - b at both ends of an input gain.
+    pub(super) fn enclosed(
+        about: &SampledLoop,
+        period: &Enclosure,
+        moves: Option<&[Rational; 2]>,
+    ) -> LoopNumbers<Enclosure> {
         let exact = |number: &Rational| Enclosure::from_rational(number, PRECISION);
         let step = period / Enclosure::from_integer(i64::from(about.samples), PRECISION);
         let law = [&about.law.gain, &about.law.weight_sum].map(exact);
-        LoopNumbers::new(exact(&about.sigma), step, law, &Enclosure::pi(PRECISION))
+        let moves = moves.map(|moves| moves.each_ref().map(exact));
+        LoopNumbers::new(exact(&about.sigma), step, law, &Enclosure::pi(PRECISION), moves)
     }
 
     /// In doubles.
     pub(super) fn to_f64(&self) -> LoopNumbers<f64> {
-        let LoopNumbers { sigma, step, gain, kept, across } = self;
+        let LoopNumbers { sigma, step, gain, kept, across, moved } = self;
         let [sigma, step, gain, kept, across] = [sigma, step, gain, kept, across].map(Enclosure::midpoint_f64);
-        LoopNumbers { sigma, step, gain, kept, across }
+        let moved = moved.iter().map(Enclosure::midpoint_f64).collect();
+        LoopNumbers { sigma, step, gain, kept, across, moved }
     }
 }
 
@@ -117,6 +132,8 @@ impl End {
 pub(super) struct FormNumbers<'n, R> {
     pub(super) of: &'n LoopNumbers<R>,
     pub(super) end: End,
+    /// (1-b) sigma at one end of an input gain.
+    pub(super) moved: R,
     /// The weight of e^2: 1 in every claim, a variable of the programs that propose.
     pub(super) weight: R,
     pub(super) k_p: R,
@@ -148,6 +165,8 @@ pub(super) struct Parts<V> {
 /// With e(s) = (1 - s sigma) e_k + s y + G the form is that of the block of x, -2 x'P g e(s) + sigma (2 - h sigma) e_k^2
 /// - 2 (1 - h sigma) e_k y - h y^2 + k_p y^2/(1 + theta) - k_p y (r x + d e(s) + q0) + lambda G^2
 /// + 2 lambda (h/pi) w (r x + d e(s) + q0) + lambda w^2 + gamma q0^2, less what it must exceed.
+///
+/// With an input gain less `k_p (1-b) sigma e_k y`, for y = q + (1-b) sigma e_k + b K v in the mean (13.1).
 pub(super) fn form<A: Arithmetic>(
     a: &A,
     numbers: FormNumbers<'_, A::Number>,
@@ -156,8 +175,8 @@ pub(super) fn form<A: Arithmetic>(
 where
     for<'a> &'a A::Number: Operand<A::Number>,
 {
-    let FormNumbers { of: LoopNumbers { sigma, step, kept, across, .. }, end, weight, k_p, lambda, less, gamma } =
-        numbers;
+    let FormNumbers { of, end, moved: of_gain, weight, k_p, lambda, less, gamma } = numbers;
+    let LoopNumbers { sigma, step, kept, across, .. } = of;
     let int = <A::Number as Real>::int;
     let product = step * sigma;
     let decayed = int(1) - &product;
@@ -180,7 +199,7 @@ where
     let constant = |value: A::Number| a.constant(value);
     let with_d = |value: A::Number, factor: A::Number| a.add(&a.constant(value), &a.scale(&d, &factor));
     entries.push((e, e, constant(&weight * sigma * (int(2) - product) - less.e_k - &less.e * of_e.sqr())));
-    entries.push((e, y, with_d(-(&weight * decayed) - &less.e * &of_e * &of_y, -(&half * &of_e))));
+    entries.push((e, y, with_d(-(&weight * decayed) - &less.e * &of_e * &of_y - &half * of_gain, -(&half * &of_e))));
     entries.push((e, g, constant(-(&less.e * &of_e))));
     entries.push((e, w, a.scale(&d, &(&across * &of_e))));
     let of_square = &k_p * kept - &weight * step - less.y - &less.e * of_y.sqr();

@@ -25,7 +25,7 @@ const DIGITS: u32 = 6;
 impl Engine {
     /// Decides the inequality of stability, with so many boxes for each end of a sample at most.
     ///
-    /// Guarantee: `True` only if, for s = 0 and s = h, every t, every point of `|y| <= X`, `|e| <= E` around any x_0 within r of xb,
+    /// Guarantee: `True` only if, for s = 0 and s = h, both ends of an input gain, every t, every point of `|y| <= X`, `|e| <= E` around any x_0 within r of xb,
     /// and the derivatives of f and q there in the coordinates y, the matrix of [`SampledInequality`] is positive definite, and its
     /// weights, `lambda`, `rate`, `c_e` and `c_y` are positive. `False` only if it is not so at a point, or a number is not. For the
     /// caller to prove: what [`Engine::decide`] leaves to him, and that T/h is the number of samples.
@@ -38,13 +38,14 @@ impl Engine {
         if *x < 0 || *e < 0 || (self.states() > 0 && !self.has_matrix(Bound::Rate)) {
             return Decision { truth: Truth::Undecided, boxes: 0 };
         }
-        let of = LoopNumbers::enclosed(at, &self.period());
+        let of = LoopNumbers::enclosed(at, &self.period(), self.moves());
         let [w_x, eta, lambda, rate, c_e, c_y] = [w_x, eta, lambda, rate, c_e, c_y].map(exact);
         let k_p = eta * 2 / &of.gain;
-        self.at_both_ends([x, e], effort, |values, end| {
+        self.at_all_ends(&of, [x, e], effort, |values, (end, moved)| {
             let numbers = FormNumbers {
                 of: &of,
                 end,
+                moved: moved.clone(),
                 weight: Enclosure::one(PRECISION),
                 k_p: k_p.clone(),
                 lambda: lambda.clone(),
@@ -68,12 +69,13 @@ impl Engine {
         if *x < 0 || *e < 0 {
             return Decision { truth: Truth::Undecided, boxes: 0 };
         }
-        let of = LoopNumbers::enclosed(at, &self.period());
+        let of = LoopNumbers::enclosed(at, &self.period(), self.moves());
         let [k_p, c_e, c_y, gamma, lambda] = [k_p, c_e, c_y, gamma, lambda].map(exact);
-        self.at_both_ends([x, e], effort, |values, end| {
+        self.at_all_ends(&of, [x, e], effort, |values, (end, moved)| {
             let numbers = FormNumbers {
                 of: &of,
                 end,
+                moved: moved.clone(),
                 weight: Enclosure::one(PRECISION),
                 k_p: k_p.clone(),
                 lambda: lambda.clone(),
@@ -94,7 +96,7 @@ impl Engine {
     ) -> Option<SampledExistence> {
         let reach = Rational::from(&inequality.x + self.region.radius()).to_f64();
         let energy = SampledEnergy::from(inequality);
-        let of = LoopNumbers::enclosed(&inequality.at, &self.period()).to_f64();
+        let of = LoopNumbers::enclosed(&inequality.at, &self.period(), self.moves()).to_f64();
         let sampled = samples.refined_gamma([reach, inequality.e.to_f64()], &energy, &of);
         ATTEMPTS.into_iter().find_map(|(slack, effort)| {
             let gamma = round_f64(sampled * (1.0 + slack), DIGITS, Direction::Up).filter(|gamma| *gamma > 0)?;
@@ -103,15 +105,16 @@ impl Engine {
         })
     }
 
-    /// That F is positive definite for s = 0 and for s = h.
-    fn at_both_ends(
+    /// That F is positive definite for s = 0 and for s = h, with an input gain at both of its ends.
+    fn at_all_ends(
         &self,
+        of: &LoopNumbers<Enclosure>,
         at: [&Rational; 2],
         effort: usize,
-        entries: impl Fn(&Values<'_>, End) -> Option<Vec<(usize, usize, Centred)>>,
+        entries: impl Fn(&Values<'_>, (End, &Enclosure)) -> Option<Vec<(usize, usize, Centred)>>,
     ) -> Decision {
         let mut boxes = 0;
-        for end in End::BOTH {
+        for end in of.ends() {
             let decision =
                 self.decide_part(Part::All, at, effort, |values| Some(balanced(values.frame, entries(values, end)?)));
             boxes += decision.boxes;

@@ -116,11 +116,11 @@ impl SampledWeights {
     fn at(&self, point: &Slopes, lambda: f64) -> f64 {
         let n = point.r.len();
         let order: Vec<usize> = (0..n).chain([n + 1, n + 2, n + 3, n]).collect();
-        let of_end = |end: End| {
+        let of_end = |(end, moved): (End, &f64)| {
             let parts = point.with(|i, k| if i == k { self.w_x } else { 0.0 }, 0.0);
             let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
             let k_p = 2.0 * self.eta / self.of.gain;
-            let numbers = FormNumbers { of: &self.of, end, weight: 1.0, k_p, lambda, less, gamma: None };
+            let numbers = FormNumbers { of: &self.of, end, moved: *moved, weight: 1.0, k_p, lambda, less, gamma: None };
             let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
             let own = last.pop().unwrap_or(f64::NAN);
             match Root::new(&before) {
@@ -128,7 +128,7 @@ impl SampledWeights {
                 Err(without) => without,
             }
         };
-        larger(of_end(End::Start), of_end(End::End))
+        self.of.ends().map(of_end).fold(0.0, larger)
     }
 
     fn at_all(&self, points: &[Slopes], lambda: f64) -> f64 {
@@ -173,10 +173,11 @@ impl SampledEnergy {
     pub(super) fn gamma(&self, point: &Slopes, of: &LoopNumbers<f64>) -> f64 {
         let SampledEnergy { p, k_p, lambda, c_x, c_e, c_y } = self;
         let order: Vec<usize> = (0..point.r.len() + 5).collect();
-        let of_end = |end: End| {
+        let of_end = |(end, moved): (End, &f64)| {
             let parts = point.with(|i, k| p[i][k], *c_x);
             let less = Less { e_k: 0.0, e: *c_e, y: *c_y };
-            let numbers = FormNumbers { of, end, weight: 1.0, k_p: *k_p, lambda: *lambda, less, gamma: Some(0.0) };
+            let [moved, k_p, lambda] = [*moved, *k_p, *lambda];
+            let numbers = FormNumbers { of, end, moved, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
             let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
             last.pop();
             match Root::new(&before) {
@@ -184,7 +185,7 @@ impl SampledEnergy {
                 Err(without) => without,
             }
         };
-        larger(of_end(End::Start), of_end(End::End))
+        of.ends().map(of_end).fold(0.0, larger)
     }
 }
 

@@ -157,8 +157,8 @@ impl Program<'_> {
         cost_of_last: f64,
     ) -> Option<(Vec<f64>, f64)> {
         let order = self.points.first()?.r.len() + 5;
-        let at_both_ends = self.points.iter().flat_map(|point| End::BOTH.map(|end| (point, end)));
-        let constraints: Vec<AffineMatrix<f64>> = at_both_ends
+        let at_all_ends = self.points.iter().flat_map(|point| self.of.ends().map(move |end| (point, end)));
+        let constraints: Vec<AffineMatrix<f64>> = at_all_ends
             .map(|(point, end)| {
                 let matrix = |variables: &Variables| self.matrix(units, variables, point, end);
                 let constant = matrix(fixed);
@@ -180,7 +180,7 @@ impl Program<'_> {
     }
 
     /// F in these units, the upper triangle: linear in the variables.
-    fn matrix(&self, units: &Units, variables: &Variables, point: &Slopes, end: End) -> Vec<Vec<f64>> {
+    fn matrix(&self, units: &Units, variables: &Variables, point: &Slopes, end: (End, &f64)) -> Vec<Vec<f64>> {
         let Units { x, within, sigma } = *units;
         let Variables { p, weight, k_p, lambda, c_e, c_y, gamma, room } = *variables;
         let n = point.r.len();
@@ -188,7 +188,8 @@ impl Program<'_> {
         let parts = point.with(|i, k| if is_entry(i, k) { 1.0 / (x * x) } else { 0.0 }, 0.0);
         let numbers = FormNumbers {
             of: self.of,
-            end,
+            end: end.0,
+            moved: *end.1,
             weight,
             k_p: k_p / sigma,
             lambda: lambda * sigma / (within * within),

@@ -360,13 +360,19 @@ impl FloatSuprema {
             let moment = &self.moments[i];
             if last != Some(i) {
                 self.load(moment, &mut evaluator);
-                matrices = self.matrices_at(&moment);
+                matrices = self.matrices_at(moment);
                 last = Some(i);
             }
             self.place(&moment.orbit, &self.ball[j], reach, &mut x);
             evaluator.evaluate(&x, self.error(place, e), &mut outputs);
             see(place, &outputs, moment, &matrices);
         }
+    }
+
+    /// The 1 - b at both ends of an input gain; none where it is 1.
+    #[must_use]
+    pub fn moves(&self) -> Option<[f64; 2]> {
+        self.moves
     }
 
     /// Whether the derivatives depend on the states or on the error.

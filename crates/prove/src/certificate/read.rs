@@ -36,7 +36,7 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
     for unused in COMMON.iter().chain(&["no_plant", "comparison", "constants"]) {
         let _ = file.optional(unused);
     }
-    let subject = ["plant", "specification"].into_iter().find_map(|name| root.member(name));
+    let subject = embedded(root);
     let claim = file.required("claim", errors).and_then(|value| claim_part(&value, subject.as_ref(), errors));
     let witness = file.required("witness", errors);
     file.finish(errors);
@@ -132,7 +132,23 @@ fn claim_part(
             Err(errors.report(value.error(ErrorKind::UnknownName, message).expected("expected `sharp`")))
         }
     });
-    let input_gain = match (claim.optional("input_gain"), subject.and_then(|subject| subject.member("input_gain"))) {
+    let input_gain = own_input_gain(&mut claim, value, subject, errors);
+    let sigma = rational(&mut claim, "sigma_star", errors);
+    let set = read_set(&mut claim, errors);
+    claim.finish(errors);
+    derivation?;
+    input_gain?;
+    Ok((sigma?, set?))
+}
+
+/// That the input gain of a claim is the one of the document that it embeds.
+pub(super) fn own_input_gain(
+    claim: &mut Object<'_>,
+    value: &Value<'_>,
+    subject: Option<&Value<'_>>,
+    errors: &mut Errors,
+) -> Result<(), Reported> {
+    match (claim.optional("input_gain"), subject.and_then(|subject| subject.member("input_gain"))) {
         (None, None) => Ok(()),
         (stated, embedded) => {
             let parameters = subject.and_then(|subject| subject.member("parameters"));
@@ -142,16 +158,15 @@ fn claim_part(
                 same_input_gain(stated, embedded, (value, names.definitions()), errors)
             })
         }
-    };
-    let sigma = rational(&mut claim, "sigma_star", errors);
-    let set = read_set(&mut claim, errors);
-    claim.finish(errors);
-    derivation?;
-    input_gain?;
-    Ok((sigma?, set?))
+    }
 }
 
-/// That the input gain of a claim is the one of the document that it embeds, where the names of constants may stand.
+/// The document in a certificate: a plant or a specification.
+pub(super) fn embedded<'v>(root: &Value<'v>) -> Option<Value<'v>> {
+    ["plant", "specification"].into_iter().find_map(|name| root.member(name))
+}
+
+/// That they are the same three numbers; in the document the names of constants may stand.
 fn same_input_gain(
     stated: Option<Value<'_>>,
     embedded: Option<Value<'_>>,

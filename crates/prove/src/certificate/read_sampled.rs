@@ -1,7 +1,7 @@
 //! Reading the claim and the witness of a certificate of the regulator at samples.
 
 use super::fields::{NumberFields, PLANT_FIELDS, rational, read_paths};
-use super::read::{COMMON, read_set, small_integer};
+use super::read::{COMMON, embedded, own_input_gain, read_set, small_integer};
 use super::sampled::{REGULATOR, SAMPLED};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
@@ -35,7 +35,8 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<SampledWitness, Reporte
     for unused in COMMON {
         let _ = file.optional(unused);
     }
-    let claim = file.required("claim", errors).and_then(|value| read_claim(&value, errors));
+    let subject = embedded(root);
+    let claim = file.required("claim", errors).and_then(|value| read_claim(&value, subject.as_ref(), errors));
     let witness = file.required("witness", errors);
     file.finish(errors);
     let (Claim { sigma, sampling, gain, set }, witness) = (claim?, witness?);
@@ -64,9 +65,9 @@ struct Claim {
     set: ClaimedSet,
 }
 
-fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported> {
+fn read_claim(value: &Value<'_>, subject: Option<&Value<'_>>, errors: &mut Errors) -> Result<Claim, Reported> {
     let mut claim = value.object(errors)?;
-    for unused in ["verdict", "n_o", "mu", "periodic_solution", "control", "statement"] {
+    for unused in ["verdict", "n_o", "mu", "parameters", "periodic_solution", "control", "statement"] {
         let _ = claim.optional(unused);
     }
     let regulator = word(&mut claim, "regulator", REGULATOR, errors);
@@ -75,9 +76,10 @@ fn read_claim(value: &Value<'_>, errors: &mut Errors) -> Result<Claim, Reported>
     let step = claim.required("sampling_period", errors).and_then(|value| positive_constant(&value, errors));
     let samples = small_integer(&mut claim, "samples", errors);
     let gain = rational(&mut claim, "gain", errors);
+    let input_gain = own_input_gain(&mut claim, value, subject, errors);
     let set = read_set(&mut claim, errors);
     claim.finish(errors);
-    regulator.and(derivation)?;
+    regulator.and(derivation).and(input_gain)?;
     let sampling = Sampling { step: step?, samples: samples? };
     Ok(Claim { sigma: sigma?, sampling, gain: gain?, set: set? })
 }

@@ -4,7 +4,8 @@ use super::fields::{NumberFields, paths_json};
 use super::of_plant::plant_parts;
 use super::triple::lyapunov_parts;
 use super::write::{
-    FORMAT, VERSION, conclusion, conditions_json, control_json, exact, object, set_json, text, upper_end,
+    FORMAT, VERSION, conclusion, conditions_json, control_json, every_input_gain, exact, input_gain_json, object,
+    parameters_json, set_json, text, upper_end,
 };
 use crate::certify::SampledCertification;
 use serde_json::Value;
@@ -26,7 +27,7 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
     let (witness, spec) = (&proof.witness, run.spec);
     let [x, e, zeta, z] = run.periodic_solution()?;
     let mu = &spec.internal_model.mu;
-    let claim = object([
+    let heading = [
         ("verdict", text(run.verdict.to_string())),
         ("regulator", text(REGULATOR)),
         ("derivation", text("sharp")),
@@ -36,6 +37,8 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         ("gain", exact(&witness.law.gain)),
         ("n_o", text("every n_o < samples/2")),
         ("mu", text(mu.as_rational().map_or_else(|| mu.text.clone(), write_exact))),
+    ];
+    let rest = [
         ("initial_set", set_json(spec, &witness.set)),
         (
             "periodic_solution",
@@ -43,7 +46,8 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         ),
         ("control", control_json(run.control()?)),
         ("statement", text(sampled_statement(spec, witness))),
-    ]);
+    ];
+    let claim = object(heading.into_iter().chain(input_gain_json(spec)).chain(parameters_json(spec)).chain(rest));
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
     let parts =
         further.into_iter().chain([paths_json(witness.paths)]).chain(lyapunov_parts(spec)).chain(plant_parts(spec));
@@ -71,11 +75,12 @@ pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> Stri
     let samples = witness.sampling.samples;
     format!(
         "For the digital regulator with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and \
-         K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid, with period T = {}, \
+         K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}, with period T = {}, \
          mu = {} and base frequency {}, {}",
         write_exact(&witness.sigma),
         witness.sampling.text(),
         write_exact(&witness.law.gain),
+        every_input_gain(spec),
         spec.period.nominal().text,
         model.mu.text,
         model.base_frequency.text,

@@ -74,7 +74,6 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let [x, e, zeta, z] = run.periodic_solution()?;
     let spec = run.spec;
     let mu = &spec.internal_model.mu;
-    let parameters = spec.plant().and_then(parameters_json).map(|all| ("parameters", all));
     let heading = [
         ("verdict", text(run.verdict.to_string())),
         ("derivation", text("sharp")),
@@ -82,10 +81,6 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("n_o", text("every n_o >= 0")),
         ("mu", text(constant(mu))),
     ];
-    let input_gain = spec.input_gain.as_ref().map(|InputGain { nominal, low, high }| {
-        let ends = [("nominal", nominal), ("low", low), ("high", high)];
-        ("input_gain", object(ends.map(|(name, value)| (name, text(constant(value))))))
-    });
     let period = spec.period.interval().map(|[low, high]| {
         let ends = [("nominal", spec.period.nominal()), ("low", low), ("high", high)];
         ("period", object(ends.map(|(name, value)| (name, text(constant(value))))))
@@ -99,7 +94,8 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("control", control_json(run.control()?)),
         ("statement", text(statement(run, sigma, set))),
     ];
-    let claim = object(heading.into_iter().chain(input_gain).chain(period).chain(parameters).chain(rest));
+    let claim =
+        object(heading.into_iter().chain(input_gain_json(spec)).chain(period).chain(parameters_json(spec)).chain(rest));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))
@@ -150,9 +146,17 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     Some(certificate)
 }
 
+/// The interval of the input gain, for all of which the claim is; none where there is none.
+pub(super) fn input_gain_json(spec: &Specification) -> Option<(&'static str, Value)> {
+    let InputGain { nominal, low, high } = spec.input_gain.as_ref()?;
+    let ends = [("nominal", nominal), ("low", low), ("high", high)];
+    Some(("input_gain", object(ends.map(|(name, value)| (name, text(constant(value)))))))
+}
+
 /// The intervals of the parameters, for all of which the claim is; none of a single plant.
-fn parameters_json(plant: &OfPlant) -> Option<Value> {
-    let intervals: Vec<(&str, Value)> = plant
+pub(super) fn parameters_json(spec: &Specification) -> Option<(&'static str, Value)> {
+    let intervals: Vec<(&str, Value)> = spec
+        .plant()?
         .parameters
         .named_intervals()
         .map(|(name, Interval { nominal, low, high })| {
@@ -160,7 +164,7 @@ fn parameters_json(plant: &OfPlant) -> Option<Value> {
             (name, object(ends.map(|(name, value)| (name, exact(value)))))
         })
         .collect();
-    (!intervals.is_empty()).then(|| object(intervals))
+    (!intervals.is_empty()).then(|| ("parameters", object(intervals)))
 }
 
 /// Why no plant with a state x satisfies the data: what a checker needs to decide it again.
@@ -223,12 +227,7 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
     let spec = run.spec;
     let model = &spec.internal_model;
     let reach = if model.matched { "" } else { " (which need not match the period)" };
-    let input_gain = spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high }| {
-        format!(
-            " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
-            low.text, high.text, nominal.text
-        )
-    });
+    let input_gain = every_input_gain(spec);
     let nominal = &spec.period.nominal().text;
     let period = match spec.period.interval() {
         None => format!("period T = {nominal}"),
@@ -244,6 +243,16 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
         model.base_frequency.text,
         conclusion(spec, set, "at any initial time"),
     )
+}
+
+/// " and every input gain in [9, 11] (...)"; nothing where there is none.
+pub(super) fn every_input_gain(spec: &Specification) -> String {
+    spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high }| {
+        format!(
+            " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
+            low.text, high.text, nominal.text
+        )
+    })
 }
 
 /// What converges to what: of all plants of the data, or of the plant whose formulas are in the certificate; `start` says when

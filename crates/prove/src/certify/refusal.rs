@@ -6,8 +6,7 @@ use sigmastar_lang::spec::{ErrorKind, SpecErrors, Specification};
 use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
 
 /// What helps where `input_gain` is not honoured.
-pub const WITHOUT_INPUT_GAIN: &str =
-    "leave `input_gain` out where the gain is known; `sigmastar certify` takes it for the regulator in continuous time";
+pub const WITHOUT_INPUT_GAIN: &str = "leave `input_gain` out where the gain is known; `sigmastar certify` takes it";
 
 /// That something does not know what to do with `input_gain`.
 #[must_use]
@@ -24,8 +23,6 @@ pub enum Refusal {
     Filter(RelativeDegreeError),
     /// The specification asks for the regulator at samples, and this is about the one in continuous time.
     Sampled,
-    /// The specification has an input gain, and this is about the regulator at samples, for which it is not built.
-    InputGainAtSamples,
     /// No Lyapunov triple of the Jacobian is proved: undecided, for no search proves that there is none.
     Jacobian(String),
 }
@@ -51,12 +48,6 @@ impl Refusal {
                 ErrorKind::Range,
                 "the regulator at samples is asked for, and this is about the one in continuous time".to_owned(),
                 "leave `sampling_period` out; `sigmastar certify`, `sampling` and `controller` take it",
-            ),
-            Refusal::InputGainAtSamples => at(
-                "/input_gain",
-                ErrorKind::NotAvailable,
-                not_available_with_input_gain("the regulator at samples"),
-                WITHOUT_INPUT_GAIN,
             ),
             Refusal::Jacobian(message) => at(
                 "/lyapunov/jacobian",

@@ -44,6 +44,8 @@ pub struct SampledCertification<'s> {
     pub unproved_bounds: Vec<BoundingProblem>,
     /// That no plant with a state x satisfies the data, where it is proved.
     pub no_plant: Option<NoPlant>,
+    /// What the gain would be with each interval closed to its nominal value, where it is compared: estimates.
+    pub interval_costs: Vec<(String, Option<f64>)>,
 }
 
 impl SampledCertification<'_> {
@@ -112,9 +114,6 @@ pub fn certify_sampled<'s>(
     start: Option<&SampledProposal>,
     ladder: Ladder,
 ) -> Result<SampledCertification<'s>, Refusal> {
-    if spec.input_gain.is_some() {
-        return Err(Refusal::InputGainAtSamples);
-    }
     let unproved = undecided_or_error(prove_on_domain(spec))?;
     let data = Data::new(spec, ladder.start.max(53));
     let Some(law) = spec.internal_model.sampled_gain(&sampling.step) else {
@@ -156,9 +155,6 @@ pub fn recheck_sampled<'s>(
     witness: &SampledWitness,
     ladder: Ladder,
 ) -> Result<SampledCertification<'s>, Refusal> {
-    if spec.input_gain.is_some() {
-        return Err(Refusal::InputGainAtSamples);
-    }
     let unproved = undecided_or_error(prove_on_domain(spec))?;
     let proof = decide(spec, witness.clone(), ladder);
     let mut run = assemble(spec, &witness.sampling, None, (Some(proof).into(), None), unproved)?;
@@ -203,6 +199,7 @@ fn assemble<'s>(
         outcome,
         found,
         unproved_bounds: unproved,
+        interval_costs: Vec::new(),
     })
 }
 

@@ -49,8 +49,6 @@ pub enum PlantRefusal {
     Coordinates,
     /// Harmonics of q whose size leaves the exponents of the arithmetic.
     Forcing,
-    /// A claim about the regulator at samples of a plant with parameters of which only intervals are known.
-    FamilyAtSamples,
 }
 
 impl From<SmoothnessFailure> for PlantRefusal {
@@ -107,11 +105,6 @@ impl PlantRefusal {
                 "/f",
                 failure.to_string(),
                 Some("write the plant in units in which its numbers are of ordinary size"),
-            ),
-            PlantRefusal::FamilyAtSamples => undecided(
-                "/parameters",
-                "intervals of parameters are not available for the regulator at samples".to_owned(),
-                Some("state single numbers, or leave the sampling period out"),
             ),
             PlantRefusal::NoContraction => undecided(
                 "/f",

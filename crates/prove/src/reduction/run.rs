@@ -1,6 +1,7 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
-use super::interval_costs::interval_costs;
+use super::interval_costs::{costs_at_samples, interval_costs};
+use super::reduce::reduce;
 use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
@@ -28,8 +29,8 @@ pub struct Prepared {
     spec: Specification,
     start: Start,
     gain: Option<Rational>,
-    /// The plant, where it is a family whose least gain is sought.
-    family: Option<Box<Plant>>,
+    /// The plant, where it is one whose least gain is sought.
+    plant: Option<Box<Plant>>,
 }
 
 /// What a run found out. What it claims is about the regulator at samples where the subject asks for that.
@@ -62,18 +63,18 @@ impl Prepared {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn new(subject: Subject, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
-        let family = match &subject {
-            Subject::Plant(plant) if plant.is_family() && gain.is_none() => Some(plant.clone()),
+        let plant = match &subject {
+            Subject::Plant(plant) if gain.is_none() => Some(plant.clone()),
             _ => None,
         };
         match subject.sampling().cloned() {
             None => {
                 let (spec, start) = subject.proved_with_alternatives(gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Continuous(start), gain, family })
+                Ok(Prepared { spec, start: Start::Continuous(start), gain, plant })
             }
             Some(sampling) => {
                 let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain, family })
+                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain, plant })
             }
         }
     }
@@ -84,7 +85,7 @@ impl Prepared {
     /// What is not proved, at its place, and a witness of the other regulator or of other samples; not empty.
     pub fn again(subject: &Subject, witness: Witness) -> Result<Prepared, Vec<SpecErrors>> {
         let spec = witness.proved(subject)?;
-        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None, family: None })
+        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None, plant: None })
     }
 
     /// Searches, rounds and decides. Hypothesis: the options fit ([`Options::misfit`]).
@@ -110,14 +111,22 @@ impl Prepared {
                         let nominal_gain = run.alternatives.nominal_gain.or(*nominal_gain);
                         run.alternatives.nominal_gain = nominal_gain.filter(|nominal| *nominal < sigma);
                     }
-                    if let Some(plant) = self.family.as_ref().filter(|_| options.compare && run.claim().is_some()) {
-                        run.interval_costs = interval_costs(plant);
+                    if let Some(plant) = self.plant.as_ref().filter(|_| options.compare && run.claim().is_some()) {
+                        let gain = |plant: &Plant| reduce(plant, None).ok().map(|found| found.proposal.sigma);
+                        run.interval_costs = interval_costs(plant, gain);
                     }
                     Run::Continuous(Box::new(run))
                 })
             }
             Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
-                .map(|run| Run::Sampled(Box::new(run))),
+                .map(|mut run| {
+                    let claimed = run.claim().map(|proof| proof.witness.sigma.to_f64());
+                    if let Some(sigma) = claimed.filter(|_| options.compare && gain.is_none()) {
+                        let subject = (spec, self.plant.as_deref());
+                        run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder);
+                    }
+                    Run::Sampled(Box::new(run))
+                }),
             Start::Given(FreeNumbers::Continuous(witness)) => {
                 recheck(spec, witness, options).map(|run| Run::Continuous(Box::new(run)))
             }

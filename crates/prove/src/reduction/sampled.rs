@@ -44,9 +44,6 @@ pub fn reduce_sampled(
     sampling: &spec::Sampling,
     gain: Option<&Rational>,
 ) -> Result<ReducedSampled, PlantRefusal> {
-    if plant.is_family() {
-        return Err(PlantRefusal::FamilyAtSamples);
-    }
     with_candidates(plant, |candidates, sampled| {
         let starts = starts(candidates, sampled);
         let by_norms = || {
@@ -83,9 +80,6 @@ pub fn reduce_sampled(
 /// # Errors
 /// What could not be proved or found of those.
 pub fn with_sampled_pairs<T>(plant: &Plant, with: impl FnOnce(&SampledPairs<'_>) -> T) -> Result<T, PlantRefusal> {
-    if plant.is_family() {
-        return Err(PlantRefusal::FamilyAtSamples);
-    }
     with_coordinates(plant, |along, sampled, chosen| {
         SampledPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
     })

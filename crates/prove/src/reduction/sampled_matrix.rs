@@ -203,6 +203,17 @@ impl<'a> MatrixAtSamples<'a> {
             }
         }
         let mut best = best?;
+        // An uncertain input gain asks for more in continuous time, where every larger sigma has to do.
+        for _ in 0..GAINS {
+            if below.is_some() {
+                break;
+            }
+            let next = best.sigma / NEXT;
+            match self.at(&At { sigma: next, ..self.again(&best) }) {
+                Some(found) if found.at.threshold <= target => best = found,
+                _ => below = Some(next),
+            }
+        }
         let Some(mut below) = below else { return Some(best) };
         for _ in 0..STEPS {
             let middle = (below * best.sigma).sqrt();
@@ -222,7 +233,7 @@ impl<'a> MatrixAtSamples<'a> {
 
     fn numbers(&self, sigma: f64) -> LoopNumbers<f64> {
         let SampledLaw { step, gain, weight_sum, pi, .. } = &self.law;
-        LoopNumbers::new(sigma, *step, [*gain, *weight_sum], pi)
+        LoopNumbers::new(sigma, *step, [*gain, *weight_sum], pi, self.suprema.moves())
     }
 
     /// The model at one gain.

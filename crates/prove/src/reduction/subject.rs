@@ -197,7 +197,6 @@ impl Subject {
         sampling: &Sampling,
         gain: Option<&Rational>,
     ) -> Result<(Specification, Option<SampledProposal>), Vec<SpecErrors>> {
-        self.without_input_gain("the regulator at samples")?;
         match self {
             Subject::Plant(plant) => {
                 let reduced = reduce_sampled(&plant, sampling, gain).map_err(|refusal| refusal.errors(&plant))?;

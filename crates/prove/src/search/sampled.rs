@@ -20,8 +20,10 @@ use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Form, Part
 /// Points of the scan of sigma.
 const POINTS: u32 = 48;
 
-/// How far below the gain of the continuous-time law the scan begins: its sets are smaller.
+/// How far below the gain of the continuous-time law the scan begins: its sets are smaller; with an uncertain input gain that has to serve
+/// every larger one, too, and bounds all harmonics by one number.
 const BELOW: f64 = 0.98;
+const BELOW_UNCERTAIN: f64 = 0.8;
 
 /// Steps of a bisection of ln sigma.
 const STEPS: u32 = 34;
@@ -253,7 +255,8 @@ impl<'m> SampledSearch<'m> {
     /// # Errors
     /// What stands in the way of the gain that came closest.
     pub fn smallest(&self) -> Result<SampledProposal, Obstacle> {
-        let start = search_sharp(self.model)?.sigma * BELOW;
+        let below = if self.model.input_gain.is_some() { BELOW_UNCERTAIN } else { BELOW };
+        let start = search_sharp(self.model)?.sigma * below;
         let end = self.law.step.recip();
         if start >= end {
             return Err(Failing::Hold { sigma: start, largest: end, given: false }.into());

@@ -215,7 +215,7 @@ mod tests {
             let found = (y * (point(phi) - 1.0) / (point(phi) - (1.0 - product)) - 1.0).norm();
             let g = 2.0 / ((2.0 - product) * (1.0 - load / 2.0));
             let of = SampledLaw { step: 1.0, enlarged: 1.0 / (1.0 - load / 2.0), ..known.clone() };
-            let Answer { harmonic: factor, by_rate, .. } = of.answer(&product, &f64::from(samples));
+            let Answer { harmonic: factor, by_rate, .. } = of.answer(&product, &f64::from(samples), &of.enlarged);
             let sum: f64 = (1..samples).map(|j| (2.0 * (PI * f64::from(j) / f64::from(samples)).sin()).powi(-2)).sum();
             assert!((by_rate / (factor * sum.sqrt()) - 1.0).abs() < 1e-9);
             assert!(found <= factor * (1.0 + 1e-6), "{n_o} {load} {product} {phi}: {found} {factor}");

@@ -14,7 +14,7 @@ use super::mean_squares::{
     sup_by_mean_squares,
 };
 use super::paths::Paths;
-use super::stability::{DecayCondition, ErrorBox, level_condition};
+use super::stability::{DecayCondition, ErrorBox, level_condition, level_words};
 use super::uniqueness;
 use super::{domain_conditions, sign_conditions};
 use crate::data::{Bound, Data, Problem};
@@ -163,12 +163,10 @@ impl SharpEvaluation {
             control::joint_transient(data, joint, number, &witness.sigma, distances)
         } else {
             let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
-            let h_at_most = if data.input_gain.is_some() { "b_hi h" } else { "h" };
-            let what = format!("w_x P_up dX^2 + dE^2 + {h_at_most} dZ^2 < min{{w_x P_low D_x^2, D_e^2}}");
             // At the gain b the weight of zeta is b h, and the level no larger than at b_hi.
             let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h);
             let transient = control::transient(data, [&sigma, &data.mu], &least, &start);
-            conditions.push(Condition::less("C4", what, start, exit));
+            conditions.push(Condition::less("C4", level_words(data), start, exit));
             match inequality {
                 Some(inequality) => {
                     let place = (witness.paths, [&periodic.x_per, &periodic.e_per], &error_box);

@@ -1,7 +1,7 @@
 //! Stability and domain of attraction (derivation, sections 5 and 10.4): the quadratic form of C5 and its closed form.
 
 use super::paths::{Path, Paths};
-use crate::data::{Bound, Numbers, Problem};
+use crate::data::{Bound, Data, Numbers, Problem};
 #[cfg(doc)]
 use crate::input_gain::InputGain;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
@@ -260,4 +260,11 @@ where
     let start = w_x * p_up * dist_x.sqr() + dist_e.sqr() + largest.as_ref().unwrap_or(h) * dist_z.sqr();
     let exit = (w_x * p_low * d_x.sqr()).min(&d_e.sqr());
     (start, exit)
+}
+
+/// Its words.
+#[must_use]
+pub fn level_words(data: &Data<'_>) -> String {
+    let h_at_most = if data.input_gain.is_some() { "b_hi h" } else { "h" };
+    format!("w_x P_up dX^2 + dE^2 + {h_at_most} dZ^2 < min{{w_x P_low D_x^2, D_e^2}}")
 }

@@ -32,7 +32,13 @@ fn about(sigma: f64, samples: u32, gain: f64) -> SampledLoop {
 }
 
 fn numbers(sigma: f64, samples: u32, gain: f64) -> LoopNumbers<f64> {
-    LoopNumbers::new(sigma, f64::from(samples).recip(), [gain, WEIGHT_SUM], &std::f64::consts::PI)
+    with_gains(sigma, samples, gain, None)
+}
+
+/// With an input gain between two numbers.
+fn with_gains(sigma: f64, samples: u32, gain: f64, ends: Option<[f64; 2]>) -> LoopNumbers<f64> {
+    let moves = ends.map(|ends| ends.map(|b| 1.0 - b));
+    LoopNumbers::new(sigma, f64::from(samples).recip(), [gain, WEIGHT_SUM], &std::f64::consts::PI, moves)
 }
 
 /// The state of a loop with one state of the plant.
@@ -43,7 +49,7 @@ struct State {
     zeta: [f64; 3],
 }
 
-/// What one sample does, for x' = j x + g e and q = r x + d e + q0(t).
+/// What one sample does at the input gain b, for x' = j x + g e and q = r x + d e + q0(t).
 struct Sample {
     y: f64,
     next: State,
@@ -51,13 +57,13 @@ struct Sample {
     within: Vec<[f64; 4]>,
 }
 
-fn sample(of: &LoopNumbers<f64>, slopes: &Slopes, at: State, q0: &dyn Fn(f64) -> f64) -> Sample {
+fn sample((of, b): (&LoopNumbers<f64>, f64), slopes: &Slopes, at: State, q0: &dyn Fn(f64) -> f64) -> Sample {
     let State { x, e, zeta } = at;
     let angle = std::f64::consts::TAU * of.step;
     let turned =
         [zeta[0], angle.cos() * zeta[1] + angle.sin() * zeta[2], angle.cos() * zeta[2] - angle.sin() * zeta[1]];
     let v = 2.0 * turned[0] + turned[1];
-    let u = of.gain * v - of.sigma * e;
+    let u = b * (of.gain * v - of.sigma * e);
     let ds = of.step / STEPS as f64;
     let q = |s: f64, x: f64, e: f64| slopes.r[0] * x + slopes.d * e + q0(s);
     let field = |s: f64, x: f64, e: f64| [slopes.j[0] * x + slopes.g[0] * e, q(s, x, e) + u];
@@ -76,7 +82,7 @@ fn sample(of: &LoopNumbers<f64>, slopes: &Slopes, at: State, q0: &dyn Fn(f64) ->
         mean += qm / STEPS as f64;
         middles.push([xm, em, qm, s + ds / 2.0]);
     }
-    let y = of.gain * v + mean;
+    let y = b * of.gain * v + (1.0 - b) * of.sigma * e + mean;
     let within = middles.into_iter().map(|[x, es, q, s]| [x, es, q, es - (1.0 - s * of.sigma) * e - s * y]).collect();
     let moved = [turned[0] - of.step * y, turned[1] - of.step * y, turned[2]];
     Sample { y, next: State { x: xs, e: es, zeta: moved }, within }
@@ -96,18 +102,20 @@ fn value(entries: &[(usize, usize, f64)], at: &[f64]) -> f64 {
 #[test]
 fn the_fall_in_a_sample_is_the_mean_of_f() {
     let mut next = random(5);
-    for _ in 0..200 {
-        let of = numbers((1.0 + next()) * 10.0, 20, 3.0 * (1.1 + next()));
+    for trial in 0..400 {
+        let b = if trial % 2 == 0 { 1.0 } else { 1.0 + 0.9 * next() };
+        let of = with_gains((1.0 + next()) * 10.0, 20, 3.0 * (1.1 + next()), (trial % 2 == 1).then_some([b, b]));
         let slopes = Slopes { j: vec![5.0 * next()], g: vec![9.0 * next()], r: vec![9.0 * next()], d: 9.0 * next() };
         let (p, k_p, lambda) = (next(), 0.2 + 0.1 * next(), 30.0 + 20.0 * next());
-        let eta = k_p * of.gain / 2.0;
+        let eta = k_p * b * of.gain / 2.0;
         let at = State { x: next(), e: next(), zeta: [next(), next(), next()] };
         let amplitude = next();
         let q0 = |s: f64| amplitude * (1.0 + s);
-        let Sample { y, next: after, within } = sample(&of, &slopes, at, &q0);
+        let Sample { y, next: after, within } = sample((&of, b), &slopes, at, &q0);
         let entries = End::BOTH.map(|end| {
             let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
-            let numbers = FormNumbers { of: &of, end, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
+            let moved = of.moved[0];
+            let numbers = FormNumbers { of: &of, end, moved, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
             form(&Doubles, numbers, slopes.with(|_, _| p, 0.0))
         });
         let (mut mean, mut squares) = (0.0, [0.0; 2]);
@@ -130,15 +138,20 @@ fn the_fall_in_a_sample_is_the_mean_of_f() {
 }
 
 fn linear(f: &str, q: &str) -> Case {
+    of_plant(&plant(&["x"], &[f], q))
+}
+
+fn of_plant(plant: &Plant) -> Case {
     let at_rest = TrigonometricVector { mean: vec![Rational::new()], harmonics: Vec::new() };
-    case(&plant(&["x"], &[f], q), &[vec![1.0]], at_rest, "0")
+    case(plant, &[vec![1.0]], at_rest, "0")
 }
 
 const WEIGHTS: [f64; 2] = [0.3, 0.4];
 
 fn stability(samples: &FloatSuprema, sigma: f64) -> (SampledInequality, f64) {
     let [w_x, eta] = WEIGHTS;
-    let weights = SampledWeights { w_x, eta, of: numbers(sigma, 20, 2.0) };
+    let ends = samples.moves().map(|moves| moves.map(|share| 1.0 - share));
+    let weights = SampledWeights { w_x, eta, of: with_gains(sigma, 20, 2.0, ends) };
     let found = samples.sampled_radius([1.0, 1.0], &Places::Stride(1), &weights);
     let small = || exact(1e-9);
     let inequality = SampledInequality {
@@ -179,6 +192,37 @@ fn stability_holds_as_far_as_the_radius_says() {
     }
 }
 
+const F: &str = "-3*x + 2*e";
+const Q: &str = "x - e/2 + cos(2*pi*t)";
+
+/// With an input gain both of its ends count: the radius is the larger one of what they have, each with the theta of the largest gain, and
+/// what is proved of a narrow interval is not of a wide one.
+#[test]
+fn both_ends_of_an_input_gain_count() {
+    let interval = |low: &str, high: &str| of_plant(&with_input_gain(&["x"], &[F], Q, ["2", low, high]));
+    let truth = |case: &Case, asked: &SampledInequality| case.engine.decide_sampled(asked, EFFORT).truth;
+    let known = linear(F, Q);
+    let (of_known, radius) = stability(&known.samples, 9.0);
+    // Of one point it is the same question.
+    let point = interval("2", "2");
+    let (same, again) = stability(&point.samples, 9.0);
+    assert!((same.lambda == of_known.lambda) && again == radius && truth(&point, &same).is_true());
+    let mut radii = vec![radius];
+    for (low, high) in [("1.8", "2"), ("2", "2.4"), ("1.6", "2.4")] {
+        let case = interval(low, high);
+        let (good, radius) = stability(&case.samples, 9.0);
+        let left = (1.0 - radius) * 9.0 * (2.0 - 9.0 / 20.0);
+        assert!(left > 0.0 && truth(&case, &good).is_true(), "{low} {high} {radius}");
+        let of = |c_e: f64| SampledInequality { c_e: exact(c_e), ..good.clone() };
+        assert!(truth(&case, &of(left * 0.999)).is_true() && truth(&case, &of(left * 1.001)).is_false());
+        radii.push(radius);
+    }
+    assert!(radii[0] < radii[1] && radii[1] < radii[3] && radii[2] < radii[3] && radii[0] < radii[2], "{radii:?}");
+    // (1-b) sigma of a gain of nearly 0, theta of a large one.
+    assert!(truth(&interval("1/50", "2"), &of_known).is_false());
+    assert!(truth(&interval("2", "14"), &of_known).is_false());
+}
+
 /// A number that is not positive, a region that is none.
 #[test]
 fn numbers_of_stability_that_are_none() {
@@ -205,7 +249,8 @@ fn numbers_of_stability_that_are_none() {
 const SAMPLES: u32 = 40;
 
 fn existence(samples: &FloatSuprema, sigma: f64, share: f64) -> Option<SampledExistence> {
-    let found = samples.propose_sampled_energy([1.0, 1.0], &numbers(sigma, SAMPLES, 2.0), share)?;
+    let ends = samples.moves().map(|moves| moves.map(|share| 1.0 - share));
+    let found = samples.propose_sampled_energy([1.0, 1.0], &with_gains(sigma, SAMPLES, 2.0, ends), share)?;
     let SampledEnergy { p, k_p, lambda, c_x, c_e, c_y } = found;
     Some(SampledExistence {
         x: exact(1.0),
@@ -225,10 +270,15 @@ fn existence(samples: &FloatSuprema, sigma: f64, share: f64) -> Option<SampledEx
 #[test]
 fn periodic_solutions_stay_within_the_bounds() {
     let (mut nearest, mut seen) = ([0.0_f64; 3], 0);
-    for ([j, g, r, d], sigma) in
-        [([-3.0, 2.0, 1.0, -0.5], 9.0), ([-1.0, 8.0, -5.0, 0.5], 10.0), ([-2.0, 3.0, -4.0, 2.0], 18.0)]
-    {
-        let Case { engine, samples } = linear(&format!("{j}*x + {g}*e"), &format!("{r}*x + {d}*e + cos(2*pi*t)"));
+    for ([j, g, r, d], sigma, [low, high]) in [
+        ([-3.0, 2.0, 1.0, -0.5], 9.0, ["1", "1"]),
+        ([-1.0, 8.0, -5.0, 0.5], 10.0, ["1", "1"]),
+        ([-2.0, 3.0, -4.0, 2.0], 18.0, ["1", "1"]),
+        ([-3.0, 2.0, 1.0, -0.5], 9.0, ["0.7", "1.4"]),
+        ([-2.0, 3.0, -4.0, 2.0], 24.0, ["0.8", "1.25"]),
+    ] {
+        let (f, q) = (format!("{j}*x + {g}*e"), format!("{r}*x + {d}*e + cos(2*pi*t)"));
+        let Case { engine, samples } = of_plant(&with_input_gain(&["x"], &[&f], &q, ["1", low, high]));
         let slopes = Slopes { j: vec![j], g: vec![g], r: vec![r], d };
         let of = numbers(sigma, SAMPLES, 2.0);
         for share in [0.1, 1.0] {
@@ -241,14 +291,15 @@ fn periodic_solutions_stay_within_the_bounds() {
             assert!(!engine.decide_sampled_existence(&smaller, EFFORT).truth.is_true());
             let bound = |c: &Rational| (proved.gamma.to_f64() / c.to_f64()).sqrt();
             let bounds = [&proved.c_x, &proved.c_e, &proved.c_y].map(bound);
-            for harmonic in 1..9 {
+            let ends = [low, high].map(|end| end.parse::<f64>().unwrap());
+            for (b, harmonic) in ends.into_iter().flat_map(|b| (1..9).map(move |harmonic| (b, harmonic))) {
                 let frequency = std::f64::consts::TAU * f64::from(harmonic);
                 let mut at = State { x: 0.0, e: 0.0, zeta: [0.0; 3] };
                 let mut squares = [0.0; 3];
                 for k in 0..200 * SAMPLES {
                     let start = f64::from(k % SAMPLES) * of.step;
                     // The mean of q0 does not count.
-                    let found = sample(&of, &slopes, at, &|s| 0.7 + (frequency * (start + s)).cos());
+                    let found = sample((&of, b), &slopes, at, &|s| 0.7 + (frequency * (start + s)).cos());
                     if k % SAMPLES == 0 {
                         squares = [0.0; 3];
                     }
@@ -261,13 +312,13 @@ fn periodic_solutions_stay_within_the_bounds() {
                 }
                 for ((square, bound), nearest) in squares.iter().zip(bounds).zip(&mut nearest) {
                     let ratio = square.sqrt() / (bound * 0.5f64.sqrt());
-                    assert!(ratio < 1.001, "{j} {g} {r} {d} {share} {harmonic}: {ratio}");
+                    assert!(ratio < 1.001, "{j} {g} {r} {d} {share} {b} {harmonic}: {ratio}");
                     *nearest = nearest.max(ratio);
                 }
             }
         }
     }
-    assert!(seen >= 3, "{seen}");
+    assert!(seen >= 6, "{seen}");
     // None of the bounds is idle; c_x is not what the programs make large.
     assert!(nearest.iter().zip([0.02, 0.2, 0.5]).all(|(ratio, least)| *ratio > least), "{nearest:?}");
 }

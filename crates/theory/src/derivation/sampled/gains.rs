@@ -5,6 +5,7 @@ use crate::data::Problem;
 use crate::derivation::energy::EnergyBounds;
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{Forcing, Gains, Response};
+use crate::input_gain::InputGain;
 use sigmastar_exact::real::{Operand, Real};
 
 /// With more samples than these 1 + theta, which is then nearly 1, stands for every Sb_j.
@@ -23,6 +24,8 @@ pub struct SampledGains<R> {
     pub rms_by_rate: R,
     /// 2 (1 + theta)/(2 - h sigma): rms(e') over rms(q).
     pub rate: R,
+    /// 1 + theta: the mean square of the y_k over rms(q).
+    pub means: R,
     /// sqrt(1/sg_S^2 + (h/pi)^2): rms(e') over rms(q').
     pub rate_by_rate: R,
     /// (h/(2 pi)) sqrt(h T): what e is off its straight lines between samples, over rms(q').
@@ -37,7 +40,10 @@ pub struct SampledGains<R> {
     pub between_by_size: R,
     /// What a matrix inequality says of the periodic solution, where there is one (derivation, 13.7, (E) at samples); of y at samples.
     energy: Option<EnergyBounds<R>>,
-    /// mu and 1 + theta of the law.
+    /// How far the worst harmonic is from being without one, of an input gain: the least `1/(1+theta) - (1-b) sigma Re D_j/|D_j|^2`, to be
+    /// positive.
+    pub room: Option<R>,
+    /// mu of the law, and what multiplies Z: 1 + theta, with an input gain times `1 + dl max sigma |e_j|/|qb_j|`.
     mu: R,
     enlarged: R,
 }
@@ -49,7 +55,8 @@ where
     /// Evaluates the gains. Hypotheses: K h Nb2 < 2, h sigma <= 1.
     ///
     /// With Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|} the harmonics of y are at most Sb_j times those of the means of q, and 0
-    /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike.
+    /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike. With an input gain it is [`Worst`] that
+    /// bounds each of them.
     #[must_use]
     pub fn new(law: &SampledLaw<R>, sigma: &R, period: &R) -> SampledGains<R> {
         let one = R::int(1);
@@ -57,40 +64,57 @@ where
         let decay = &one - &product;
         let share = |sine: &R| sigma.sqr() + &decay * law.frequency_squared(sine);
         let largest = law.enlarged.sqr();
+        let mut worst = law.input_gain.as_ref().map(Worst::new);
         let nothing = &largest * R::int(0);
         let (mut sup, mut sup_by_rate, mut sup_of_means) = (nothing.clone(), nothing.clone(), nothing);
         for (j, sine) in (1_u32..).zip(law.sines.iter()) {
             let cosine = &one - sine;
-            let gain = if law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
+            let size = share(sine);
+            let gain = if let Some(worst) = &mut worst {
+                worst.take(law, sigma, [sine, &size])
+            } else if law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
                 largest.min(&(&one / cosine))
             } else {
                 largest.clone()
             };
             let times = if 2 * j == law.samples { one.clone() } else { R::int(2) };
-            let own = times / share(sine);
+            let own = times / size;
             let term = gain * &own;
             sup_of_means = sup_of_means + own;
             sup_by_rate = sup_by_rate + &term / law.frequency_squared(sine);
             sup = sup + term;
         }
         let first = law.first_frequency_squared();
-        let rms = &one / slowest(law, sigma, &decay);
+        let rate_of_means = R::int(2) / (R::int(2) - product);
+        let (rms, rate, means, enlarged) = match &worst {
+            None => {
+                let rms = &one / slowest(law, sigma, &decay);
+                (rms, &rate_of_means * &law.enlarged, law.enlarged.clone(), law.enlarged.clone())
+            }
+            Some(Worst { gain, error, rate, means, .. }) => {
+                let [rms, rate, means] = [error, rate, means].map(R::sqrt);
+                let enlarged = &law.enlarged * (&one + gain.largest_shift() * sigma * &rms);
+                (rms, rate, means, enlarged)
+            }
+        };
         let in_between = &law.step / &law.pi;
         SampledGains {
             sup: sup.sqrt(),
             sup_of_means: sup_of_means.sqrt(),
-            rate_of_means: R::int(2) / (R::int(2) - &product),
+            rate_of_means,
             between_by_size: (&law.step * period).sqrt() / R::int(2),
             energy: None,
             sup_by_rate: sup_by_rate.sqrt(),
             rms_by_rate: &rms / first.sqrt(),
-            rate: R::int(2) * &law.enlarged / (R::int(2) - product),
+            rate,
+            means,
             rate_by_rate: (rms.sqr() + in_between.sqr()).sqrt(),
             rms,
             between: &in_between / R::int(2) * (&law.step * period).sqrt(),
             between_rms: in_between.sqr(),
+            room: worst.map(|worst| worst.room),
             mu: law.mu.clone(),
-            enlarged: law.enlarged.clone(),
+            enlarged,
         }
     }
 
@@ -105,6 +129,53 @@ where
     #[must_use]
     pub fn has_energy(&self) -> bool {
         self.energy.is_some()
+    }
+}
+
+/// The worst harmonics with an input gain (derivation, 13.1): with `D_j = (e^{i om h} - a)/h`
+///
+/// `|e_j| <= F_j |qb_j|`, `F_j = |D_j| / min_b ( |D_j|^2/(1+theta) - (1-b) sigma Re D_j )`, y_j = D_j e_j,
+///
+/// over b in {b_lo, b_hi}, with theta that of b_hi. For `e_j = qb_j/(D_j (1 + b K h G) - (1-b) sigma)`, where `1 + b K h G = 1 - be + i eta` with a
+/// real eta and `1 - be >= 1/(1+theta)`: that is on a line, the distance of which from 0 is the minimum over `|D_j|`.
+struct Worst<'g, R> {
+    gain: &'g InputGain<R>,
+    /// The largest F_j^2.
+    error: R,
+    /// The largest om_j^2 F_j^2, which is at least 1: at the largest j it is that at b = 1, and om_j^2 >= 3/h^2 there.
+    rate: R,
+    /// The largest |D_j|^2 F_j^2.
+    means: R,
+    /// The least `1/(1+theta) - (1-b) sigma Re D_j/|D_j|^2`.
+    room: R,
+}
+
+impl<'g, R: Real> Worst<'g, R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    fn new(gain: &'g InputGain<R>) -> Worst<'g, R> {
+        let none = || R::int(0);
+        Worst { gain, error: none(), rate: none(), means: none(), room: R::int(1) }
+    }
+
+    /// Takes a harmonic into account, by its sine and |D_j|^2: |y_j|^2 is at most so many times |qb_j|^2; unknown where a
+    /// denominator may vanish.
+    fn take(&mut self, law: &SampledLaw<R>, sigma: &R, [sine, size]: [&R; 2]) -> R {
+        let one = R::int(1);
+        let squared = law.frequency_squared(sine);
+        // sigma Re D_j = sigma (sigma - h om_j^2/2), over |D_j|^2.
+        let along = sigma * (sigma - &law.step * &squared / R::int(2)) / size;
+        let InputGain { low, high } = self.gain;
+        let moved = (&along * (&one - low)).max(&(along * (&one - high)));
+        let room = &one - law.lost() - moved;
+        let of_y = if room.is_certainly_positive() { &one / room.sqr() } else { R::unknown() };
+        let own = &of_y / size;
+        self.room = self.room.min(&room);
+        self.rate = self.rate.max(&(squared * &own));
+        self.error = self.error.max(&own);
+        self.means = self.means.max(&of_y);
+        of_y
     }
 }
 
@@ -168,18 +239,28 @@ mod tests {
     use super::*;
     use crate::data::{Data, Problem};
     use crate::derivation::sampled::examples::{example, law};
+    use crate::derivation::sampled::sampled_trade_off;
     use nalgebra::Complex;
+    use serde_json::json;
     use std::f64::consts::{PI, TAU};
 
-    /// [sup|e_k|, sup|e|, rms(e), rms(e')] of the periodic answer to q = 2 Re sum_m c_m e^{i m Om t}, T = 1, by its harmonics at
-    /// samples and the law between them; in doubles.
-    fn answer(data: &Data<'_>, law: &SampledLaw<f64>, sigma: f64, n_o: i64, q: &[(i64, Complex<f64>)]) -> [f64; 4] {
+    /// [sup|e_k|, sup|e|, rms(e), rms(e'), sup|zeta_k|_N, sup|u_k|] of the periodic answer to q = mean + 2 Re sum_m c_m e^{i m Om t}, T = 1,
+    /// at the input gain b, by its harmonics at samples and the law between them; in doubles.
+    fn answer(
+        data: &Data<'_>,
+        law: &SampledLaw<f64>,
+        (sigma, b, n_o): (f64, f64, i64),
+        (q_mean, q): (f64, &[(i64, Complex<f64>)]),
+    ) -> [f64; 6] {
         let weights = &data.spec.internal_model.weights;
         let (n, h, i) = (i64::from(law.samples), law.step, Complex::i());
         let turn = |angle: f64| Complex::new(0.0, angle).exp();
         let both: Vec<(i64, Complex<f64>)> = q.iter().flat_map(|(m, c)| [(*m, *c), (-m, c.conj())]).collect();
         let mut e = vec![Complex::new(0.0, 0.0); n as usize];
-        let mut means = e.clone();
+        let mut means = vec![Complex::new(q_mean, 0.0); n as usize];
+        let c = |l: i64| weights.weight_f64(l.unsigned_abs()) * if l == 0 { 1.0 } else { 0.5 };
+        // Of each oscillator, by the frequency at which it turns.
+        let mut zeta = vec![e.clone(); 2 * n_o as usize + 1];
         for (m, c) in &both {
             let angle = TAU * *m as f64 * h;
             let mean = c * (turn(angle) - 1.0) / (i * angle);
@@ -187,30 +268,48 @@ mod tests {
                 means[k as usize] += mean * turn(TAU * (*m * k).rem_euclid(n) as f64 / n as f64);
             }
         }
-        for j in 1..n {
+        for j in 0..n {
             let mean: Complex<f64> = (0..n)
                 .map(|k| means[k as usize] * turn(-TAU * (j * k).rem_euclid(n) as f64 / n as f64))
                 .sum::<Complex<f64>>()
                 / n as f64;
-            let near = j.min(n - j);
-            if near <= n_o {
+            let phi = TAU * j as f64 / n as f64;
+            let within = |l: i64| turn(phi - TAU * l as f64 / n as f64);
+            let at = |k: i64| turn(TAU * (j * k).rem_euclid(n) as f64 / n as f64);
+            if j.min(n - j) <= n_o {
+                // At resonance y = 0: the one oscillator that turns with it answers with v = -q/(b K), and v is that of R zeta.
+                let l = if j <= n_o { j } else { j - n };
+                let own = -mean / (b * law.gain * c(l)) * turn(-phi);
+                (0..n).for_each(|k| zeta[(l + n_o) as usize][k as usize] += own * at(k));
                 continue;
             }
-            let phi = TAU * j as f64 / n as f64;
-            let c = |l: i64| weights.weight_f64(l.unsigned_abs()) * if l == 0 { 1.0 } else { 0.5 };
-            let g: Complex<f64> = (-n_o..=n_o).map(|l| c(l) / (turn(phi - TAU * l as f64 / n as f64) - 1.0)).sum();
-            let y = mean / (1.0 + law.gain * h * g);
-            let own = h * y / (turn(phi) - (1.0 - h * sigma));
+            let g: Complex<f64> = (-n_o..=n_o).map(|l| c(l) / (within(l) - 1.0)).sum();
+            let d = (turn(phi) - (1.0 - h * sigma)) / h;
+            let own = mean / (d * (1.0 + b * law.gain * h * g) - (1.0 - b) * sigma);
             for k in 0..n {
-                e[k as usize] += own * turn(TAU * (j * k).rem_euclid(n) as f64 / n as f64);
+                e[k as usize] += own * at(k);
+                for l in -n_o..=n_o {
+                    let factor = turn(TAU * l as f64 / n as f64) * (within(l) - 1.0);
+                    zeta[(l + n_o) as usize][k as usize] -= h * d * own / factor * at(k);
+                }
             }
         }
         let (mut at_samples, mut sup, mut squares, mut rates) = (0.0_f64, 0.0_f64, 0.0, 0.0);
+        let (mut of_zeta, mut control) = (0.0_f64, 0.0_f64);
         const FINE: u32 = 40;
         for k in 0..n {
             let (here, next) = (e[k as usize].re, e[((k + 1) % n) as usize].re);
+            // What is put in, b u.
             let u = (next - here) / h - means[k as usize].re;
             at_samples = at_samples.max(here.abs());
+            control = control.max(u.abs() / b);
+            of_zeta = of_zeta.max((-n_o..=n_o).map(|l| c(l) * zeta[(l + n_o) as usize][k as usize].norm_sqr()).sum());
+            let v: Complex<f64> = (-n_o..=n_o)
+                .map(|l| c(l) * turn(TAU * l as f64 / n as f64) * zeta[(l + n_o) as usize][k as usize])
+                .sum();
+            // It is what the law puts out.
+            let law_u = law.gain * v.re - sigma * here;
+            assert!((law_u - u / b).abs() < 1e-8 * (1.0 + law_u.abs()), "{law_u} {u} {b}");
             for step in 0..FINE {
                 let s = h * (f64::from(step) + 0.5) / f64::from(FINE);
                 let start = k as f64 * h;
@@ -221,14 +320,14 @@ mod tests {
                     })
                     .sum();
                 let value: Complex<f64> = both.iter().map(|(m, c)| c * turn(TAU * *m as f64 * (start + s))).sum();
-                let error = here + s * u + moved.re;
+                let error = here + s * (u + q_mean) + moved.re;
                 sup = sup.max(error.abs());
                 squares += error * error;
-                rates += (value.re + u).powi(2);
+                rates += (q_mean + value.re + u).powi(2);
             }
         }
         let count = (n * i64::from(FINE)) as f64;
-        [at_samples, sup, (squares / count).sqrt(), (rates / count).sqrt()]
+        [at_samples, sup, (squares / count).sqrt(), (rates / count).sqrt(), of_zeta.sqrt(), control]
     }
 
     #[test]
@@ -238,15 +337,34 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 40) as f64 / 2f64.powi(23) - 1.0
         };
-        let mut worst = [0.0_f64; 4];
-        for (samples, mu) in [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")] {
-            let spec = example(samples, mu, |_| ());
+        let (mut worst, mut with_gain, mut seen) = ([0.0_f64; 6], [0.0_f64; 6], 0);
+        let models = [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")];
+        let intervals = [[1.0, 1.0], [0.8, 1.25], [0.5, 1.1], [0.95, 1.8]];
+        for ((samples, mu), [low, high]) in
+            models.into_iter().flat_map(|model| intervals.map(|interval| (model, interval)))
+        {
+            let spec = example(samples, mu, |file| {
+                file["input_gain"] = json!({ "nominal": 1, "low": low.to_string(), "high": high.to_string() });
+            });
             let data = Data::new(&spec, 128);
-            let law = law(&data).to_f64();
+            let enclosed = law(&data);
+            let law = enclosed.to_f64();
+            let pairs = sampled_trade_off(&data, &enclosed).candidates;
+            let worst = if high > low { &mut with_gain } else { &mut worst };
             for product in [0.02, 0.3, 1.0] {
                 let sigma = product / law.step;
                 let gains = SampledGains::new(&law, &sigma, &1.0);
+                // So few samples are too few for so wide an interval.
+                if gains.room.is_some_and(|room| room <= 0.0) {
+                    continue;
+                }
+                seen += 1;
                 for trial in 0..24 {
+                    let b = match trial % 4 {
+                        0 | 2 => low,
+                        1 => high,
+                        _ => low + (high - low) * 0.5 * (next() + 1.0),
+                    };
                     let n_o = i64::from(trial % 3) * i64::from((samples - 1) / 2) / 2;
                     let q: Vec<(i64, Complex<f64>)> = match trial {
                         // One harmonic alone, the first that the oscillators leave.
@@ -260,7 +378,9 @@ mod tests {
                         let factor = |m: i64| if rate { TAU * m as f64 } else { 1.0 };
                         q.iter().map(|(m, c)| 2.0 * c.norm_sqr() * factor(*m).powi(2)).sum::<f64>().sqrt()
                     };
-                    let (size, rate) = (rms(false), rms(true));
+                    let mean = if trial % 5 == 0 { next() } else { 0.0 };
+                    let (size, rate) = (rms(false).hypot(mean), rms(true));
+                    let of_answer = law.answer(&sigma, &1.0, &gains.means);
                     let least = |by_size: f64, by_rate: f64| (by_size * size).min(by_rate * rate);
                     let at_samples = least(gains.sup, gains.sup_by_rate);
                     let bounds = [
@@ -268,17 +388,119 @@ mod tests {
                         at_samples + gains.between * rate,
                         least(gains.rms, gains.rms_by_rate) + gains.between_rms * rate,
                         least(gains.rate, gains.rate_by_rate),
+                        z(&gains, &law, &data, [size, rate], &pairs),
+                        of_answer.mean * mean.abs() + of_answer.by_rate * rate,
                     ];
-                    let found = answer(&data, &law, sigma, n_o, &q);
-                    for ((found, bound), worst) in found.iter().zip(bounds).zip(&mut worst) {
-                        assert!(found <= &(bound * (1.0 + 1e-3)), "{samples} {mu} {product} {trial}: {found} {bound}");
+                    let found = answer(&data, &law, (sigma, b, n_o), (mean, &q));
+                    for ((found, bound), worst) in found.iter().zip(bounds).zip(&mut *worst) {
+                        assert!(
+                            found <= &(bound * (1.0 + 1e-3)),
+                            "{samples} {mu} {low} {high} {product} {trial}: {found} {bound}"
+                        );
                         *worst = worst.max(found / bound);
                     }
                 }
             }
         }
         // None of the bounds is idle.
-        assert!(worst.iter().all(|ratio| *ratio > 0.6), "{worst:?}");
+        assert!(seen >= 40, "{seen}");
+        for worst in [worst, with_gain] {
+            let least = [0.6, 0.6, 0.6, 0.6, 0.6, 0.3];
+            assert!(worst.iter().zip(least).all(|(ratio, least)| *ratio > least), "{worst:?}");
+        }
+    }
+
+    /// Z for the best pair (k0, k1).
+    fn z(
+        gains: &SampledGains<f64>,
+        law: &SampledLaw<f64>,
+        data: &Data<'_>,
+        [size, rate]: [f64; 2],
+        pairs: &[(f64, f64, u32)],
+    ) -> f64 {
+        let w = data.base_frequency.midpoint_f64();
+        let of = |(k0, k1, _): &(f64, f64, u32)| {
+            (1.0 / (2.0 * law.mu) + k0 / (w * w)) * size * size + k1 / w.powi(4) * rate * rate
+        };
+        gains.enlarged * pairs.iter().map(of).fold(f64::INFINITY, f64::min).sqrt()
+    }
+
+    /// What one harmonic may make of e with an input gain is reached: at the worst point of the line that 1 + b K h G runs over, at an end
+    /// of b; theta counts for the largest gain.
+    #[test]
+    fn the_factors_of_an_input_gain_are_reached() {
+        let (mut largest, mut control) = ([0.0_f64; 2], 0.0_f64);
+        for (low, high) in [("0.8", "1"), ("1", "1.25"), ("0.5", "1.5"), ("0.1", "1")] {
+            for mu in ["1/1000", "40"] {
+                let spec = example(24, mu, |file| {
+                    file["input_gain"] = json!({ "nominal": 1, "low": low, "high": high });
+                });
+                let data = Data::new(&spec, 128);
+                let law = law(&data).to_f64();
+                let ends = [low, high].map(|end| end.parse::<f64>().unwrap());
+                for (product, (j, sine)) in [0.05, 0.4, 1.0]
+                    .into_iter()
+                    .flat_map(|product| (1..).zip(law.sines.iter()).map(move |at| (product, at)))
+                {
+                    let sigma = product / law.step;
+                    let size = sigma * sigma + (1.0 - product) * law.frequency_squared(sine);
+                    let gain = law.input_gain.clone().unwrap();
+                    let of_y = Worst::new(&gain).take(&law, &sigma, [sine, &size]);
+                    // b_hi K h Nb2 is 2 or more, or a denominator may vanish.
+                    if of_y.is_nan() {
+                        continue;
+                    }
+                    let factor = (of_y / size).sqrt();
+                    let d = (Complex::new(0.0, PI * f64::from(2 * j) / 24.0).exp() - (1.0 - product)) / law.step;
+                    for (end, b) in ends.into_iter().enumerate() {
+                        let beta = b * law.load() / ends[1] / 2.0;
+                        // Where the line comes nearest.
+                        let at = |eta: f64| d * Complex::new(1.0 - beta, eta) - (1.0 - b) * sigma;
+                        let nearest = -(at(0.0) * (Complex::<f64>::i() * d).conj()).re / size;
+                        for eta in [nearest, nearest + 0.1, nearest - 3.0] {
+                            let e = 1.0 / at(eta);
+                            let found = e.norm();
+                            assert!(found <= factor * (1.0 + 1e-9), "{low} {high} {mu} {product} {j} {b}");
+                            // b u = (E - 1) e/h - q.
+                            let u = ((d - sigma) * e - 1.0).norm() / b;
+                            let most = law.answer(&sigma, &1.0, &(factor * size.sqrt())).harmonic;
+                            assert!(u <= most * (1.0 + 1e-9), "{low} {high} {mu} {product} {j} {b}: {u} {most}");
+                            control = control.max(u / most);
+                            // With little theta it makes no difference of which gain it is.
+                            if mu == "1/1000" || end == 1 {
+                                largest[end] = largest[end].max(found / factor);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        assert!(largest.iter().all(|ratio| *ratio > 0.9999), "{largest:?}");
+        assert!(control > 0.75, "{control}");
+    }
+
+    /// Without an interval there are no factors of one; where a denominator may vanish nothing is known of what rests on it.
+    #[test]
+    fn an_interval_that_is_too_wide_has_no_bounds() {
+        let of = |low: &str, high: &str| {
+            let spec = example(24, "1", |file| {
+                file["input_gain"] = json!({ "nominal": 1, "low": low, "high": high });
+            });
+            let data = Data::new(&spec, 128);
+            let law = law(&data);
+            SampledGains::new(&law, &(data.rational(&rug::Rational::from(24))), &data.period)
+        };
+        assert!(of("1", "1").room.is_none());
+        let good = of("0.5", "1.5");
+        assert!(good.room.unwrap().is_certainly_positive() && !good.sup.is_unknown());
+        // h sigma = 1, where (2 - h sigma)/(1 + theta) > (b_hi - 1) h sigma: b_hi below 2.
+        let wide = of("0.5", "2.2");
+        assert!(!wide.room.unwrap().is_certainly_positive());
+        for unknown in [&wide.sup, &wide.sup_by_rate, &wide.rms, &wide.rate, &wide.means, &wide.enlarged] {
+            assert!(unknown.is_unknown());
+        }
+        // The bounds by the mean square of y do not rest on it.
+        assert!(!wide.sup_of_means.is_unknown() && !wide.rate_of_means.is_unknown());
     }
 
     /// The closed forms of the sums where theta plays no part: those of the resolvent at samples.

@@ -2,6 +2,7 @@
 
 use crate::data::{Data, Numbers, Problem};
 use crate::derivation::control::Answer;
+use crate::input_gain::InputGain;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 use sigmastar_lang::spec::{SampledGain, Sampling};
@@ -18,10 +19,14 @@ pub struct SampledLaw<R> {
     pub gain: R,
     /// Nb2, at least the sum of all weights.
     pub weight_sum: R,
-    /// 1 + theta := 1/(1 - K h Nb2/2); meaningful where K h Nb2 < 2.
+    /// 1 + theta := 1/(1 - K h Nb2/2); meaningful where K h Nb2 < 2. With an input gain that of b_hi K, the largest one.
     pub enlarged: R,
-    /// mu := K (1 + theta), the mu of every formula of section 12.
+    /// mu := K (1 + theta), the mu of every formula of section 12; with an input gain that of b_lo K.
     pub mu: R,
+    /// The same of K itself, which is the mu that is asked for.
+    pub nominal_mu: R,
+    /// The interval of the input gain; none where it is 1 (derivation, 13.1).
+    pub input_gain: Option<InputGain<R>>,
     /// pi.
     pub pi: R,
     /// sin^2(pi j/N_s) for j = 1, ..., floor(N_s/2).
@@ -39,7 +44,7 @@ impl SampledLaw<Enclosure> {
         let sines = (1..=sampling.samples / 2).map(sine).collect();
         let [step, gain, weight_sum] =
             [sampling.step.enclose(data.precision), data.rational(&gain.gain), data.rational(&gain.weight_sum)];
-        SampledLaw::with(step, sampling.samples, [gain, weight_sum], pi, sines)
+        SampledLaw::with((step, sampling.samples), [gain, weight_sum], data.input_gain.clone(), (pi, sines))
     }
 
     /// The same law in doubles, for a search.
@@ -48,7 +53,8 @@ impl SampledLaw<Enclosure> {
         let [step, gain, weight_sum, pi] =
             [&self.step, &self.gain, &self.weight_sum, &self.pi].map(Enclosure::midpoint_f64);
         let sines = self.sines.iter().map(Enclosure::midpoint_f64).collect();
-        SampledLaw::with(step, self.samples, [gain, weight_sum], pi, sines)
+        let input_gain = self.input_gain.as_ref().map(InputGain::midpoints);
+        SampledLaw::with((step, self.samples), [gain, weight_sum], input_gain, (pi, sines))
     }
 }
 
@@ -56,15 +62,31 @@ impl<R: Real> SampledLaw<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    fn with(step: R, samples: u32, [gain, weight_sum]: [R; 2], pi: R, sines: Vec<R>) -> SampledLaw<R> {
-        let enlarged = R::int(1) / (R::int(1) - &gain * &step * &weight_sum / R::int(2));
-        SampledLaw { mu: &gain * &enlarged, step, samples, gain, weight_sum, enlarged, pi, sines: Arc::new(sines) }
+    fn with(
+        (step, samples): (R, u32),
+        [gain, weight_sum]: [R; 2],
+        input_gain: Option<InputGain<R>>,
+        (pi, sines): (R, Vec<R>),
+    ) -> SampledLaw<R> {
+        let enlarged = |gain: &R| R::int(1) / (R::int(1) - gain * &step * &weight_sum / R::int(2));
+        let nominal = enlarged(&gain);
+        let nominal_mu = &gain * &nominal;
+        let (enlarged, mu) = match &input_gain {
+            None => (nominal, nominal_mu.clone()),
+            Some(InputGain { low, high }) => {
+                let least = low * &gain;
+                (enlarged(&(high * &gain)), enlarged(&least) * least)
+            }
+        };
+        let sines = Arc::new(sines);
+        SampledLaw { step, samples, gain, weight_sum, enlarged, mu, nominal_mu, input_gain, pi, sines }
     }
 
-    /// K h Nb2, to be below 2.
+    /// K h Nb2, to be below 2; with an input gain that of b_hi K.
     #[must_use]
     pub fn load(&self) -> R {
-        &self.gain * &self.step * &self.weight_sum
+        let load = &self.gain * &self.step * &self.weight_sum;
+        self.input_gain.as_ref().map_or_else(|| load.clone(), |gain| &gain.high * &load)
     }
 
     /// theta/(1 + theta) = K h Nb2/2.
@@ -80,19 +102,22 @@ where
         &self.mu / base_frequency
     }
 
-    /// What the control makes of the harmonics of the means of q (derivation, 13.5): with g = 2 (1 + theta)/(2 - h sigma) F is 2/sqrt(4 - g)
-    /// up to g = 3 and g - 1 above, and the sum of all |u_j| is at most `F sqrt((T^2 - h^2)/12)` times rms(q').
+    /// What the control makes of the harmonics of the means of q (derivation, 13.5): with g = 2 Y/(2 - h sigma), Y = `of_means` the bound of
+    /// |y|_s over |qb|_s, 1 + theta without an input gain, F is 2/sqrt(4 - g) up to g = 3 and g - 1 above, with an input gain
+    /// `(1 + g)/b_lo`; and the sum of all |u_j| is at most `F sqrt((T^2 - h^2)/12)` times rms(q').
     ///
-    /// u_j = (P Y - 1) q_j where P = (E - 1)/(E - a), E = e^{i om h}, is on the circle over [0, 2/(2 - h sigma)] and Y on that over [0, 1 + theta].
+    /// u_j = (P Y_j - 1) q_j where P = (E - 1)/(E - a), E = e^{i om h}, is on the circle over [0, 2/(2 - h sigma)] and Y_j on that over
+    /// [0, 1 + theta]; with an input gain b u_j = (E - 1) e_j/h - q_j, e_j = h y_j/(E - a).
     #[must_use]
-    pub fn answer(&self, sigma: &R, period: &R) -> Answer<R> {
-        let most = R::int(2) * &self.enlarged / (R::int(2) - &self.step * sigma);
-        let harmonic = match (R::int(3) - &most).is_certainly_positive() {
-            true => R::int(2) / (R::int(4) - most).sqrt(),
-            false => R::int(2).max(&(most - R::int(1))),
+    pub fn answer(&self, sigma: &R, period: &R, of_means: &R) -> Answer<R> {
+        let most = R::int(2) * of_means / (R::int(2) - &self.step * sigma);
+        let (mean, harmonic) = match &self.input_gain {
+            Some(gain) => (R::int(1) / &gain.low, (R::int(1) + most) / &gain.low),
+            None if (R::int(3) - &most).is_certainly_positive() => (R::int(1), R::int(2) / (R::int(4) - most).sqrt()),
+            None => (R::int(1), R::int(2).max(&(most - R::int(1)))),
         };
         let by_rate = &harmonic * ((period.sqr() - self.step.sqr()) / R::int(12)).sqrt();
-        Answer { mean: R::int(1), harmonic, by_rate }
+        Answer { mean, harmonic, by_rate }
     }
 
     /// om_j^2 = (4/h^2) sin^2(pi j/N_s) of one of the sines.
@@ -106,5 +131,36 @@ where
     pub fn first_frequency_squared(&self) -> R {
         // There are at least two samples, so at least one sine.
         self.sines.first().map_or_else(R::unknown, |sine| self.frequency_squared(sine))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::derivation::sampled::examples::{example, law};
+    use serde_json::json;
+
+    /// theta of the largest gain, mu of the smallest one, and the mu that is asked for as without an interval.
+    #[test]
+    fn an_input_gain_moves_theta_and_mu() {
+        let of = |gain: Option<[&str; 3]>| {
+            let spec = example(50, "3", |file| {
+                if let Some([nominal, low, high]) = gain {
+                    file["input_gain"] = json!({ "nominal": nominal, "low": low, "high": high });
+                }
+            });
+            law(&Data::new(&spec, 128)).to_f64()
+        };
+        let plain = of(None);
+        let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-14;
+        assert!(close(plain.load(), plain.gain * 0.02 * plain.weight_sum) && close(plain.mu, plain.nominal_mu));
+        let known = of(Some(["2", "2", "2"]));
+        assert!(close(known.mu, plain.mu) && close(known.enlarged, plain.enlarged) && known.input_gain.is_none());
+        // b from 1/2 to 3/2.
+        let wide = of(Some(["2", "1", "3"]));
+        assert!(close(wide.gain, plain.gain) && close(wide.nominal_mu, plain.nominal_mu));
+        assert!(close(wide.load(), 1.5 * plain.load()) && close(wide.lost(), 0.75 * plain.load()));
+        assert!(close(wide.enlarged, 1.0 / (1.0 - 0.75 * plain.load())));
+        assert!(close(wide.mu, 0.5 * plain.gain / (1.0 - 0.25 * plain.load())));
     }
 }

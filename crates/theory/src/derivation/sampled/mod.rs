@@ -26,9 +26,10 @@ use super::harmonics::AtOrigin;
 use super::initial_set::{claimed_distances, set_conditions};
 use super::mean_squares::{Forcing, Gains, MeanSquares, PeriodicSize, SetBounds, sup_by_mean_squares};
 use super::sharp::one_sided;
-use super::stability::{ErrorBox, level_condition};
+use super::stability::{ErrorBox, level_condition, level_words};
 use super::{domain_conditions, sign_conditions};
 use crate::data::Data;
+use crate::input_gain::InputGain;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 
@@ -90,6 +91,7 @@ impl SampledEvaluation {
         conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
         conditions.push(SampledPair { law: &law, k0: &witness.k0, k1: &witness.k1 }.condition(data));
         conditions.extend(law_conditions(data, &law, &product));
+        conditions.extend(room_condition(data, &gains));
         conditions.extend(too_large_a_sum(data, &law));
         conditions.extend(energy::conditions(data, witness));
         conditions.extend(match gains.has_energy() {
@@ -100,16 +102,20 @@ impl SampledEvaluation {
         let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
         let with_gain = [&sigma, &law.gain];
         let by_parts = control::by_parts(data, with_gain, [&size.e_per, &z]);
-        let control = Control {
-            steady: law.answer(&sigma, &data.period).steady(&origin, &size.forcing, &by_parts),
-            transient: control::transient(data, with_gain, &eta, &start),
+        // At the gain b the weight of zeta is b eta: the square is convex in b, so that it is largest at an end.
+        let transient = |eta: &Enclosure, start: &Enclosure| control::transient(data, with_gain, eta, start);
+        let transient = match &data.input_gain {
+            None => transient(&eta, &start),
+            Some(InputGain { low, high }) => {
+                let least = &start - &eta * (high - low) * dist_z.sqr();
+                transient(&(low * &eta), &least).max(&transient(&(high * &eta), &start))
+            }
         };
-        conditions.push(Condition::less(
-            "C4",
-            "w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}",
-            start,
-            exit,
-        ));
+        let answer = law.answer(&sigma, &data.period, &gains.means);
+        let nominal = data.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(data.precision));
+        let control =
+            Control { steady: answer.steady(&origin, &size.forcing, &by_parts), transient }.over(nominal.as_ref());
+        conditions.push(Condition::less("C4", level_words(data), start, exit));
         match matrix_inequality::proved_for(data, witness) {
             Some(inequality) => conditions.extend(matrix_inequality::conditions(data, inequality, &error_box)),
             None => {
@@ -157,14 +163,27 @@ fn law_conditions(data: &Data<'_>, law: &SampledLaw<Enclosure>, product: &Enclos
     vec![
         Condition::at_most("S0", "h sigma <= 1", product.clone(), one),
         Condition::at_most("S0b", "Nbar^2 <= weight_sum", data.n_bar_squared.clone(), law.weight_sum.clone()),
-        Condition::less("S0c", "K h weight_sum < 2", law.load(), two),
+        Condition::less(
+            "S0c",
+            if law.input_gain.is_some() { "b_hi K h weight_sum < 2" } else { "K h weight_sum < 2" },
+            law.load(),
+            two,
+        ),
         Condition::at_most(
             "S0d",
             "|K (1 + theta) - mu| <= mu/10^6",
-            (&law.mu - &data.mu).abs(),
+            (&law.nominal_mu - &data.mu).abs(),
             &data.mu / Enclosure::from_integer(i64::from(SAME_MU), data.precision),
         ),
     ]
+}
+
+/// With an input gain every harmonic has an answer, and a bound: no denominator vanishes. Told where it is not proved, and without it
+/// nothing that a periodic solution needs is.
+fn room_condition(data: &Data<'_>, gains: &SampledGains<Enclosure>) -> Option<Condition> {
+    let what = "0 < 1/(1+theta) - (1-b) sigma Re D_j/|D_j|^2 for every harmonic j, b = b_lo and b_hi";
+    let condition = Condition::less("S0e", what, data.zero(), gains.room.clone()?);
+    (!condition.truth().is_true()).then_some(condition)
 }
 
 /// Nb2 <= Nbar^2 (1 + 1/10^6), told where it is not proved: a larger sum would let a smaller K pass for the mu that is asked for.
