@@ -59,7 +59,7 @@ impl Engine {
     /// same plant and region.
     #[must_use]
     pub fn prove_value(&self, samples: &FloatSuprema, kind: Bound, x: &Rational, e: &Rational) -> Option<ProvedValue> {
-        let reach = Rational::from(x + self.region.radius()).to_f64();
+        let reach = self.reach(x);
         let sampled = samples.refined(kind, reach, e.to_f64());
         if !sampled.value.is_finite() {
             return None;

@@ -262,6 +262,27 @@ pub fn prove_orbit(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates)
     Err(failure.unwrap_or(OrbitNotProved::DefectTooLarge { defect: proved, radius: f64::INFINITY }))
 }
 
+/// The proofs of the cells of a family, in the same coordinates and with the same P, brought to one alpha, p_low and p_up, which serve in
+/// each of them (derivation, 13.2): a smaller rate and wider bounds are true as well, with a radius in return.
+///
+/// # Errors
+/// A radius that is not below its tube any more.
+pub fn in_common(proofs: Vec<OrbitProof>) -> Result<Vec<OrbitProof>, OrbitNotProved> {
+    let least = |of: fn(&OrbitProof) -> &Rational| proofs.iter().map(of).min().cloned().unwrap_or_default();
+    let (alpha, p_low) = (least(|proof| &proof.alpha), least(|proof| &proof.p_low));
+    let p_up = proofs.iter().map(|proof| &proof.p_up).max().cloned().unwrap_or_default();
+    let of_one = |proof: OrbitProof| {
+        let too_large = |radius: f64| OrbitNotProved::DefectTooLarge { defect: proof.defect.to_f64(), radius };
+        let radius = least_radius(&proof.defect, &alpha, &p_low, &p_up).ok_or_else(|| too_large(f64::INFINITY))?;
+        if radius >= proof.tube {
+            return Err(too_large(radius.to_f64()));
+        }
+        let [alpha, p_low, p_up] = [&alpha, &p_low, &p_up].map(Rational::clone);
+        Ok(OrbitProof { radius, alpha, p_low, p_up, ..proof })
+    };
+    proofs.clone().into_iter().map(of_one).collect()
+}
+
 /// The triple of a second P, proved beside that of the orbit: `P' + P J + J^T P <= -2 alpha P` in the same tube.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondTriple {
@@ -271,6 +292,18 @@ pub struct SecondTriple {
     pub p_low: Rational,
     /// `P(t) <= p_up I`.
     pub p_up: Rational,
+}
+
+impl SecondTriple {
+    /// A triple that serves wherever one of these does: that of all cells of a family. None of none.
+    #[must_use]
+    pub fn in_common(triples: Vec<SecondTriple>) -> Option<SecondTriple> {
+        triples.into_iter().reduce(|one, other| SecondTriple {
+            alpha: one.alpha.min(other.alpha),
+            p_low: one.p_low.min(other.p_low),
+            p_up: one.p_up.max(other.p_up),
+        })
+    }
 }
 
 /// The triple of another P in the same coordinates, for a proved orbit.
