@@ -118,6 +118,12 @@ impl Parameters {
         cell
     }
 
+    /// The ends of the named intervals, in their order.
+    #[must_use]
+    pub fn named_ends(&self) -> Vec<[Rational; 2]> {
+        self.named_intervals().map(|(_, interval)| [interval.low.clone(), interval.high.clone()]).collect()
+    }
+
     /// Whether these values of the parameters with intervals lie in the box.
     #[must_use]
     pub fn contain(&self, values: &[Rational]) -> bool {

@@ -1,7 +1,6 @@
 //! The box of a family cut into cells, where one curve that is affine in the parameters is not close enough to the orbits of all members
 //! (derivation, 13.2).
 
-use super::proofs::{Along, ProvenCell, along};
 use super::refusal::PlantRefusal;
 use super::sampling::{float_matrix, rows};
 use rayon::prelude::*;
@@ -10,7 +9,9 @@ use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, OrbitCurve, Parameters, ProvedForcing};
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
-use sigmastar_plants::orbit::{Coordinates, OrbitFailure, OrbitProof, defects_by_parameter, find_orbit, round_orbit};
+use sigmastar_plants::orbit::{
+    Coordinates, OrbitFailure, OrbitProof, defects_by_parameter, find_orbit, prove_forcing, prove_orbit_at, round_orbit,
+};
 use std::f64::consts::{SQRT_2, TAU};
 
 /// The most cells.
@@ -18,7 +19,10 @@ pub(super) const MAX_CELLS: usize = 64;
 
 /// The shares up to which a tube is narrow: of the sizes that it is added to. The second one is for a family of which no gain is found with
 /// the first.
-pub(super) const NARROW: [f64; 2] = [0.1, 0.01];
+pub(super) const NARROW: [f64; 2] = [0.25, 0.05];
+
+/// Halves whose tube is wider than this share of what it was are not halved again: what is left is not of the parameters that are cut.
+const HELPS: f64 = 0.9;
 
 /// A periodic solution has about this share of what the root mean square of q does in a period.
 const OF_FORCING: f64 = 0.1;
@@ -60,18 +64,19 @@ impl Cell {
         Ok(engine.map_err(|_| PlantRefusal::Coordinates)?.smooth(&zero, &zero)?)
     }
 
-    /// How wide the tube is: the largest share of r and of the rests of q of what they are added to, roughly.
-    fn width(&self, coordinates: &Coordinates) -> Result<f64, PlantRefusal> {
+    /// How wide the tube is: the largest share of r and of the rests of q of what they are added to, roughly; and the rate in it, which is at
+    /// most this.
+    fn width(&self, coordinates: &Coordinates, most: Option<&Rational>) -> Result<(f64, Rational), PlantRefusal> {
         self.smooth()?;
-        let Along { cells, .. } = along(std::slice::from_ref(self), coordinates)?;
+        let orbit =
+            prove_orbit_at(&self.plant, &self.curve, coordinates, most).map_err(PlantRefusal::OrbitNotProved)?;
+        let forcing = prove_forcing(&self.plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
         let period = self.plant.period.nominal().to_f64();
-        let of_one = |ProvenCell { orbit, forcing, .. }: &ProvenCell| {
-            let [size, slope] = sizes(forcing, period);
-            let rests = (forcing.rest.to_f64() / size).max(forcing.rest_t.to_f64() / slope);
-            rests.max(self.share_of_radius(coordinates, orbit, OF_FORCING * size * period))
-        };
+        let [size, slope] = sizes(&forcing, period);
+        let of_radius = self.share_of_radius(coordinates, &orbit, OF_FORCING * size * period);
+        let shares = [forcing.rest.to_f64() / size, forcing.rest_t.to_f64() / slope, of_radius];
         // Of a q that is 0 nothing is a share.
-        Ok(cells.iter().map(of_one).filter(|share| !share.is_nan()).fold(0.0, f64::max))
+        Ok((shares.into_iter().filter(|share| !share.is_nan()).fold(0.0, f64::max), orbit.alpha))
     }
 
     /// The share of r of the deviation of x that an error of this size causes; 0 where derivatives are everywhere the same, or an error
@@ -89,7 +94,7 @@ impl Cell {
         let defects = defects_by_parameter(&self.plant, &self.curve, coordinates);
         // The first of equal ones.
         let most = (0..defects.len()).reduce(|most, i| if defects[i] > defects[most] { i } else { most })?;
-        let ends: Vec<[Rational; 2]> = self.ends();
+        let ends = self.plant.parameters.named_ends();
         let [low, high] = ends.get(most)?;
         let middle = Rational::from(low + high) / 2;
         let half = |ends_of_half: [&Rational; 2]| {
@@ -101,16 +106,11 @@ impl Cell {
         Some(low.and_then(|low| Ok([low, high?])))
     }
 
-    /// The ends of the named intervals.
-    fn ends(&self) -> Vec<[Rational; 2]> {
-        let named = self.plant.parameters.named_intervals();
-        named.map(|(_, interval)| [interval.low.clone(), interval.high.clone()]).collect()
-    }
-
-    /// That the nominal member and those at the corners are proved each by itself: without that no cells are small enough.
-    fn corners(&self, coordinates: &Coordinates) -> Result<(), PlantRefusal> {
-        let alone = |values: Vec<Rational>| Cell::new(self.plant.member(&values))?.width(coordinates).map(|_| ());
-        self.plant.parameters.looked_at().into_par_iter().map(alone).collect()
+    /// The least rate of the nominal member and of those at the corners, each proved by itself: without that no cells are small enough.
+    fn at_corners(&self, coordinates: &Coordinates) -> Result<Option<Rational>, PlantRefusal> {
+        let alone = |values: Vec<Rational>| Cell::new(self.plant.member(&values))?.width(coordinates, None);
+        let rates: Vec<_> = self.plant.parameters.looked_at().into_par_iter().map(alone).collect::<Result<_, _>>()?;
+        Ok(rates.into_iter().map(|(_, rate)| rate).min())
     }
 }
 
@@ -137,27 +137,29 @@ impl Cells {
     /// # Errors
     /// What is not proved in one of them, or of the whole box where a corner is not proved by itself.
     pub(super) fn new(whole: Cell, coordinates: &Coordinates, narrow: f64) -> Result<Cells, PlantRefusal> {
-        let (mut level, mut done, mut count, mut why) = (vec![whole], Vec::new(), 1, None);
+        let first = whole.width(coordinates, None);
+        if first.as_ref().is_ok_and(|(width, _)| *width <= narrow) {
+            return Ok(Cells { list: vec![whole], why: None });
+        }
+        let rate = match &first {
+            Ok((_, rate)) => Some(rate.clone()),
+            Err(refusal) => whole.at_corners(coordinates).map_err(|_| refusal.clone())?,
+        };
+        let why = reason(&whole, first);
+        let (mut level, mut done, mut count) = (vec![(whole, f64::INFINITY)], Vec::new(), 1);
         while !level.is_empty() {
-            let widths: Vec<Result<f64, PlantRefusal>> = level.par_iter().map(|cell| cell.width(coordinates)).collect();
-            let mut cells: Vec<(Cell, Result<f64, PlantRefusal>)> =
-                std::mem::take(&mut level).into_iter().zip(widths).collect();
+            let widths =
+                level.par_iter().map(|(cell, _)| cell.width(coordinates, rate.as_ref()).map(|(width, _)| width));
+            let widths: Vec<Result<f64, PlantRefusal>> = widths.collect();
+            let mut cells: Vec<_> = std::mem::take(&mut level).into_iter().zip(widths).collect();
             cells.sort_by_key(|(_, width)| width.is_ok());
-            for (cell, width) in cells {
-                if width.as_ref().is_ok_and(|width| *width <= narrow) {
-                    done.push(cell);
-                    continue;
-                }
-                if let (1, Err(refusal)) = (count, &width)
-                    && cell.plant.is_family()
-                {
-                    cell.corners(coordinates).map_err(|_| refusal.clone())?;
-                }
-                let halves = if count < MAX_CELLS { cell.halves(coordinates) } else { None };
+            for ((cell, before), width) in cells {
+                let is_narrow = width.as_ref().is_ok_and(|width| *width <= narrow || *width > HELPS * before);
+                let halves = if is_narrow || count == MAX_CELLS { None } else { cell.halves(coordinates) };
                 match (halves.transpose()?, width) {
                     (Some(halves), width) => {
-                        why = why.or(Some(reason(&cell, width)));
-                        level.extend(halves);
+                        let width = width.unwrap_or(f64::INFINITY);
+                        level.extend(halves.map(|half| (half, width)));
                         count += 1;
                     }
                     (None, Ok(_)) => done.push(cell),
@@ -165,20 +167,27 @@ impl Cells {
                 }
             }
         }
-        done.sort_by_key(Cell::ends);
+        done.sort_by_key(|cell: &Cell| cell.plant.parameters.named_ends());
+        // A box of nothing but a clock is not cut.
+        let why = (done.len() > 1).then_some(why);
         Ok(Cells { list: done, why })
     }
 
-    /// The parameters of each cell, and its curve.
-    pub(super) fn curves(&self) -> impl Iterator<Item = (&Parameters, FloatCurve)> {
+    /// The members of each cell, and their curve.
+    pub(super) fn curves(&self) -> Vec<(&Plant, &OrbitCurve)> {
+        self.list.iter().map(|Cell { plant, curve }| (plant, curve)).collect()
+    }
+
+    /// The parameters of each cell, and the curve in doubles.
+    pub(super) fn in_doubles(&self) -> impl Iterator<Item = (&Parameters, FloatCurve)> {
         self.list.iter().map(|Cell { plant, curve }| (&plant.parameters, FloatCurve::from(curve)))
     }
 }
 
-/// Why a cell is halved, in words.
-fn reason(cell: &Cell, width: Result<f64, PlantRefusal>) -> String {
+/// Why the box is cut, in words.
+fn reason(cell: &Cell, width: Result<(f64, Rational), PlantRefusal>) -> String {
     match width {
-        Ok(width) => {
+        Ok((width, _)) => {
             let share =
                 round_f64(100.0 * width, 2, Direction::Nearest).map_or_else(String::new, |share| write_exact(&share));
             format!(

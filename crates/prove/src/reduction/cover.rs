@@ -2,7 +2,7 @@
 
 use super::cells::MAX_CELLS;
 use rug::Rational;
-use sigmastar_lang::spec::{Parameters, ProvedCell};
+use sigmastar_lang::spec::Parameters;
 
 /// The ends of a box, one pair for each parameter.
 type Ends = Vec<[Rational; 2]>;
@@ -12,9 +12,9 @@ fn ends(parameters: &Parameters) -> Ends {
 }
 
 /// Whether every point of the box lies in a cell. Cells of no volume, more than [`MAX_CELLS`], and cells of other parameters never do.
-pub(super) fn covers(cells: &[ProvedCell], parameters: &Parameters) -> bool {
+pub(super) fn covers(cells: &[Parameters], parameters: &Parameters) -> bool {
     let whole = ends(parameters);
-    let cells: Vec<Ends> = cells.iter().map(|cell| ends(&cell.parameters)).collect();
+    let cells: Vec<Ends> = cells.iter().map(ends).collect();
     let is_box = |cell: &Ends| cell.len() == whole.len() && cell.iter().all(|[low, high]| low < high);
     cells.len() <= MAX_CELLS && cells.iter().all(is_box) && is_covered(&whole, &cells.iter().collect::<Vec<_>>())
 }
@@ -37,4 +37,35 @@ fn is_covered(whole: &Ends, cells: &[&Ends]) -> bool {
         left[axis] = [low.clone().max(own[0].clone()), high.clone().min(own[1].clone())];
         covered
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ends(sides: &[[i32; 2]]) -> Ends {
+        sides.iter().map(|side| side.map(Rational::from)).collect()
+    }
+
+    fn all_but(left_out: Option<usize>, cells: &[&[[i32; 2]]]) -> bool {
+        let cells: Vec<Ends> = cells.iter().map(|cell| ends(cell)).collect();
+        let kept = cells.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, cell)| cell);
+        is_covered(&ends(&[[0, 4], [0, 4]]), &kept.collect::<Vec<_>>())
+    }
+
+    /// Five boxes like a pinwheel, and each of them counts; overlaps, repeated and larger boxes do no harm.
+    #[test]
+    fn the_box_is_covered_or_not() {
+        let wheel: [&[[i32; 2]]; 5] =
+            [&[[0, 3], [0, 1]], &[[3, 4], [0, 3]], &[[1, 4], [3, 4]], &[[0, 1], [1, 4]], &[[1, 3], [1, 3]]];
+        assert!(all_but(None, &wheel));
+        assert!((0..5).all(|left_out| !all_but(Some(left_out), &wheel)));
+        let twice = [wheel, wheel].concat();
+        assert!((0..10).all(|left_out| all_but(Some(left_out), &twice)));
+        assert!(all_but(None, &[&[[-1, 3], [-1, 9]], &[[2, 5], [0, 4]]]));
+        assert!(!all_but(None, &[&[[-1, 3], [-1, 9]], &[[2, 5], [1, 4]]]));
+        assert!(!all_but(None, &[]));
+        // Without parameters there is one member.
+        assert!(is_covered(&Vec::new(), &[&Vec::new()]) && !is_covered(&Vec::new(), &[]));
+    }
 }

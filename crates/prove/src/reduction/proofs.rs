@@ -16,7 +16,7 @@ use sigmastar_lang::spec::{
     Specification,
 };
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
-use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, in_common, prove_forcing, prove_orbit};
+use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, prove_forcing, prove_orbits};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::transfer::TradeOff;
 
@@ -56,8 +56,8 @@ pub(super) struct ProvenCell {
 }
 
 pub(super) fn along(cells: &[Cell], coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
-    let orbits = cells.par_iter().map(|Cell { plant, curve }| prove_orbit(plant, curve, coordinates));
-    let orbits = orbits.collect::<Result<_, _>>().and_then(in_common).map_err(PlantRefusal::OrbitNotProved)?;
+    let curves: Vec<_> = cells.iter().map(|Cell { plant, curve }| (plant, curve)).collect();
+    let orbits = prove_orbits(&curves, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
     let of_one = |(cell, orbit): (&Cell, OrbitProof)| {
         let forcing = prove_forcing(&cell.plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
         Ok(ProvenCell { parameters: cell.plant.parameters.clone(), orbit, forcing })

@@ -15,11 +15,11 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
-use sigmastar_lang::spec::{OfPlant, PeriodicMatrix, ProvedCell, ProvedOrbit, ProvedValues, Specification};
+use sigmastar_lang::spec::{OfPlant, Parameters, PeriodicMatrix, ProvedCell, ProvedOrbit, ProvedValues, Specification};
 use sigmastar_plants::bounds::Asked;
 use sigmastar_plants::orbit::{
-    self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit, in_common,
-    propose_coordinates, prove_orbit, prove_second, round_orbit,
+    self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
+    propose_coordinates, prove_orbits, prove_second, round_orbit,
 };
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
@@ -358,9 +358,7 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
     let mut best: Option<(Coordinates, Chosen)> = None;
     let mut failure = PlantRefusal::NoContraction;
     for candidate in candidates {
-        let orbits = sampling.cells.list.par_iter().map(|Cell { plant, curve }| prove_orbit(plant, curve, candidate));
-        let proved = match orbits.collect::<Result<_, _>>().and_then(in_common).map(|orbits| orbits.into_iter().next())
-        {
+        let proved = match prove_orbits(&sampling.cells.curves(), candidate).map(|orbits| orbits.into_iter().next()) {
             Ok(Some(proved)) => proved,
             Ok(None) => continue,
             Err(error) => {
@@ -470,8 +468,14 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
     }
     plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
-    if !covers(&of_plant.cells, &of_plant.parameters) {
-        return Err(PlantRefusal::Uncovered { cells: of_plant.cells.len() });
+    // Of the parameters of this plant, whichever the certificate was made for: an undivided orbit is about their nominal values.
+    let own = |cell: &ProvedCell| match of_plant.undivided() {
+        Some(_) => plant.parameters.clone(),
+        None => plant.parameters.in_cell(&cell.parameters.named_ends()),
+    };
+    let boxes: Vec<Parameters> = of_plant.cells.iter().map(own).collect();
+    if !covers(&boxes, &plant.parameters) {
+        return Err(PlantRefusal::Uncovered { cells: boxes.len() });
     }
     let coordinates = Coordinates { l: of_plant.coordinates.clone(), p: of_plant.matrix.clone(), rate: f64::NAN };
     let rational = |constant: &Constant| constant.as_rational().cloned().unwrap_or_default();
@@ -480,7 +484,7 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
         let [alpha, p_low, p_up] = [&triple.alpha, &triple.p_low, &triple.p_up].map(rational);
         (matrix.clone(), SecondTriple { alpha, p_low, p_up })
     });
-    let decided = |ProvedCell { parameters, orbit, forcing }: &ProvedCell| {
+    let decided = |(ProvedCell { orbit, forcing, .. }, parameters): (&ProvedCell, &Parameters)| {
         let of_cell = in_cell(plant, parameters.clone());
         let ProvedOrbit { approximation, defect, tube, radius } = orbit.clone();
         let [alpha, p_low, p_up] = [&alpha, &p_low, &p_up].map(Rational::clone);
@@ -493,8 +497,13 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
         }
         Ok(ProvenCell { parameters: parameters.clone(), orbit, forcing: forcing.clone() })
     };
-    let cells =
-        of_plant.cells.par_iter().map(decided).collect::<Result<_, _>>().map_err(PlantRefusal::OrbitNotProved)?;
+    let cells = of_plant
+        .cells
+        .par_iter()
+        .zip(&boxes)
+        .map(decided)
+        .collect::<Result<_, _>>()
+        .map_err(PlantRefusal::OrbitNotProved)?;
     let along = Along { coordinates, cells, existence: second, why: None };
     let engine = along.engine(plant)?;
     if let Some([x, e]) = values.reach() {

@@ -52,7 +52,7 @@ impl<'a> Sampling<'a> {
         let [x_0, e_0] = model.set.given().map(|size| size.copied().unwrap_or(0.0));
         let by_forcing = 0.1 * squares.sqrt() * model.period;
         let unit_e = [e_0, by_forcing].into_iter().fold(0.0, f64::max);
-        let plain = FloatSuprema::of_cells(plant, cells.curves(), rows(&DMatrix::identity(n, n)), [None; 2]);
+        let plain = FloatSuprema::of_cells(plant, cells.in_doubles(), rows(&DMatrix::identity(n, n)), [None; 2]);
         Sampling { plant, cells, model, plain, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
     }
 
@@ -78,7 +78,7 @@ impl<'a> Sampling<'a> {
         if matrices.into_iter().flatten().all(|matrix| matrix.harmonics.is_empty()) {
             return self.plain.in_coordinates(rows(l), matrices);
         }
-        FloatSuprema::of_cells(self.plant, self.cells.curves(), rows(l), matrices)
+        FloatSuprema::of_cells(self.plant, self.cells.in_doubles(), rows(l), matrices)
     }
 
     /// The same as functions of (X, E).
