@@ -54,6 +54,11 @@ impl Cell {
         Ok(Cell { plant, curve })
     }
 
+    /// Whether there is a parameter along which the box can be cut: it cannot along the clock.
+    pub(super) fn can_be_cut(&self) -> bool {
+        self.plant.parameters.named_intervals().next().is_some()
+    }
+
     /// That f and q are smooth on the curve itself, so that what is not is told at its operation before anything is proved with it.
     pub(super) fn smooth(&self) -> Result<(), PlantRefusal> {
         let n = self.plant.states();
@@ -131,22 +136,22 @@ fn sizes(forcing: &ProvedForcing, period: f64) -> [f64; 2] {
 }
 
 impl Cells {
-    /// The whole box, or cells of it in which the tube is narrow, in these coordinates: first whatever is not proved is halved, along the
+    /// The whole box, or cells of it in which the tube is narrow in the first of these coordinates: first whatever is not proved is halved, along the
     /// parameter that adds most to the defect, then what is wider than `narrow`, until nothing is or there are [`MAX_CELLS`].
     ///
     /// # Errors
     /// What is not proved in one of them, or of the whole box where a corner is not proved by itself.
-    pub(super) fn new(whole: Cell, coordinates: &Coordinates, narrow: f64) -> Result<Cells, PlantRefusal> {
-        let first = whole.width(coordinates, None);
-        if first.as_ref().is_ok_and(|(width, _)| *width <= narrow) {
-            return Ok(Cells { list: vec![whole], why: None });
-        }
+    pub(super) fn new(whole: &Cell, candidates: &[Coordinates], narrow: f64) -> Result<Cells, PlantRefusal> {
+        let coordinates = candidates.first().filter(|_| whole.can_be_cut());
+        let first = coordinates.map(|coordinates| (coordinates, whole.width(coordinates, None)));
+        let first = first.filter(|(_, width)| width.as_ref().map_or(true, |(width, _)| *width > narrow));
+        let Some((coordinates, first)) = first else { return Ok(Cells { list: vec![whole.clone()], why: None }) };
         let rate = match &first {
             Ok((_, rate)) => Some(rate.clone()),
             Err(refusal) => whole.at_corners(coordinates).map_err(|_| refusal.clone())?,
         };
-        let why = reason(&whole, first);
-        let (mut level, mut done, mut count) = (vec![(whole, f64::INFINITY)], Vec::new(), 1);
+        let why = reason(whole, first);
+        let (mut level, mut done, mut count) = (vec![(whole.clone(), f64::INFINITY)], Vec::new(), 1);
         while !level.is_empty() {
             let widths =
                 level.par_iter().map(|(cell, _)| cell.width(coordinates, rate.as_ref()).map(|(width, _)| width));
@@ -168,7 +173,6 @@ impl Cells {
             }
         }
         done.sort_by_key(|cell: &Cell| cell.plant.parameters.named_ends());
-        // A box of nothing but a clock is not cut.
         let why = (done.len() > 1).then_some(why);
         Ok(Cells { list: done, why })
     }

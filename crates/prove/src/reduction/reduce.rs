@@ -69,17 +69,29 @@ const WORTH: f64 = 1e-4;
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce(plant: &Plant, gain: Option<&Rational>) -> Result<Reduced, PlantRefusal> {
+    let (whole, candidates) = with_whole(plant)?;
     let [narrow, narrower] = NARROW;
-    reduce_in_cells(plant, gain, narrow).or_else(|refusal| match plant.parameters.named_intervals().next() {
-        // The tube may take what the initial set needs.
-        Some(_) if refusal.may_be_of_tube() => reduce_in_cells(plant, gain, narrower).map_err(|_| refusal),
-        _ => Err(refusal),
+    let cells = Cells::new(&whole, &candidates, narrow)?;
+    in_cells(plant, &cells, &candidates, gain).or_else(|refusal| {
+        // The tube may take what the initial set needs, and be too wide in other coordinates.
+        let finer = refusal.may_be_of_tube().then(|| Cells::new(&whole, &candidates, narrower));
+        match finer {
+            Some(Ok(finer)) if finer.list.len() > cells.list.len() => {
+                in_cells(plant, &finer, &candidates, gain).map_err(|_| refusal)
+            }
+            _ => Err(refusal),
+        }
     })
 }
 
-/// The same, with the tube around the orbit as narrow as this.
-fn reduce_in_cells(plant: &Plant, gain: Option<&Rational>, narrow: f64) -> Result<Reduced, PlantRefusal> {
-    with_candidates(plant, narrow, |candidates, sampling| {
+/// The data that [`reduce()`] proves, in these cells.
+fn in_cells(
+    plant: &Plant,
+    cells: &Cells,
+    candidates: &[Coordinates],
+    gain: Option<&Rational>,
+) -> Result<Reduced, PlantRefusal> {
+    with_cells(plant, cells, candidates, |sampling| {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
         if let Ok((p, rough)) = &starts
@@ -123,18 +135,24 @@ pub(super) fn with_coordinates<T>(
     plant: &Plant,
     prove: impl FnOnce(&Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
-    with_candidates(plant, NARROW[0], |candidates, sampling| {
+    with_candidates(plant, |candidates, sampling| {
         let (along, chosen) = best_by_norms(candidates, &starts(candidates, sampling), sampling)?;
         prove(&along, sampling, &chosen)
     })
 }
 
-/// Finds the orbit, proposes coordinates, cuts the box of a family where its tube is not as narrow as this, and goes on from there.
+/// Finds the orbit, proposes coordinates, cuts the box of a family where its tube is wide, and goes on from there.
 pub(super) fn with_candidates<T>(
     plant: &Plant,
-    narrow: f64,
     prove: impl FnOnce(&[Coordinates], &Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
+    let (whole, candidates) = with_whole(plant)?;
+    let cells = Cells::new(&whole, &candidates, NARROW[0])?;
+    with_cells(plant, &cells, &candidates, |sampling| prove(&candidates, sampling))
+}
+
+/// The orbit, found for all members at once, and candidates for the coordinates: at least one.
+fn with_whole(plant: &Plant) -> Result<(Cell, Vec<Coordinates>), PlantRefusal> {
     if plant.states() > MAX_STATES {
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
     }
@@ -142,21 +160,26 @@ pub(super) fn with_candidates<T>(
     let found = find_orbit(plant).map_err(PlantRefusal::NoOrbit)?;
     let curve = round_orbit(plant, &found).ok_or(PlantRefusal::NoOrbit(orbit::OrbitFailure::NotFinite))?;
     let whole = Cell { plant: plant.clone(), curve };
-    let named = plant.parameters.named_intervals().next().is_some();
-    if !named {
+    // Cells may be smooth where the whole box is not.
+    if !whole.can_be_cut() {
         whole.smooth()?;
     }
     let candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
+    if candidates.is_empty() { Err(PlantRefusal::NoContraction) } else { Ok((whole, candidates)) }
+}
+
+/// Proves the orbits of all cells, and goes on from there.
+fn with_cells<T>(
+    plant: &Plant,
+    cells: &Cells,
+    candidates: &[Coordinates],
+    prove: impl FnOnce(&Sampling<'_>) -> Result<T, PlantRefusal>,
+) -> Result<T, PlantRefusal> {
     let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
-    let cells = match named {
-        true => Cells::new(whole, first, narrow)?,
-        false => Cells { list: vec![whole], why: None },
-    };
-    let base = along(&cells.list, first)?;
-    let spec = base.specification(plant, ProvedValues::default())?;
+    let spec = along(&cells.list, first)?.specification(plant, ProvedValues::default())?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    prove(&candidates, &Sampling::new(plant, &cells, &model))
+    prove(&Sampling::new(plant, cells, &model))
 }
 
 /// What those candidates with a constant P promise by norms, and that P.

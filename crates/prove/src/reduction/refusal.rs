@@ -72,7 +72,8 @@ pub const MAX_STATES: usize = 6;
 impl PlantRefusal {
     /// Whether a narrower tube around the orbit may help.
     pub(super) fn may_be_of_tube(&self) -> bool {
-        matches!(self, PlantRefusal::NoGain(_) | PlantRefusal::NotProved { .. } | PlantRefusal::NotSmooth { .. })
+        use PlantRefusal::{NoGain, NotProved, NotSmooth, OrbitNotProved};
+        matches!(self, NoGain(_) | NotProved { .. } | NotSmooth { .. } | OrbitNotProved(_))
     }
 
     /// The errors at their places in the plant file; not empty.

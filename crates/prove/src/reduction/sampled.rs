@@ -1,6 +1,5 @@
 //! The bounds of a plant at the arguments of a claim about the regulator at samples.
 
-use super::cells::NARROW;
 use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
 use super::proofs::{Along, PRECISION};
@@ -48,7 +47,7 @@ pub fn reduce_sampled(
     if plant.is_family() {
         return Err(PlantRefusal::FamilyAtSamples);
     }
-    with_candidates(plant, NARROW[0], |candidates, sampled| {
+    with_candidates(plant, |candidates, sampled| {
         let starts = starts(candidates, sampled);
         let by_norms = || {
             let (along, chosen) = best_by_norms(candidates, &starts, sampled)?;
