@@ -6,6 +6,7 @@
 mod aligned;
 mod architecture;
 mod bound;
+mod cells;
 mod certify_random;
 mod check;
 mod chromium;

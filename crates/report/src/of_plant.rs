@@ -44,6 +44,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
              the member, and xb(t) follows it as an affine function of the parameters.",
         ));
     }
+    blocks.extend(cut(plant));
     if plant.states() > 0 {
         blocks.push(Block::says(
             "x_0(t) is the T-periodic solution of x' = f(t,x,0), and y = L^-1 (x - x_0) are the coordinates in which all norms are \
@@ -119,6 +120,17 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     blocks
 }
 
+/// That the box of the parameters is cut, and why.
+fn cut(plant: &OfPlant) -> Option<Block> {
+    plant.undivided().is_none().then(|| {
+        let why = plant.why_cut.as_ref().map_or_else(|| ".".to_owned(), |why| format!(": {why}."));
+        Block::says(format!(
+            "Their box is cut into {} cells, each with an xb(t) and a tube of its own; every number below is true in all of them{why}",
+            plant.cells.len()
+        ))
+    })
+}
+
 /// The matrix inequalities of the regulator at samples.
 fn at_samples(spec: &Specification) -> Vec<Block> {
     let SampledInequalities { stability, existence } = spec.bounds.proved_values().sampled();
@@ -148,16 +160,16 @@ fn place(spec: &Specification, ends: [&Rational; 2]) -> String {
 
 fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {
     let up = |value: &Rational| exact(value, Direction::Up);
-    let orbit = &plant.orbit;
+    let harmonics = plant.cells.iter().map(|cell| cell.orbit.approximation.harmonics()).max().unwrap_or(0);
+    let most = if plant.cells.len() > 1 { " at most" } else { "" };
     let mut facts = vec![
         (
             "orbit",
             format!(
-                "a trigonometric polynomial with {} harmonics; |L^-1 (x_0 - xb)| <= {} (defect {}, tube {})",
-                orbit.approximation.harmonics(),
-                up(&orbit.radius),
-                up(&orbit.defect),
-                up(&orbit.tube)
+                "a trigonometric polynomial with{most} {harmonics} harmonics; |L^-1 (x_0 - xb)| <= {} (defect {}, tube {})",
+                up(&plant.largest(|cell| &cell.orbit.radius)),
+                up(&plant.largest(|cell| &cell.orbit.defect)),
+                up(&plant.largest(|cell| &cell.orbit.tube))
             ),
         ),
         ("rate along it", format!("alpha = {}", number(&plant.triple.alpha, Direction::Down))),
@@ -183,9 +195,9 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
         "q(t, x_0, 0)",
         format!(
             "{} harmonics; the rest is at most {}, its derivative {}",
-            plant.forcing.harmonics.len(),
-            up(&plant.forcing.rest),
-            up(&plant.forcing.rest_t)
+            plant.cells.iter().map(|cell| cell.forcing.harmonics.len()).max().unwrap_or(0),
+            up(&plant.largest(|cell| &cell.forcing.rest)),
+            up(&plant.largest(|cell| &cell.forcing.rest_t))
         ),
     ));
     if let Some(ball) = set.and_then(|set| claimed_ball(plant, &set.x0)) {
@@ -213,6 +225,7 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
         matrix.iter().map(|row| row.iter().map(write_exact).collect()).collect()
     };
     let ball = set.and_then(|set| claimed_ball(plant, &set.x0));
+    let harmonics = plant.cells.iter().map(|cell| cell.orbit.approximation.harmonics()).max().unwrap_or(0);
     let values: Vec<Value> = spec
         .bounds
         .proved_values()
@@ -228,9 +241,11 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
     json!({
         "coordinates": rows(&plant.coordinates),
         "orbit": {
-            "harmonics": plant.orbit.approximation.harmonics(), "defect": write_exact(&plant.orbit.defect),
-            "tube": write_exact(&plant.orbit.tube), "radius": write_exact(&plant.orbit.radius),
+            "harmonics": harmonics, "defect": write_exact(&plant.largest(|cell| &cell.orbit.defect)),
+            "tube": write_exact(&plant.largest(|cell| &cell.orbit.tube)),
+            "radius": write_exact(&plant.largest(|cell| &cell.orbit.radius)),
         },
+        "cells": plant.cells.len(), "cells_because": plant.why_cut,
         "alpha": plant.triple.alpha.text, "ball": ball.as_ref().map(write_exact), "bounds": values,
         "matrix_inequality": spec.bounds.proved_values().inequality().map(|inequality| {
             let MatrixInequality { x, e, w_x, h, rate, value, splitting } = inequality;

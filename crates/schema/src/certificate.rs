@@ -1,6 +1,6 @@
 //! The fields of a certificate. It is written by the program; the schema is for readers of it.
 
-use super::shape::{Field, Shape, Sign, any_list, may, must};
+use super::shape::{Field, Shape, Sign, any_list, list, may, must};
 use super::{plant, specification};
 use sigmastar_lang::spec::Bound;
 use sigmastar_prove::certificate::{FORMAT, NumberFields, RefinedSquares, VERSION};
@@ -250,16 +250,26 @@ fn of_data() -> Vec<Field> {
         named("triple", Shape::Object(fields))
     };
     let vector = || any_list(rational());
-    let mut orbit = vec![must("mean", "Mean", "The mean of the approximate orbit.", vector()), harmonics(&vector)];
     let parts = |part: Vec<Field>| {
         let text = "How it changes with each parameter of which an interval is given.";
         may("sensitivities", "Sensitivities", text, any_list(Shape::Object(part)))
     };
-    orbit.push(parts(vec![must("mean", "Mean", "The mean.", vector()), harmonics(&vector)]));
-    orbit.extend(numbers(&["defect", "tube", "radius"], "A size of the proof of the orbit."));
-    let mut forcing = vec![must("mean", "Mean", "The mean of q along the orbit.", rational()), harmonics(&rational)];
-    forcing.push(parts(vec![must("mean", "Mean", "The mean.", rational()), harmonics(&rational)]));
-    forcing.extend(numbers(&["rest", "rest_t"], "A bound of what the harmonics leave."));
+    let around = |field: fn(&'static str, &'static str, &'static str, Shape) -> Field| {
+        let mut orbit = vec![must("mean", "Mean", "The mean of the approximate orbit.", vector()), harmonics(&vector)];
+        orbit.push(parts(vec![must("mean", "Mean", "The mean.", vector()), harmonics(&vector)]));
+        orbit.extend(numbers(&["defect", "tube", "radius"], "A size of the proof of the orbit."));
+        let mut forcing =
+            vec![must("mean", "Mean", "The mean of q along the orbit.", rational()), harmonics(&rational)];
+        forcing.push(parts(vec![must("mean", "Mean", "The mean.", rational()), harmonics(&rational)]));
+        forcing.extend(numbers(&["rest", "rest_t"], "A bound of what the harmonics leave."));
+        let orbit = named("orbit", Shape::Object(orbit));
+        let orbit = field("orbit", "Orbit", "The periodic solution of the zero dynamics.", orbit);
+        [orbit, field("forcing", "Forcing", "q along the orbit.", named("forcing", Shape::Object(forcing)))]
+    };
+    let ends = Shape::Object(numbers(&["low", "high"], "An end of the interval in this cell.").into_iter().collect());
+    let ends = must("parameters", "Parameters", "The part of each interval, in their order.", any_list(ends));
+    let cell = Shape::Object([ends].into_iter().chain(around(must)).collect());
+    let [orbit, forcing] = around(may);
     let names = Bound::ALL.map(Bound::field).to_vec();
     let mut value = vec![must("bound", "Bound", "Which bounding function.", Shape::Word(names))];
     value.extend(numbers(&["X", "E", "value"], "An argument, or the bound there."));
@@ -288,8 +298,14 @@ fn of_data() -> Vec<Field> {
         may("lyapunov", "Lyapunov triple", "P(t) and the triple of stability, proved.", triple()),
         may("lyapunov_existence", "Second triple", "That of the existence of the periodic solution.", triple()),
         may("coordinates", "Coordinates", "The rows of L in x = x_0 + L y.", matrix()),
-        may("orbit", "Orbit", "The periodic solution of the zero dynamics.", named("orbit", Shape::Object(orbit))),
-        may("forcing", "Forcing", "q along the orbit.", named("forcing", Shape::Object(forcing))),
+        orbit,
+        forcing,
+        may(
+            "cells",
+            "Cells",
+            "Of a cut box of parameters, in the place of orbit and forcing.",
+            list(named("cell", cell), 64),
+        ),
         may(
             "bounds",
             "Bounds",

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{OfPlant, OrbitCurve, TrigonometricVector};
+use sigmastar_lang::spec::{OfPlant, ProvedCell, TrigonometricVector};
 use std::f64::consts::TAU;
 
 /// How far above sigma* a trial is.
@@ -17,7 +17,7 @@ pub struct OwnPlant {
     pub plant: Plant,
     coordinates: DMatrix<f64>,
     inverse: DMatrix<f64>,
-    curve: OrbitCurve,
+    cells: Vec<ProvedCell>,
     mean: DVector<f64>,
     harmonics: Vec<[DVector<f64>; 2]>,
     /// How far x_0 may be from the approximation, in the norm of y.
@@ -31,16 +31,18 @@ impl OwnPlant {
         let n = proved.states();
         let coordinates = DMatrix::from_fn(n, n, |i, j| proved.coordinates[i][j].to_f64());
         let inverse = if n == 0 { coordinates.clone() } else { coordinates.clone().try_inverse()? };
-        let curve = proved.orbit.approximation.clone();
-        let (mean, harmonics) = doubles(&curve.centre);
-        let radius = proved.orbit.radius.to_f64();
-        Some(OwnPlant { plant, coordinates, inverse, curve, mean, harmonics, radius })
+        let (mean, harmonics, radius) = of_member(&proved.cells, &plant.parameters.nominal())?;
+        Some(OwnPlant { plant, coordinates, inverse, cells: proved.cells.clone(), mean, harmonics, radius })
     }
 
     /// The member of its family with these values of the parameters with intervals.
     pub(super) fn member(&self, values: &[Rational]) -> OwnPlant {
-        let (mean, harmonics) = doubles(&self.curve.at(&self.plant.parameters.deviations(values)));
-        OwnPlant { plant: self.plant.member(values), mean, harmonics, ..self.clone() }
+        let plant = self.plant.member(values);
+        match of_member(&self.cells, values) {
+            Some((mean, harmonics, radius)) => OwnPlant { plant, mean, harmonics, radius, ..self.clone() },
+            // Outside of the box nothing is claimed.
+            None => OwnPlant { plant, ..self.clone() },
+        }
     }
 
     /// xb at t = s T.
@@ -87,6 +89,16 @@ impl OwnPlant {
         }
     }
 }
+
+/// xb of a member in doubles, that of the first cell that it lies in, and how far x_0 may be from it.
+fn of_member(cells: &[ProvedCell], values: &[Rational]) -> Option<Curve> {
+    let ProvedCell { parameters, orbit, .. } = cells.iter().find(|cell| cell.parameters.contain(values))?;
+    let (mean, harmonics) = doubles(&orbit.approximation.at(&parameters.deviations(values)));
+    Some((mean, harmonics, orbit.radius.to_f64()))
+}
+
+/// Mean, harmonics and r.
+type Curve = (DVector<f64>, Vec<[DVector<f64>; 2]>, f64);
 
 /// The mean and the harmonics of a curve in doubles.
 fn doubles(TrigonometricVector { mean, harmonics }: &TrigonometricVector) -> (DVector<f64>, Vec<[DVector<f64>; 2]>) {

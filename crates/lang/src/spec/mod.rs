@@ -62,7 +62,7 @@ pub use model::{
 pub use notation::Notation;
 pub use object::choose;
 pub use object::{MAX_UNKNOWN, Object};
-pub use of_plant::{OfPlant, ProvedForcing, ProvedOrbit, Wave};
+pub use of_plant::{OfPlant, ProvedCell, ProvedForcing, ProvedOrbit, Wave};
 pub use parameters::{Interval, MAX_PARAMETERS, Parameter, Parameters, read_parameters};
 pub use period::{Period, read_period};
 pub use power_tail::power_tail;

@@ -59,6 +59,17 @@ impl ProvedForcing {
     }
 }
 
+/// What was proved of the members of a family whose parameters lie in one box (derivation, 13.2); of a plant without intervals all of it.
+#[derive(Clone, Debug)]
+pub struct ProvedCell {
+    /// The constants, with the intervals of the box; orbit and forcing are about their nominal values.
+    pub parameters: Parameters,
+    /// The orbit.
+    pub orbit: ProvedOrbit,
+    /// q along the orbit.
+    pub forcing: ProvedForcing,
+}
+
 /// The plant behind the data of a specification.
 #[derive(Clone, Debug)]
 pub struct OfPlant {
@@ -66,16 +77,16 @@ pub struct OfPlant {
     pub parameters: Parameters,
     /// The rows of L: `x = x_0 + L y`.
     pub coordinates: Vec<Vec<Rational>>,
-    /// The orbit.
-    pub orbit: ProvedOrbit,
+    /// The orbit and q along it, in cells that cover the box of the parameters: one where it is not cut.
+    pub cells: Vec<ProvedCell>,
+    /// Why the box is cut, where a search did that.
+    pub why_cut: Option<String>,
     /// The triple of stability, and of the orbit, in the coordinates y.
     pub triple: Lyapunov,
     /// Its P(t).
     pub matrix: PeriodicMatrix,
     /// Another triple with its P(t), for the existence of the periodic solution; without, the first one serves.
     pub existence: Option<Box<(Lyapunov, PeriodicMatrix)>>,
-    /// q along the orbit.
-    pub forcing: ProvedForcing,
     /// Where the model holds, as it was given: `|x - x_0|` and `|e|`.
     pub domain: Option<Domain>,
     /// The radius of the ball `|x - x_0|` that the initial set has to contain, where one was asked for.
@@ -87,5 +98,20 @@ impl OfPlant {
     #[must_use]
     pub fn states(&self) -> usize {
         self.coordinates.len()
+    }
+
+    /// The only cell, where that is the box of the parameters as it stands in the plant.
+    #[must_use]
+    pub fn undivided(&self) -> Option<&ProvedCell> {
+        match &self.cells[..] {
+            [cell] if cell.parameters.intervals().eq(self.parameters.intervals()) => Some(cell),
+            _ => None,
+        }
+    }
+
+    /// The largest of a number of the cells; 0 without any.
+    #[must_use]
+    pub fn largest(&self, of: impl Fn(&ProvedCell) -> &Rational) -> Rational {
+        self.cells.iter().map(of).max().cloned().unwrap_or_default()
     }
 }

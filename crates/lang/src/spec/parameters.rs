@@ -105,6 +105,31 @@ impl Parameters {
         fixed
     }
 
+    /// The same with a cell of the box in the place of the named intervals, in their order: about its middle, and with the clock as it is.
+    #[must_use]
+    pub fn in_cell(&self, ends: &[[Rational; 2]]) -> Parameters {
+        let mut ends = ends.iter();
+        let mut cell = self.clone();
+        for interval in cell.list.iter_mut().filter_map(|parameter| parameter.interval.as_mut()) {
+            if let Some([low, high]) = ends.next().cloned() {
+                *interval = Interval { nominal: Rational::from(&low + &high) / 2, low, high };
+            }
+        }
+        cell
+    }
+
+    /// The ends of the named intervals, in their order.
+    #[must_use]
+    pub fn named_ends(&self) -> Vec<[Rational; 2]> {
+        self.named_intervals().map(|(_, interval)| [interval.low.clone(), interval.high.clone()]).collect()
+    }
+
+    /// Whether these values of the parameters with intervals lie in the box.
+    #[must_use]
+    pub fn contain(&self, values: &[Rational]) -> bool {
+        self.intervals().zip(values).all(|(interval, value)| interval.low <= *value && *value <= interval.high)
+    }
+
     /// Members of the family that samples look at: the nominal one, and then all corners of the box.
     #[must_use]
     pub fn looked_at(&self) -> Vec<Vec<Rational>> {

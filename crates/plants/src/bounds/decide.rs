@@ -5,7 +5,7 @@ use super::centred::{Centred, Frame, OnBox};
 use super::chart::{Active, Ball, Cell, Chart, MAX_LEVEL, Placed};
 use super::definite::{SymmetricValues, Verdict, definite, leaves_out, nonnegative};
 use super::eigen::largest;
-use super::engine::Engine;
+use super::engine::{Engine, Tube};
 use super::entry::Entry;
 use super::majorant::Majorant;
 use super::pointwise::{product, roots};
@@ -24,7 +24,7 @@ use std::sync::Arc;
 pub struct Decision {
     /// Whether the bound holds on the whole region; `False` is a proof as well.
     pub truth: Truth,
-    /// The boxes that were examined.
+    /// The boxes that were examined; of a family in cells the most in one of these.
     pub boxes: usize,
 }
 
@@ -109,10 +109,10 @@ impl Engine {
         // The distance from the orbit is that of the tube, which is followed in time.
         let mut active = quantity.active.clone();
         active.time |= !active.states.is_empty();
-        self.below((kind, quantity), &active, [x, e], effort, &|frame, chart, ball, e| {
+        self.below((kind, quantity), &active, [x, e], effort, &|frame, (tube, chart), ball, e| {
             // x = x_0 + L y with |x_0 - xb| <= r in the norm of y: |y| is not below the distance from xb less r.
             let zero = frame.constant(Enclosure::zero(PRECISION));
-            let distance = frame.sub(&chart.distance(frame, ball), &frame.rational(self.region.radius()));
+            let distance = frame.sub(&chart.distance(frame, ball), &frame.rational(tube.region.radius()));
             b.on_box(frame, &frame.greater(&distance, &zero), &e.map_or(zero, |e| frame.magnitude(e)))
         })
     }
@@ -126,14 +126,29 @@ impl Engine {
         effort: usize,
         value: &BoundOnBox<'_>,
     ) -> Decision {
-        let chart = self.chart(active, [x, e]);
-        let mut boxes = OnBoxes::new(self, quantity, &chart);
-        subdivide(&chart, effort, |cell, ball| {
-            boxes.with(cell, ball, |values, frame| {
-                let bound = value(frame, &chart, ball, active.error.then_some(values.error));
-                values.examine(kind, &bound, ball)
+        self.in_all(|tube| {
+            let chart = self.chart(tube, active, [x, e]);
+            let mut boxes = OnBoxes::new(self, quantity, (tube, &chart));
+            subdivide(&chart, effort, |cell, ball| {
+                boxes.with(cell, ball, |values, frame| {
+                    let bound = value(frame, (tube, &chart), ball, active.error.then_some(values.error));
+                    values.examine(kind, &bound, ball)
+                })
             })
         })
+    }
+
+    /// A decision of every cell, one after the other up to the first that is not true.
+    pub(super) fn in_all(&self, mut decide: impl FnMut(&Tube) -> Decision) -> Decision {
+        let mut all = Decision { truth: Truth::True, boxes: 0 };
+        for tube in self.tubes() {
+            let decision = decide(tube);
+            all = Decision { boxes: all.boxes.max(decision.boxes), ..decision };
+            if !all.truth.is_true() {
+                break;
+            }
+        }
+        all
     }
 }
 
@@ -141,21 +156,22 @@ impl Engine {
 pub(super) struct OnBoxes<'a> {
     engine: &'a Engine,
     quantity: &'a Quantity,
+    tube: &'a Tube,
     chart: &'a Chart,
     memory: Memory<Centred>,
     last: Option<Side>,
 }
 
 impl<'a> OnBoxes<'a> {
-    pub(super) fn new(engine: &'a Engine, quantity: &'a Quantity, chart: &'a Chart) -> OnBoxes<'a> {
-        OnBoxes { engine, quantity, chart, memory: Memory::default(), last: None }
+    pub(super) fn new(engine: &'a Engine, quantity: &'a Quantity, (tube, chart): (&'a Tube, &'a Chart)) -> OnBoxes<'a> {
+        OnBoxes { engine, quantity, tube, chart, memory: Memory::default(), last: None }
     }
 
     /// What `use_it` makes of the values on a box.
     pub(super) fn with<R>(&mut self, cell: &Cell, ball: &Ball, use_it: impl FnOnce(&Values<'_>, &Frame) -> R) -> R {
-        let OnBoxes { engine, quantity, chart, memory, last } = self;
+        let OnBoxes { engine, quantity, tube, chart, memory, last } = self;
         let side = if chart.time { cell[0] } else { Side::WHOLE };
-        let time = engine.time_cell(side);
+        let time = engine.time_cell(tube, side);
         let placed = chart.place(cell, ball, Some(&time));
         // Formulas of t alone keep their values while its interval does; the slopes are per side, and sides stay.
         let changed = if *last == Some(side) { VariableSet::ALL_BUT_TIME } else { VariableSet::ALL };
@@ -166,8 +182,8 @@ impl<'a> OnBoxes<'a> {
     }
 }
 
-/// The bound on a box, from the frame, the coordinates, the ball and e (where the quantity depends on it).
-type BoundOnBox<'a> = dyn Fn(&Frame, &Chart, &Ball, Option<&Centred>) -> Centred + 'a;
+/// The bound on a box, from the frame, the cell and its coordinates, the ball and e (where the quantity depends on it).
+type BoundOnBox<'a> = dyn Fn(&Frame, (&Tube, &Chart), &Ball, Option<&Centred>) -> Centred + 'a;
 
 /// The formulas of a bound on a box.
 pub(super) struct Values<'a> {
@@ -200,18 +216,18 @@ impl Values<'_> {
             }
         }
         if self.quantity.inverse {
-            rows = self.product(self.engine.region.inverse(), &rows, false);
+            rows = self.product(self.engine.region().inverse(), &rows, false);
         }
         match self.quantity.right {
             Right::One => rows,
-            Right::Matrix => self.product(self.engine.region.matrix(), &rows, true),
+            Right::Matrix => self.product(self.engine.region().matrix(), &rows, true),
             Right::Pair => rows.iter().map(|row| self.both(row)).collect(),
         }
     }
 
     /// `L^T H L` for a symmetric H whose rows stand one behind the other.
     fn both(&self, row: &[Centred]) -> Vec<Centred> {
-        let l = self.engine.region.matrix();
+        let l = self.engine.region().matrix();
         let right: Vec<Vec<Centred>> =
             self.product(l, &row.chunks(l.len().max(1)).map(<[Centred]>::to_vec).collect::<Vec<_>>(), true);
         let transposed: Vec<Vec<Centred>> =

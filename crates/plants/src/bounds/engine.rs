@@ -13,25 +13,60 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Formulas, Walk};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Bound, Constant, Interval, PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{Bound, Constant, Interval, Parameters, PeriodicMatrix, TrigonometricVector};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The parts of the period of which is remembered what depends on t alone; more are computed again each time.
 const REMEMBERED: usize = 1 << 14;
 
-/// Decides bounds of one plant on tubes of one region.
+/// The members of a family whose parameters lie in one box, and the region around their curves.
+#[derive(Debug)]
+pub(super) struct Tube {
+    pub(super) region: Region,
+    /// Where the parameters lie of which intervals are known.
+    parameters: Vec<Interval>,
+    cells: Mutex<HashMap<Side, Arc<TimeCell>>>,
+    extents: Vec<OnceLock<[Rational; 2]>>,
+}
+
+impl Tube {
+    fn new(parameters: &Parameters, region: Region) -> Result<Tube, RegionError> {
+        let parameters: Vec<Interval> = parameters.intervals().cloned().collect();
+        if region.orbit().sensitivities.len() != parameters.len() {
+            return Err(RegionError::Shape);
+        }
+        let extents = (0..region.states()).map(|_| OnceLock::new()).collect();
+        Ok(Tube { region, parameters, cells: Mutex::new(HashMap::new()), extents })
+    }
+
+    /// An interval that contains a component of xb at all t and p.
+    fn extent(&self, index: usize) -> [Rational; 2] {
+        let all = || {
+            let orbit = self.region.orbit();
+            let [low, high] = extent(&orbit.centre, index);
+            let parts = orbit.sensitivities.iter().zip(&self.parameters);
+            let reach = parts.fold(Rational::new(), |sum, (part, interval)| {
+                let [low, high] = extent(part, index);
+                sum + low.abs().max(high.abs()) * interval.reach()
+            });
+            [low - &reach, high + reach]
+        };
+        self.extents[index].get_or_init(all).clone()
+    }
+}
+
+/// Decides bounds of one plant on tubes of one region, or of a family on those of each cell of its box.
 ///
 /// Every answer holds for all t if f and q have the period, which is for [`Plant::prove_periodic`] to prove.
 #[derive(Debug)]
 pub struct Engine {
-    pub(super) region: Region,
+    first: Tube,
+    others: Vec<Tube>,
     /// T; with a clock its nominal value, and time is the nominal one.
     pub(super) period: Constant,
     /// The parameter that is the clock.
     clock: Option<usize>,
-    /// Where the parameters lie of which intervals are known.
-    pub(super) parameters: Vec<Interval>,
     quantities: [Option<Quantity>; Bound::ALL.len()],
     first_derivatives: [Quantity; Part::EACH.len()],
     pub(super) requirements: Vec<Requirement>,
@@ -39,8 +74,6 @@ pub struct Engine {
     velocity: Walk,
     /// The P of the rate and that of the rate of existence.
     matrices: [Option<PeriodicMatrix>; 2],
-    cells: Mutex<HashMap<Side, Arc<TimeCell>>>,
-    extents: Vec<OnceLock<[Rational; 2]>>,
     /// The 1 - b at both ends of an input gain; none where it is 1.
     moves: Option<[Rational; 2]>,
 }
@@ -56,13 +89,32 @@ impl Engine {
         matrix: Option<PeriodicMatrix>,
         existence: Option<PeriodicMatrix>,
     ) -> Result<Engine, RegionError> {
+        Engine::of_cells(plant, [(&plant.parameters, region)], matrix, existence)
+    }
+
+    /// The same of cells of a family: the parameters of each, and the region around its members, all in the same coordinates. What is
+    /// decided is decided in every one. That the cells cover the box of the parameters is for the caller to prove.
+    ///
+    /// # Errors
+    /// Besides, no cell, and other coordinates in one of them.
+    pub fn of_cells<'c>(
+        plant: &Plant,
+        cells: impl IntoIterator<Item = (&'c Parameters, Region)>,
+        matrix: Option<PeriodicMatrix>,
+        existence: Option<PeriodicMatrix>,
+    ) -> Result<Engine, RegionError> {
+        let mut tubes = cells.into_iter().map(|(parameters, region)| Tube::new(parameters, region));
+        let first = tubes.next().ok_or(RegionError::Shape)??;
+        let others = tubes.collect::<Result<Vec<Tube>, RegionError>>()?;
+        let region = &first.region;
         let order = plant.states();
         let fits = |matrix: &PeriodicMatrix| {
             std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten()).all(|rows| is_symmetric(rows, order))
         };
         let matrices = [matrix, existence];
-        let parameters: Vec<Interval> = plant.parameters.intervals().cloned().collect();
-        if region.orbit().sensitivities.len() != parameters.len() {
+        let count = plant.parameters.intervals().count();
+        let alike = |tube: &Tube| tube.parameters.len() == count && tube.region.matrix() == region.matrix();
+        if !alike(&first) || !others.iter().all(alike) {
             return Err(RegionError::Shape);
         }
         if region.states() != order || !matrices.iter().flatten().all(fits) {
@@ -87,22 +139,18 @@ impl Engine {
         let first_derivatives =
             Part::EACH.map(|part| Quantity::first_derivatives(&mut formulas, &sides, part, is_moving));
         let velocity = formulas.walk(f);
-        let extents = (0..order).map(|_| OnceLock::new()).collect();
         let (period, clock) = (plant.period.nominal().clone(), plant.parameters.clock());
-        let cells = Mutex::new(HashMap::new());
         let moves = moves(plant);
         Ok(Engine {
-            region,
+            first,
+            others,
             period,
             clock,
-            parameters,
             quantities,
             first_derivatives,
             requirements,
             velocity,
             matrices,
-            cells,
-            extents,
             moves,
         })
     }
@@ -110,13 +158,29 @@ impl Engine {
     /// The number of states.
     #[must_use]
     pub fn states(&self) -> usize {
-        self.region.states()
+        self.region().states()
     }
 
-    /// The radius r of the tube in doubles.
+    /// The radius r of the tube in doubles, the largest of all cells.
     #[must_use]
     pub fn radius(&self) -> f64 {
-        self.region.radius().to_f64()
+        self.tubes().map(|tube| tube.region.radius().to_f64()).fold(0.0, f64::max)
+    }
+
+    /// X + r in doubles, with that r.
+    pub(super) fn reach(&self, x: &Rational) -> f64 {
+        let largest = self.tubes().map(|tube| tube.region.radius()).max();
+        largest.map_or_else(|| x.to_f64(), |radius| Rational::from(x + radius).to_f64())
+    }
+
+    /// The cells.
+    pub(super) fn tubes(&self) -> impl Iterator<Item = &Tube> {
+        std::iter::once(&self.first).chain(&self.others)
+    }
+
+    /// A region with the coordinates, which all cells have in common.
+    pub(super) fn region(&self) -> &Region {
+        &self.first.region
     }
 
     /// What a bound is of; `None` where it is not computed of a plant.
@@ -151,34 +215,19 @@ impl Engine {
         self.period.enclose(PRECISION)
     }
 
-    /// An interval that contains a component of xb at all t and p.
-    pub(super) fn extent(&self, index: usize) -> [Rational; 2] {
-        let all = || {
-            let orbit = self.region.orbit();
-            let [low, high] = extent(&orbit.centre, index);
-            let parts = orbit.sensitivities.iter().zip(&self.parameters);
-            let reach = parts.fold(Rational::new(), |sum, (part, interval)| {
-                let [low, high] = extent(part, index);
-                sum + low.abs().max(high.abs()) * interval.reach()
-            });
-            [low - &reach, high + reach]
-        };
-        self.extents[index].get_or_init(all).clone()
-    }
-
     /// The coordinates of a decision about what depends on these variables.
-    pub(super) fn chart(&self, active: &Active, at: [&Rational; 2]) -> Chart {
-        Chart::new((&self.region, &self.parameters), self.period(), active, at, |index| self.extent(index))
+    pub(super) fn chart(&self, tube: &Tube, active: &Active, at: [&Rational; 2]) -> Chart {
+        Chart::new((&tube.region, &tube.parameters), self.period(), active, at, |index| tube.extent(index))
     }
 
     /// What depends on t alone on a part of the period.
-    pub(super) fn time_cell(&self, side: Side) -> Arc<TimeCell> {
+    pub(super) fn time_cell(&self, tube: &Tube, side: Side) -> Arc<TimeCell> {
         // Whoever panics while he holds the lock has changed nothing but whole entries.
-        let lock = || self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        let lock = || tube.cells.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(cell) = lock().get(&side) {
             return cell.clone();
         }
-        let cell = Arc::new(self.new_cell(side));
+        let cell = Arc::new(self.new_cell(tube, side));
         let mut cells = lock();
         if cells.len() < REMEMBERED {
             cells.insert(side, cell.clone());
@@ -186,11 +235,11 @@ impl Engine {
         cell
     }
 
-    fn new_cell(&self, side: Side) -> TimeCell {
-        let orbit = self.region.orbit();
+    fn new_cell(&self, Tube { region, parameters, .. }: &Tube, side: Side) -> TimeCell {
+        let orbit = region.orbit();
         let degrees = self.matrices.iter().flatten().map(|matrix| matrix.harmonics.len());
         let waves = Waves::new(side, degrees.chain([orbit.harmonics()]).max().unwrap_or(0));
-        let order = self.region.states();
+        let order = region.states();
         let along = |part: &TrigonometricVector| -> Vec<Centred> {
             let component = |i: usize| {
                 let coefficients = part.harmonics.iter().map(move |[a, b]| [&a[i], &b[i]]);
@@ -204,7 +253,7 @@ impl Engine {
         let period = self.period();
         // As unknown as v: all members at once.
         let between = |[low, high]: [&Rational; 2]| Enclosure::between(low, high, PRECISION);
-        let clock = self.clock.map(|clock| &self.parameters[clock]);
+        let clock = self.clock.map(|clock| &parameters[clock]);
         let frequency = clock.map_or_else(|| period.recip(), |clock| between([&clock.low, &clock.high]) / &period);
         let matrices = self.matrices.each_ref().map(|matrix| {
             matrix.as_ref().map(|matrix| {
@@ -219,10 +268,10 @@ impl Engine {
                 })
             })
         });
-        let radius = self.region.radius();
+        let radius = region.radius();
         let x: Vec<Centred> = orbit
             .iter()
-            .zip(self.region.matrix())
+            .zip(region.matrix())
             .map(|(value, row)| {
                 // (L v)_i for |v| <= r: the same for all t, and unknown.
                 let reach = super::chart::norm_above(row) * radius;
@@ -231,7 +280,7 @@ impl Engine {
             })
             .collect();
         let deviations: Vec<Enclosure> =
-            self.parameters.iter().map(|interval| between(interval.deviations().each_ref())).collect();
+            parameters.iter().map(|interval| between(interval.deviations().each_ref())).collect();
         let x: Vec<Centred> = x
             .into_iter()
             .enumerate()
@@ -242,7 +291,7 @@ impl Engine {
             })
             .collect();
         let p: Vec<Centred> =
-            self.parameters.iter().map(|interval| frame.constant(between([&interval.low, &interval.high]))).collect();
+            parameters.iter().map(|interval| frame.constant(between([&interval.low, &interval.high]))).collect();
         let [low, middle, high] = side.unit();
         let t = Centred {
             centre: Enclosure::from_rational(&middle, PRECISION) * &period,

@@ -66,7 +66,7 @@ impl Engine {
         samples: &FloatSuprema,
         inequality: &ExistenceInequality,
     ) -> Option<ExistenceInequality> {
-        let reach = Rational::from(&inequality.x + self.region.radius()).to_f64();
+        let reach = self.reach(&inequality.x);
         let weights = EnergyWeights::from(inequality);
         let sampled = samples.refined_margin([reach, inequality.e.to_f64()], &weights);
         ATTEMPTS.into_iter().find_map(|(slack, effort)| {

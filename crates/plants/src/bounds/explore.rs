@@ -4,7 +4,7 @@
 use super::chart::{Cell, MAX_LEVEL};
 use super::decide::OnBoxes;
 use super::definite::Verdict;
-use super::engine::Engine;
+use super::engine::{Engine, Tube};
 use super::side::Side;
 use rug::Rational;
 use sigmastar_lang::spec::Bound;
@@ -19,9 +19,26 @@ pub(super) struct Explored {
 }
 
 impl Engine {
-    /// Looks at so many boxes of `G(X,E)` for values that exceed `known`, until none may exceed the largest by more than `room`.
+    /// Looks at so many boxes of `G(X,E)`, in each cell of a family, for values that exceed `known`, until none may exceed the largest by
+    /// more than `room`.
     pub(super) fn explore(
         &self,
+        kind: Bound,
+        at: [&Rational; 2],
+        (known, room): (f64, f64),
+        effort: usize,
+    ) -> Explored {
+        let sign = if kind.is_rate() { -1.0 } else { 1.0 };
+        let nothing = Explored { largest: known, above: sign * f64::NEG_INFINITY };
+        self.tubes().fold(nothing, |all, tube| {
+            let found = self.explore_cell(tube, kind, at, (all.largest, room), effort);
+            Explored { above: sign * (sign * found.above).max(sign * all.above), ..found }
+        })
+    }
+
+    fn explore_cell(
+        &self,
+        tube: &Tube,
         kind: Bound,
         [x, e]: [&Rational; 2],
         (known, room): (f64, f64),
@@ -32,8 +49,8 @@ impl Engine {
         let Some(quantity) = self.quantity(kind) else {
             return Explored { largest: known, above: sign * f64::INFINITY };
         };
-        let chart = self.chart(&quantity.active, [x, e]);
-        let mut boxes = OnBoxes::new(self, quantity, &chart);
+        let chart = self.chart(tube, &quantity.active, [x, e]);
+        let mut boxes = OnBoxes::new(self, quantity, (tube, &chart));
         let mut largest = sign * known;
         let mut open: Vec<(f64, Cell)> = vec![(f64::INFINITY, vec![Side::WHOLE; chart.sides()])];
         let mut stuck = false;

@@ -78,8 +78,6 @@ impl Engine {
         matrix: impl Fn(&Values<'_>) -> Option<SymmetricValues>,
     ) -> Decision {
         let quantity = self.first_derivatives(part);
-        let chart = self.chart(&quantity.active, at);
-        let mut boxes = OnBoxes::new(self, quantity, &chart);
         let examine = |values: &Values<'_>, frame: &Frame, ball: &Ball| match matrix(values) {
             Some(mut matrix) => {
                 matrix.entries.retain(|(i, j, value)| i == j || !value.is_zero());
@@ -87,7 +85,11 @@ impl Engine {
             }
             None => Verdict::Stuck,
         };
-        subdivide(&chart, effort, |cell, ball| boxes.with(cell, ball, |values, frame| examine(values, frame, ball)))
+        self.in_all(|tube| {
+            let chart = self.chart(tube, &quantity.active, at);
+            let mut boxes = OnBoxes::new(self, quantity, (tube, &chart));
+            subdivide(&chart, effort, |cell, ball| boxes.with(cell, ball, |values, frame| examine(values, frame, ball)))
+        })
     }
 }
 
@@ -158,7 +160,7 @@ impl Form {
     /// The block of x and y, which stands in the row `y`: all of it, zeros too.
     fn of_states(&self, values: &Values<'_>, mut derivatives: Vec<Vec<Centred>>, y: usize) -> Option<Entries> {
         let frame = values.frame;
-        let region = &values.engine.region;
+        let region = values.engine.region();
         let row = derivatives.pop()?;
         let n = row.len();
         let mut entries = Entries::new();
@@ -182,7 +184,7 @@ impl Form {
         let n = derivatives.len();
         let mut entries = Entries::new();
         if n > 0 {
-            let column = values.product(values.engine.region.inverse(), &derivatives, false);
+            let column = values.product(values.engine.region().inverse(), &derivatives, false);
             let moved = values.times_p(&column)?;
             entries.extend(
                 moved.into_iter().enumerate().map(|(i, value)| (i, n, negated(&frame.scale(&value, &self.w_x)))),

@@ -26,7 +26,7 @@ impl MetricForm {
     pub(super) fn matrix(&self, values: &Values<'_>) -> Option<SymmetricValues> {
         let MetricForm { metric: Metric { matrix: p, cross, weight, k_p, c_x, c_e, c_y }, pulled, of_e, moved } = self;
         let frame = values.frame;
-        let region = &values.engine.region;
+        let region = values.engine.region();
         let half_k_p = Enclosure::from_rational(k_p, PRECISION) / 2;
         // [[f_x, f_e], [q_x, q_e]] in the coordinates x.
         let mut of_f = values.matrix();

@@ -59,9 +59,9 @@ impl Engine {
     /// same plant and region.
     #[must_use]
     pub fn prove_value(&self, samples: &FloatSuprema, kind: Bound, x: &Rational, e: &Rational) -> Option<ProvedValue> {
-        let reach = Rational::from(x + self.region.radius()).to_f64();
+        let reach = self.reach(x);
         let with_tube =
-            matches!(kind, Bound::Qtx | Bound::Qte).then(|| samples.with_tube(self.region.radius().to_f64()));
+            matches!(kind, Bound::Qtx | Bound::Qte).then(|| samples.with_tube(self.reach(&Rational::new())));
         let samples = with_tube.as_ref().unwrap_or(samples);
         let sampled = samples.refined(kind, reach, e.to_f64());
         if !sampled.value.is_finite() {

@@ -94,7 +94,7 @@ impl Engine {
         samples: &FloatSuprema,
         inequality: &SampledExistence,
     ) -> Option<SampledExistence> {
-        let reach = Rational::from(&inequality.x + self.region.radius()).to_f64();
+        let reach = self.reach(&inequality.x);
         let energy = SampledEnergy::from(inequality);
         let of = LoopNumbers::enclosed(&inequality.at, &self.period(), self.moves()).to_f64();
         let sampled = samples.refined_gamma([reach, inequality.e.to_f64()], &energy, &of);
@@ -144,7 +144,7 @@ struct OnBox {
 
 impl OnBox {
     fn new(values: &Values<'_>) -> Option<OnBox> {
-        let region = &values.engine.region;
+        let region = values.engine.region();
         let mut of_f = values.matrix();
         let mut r = of_f.pop()?;
         let n = of_f.len();

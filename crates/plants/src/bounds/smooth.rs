@@ -86,26 +86,28 @@ impl Engine {
 
     fn meets(&self, requirement: &Requirement, arguments: [&Rational; 2]) -> Truth {
         let Requirement { walk, active, demand, .. } = requirement;
-        let chart = self.chart(active, arguments);
-        let mut memory = Memory::default();
-        let decision = subdivide(&chart, BOXES, |cell, ball| {
-            let time = self.time_cell(if chart.time { cell[0] } else { Side::WHOLE });
-            let placed = chart.place(cell, ball, Some(&time));
-            let Placed { frame, t, x, e, p } = &placed;
-            let outputs = walk.evaluate_again(&mut OnBox { frame, t, x, e, p }, &mut memory, VariableSet::ALL);
-            let Some(value) = outputs.first() else { return Verdict::Stuck };
-            let above = nonnegative(frame, value, ball, true);
-            if demand.positive || above == Verdict::Holds {
-                return above;
-            }
-            let negative = super::centred::negated(value);
-            match (nonnegative(frame, &negative, ball, true), above) {
-                (Verdict::Holds, _) => Verdict::Holds,
-                // Not positive in the middle and not negative: it vanishes there.
-                (Verdict::Fails, Verdict::Fails) => Verdict::Fails,
-                (Verdict::Fails, other) | (other, _) => other,
-            }
-        });
-        decision.truth
+        self.in_all(|tube| {
+            let chart = self.chart(tube, active, arguments);
+            let mut memory = Memory::default();
+            subdivide(&chart, BOXES, |cell, ball| {
+                let time = self.time_cell(tube, if chart.time { cell[0] } else { Side::WHOLE });
+                let placed = chart.place(cell, ball, Some(&time));
+                let Placed { frame, t, x, e, p } = &placed;
+                let outputs = walk.evaluate_again(&mut OnBox { frame, t, x, e, p }, &mut memory, VariableSet::ALL);
+                let Some(value) = outputs.first() else { return Verdict::Stuck };
+                let above = nonnegative(frame, value, ball, true);
+                if demand.positive || above == Verdict::Holds {
+                    return above;
+                }
+                let negative = super::centred::negated(value);
+                match (nonnegative(frame, &negative, ball, true), above) {
+                    (Verdict::Holds, _) => Verdict::Holds,
+                    // Not positive in the middle and not negative: it vanishes there.
+                    (Verdict::Fails, Verdict::Fails) => Verdict::Fails,
+                    (Verdict::Fails, other) | (other, _) => other,
+                }
+            })
+        })
+        .truth
     }
 }

@@ -45,7 +45,7 @@ impl Engine {
     ) -> Option<MatrixInequality> {
         let MatrixInequality { w_x, h, rate, .. } = inequality;
         let [states, error] = inequality.arguments();
-        let reach = |[x, e]: [&Rational; 2]| [Rational::from(x + self.region.radius()).to_f64(), e.to_f64()];
+        let reach = |[x, e]: [&Rational; 2]| [self.reach(x), e.to_f64()];
         let apart = inequality.splitting.is_some();
         let at = MatrixArguments { apart, states: reach(states), error: reach(error) };
         let weights = FloatWeights { w_x: w_x.to_f64(), k_p: 2.0 * h.to_f64() / mu.to_f64(), rate: rate.to_f64() };

@@ -8,7 +8,7 @@ use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise, roots};
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Bound, OrbitCurve, PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{Bound, OrbitCurve, Parameters, PeriodicMatrix, TrigonometricVector};
 use std::sync::Arc;
 
 /// Points of a period.
@@ -92,7 +92,9 @@ struct Member {
     /// How much faster than nominally its time runs.
     clock: f64,
     parameters: Vec<f64>,
-    /// What they differ from the nominal ones.
+    /// The curve of its cell.
+    orbit: Arc<FloatCurve>,
+    /// What they differ from the nominal ones of the cell.
     deviations: Vec<f64>,
 }
 
@@ -101,13 +103,12 @@ struct Member {
 pub struct FloatSuprema {
     order: usize,
     period: f64,
-    orbit: FloatCurve,
     matrix: Vec<Vec<f64>>,
     inverse: Vec<Vec<f64>>,
     matrices: [Option<FloatMatrix>; 2],
     program: Arc<Program>,
     moments: Arc<Vec<Moment>>,
-    /// The nominal member, and the corners of the box.
+    /// The nominal member, and the corners of the box; the middles of cells.
     members: Arc<Vec<Member>>,
     /// Points of the unit ball.
     ball: Arc<Vec<Vec<f64>>>,
@@ -141,6 +142,17 @@ impl FloatSuprema {
         matrix: Vec<Vec<f64>>,
         lyapunov: [Option<&PeriodicMatrix>; 2],
     ) -> FloatSuprema {
+        FloatSuprema::of_cells(plant, [(&plant.parameters, orbit)], matrix, lyapunov)
+    }
+
+    /// The same of a family in cells: the parameters of each, and the curve that follows its members. They cover the box.
+    #[must_use]
+    pub fn of_cells<'c>(
+        plant: &Plant,
+        cells: impl IntoIterator<Item = (&'c Parameters, FloatCurve)>,
+        matrix: Vec<Vec<f64>>,
+        lyapunov: [Option<&PeriodicMatrix>; 2],
+    ) -> FloatSuprema {
         let n = plant.states();
         let (mut formulas, sides) = plant.formulas();
         let (f, q) = sides.split_at(n);
@@ -168,16 +180,25 @@ impl FloatSuprema {
         let times = if by_states || by_error || !steady || variables.has(PlantVariable::Time) { TIMES } else { 1 };
         let velocity = Arc::new(Program::of_formulas(&formulas, f, n));
         let doubles = |values: &[Rational]| values.iter().map(Rational::to_f64).collect();
-        let member = |values: &Vec<Rational>| Member {
-            clock: plant.parameters.clock().map_or(1.0, |clock| values[clock].to_f64()),
-            parameters: doubles(values),
-            deviations: doubles(&plant.parameters.deviations(values)),
+        let cells: Vec<(&Parameters, Arc<FloatCurve>)> =
+            cells.into_iter().map(|(cell, orbit)| (cell, Arc::new(orbit))).collect();
+        let mut looked_at = plant.parameters.looked_at();
+        if cells.len() > 1 {
+            looked_at.extend(cells.iter().map(|(cell, _)| cell.nominal()));
+        }
+        let member = |values: &Vec<Rational>| {
+            let (cell, orbit) = cells.iter().find(|(cell, _)| cell.contain(values)).or(cells.first())?;
+            Some(Member {
+                clock: plant.parameters.clock().map_or(1.0, |clock| values[clock].to_f64()),
+                parameters: doubles(values),
+                orbit: orbit.clone(),
+                deviations: doubles(&cell.deviations(values)),
+            })
         };
-        let members: Vec<Member> = plant.parameters.looked_at().iter().map(member).collect();
+        let members: Vec<Member> = looked_at.iter().filter_map(member).collect();
         let mut suprema = FloatSuprema {
             order: n,
             period: plant.period.nominal().to_f64(),
-            orbit,
             inverse: inverse(&matrix),
             matrix,
             matrices,
@@ -249,7 +270,6 @@ impl FloatSuprema {
         FloatSuprema {
             order: self.order,
             period: self.period,
-            orbit: self.orbit.clone(),
             inverse: inverse(&matrix),
             matrix,
             matrices: lyapunov.map(|matrix| matrix.map(FloatMatrix::new)),
@@ -266,8 +286,8 @@ impl FloatSuprema {
     }
 
     fn moment(&self, time: f64, member: usize, evaluator: &mut Evaluator, slow: &mut Evaluator) -> Moment {
-        let Member { parameters, deviations, .. } = &self.members[member];
-        let orbit = self.orbit.at(time, deviations);
+        let Member { parameters, orbit, deviations, .. } = &self.members[member];
+        let orbit = orbit.at(time, deviations);
         let mut velocity = vec![0.0; self.order];
         slow.set_parameters(parameters);
         slow.set_time(time * self.period);

@@ -10,6 +10,7 @@ use super::members::Members;
 use super::rate::Contraction;
 use super::sampled::Sampled;
 use crate::lyapunov::prove_bounds;
+use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
@@ -218,6 +219,19 @@ impl<'a> Around<'a> {
 /// # Errors
 /// [`OrbitNotProved`]; nothing is claimed then.
 pub fn prove_orbit(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates) -> Result<OrbitProof, OrbitNotProved> {
+    prove_orbit_at(plant, orbit, coordinates, None)
+}
+
+/// The same with a rate that is at most this: a smaller one is proved in wider tubes.
+///
+/// # Errors
+/// As above.
+pub fn prove_orbit_at(
+    plant: &Plant,
+    orbit: &OrbitCurve,
+    coordinates: &Coordinates,
+    most: Option<&Rational>,
+) -> Result<OrbitProof, OrbitNotProved> {
     let around = Around::new(plant, orbit, coordinates)?;
     if plant.states() == 0 {
         let one = || Rational::from(1);
@@ -245,6 +259,7 @@ pub fn prove_orbit(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates)
             let reason = "floating point finds none along the curve".to_owned();
             return Err(OrbitNotProved::Rate { alpha: sampled.rate, tube: 0.0, reason });
         };
+        let alpha = most.map_or(alpha.clone(), |most| alpha.min(most.clone()));
         let Some(radius) = least_radius(&defect, &alpha, &p_low, &p_up) else { continue };
         let wide = WIDE_TUBES.iter().filter(|_| plant.is_family());
         let tubes = TUBES.iter().chain(wide).filter_map(|share| round_f64(share * size, 1, Direction::Up));
@@ -262,6 +277,39 @@ pub fn prove_orbit(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates)
     Err(failure.unwrap_or(OrbitNotProved::DefectTooLarge { defect: proved, radius: f64::INFINITY }))
 }
 
+/// The proofs of the orbits of cells of a family, with one alpha, p_low and p_up, which serve in each of them (derivation, 13.2).
+///
+/// # Errors
+/// What is not proved of one of them.
+pub fn prove_orbits(
+    cells: &[(&Plant, &OrbitCurve)],
+    coordinates: &Coordinates,
+) -> Result<Vec<OrbitProof>, OrbitNotProved> {
+    let proved = |most: Option<&Rational>| -> Result<Vec<OrbitProof>, OrbitNotProved> {
+        cells.par_iter().map(|(plant, orbit)| prove_orbit_at(plant, orbit, coordinates, most)).collect()
+    };
+    let proofs = proved(None)?;
+    let least = proofs.iter().map(|proof| &proof.alpha).min().cloned();
+    in_common(proofs).or_else(|_| in_common(proved(least.as_ref())?))
+}
+
+/// The smallest rate and the widest bounds are true of each, with a radius in return, which may be too large for its tube.
+fn in_common(proofs: Vec<OrbitProof>) -> Result<Vec<OrbitProof>, OrbitNotProved> {
+    let alpha = proofs.iter().map(|proof| &proof.alpha).min().cloned().unwrap_or_default();
+    let p_low = proofs.iter().map(|proof| &proof.p_low).min().cloned().unwrap_or_default();
+    let p_up = proofs.iter().map(|proof| &proof.p_up).max().cloned().unwrap_or_default();
+    let of_one = |proof: OrbitProof| {
+        let too_large = |radius: f64| OrbitNotProved::DefectTooLarge { defect: proof.defect.to_f64(), radius };
+        let radius = least_radius(&proof.defect, &alpha, &p_low, &p_up).ok_or_else(|| too_large(f64::INFINITY))?;
+        if radius >= proof.tube {
+            return Err(too_large(radius.to_f64()));
+        }
+        let [alpha, p_low, p_up] = [&alpha, &p_low, &p_up].map(Rational::clone);
+        Ok(OrbitProof { radius, alpha, p_low, p_up, ..proof })
+    };
+    proofs.into_iter().map(of_one).collect()
+}
+
 /// The triple of a second P, proved beside that of the orbit: `P' + P J + J^T P <= -2 alpha P` in the same tube.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondTriple {
@@ -271,6 +319,18 @@ pub struct SecondTriple {
     pub p_low: Rational,
     /// `P(t) <= p_up I`.
     pub p_up: Rational,
+}
+
+impl SecondTriple {
+    /// A triple that serves wherever one of these does: that of all cells of a family. None of none.
+    #[must_use]
+    pub fn in_common(triples: Vec<SecondTriple>) -> Option<SecondTriple> {
+        triples.into_iter().reduce(|one, other| SecondTriple {
+            alpha: one.alpha.min(other.alpha),
+            p_low: one.p_low.min(other.p_low),
+            p_up: one.p_up.max(other.p_up),
+        })
+    }
 }
 
 /// The triple of another P in the same coordinates, for a proved orbit.

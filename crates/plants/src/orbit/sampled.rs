@@ -7,11 +7,32 @@ use super::shape::decay;
 use nalgebra::{DMatrix, DVector};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{OrbitCurve, PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{Interval, OrbitCurve, PeriodicMatrix, TrigonometricVector};
 
 /// Times for each harmonic, and besides.
 const PER_HARMONIC: usize = 8;
 const LEAST: usize = 64;
+
+/// For each named parameter of a family the larger sampled defect of the two members at its ends, the others at their nominal values: what
+/// it adds to the defect; infinite where that is not finite. Floating point.
+#[must_use]
+pub fn defects_by_parameter(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates) -> Vec<f64> {
+    let defect = |values: &[Rational]| {
+        let curve = orbit.at(&plant.parameters.deviations(values));
+        let sampled = Sampled::of_one(&plant.member(values), &curve, coordinates);
+        sampled.map_or(f64::INFINITY, |sampled| sampled.defect)
+    };
+    let nominal = plant.parameters.nominal();
+    let of_one = |(i, (_, interval)): (usize, (&str, &Interval))| {
+        let at = |end: &Rational| {
+            let mut values = nominal.clone();
+            values[i] = end.clone();
+            defect(&values)
+        };
+        at(&interval.low).max(at(&interval.high))
+    };
+    plant.parameters.named_intervals().enumerate().map(of_one).collect()
+}
 
 /// Sizes at sampled times, in the coordinates y.
 pub(super) struct Sampled {

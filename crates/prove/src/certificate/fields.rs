@@ -16,8 +16,11 @@ use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::transfer::TransferProof;
 
 /// The fields of a witness that only a certificate of a plant has.
-pub(super) const PLANT_FIELDS: [&str; 7] =
-    ["coordinates", "orbit", "forcing", "bounds", INEQUALITY, EXISTENCE_INEQUALITY, JOINT_INEQUALITY];
+pub(super) const PLANT_FIELDS: [&str; 8] =
+    ["coordinates", "orbit", "forcing", CELLS, "bounds", INEQUALITY, EXISTENCE_INEQUALITY, JOINT_INEQUALITY];
+
+/// The field in the place of `orbit` and `forcing` where the box of the parameters is cut.
+pub(super) const CELLS: &str = "cells";
 
 /// The field of the matrix inequality of a plant; its weights are those of the witness.
 pub(super) const INEQUALITY: &str = "matrix_inequality";

@@ -1,14 +1,14 @@
 //! What a certificate of a plant adds to the witness (derivation, 11).
 
-use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING};
+use super::fields::{CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING};
 use super::triple::rows;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{
-    ExistenceInequality, JointInequality, JointStability, Level, MatrixInequality, Metric, OfPlant, ProvedForcing,
-    ProvedOrbit, ProvedValues, SampledExistence, SampledInequalities, SampledInequality, Specification, Splitting,
-    TrigonometricVector,
+    ExistenceInequality, Interval, JointInequality, JointStability, Level, MatrixInequality, Metric, ProvedCell,
+    ProvedForcing, ProvedOrbit, ProvedValues, SampledExistence, SampledInequalities, SampledInequality, Specification,
+    Splitting, TrigonometricVector,
 };
 
 fn exact(value: &Rational) -> Value {
@@ -24,18 +24,26 @@ fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
     Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
-/// `coordinates`, `orbit`, `forcing` and `bounds`, and the matrix inequalities that are used; none where the data do not come from a plant's formulas.
+/// `coordinates`, `orbit` and `forcing` or `cells`, and `bounds`, and the matrix inequalities that are used; none where the data do not come from a plant's formulas.
 #[must_use]
 pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     let Some(plant) = spec.plant() else { return Vec::new() };
-    let OfPlant { coordinates, orbit, forcing, .. } = plant;
     let values = spec.bounds.proved_values();
-    let mut parts = vec![
-        ("coordinates", rows(coordinates)),
-        ("orbit", orbit_json(orbit)),
-        ("forcing", forcing_json(forcing)),
-        ("bounds", values_json(values)),
-    ];
+    let around = |ProvedCell { orbit, forcing, .. }: &ProvedCell| {
+        vec![("orbit", orbit_json(orbit)), ("forcing", forcing_json(forcing))]
+    };
+    let cell = |cell: &ProvedCell| {
+        let ends =
+            |(_, Interval { low, high, .. }): (&str, &Interval)| object([("low", exact(low)), ("high", exact(high))]);
+        let ends = cell.parameters.named_intervals().map(ends).collect();
+        object([("parameters", ends)].into_iter().chain(around(cell)))
+    };
+    let mut parts = vec![("coordinates", rows(&plant.coordinates))];
+    parts.extend(match plant.undivided() {
+        Some(whole) => around(whole),
+        None => vec![(CELLS, plant.cells.iter().map(cell).collect())],
+    });
+    parts.push(("bounds", values_json(values)));
     parts.extend(values.inequality().map(|inequality| (INEQUALITY, inequality_json(inequality))));
     parts.extend(values.existence().map(|existence| (EXISTENCE_INEQUALITY, existence_json(existence))));
     parts.extend(values.joint_stability().map(|joint| (JOINT_INEQUALITY, joint_stability_json(joint))));

@@ -1,6 +1,6 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
-use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING, rational};
+use super::fields::{CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING, rational};
 use super::read::{read_rows, read_triple, vector};
 use super::read_joint::{read_joint, read_joint_stability};
 use super::triple::{EXISTENCE, STABILITY};
@@ -8,8 +8,8 @@ use crate::reduction::FreeNumbers;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, OrbitCurve,
-    ProvedForcing, ProvedOrbit, ProvedValue, ProvedValues, Reported, SampledExistence, SampledInequalities,
+    Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, OrbitCurve, Parameters,
+    ProvedCell, ProvedForcing, ProvedOrbit, ProvedValue, ProvedValues, Reported, SampledExistence, SampledInequalities,
     SampledInequality, SpecErrors, Splitting, TrigonometricVector, Value, Wave,
 };
 use sigmastar_plants::lyapunov::ProvedTriple;
@@ -56,9 +56,11 @@ fn parts(
         let message = format!("a matrix of {n} rows and columns is needed for {n} states");
         return Err(errors.report(coordinates.error(ErrorKind::Range, message)));
     }
-    let orbit = witness.required("orbit", errors).and_then(|value| read_orbit(&value, n, errors));
+    let cells = match witness.optional(CELLS) {
+        Some(cells) => read_cells(&cells, witness, plant, errors),
+        None => read_cell(witness, plant.parameters.clone(), n, errors).map(|cell| vec![cell]),
+    };
     let triple = witness.required(STABILITY, errors).and_then(|value| read_triple(&value, errors));
-    let forcing = witness.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
     let values = witness.required("bounds", errors).and_then(|value| read_values(&value, errors));
     let values = match numbers {
         FreeNumbers::Continuous(_) => with_continuous(values, witness, n, errors),
@@ -73,11 +75,11 @@ fn parts(
     let of_plant = OfPlant {
         parameters: plant.parameters.clone(),
         coordinates: rows,
-        orbit: orbit?,
+        cells: cells?,
+        why_cut: None,
         triple,
         matrix,
         existence: existence?.map(|triple| Box::new(parts(triple))),
-        forcing: forcing?,
         domain: plant.domain.clone(),
         ball: plant.ball.clone(),
     };
@@ -180,6 +182,56 @@ fn read_splitting(value: &Value<'_>, errors: &mut Errors) -> Result<Splitting, R
     let matrix = fields.required("S", errors).and_then(|value| read_rows(&value, "an entry of S", errors));
     fields.finish(errors);
     Ok(Splitting { x: x?, e: e?, matrix: matrix? })
+}
+
+/// `orbit` and `forcing`, about the nominal values of these parameters.
+fn read_cell(
+    fields: &mut Object<'_>,
+    parameters: Parameters,
+    n: usize,
+    errors: &mut Errors,
+) -> Result<ProvedCell, Reported> {
+    let orbit = fields.required("orbit", errors).and_then(|value| read_orbit(&value, n, errors));
+    let forcing = fields.required("forcing", errors).and_then(|value| read_forcing(&value, errors));
+    Ok(ProvedCell { parameters, orbit: orbit?, forcing: forcing? })
+}
+
+/// Cells, in the place of the one that is the whole box; that they cover it is not looked at.
+fn read_cells(
+    value: &Value<'_>,
+    witness: &mut Object<'_>,
+    plant: &Plant,
+    errors: &mut Errors,
+) -> Result<Vec<ProvedCell>, Reported> {
+    if let Some(other) = witness.optional("orbit").or_else(|| witness.optional("forcing")) {
+        let message = "an orbit and a forcing beside `cells`, which have their own";
+        return Err(errors.report(other.error(ErrorKind::UnknownField, message)));
+    }
+    let named = plant.parameters.named_intervals().count();
+    let mut cells = Vec::new();
+    for cell in value.array(errors)? {
+        let mut fields = cell.object(errors)?;
+        let ends = fields.required("parameters", errors).and_then(|value| {
+            let mut ends = Vec::new();
+            for interval in value.array(errors)? {
+                let mut interval = interval.object(errors)?;
+                let [low, high] = ["low", "high"].map(|name| rational(&mut interval, name, errors));
+                interval.finish(errors);
+                ends.push([low?, high?]);
+            }
+            if ends.len() != named {
+                let message = format!("the ends of {} intervals, and the plant has {named}", ends.len());
+                return Err(errors.report(value.error(ErrorKind::Range, message)));
+            }
+            Ok(ends)
+        });
+        // What is read beside is told as well.
+        let parameters = ends.map(|ends| plant.parameters.in_cell(&ends));
+        let read = read_cell(&mut fields, plant.parameters.clone(), plant.states(), errors);
+        fields.finish(errors);
+        cells.push(ProvedCell { parameters: parameters?, ..read? });
+    }
+    Ok(cells)
 }
 
 fn read_orbit(value: &Value<'_>, n: usize, errors: &mut Errors) -> Result<ProvedOrbit, Reported> {

@@ -6,7 +6,9 @@
 //! or with the [`Witness`] of a certificate.
 
 mod by_matrix;
+mod cells;
 mod coordinates;
+mod cover;
 mod energy;
 mod entries;
 mod grid;

@@ -1,19 +1,22 @@
 //! What is proved along an orbit, and what proves bounds there.
 
+use super::cells::Cell;
 use super::entries::{Needed, prove_all};
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix};
 use super::specification::specification;
 use crate::certify::Alternatives;
 use crate::search::{FloatModel, SharpProposal};
+use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
-    OfPlant, OrbitCurve, PeriodicMatrix, ProvedForcing, ProvedOrbit, ProvedValues, Specification,
+    OfPlant, OrbitCurve, Parameters, PeriodicMatrix, ProvedCell, ProvedForcing, ProvedOrbit, ProvedValues,
+    Specification,
 };
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
-use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, prove_forcing, prove_orbit};
+use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, prove_forcing, prove_orbits};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::transfer::TradeOff;
 
@@ -36,33 +39,47 @@ pub(super) fn trade_off(data: &Data<'_>) -> TradeOff {
     if data.spec.internal_model.matched { TradeOff::matched(data) } else { TradeOff::curve(data) }
 }
 
-/// The orbit and the harmonics of q, proved in some coordinates; a P of existence, where there is one.
+/// The orbit and the harmonics of q, proved in some coordinates, in each cell of a family; a P of existence, where there is one.
 pub(super) struct Along {
     pub(super) coordinates: Coordinates,
-    pub(super) orbit: OrbitProof,
-    pub(super) forcing: ProvedForcing,
+    pub(super) cells: Vec<ProvenCell>,
     pub(super) existence: Option<(PeriodicMatrix, SecondTriple)>,
+    /// Why the box of the parameters is cut, where it is.
+    pub(super) why: Option<String>,
 }
 
-pub(super) fn along(plant: &Plant, curve: &OrbitCurve, coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
-    let orbit = prove_orbit(plant, curve, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
-    let forcing = prove_forcing(plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
-    Ok(Along { coordinates: coordinates.clone(), orbit, forcing, existence: None })
+/// What was proved of the members in one cell. All cells have one alpha, p_low and p_up.
+pub(super) struct ProvenCell {
+    pub(super) parameters: Parameters,
+    pub(super) orbit: OrbitProof,
+    pub(super) forcing: ProvedForcing,
+}
+
+pub(super) fn along(cells: &[Cell], coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
+    let curves: Vec<_> = cells.iter().map(|Cell { plant, curve }| (plant, curve)).collect();
+    let orbits = prove_orbits(&curves, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
+    let of_one = |(cell, orbit): (&Cell, OrbitProof)| {
+        let forcing = prove_forcing(&cell.plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
+        Ok(ProvenCell { parameters: cell.plant.parameters.clone(), orbit, forcing })
+    };
+    let cells = cells.par_iter().zip(orbits).map(of_one).collect::<Result<_, PlantRefusal>>()?;
+    Ok(Along { coordinates: coordinates.clone(), cells, existence: None, why: None })
 }
 
 impl Along {
     /// The specification with these values.
     pub(super) fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
-        let OrbitProof { orbit, defect, tube, radius, alpha, p_low, p_up } = &self.orbit;
+        let none = PlantRefusal::Coordinates;
+        let OrbitProof { alpha, p_low, p_up, .. } = &self.cells.first().ok_or(none)?.orbit;
+        let cell = |ProvenCell { parameters, orbit, forcing }: &ProvenCell| {
+            let OrbitProof { orbit, defect, tube, radius, .. } = orbit.clone();
+            let orbit = ProvedOrbit { approximation: orbit, defect, tube, radius };
+            ProvedCell { parameters: parameters.clone(), orbit, forcing: forcing.clone() }
+        };
         let of_plant = OfPlant {
             parameters: plant.parameters.clone(),
             coordinates: self.coordinates.l.clone(),
-            orbit: ProvedOrbit {
-                approximation: orbit.clone(),
-                defect: defect.clone(),
-                tube: tube.clone(),
-                radius: radius.clone(),
-            },
+            cells: self.cells.iter().map(cell).collect(),
             triple: Lyapunov {
                 p_low: Constant::rational(p_low),
                 p_up: Constant::rational(p_up),
@@ -73,7 +90,7 @@ impl Along {
                 let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(Constant::rational);
                 Box::new((Lyapunov { p_low, p_up, alpha }, matrix.clone()))
             }),
-            forcing: self.forcing.clone(),
+            why_cut: self.why.clone(),
             domain: plant.domain.clone(),
             ball: plant.ball.clone(),
         };
@@ -91,19 +108,23 @@ impl Along {
     }
 
     pub(super) fn engine(&self, plant: &Plant) -> Result<Engine, PlantRefusal> {
-        let orbit = (&self.orbit.orbit, &self.orbit.radius);
-        engine_around(plant, &self.coordinates, orbit, self.second().cloned())
+        let cells =
+            self.cells.iter().map(|ProvenCell { parameters, orbit, .. }| (parameters, &orbit.orbit, &orbit.radius));
+        engine_around(plant, &self.coordinates, cells, self.second().cloned())
     }
 }
 
-fn engine_around(
+fn engine_around<'c>(
     plant: &Plant,
     Coordinates { l, p, .. }: &Coordinates,
-    (orbit, radius): (&OrbitCurve, &Rational),
+    cells: impl Iterator<Item = (&'c Parameters, &'c OrbitCurve, &'c Rational)>,
     existence: Option<PeriodicMatrix>,
 ) -> Result<Engine, PlantRefusal> {
-    let region = Region::new(l.clone(), orbit.clone(), radius.clone());
-    let engine = region.and_then(|region| Engine::new(plant, region, Some(p.clone()), existence));
+    let region = |(parameters, orbit, radius): (&'c Parameters, &OrbitCurve, &Rational)| {
+        Region::new(l.clone(), orbit.clone(), radius.clone()).map(|region| (parameters, region))
+    };
+    let regions = cells.map(region).collect::<Result<Vec<_>, _>>();
+    let engine = regions.and_then(|regions| Engine::of_cells(plant, regions, Some(p.clone()), existence));
     engine.map_err(|_| PlantRefusal::Coordinates)
 }
 
@@ -112,13 +133,14 @@ fn engine_around(
 /// # Errors
 /// Data that are not of this plant.
 pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, FloatSuprema), PlantRefusal> {
-    let OfPlant { coordinates, orbit, matrix, existence, .. } = of_plant;
+    let OfPlant { coordinates, cells, matrix, existence, .. } = of_plant;
     let second = existence.as_ref().map(|second| &second.1);
     let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone(), rate: f64::NAN };
-    let engine = engine_around(plant, &coordinates, (&orbit.approximation, &orbit.radius), second.cloned())?;
+    let around = cells.iter().map(|cell| (&cell.parameters, &cell.orbit.approximation, &cell.orbit.radius));
+    let engine = engine_around(plant, &coordinates, around, second.cloned())?;
     let rows = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-    let samples = FloatSuprema::new(plant, FloatCurve::from(&orbit.approximation), rows, [Some(matrix), second]);
-    Ok((engine, samples))
+    let curves = cells.iter().map(|cell| (&cell.parameters, FloatCurve::from(&cell.orbit.approximation)));
+    Ok((engine, FloatSuprema::of_cells(plant, curves, rows, [Some(matrix), second])))
 }
 
 /// What proves bounds of a plant at arguments.

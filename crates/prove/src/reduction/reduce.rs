@@ -1,9 +1,11 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
+use super::cells::{Cell, Cells, NARROW, in_cell};
 use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, energy_in};
+use super::cover::covers;
 use super::entries::{Needed, decide_all, needed};
 use super::joint::with_joint_metrics;
-use super::proofs::{Along, PRECISION, Proofs, Reduced, along, trade_off};
+use super::proofs::{Along, PRECISION, Proofs, ProvenCell, Reduced, along, trade_off};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use crate::certify::Alternatives;
@@ -13,11 +15,11 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
-use sigmastar_lang::spec::{OfPlant, OrbitCurve, PeriodicMatrix, ProvedValues, Specification};
-use sigmastar_plants::bounds::{Asked, Engine, Region};
+use sigmastar_lang::spec::{OfPlant, Parameters, PeriodicMatrix, ProvedCell, ProvedOrbit, ProvedValues, Specification};
+use sigmastar_plants::bounds::Asked;
 use sigmastar_plants::orbit::{
     self, Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second, find_orbit,
-    propose_coordinates, prove_orbit, prove_second, round_orbit,
+    propose_coordinates, prove_orbits, prove_second, round_orbit,
 };
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
@@ -67,7 +69,29 @@ const WORTH: f64 = 1e-4;
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce(plant: &Plant, gain: Option<&Rational>) -> Result<Reduced, PlantRefusal> {
-    with_candidates(plant, |candidates, sampling| {
+    let (whole, candidates) = with_whole(plant)?;
+    let [narrow, narrower] = NARROW;
+    let cells = Cells::new(&whole, &candidates, narrow)?;
+    in_cells(plant, &cells, &candidates, gain).or_else(|refusal| {
+        // The tube may take what the initial set needs, and be too wide in other coordinates.
+        let finer = refusal.may_be_of_tube().then(|| Cells::new(&whole, &candidates, narrower));
+        match finer {
+            Some(Ok(finer)) if finer.list.len() > cells.list.len() => {
+                in_cells(plant, &finer, &candidates, gain).map_err(|_| refusal)
+            }
+            _ => Err(refusal),
+        }
+    })
+}
+
+/// The data that [`reduce()`] proves, in these cells.
+fn in_cells(
+    plant: &Plant,
+    cells: &Cells,
+    candidates: &[Coordinates],
+    gain: Option<&Rational>,
+) -> Result<Reduced, PlantRefusal> {
+    with_cells(plant, cells, candidates, |sampling| {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
         if let Ok((p, rough)) = &starts
@@ -117,25 +141,45 @@ pub(super) fn with_coordinates<T>(
     })
 }
 
-/// Finds the orbit, proposes coordinates, and goes on from there.
+/// Finds the orbit, proposes coordinates, cuts the box of a family where its tube is wide, and goes on from there.
 pub(super) fn with_candidates<T>(
     plant: &Plant,
     prove: impl FnOnce(&[Coordinates], &Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
+    let (whole, candidates) = with_whole(plant)?;
+    let cells = Cells::new(&whole, &candidates, NARROW[0])?;
+    with_cells(plant, &cells, &candidates, |sampling| prove(&candidates, sampling))
+}
+
+/// The orbit, found for all members at once, and candidates for the coordinates: at least one.
+fn with_whole(plant: &Plant) -> Result<(Cell, Vec<Coordinates>), PlantRefusal> {
     if plant.states() > MAX_STATES {
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
     }
     plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
     let found = find_orbit(plant).map_err(PlantRefusal::NoOrbit)?;
     let curve = round_orbit(plant, &found).ok_or(PlantRefusal::NoOrbit(orbit::OrbitFailure::NotFinite))?;
-    smooth_along(plant, &curve)?;
+    let whole = Cell { plant: plant.clone(), curve };
+    // Cells may be smooth where the whole box is not.
+    if !whole.can_be_cut() {
+        whole.smooth()?;
+    }
     let candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
+    if candidates.is_empty() { Err(PlantRefusal::NoContraction) } else { Ok((whole, candidates)) }
+}
+
+/// Proves the orbits of all cells, and goes on from there.
+fn with_cells<T>(
+    plant: &Plant,
+    cells: &Cells,
+    candidates: &[Coordinates],
+    prove: impl FnOnce(&Sampling<'_>) -> Result<T, PlantRefusal>,
+) -> Result<T, PlantRefusal> {
     let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
-    let base = along(plant, &curve, first)?;
-    let spec = base.specification(plant, ProvedValues::default())?;
+    let spec = along(&cells.list, first)?.specification(plant, ProvedValues::default())?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    prove(&candidates, &Sampling::new(plant, &curve, &model))
+    prove(&Sampling::new(plant, cells, &model))
 }
 
 /// What those candidates with a constant P promise by norms, and that P.
@@ -164,7 +208,7 @@ pub(super) fn best_by_norms(
     match by_constant {
         Err(_) if !moving.is_empty() => {
             let (coordinates, chosen) = best_periodic(&moving, sampling)?;
-            Ok((along(sampling.plant, sampling.curve, &coordinates)?, chosen))
+            Ok((along_cells(sampling.cells, &coordinates)?, chosen))
         }
         found => found,
     }
@@ -211,7 +255,7 @@ fn aligned(sampling: &Sampling<'_>, chosen: &Chosen, path: Path) -> Option<f64> 
     }
     let plant = Plant { initial_set: set.clone().aligned(), ..sampling.plant.clone() };
     let model = sampling.model.with_set(sampling.model.set.aligned());
-    let sampling = Sampling::new(&plant, sampling.curve, &model);
+    let sampling = Sampling::new(&plant, sampling.cells, &model);
     let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
     let sigma = with_search(&sampling, Some(path), search).ok().flatten()?;
     (sigma < chosen.proposal.sigma * (1.0 - WORTH_A_REMARK)).then_some(sigma)
@@ -224,7 +268,7 @@ fn with_nominal_gain(sampling: &Sampling<'_>, along: &Along, chosen: &Chosen, pa
     let spec = along.specification(&plant, ProvedValues::default()).ok()?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    let sampling = Sampling::new(&plant, sampling.curve, &model);
+    let sampling = Sampling::new(&plant, sampling.cells, &model);
     let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
     with_search(&sampling, Some(path), search).ok().flatten()
 }
@@ -259,6 +303,11 @@ fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>)
     found.into_iter().flatten().min_by(smaller)
 }
 
+/// What is proved in all cells.
+fn along_cells(cells: &Cells, coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
+    Ok(Along { why: cells.why.clone(), ..along(&cells.list, coordinates)? })
+}
+
 /// A choice for the constant P that is given, rounded, and proved along the orbit.
 pub(super) fn with_constant(
     p: &PeriodicMatrix,
@@ -266,12 +315,11 @@ pub(super) fn with_constant(
     by_matrix: Option<Path>,
     choose: impl FnOnce(&CoordinateSearch<'_>) -> Result<Chosen, Obstacle>,
 ) -> Result<(Along, Chosen), PlantRefusal> {
-    let (plant, curve) = (sampling.plant, sampling.curve);
     let chosen = with_search(sampling, by_matrix, choose).map_err(PlantRefusal::NoGain)?;
     let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], &Density::Rough)(0.0, 0.0, Asked::ALL);
     let l = rational_matrix(&sampling.turned(&chosen.l), at_origin).ok_or(PlantRefusal::NoContraction)?;
     let coordinates = Coordinates { l, p: p.clone(), rate: f64::NAN };
-    let mut base = along(plant, curve, &coordinates)?;
+    let mut base = along_cells(sampling.cells, &coordinates)?;
     // The rounded L, which is L times a rotation, is the one that counts.
     let rounded = float_matrix(&coordinates.l);
     let rotation = chosen.l.clone().try_inverse().map(|inverse| inverse * &rounded);
@@ -282,7 +330,9 @@ pub(super) fn with_constant(
     if let Some(p) = chosen.second.as_ref().and_then(turned) {
         let with_second = Coordinates { l: coordinates.l.clone(), p, rate: f64::NAN };
         // Without a proof the P of stability serves.
-        base.existence = prove_second(plant, &base.orbit, &with_second).ok().map(|triple| (with_second.p, triple));
+        let of_one = |(cell, proven): (&Cell, &ProvenCell)| prove_second(&cell.plant, &proven.orbit, &with_second).ok();
+        let triples = sampling.cells.list.par_iter().zip(&base.cells).map(of_one).collect::<Option<Vec<_>>>();
+        base.existence = triples.and_then(SecondTriple::in_common).map(|triple| (with_second.p, triple));
     }
     let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
     let energy = rotation.as_ref().zip(chosen.energy.as_ref()).map(|(rotation, energy)| energy_in(energy, rotation));
@@ -331,8 +381,9 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
     let mut best: Option<(Coordinates, Chosen)> = None;
     let mut failure = PlantRefusal::NoContraction;
     for candidate in candidates {
-        let proved = match prove_orbit(sampling.plant, sampling.curve, candidate) {
-            Ok(proved) => proved,
+        let proved = match prove_orbits(&sampling.cells.curves(), candidate).map(|orbits| orbits.into_iter().next()) {
+            Ok(Some(proved)) => proved,
+            Ok(None) => continue,
             Err(error) => {
                 failure = PlantRefusal::OrbitNotProved(error);
                 continue;
@@ -351,15 +402,6 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
         }
     }
     best.ok_or(failure)
-}
-
-/// That f and q are smooth on the curve itself, so that what is not is told at its operation before anything is proved with it.
-fn smooth_along(plant: &Plant, curve: &OrbitCurve) -> Result<(), PlantRefusal> {
-    let unit = (0..plant.states()).map(|i| (0..plant.states()).map(|j| Rational::from(u8::from(i == j))).collect());
-    let region = Region::new(unit.collect(), curve.clone(), Rational::new());
-    let engine = region.and_then(|region| Engine::new(plant, region, None, None));
-    let zero = Rational::new();
-    Ok(engine.map_err(|_| PlantRefusal::Coordinates)?.smooth(&zero, &zero)?)
 }
 
 /// Proves the bounds at the arguments of a proposal, looks for the best proposal with them, and once more near its arguments.
@@ -449,31 +491,43 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
     }
     plant.prove_periodic().map_err(PlantRefusal::NotPeriodic)?;
+    // Of the parameters of this plant, whichever the certificate was made for: an undivided orbit is about their nominal values.
+    let own = |cell: &ProvedCell| match of_plant.undivided() {
+        Some(_) => plant.parameters.clone(),
+        None => plant.parameters.in_cell(&cell.parameters.named_ends()),
+    };
+    let boxes: Vec<Parameters> = of_plant.cells.iter().map(own).collect();
+    if !covers(&boxes, &plant.parameters) {
+        return Err(PlantRefusal::Uncovered { cells: boxes.len() });
+    }
     let coordinates = Coordinates { l: of_plant.coordinates.clone(), p: of_plant.matrix.clone(), rate: f64::NAN };
     let rational = |constant: &Constant| constant.as_rational().cloned().unwrap_or_default();
-    let proved = OrbitProof {
-        orbit: of_plant.orbit.approximation.clone(),
-        defect: of_plant.orbit.defect.clone(),
-        tube: of_plant.orbit.tube.clone(),
-        radius: of_plant.orbit.radius.clone(),
-        alpha: rational(&of_plant.triple.alpha),
-        p_low: rational(&of_plant.triple.p_low),
-        p_up: rational(&of_plant.triple.p_up),
-    };
-    decide_orbit(plant, &coordinates, &proved).map_err(PlantRefusal::OrbitNotProved)?;
-    let forcing = of_plant.forcing.clone();
-    decide_forcing(plant, &coordinates, &proved, &forcing).map_err(PlantRefusal::OrbitNotProved)?;
-    let existence = match of_plant.existence.as_deref() {
-        None => None,
-        Some((triple, matrix)) => {
-            let [alpha, p_low, p_up] = [&triple.alpha, &triple.p_low, &triple.p_up].map(rational);
-            let second = SecondTriple { alpha, p_low, p_up };
+    let [alpha, p_low, p_up] = [&of_plant.triple.alpha, &of_plant.triple.p_low, &of_plant.triple.p_up].map(rational);
+    let second = of_plant.existence.as_deref().map(|(triple, matrix)| {
+        let [alpha, p_low, p_up] = [&triple.alpha, &triple.p_low, &triple.p_up].map(rational);
+        (matrix.clone(), SecondTriple { alpha, p_low, p_up })
+    });
+    let decided = |(ProvedCell { orbit, forcing, .. }, parameters): (&ProvedCell, &Parameters)| {
+        let of_cell = in_cell(plant, parameters.clone());
+        let ProvedOrbit { approximation, defect, tube, radius } = orbit.clone();
+        let [alpha, p_low, p_up] = [&alpha, &p_low, &p_up].map(Rational::clone);
+        let orbit = OrbitProof { orbit: approximation, defect, tube, radius, alpha, p_low, p_up };
+        decide_orbit(&of_cell, &coordinates, &orbit)?;
+        decide_forcing(&of_cell, &coordinates, &orbit, forcing)?;
+        if let Some((matrix, triple)) = &second {
             let in_it = Coordinates { l: coordinates.l.clone(), p: matrix.clone(), rate: f64::NAN };
-            decide_second(plant, &proved, &in_it, &second).map_err(PlantRefusal::OrbitNotProved)?;
-            Some((matrix.clone(), second))
+            decide_second(&of_cell, &orbit, &in_it, triple)?;
         }
+        Ok(ProvenCell { parameters: parameters.clone(), orbit, forcing: forcing.clone() })
     };
-    let along = Along { coordinates, orbit: proved, forcing, existence };
+    let cells = of_plant
+        .cells
+        .par_iter()
+        .zip(&boxes)
+        .map(decided)
+        .collect::<Result<_, _>>()
+        .map_err(PlantRefusal::OrbitNotProved)?;
+    let along = Along { coordinates, cells, existence: second, why: None };
     let engine = along.engine(plant)?;
     if let Some([x, e]) = values.reach() {
         engine.smooth(&x, &e)?;

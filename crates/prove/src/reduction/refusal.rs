@@ -47,6 +47,11 @@ pub enum PlantRefusal {
     },
     /// A ball or a domain that L cannot be compared with.
     Coordinates,
+    /// Cells of a certificate that are too many, or do not cover the box of the parameters.
+    Uncovered {
+        /// How many there are.
+        cells: usize,
+    },
     /// Harmonics of q whose size leaves the exponents of the arithmetic.
     Forcing,
 }
@@ -63,6 +68,12 @@ impl From<SmoothnessFailure> for PlantRefusal {
 pub const MAX_STATES: usize = 6;
 
 impl PlantRefusal {
+    /// Whether a narrower tube around the orbit may help.
+    pub(super) fn may_be_of_tube(&self) -> bool {
+        use PlantRefusal::{NoGain, NotProved, NotSmooth, OrbitNotProved};
+        matches!(self, NoGain(_) | NotProved { .. } | NotSmooth { .. } | OrbitNotProved(_))
+    }
+
     /// The errors at their places in the plant file; not empty.
     #[must_use]
     pub fn errors(&self, plant: &Plant) -> Vec<SpecErrors> {
@@ -97,8 +108,8 @@ impl PlantRefusal {
                 "/parameters",
                 format!("x_0(t) is not proved for every value of the parameters: {failure}"),
                 Some(
-                    "narrower intervals: one orbit that is affine in the parameters has to serve all of them, and the intervals are \
-                     not divided",
+                    "narrower intervals: in each of at most 64 cells of their box one orbit that is affine in the parameters has to serve all \
+                     of them",
                 ),
             ),
             PlantRefusal::OrbitNotProved(failure) => undecided(
@@ -135,6 +146,11 @@ impl PlantRefusal {
                 "",
                 format!("the bound `{bound}` is not proved for |y| <= {x:.6}, |e| <= {e:.6} within the effort"),
                 Some("a smaller initial set, or a smoother plant"),
+            ),
+            PlantRefusal::Uncovered { cells } => undecided(
+                "/parameters",
+                format!("the {cells} cells of the certificate do not cover the intervals, or are more than 64"),
+                Some("search for a witness of this plant (without --witness)"),
             ),
             PlantRefusal::Forcing => undecided(
                 "/q",

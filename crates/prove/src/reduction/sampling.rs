@@ -1,5 +1,6 @@
 //! Sampled suprema of a plant's derivatives as a search takes them.
 
+use super::cells::Cells;
 use super::coordinates::{Density, Energies, Estimates, Extreme, ProposeEnergy};
 use super::grid::{RATE, Source, Values};
 use crate::search::{FloatModel, Threshold};
@@ -7,8 +8,8 @@ use nalgebra::DMatrix;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Bound, OrbitCurve, PeriodicMatrix};
-use sigmastar_plants::bounds::{Asked, FloatCurve, FloatSuprema, Focus, Places, TABLE};
+use sigmastar_lang::spec::{Bound, PeriodicMatrix};
+use sigmastar_plants::bounds::{Asked, FloatSuprema, Focus, Places, TABLE};
 use sigmastar_plants::orbit::lower_triangular;
 use std::sync::Arc;
 
@@ -31,7 +32,7 @@ const WORTH_A_TURN: f64 = 0.9;
 /// The suprema along one orbit, for any coordinates.
 pub(super) struct Sampling<'a> {
     pub(super) plant: &'a Plant,
-    pub(super) curve: &'a OrbitCurve,
+    pub(super) cells: &'a Cells,
     /// The model, but for what depends on the coordinates.
     pub(super) model: &'a FloatModel,
     /// In the coordinates x themselves.
@@ -44,15 +45,15 @@ pub(super) struct Sampling<'a> {
 
 impl<'a> Sampling<'a> {
     /// The ordinary size of e is what q makes of it over a period, or the initial set.
-    pub(super) fn new(plant: &'a Plant, curve: &'a OrbitCurve, model: &'a FloatModel) -> Sampling<'a> {
+    pub(super) fn new(plant: &'a Plant, cells: &'a Cells, model: &'a FloatModel) -> Sampling<'a> {
         let n = plant.states();
         let known = model.q_0.as_ref();
         let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());
         let [x_0, e_0] = model.set.given().map(|size| size.copied().unwrap_or(0.0));
         let by_forcing = 0.1 * squares.sqrt() * model.period;
         let unit_e = [e_0, by_forcing].into_iter().fold(0.0, f64::max);
-        let plain = FloatSuprema::new(plant, FloatCurve::from(curve), rows(&DMatrix::identity(n, n)), [None; 2]);
-        Sampling { plant, curve, model, plain, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
+        let plain = FloatSuprema::of_cells(plant, cells.in_doubles(), rows(&DMatrix::identity(n, n)), [None; 2]);
+        Sampling { plant, cells, model, plain, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
     }
 
     /// Whether the derivatives depend on the states or on the error: else all paths are one.
@@ -77,7 +78,7 @@ impl<'a> Sampling<'a> {
         if matrices.into_iter().flatten().all(|matrix| matrix.harmonics.is_empty()) {
             return self.plain.in_coordinates(rows(l), matrices);
         }
-        FloatSuprema::new(self.plant, FloatCurve::from(self.curve), rows(l), matrices)
+        FloatSuprema::of_cells(self.plant, self.cells.in_doubles(), rows(l), matrices)
     }
 
     /// The same as functions of (X, E).
@@ -145,7 +146,7 @@ impl<'a> Sampling<'a> {
 }
 
 /// A matrix by rows.
-fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
 }
 

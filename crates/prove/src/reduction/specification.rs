@@ -28,7 +28,8 @@ const PRECISION: u32 = 128;
 /// [`PlantRefusal::Coordinates`] where L is so ill-conditioned that a ball or a domain cannot be turned into its norm,
 /// [`PlantRefusal::Forcing`] where a harmonic of q has no finite enclosure.
 pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
-    let q_0 = known_forcing(&of_plant.forcing, &of_plant.parameters).ok_or(PlantRefusal::Forcing)?;
+    let q_0 = known_forcing(of_plant.cells.iter().map(|cell| (&cell.forcing, &cell.parameters)));
+    let q_0 = q_0.ok_or(PlantRefusal::Forcing)?;
     let domain = match &plant.domain {
         Some(domain) => Some(in_coordinates(domain, &of_plant.coordinates).ok_or(PlantRefusal::Coordinates)?),
         None => None,
@@ -54,16 +55,20 @@ pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> 
 }
 
 /// C_0 = |m_0|, C_k = sqrt(a_k^2 + b_k^2)/2 rounded up, r_0 and r_1; of a family the largest of all corners, which bound those of
-/// every member: c_k is affine in the parameters, and a magnitude convex. `None` where a C_k leaves the range of exponents.
-fn known_forcing(forcing: &ProvedForcing, parameters: &Parameters) -> Option<KnownForcing> {
+/// every member: c_k is affine in the parameters, and a magnitude convex; of cells the largest of all. `None` where a C_k leaves the range of
+/// exponents.
+fn known_forcing<'c>(cells: impl Iterator<Item = (&'c ProvedForcing, &'c Parameters)> + Clone) -> Option<KnownForcing> {
     let size = |[a, b]: &[Rational; 2]| {
         let squares = Rational::from(a * a) + Rational::from(b * b);
         let size = Enclosure::from_rational(&(squares / 4u32), PRECISION).sqrt();
         size.upper_rational().map(|upper| round_rational(&upper, LONG_DIGITS, Direction::Up))
     };
     let mut largest: Vec<Rational> = Vec::new();
-    for member in parameters.looked_at() {
-        let wave = forcing.at(&parameters.deviations(&member));
+    let members = cells.clone().flat_map(|(forcing, parameters)| {
+        let deviations = |member: &Vec<Rational>| parameters.deviations(member);
+        parameters.looked_at().iter().map(deviations).map(|deviations| forcing.at(&deviations)).collect::<Vec<_>>()
+    });
+    for wave in members {
         let mean = Some(Rational::from(wave.mean.abs_ref()));
         let sizes: Vec<Rational> =
             std::iter::once(mean).chain(wave.harmonics.iter().map(size)).collect::<Option<_>>()?;
@@ -74,10 +79,13 @@ fn known_forcing(forcing: &ProvedForcing, parameters: &Parameters) -> Option<Kno
             }
         }
     }
+    let rest = |of: fn(&ProvedForcing) -> &Rational| {
+        cells.clone().map(|(forcing, _)| of(forcing)).max().map(Constant::rational)
+    };
     Some(KnownForcing {
         harmonics: largest.iter().map(Constant::rational).collect(),
-        rest_rms: Constant::rational(&forcing.rest),
-        rest_t_rms: Some(Constant::rational(&forcing.rest_t)),
+        rest_rms: rest(|forcing| &forcing.rest)?,
+        rest_t_rms: Some(rest(|forcing| &forcing.rest_t)?),
     })
 }
 
@@ -127,7 +135,7 @@ mod tests {
             rest: Rational::from((1, 8)),
             rest_t: Rational::from(2),
         };
-        let known = known_forcing(&forcing(Rational::from((1, 3))), &Parameters::default()).unwrap();
+        let known = known_forcing([(&forcing(Rational::from((1, 3))), &Parameters::default())].into_iter()).unwrap();
         let sizes: Vec<&Rational> = known.harmonics.iter().map(|size| size.as_rational().unwrap()).collect();
         assert_eq!(sizes[..2], [&Rational::from(3), &Rational::from((1, 2))]);
         assert!(*sizes[2] > Rational::from((1, 6)) && *sizes[2] < Rational::from((1_000_001, 6_000_000)));
@@ -142,14 +150,14 @@ mod tests {
         let plant = Plant::from_json("family", &text).unwrap();
         let part = Wave { mean: Rational::from(1), harmonics: vec![[Rational::from(1), Rational::from(-1)]] };
         let moved = ProvedForcing { sensitivities: vec![part], ..forcing(Rational::new()) };
-        let known = known_forcing(&moved, &plant.parameters).unwrap();
+        let known = known_forcing([(&moved, &plant.parameters)].into_iter()).unwrap();
         let [mean, first] = [0, 1].map(|k| known.harmonics[k].as_rational().unwrap());
         let (square, exact) = (Rational::from(first * first), Rational::from((365, 100)));
         assert!(*mean == 4 && square >= exact && square < exact * Rational::from((1_000_001, 1_000_000)));
         // The square leaves the exponents: the harmonic has no bound, and the whole of q_0 none. To square it takes seconds.
         if std::env::var_os("SIGMASTAR_CASES").is_some_and(|cases| cases == "all") {
             let huge = Rational::from(rug::Integer::from(1) << 550_000_000);
-            assert!(known_forcing(&forcing(huge), &Parameters::default()).is_none());
+            assert!(known_forcing([(&forcing(huge), &Parameters::default())].into_iter()).is_none());
         }
     }
 }

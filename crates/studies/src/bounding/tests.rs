@@ -47,8 +47,8 @@ impl<'p> Formulas<'p> {
             evaluator: Evaluator::new(Arc::new(Program::values(&sides, plant.states()))),
             rows: doubles(&of_plant.coordinates),
             inverse: doubles(&sigmastar_matrix::inverse(&of_plant.coordinates).unwrap()),
-            orbit: &of_plant.orbit.approximation.centre,
-            period: plant.period.enclose(64).midpoint_f64(),
+            orbit: &of_plant.cells[0].orbit.approximation.centre,
+            period: plant.period.nominal().enclose(64).midpoint_f64(),
             outputs: vec![0.0; sides.len()],
         }
     }

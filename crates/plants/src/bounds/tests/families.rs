@@ -88,3 +88,45 @@ fn a_region_without_the_sensitivities_is_refused() {
     let region = Region::new(vec![vec![rational("1")]], still, rational("0")).unwrap();
     assert!(matches!(Engine::new(&family(Q), region, Some(identity(1)), None), Err(RegionError::Shape)));
 }
+
+/// The family in two halves along k, each about its own middle with an orbit of its own: a bound is that of the worse one, whichever comes first.
+#[test]
+fn of_cells_the_worst_counts() {
+    let plant = family(Q);
+    let p = identity(1);
+    let still = |mean: &str| TrigonometricVector { mean: vec![rational(mean)], harmonics: Vec::new() };
+    // In the half with the smaller k the orbit is at 1/4, in the other one at 0.
+    let halves = [(["1", "3/2"], "1/4"), (["3/2", "2"], "0")].map(|([low, high], mean)| {
+        let cell = plant.parameters.in_cell(&[[rational(low), rational(high)], [rational("-1/4"), rational("1/2")]]);
+        let orbit =
+            sigmastar_lang::spec::OrbitCurve { centre: still(mean), sensitivities: ["0", "0"].map(still).to_vec() };
+        (cell, orbit)
+    });
+    let case = |order: [usize; 2]| {
+        let cells = || order.map(|i| (&halves[i].0, &halves[i].1));
+        let curves = cells().map(|(cell, orbit)| (cell, FloatCurve::from(orbit)));
+        let samples = FloatSuprema::of_cells(&plant, curves, vec![vec![1.0]], [Some(&p), None]);
+        let regions = cells()
+            .map(|(cell, orbit)| (cell, Region::new(vec![vec![rational("1")]], orbit.clone(), rational("0")).unwrap()));
+        Case { engine: Engine::of_cells(&plant, regions, Some(p.clone()), None).unwrap(), samples }
+    };
+    let [x, e] = [rational("0.5"), rational("1")];
+    // J = -k + 2 c x: in the first half at least 1 - 3/4 is left, in the second 3/2 - 1/2. q_e = k x + c: 1.5*0.75 + 0.5, and 2*0.5 + 0.5.
+    for order in [[0, 1], [1, 0]] {
+        let case = case(order);
+        for (bound, worst) in [(Bound::Rate, 0.25), (Bound::QeMax, 1.625), (Bound::Qx, 2.0)] {
+            let proved = case.engine.prove_value(&case.samples, bound, &x, &e).unwrap().value.to_f64();
+            let sound = if bound.is_rate() { proved <= worst } else { proved >= worst };
+            assert!(sound && (proved - worst).abs() < 0.02 * worst, "{bound:?} {order:?}: {proved}");
+            let beyond = Rational::from_f64(if bound.is_rate() { worst * 1.02 } else { worst * 0.98 }).unwrap();
+            let entry = Entry { bound, x: x.clone(), e: e.clone(), value: beyond };
+            assert!(!case.engine.decide(&entry, 4000).truth.is_true(), "{bound:?} {order:?}");
+        }
+    }
+    let none: [(&sigmastar_lang::spec::Parameters, Region); 0] = [];
+    assert!(matches!(Engine::of_cells(&plant, none, None, None), Err(RegionError::Shape)));
+    let lengths =
+        ["1", "2"].map(|length| Region::new(vec![vec![rational(length)]], halves[0].1.clone(), rational("0")).unwrap());
+    let other = lengths.map(|region| (&halves[0].0, region));
+    assert!(matches!(Engine::of_cells(&plant, other, None, None), Err(RegionError::Shape)));
+}

@@ -184,3 +184,35 @@ fn a_family_of_one_point_is_the_plant() {
     let intervals: Vec<Interval> = unstable.parameters.intervals().cloned().collect();
     assert_eq!(intervals[0].nominal, Rational::from((1, 5)));
 }
+
+/// Two halves are proved with one rate; each radius follows from it, and each is decided again.
+#[test]
+fn halves_have_one_rate() {
+    let plant = family(["0.1", "0.3"], ["0", "0.2"]);
+    let found = find_orbit(&plant).unwrap();
+    let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().swap_remove(0);
+    let [low, middle, high] = [(1, 10), (1, 5), (3, 10)].map(Rational::from);
+    let c = [Rational::new(), Rational::from((1, 5))];
+    let halves = [[low, middle.clone()], [middle, high]].map(|k| {
+        let half = Plant { parameters: plant.parameters.in_cell(&[k, c.clone()]), ..plant.clone() };
+        let orbit = round_orbit(&half, &find_orbit(&half).unwrap()).unwrap();
+        (half, orbit)
+    });
+    let cells = halves.each_ref().map(|(half, orbit)| (half, orbit));
+    let proofs = prove_orbits(&cells, &coordinates).unwrap();
+    let alone = cells.map(|(half, orbit)| prove_orbit(half, orbit, &coordinates).unwrap());
+    let least = alone.iter().map(|proof| &proof.alpha).min().unwrap();
+    assert!(proofs.iter().all(|proof| proof.alpha == *least) && alone[0].alpha != alone[1].alpha);
+    for ((half, _), proof) in cells.iter().zip(&proofs) {
+        decide_orbit(half, &coordinates, proof).unwrap();
+    }
+    // The half with the larger rate pays for the smaller one.
+    let larger = usize::from(alone[1].alpha > alone[0].alpha);
+    assert!(proofs[larger].radius > alone[larger].radius);
+    // The orbit of one half is none of the other.
+    assert!(decide_orbit(cells[0].0, &coordinates, &proofs[1]).is_err());
+    // What adds most to the defect of the whole box is k.
+    let orbit = round_orbit(&plant, &found).unwrap();
+    let [of_k, of_c] = defects_by_parameter(&plant, &orbit, &coordinates)[..] else { panic!("two parameters") };
+    assert!(of_k > of_c && of_c > 0.0, "{of_k} {of_c}");
+}

@@ -1,0 +1,110 @@
+//! Families whose box of parameters is cut into cells: certified where one tube is too wide, checked, tried, and decided again.
+
+use super::support::{json, program};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// `x' = -a x - x^3/20 + e/5 + 2 + sin(2 pi t)` with a in these: the mean of the orbit is about 2/a.
+fn family([low, high]: [&str; 2]) -> Value {
+    json!({
+        "format": "sigmastar/plant", "version": 1, "name": "One state", "period": "1", "states": ["x"],
+        "parameters": { "a": { "nominal": "2", "low": low, "high": high } },
+        "f": ["-a*x - x^3/20 + e/5 + 2 + sin(2*pi*t)"], "q": "x + sin(2*pi*t)",
+        "internal_model": {
+            "mu": "1", "base_frequency": "2*pi", "matched": true,
+            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" },
+        },
+    })
+}
+
+fn stored(folder: &TempDir, name: &str, value: &Value) -> PathBuf {
+    let file = folder.path().join(name);
+    std::fs::write(&file, value.to_string()).unwrap();
+    file
+}
+
+fn certified(folder: &TempDir, plant: &Value, threads: &str) -> (PathBuf, Value) {
+    let (file, certificate) = (stored(folder, "plant.json", plant), folder.path().join("certificate.json"));
+    let mut call = program();
+    call.env("RAYON_NUM_THREADS", threads).arg("certify").arg(&file);
+    let output = call.args(["--quiet", "--force", "--format", "json", "-o"]).arg(&certificate).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    (certificate, json(&output.stdout))
+}
+
+fn checked(certificate: &Path) -> Value {
+    json(&program().args(["check", "--format", "json"]).arg(certificate).output().unwrap().stdout)
+}
+
+/// The verdict on a plant with the witness of a certificate.
+fn again(plant: &Path, certificate: &Path) -> Value {
+    let mut call = program();
+    call.arg("certify").arg(plant).args(["--quiet", "--format", "json", "--witness"]).arg(certificate);
+    json(&call.output().unwrap().stdout)["verdict"].clone()
+}
+
+/// The box is cut, the same on any number of threads; every number counts in every cell, for both programs.
+#[test]
+fn a_wide_family_is_certified_in_cells() {
+    let folder = TempDir::new().unwrap();
+    let plant = family(["1.4", "2.6"]);
+    let (file, report) = certified(&folder, &plant, "1");
+    let certificate = json(&std::fs::read(&file).unwrap());
+    let cells = certificate["witness"]["cells"].as_array().expect("cells").clone();
+    assert!(cells.len() > 1 && cells.len() <= 64, "{}", cells.len());
+    assert_eq!(report["plant"]["cells"], cells.len());
+    assert!(report["plant"]["cells_because"].as_str().is_some_and(|why| why.contains("affine in the parameters")));
+    assert!(certificate["witness"]["orbit"].is_null() && certificate["witness"]["forcing"].is_null());
+    assert_eq!(checked(&file)["verdict"], "valid");
+    let own = stored(&folder, "plant.json", &plant);
+    assert_eq!(again(&own, &file), "certified");
+    // For part of the box too, and not beyond it.
+    let other = |ends: [&str; 2]| again(&stored(&folder, "other.json", &family(ends)), &file);
+    assert_eq!(other(["1.5", "2.1"]), "certified");
+    assert_ne!(other(["1.3", "2.6"]), "certified");
+    // What the claim says of members is not broken by simulations, at the ends and inside.
+    let tried = program().args(["falsify", "--quiet", "--trials", "6"]).arg(&file).output().unwrap();
+    assert_eq!(tried.status.code(), Some(0), "{}", String::from_utf8_lossy(&tried.stderr));
+
+    let forged = |name: &str, change: &dyn Fn(&mut Vec<Value>)| {
+        let mut forged = certificate.clone();
+        change(forged["witness"]["cells"].as_array_mut().unwrap());
+        let file = stored(&folder, name, &forged);
+        [again(&own, &file) == "certified", checked(&file)["verdict"] == "valid"]
+    };
+    let none = [false; 2];
+    for left_out in 0..cells.len() {
+        assert_eq!(forged("left.json", &|cells| drop(cells.remove(left_out))), none, "{left_out}");
+    }
+    assert_eq!(forged("twice.json", &|cells| cells.push(cells[0].clone())), [true; 2]);
+    let swapped = |cells: &mut Vec<Value>| {
+        let (first, second) = (cells[0]["orbit"].clone(), cells[1]["orbit"].clone());
+        (cells[0]["orbit"], cells[1]["orbit"]) = (second, first);
+    };
+    assert_eq!(forged("swapped.json", &swapped), none);
+    assert_eq!(forged("many.json", &|cells| cells.resize(65, cells[0].clone())), none);
+    // A forcing and a radius of the other cell, and an orbit beside the cells.
+    let taken = |cells: &mut Vec<Value>| cells[0]["forcing"] = cells[1]["forcing"].clone();
+    assert_eq!(forged("taken.json", &taken), none);
+    let last = cells.len() - 1;
+    assert_eq!(forged("small.json", &|cells| cells[last]["orbit"]["defect"] = "1e-9".into()), none);
+    let mut both = certificate.clone();
+    both["witness"]["orbit"] = cells[0]["orbit"].clone();
+    assert_ne!(again(&own, &stored(&folder, "both.json", &both)), "certified");
+
+    let (file, _) = certified(&folder, &plant, "3");
+    assert_eq!(json(&std::fs::read(&file).unwrap()), certificate);
+}
+
+/// No more cells than are needed, and none for a box that has no member at a corner.
+#[test]
+fn cells_only_where_they_help() {
+    let folder = TempDir::new().unwrap();
+    let (file, report) = certified(&folder, &family(["1.95", "2.05"]), "2");
+    assert_eq!(report["plant"]["cells"], 1);
+    assert!(json(&std::fs::read(&file).unwrap())["witness"]["cells"].is_null());
+    let unstable = stored(&folder, "unstable.json", &family(["-1", "3"]));
+    let refused = program().args(["certify", "--quiet"]).arg(&unstable).output().unwrap();
+    assert_eq!(refused.status.code(), Some(3), "{}", String::from_utf8_lossy(&refused.stdout));
+}
