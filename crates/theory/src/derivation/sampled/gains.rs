@@ -493,6 +493,10 @@ mod tests {
         assert!(of("1", "1").room.is_none());
         let good = of("0.5", "1.5");
         assert!(good.room.unwrap().is_certainly_positive() && !good.sup.is_unknown());
+        // What drives zeta is q + (1-b) sigma e: at h sigma = 1, the largest F_j is at j = 1, and sigma F_j at most 1/(1/(1+theta) - 1/2).
+        let plain = of("1", "1");
+        let (excess, share) = ((&good.enlarged / &plain.enlarged).midpoint_f64(), (&good.rms * 24).midpoint_f64());
+        assert!(share > 1.9 && share < 3.0 && excess > 1.0 + 0.5 * share && excess < 1.3 * (1.0 + 0.5 * share));
         // h sigma = 1, where (2 - h sigma)/(1 + theta) > (b_hi - 1) h sigma: b_hi below 2.
         let wide = of("0.5", "2.2");
         assert!(!wide.room.unwrap().is_certainly_positive());
