@@ -4,12 +4,14 @@ use crate::common::certificate;
 use proofs_check::data::Data;
 use proofs_check::interval::Interval;
 use proofs_check::json::{Field, decimal, parse};
+use proofs_check::rules::common::Free;
 use proofs_check::rules::paths::{Path, Paths};
 use proofs_check::rules::sampled::existence;
 use proofs_check::rules::sampled::gains::Gains;
 use proofs_check::rules::sampled::law::{Law, Terms};
 use proofs_check::rules::sampled::stability;
 use proofs_check::rules::sampled::transfer;
+use proofs_check::rules::set::ClaimedSet;
 use proofs_check::rules::stability::ErrorBox;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::Verdict;
@@ -495,4 +497,33 @@ fn parts_of_stability() {
             }
         });
     }
+}
+
+/// At either end of b, whichever is worse; in continuous time with both ends at once.
+#[test]
+fn how_far_the_control_goes() {
+    let spec = specification("1", 1.0, [0.5, 2.0]);
+    let d = Data::new(&spec, 128);
+    let number = |value: f64| d.number(&rational(value));
+    let mut seen = [0; 2];
+    for (h, sigma, gain) in [(0.01, 3.0, 2.0), (0.3, 20.0, 0.5), (1.0, 1.0, 1.0)] {
+        let [x_p, e_p, d_x, d_e, w_x, weight] = [1.0, 1.0, 1.0, 1.0, 3.0, h].map(rational);
+        let [k0, k1] = [1.0, 1.0].map(rational);
+        let set = ClaimedSet { x0: k0.clone(), e0: k0.clone(), z0: None };
+        let paths = Paths { f: Path::Straight, q: Path::Straight };
+        let r = [1.0; 3].map(rational);
+        let free = Free { pointer: String::new(), set, x_p, e_p, r, d_x, d_e, w_x, h: weight, k0, k1, paths };
+        let of = |level: f64, b: f64| {
+            let level = 3.0 * 1.5512 * 0.04 + 0.09 + level * h * 4.0;
+            (level * (sigma * sigma + gain * gain * NBAR_SQUARED / (b * h))).sqrt()
+        };
+        let ends = [of(0.5, 0.5), of(2.0, 2.0)];
+        seen[usize::from(ends[1] > ends[0])] += 1;
+        for (at_samples, expected) in [(true, ends[0].max(ends[1])), (false, of(2.0, 0.5))] {
+            let reach = [0.2, 0.3, 2.0].map(number);
+            let (_, found) = free.level(&d, &reach, [&number(sigma), &number(gain)], at_samples);
+            close("transient", &found, expected, &Float::new(1.0, 1.0, 2, 0.5));
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 0), "{seen:?}");
 }
