@@ -165,7 +165,7 @@ pub enum Command {
     ///
     /// Floating point, no claim. The report goes to standard output; --csv and --plots write files.
     #[command(after_help = SIMULATE_EXAMPLES)]
-    Simulate(SimulateArgs),
+    Simulate(Box<SimulateArgs>),
     /// Reproduce the tables and figures of the paper
     ///
     /// Floating point, no claim. Writes report.md, report.html, report.json and the figures into a folder.
