@@ -97,14 +97,17 @@ fn a_wide_family_is_certified_in_cells() {
     assert_eq!(json(&std::fs::read(&file).unwrap()), certificate);
 }
 
-/// No more cells than are needed, and none for a box that has no member at a corner.
+/// No more cells than are needed, and none for a box with a member at a corner that is not stable.
 #[test]
 fn cells_only_where_they_help() {
     let folder = TempDir::new().unwrap();
     let (file, report) = certified(&folder, &family(["1.95", "2.05"]), "2");
     assert_eq!(report["plant"]["cells"], 1);
+    assert_eq!(report["plant"]["cells_because"], Value::Null);
     assert!(json(&std::fs::read(&file).unwrap())["witness"]["cells"].is_null());
-    let unstable = stored(&folder, "unstable.json", &family(["-1", "3"]));
+    let mut unstable = family(["-1", "3"]);
+    unstable["f"][0] = "-a*x + e/5 + 2 + sin(2*pi*t)".into();
+    let unstable = stored(&folder, "unstable.json", &unstable);
     let refused = program().args(["certify", "--quiet"]).arg(&unstable).output().unwrap();
     assert_eq!(refused.status.code(), Some(3), "{}", String::from_utf8_lossy(&refused.stdout));
 }

@@ -41,7 +41,7 @@ impl Tube {
     }
 
     /// An interval that contains a component of xb at all t and p.
-    fn extent(&self, index: usize) -> [Rational; 2] {
+    pub(super) fn extent(&self, index: usize) -> [Rational; 2] {
         let all = || {
             let orbit = self.region.orbit();
             let [low, high] = extent(&orbit.centre, index);

@@ -138,7 +138,8 @@ fn the_papers_plant() {
         let matrix = best_matrix(&plant, &orbit, x.to_f64(), e.to_f64());
         let case = case(&plant, &matrix, orbit.clone(), "1e-6");
         let proved = case.engine.prove_value(&case.samples, Bound::Rate, &x, &e).unwrap();
-        let [low, high] = case.engine.extent(1).map(|end| end.to_f64());
+        let extent = case.engine.tubes().next().unwrap().extent(1);
+        let [low, high] = extent.map(|end| end.to_f64());
         let most = (1.2 - (high + x.to_f64()) / 5.0 - e.to_f64()) / 2.0;
         println!("rate on ({x}, {e}): {} of {most}; x_2 in [{low}, {high}]", proved.value.to_f64());
         assert!(proved.value.to_f64() < most && proved.value.to_f64() > 0.97 * most, "{proved:?}");
@@ -234,7 +235,7 @@ fn cases() -> Vec<(&'static str, Case, &'static str, &'static str)> {
 fn proved_bounds_hold_at_random_points() {
     for (name, Case { engine, samples }, x, e) in cases() {
         let (x, e) = (rational(x), rational(e));
-        let reach = Rational::from(&x + engine.region.radius()).to_f64();
+        let reach = Rational::from(&x + engine.region().radius()).to_f64();
         assert_eq!(engine.smooth(&x, &e), Ok(()), "{name}");
         for kind in TABLE.into_iter().filter(|kind| *kind != Bound::RateExistence) {
             let what = kind.field();

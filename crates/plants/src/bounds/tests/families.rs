@@ -96,8 +96,8 @@ fn of_cells_the_worst_counts() {
     let p = identity(1);
     let still = |mean: &str| TrigonometricVector { mean: vec![rational(mean)], harmonics: Vec::new() };
     // In the half with the smaller k the orbit is at 1/4, in the other one at 0.
-    let halves = [(["1", "3/2"], "1/4"), (["3/2", "2"], "0")].map(|([low, high], mean)| {
-        let cell = plant.parameters.in_cell(&[[rational(low), rational(high)], [rational("-1/4"), rational("1/2")]]);
+    let halves = [(["1", "1.5"], "0.25"), (["1.5", "2"], "0")].map(|([low, high], mean)| {
+        let cell = plant.parameters.in_cell(&[[rational(low), rational(high)], [rational("-0.25"), rational("0.5")]]);
         let orbit =
             sigmastar_lang::spec::OrbitCurve { centre: still(mean), sensitivities: ["0", "0"].map(still).to_vec() };
         (cell, orbit)

@@ -29,7 +29,7 @@ fn a_proved_threshold_holds_at_random_points() {
         let weights = ["0.5", "0.4"];
         let wanted = inequality(x, e, weights, 0.0);
         let proved = engine.prove_inequality(&samples, &wanted, &one()).unwrap_or_else(|| panic!("{name}"));
-        let at = [Rational::from(&wanted.x + engine.region.radius()), wanted.e.clone()].map(|end| end.to_f64());
+        let at = [Rational::from(&wanted.x + engine.region().radius()), wanted.e.clone()].map(|end| end.to_f64());
         let weights = FloatWeights { w_x: 0.5, k_p: 0.8, rate: 0.001 };
         let met = samples.threshold_at(at, &random_points(engine.states(), 20_000), weights);
         let value = proved.value.to_f64();
