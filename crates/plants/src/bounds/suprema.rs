@@ -361,7 +361,7 @@ impl FloatSuprema {
             let moment = &self.moments[i];
             if last != Some(i) {
                 self.load(moment, &mut evaluator);
-                matrices = self.matrices_at(&moment);
+                matrices = self.matrices_at(moment);
                 last = Some(i);
             }
             self.place(&moment.orbit, &self.ball[j], reach, &mut x);

@@ -39,7 +39,7 @@ fn values_are_above_random_points_and_near_them() {
         let plant = Plant::load(&folder.join(name).with_extension("json")).unwrap();
         let reduced = reduce(&plant, None).unwrap();
         let (_, samples) = bounds_around(&plant, reduced.spec.plant().unwrap()).unwrap();
-        let radius = reduced.spec.plant().unwrap().orbit.radius.to_f64();
+        let radius = reduced.spec.plant().unwrap().cells[0].orbit.radius.to_f64();
         let points = random_points(plant.states(), if all { 100_000 } else { 20_000 });
         let values = reduced.spec.bounds.proved_values();
         for ProvedValue { bound, x, e, value, .. } in values.entries() {
