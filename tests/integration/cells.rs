@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// `x' = -a x - x^3/20 + e/5 + 2 + sin(2 pi t)` with a in these: the mean of the orbit is about 2/a.
-fn family([low, high]: [&str; 2]) -> Value {
+pub(super) fn family([low, high]: [&str; 2]) -> Value {
     json!({
         "format": "sigmastar/plant", "version": 1, "name": "One state", "period": "1", "states": ["x"],
         "parameters": { "a": { "nominal": "2", "low": low, "high": high } },

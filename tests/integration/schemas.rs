@@ -345,8 +345,12 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     let (spec, of_gain) = (folder.path().join("gain.json"), folder.path().join("gain.certificate.json"));
     std::fs::write(&spec, uncertain.to_string()).expect("a file");
     program().args(["certify", "-q"]).arg(&spec).arg("-o").arg(&of_gain).assert().code(0);
+    // A family whose parameters are cut into cells.
+    let (plant, of_family) = (folder.path().join("family.json"), folder.path().join("family.certificate.json"));
+    std::fs::write(&plant, super::cells::family(["1.4", "2.6"]).to_string()).expect("a file");
+    program().args(["certify", "-q"]).arg(&plant).arg("-o").arg(&of_family).assert().code(0);
     let mut used = BTreeSet::new();
-    for certificate in [contradicted, parsed(&file), parsed(&sampled), parsed(&of_gain)] {
+    for certificate in [contradicted, parsed(&file), parsed(&sampled), parsed(&of_gain), parsed(&of_family)] {
         assert_eq!(validator.complaints(&certificate), None);
         names(&certificate, &mut used);
     }

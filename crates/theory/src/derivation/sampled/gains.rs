@@ -55,7 +55,7 @@ where
     /// Evaluates the gains. Hypotheses: K h Nb2 < 2, h sigma <= 1.
     ///
     /// With Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|} the harmonics of y are at most Sb_j times those of the means of q, and 0
-    /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike. With an input gain it is [`Worst`] that
+    /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike. With an input gain F_j of 13.1
     /// bounds each of them.
     #[must_use]
     pub fn new(law: &SampledLaw<R>, sigma: &R, period: &R) -> SampledGains<R> {
