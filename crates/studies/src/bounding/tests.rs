@@ -48,7 +48,7 @@ impl<'p> Formulas<'p> {
             rows: doubles(&of_plant.coordinates),
             inverse: doubles(&sigmastar_matrix::inverse(&of_plant.coordinates).unwrap()),
             orbit: &of_plant.cells[0].orbit.approximation.centre,
-            period: plant.period.enclose(64).midpoint_f64(),
+            period: plant.period.nominal().enclose(64).midpoint_f64(),
             outputs: vec![0.0; sides.len()],
         }
     }
