@@ -14,7 +14,7 @@ Ltac put old new b :=
 
 (** [b] with the fields of the record [R], which is what [c] stands for. *)
 Ltac opened c R b :=
-  let b := lazymatch b with context [known c] => let v := eval cbv beta iota delta [known min2 max2] in (known R) in put (known c) v b | _ => b end in
+  let b := lazymatch b with context [known c] => let v := eval cbv beta iota delta [known] in (known R) in put (known c) v b | _ => b end in
   let b := lazymatch b with context [rate c] => let v := eval cbv beta iota delta [rate] in (rate R) in put (rate c) v b | _ => b end in
   let b := lazymatch b with context [b_q_rms c] => let v := eval cbv beta iota delta [b_q_rms] in (b_q_rms R) in put (b_q_rms c) v b | _ => b end in
   let b := lazymatch b with context [b_qt_rms c] => let v := eval cbv beta iota delta [b_qt_rms] in (b_qt_rms R) in put (b_qt_rms c) v b | _ => b end in
@@ -81,12 +81,16 @@ Ltac keep_sizes c :=
   | H : _ <= ?v <= _ |- _ => lazymatch v with e_per c => fail | x_per c => fail | Z_per c => fail | b_lo c => fail | b_hi c => fail | _ => clear H end
   end.
 
+(** In operations of which enclosures are known. Bounding functions and harmonics are put in this form before anything is noted of them:
+    what is noted is found again by its words. *)
+Ltac plain b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 explicit nth_error power Rpower C_k r_0 r_t] in b.
+
 (** What is computed of others, by its definition. *)
 Ltac note_computed_with p c R v :=
   let b := eval red in v in
   let b := eval cbv beta delta [beta2 sup_of rms_of z_mean capped one_sided least_by worst] in b in
   let b := opened c R b in
-  let b := eval cbv beta iota zeta delta [least E_at X_at coth tanh_exp min2 max2 explicit nth_error power Rpower C_k r_0 r_t] in b in
+  let b := plain b in
   note_with p v b.
 Ltac note_computed c R v := note_computed_with constr:(120%positive) c R v.
 (** What differences of nearly equal numbers make: with a gain of 1e-10 they take some 180 bits from what is left. *)
@@ -140,9 +144,10 @@ Ltac note_existence c :=
   note_difference c R constr:(bt c); note_difference c R constr:(tau c);
   note_computed c R constr:(b_lo c); note_computed c R constr:(b_hi c); note_computed c R constr:(d_b c); note_computed c R constr:(c_m c);
   note_computed c R constr:(nu_lo c); note_computed c R constr:(c_ex c);
-  let k := eval cbv beta iota delta [known min2 max2] in (known R) in
+  let k := eval cbv beta iota delta [known] in (known R) in
   match k with
   | by_functions ?o =>
+      let o := plain o in
       note_computed c R constr:(F_p c o); note_computed c R constr:(bent c o); note_computed c R constr:(Q_p c o);
       note_computed c R constr:(Qt_p c o); note_computed c R constr:(Qt_start c o); note_computed c R constr:(secant c o)
   | _ => idtac
@@ -153,6 +158,7 @@ Ltac note_existence c :=
   match f with
   | None => idtac
   | Some ?f =>
+      let f := plain f in
       note_harmonics c R constr:(sup_h c f); note_harmonics c R constr:(rms_h c f); note_harmonics c R constr:(rate_h c f);
       note_computed c R constr:(rest_t c f); note_harmonics c R constr:(rms_0 f); note_harmonics c R constr:(rms_m f);
       note_harmonics c R constr:(z_harmonics c f)
@@ -167,7 +173,7 @@ Ltac note_existence c :=
   note_computed c R constr:(Q_start c); note_computed c R constr:(Fx_p c); note_computed c R constr:(beta2 c (a_1 c));
   note_computed c R constr:(x_gain c); note_computed c R constr:(from_rms c);
   match k with
-  | by_functions ?o => forget (F_p c o); forget (bent c o); forget (secant c o)
+  | by_functions ?o => let o := plain o in forget (F_p c o); forget (bent c o); forget (secant c o)
   | _ => idtac
   end;
   forget (c_ex c); forget (beta2_s c); forget (beta2 c (a_1 c));
@@ -188,14 +194,14 @@ Ltac note_stability c :=
   let R := eval red in c in
   keep_sizes c;
   note_computed c R constr:(X_b c); note_computed c R constr:(E_b c);
-  let k := eval cbv beta iota delta [known min2 max2] in (known R) in
+  let k := eval cbv beta iota delta [known] in (known R) in
   match k with
   | by_metrics _ => idtac
   | _ =>
       note_computed c R constr:(E_f c); note_computed c R constr:(E_q c); note_computed c R constr:(X_f c); note_computed c R constr:(X_q c);
       note_computed c R constr:(b_x c); note_computed c R constr:(k_x c); note_computed c R constr:(k_l c); note_computed c R constr:(most c);
       note_computed c R constr:(k_f c);
-      match k with by_functions ?o => note_computed c R constr:(bend c o); note_computed c R constr:(gam c o) | _ => idtac end;
+      match k with by_functions ?o => let o := plain o in note_computed c R constr:(bend c o); note_computed c R constr:(gam c o) | _ => idtac end;
       note_computed c R constr:(a_2 c); note_computed c R constr:(ht c); note_computed c R constr:(size c)
   end;
   note_computed c R constr:(d_X c); note_computed c R constr:(d_E c);
@@ -218,6 +224,15 @@ Ltac decide_size :=
       | fail 1 "this size is not proved:" v bound ]
   end.
 
+(** That a size is not negative: where there is no x it is 0, and an enclosure of the smaller of two numbers is not that sharp. *)
+Ltac decide_nonneg c :=
+  lazymatch goal with
+  | |- 0 <= ?v =>
+      let R := eval red in c in
+      let b := eval red in v in
+      let b := opened c R b in change (0 <= b); solve [repeat apply min2_nonneg; decide_difference]
+  end.
+
 (** One condition; where it is not proved, Coq shows it. *)
 Ltac decide_one c :=
   lazymatch goal with
@@ -227,11 +242,11 @@ Ltac decide_one c :=
         let b := eval cbv beta delta [in_domain complete gain_range covers domain_of_decline of_matrix threshold one_sided G_x G_e G_d least_by by_existence undamped signs_of C4_of
              level_of] in g in
         let b := opened c R b in
-        let b := eval cbv beta iota zeta delta [min2 max2 r_t] in b in
+        let b := eval cbv beta iota zeta delta [min2 max2 tanh_exp r_t] in b in
         change b;
         repeat match goal with
-          |- _ /\ _ => split | |- True => exact I | |- false = true -> _ => discriminate | |- true = true -> _ => intros _ end;
-        first [decide_difference | apply Rle_refl | lazymatch goal with |- ?leaf => fail 3 "this condition is not proved:" leaf "of" g end]
+          |- _ /\ _ => split | |- True => exact I end;
+        first [decide_difference | apply Rle_refl | decide_nonneg c | lazymatch goal with |- ?leaf => fail 3 "this condition is not proved:" leaf "of" g end]
       | fail 1 "this condition is not proved:" g ]
   end.
 
@@ -241,7 +256,7 @@ Ltac decide_conditions c :=
   lazymatch goal with
   | |- of_its_kind _ =>
       let R := eval red in c in
-      let k := eval cbv beta iota delta [known min2 max2] in (known R) in
+      let k := eval cbv beta iota delta [known] in (known R) in
       match k with by_metrics ?j => change (by_joint c j) | _ => change (by_square c) end; constructor; decide_one c
   | _ => decide_one c
   end.

@@ -1,4 +1,4 @@
-(** Sections 5, 10.4, 13.1 and 13.7: in the error box U' is at most a negative multiple of xi^2 + et^2 + s^2 + y^2, by C5 of what is known in
+(** Sections 5, 10.4, 13.1 and 13.7: in the error box U' is at most a negative multiple of xt^2 + et^2 + s^2 + y^2, by C5 of what is known in
     norms, by (M) or by (Jm), for every gain from sigma on and every input gain. *)
 
 From Coq Require Import Reals Lra Lia.
@@ -55,7 +55,7 @@ Definition top (s : R) : R := mixed s (level_of c) (level c).
 Definition lo_x (s : R) : R := mixed s (fun _ => x_low) (w_x c * p_low c).
 Definition lo_e (s : R) : R := mixed s (fun _ => e_low) 1.
 
-(** U' <= -rho (xi^2 + et^2 + s^2 + y^2) in the error box; rho serves every N and solution. *)
+(** U' <= -rho (xt^2 + et^2 + s^2 + y^2) in the error box; rho serves every N and solution. *)
 Definition declining (s b rho : R) : Prop :=
   forall t v xp e ep z y, near c v xp e ep -> y = q t v e - q t xp ep + (1 - b) * s * (e - ep) + b * mu c * z ->
   W' s t (minus v xp) (e - ep) (minus (f t v e) (f t xp ep)) (y - s * (e - ep)) + of_zeta s b * (- 2 * z * y)

@@ -1,5 +1,5 @@
 (** That a plant can be within bounding functions as [PlantBounds.v] means it: a linear one with one state, x' = -a x + b e and
-    e' = d(t) + g x + k e + u, whatever the weights and the other numbers are. *)
+    e' = d(t) + g x + k e + u, in the metric x^2, or in two joint metrics a x^2 + w e^2; whatever the weights of the oscillators are. *)
 
 From Coq Require Import Reals Lra.
 From Coquelicot Require Import Coquelicot.
@@ -13,10 +13,9 @@ Variable d : R -> R.
 Let f (_ x e : R) : R := - a * x + b * e.
 Let q (t x e : R) : R := d t + g * x + k * e.
 Let F (_ v : R) : R := - a * v.
-(** P_x = 1. *)
+(** P_x = 1, but with joint metrics. *)
 Let P (_ v : R) : R := v ^ 2.
 Let P' (_ v v' : R) : R := 2 * v * v'.
-(** With joint metrics p = 0, and the far metric is 1 too. *)
 Let m : forms R_NormedModule :=
   {| J_0 := F; P_1 := P; P_1' := P'; p_1 := fun _ => 0; P_2 := P; P_2' := P' |}.
 
@@ -118,27 +117,35 @@ Proof.
 Qed.
 End ByFormulas.
 
-(** By joint metrics, P = 1 in both. *)
+(** By joint metrics r_1 x^2 + w e^2 and r_2 x^2 + w e^2, the w of each its own. *)
 Section ByMetrics.
 Variable j : joint.
 Hypothesis metrics : known c = by_metrics j.
-Let unit_extent (x : extent) : Prop := weight x = 1 /\ 0 <= cross x /\ 1 <= P_up x /\ x_low x <= 1 /\ e_low x <= 1.
-Hypothesis extents : unit_extent (near_x j) /\ unit_extent (far_x j).
+Variables r_1 r_2 : R.
+Let m_j : forms R_NormedModule :=
+  {| J_0 := F; P_1 := fun _ v => r_1 * v ^ 2; P_1' := fun _ v v' => r_1 * (2 * v * v'); p_1 := fun _ => 0;
+     P_2 := fun _ v => r_2 * v ^ 2; P_2' := fun _ v v' => r_2 * (2 * v * v') |}.
+Let extent_of (r : R) (x : extent) : Prop :=
+  0 <= weight x /\ 0 <= cross x /\ 0 <= r /\ r <= P_up x /\ x_low x <= r /\ e_low x <= weight x.
+Hypothesis extents : extent_of r_1 (near_x j) /\ extent_of r_2 (far_x j).
 Hypothesis of_forms : forall x e y : R,
-  least_form (near_m j) (x : R_NormedModule) e y <= near_form m j 0 x (- a * x + b * e) (g * x + k * e) e y /\
-  least_form (far_m j) (x : R_NormedModule) e y <= far_form m j 0 x (- a * x + b * e) (g * x + k * e) e y.
+  least_form (near_m j) (x : R_NormedModule) e y <= near_form m_j j 0 x (- a * x + b * e) (g * x + k * e) e y /\
+  least_form (far_m j) (x : R_NormedModule) e y <= far_form m_j j 0 x (- a * x + b * e) (g * x + k * e) e y.
 
-Theorem scalar_plant_joint : about c (X := R_NormedModule) f q m.
+Theorem scalar_plant_joint : about c (X := R_NormedModule) f q m_j.
 Proof.
-  assert (Form : forall x, unit_extent x -> metric_form (X := R_NormedModule) x P P' (fun _ => 0)).
-  { intros x [Hw [Hc [Hp [Hx He]]]]. split; unfold P.
-    - intros _ v e. rewrite N, pow2_abs, Hw. pose proof (pow2_ge_0 v). pose proof (pow2_ge_0 e).
-      assert (x_low x * v ^ 2 <= 1 * v ^ 2) by (apply Rmult_le_compat_r; lra). lra.
-    - intros _ v e. rewrite Hw. pose proof (pow2_ge_0 v). pose proof (pow2_ge_0 e).
-      assert (e_low x * e ^ 2 <= 1 * e ^ 2) by (apply Rmult_le_compat_r; lra). lra.
-    - intros _ v. rewrite N, pow2_abs. pose proof (pow2_ge_0 v). assert (1 * v ^ 2 <= P_up x * v ^ 2) by (apply Rmult_le_compat_r; lra). lra.
+  assert (Form : forall r x, extent_of r x ->
+            metric_form (X := R_NormedModule) x (fun _ v => r * v ^ 2) (fun _ v v' => r * (2 * v * v')) (fun _ => 0)).
+  { intros r x [Hw [Hc [Hr [Hp [Hx He]]]]]. split.
+    - intros _ v e. rewrite N, pow2_abs. pose proof (pow2_ge_0 v). pose proof (pow2_ge_0 e).
+      assert (x_low x * v ^ 2 <= r * v ^ 2) by (apply Rmult_le_compat_r; lra).
+      assert (0 <= weight x * e ^ 2) by (apply Rmult_le_pos; lra). lra.
+    - intros _ v e. pose proof (pow2_ge_0 v). pose proof (pow2_ge_0 e).
+      assert (e_low x * e ^ 2 <= weight x * e ^ 2) by (apply Rmult_le_compat_r; lra).
+      assert (0 <= r * v ^ 2) by (apply Rmult_le_pos; lra). lra.
+    - intros _ v. rewrite N, pow2_abs. pose proof (pow2_ge_0 v). apply Rmult_le_compat_r; lra.
     - intros v. rewrite Rabs_R0. apply Rmult_le_pos; [exact Hc | apply norm_ge_0].
-    - intros t v v' D. unfold P'. evar_last; [apply (is_derive_pow v 2 t _ D)|]. simpl. ring.
+    - intros t v v' D. evar_last; [apply is_derive_scal, (is_derive_pow v 2 t _ D)|]. simpl. ring.
     - intros t v v' _. apply (is_derive_const (V := R_NormedModule)). }
   unfold about. rewrite metrics. split; [apply Form, extents|]. split; [apply Form, extents|].
   intros t v xp e ep y _ _ _ _ x z u.

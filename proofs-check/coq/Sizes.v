@@ -17,6 +17,9 @@ Proof. unfold max2, Rmax. destruct (Rle_dec a b); [rewrite Rabs_left1 | rewrite 
 Lemma min2_l a b d : a <= d -> min2 a b <= d.
 Proof. rewrite min2_Rmin. intros H. apply Rle_trans with (2 := H), Rmin_l. Qed.
 
+Lemma min2_nonneg a b : 0 <= a -> 0 <= b -> 0 <= min2 a b.
+Proof. rewrite min2_Rmin. apply Rmin_glb. Qed.
+
 Lemma min2_r a b d : b <= d -> min2 a b <= d.
 Proof. rewrite min2_Rmin. intros H. apply Rle_trans with (2 := H), Rmin_r. Qed.
 
@@ -308,17 +311,24 @@ Definition by_existence (i : inequality) : Prop :=
       (0 < k_p m' /\ 0 < c_x m' /\ 0 < c_e m' /\ 0 < c_y m') /\ match gain c with None => True | Some _ => False end
   end.
 
-(** S1 to S3, and that the functions hold up to (X_p, E_p). *)
+(** The sizes of the periodic solution. *)
+Definition e_per : R := min2 (E_p c) (sup_e last).
+Definition x_per : R := min2 (X_p c) (min2 (x_gain * e_per) (from_rms * R_e last)).
+
+(** S1 to S3, the signs they need, and that the functions hold up to (X_p, E_p). What a choice leaves out is excluded with it: in Coq
+    1/0 = 0, and the root of a negative number is 0. *)
 Record existence_conditions : Prop := {
   complete_p : complete;
   signs_p : 0 < sigma c /\ 0 < X_p c /\ 0 < E_p c /\ 0 < r_x c /\ 0 < r_e c /\ 0 < r_d c;
-  gain_p : gain_range /\ match gain c with None => True | Some g => half g = true -> 1 / 2 <= low g end;
+  signs_s : (0 < period c /\ 0 < mu c /\ 0 < w c) /\ 0 < p_low' c <= p_up' c;
+  gain_p : gain_range /\ match gain c with None => True | Some g => if half g then 1 / 2 <= low g else low g < 1 end;
   domain_p : in_domain c (X_p c) (E_p c);
   S1 : 0 < a_1;
   damping_p : match damped c with
               | None => True
               | Some k =>
-                  0 < kap k /\ (kap_small k = true -> kap k <= (2 - b_lo) * sigma c) /\
+                  0 < kap k /\
+                  (if kap_small k then kap k <= (2 - b_lo) * sigma c else (1 - b_lo) * sigma c < kap k) /\
                   match q_e_max c with None => True | Some m => - Qe_p <= m (X_p c) (E_p c) end
               end;
   S2 : match existence c with
@@ -336,12 +346,11 @@ Record existence_conditions : Prop := {
        | None => True
        | Some _ =>
            (0 < R_x last /\ 0 < R_e last /\ 0 < R_d last) /\ G_x last < R_x last /\ G_e last < R_e last /\ G_d last < R_d last
-       end
+       end;
+  (* Else a bounding function is negative, and no solution has these sizes. *)
+  signs_per : 0 <= x_per /\ 0 <= e_per
 }.
 
-(** The sizes of the periodic solution. *)
-Definition e_per : R := min2 (E_p c) (sup_e last).
-Definition x_per : R := min2 (X_p c) (min2 (x_gain * e_per) (from_rms * R_e last)).
 (** (3.2), and its form for q_0: T_N at k Om/w is at most T_bar(k). *)
 Definition T_bar (k : Z) : R :=
   let line := k_0 c + k_1 c * (IZR k * Om / w c) ^ 2 in

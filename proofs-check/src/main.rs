@@ -1,5 +1,6 @@
 //! `proofs-check CERT.json [--spec SPEC.json] [--verbose] [--format text|json]`: exit code 0 valid, 1 invalid, 2 bad-input,
-//! 3 undecided. `proofs-check --coq CERT.json`: the certificate as a Coq theorem; 0 written, 2 bad-input, 3 no theorem of its kind.
+//! 3 undecided. `proofs-check --coq CERT.json`: the certificate as a Coq theorem; 0 written, 1 invalid data, 2 bad-input,
+//! 3 no theorem of its kind.
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -20,7 +21,7 @@ Decides the claim of a certificate again, and says what it is about and what it 
                        `coqc -Q proofs-check/coq SigmaStar cert.v`
 
 exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided; figures on which no claim rests do not change them;
-with --coq: 0 written, 2 bad-input, 3 no theorem is written of a certificate of this kind";
+with --coq: 0 written, 1 invalid data, 2 bad-input, 3 no theorem is written of a certificate of this kind";
 
 fn main() -> ExitCode {
     let (mut path, mut spec, mut verbose, mut json): (Option<OsString>, Option<OsString>, _, _) =

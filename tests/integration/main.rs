@@ -25,6 +25,7 @@ mod errata_data;
 mod errata_list;
 mod expr_properties;
 mod expr_prove;
+mod families_random;
 mod formats;
 mod front_door;
 mod fuzz;

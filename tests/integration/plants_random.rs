@@ -25,7 +25,7 @@ fn sum(terms: &[String]) -> String {
 }
 
 /// A plant with one to three states, each with damping of its own, weakly coupled, with polynomial and trigonometric terms.
-fn plant(seed: u64) -> serde_json::Value {
+pub fn plant(seed: u64) -> serde_json::Value {
     let random = &mut StdRng::seed_from_u64(seed);
     let states: Vec<String> = (1..=random.random_range(1..=3)).map(|i| format!("x{i}")).collect();
     let any = |random: &mut StdRng| states[random.random_range(0..states.len())].clone();

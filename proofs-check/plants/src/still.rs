@@ -23,7 +23,7 @@ use rug::Float;
 use std::rc::Rc;
 
 /// The most boxes that an attempt may take.
-const MAX_PIECES: usize = 4_000;
+const MAX_PIECES: usize = 20_000;
 /// How many cells of t there are for the range of the orbit.
 const RANGE_CELLS_LOG: u32 = 8;
 

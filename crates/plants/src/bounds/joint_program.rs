@@ -13,6 +13,9 @@ use std::sync::Arc;
 const POINTS: usize = 6;
 const ROUNDS: usize = 6;
 
+/// The most points that one program leaves for the next.
+const LEFT_OVER: usize = 8;
+
 /// The share of the largest c_y that is left for how definite the rest is, and the share of that which is used.
 const KEPT: f64 = 0.93;
 const USED: f64 = 0.8;
@@ -62,11 +65,17 @@ pub struct LevelAsked {
 }
 
 impl FloatSuprema {
-    /// Metrics of existence on `|y| <= X`, `|e| <= E` at a threshold, near and far: with a large share of the largest c_y/k_p.
+    /// Metrics of existence on `|y| <= X`, `|e| <= E` at a threshold, near and far: with a large share of the largest c_y/k_p. `places` are
+    /// points of a program like it, and become those that this one needed besides its own.
     #[must_use]
-    pub fn propose_joint_existence(&self, at: [f64; 2], value: f64) -> Option<[FloatMetric; 2]> {
-        let mut program = self.program(at, value, None)?;
-        self.settled(at, &mut program, |program| {
+    pub fn propose_joint_existence(
+        &self,
+        at: [f64; 2],
+        value: f64,
+        places: &mut Vec<Place>,
+    ) -> Option<[FloatMetric; 2]> {
+        let mut program = self.program(at, value, None, places)?;
+        self.settled(at, &mut program, places, |program| {
             let (_, largest) = program.of_existence(None)?;
             let kept = KEPT * (largest > 0.0).then_some(largest)?;
             let (variables, room) = program.of_existence(Some(kept))?;
@@ -76,27 +85,30 @@ impl FloatSuprema {
         .map(|(metrics, _)| metrics)
     }
 
-    /// Metrics of stability, near and far, and the largest share of its level that the initial set takes, to be below 1.
+    /// Metrics of stability, near and far, and the largest share of its level that the initial set takes, to be below 1; with the points
+    /// of [`FloatSuprema::propose_joint_existence`].
     #[must_use]
     pub fn propose_joint_stability(
         &self,
         at: [f64; 2],
         value: f64,
         asked: &LevelAsked,
+        places: &mut Vec<Place>,
     ) -> Option<([FloatMetric; 2], [FloatLevel; 2], f64)> {
         let [d_x, d_e] = asked.radii;
-        let mut program = self.program(at, value, Some([d_x, d_e]))?;
-        let (metrics, variables) = self.settled(at, &mut program, |program| program.of_stability(asked))?;
+        let mut program = self.program(at, value, Some([d_x, d_e]), places)?;
+        let (metrics, variables) = self.settled(at, &mut program, places, |program| program.of_stability(asked))?;
         let (share, p_up) = program.shares(&variables);
         let level =
             |p_up: f64| FloatLevel { p_up: p_up / (d_x * d_x), x_low: (d_x * d_x).recip(), e_low: (d_e * d_e).recip() };
         Some((metrics, p_up.map(level), share))
     }
 
-    /// A program over the points where derivatives are extreme.
-    fn program(&self, at: [f64; 2], value: f64, units: Option<[f64; 2]>) -> Option<Program> {
+    /// A program over the points where derivatives are extreme, and those that are known.
+    fn program(&self, at: [f64; 2], value: f64, units: Option<[f64; 2]>, known: &[Place]) -> Option<Program> {
         let all = Places::Stride(1);
-        let first = self.where_largest(at, &all, [Bound::Rate, Bound::Qx, Bound::Fe, Bound::QeMax, Bound::Qe]);
+        let mut first = self.where_largest(at, &all, [Bound::Rate, Bound::Qx, Bound::Fe, Bound::QeMax, Bound::Qe]);
+        first.extend(known);
         let mut program = Program { points: Vec::new(), value, units: [1.0; 2], n: 0 };
         program.add(self, at, first);
         program.n = program.points.first()?.r.len();
@@ -109,6 +121,7 @@ impl FloatSuprema {
         &self,
         at: [f64; 2],
         program: &mut Program,
+        places: &mut Vec<Place>,
         solve: impl Fn(&Program) -> Option<(Vec<f64>, [[f64; 3]; 2])>,
     ) -> Option<([FloatMetric; 2], Vec<f64>)> {
         let mut found = solve(program)?;
@@ -125,9 +138,12 @@ impl FloatSuprema {
             if worst.is_empty() {
                 break;
             }
-            program.add(self, at, worst.into_iter().map(|(_, place)| place).collect());
+            let worst: Vec<Place> = worst.into_iter().map(|(_, place)| place).collect();
+            places.extend(&worst);
+            program.add(self, at, worst);
             found = solve(program)?;
         }
+        places.drain(..places.len().saturating_sub(LEFT_OVER));
         let (variables, margins) = found;
         Some((program.metrics(&variables, &margins), variables))
     }

@@ -65,7 +65,7 @@ pub use sampled_pairs::{Corners, MatrixArguments};
 pub use sampled_point::{SampledEnergy, SampledRadius, SampledWeights};
 pub use sampled_threshold::Focus;
 pub use smooth::SmoothnessFailure;
-pub use suprema::{FloatCurve, FloatSuprema, Places};
+pub use suprema::{FloatCurve, FloatSuprema, Place, Places};
 pub use weights::{EnergyAt, EnergyWeights, FloatWeights};
 
 /// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.

@@ -95,6 +95,8 @@ pub(super) struct Derivatives<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Pointwise {
     order: usize,
+    /// How far x_0' may be from the velocity that it is given, in each component of the coordinates y.
+    drift: f64,
     blocks: Blocks,
     matrix: Vec<f64>,
     inverse: Vec<f64>,
@@ -108,11 +110,12 @@ pub(super) struct Pointwise {
 }
 
 impl Pointwise {
-    pub(super) fn new(matrix: &[Vec<f64>], inverse: &[Vec<f64>]) -> Pointwise {
+    pub(super) fn new(matrix: &[Vec<f64>], inverse: &[Vec<f64>], drift: f64) -> Pointwise {
         let n = matrix.len();
         let room = vec![0.0; n * n];
         Pointwise {
             order: n,
+            drift,
             blocks: Blocks::new(n),
             matrix: matrix.concat(),
             inverse: inverse.concat(),
@@ -149,6 +152,11 @@ impl Pointwise {
                 outputs[blocks.q_tx + i] + dot(along, velocity)
             });
             values[6] = (outputs[blocks.q_te] + dot(&outputs[blocks.q_xe..blocks.q_xe + n], velocity)).abs();
+            if self.drift > 0.0 {
+                let [of_x, of_e] = self.along_drift(outputs);
+                values[5] += self.drift * of_x;
+                values[6] += self.drift * of_e;
+            }
         }
         if asked.has(Asked::NORM) || asked.has(Asked::RATE) || asked.has(Asked::RATE_EXISTENCE) {
             self.transform(outputs);
@@ -188,6 +196,19 @@ impl Pointwise {
                 self.jacobian[i * n + j] = (0..n).map(|k| self.inverse[i * n + k] * self.product[k * n + j]).sum();
             }
         }
+    }
+
+    /// How much the norm of `L^T q_xx L w` is at most, and `q_xe L w`, for `|w_j| <= 1` in each component.
+    fn along_drift(&self, outputs: &[f64]) -> [f64; 2] {
+        let (n, blocks) = (self.order, self.blocks);
+        let column = |j: usize, of: &[f64]| (0..n).map(|k| of[k] * self.matrix[k * n + j]).sum::<f64>();
+        let second = |i: usize, j: usize| {
+            let row = |k: usize| column(j, &outputs[blocks.q_xx + k * n..blocks.q_xx + (k + 1) * n]);
+            (0..n).map(|k| self.matrix[k * n + i] * row(k)).sum::<f64>().abs()
+        };
+        let of_row = |i: usize| (0..n).map(|j| second(i, j)).sum::<f64>().portable_powi(2);
+        let of_e = (0..n).map(|j| column(j, &outputs[blocks.q_xe..blocks.q_xe + n]).abs()).sum();
+        [(0..n).map(of_row).sum::<f64>().sqrt(), of_e]
     }
 
     /// |row L|.

@@ -52,8 +52,8 @@ impl From<&TrigonometricVector> for FloatCurve {
 /// The shares of E that are looked at.
 const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
 
-/// A place in the grid: of the time, of the point of the ball, and of the share of E, or of the errors of [`FloatSuprema::narrow`].
-pub(super) type Place = [usize; 3];
+/// A place in the grid: of the time, of the point of the ball, and of the share of E, or of the errors of a narrowed grid.
+pub type Place = [usize; 3];
 
 /// Which points of the grid are looked at.
 #[derive(Clone, Debug)]
@@ -99,7 +99,7 @@ struct Member {
 }
 
 /// The suprema of all bounds by sampling, for one plant, orbit and L.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct FloatSuprema {
     order: usize,
     period: f64,
@@ -120,6 +120,8 @@ pub struct FloatSuprema {
     velocity: Arc<Program>,
     /// The 1 - b at both ends of an input gain.
     pub(super) moves: Option<[f64; 2]>,
+    /// See [`FloatSuprema::with_tube`].
+    drift: f64,
 }
 
 /// P(t).
@@ -208,6 +210,7 @@ impl FloatSuprema {
             narrow: None,
             velocity,
             moves: moves(plant).map(|moves| moves.map(|share| share.to_f64())),
+            drift: 0.0,
         };
         let mut evaluator = Evaluator::new(suprema.program.clone());
         let mut slow = Evaluator::new(suprema.velocity.clone());
@@ -237,6 +240,21 @@ impl FloatSuprema {
         found.map(Arc::new)
     }
 
+    /// The same, where x_0' is as unknown as another program may leave it that knows of the orbit only the defect eps and the radius r of a
+    /// tube: `|L^-1 (x_0' - xb')| <= eps + r |J|` in each component. eps is at most r |J|, for it is r times a rate.
+    pub(super) fn with_tube(&self, radius: f64) -> FloatSuprema {
+        let mut evaluator = Evaluator::new(self.program.clone());
+        let mut outputs = vec![0.0; self.program.outputs()];
+        let mut pointwise = self.pointwise();
+        let mut size = |moment: &Moment| {
+            self.load(moment, &mut evaluator);
+            evaluator.evaluate(&moment.orbit, 0.0, &mut outputs);
+            pointwise.derivatives(&outputs).j.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+        };
+        let largest = self.moments.iter().map(&mut size).fold(0.0, f64::max);
+        FloatSuprema { drift: 2.0 * radius * largest, ..self.clone() }
+    }
+
     /// The error at a place.
     fn error(&self, [i, _, k]: Place, e: f64) -> f64 {
         match (ERRORS.get(k), &self.narrow) {
@@ -263,6 +281,7 @@ impl FloatSuprema {
             narrow: self.narrow.clone(),
             velocity: self.velocity.clone(),
             moves: self.moves,
+            drift: 0.0,
         }
     }
 
@@ -407,7 +426,7 @@ impl FloatSuprema {
     }
 
     fn pointwise(&self) -> Pointwise {
-        Pointwise::new(&self.matrix, &self.inverse)
+        Pointwise::new(&self.matrix, &self.inverse, self.drift)
     }
 
     /// The supremum of one bound by a longer search.

@@ -11,8 +11,9 @@ use crate::search::{
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{JointInequality, JointStability, Level, Metric, ProvedValues};
-use sigmastar_plants::bounds::{FloatLevel, FloatMetric, LevelAsked};
+use sigmastar_plants::bounds::{FloatLevel, FloatMetric, LevelAsked, Place};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// Beyond so many states the programs take too long.
@@ -42,9 +43,6 @@ const GIVEN_UP: [f64; 4] = [0.02, 0.1, 0.3, 0.6];
 /// Of the level, the share that the set may take.
 const ROOM: f64 = 0.999;
 
-/// A smaller share is not sought.
-const ENOUGH: f64 = 0.9;
-
 /// The room in S1 and S2 of a set, and between a gain and the one at which it is looked at.
 const NEAR: f64 = 1e-9;
 
@@ -52,8 +50,8 @@ const NEAR: f64 = 1e-9;
 const AFTER: f64 = 1e-7;
 
 /// The descent over the shape of the error box.
-const SHAPE: Descent = Descent { restarts: 0, iterations: 20, tolerance: 3e-3 };
-const SHAPE_STEP: f64 = 0.5;
+const SHAPE: Descent = Descent { restarts: 0, iterations: 14, tolerance: 3e-3 };
+const SHAPE_STEP: f64 = 0.2;
 
 /// Digits of the numbers of a metric.
 const DIGITS: u32 = 9;
@@ -77,6 +75,8 @@ struct JointSearch<'a> {
     /// The model with sampled bounds.
     model: &'a FloatModel,
     known: &'a SharpProposal,
+    /// Points of the programs of existence and of stability that the next ones begin with.
+    places: [RefCell<Vec<Place>>; 2],
 }
 
 /// What is proved with a smaller gain than that of `reduced`, by joint metrics near the proposal that it was made of; itself where
@@ -90,7 +90,7 @@ pub(super) fn with_joint_metrics(
     if !(1..=MOST_STATES).contains(&proofs.states()) {
         return reduced;
     }
-    let search = JointSearch { proofs, model, known };
+    let search = JointSearch { proofs, model, known, places: Default::default() };
     let found = search.least(reduced.proposal.sigma).and_then(|found| search.proved(&found));
     found.filter(|found| found.proposal.sigma < reduced.proposal.sigma).unwrap_or(reduced)
 }
@@ -137,7 +137,8 @@ impl JointSearch<'_> {
     /// The model with metrics of existence, and its set.
     fn existence(&self, model: &FloatModel, sigma: f64, sizes: [f64; 2]) -> Option<(FloatModel, PeriodicSet)> {
         let with = |region: [f64; 2]| {
-            let metrics = self.proofs.suprema.propose_joint_existence(region, sigma)?;
+            let metrics =
+                self.proofs.suprema.propose_joint_existence(region, sigma, &mut self.places[0].borrow_mut())?;
             let joint = Arc::new(inequality(region, sigma, &metrics, 1.0)?);
             let model = model.with_inequalities(None, Some(ByEnergy::Joint(joint)));
             let set = self.set(&model, sigma);
@@ -169,18 +170,33 @@ impl JointSearch<'_> {
             let at = [set.x_per + radii[0], set.e_per + radii[1]];
             model.contains(at).ok()?;
             let asked = LevelAsked { radii, distances, mu: model.mu, rate: model.alpha, margin: MARGIN };
-            let (metrics, levels, share) = self.proofs.suprema.propose_joint_stability(at, sigma, &asked)?;
-            Some((at, metrics, levels, share))
+            let places = &mut self.places[1].borrow_mut();
+            let (metrics, levels, share) = self.proofs.suprema.propose_joint_stability(at, sigma, &asked, places)?;
+            Some((at, radii, metrics, levels, share))
         };
         let decode = |p: &[f64]| [p[0].portable_exp(), p[1].portable_exp()];
         let least = [0, 1].map(|i| start[i].max(distances[i] * 1.1).portable_ln());
-        let cost = |p: &[f64]| metrics(decode(p)).map(|(.., share)| share.max(ENOUGH).portable_ln());
-        let good = cost(&least).is_some_and(|share| share < ROOM.portable_ln());
-        let radii = if good { decode(&least) } else { decode(&minimise(cost, &least, &[SHAPE_STEP; 2], SHAPE)?.0) };
-        let (at, metrics, levels, share) = metrics(radii)?;
-        if share >= ROOM {
-            return None;
+        // The first shape with enough room is taken: the descent is at its end then, and what is looked at again is known.
+        let (enough, known) = (RefCell::new(None), RefCell::new(Vec::new()));
+        let cost = |p: &[f64]| {
+            if enough.borrow().is_some() {
+                return Some(ROOM.portable_ln());
+            }
+            let of_known = |(at, cost): &(Vec<f64>, Option<f64>)| (at == p).then_some(*cost);
+            if let Some(cost) = known.borrow().iter().find_map(of_known) {
+                return cost;
+            }
+            let found = metrics(decode(p));
+            let cost = found.as_ref().map(|(.., share)| share.portable_ln());
+            known.borrow_mut().push((p.to_vec(), cost));
+            *enough.borrow_mut() = found.filter(|(.., share)| *share < ROOM);
+            cost
+        };
+        cost(&least);
+        if enough.borrow().is_none() {
+            minimise(cost, &least, &[SHAPE_STEP; 2], SHAPE)?;
         }
+        let (at, radii, metrics, levels, _) = enough.into_inner()?;
         let inequality = inequality(at, sigma, &metrics, PROVED)?;
         let [near, far] = levels.map(level);
         Some((radii, JointStability { inequality, levels: [near?, far?] }))
