@@ -60,8 +60,7 @@ impl Engine {
     #[must_use]
     pub fn prove_value(&self, samples: &FloatSuprema, kind: Bound, x: &Rational, e: &Rational) -> Option<ProvedValue> {
         let reach = self.reach(x);
-        let with_tube =
-            matches!(kind, Bound::Qtx | Bound::Qte).then(|| samples.with_tube(self.reach(&Rational::new())));
+        let with_tube = matches!(kind, Bound::Qtx | Bound::Qte).then(|| samples.with_tube(self.radius()));
         let samples = with_tube.as_ref().unwrap_or(samples);
         let sampled = samples.refined(kind, reach, e.to_f64());
         if !sampled.value.is_finite() {

@@ -2,7 +2,6 @@
 //! (derivation, 13.2).
 
 use super::refusal::PlantRefusal;
-use super::sampling::{float_matrix, rows};
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
@@ -87,7 +86,7 @@ impl Cell {
     /// The share of r of the deviation of x that an error of this size causes; 0 where derivatives are everywhere the same, or an error
     /// does not act on x.
     fn share_of_radius(&self, coordinates: &Coordinates, orbit: &OrbitProof, error: f64) -> f64 {
-        let l = rows(&float_matrix(&coordinates.l));
+        let l = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
         let samples = FloatSuprema::new(&self.plant, FloatCurve::from(&self.curve), l, [Some(&coordinates.p), None]);
         let at_orbit = |bound| samples.at(bound, 0.0, 0.0);
         let size = at_orbit(Bound::Fe) / at_orbit(Bound::Rate) * error;

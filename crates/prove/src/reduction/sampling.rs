@@ -146,7 +146,7 @@ impl<'a> Sampling<'a> {
 }
 
 /// A matrix by rows.
-pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()
 }
 
