@@ -94,22 +94,32 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
             word("n_o", "n_o", "For which numbers of oscillators.", "every n_o >= 0"),
         ]);
     }
-    let exact = |name, title: &str, text: &str| must(name, title, text, Shape::Constant(Sign::Positive));
-    let gain = vec![
-        exact("nominal", "Nominal gain", "What the regulator divides its control by."),
-        exact("low", "Smallest gain", "The smallest gain that is covered."),
-        exact("high", "Largest gain", "The largest gain that is covered."),
-    ];
-    let text = "Every constant gain of the actuator from `low` to `high` is covered; there where the document has one.";
-    fields.push(may("input_gain", "Input gain", text, Shape::Object(gain)));
+    // An interval of one constant that the whole claim is about.
+    let covered = |name, title, text, [nominal, low, high]: [(&str, &str); 3]| {
+        let end = |name, (title, text)| must(name, title, text, Shape::Constant(Sign::Positive));
+        may(name, title, text, Shape::Object(vec![end("nominal", nominal), end("low", low), end("high", high)]))
+    };
+    fields.push(covered(
+        "input_gain",
+        "Input gain",
+        "Every constant gain of the actuator from `low` to `high` is covered; there where the document has one.",
+        [
+            ("Nominal gain", "What the regulator divides its control by."),
+            ("Smallest gain", "The smallest gain that is covered."),
+            ("Largest gain", "The largest gain that is covered."),
+        ],
+    ));
     if !sampled {
-        let period = vec![
-            exact("nominal", "Nominal period", "What the oscillators are about."),
-            exact("low", "Shortest period", "The shortest period that is covered."),
-            exact("high", "Longest period", "The longest period that is covered."),
-        ];
-        let text = "Every constant period from `low` to `high` is covered; there where the document has an interval.";
-        fields.push(may("period", "Period", text, Shape::Object(period)));
+        fields.push(covered(
+            "period",
+            "Period",
+            "Every constant period from `low` to `high` is covered; there where the document has an interval.",
+            [
+                ("Nominal period", "What the oscillators are about."),
+                ("Shortest period", "The shortest period that is covered."),
+                ("Longest period", "The longest period that is covered."),
+            ],
+        ));
     }
     let set = |kinds: &[&'static str], sizes: Vec<Field>| {
         let kind = must("kind", "Kind", "What was asked for.", Shape::Word(kinds.to_vec()));

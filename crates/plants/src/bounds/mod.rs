@@ -25,6 +25,7 @@ mod entry;
 mod existence;
 mod explore;
 mod extent;
+mod float_waves;
 mod inequality;
 mod joint;
 mod joint_program;
@@ -55,6 +56,7 @@ pub use decide::Decision;
 pub use directions::Directions;
 pub use engine::Engine;
 pub use entry::{Entry, TABLE};
+pub use float_waves::FloatCurve;
 pub use joint_program::{FloatLevel, FloatMetric, LevelAsked};
 pub use majorant::{Majorant, Term};
 pub use pointwise::Asked;
@@ -65,7 +67,7 @@ pub use sampled_pairs::{Corners, MatrixArguments};
 pub use sampled_point::{SampledEnergy, SampledRadius, SampledWeights};
 pub use sampled_threshold::Focus;
 pub use smooth::SmoothnessFailure;
-pub use suprema::{FloatCurve, FloatSuprema, Place, Places};
+pub use suprema::{FloatSuprema, Place, Places};
 pub use weights::{EnergyAt, EnergyWeights, FloatWeights};
 
 /// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.

@@ -3,12 +3,13 @@
 use super::climb::{Point, ball_points, climb};
 use super::engine::moves;
 use super::entry::{TABLE, of_table};
+use super::float_waves::{FloatCurve, FloatMatrix};
 use super::narrow::extreme_errors;
-use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise, roots};
+use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise};
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Bound, OrbitCurve, Parameters, PeriodicMatrix, TrigonometricVector};
+use sigmastar_lang::spec::{Bound, Parameters, PeriodicMatrix};
 use std::sync::Arc;
 
 /// Points of a period.
@@ -20,34 +21,6 @@ const FINE: u32 = 14;
 
 /// The best points from which a fine local search starts.
 const STARTS: usize = 6;
-
-/// `mean + sum_k (a_k cos(k w t) + b_k sin(k w t))` in doubles.
-#[derive(Clone, Debug)]
-pub struct FloatCurve {
-    /// The mean.
-    pub mean: Vec<f64>,
-    /// (a_k, b_k) for k = 1, 2, ...
-    pub harmonics: Vec<[Vec<f64>; 2]>,
-    /// What is added times `p_i - p_i^0`, for each parameter of which an interval is known.
-    pub sensitivities: Vec<FloatCurve>,
-}
-
-impl From<&OrbitCurve> for FloatCurve {
-    fn from(orbit: &OrbitCurve) -> FloatCurve {
-        FloatCurve {
-            sensitivities: orbit.sensitivities.iter().map(FloatCurve::from).collect(),
-            ..FloatCurve::from(&orbit.centre)
-        }
-    }
-}
-
-impl From<&TrigonometricVector> for FloatCurve {
-    fn from(orbit: &TrigonometricVector) -> FloatCurve {
-        let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect::<Vec<f64>>();
-        let harmonics = orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
-        FloatCurve { mean: doubles(&orbit.mean), harmonics, sensitivities: Vec::new() }
-    }
-}
 
 /// The shares of E that are looked at.
 const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
@@ -122,15 +95,6 @@ pub struct FloatSuprema {
     pub(super) moves: Option<[f64; 2]>,
     /// See [`FloatSuprema::with_tube`].
     drift: f64,
-}
-
-/// P(t).
-#[derive(Clone, Debug)]
-struct FloatMatrix {
-    mean: Vec<Vec<f64>>,
-    harmonics: Vec<[Vec<Vec<f64>>; 2]>,
-    /// What serves at every time, where P is constant.
-    steady: Option<MatrixAt>,
 }
 
 impl FloatSuprema {
@@ -544,57 +508,6 @@ impl FloatSuprema {
             None => MatrixAt::Missing,
             Some(matrix) => matrix.steady.clone().unwrap_or_else(|| MatrixAt::Moving(matrix.at(moment.time, period))),
         })
-    }
-}
-
-impl FloatCurve {
-    fn at(&self, time: f64, deviations: &[f64]) -> Vec<f64> {
-        let mut x = self.mean.clone();
-        for (part, deviation) in self.sensitivities.iter().zip(deviations) {
-            x.iter_mut().zip(part.at(time, &[])).for_each(|(x, part)| *x += deviation * part);
-        }
-        for ([a, b], k) in self.harmonics.iter().zip(1..) {
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * time * f64::from(k));
-            for ((x, a), b) in x.iter_mut().zip(a).zip(b) {
-                *x += a * cos + b * sin;
-            }
-        }
-        x
-    }
-}
-
-impl FloatMatrix {
-    fn new(matrix: &PeriodicMatrix) -> FloatMatrix {
-        let doubles = |rows: &Vec<Vec<Rational>>| -> Vec<Vec<f64>> {
-            rows.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect()
-        };
-        let unit =
-            |(i, row): (usize, &Vec<Rational>)| row.iter().enumerate().all(|(j, entry)| *entry == i32::from(i == j));
-        let mean = doubles(&matrix.mean);
-        let steady = match matrix.harmonics.is_empty() {
-            false => None,
-            true if matrix.mean.iter().enumerate().all(unit) => Some(MatrixAt::Identity),
-            true => Some(MatrixAt::Constant(Arc::new(roots(&mean).map(|root| root.concat())))),
-        };
-        let harmonics = matrix.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
-        FloatMatrix { mean, harmonics, steady }
-    }
-
-    /// P and dP/dt.
-    fn at(&self, time: f64, period: f64) -> [Vec<Vec<f64>>; 2] {
-        let n = self.mean.len();
-        let (mut value, mut derivative) = (self.mean.clone(), vec![vec![0.0; n]; n]);
-        for ([a, b], k) in self.harmonics.iter().zip(1..) {
-            let frequency = std::f64::consts::TAU * f64::from(k);
-            let (sin, cos) = libm::sincos(frequency * time);
-            for i in 0..n {
-                for j in 0..n {
-                    value[i][j] += a[i][j] * cos + b[i][j] * sin;
-                    derivative[i][j] += (b[i][j] * cos - a[i][j] * sin) * frequency / period;
-                }
-            }
-        }
-        [value, derivative]
     }
 }
 

@@ -130,3 +130,25 @@ fn of_cells_the_worst_counts() {
     let other = lengths.map(|region| (&halves[0].0, region));
     assert!(matches!(Engine::of_cells(&plant, other, None, None), Err(RegionError::Shape)));
 }
+
+/// In a tube of radius 1/10 around 0, where |J| = 3, x_0' is at most 3/10; a program that knows eps <= r |J| and r alone has to take eps + r |J|.
+#[test]
+fn bounds_along_the_orbit_leave_what_another_program_does_not_know() {
+    let text = r#"{ "format": "sigmastar/plant", "version": 1, "name": "tube", "period": "1", "states": ["x"], "f": ["-3*x"],
+        "q": "x^2/2 + x*e", "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
+        "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } } }"#;
+    let plant = Plant::from_json("tube", text).unwrap();
+    let orbit = || TrigonometricVector { mean: vec![Rational::new()], harmonics: Vec::new() };
+    let p = identity(1);
+    let samples = FloatSuprema::new(&plant, FloatCurve::from(&orbit()), vec![vec![1.0]], [Some(&p), None]);
+    let [x, e] = [rational("0.5"), rational("1")];
+    for (radius, least) in [("0.1", 0.6), ("0", 0.0)] {
+        let curve = sigmastar_lang::spec::OrbitCurve { centre: orbit(), sensitivities: Vec::new() };
+        let region = Region::new(vec![vec![rational("1")]], curve, rational(radius)).unwrap();
+        let engine = Engine::new(&plant, region, Some(p.clone()), None).unwrap();
+        for bound in [Bound::Qtx, Bound::Qte] {
+            let value = engine.prove_value(&samples, bound, &x, &e).unwrap().value.to_f64();
+            assert!(value >= least && value <= 1.01 * least, "{bound:?} with r = {radius}: {value}");
+        }
+    }
+}
