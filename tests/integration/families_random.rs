@@ -83,7 +83,8 @@ fn random_families_are_certified_and_valid_and_no_member_breaks_a_bound() {
     let count = (seeds.end - seeds.start) as f64;
     let members = if count > SEEDS[0] as f64 { MEMBERS[1] } else { MEMBERS[0] };
     let (mut certified, mut refuted, mut simulated) = (0, 0, 0);
-    for seed in seeds {
+    // Numbered from 1: that one shows in an ordinary run that a gain much too small is found.
+    for seed in seeds.map(|seed| seed + 1) {
         let file = folder.path().join(format!("{seed}.json"));
         std::fs::write(&file, family(seed).to_string()).unwrap();
         let certificate = folder.path().join(format!("{seed}.certificate.json"));
@@ -112,7 +113,6 @@ fn random_families_are_certified_and_valid_and_no_member_breaks_a_bound() {
     println!(
         "{certified} of {count} certified and valid, {simulated} members within every bound, a fiftieth refuted of {refuted}"
     );
-    // Of a few, one may be beyond the effort of a search or of a proof, and one without a need for a gain.
-    assert!(f64::from(certified) >= SHARE[0] * count - 1.0, "{certified} of {count}");
-    assert!(f64::from(refuted) >= SHARE[1] * f64::from(certified) - 1.0, "{refuted} of {certified}");
+    assert!(f64::from(certified) >= SHARE[0] * count, "{certified} of {count}");
+    assert!(f64::from(refuted) >= SHARE[1] * f64::from(certified), "{refuted} of {certified}");
 }
